@@ -1,0 +1,76 @@
+# What every target of skel shares: standard, warnings, and the functions that declare a room, a tool, a test.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+# Eigen at -O0 is too slow to run the tests.
+set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+add_library(skel_options INTERFACE)
+target_include_directories(skel_options INTERFACE ${PROJECT_SOURCE_DIR})
+# No fused multiply-add unless written: results do not depend on the machine's instruction set.
+target_compile_options(skel_options INTERFACE -Wall -Wextra -Wpedantic -ffp-contract=off)
+if(PROJECT_IS_TOP_LEVEL)
+  target_compile_options(skel_options INTERFACE -Werror)
+endif()
+if(SKEL_SANITIZE)
+  target_compile_options(skel_options INTERFACE -fsanitize=${SKEL_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(skel_options INTERFACE -fsanitize=${SKEL_SANITIZE})
+endif()
+
+# skel_room(NAME SOURCES file... [ROOMS room...] [PRIVATE lib...])
+# A room is the static library skel_NAME. ROOMS are the rooms whose headers it may include; script/check-layers
+# holds the include lines against this list. PRIVATE libraries are seen by its .cpp files alone.
+function(skel_room name)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;ROOMS;PRIVATE")
+  add_library(skel_${name} STATIC ${ARG_SOURCES})
+  list(TRANSFORM ARG_ROOMS PREPEND skel_)
+  target_link_libraries(skel_${name} PUBLIC skel_options Eigen3::Eigen ${ARG_ROOMS} PRIVATE ${ARG_PRIVATE})
+endfunction()
+
+# skel_tool(NAME SOURCES file... [ROOMS room...] [PRIVATE lib...]): an executable of build/<preset>/bin.
+function(skel_tool name)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;ROOMS;PRIVATE")
+  add_executable(${name} ${ARG_SOURCES})
+  list(TRANSFORM ARG_ROOMS PREPEND skel_)
+  target_link_libraries(${name} PRIVATE skel_options ${ARG_ROOMS} ${ARG_PRIVATE})
+endfunction()
+
+# skel_test(NAME SOURCES file... [ROOMS room...] [PRIVATE lib...] [TIMEOUT s]): Catch2 tests of one room, test_NAME.
+function(skel_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "TIMEOUT" "SOURCES;ROOMS;PRIVATE")
+  add_executable(test_${name} ${ARG_SOURCES})
+  list(TRANSFORM ARG_ROOMS PREPEND skel_)
+  target_link_libraries(test_${name} PRIVATE skel_options ${ARG_ROOMS} ${ARG_PRIVATE} Catch2::Catch2WithMain)
+  target_compile_definitions(test_${name} PRIVATE SKEL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  catch_discover_tests(test_${name} TEST_PREFIX "${name}: " PROPERTIES TIMEOUT ${ARG_TIMEOUT} SKIP_REGULAR_EXPRESSION "SKIPPED")
+endfunction()
+
+# skel_embed(TARGET VARIABLE FILE): the bytes of FILE as `const std::string_view skel::embedded::VARIABLE`
+# in TARGET, declared in the generated header embedded/VARIABLE.h.
+function(skel_embed target variable file)
+  set(dir ${CMAKE_CURRENT_BINARY_DIR}/embedded)
+  add_custom_command(
+    OUTPUT ${dir}/${variable}.cpp ${dir}/${variable}.h
+    COMMAND ${CMAKE_COMMAND} -DVARIABLE=${variable} -DINPUT=${file} -DOUTPUT_DIR=${dir}
+            -P ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
+    DEPENDS ${file} ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
+    VERBATIM)
+  target_sources(${target} PRIVATE ${dir}/${variable}.cpp)
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+endfunction()

@@ -1,0 +1,37 @@
+// What the mains of all tools share: exit codes and one line for the user. The only header of libskel that
+// sees CLI11; no room includes it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <clocale>
+#include <cstdio>
+#include <exception>
+#include <functional>
+
+#include "libskel/core/error.h"
+
+namespace skel {
+
+// Parses argv into `app`, then calls run(), which returns the exit code. CLI11's own codes become 1 (wrong
+// usage).
+inline int runTool(CLI::App& app, int argc, char** argv, const std::function<ExitCode()>& run) {
+  std::setlocale(LC_ALL, "C");
+  const auto say = [&](const std::exception& error, ExitCode code) {
+    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.what());
+    return static_cast<int>(code);
+  };
+  try {
+    app.parse(argc, argv);
+    return static_cast<int>(run());
+  } catch (const CLI::Success& done) {
+    return app.exit(done);
+  } catch (const CLI::Error& error) {
+    return say(error, ExitCode::kUsage);
+  } catch (const Error& error) {
+    return say(error, error.exitCode());
+  } catch (const std::bad_alloc& error) {
+    return say(error, ExitCode::kUnavailable);
+  }
+}
+
+}  // namespace skel

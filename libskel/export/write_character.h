@@ -1,0 +1,33 @@
+// Stage 9: files that other programs read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libskel/animation/clip.h"
+#include "libskel/mesh/triangle_mesh.h"
+#include "libskel/skeleton/skeleton.h"
+#include "libskel/skin/skin_weights.h"
+
+namespace skel {
+
+struct RiggedCharacter {
+  TriangleMesh mesh;
+  Skeleton skeleton;
+  SkinWeights weights;
+};
+
+// Names of the joints in exported files.
+enum class JointNaming { kSkel, kVrm, kMixamo };
+
+struct ExportOptions {
+  std::string name = "character";  // of the mesh and of the scene
+  JointNaming naming = JointNaming::kSkel;
+};
+
+// glTF 2.0 binary: one skinned mesh with its texture, the joints, the clips as animations (already retargeted
+// to the rest pose of `character`). Zero errors and warnings in the Khronos validator.
+std::string encodeGlb(const RiggedCharacter& character, const std::vector<Clip>& clips,
+                      const ExportOptions& options = {});
+
+}  // namespace skel

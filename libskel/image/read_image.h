@@ -1,0 +1,25 @@
+// Picture files.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "libskel/image/image.h"
+
+namespace skel {
+
+// Reads PNG and JPEG directly; WebP, BMP, TIFF and GIF (first frame) through a plugin that is loaded when
+// such a file comes. Throws InputError (missing, empty, truncated, not a picture, CMYK, HEIC, more than
+// kMaxPixels) and UnavailableError (the plugin is not there).
+Image readImage(const std::string& path);
+
+// `file` is the name that complaints use.
+Image decodeImage(std::string_view bytes, const std::string& file);
+
+// A grey picture as a mask: 255 where the picture is at least 128 (and, if it has alpha, opaque), else 0.
+Plane8 readMask(const std::string& path);
+
+// Larger pictures are refused: they would need more than 1 GB.
+inline constexpr long kMaxPixels = 100'000'000;
+
+}  // namespace skel

@@ -1,0 +1,67 @@
+// Stage 2: which pixels are the figure.
+//
+// Y. Shu, X. Yang, "A fast skeleton extraction algorithm for 3D cartoon characters" (2018): HSV, binarise V
+// to get the lines, flood-fill the background from outside, keep the outer contour, scale the figure's box to
+// 128 px.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "libskel/image/image.h"
+
+namespace skel {
+
+// The working grid: the figure's bounding box, scaled so that its long side is kWorkingGridSize px.
+// Grid and image points both have their origin at the centre of their own top left pixel.
+struct WorkingGrid {
+  int width = 0, height = 0;  // px, the longer is kWorkingGridSize
+  double scale = 1;           // grid px per image px
+  Eigen::Vector2d corner_px =
+      Eigen::Vector2d::Zero();  // top left corner (not centre) of the box, image px + 0.5
+
+  Eigen::Vector2d gridFromImage(const Eigen::Vector2d& p) const {
+    return ((p.array() + 0.5 - corner_px.array()) * scale - 0.5).matrix();
+  }
+  Eigen::Vector2d imageFromGrid(const Eigen::Vector2d& p) const {
+    return ((p.array() + 0.5) / scale + corner_px.array() - 0.5).matrix();
+  }
+};
+
+inline constexpr int kWorkingGridSize = 128;
+
+using Polygon = std::vector<Eigen::Vector2d>;  // closed; image px
+
+enum class SilhouetteStatus {
+  kFound,
+  kNoFigure,  // blank, noise, or too small to be a figure; see reason
+};
+
+struct Silhouette {
+  SilhouetteStatus status = SilhouetteStatus::kNoFigure;
+  std::string reason;                 // why there is none, one clause
+  std::vector<std::string> warnings;  // e.g. other figures in the picture, the figure cut by the border
+
+  Plane8 mask;                   // size of the image; one 4-connected figure
+  std::vector<Polygon> outline;  // pixel boundary of mask: outer contour first, then holes
+  Plane8 grid_mask;              // size of the grid; one 4-connected figure
+  WorkingGrid grid;
+  int figure_count = 0;  // in the picture; figure 1 is the largest
+
+  bool found() const { return status == SilhouetteStatus::kFound; }
+};
+
+struct SilhouetteOptions {
+  int figure = 1;           // 1 is the largest
+  bool fill_holes = false;  // as in the paper, which keeps the outer contour alone
+};
+
+// From the picture alone: its alpha if it has any, else its lines and colours.
+Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& options = {});
+
+// From a mask given by hand (255 on the figure): cleaned, the chosen figure taken, scaled to the grid.
+// A figure in several parts keeps the largest part.
+Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options = {});
+
+}  // namespace skel

@@ -1,0 +1,66 @@
+#include "libskel/core/json.h"
+
+#include "libskel/core/error.h"
+#include "tests/support/catch.h"
+
+using namespace skel;
+
+namespace {
+
+// What is wrong with the value at "a" when it is read by `read`.
+template <class Read>
+std::string complaint(const std::string& text, Read read) {
+  const JsonDocument document = JsonDocument::parse(text, "f.json");
+  try {
+    read(document.root());
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+}  // namespace
+
+TEST_CASE("values come back") {
+  const JsonDocument document =
+      JsonDocument::parse(R"({"n": 2.5, "s": "x", "l": [1, 2], "b": true, "z": null})", "f");
+  const JsonValue root = document.root();
+  CHECK(root.at("n").asNumber() == 2.5);
+  CHECK(root.at("s").asString() == "x");
+  CHECK(root.at("l").asNumbers() == std::vector<double>{1, 2});
+  CHECK(root.at("b").asBool());
+  CHECK(root.at("z").isNull());
+  CHECK_FALSE(root.find("y"));
+  CHECK(root.keys() == std::vector<std::string>{"n", "s", "l", "b", "z"});
+}
+
+TEST_CASE("a complaint names file, path and reason") {
+  CHECK(complaint(R"({"joints": [{"image": [1, "x"]}]})", [](const JsonValue& root) {
+          root.at("joints").items()[0].at("image").asNumbers(2);
+        }) == "f.json: joints[0].image[1]: must be a number");
+  CHECK(complaint(R"({"a": 7})", [](const JsonValue& root) { root.at("a").asNumber(0, 1); }) ==
+        "f.json: a: is 7, must be between 0 and 1");
+  CHECK(complaint(R"({"a": 1.5})", [](const JsonValue& root) { root.at("a").asInt(0, 9); }) ==
+        "f.json: a: is 1.5, must be a whole number between 0 and 9");
+  CHECK(complaint(R"({"a": 1})", [](const JsonValue& root) { root.at("b"); }) == "f.json: lacks \"b\"");
+  CHECK(complaint(R"({"a": {"c": 1}})", [](const JsonValue& root) { root.at("a").allowOnly({"b"}); }) ==
+        "f.json: a: has the unknown key \"c\"");
+}
+
+TEST_CASE("what is not JSON is refused with its line") {
+  CHECK_THROWS_WITH(JsonDocument::parse("{\n\"a\": 1,\n}", "f.json"),
+                    "f.json: is not JSON: line 3 cannot be read");
+  CHECK_THROWS_WITH(JsonDocument::parse("", "f.json"), "f.json: is empty, not JSON");
+  CHECK_THROWS_WITH(JsonDocument::parse(R"({"a": {"b": 1, "b": 2}})", "f.json"),
+                    "f.json: has the key \"b\" twice in one object");
+  CHECK_THROWS_AS(JsonDocument::parse("{\"a\": NaN}", "f.json"), InputError);
+}
+
+TEST_CASE("format and version are checked") {
+  const auto check = [](const JsonValue& root) { root.checkFormat("skel-x", 2); };
+  CHECK(complaint(R"({"format": "skel-x", "version": 2})", check) == "none");
+  CHECK(complaint(R"({"format": "skel-y", "version": 2})", check) ==
+        "f.json: is a file of format \"skel-y\", \"skel-x\" was expected");
+  CHECK(complaint(R"({"format": "skel-x", "version": 3})", check) ==
+        "f.json: version: is 3, this program reads up to 2; use a newer skel");
+}
