@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,9 @@ enum class JointOrigin {
   kDerived,     // computed from other joints (pelvis, neck, head_top)
   kEdited,      // placed by a person
 };
+// As skeleton files spell them.
+inline constexpr std::array<std::string_view, 4> kJointOriginNames = {"recognized", "completed", "derived",
+                                                                      "edited"};
 std::string_view jointOriginName(JointOrigin origin);
 
 struct Joint {

@@ -1,0 +1,92 @@
+#include "libskel/skeleton/skeleton_file.h"
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "tests/support/catch.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+
+namespace {
+
+SkeletonFile example() {
+  SkeletonFile file;
+  file.image_file = "cat.png";
+  file.image_width = 200;
+  file.image_height = 300;
+  file.skeleton = presetSkeleton(loadTemplate("biped"), {10, 20}, {180, 290});
+  file.confidence = 0.75;
+  file.missing = {"left_hand"};
+  file.warnings = {"two \"figures\""};
+  file.mask = SkeletonFile::Mask{"cat.mask.png", std::string(64, 'a')};
+  return file;
+}
+
+// The complaint about the example after `what` was replaced by `with`.
+std::string complaint(const std::string& what, const std::string& with) {
+  const TempDir dir;
+  std::string text = formatSkeletonFile(example());
+  const size_t at = text.find(what);
+  REQUIRE(at != std::string::npos);
+  text.replace(at, what.size(), with);
+  writeFile(dir.file("s.json"), text);
+  try {
+    readSkeletonFile(dir.file("s.json"), loadTemplate("biped"));
+  } catch (const InputError& error) {
+    return error.problem();
+  }
+  return "none";
+}
+
+}  // namespace
+
+TEST_CASE("a skeleton file comes back as it was written") {
+  const TempDir dir;
+  const SkeletonFile file = example();
+  writeFile(dir.file("s.json"), formatSkeletonFile(file));
+  const SkeletonFile back = readSkeletonFile(dir.file("s.json"), loadTemplate("biped"));
+  CHECK(formatSkeletonFile(back) == formatSkeletonFile(file));
+  CHECK(back.skeleton.joints.size() == 17);
+  CHECK(back.skeleton.joints[3].image.isApprox(file.skeleton.joints[3].image, 1e-4));
+  CHECK(back.mask->file == "cat.mask.png");
+}
+
+TEST_CASE("a skeleton file with a mistake is refused with its place") {
+  CHECK(complaint("\"cat.png\"", "\"cat.png\"") == "none");
+  CHECK(complaint("\"head_top\"", "\"tail\"") ==
+        "joints[4].name: \"tail\" is no joint of the template \"biped\"");
+  CHECK(complaint("\"image\":[95.0,198.2]", "\"image\":[200.0,198.2]") ==
+        "joints[0].image: joint \"pelvis\" lies outside the image of 200x300 px");
+  CHECK(complaint("\"image\":[95.0,198.2]", "\"image\":[NaN,198.2]").starts_with("is not JSON: line "));
+  CHECK(complaint("\"origin\":\"completed\"", "\"origin\":\"guessed\"") ==
+        "joints[0].origin: is \"guessed\", must be recognized, completed, derived or edited");
+  CHECK(complaint("\"parent\":\"pelvis\"", "\"parent\":\"neck\"") == "joints[1].parent: must be \"pelvis\"");
+  CHECK(complaint("\"name\":\"left_foot\"", "\"name\":\"left_hip\"") ==
+        "joints[16].parent: must be \"pelvis\"");
+  CHECK(complaint("\"name\":\"body\",\"parent\":\"pelvis\"", "\"name\":\"pelvis\",\"parent\":null") ==
+        "joints[1].name: joint \"pelvis\" stands here for the second time");
+  CHECK(complaint("\"biped\"", "\"horse\"") ==
+        "template: is \"horse\", but the template in use is \"biped\"; give the same --template");
+  CHECK(complaint("\"warnings\"", "\"colour\"") == "has the unknown key \"colour\"");
+}
+
+TEST_CASE("a skeleton that lacks a joint is refused") {
+  const TempDir dir;
+  std::string text = formatSkeletonFile(example());
+  const size_t last = text.rfind(",\n    {");
+  text.erase(last, text.rfind("\n  ]") - last);
+  writeFile(dir.file("s.json"), text);
+  CHECK_THROWS_WITH(readSkeletonFile(dir.file("s.json"), loadTemplate("biped")),
+                    dir.file("s.json") + ": joints: lacks the joint \"left_foot\"");
+}
+
+TEST_CASE("an edited joint is seen") {
+  const TempDir dir;
+  SkeletonFile file = example();
+  CHECK_FALSE(hasEditedJoint(dir.file("s.json")));
+  writeFile(dir.file("s.json"), formatSkeletonFile(file));
+  CHECK_FALSE(hasEditedJoint(dir.file("s.json")));
+  file.skeleton.joints[5].origin = JointOrigin::kEdited;
+  writeFile(dir.file("s.json"), formatSkeletonFile(file));
+  CHECK(hasEditedJoint(dir.file("s.json")));
+}

@@ -1,0 +1,61 @@
+#include "libskel/skeleton/template.h"
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "tests/support/catch.h"
+
+using namespace skel;
+
+TEST_CASE("every built-in template is a consistent tree") {
+  for (const std::string& name : builtinTemplates()) {
+    const SkeletonTemplate body_plan = loadTemplate(name);
+    CHECK(body_plan.name == name);
+    for (size_t i = 0; i < body_plan.joints.size(); ++i) {
+      const TemplateJoint& joint = body_plan.joints[i];
+      CHECK(joint.parent < static_cast<int>(i));
+      CHECK((joint.preset.array() >= 0).all());
+      CHECK((joint.preset.array() <= 1).all());
+      const TemplateJoint& mirror = body_plan.joints[static_cast<size_t>(joint.mirror)];
+      CHECK(mirror.preset.x() == Approx(1 - joint.preset.x()));
+      CHECK(mirror.preset.y() == Approx(joint.preset.y()));
+    }
+    CHECK(body_plan.head >= 0);
+    CHECK(body_plan.body >= 0);
+  }
+}
+
+TEST_CASE("the biped has 17 joints, 14 of them recognised") {
+  const SkeletonTemplate biped = loadTemplate("biped");
+  CHECK(biped.joints.size() == 17);
+  int recognized = 0;
+  for (const TemplateJoint& joint : biped.joints) recognized += !joint.derived;
+  CHECK(recognized == 14);
+  CHECK(biped.limbs.size() == 4);
+  // Ours faces the viewer: its right hand is at the left.
+  CHECK(biped.joints[static_cast<size_t>(biped.find("right_hand"))].preset.x() < 0.5);
+}
+
+TEST_CASE("a template file that makes no sense is refused") {
+  CHECK_THROWS_WITH(loadTemplate("centaur"),
+                    "centaur: is no template; use one of: biped, or a template's .json file");
+  CHECK_THROWS_AS(loadTemplate("missing.json"), InputError);
+  const std::string start =
+      R"({"format": "skel-template", "version": 1, "name": "t", "head": "a", "body": "a",
+    "limbs": [], "rules": {"line_reach": 1, "limb_probability": 0.5, "limb_radius": 0.5, "separation_px": 4}, "joints": )";
+  const auto joint = [](const std::string& name, const std::string& parent, const std::string& mirror) {
+    return R"({"name": ")" + name + R"(", "parent": )" + parent + R"(, "mirror": ")" + mirror +
+           R"(", "preset": [0.5, 0.5], "class": null})";
+  };
+  CHECK(parseTemplate(start + "[" + joint("a", "null", "a") + "]}", "t").joints.size() == 1);
+  CHECK_THROWS_WITH(parseTemplate(start + "[" + joint("a", "null", "b") + "]}", "t"),
+                    "t: joints[0].mirror: names no joint of this template: \"b\"");
+  CHECK_THROWS_WITH(
+      parseTemplate(start + "[" + joint("a", "null", "a") + "," + joint("b", "null", "b") + "]}", "t"),
+      "t: joints[1].parent: must name an earlier joint for every joint but the first, which has none");
+  CHECK_THROWS_WITH(
+      parseTemplate(start + "[" + joint("a", "null", "a") + "," + joint("a", "\"a\"", "a") + "]}", "t"),
+      "t: joints[1].name: is the second joint named \"a\"");
+  CHECK_THROWS_WITH(
+      parseTemplate(start + "[" + joint("a", "null", "a") + "," + joint("b", "\"a\"", "a") + "]}", "t"),
+      "t: joints[1].mirror: must name the joint that names this one");
+}
