@@ -1,0 +1,45 @@
+#include "libskel/image/read_image.h"
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/image/formats.h"
+
+namespace skel {
+
+Image decodeImage(std::string_view bytes, const std::string& file) {
+  if (bytes.empty()) throw InputError(file, "is empty");
+  const Format format = formatOf(bytes);
+  switch (format) {
+    case Format::kPng:
+      return decodePng(bytes, file);
+    case Format::kJpeg:
+      return decodeJpeg(bytes, file);
+    case Format::kWebp:
+    case Format::kBmp:
+    case Format::kTiff:
+    case Format::kGif:
+      return decodeByPlugin(bytes, format, file);
+    case Format::kHeic:
+    case Format::kAvif:
+      throw InputError(file, std::string("is a ") + (format == Format::kHeic ? "HEIC" : "AVIF") +
+                                 " picture; convert it by `heif-convert " + file + " out.png`");
+    case Format::kUnknown:
+      break;
+  }
+  throw InputError(file, "is not a picture that can be read (PNG, JPEG, WebP, BMP, TIFF or GIF)");
+}
+
+Image readImage(const std::string& path) { return decodeImage(readFile(path), path); }
+
+Plane8 readMask(const std::string& path) {
+  const Image image = readImage(path);
+  Plane8 mask(image.height, image.width);
+  for (Eigen::Index i = 0; i < mask.size(); ++i) {
+    const auto p = image.rgba.row(i);
+    const int luma = (299 * p[0] + 587 * p[1] + 114 * p[2] + 500) / 1000;
+    mask.data()[i] = luma >= 128 && p[3] >= 128 ? 255 : 0;
+  }
+  return mask;
+}
+
+}  // namespace skel
