@@ -22,6 +22,8 @@ add_library(skel_options INTERFACE)
 target_include_directories(skel_options INTERFACE ${PROJECT_SOURCE_DIR})
 # No fused multiply-add unless written: results do not depend on the machine's instruction set.
 target_compile_options(skel_options INTERFACE -Wall -Wextra -Wpedantic -ffp-contract=off)
+# Eigen's fast square roots start from the CPU's own approximation, which differs between makers.
+target_compile_definitions(skel_options INTERFACE EIGEN_FAST_MATH=0)
 if(PROJECT_IS_TOP_LEVEL)
   target_compile_options(skel_options INTERFACE -Werror)
 endif()
