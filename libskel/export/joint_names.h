@@ -1,0 +1,14 @@
+// What other programs call our joints.
+#pragma once
+
+#include <string>
+
+#include "libskel/export/write_character.h"
+
+namespace skel {
+
+// kVrm: VRM 1.0's humanoid bones (its 15 required ones are covered). kMixamo: Mixamo's names with their
+// prefix. Joints that those do not know keep their own name.
+std::string exportedJointName(const std::string& joint, JointNaming naming);
+
+}  // namespace skel

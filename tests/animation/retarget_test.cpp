@@ -1,0 +1,169 @@
+#include "libskel/animation/retarget.h"
+
+#include <numbers>
+
+#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/sample_pose.h"
+#include "tests/support/catch.h"
+#include "tests/support/figure.h"
+
+using namespace skel;
+
+namespace {
+
+using Eigen::Vector3f;
+
+// Positions of the joints at one moment.
+std::vector<Vector3f> positions(const Clip& clip, const Skeleton& skeleton, float time_s) {
+  const Pose pose = samplePose(clip, skeleton, time_s);
+  std::vector<Eigen::Quaternionf> globals;
+  std::vector<Vector3f> result;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const Joint& joint = skeleton.joints[j];
+    if (joint.parent < 0) {
+      globals.push_back(pose.rotations[j]);
+      result.push_back(joint.position.cast<float>());
+      continue;
+    }
+    const Vector3f offset = (joint.position - skeleton.joints[joint.parent].position).cast<float>();
+    result.push_back(result[joint.parent] + globals[joint.parent] * offset);
+    globals.push_back(globals[joint.parent] * pose.rotations[j]);
+  }
+  return result;
+}
+
+Vector3f bone(const std::vector<Vector3f>& at, const Skeleton& skeleton, const char* from, const char* to) {
+  return (at[skeleton.index(to)] - at[skeleton.index(from)]).normalized();
+}
+
+double distanceToSegment(const Vector3f& p, const Vector3f& a, const Vector3f& b) {
+  const float t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0f, 1.0f);
+  return (a + t * (b - a) - p).norm();
+}
+
+// Arms down, out, up, up past the vertical, on the hips, across the belly, forearm up.
+const FigurePose kDrawnPoses[] = {
+    {},
+    {.right_arm = 90, .right_forearm = 90, .left_arm = 90, .left_forearm = 90},
+    {.right_arm = 170, .right_forearm = 180, .left_arm = 170, .left_forearm = 180},
+    {.right_arm = 150, .right_forearm = 215, .left_arm = 150, .left_forearm = 215},
+    {.right_arm = 50, .right_forearm = -60, .left_arm = 50, .left_forearm = -60},
+    {.right_arm = -10, .right_forearm = -80},
+    {.right_arm = 30, .right_forearm = 170},
+};
+
+}  // namespace
+
+TEST_CASE(
+    "however the arms were drawn, the wave begins and ends in the drawn pose and looks the same between") {
+  const Clip& wave = builtinClip("wave");
+  const Skeleton straight = figureSkeleton({.right_arm = 0, .right_forearm = 0, .leg = 0});
+  const Clip reference = retargetToRest(wave, straight);
+  for (const FigurePose& pose : kDrawnPoses) {
+    const Skeleton skeleton = figureSkeleton(pose);
+    CAPTURE(pose.right_arm, pose.right_forearm);
+    const Clip clip = retargetToRest(wave, skeleton);
+    for (const float time_s : {0.0f, wave.duration_s()})
+      for (const Eigen::Quaternionf& rotation : samplePose(clip, skeleton, time_s).rotations)
+        CHECK(std::abs(rotation.w()) == Approx(1).margin(1e-5));
+    for (float time_s = wave.lead_s; time_s <= wave.duration_s() - wave.lead_s; time_s += 0.1f) {
+      const auto at = positions(clip, skeleton, time_s), expected = positions(reference, straight, time_s);
+      for (const auto& [from, to] :
+           {std::pair("right_shoulder", "right_elbow"), {"right_elbow", "right_hand"}})
+        CHECK((bone(at, skeleton, from, to) - bone(expected, straight, from, to)).norm() < 0.02);
+      // Legs are not touched.
+      for (const char* joint : {"left_knee", "left_foot", "right_foot"})
+        CHECK((at[skeleton.index(joint)].cast<double>() - skeleton.joints[skeleton.index(joint)].position)
+                  .norm() < 1e-5);
+    }
+  }
+}
+
+TEST_CASE("the waving hand is up beside the head and goes to and fro") {
+  const Skeleton skeleton = figureSkeleton();
+  const Clip clip = retargetToRest(builtinClip("wave"), skeleton);
+  double left = 1e9, right = -1e9;
+  for (float time_s = 0.7f; time_s <= 2.1f; time_s += 0.05f) {
+    const auto at = positions(clip, skeleton, time_s);
+    const Vector3f hand = at[skeleton.index("right_hand")];
+    CHECK(hand.y() > at[skeleton.index("right_shoulder")].y() + 0.1);
+    CHECK(std::abs(hand.z()) < 1e-4);
+    left = std::min(left, double(hand.x())), right = std::max(right, double(hand.x()));
+  }
+  CHECK(right - left > 0.1);
+  CHECK(right < -0.15);
+}
+
+TEST_CASE("the waving forearm keeps off the head, however large it is") {
+  for (const double radius : {0.1, 0.2, 0.3, 0.4})
+    for (FigurePose pose : kDrawnPoses) {
+      pose.head_radius = radius;
+      const Skeleton skeleton = figureSkeleton(pose);
+      const Clip& wave = builtinClip("wave");
+      const Clip clip = retargetToRest(wave, skeleton);
+      for (float time_s = wave.lead_s; time_s <= wave.duration_s() - wave.lead_s; time_s += 0.05f) {
+        const auto at = positions(clip, skeleton, time_s);
+        CAPTURE(radius, pose.right_arm, time_s);
+        CHECK(distanceToSegment(at[skeleton.index("head")], at[skeleton.index("right_elbow")],
+                                at[skeleton.index("right_hand")]) > radius);
+      }
+    }
+}
+
+TEST_CASE("on the way up the arm never crosses the trunk") {
+  for (const FigurePose& pose : kDrawnPoses) {
+    const Skeleton skeleton = figureSkeleton(pose);
+    const Clip& wave = builtinClip("wave");
+    const Clip clip = retargetToRest(wave, skeleton);
+    const double drawn = skeleton.joints[skeleton.index("right_elbow")].position.x();
+    for (float time_s = 0; time_s <= wave.duration_s(); time_s += 0.02f)
+      CHECK(positions(clip, skeleton, time_s)[skeleton.index("right_elbow")].x() <
+            std::max(drawn, -0.17) + 0.02);
+  }
+}
+
+TEST_CASE("keys are dense enough that slerp between them is the motion") {
+  const Clip& wave = builtinClip("wave");
+  for (const FigurePose& pose : kDrawnPoses) {
+    const Skeleton skeleton = figureSkeleton(pose);
+    const Clip clip = retargetToRest(wave, skeleton), fine = retargetToRest(wave, skeleton, {.rate_hz = 480});
+    for (float time_s = 0; time_s <= wave.duration_s(); time_s += 0.011f) {
+      const auto a = positions(clip, skeleton, time_s), b = positions(fine, skeleton, time_s);
+      for (std::size_t j = 0; j < a.size(); ++j) CHECK((a[j] - b[j]).norm() < 0.005);
+    }
+  }
+}
+
+TEST_CASE("a clip that is retargeted already stays as it is") {
+  const Skeleton skeleton = figureSkeleton(kDrawnPoses[2]);
+  const Clip once = retargetToRest(builtinClip("wave"), skeleton), twice = retargetToRest(once, skeleton);
+  for (std::size_t t = 0; t < once.tracks.size(); ++t)
+    for (std::size_t k = 0; k < once.tracks[t].rotations.size(); ++k)
+      CHECK(once.tracks[t].rotations[k].isApprox(twice.tracks[t].rotations[k], 1e-4f));
+}
+
+TEST_CASE("bones out of the picture's plane are met as well, and coincident joints do no harm") {
+  Skeleton skeleton = figureSkeleton({.right_arm = 60});
+  skeleton.joints[skeleton.index("right_hand")].position.z() = 0.2;
+  const Clip clip = retargetToRest(builtinClip("wave"), skeleton, {.clear_of_head = false});
+  const Skeleton straight = figureSkeleton({.right_arm = 0, .right_forearm = 0});
+  const Clip expected = retargetToRest(builtinClip("wave"), straight, {.clear_of_head = false});
+  CHECK((bone(positions(clip, skeleton, 1.3f), skeleton, "right_elbow", "right_hand") -
+         bone(positions(expected, straight, 1.3f), straight, "right_elbow", "right_hand"))
+            .norm() < 0.02);
+
+  for (Joint& joint : skeleton.joints) joint.position.setZero();
+  for (const JointTrack& track : retargetToRest(builtinClip("wave"), skeleton).tracks)
+    for (const Eigen::Quaternionf& rotation : track.rotations) CHECK(rotation.norm() == Approx(1));
+}
+
+TEST_CASE("turns are taken the asked way round, also to the opposite direction") {
+  constexpr double kPi = std::numbers::pi;
+  const Eigen::Vector3d down(0, -1, 0), up(0, 1, 0);
+  CHECK(boneTurn(down, up, 1).angle_rad == Approx(kPi));
+  CHECK(boneTurn(down, up, -1).angle_rad == Approx(-kPi));
+  CHECK((boneTurn(down, up, -1).share(1) * down - up).norm() < 1e-9);
+  CHECK(boneTurn(down, up, -1).share(0).isApprox(Eigen::Quaterniond::Identity()));
+  const Eigen::Vector3d slanted = Eigen::Vector3d(0.3, 0.5, 0.4).normalized();
+  CHECK((boneTurn(down, slanted, 1).share(1) * down - slanted).norm() < 1e-9);
+}
