@@ -1,8 +1,4 @@
 // Stage 2: which pixels are the figure.
-//
-// Y. Shu, X. Yang, "A fast skeleton extraction algorithm for 3D cartoon characters" (2018): HSV, binarise V
-// to get the lines, flood-fill the background from outside, keep the outer contour, scale the figure's box to
-// 128 px.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,25 +39,33 @@ struct Silhouette {
   std::string reason;                 // why there is none, one clause
   std::vector<std::string> warnings;  // e.g. other figures in the picture, the figure cut by the border
 
-  Plane8 mask;                   // size of the image; one 4-connected figure
-  std::vector<Polygon> outline;  // pixel boundary of mask: outer contour first, then holes
-  Plane8 grid_mask;              // size of the grid; one 4-connected figure
+  Plane8 mask;  // size of the image; one 4-connected figure
+  // Pixel boundary of mask, corners only: the outer contour first, then the holes. The figure lies at the
+  // right of the way round, as seen on the screen.
+  std::vector<Polygon> outline;
+  Plane8 grid_mask;  // size of the grid; one 4-connected figure
   WorkingGrid grid;
   int figure_count = 0;  // in the picture; figure 1 is the largest
 
   bool found() const { return status == SilhouetteStatus::kFound; }
 };
 
+enum class SilhouetteMethod {
+  kAutomatic,  // the picture's alpha where it has any, else its lines and colours (segment.h)
+  kPaper,      // dark lines and a flood fill, as the paper does it (paper.h); alpha is laid on white
+};
+
 struct SilhouetteOptions {
+  SilhouetteMethod method = SilhouetteMethod::kAutomatic;
   int figure = 1;           // 1 is the largest
   bool fill_holes = false;  // as in the paper, which keeps the outer contour alone
 };
 
-// From the picture alone: its alpha if it has any, else its lines and colours.
+// From the picture alone. An empty picture has no figure.
 Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& options = {});
 
 // From a mask given by hand (255 on the figure): cleaned, the chosen figure taken, scaled to the grid.
-// A figure in several parts keeps the largest part.
+// A figure in several parts keeps the largest part. `options.method` does not matter.
 Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options = {});
 
 }  // namespace skel

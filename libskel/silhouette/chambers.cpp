@@ -1,0 +1,107 @@
+#include "libskel/silhouette/chambers.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace skel {
+namespace {
+
+enum class Side : std::uint8_t { kOpen, kOutside, kInside };
+
+// Regions that grow and unite while the flood sinks.
+struct Regions {
+  std::vector<int> parent;
+  std::vector<float> summit;  // distance to the barrier at the widest place
+  std::vector<Side> side;
+
+  int add(float height, Side s) {
+    parent.push_back(static_cast<int>(parent.size()));
+    summit.push_back(height);
+    side.push_back(s);
+    return parent.back();
+  }
+  int find(int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  }
+  // `into` keeps its side.
+  void unite(int from, int into) {
+    parent[from] = into;
+    summit[into] = std::max(summit[into], summit[from]);
+  }
+};
+
+}  // namespace
+
+void fillChambers(cv::Mat& barrier, const ChamberOptions& options) {
+  // A frame one pixel wide stands for the outside.
+  cv::Mat open;
+  cv::copyMakeBorder(barrier == 0, open, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(255));
+  cv::Mat distance;
+  cv::distanceTransform(open, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  const int w = distance.cols, h = distance.rows;
+  const float* height = distance.ptr<float>();
+  const double max_gap = options.max_gap * std::max(barrier.cols, barrier.rows);
+
+  // Pixels from the widest place to the narrowest, in steps of a quarter pixel (counting sort).
+  constexpr float kStepsPerPixel = 4;
+  const int pixel_count = w * h;
+  const auto stepOf = [&](int p) { return static_cast<int>(height[p] * kStepsPerPixel); };
+  int max_step = 0;
+  for (int p = 0; p < pixel_count; ++p) max_step = std::max(max_step, stepOf(p));
+  std::vector<int> begin(static_cast<std::size_t>(max_step) + 2, 0);
+  for (int p = 0; p < pixel_count; ++p) ++begin[static_cast<std::size_t>(max_step - stepOf(p)) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<int> order(static_cast<std::size_t>(pixel_count));
+  for (int p = 0; p < pixel_count; ++p) {
+    order[static_cast<std::size_t>(begin[static_cast<std::size_t>(max_step - stepOf(p))]++)] = p;
+  }
+
+  Regions regions;
+  constexpr int kNone = -1;
+  std::vector<int> region(static_cast<std::size_t>(pixel_count), kNone);
+  const int outside = regions.add(static_cast<float>(w + h), Side::kOutside);
+  for (int x = 0; x < w; ++x) region[x] = region[(h - 1) * w + x] = outside;
+  for (int y = 0; y < h; ++y) region[y * w] = region[y * w + w - 1] = outside;
+
+  for (const int p : order) {
+    if (height[p] == 0) break;
+    if (region[p] != kNone) continue;
+    int mine = kNone;
+    for (const int step : {-w, -1, 1, w}) {
+      if (region[p + step] == kNone) continue;
+      const int other = regions.find(region[p + step]);
+      if (mine == kNone) {
+        mine = other;
+        continue;
+      }
+      if (other == mine) continue;
+      // Two regions meet; `pass` is half the width of the gap between them.
+      const float pass = height[p];
+      int a = mine, b = other;
+      if (regions.side[a] == Side::kOpen) std::swap(a, b);
+      if (regions.side[b] != Side::kOpen) continue;  // outside and inside meet: the line between them stays
+      if (regions.side[a] == Side::kOutside && pass <= max_gap &&
+          regions.summit[b] >= options.widening * pass) {
+        regions.side[b] = Side::kInside;
+        continue;
+      }
+      regions.unite(b, a);
+      mine = a;
+    }
+    region[p] = mine == kNone ? regions.add(height[p], Side::kOpen) : mine;
+  }
+
+  for (int y = 0; y < barrier.rows; ++y) {
+    std::uint8_t* row = barrier.ptr(y);
+    for (int x = 0; x < barrier.cols; ++x) {
+      const int r = region[(y + 1) * w + x + 1];
+      if (r != kNone && regions.side[regions.find(r)] != Side::kOutside) row[x] = 255;
+    }
+  }
+}
+
+}  // namespace skel

@@ -1,0 +1,14 @@
+// The boundary between pixels as polygons.
+#pragma once
+
+#include <vector>
+
+#include "libskel/silhouette/silhouette.h"
+
+namespace skel {
+
+// Of a mask with one 4-connected figure: the outer contour first, then the holes from top to bottom. Corners
+// only, so that no three neighbouring points lie on one line.
+std::vector<Polygon> traceOutline(const Plane8& mask);
+
+}  // namespace skel

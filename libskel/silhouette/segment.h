@@ -1,0 +1,19 @@
+// The figure of an opaque picture from its lines and colours.
+#pragma once
+
+#include <string>
+
+#include "libskel/image/image.h"
+
+namespace skel {
+
+struct Segmentation {
+  Plane8 foreground;   // 255 on figures, in any number of parts
+  std::string reason;  // why it is empty, where it is
+};
+
+// Works for drawings on paper (also photographed in uneven light), line art whose white fills open to the
+// background through small gaps, and flat art on plain, graded or patterned backgrounds.
+Segmentation segment(const Image& image);
+
+}  // namespace skel

@@ -1,0 +1,179 @@
+#include "libskel/silhouette/silhouette.h"
+
+#include <algorithm>
+#include <numeric>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "libskel/core/check.h"
+#include "libskel/silhouette/outline.h"
+#include "libskel/silhouette/paper.h"
+#include "libskel/silhouette/segment.h"
+#include "libskel/silhouette/working_grid.h"
+
+namespace skel {
+namespace {
+
+cv::Mat viewOf(Plane8& plane) {
+  return {static_cast<int>(plane.rows()), static_cast<int>(plane.cols()), CV_8U, plane.data()};
+}
+
+Silhouette noFigure(const std::string& reason) {
+  Silhouette none;
+  none.reason = reason;
+  return none;
+}
+
+struct Part {
+  int label, area, left, top, width, height;
+};
+
+// A scribble or a speck is no figure.
+bool largeEnough(const Part& part) {
+  constexpr int kMinLongSide = 8, kMinShortSide = 3, kMinArea = 16;
+  return std::max(part.width, part.height) >= kMinLongSide &&
+         std::min(part.width, part.height) >= kMinShortSide && part.area >= kMinArea;
+}
+
+void fillHoles(Plane8& mask) {
+  cv::Mat framed;
+  cv::copyMakeBorder(viewOf(mask), framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  constexpr std::uint8_t kOutside = 128;
+  // 8-connected, as the background of a 4-connected figure is.
+  cv::floodFill(framed, cv::Point(0, 0), cv::Scalar(kOutside), nullptr, {}, {}, 8);
+  for (Eigen::Index y = 0; y < mask.rows(); ++y) {
+    const std::uint8_t* row = framed.ptr(static_cast<int>(y) + 1) + 1;
+    for (Eigen::Index x = 0; x < mask.cols(); ++x) mask(y, x) = row[x] == kOutside ? 0 : 255;
+  }
+}
+
+// Names the sides of the picture along which a good part of the figure ends.
+std::string cutSides(const Plane8& mask, const Part& part) {
+  const auto cut = [&](auto side) {
+    const Eigen::Index touching = (side > 0).count();
+    return touching >= 3 && touching * 20 >= std::max(part.width, part.height);
+  };
+  std::string sides;
+  const auto add = [&](bool is_cut, const char* name) {
+    if (is_cut) sides += (sides.empty() ? "" : ", ") + std::string(name);
+  };
+  add(cut(mask.row(0)), "top");
+  add(cut(mask.row(mask.rows() - 1)), "bottom");
+  add(cut(mask.col(0)), "left");
+  add(cut(mask.col(mask.cols() - 1)), "right");
+  return sides;
+}
+
+// From any foreground to one clean figure and all that is made of it.
+Silhouette finish(Plane8 foreground, const SilhouetteOptions& options) {
+  SKEL_CHECK(options.figure >= 1);
+  cv::Mat labels, stats, centroids;
+  const int count = cv::connectedComponentsWithStats(viewOf(foreground), labels, stats, centroids, 4, CV_32S);
+  std::vector<Part> parts;
+  for (int label = 1; label < count; ++label) {
+    const int* s = stats.ptr<int>(label);
+    const Part part{label,
+                    s[cv::CC_STAT_AREA],
+                    s[cv::CC_STAT_LEFT],
+                    s[cv::CC_STAT_TOP],
+                    s[cv::CC_STAT_WIDTH],
+                    s[cv::CC_STAT_HEIGHT]};
+    if (largeEnough(part)) parts.push_back(part);
+  }
+  if (parts.empty()) {
+    return noFigure(count > 1 ? "what is drawn is too small to be a figure" : "the picture is blank");
+  }
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.area > b.area; });
+  // What is much smaller than the largest figure belongs to it (a ball, a motion line) or to nothing.
+  constexpr int kSmallestShare = 5;
+  while (parts.back().area * kSmallestShare < parts.front().area) parts.pop_back();
+
+  Silhouette out;
+  out.figure_count = static_cast<int>(parts.size());
+  if (options.figure > out.figure_count) {
+    out.reason =
+        "there is no figure " + std::to_string(options.figure) + ", only " + std::to_string(out.figure_count);
+    return out;
+  }
+  const Part& part = parts[static_cast<std::size_t>(options.figure - 1)];
+  out.status = SilhouetteStatus::kFound;
+  out.mask = Plane8::Zero(foreground.rows(), foreground.cols());
+  for (int y = part.top; y < part.top + part.height; ++y) {
+    const int* row = labels.ptr<int>(y);
+    for (int x = part.left; x < part.left + part.width; ++x) out.mask(y, x) = row[x] == part.label ? 255 : 0;
+  }
+  if (options.fill_holes) fillHoles(out.mask);
+  if (out.figure_count > 1 && options.figure == 1) {
+    out.warnings.push_back("the picture shows " + std::to_string(out.figure_count) +
+                           " figures; the largest is taken (choose another with --figure)");
+  }
+  if (const std::string sides = cutSides(out.mask, part); !sides.empty()) {
+    out.warnings.push_back("the figure is cut by the border of the picture (" + sides + ")");
+  }
+  out.outline = traceOutline(out.mask);
+  out.grid = gridOver(out.mask);
+  out.grid_mask = sampleMask(out.mask, out.grid);
+  return out;
+}
+
+// Transparency tells the figure unless it only rounds the corners of an opaque picture.
+struct AlphaMask {
+  bool meaningful = false;
+  Plane8 opaque;
+};
+
+AlphaMask alphaMask(const Image& image) {
+  AlphaMask out;
+  const int strongest = image.rgba.col(3).maxCoeff();
+  const int threshold = std::max(1, std::min(128, (strongest + 1) / 2));
+  if (image.rgba.col(3).minCoeff() >= threshold) return out;
+  out.opaque = Plane8(image.height, image.width);
+  std::int64_t area = 0;
+  int left = image.width, right = 0, top = image.height, bottom = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const bool opaque = image.pixel(x, y)[3] >= threshold;
+      out.opaque(y, x) = opaque ? 255 : 0;
+      if (!opaque) continue;
+      ++area;
+      left = std::min(left, x);
+      right = std::max(right, x + 1);
+      top = std::min(top, y);
+      bottom = y + 1;
+    }
+  }
+  const double box_area = static_cast<double>(right - left) * (bottom - top);
+  out.meaningful = area == 0 || static_cast<double>(area) < 0.97 * box_area;
+  return out;
+}
+
+}  // namespace
+
+Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& options) {
+  if (image.empty()) return noFigure("the picture is empty");
+  if (options.method == SilhouetteMethod::kPaper) {
+    SilhouetteOptions filled = options;
+    filled.fill_holes = true;
+    return finish(paperForeground(image), filled);
+  }
+  AlphaMask alpha = alphaMask(image);
+  if (alpha.meaningful) {
+    if ((alpha.opaque == 0).all()) return noFigure("the picture is fully transparent");
+    return finish(std::move(alpha.opaque), options);
+  }
+  Segmentation segmentation = segment(image);
+  if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
+  return finish(std::move(segmentation.foreground), options);
+}
+
+Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options) {
+  if (mask.size() == 0) return noFigure("the mask is empty");
+  Silhouette out = finish(
+      (mask >= 128)
+          .select(Plane8::Constant(mask.rows(), mask.cols(), 255), Plane8::Zero(mask.rows(), mask.cols())),
+      options);
+  if (!out.found() && out.reason == "the picture is blank") out.reason = "the mask is blank";
+  return out;
+}
+
+}  // namespace skel
