@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "libskel/classifier/block.h"
+#include "libskel/classifier/sigmoid.h"
 #include "libskel/classifier/weights_file.h"
 #include "libskel/core/rng.h"
 #include "tests/support/catch.h"
