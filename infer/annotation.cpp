@@ -1,0 +1,167 @@
+#include "infer/annotation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "libskel/core/error.h"
+#include "libskel/core/json.h"
+#include "libskel/image/read_image.h"
+
+namespace skel {
+namespace fs = std::filesystem;
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr std::array<const char*, 14> kScoredJoints = {
+    "head",          "body",           "left_shoulder", "left_elbow", "left_hand",  "left_hip",   "left_knee",
+    "left_foot",     "right_shoulder", "right_elbow",   "right_hand", "right_hip", "right_knee", "right_foot"};
+
+bool isEnd(const std::string& joint) { return joint.ends_with("hand") || joint.ends_with("foot"); }
+
+double longSide(const Plane8& mask) {
+  int x0 = static_cast<int>(mask.cols()), x1 = -1, y0 = static_cast<int>(mask.rows()), y1 = -1;
+  for (int y = 0; y < mask.rows(); ++y)
+    for (int x = 0; x < mask.cols(); ++x)
+      if (mask(y, x)) x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
+  return std::max(x1 - x0 + 1, y1 - y0 + 1);
+}
+
+bool near(const Plane8& mask, const Vector2d& p) {
+  constexpr int kSlack = 2;
+  const int x0 = static_cast<int>(std::nearbyint(p.x())), y0 = static_cast<int>(std::nearbyint(p.y()));
+  for (int y = std::max(0, y0 - kSlack); y <= std::min<int>(static_cast<int>(mask.rows()) - 1, y0 + kSlack); ++y)
+    for (int x = std::max(0, x0 - kSlack); x <= std::min<int>(static_cast<int>(mask.cols()) - 1, x0 + kSlack); ++x)
+      if (mask(y, x)) return true;
+  return false;
+}
+
+struct Guess {
+  Vector2d point;
+  double confidence;
+};
+
+// In side views which limb of a pair is the far one is a guess: the pair counts as it fits better.
+void swapPairsThatFitBetter(const AnnotatedDrawing& truth, std::map<std::string, Guess>& guesses) {
+  constexpr std::array<std::array<const char*, 3>, 2> kChains = {{{"shoulder", "elbow", "hand"}, {"hip", "knee", "foot"}}};
+  for (const auto& chain : kChains) {
+    const auto cost = [&](bool swapped) {
+      double sum = 0;
+      for (const std::string side : {"left_", "right_"}) {
+        const std::string other = side == "left_" ? "right_" : "left_";
+        for (const char* part : chain) {
+          const auto t = truth.joints.find(side + part);
+          const auto g = guesses.find((swapped ? other : side) + part);
+          if (t != truth.joints.end() && t->second && g != guesses.end()) sum += (g->second.point - *t->second).norm();
+        }
+      }
+      return sum;
+    };
+    if (cost(true) >= cost(false)) continue;
+    for (const char* part : chain) {
+      const auto left = guesses.find(std::string("left_") + part), right = guesses.find(std::string("right_") + part);
+      if (left != guesses.end() && right != guesses.end()) std::swap(left->second, right->second);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> drawingFolders(const std::string& root) {
+  std::vector<std::string> ids;
+  if (!fs::is_directory(root)) throw InputError(root, "is not a folder");
+  for (const auto& entry : fs::recursive_directory_iterator(root))
+    if (entry.path().filename() == "image.png") ids.push_back(fs::relative(entry.path().parent_path(), root).string());
+  if (ids.empty()) throw InputError(root, "holds no folder with an image.png");
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string& id) {
+  const std::string folder = root + "/" + id + "/";
+  AnnotatedDrawing drawing;
+  drawing.id = id;
+  drawing.image = readImage(folder + "image.png");
+  if (fs::exists(folder + "mask.png")) drawing.mask = readMask(folder + "mask.png");
+  if (!fs::exists(folder + "joints.json")) return drawing;
+  if (!drawing.mask) throw InputError(folder + "joints.json", "needs a mask.png beside it");
+  const JsonDocument document = JsonDocument::readFile(folder + "joints.json");
+  if (const auto view = document.root().find("view")) drawing.side_view = view->asString() == "side";
+  const JsonValue joints = document.root().at("joints");
+  for (const std::string& name : joints.keys()) {
+    std::optional<Vector2d> point;
+    if (const JsonValue value = joints.at(name); !value.isNull()) {
+      const auto numbers = value.asNumbers(2);
+      point = Vector2d(numbers[0], numbers[1]);
+    }
+    drawing.joints.emplace(name, point);
+  }
+  // Some sets say torso where we say body.
+  if (const auto torso = drawing.joints.find("torso"); torso != drawing.joints.end() && torso->second)
+    if (auto& body = drawing.joints["body"]; !body) body = torso->second;
+  return drawing;
+}
+
+void turnClockwise(AnnotatedDrawing& drawing, int quarters) {
+  for (int turn = 0; turn < quarters; ++turn) {
+    const Image upright = std::move(drawing.image);
+    Image turned(upright.height, upright.width);
+    for (int y = 0; y < upright.height; ++y)
+      for (int x = 0; x < upright.width; ++x)
+        std::copy_n(upright.pixel(x, y), 4, turned.pixel(upright.height - 1 - y, x));
+    drawing.image = std::move(turned);
+    if (drawing.mask) drawing.mask = Plane8(drawing.mask->transpose().rowwise().reverse());
+    for (auto& joint : drawing.joints)
+      if (joint.second) joint.second = Vector2d(upright.height - 1 - joint.second->y(), joint.second->x());
+  }
+}
+
+bool isTransparent(const Image& image) { return (image.rgba.col(3) < 128).any(); }
+
+Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const Plane8& silhouette_mask) {
+  Score result;
+  for (const char* name : kScoredJoints) {
+    const auto t = truth.joints.find(name);
+    result.annotated += t != truth.joints.end() && t->second;
+  }
+  if (!recognition) return result;
+  const double size = longSide(*truth.mask);
+  result.confidence = recognition->confidence;
+  std::map<std::string, Guess> guesses;
+  for (const Joint& joint : recognition->skeleton.joints) guesses[joint.name] = {joint.image, joint.confidence};
+  if (truth.side_view) swapPairsThatFitBetter(truth, guesses);
+
+  double sum = 0, worst = -1;
+  int within05 = 0, within10 = 0, within15 = 0, ends = 0, right_ends = 0, guessed = 0, inside = 0;
+  for (const std::string name : kScoredJoints) {
+    const auto guess = guesses.find(name);
+    if (guess != guesses.end()) ++guessed, inside += near(*truth.mask, guess->second.point);
+    const auto t = truth.joints.find(name);
+    if (t == truth.joints.end() || !t->second) continue;
+    const double error = guess == guesses.end() ? 1 : (guess->second.point - *t->second).norm() / size;
+    sum += error;
+    within05 += error <= 0.05;
+    within10 += error <= 0.10;
+    within15 += error <= 0.15;
+    if (isEnd(name)) ++ends, right_ends += error <= 0.15;
+    if (guess != guesses.end() && guess->second.confidence >= 0.8) ++result.sure, result.sure_right += error <= 0.10;
+    if (error > worst) worst = error, result.worst_joint = name;
+  }
+  const double count = std::max(result.annotated, 1);
+  result.pck05 = within05 / count;
+  result.pck10 = within10 / count;
+  result.error = sum / count;
+  result.usable = within15 == result.annotated;
+  result.limbs = ends ? static_cast<double>(right_ends) / ends : 0;
+  result.inside = guessed ? static_cast<double>(inside) / guessed : 0;
+  if (silhouette_mask.rows() == truth.mask->rows() && silhouette_mask.cols() == truth.mask->cols()) {
+    const auto a = silhouette_mask > 0, b = *truth.mask > 0;
+    const auto both = (a && b).count(), any = (a || b).count();
+    result.iou = any ? static_cast<double>(both) / static_cast<double>(any) : 0;
+  }
+  return result;
+}
+
+}  // namespace skel

@@ -1,0 +1,22 @@
+// skel-infer evaluate: joints and silhouettes against annotated drawings.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "infer/infer_options.h"
+
+namespace skel {
+
+struct EvaluateOptions {
+  std::string dir;
+  std::string json_file;
+  bool given_mask = false, opaque = false;
+  int turn_deg = 0;  // clockwise
+  InferOptions infer;  // weights, template, recognizer, candidates, jobs
+};
+
+void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options);
+ExitCode runEvaluate(const EvaluateOptions& options);
+
+}  // namespace skel

@@ -1,0 +1,42 @@
+// What skel-infer can be asked for.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libskel/core/error.h"
+
+namespace skel {
+
+struct InferOptions {
+  std::vector<std::string> images;
+  std::string out_dir = "out";
+  std::string weights_file;   // empty: the built-in ones
+  std::string mask_file, model_file, skeleton_file;
+  std::string body_plan = "biped";
+  std::string recognizer = "paper";
+  std::string candidates = "maxima";
+  std::string skin = "geodesic";
+  int max_influences = 4;
+  std::vector<std::string> clips = {"wave"};
+  std::string rest_pose = "drawn";
+  std::string naming = "skel";
+  std::string figure = "1";  // a number, or "all"
+  double mesh_spacing_px = 0;
+  std::vector<std::string> formats = {"glb", "json", "overlay", "silhouette"};
+  std::string trace_dir;
+  bool timings = false;
+  int jobs = 1;
+  bool force = false;
+};
+
+// Those that decide what is seen in a drawing.
+void bindRecognitionOptions(CLI::App& app, InferOptions& options);
+void bindInferOptions(CLI::App& app, InferOptions& options);
+
+// Rigs all images; the exit code is that of the first failure.
+ExitCode runInfer(const InferOptions& options);
+
+}  // namespace skel

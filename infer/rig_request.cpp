@@ -1,0 +1,23 @@
+#include "infer/rig_request.h"
+
+#include "libskel/animation/builtin_clips.h"
+#include "libskel/classifier/weights_file.h"
+
+namespace skel {
+
+RigOptions rigOptions(const InferOptions& options) {
+  RigOptions rig;
+  rig.body_plan = loadTemplate(options.body_plan);
+  rig.mlp = options.weights_file.empty() ? defaultMlp() : readMlp(options.weights_file);
+  rig.recognizer = kRecognizerNames.at(options.recognizer);
+  // The paper keeps the outer contour alone.
+  rig.silhouette.fill_holes = rig.recognizer == Recognizer::kPaper;
+  rig.candidates.method = kCandidateNames.at(options.candidates);
+  rig.skin_method = kSkinNames.at(options.skin);
+  rig.skin.max_influences = options.max_influences;
+  rig.inflate.spacing_px = options.mesh_spacing_px;
+  for (const std::string& name : options.clips) rig.clips.push_back(builtinClip(name));
+  return rig;
+}
+
+}  // namespace skel

@@ -1,0 +1,24 @@
+// From the words of the command line to what the pipeline wants.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "infer/infer_options.h"
+#include "libskel/core/error.h"
+#include "libskel/pipeline/rig_character.h"
+
+namespace skel {
+
+inline const std::map<std::string, Recognizer> kRecognizerNames = {{"paper", Recognizer::kPaper}};
+inline const std::map<std::string, CandidateMethod> kCandidateNames = {
+    {"maxima", CandidateMethod::kMaxima}, {"strict", CandidateMethod::kStrict}, {"discs", CandidateMethod::kDiscs}};
+inline const std::map<std::string, SkinMethod> kSkinNames = {{"geodesic", SkinMethod::kGeodesic},
+                                                             {"euclidean", SkinMethod::kEuclidean}};
+inline const std::map<std::string, JointNaming> kNamingNames = {
+    {"skel", JointNaming::kSkel}, {"vrm", JointNaming::kVrm}, {"mixamo", JointNaming::kMixamo}};
+
+// Everything but the figure's number. Reads template and weights. Throws InputError, UsageError.
+RigOptions rigOptions(const InferOptions& options);
+
+}  // namespace skel

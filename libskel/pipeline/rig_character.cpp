@@ -1,0 +1,91 @@
+#include "libskel/pipeline/rig_character.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "libskel/animation/retarget.h"
+#include "libskel/classifier/features.h"
+#include "libskel/core/check.h"
+#include "libskel/mesh/front_view.h"
+#include "libskel/skeleton/lift.h"
+
+namespace skel {
+namespace {
+
+// Runs the stages and notes how long each took.
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::vector<StageTime>& times) : times_(times) {}
+
+  template <class Work>
+  auto operator()(const char* stage, const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    auto result = work();
+    times_.push_back({stage, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+    return result;
+  }
+
+ private:
+  std::vector<StageTime>& times_;
+};
+
+// To the hundredth of a pixel that a skeleton file keeps, so that to go on from the file is to go on from here.
+void roundToFile(Skeleton& skeleton) {
+  for (Joint& joint : skeleton.joints) joint.image = (joint.image * 100).array().round() / 100;
+}
+
+}  // namespace
+
+RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
+  RiggedDrawing drawing;
+  Stopwatch timed(drawing.times);
+
+  if (input.image.empty()) {
+    SKEL_CHECK(input.model);
+    FrontView view = timed("front view", [&] { return frontView(*input.model); });
+    input.image = std::move(view.image);
+    input.model->model_from_image = view.model_from_image;
+  }
+  drawing.image = std::move(input.image);
+
+  drawing.silhouette = timed("silhouette", [&] {
+    return input.mask ? silhouetteFromMask(*input.mask, options.silhouette)
+                      : extractSilhouette(drawing.image, options.silhouette);
+  });
+  if (!drawing.found()) return drawing;
+  const Silhouette& silhouette = drawing.silhouette;
+
+  drawing.candidates = timed("candidates", [&] { return extractCandidates(silhouette, options.candidates); });
+  drawing.features = timed("features", [&] { return features(drawing.candidates); });
+  drawing.classes = timed("classes", [&] { return classify(options.mlp, drawing.features); });
+
+  drawing.recognition = timed("recognition", [&] {
+    if (!input.skeleton)
+      return recognizeByRules(silhouette, drawing.candidates, drawing.classes, options.body_plan, &drawing.paper_trace);
+    Recognition given;
+    given.skeleton = *input.skeleton;
+    return given;
+  });
+  roundToFile(drawing.recognition.skeleton);
+
+  drawing.character.mesh = timed("mesh", [&] {
+    if (!input.model) return inflate(drawing.image, silhouette, options.inflate);
+    return std::move(*input.model);
+  });
+  drawing.character.skeleton = timed("lift", [&] {
+    Skeleton lifted = drawing.recognition.skeleton;
+    liftToModel(lifted, drawing.character.mesh);
+    return lifted;
+  });
+  drawing.character.weights = timed("skin", [&] {
+    return computeSkinWeights(drawing.character.mesh, drawing.character.skeleton, options.skin_method, options.skin);
+  });
+  drawing.clips = timed("clips", [&] {
+    std::vector<Clip> clips;
+    for (const Clip& clip : options.clips) clips.push_back(retargetToRest(clip, drawing.character.skeleton));
+    return clips;
+  });
+  return drawing;
+}
+
+}  // namespace skel

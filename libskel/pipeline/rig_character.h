@@ -1,0 +1,69 @@
+// The whole way from a drawing to a rigged character. All tools and tests go through rigCharacter().
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "libskel/animation/clip.h"
+#include "libskel/candidates/candidates.h"
+#include "libskel/classifier/mlp.h"
+#include "libskel/export/write_character.h"
+#include "libskel/image/image.h"
+#include "libskel/mesh/inflate.h"
+#include "libskel/recognition/paper_recognizer.h"
+#include "libskel/recognition/recognition.h"
+#include "libskel/silhouette/silhouette.h"
+#include "libskel/skeleton/template.h"
+#include "libskel/skin/skin_weights.h"
+
+namespace skel {
+
+// What a character is made from. `image` is needed unless there is a `model`.
+struct RigInput {
+  Image image;
+  std::optional<Plane8> mask;          // the figure, given by hand; of the image's size
+  std::optional<TriangleMesh> model;   // take this mesh instead of inflating the silhouette
+  std::optional<Skeleton> skeleton;    // go on from these joints (image px) instead of recognising any
+};
+
+enum class Recognizer { kPaper };
+
+struct RigOptions {
+  SilhouetteOptions silhouette;
+  CandidateOptions candidates;
+  Mlp mlp;  // tells the classes of candidates apart
+  SkeletonTemplate body_plan;
+  Recognizer recognizer = Recognizer::kPaper;
+  InflateOptions inflate;
+  SkinMethod skin_method = SkinMethod::kGeodesic;
+  SkinOptions skin;
+  std::vector<Clip> clips;  // for the canonical pose
+};
+
+struct StageTime {
+  std::string stage;
+  double time_s;
+};
+
+// Everything that was found on the way.
+struct RiggedDrawing {
+  Image image;  // what was looked at: the input's, or the model's front view
+  Silhouette silhouette;
+  CandidateSet candidates;
+  Features features;
+  ClassProbabilities classes;
+  Recognition recognition;
+  PaperTrace paper_trace;
+  RiggedCharacter character;  // empty if the silhouette has not been found
+  std::vector<Clip> clips;    // retargeted to the drawn pose
+  std::vector<StageTime> times;
+
+  bool found() const { return silhouette.found(); }
+};
+
+// Stages 2 to 8. Where there is no figure, `found()` is false and silhouette.reason says why.
+RiggedDrawing rigCharacter(RigInput input, const RigOptions& options);
+
+}  // namespace skel
