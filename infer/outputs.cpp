@@ -1,0 +1,105 @@
+#include "infer/outputs.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <functional>
+
+#include "infer/rig_request.h"
+#include "libskel/core/files.h"
+#include "libskel/export/write_character.h"
+#include "libskel/image/write_image.h"
+
+namespace skel {
+namespace {
+
+struct Request {
+  const InferOptions& options;
+  const std::string& stem;
+  const RiggedDrawing& drawing;
+  const SkeletonFile& file;
+
+  std::string path(const std::string& suffix) const { return options.out_dir + "/" + stem + suffix; }
+};
+
+struct OutputFile {
+  std::string path;
+  std::string bytes;
+};
+
+struct Format {
+  const char* name;
+  std::function<std::vector<OutputFile>(const Request&)> make;
+};
+
+std::vector<OutputFile> makeGlb(const Request& r) {
+  const ExportOptions options{.name = r.stem, .naming = kNamingNames.at(r.options.naming)};
+  return {{r.path(".glb"), encodeGlb(r.drawing.character, r.drawing.clips, options)}};
+}
+
+std::vector<OutputFile> makeSkeletonJson(const Request& r) {
+  return {{r.path(".skeleton.json"), formatSkeletonFile(r.file)}};
+}
+
+std::vector<OutputFile> makeSilhouette(const Request& r) {
+  return {{r.path(".silhouette.png"), encodePng(r.drawing.silhouette.mask)}};
+}
+
+// One row a candidate: where it is, what the net saw, what it took it for, whether the rules saw it.
+std::vector<OutputFile> makeFeatures(const Request& r) {
+  std::string csv = "grid_x,grid_y,radius,x,y,D,head,body,hand,leg,kept\n";
+  const CandidateSet& candidates = r.drawing.candidates;
+  for (size_t i = 0; i < candidates.maxima.size(); ++i) {
+    const JointCandidate& c = candidates.maxima[i];
+    const auto row = static_cast<Eigen::Index>(i);
+    const auto feature = [&](int k) { return static_cast<double>(r.drawing.features(row, k)); };
+    const auto chance = [&](int k) { return static_cast<double>(r.drawing.classes(row, k)); };
+    char line[160];
+    std::snprintf(line, sizeof line, "%g,%g,%.6g,%.6f,%.6f,%.6f,%.4f,%.4f,%.4f,%.4f,%d\n", static_cast<double>(c.x),
+                  static_cast<double>(c.y), static_cast<double>(c.radius), feature(0), feature(1), feature(2), chance(0),
+                  chance(1), chance(2), chance(3),
+                  std::binary_search(candidates.kept.begin(), candidates.kept.end(), static_cast<int>(i)));
+    csv += line;
+  }
+  return {{r.path(".features.csv"), csv}};
+}
+
+const std::vector<Format>& formats() {
+  static const std::vector<Format> all = {{"glb", makeGlb},
+                                          {"json", makeSkeletonJson},
+                                          {"silhouette", makeSilhouette},
+                                          {"features", makeFeatures}};
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> allFormats() {
+  std::vector<std::string> names;
+  for (const Format& format : formats()) names.push_back(format.name);
+  return names;
+}
+
+std::string formatNames() {
+  std::string text;
+  for (const std::string& name : allFormats()) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+std::vector<std::string> writeOutputs(const InferOptions& options, const std::string& stem, const RiggedDrawing& drawing,
+                                      const SkeletonFile& file) {
+  const Request request{options, stem, drawing, file};
+  std::vector<OutputFile> files;
+  for (const std::string& name : options.formats) {
+    const auto format = std::find_if(formats().begin(), formats().end(), [&](const Format& f) { return f.name == name; });
+    for (OutputFile& made : format->make(request)) files.push_back(std::move(made));
+  }
+  std::vector<std::string> paths;
+  for (const OutputFile& made : files) {
+    writeFile(made.path, made.bytes);
+    paths.push_back(made.path);
+  }
+  return paths;
+}
+
+}  // namespace skel
