@@ -16,8 +16,8 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::array<const char*, 14> kScoredJoints = {
-    "head",          "body",           "left_shoulder", "left_elbow", "left_hand",  "left_hip",   "left_knee",
-    "left_foot",     "right_shoulder", "right_elbow",   "right_hand", "right_hip", "right_knee", "right_foot"};
+    "head",      "body",           "left_shoulder", "left_elbow", "left_hand", "left_hip",   "left_knee",
+    "left_foot", "right_shoulder", "right_elbow",   "right_hand", "right_hip", "right_knee", "right_foot"};
 
 bool isEnd(const std::string& joint) { return joint.ends_with("hand") || joint.ends_with("foot"); }
 
@@ -32,8 +32,10 @@ double longSide(const Plane8& mask) {
 bool near(const Plane8& mask, const Vector2d& p) {
   constexpr int kSlack = 2;
   const int x0 = static_cast<int>(std::nearbyint(p.x())), y0 = static_cast<int>(std::nearbyint(p.y()));
-  for (int y = std::max(0, y0 - kSlack); y <= std::min<int>(static_cast<int>(mask.rows()) - 1, y0 + kSlack); ++y)
-    for (int x = std::max(0, x0 - kSlack); x <= std::min<int>(static_cast<int>(mask.cols()) - 1, x0 + kSlack); ++x)
+  for (int y = std::max(0, y0 - kSlack); y <= std::min<int>(static_cast<int>(mask.rows()) - 1, y0 + kSlack);
+       ++y)
+    for (int x = std::max(0, x0 - kSlack); x <= std::min<int>(static_cast<int>(mask.cols()) - 1, x0 + kSlack);
+         ++x)
       if (mask(y, x)) return true;
   return false;
 }
@@ -45,7 +47,8 @@ struct Guess {
 
 // In side views which limb of a pair is the far one is a guess: the pair counts as it fits better.
 void swapPairsThatFitBetter(const AnnotatedDrawing& truth, std::map<std::string, Guess>& guesses) {
-  constexpr std::array<std::array<const char*, 3>, 2> kChains = {{{"shoulder", "elbow", "hand"}, {"hip", "knee", "foot"}}};
+  constexpr std::array<std::array<const char*, 3>, 2> kChains = {
+      {{"shoulder", "elbow", "hand"}, {"hip", "knee", "foot"}}};
   for (const auto& chain : kChains) {
     const auto cost = [&](bool swapped) {
       double sum = 0;
@@ -54,14 +57,16 @@ void swapPairsThatFitBetter(const AnnotatedDrawing& truth, std::map<std::string,
         for (const char* part : chain) {
           const auto t = truth.joints.find(side + part);
           const auto g = guesses.find((swapped ? other : side) + part);
-          if (t != truth.joints.end() && t->second && g != guesses.end()) sum += (g->second.point - *t->second).norm();
+          if (t != truth.joints.end() && t->second && g != guesses.end())
+            sum += (g->second.point - *t->second).norm();
         }
       }
       return sum;
     };
     if (cost(true) >= cost(false)) continue;
     for (const char* part : chain) {
-      const auto left = guesses.find(std::string("left_") + part), right = guesses.find(std::string("right_") + part);
+      const auto left = guesses.find(std::string("left_") + part),
+                 right = guesses.find(std::string("right_") + part);
       if (left != guesses.end() && right != guesses.end()) std::swap(left->second, right->second);
     }
   }
@@ -73,7 +78,8 @@ std::vector<std::string> drawingFolders(const std::string& root) {
   std::vector<std::string> ids;
   if (!fs::is_directory(root)) throw InputError(root, "is not a folder");
   for (const auto& entry : fs::recursive_directory_iterator(root))
-    if (entry.path().filename() == "image.png") ids.push_back(fs::relative(entry.path().parent_path(), root).string());
+    if (entry.path().filename() == "image.png")
+      ids.push_back(fs::relative(entry.path().parent_path(), root).string());
   if (ids.empty()) throw InputError(root, "holds no folder with an image.png");
   std::sort(ids.begin(), ids.end());
   return ids;
@@ -130,7 +136,8 @@ Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const
   const double size = longSide(*truth.mask);
   result.confidence = recognition->confidence;
   std::map<std::string, Guess> guesses;
-  for (const Joint& joint : recognition->skeleton.joints) guesses[joint.name] = {joint.image, joint.confidence};
+  for (const Joint& joint : recognition->skeleton.joints)
+    guesses[joint.name] = {joint.image, joint.confidence};
   if (truth.side_view) swapPairsThatFitBetter(truth, guesses);
 
   double sum = 0, worst = -1;
@@ -146,7 +153,8 @@ Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const
     within10 += error <= 0.10;
     within15 += error <= 0.15;
     if (isEnd(name)) ++ends, right_ends += error <= 0.15;
-    if (guess != guesses.end() && guess->second.confidence >= 0.8) ++result.sure, result.sure_right += error <= 0.10;
+    if (guess != guesses.end() && guess->second.confidence >= 0.8)
+      ++result.sure, result.sure_right += error <= 0.10;
     if (error > worst) worst = error, result.worst_joint = name;
   }
   const double count = std::max(result.annotated, 1);

@@ -18,7 +18,8 @@ struct AnnotatedDrawing {
   Image image;
   std::optional<Plane8> mask;
   bool side_view = false;
-  std::map<std::string, std::optional<Eigen::Vector2d>> joints;  // image px; empty: not annotated; null: not visible
+  std::map<std::string, std::optional<Eigen::Vector2d>>
+      joints;  // image px; empty: not annotated; null: not visible
 };
 
 // Folders below `root` that hold an image.png, sorted. Throws InputError if there are none.
@@ -31,12 +32,12 @@ bool isTransparent(const Image& image);
 
 // Errors are relative to L, the long side of the true mask's bounding box.
 struct Score {
-  double pck05 = 0, pck10 = 0;  // share of annotated joints within 0.05 L, 0.10 L
-  double error = 1;             // mean
-  double usable = 0;            // 1: every annotated joint within 0.15 L
-  double limbs = 0;             // share of hands and feet within 0.15 L
-  double inside = 0;            // share of found joints on the true mask, 2 px of slack
-  double iou = 0;               // of the silhouette
+  double pck05 = 0, pck10 = 0;                  // share of annotated joints within 0.05 L, 0.10 L
+  double error = 1;                             // mean
+  double usable = 0;                            // 1: every annotated joint within 0.15 L
+  double limbs = 0;                             // share of hands and feet within 0.15 L
+  double inside = 0;                            // share of found joints on the true mask, 2 px of slack
+  double iou = 0;                               // of the silhouette
   int annotated = 0, sure = 0, sure_right = 0;  // joints; of confidence >= 0.8; of those within 0.10 L
   double confidence = 0;
   std::string worst_joint;

@@ -54,7 +54,8 @@ std::string interval(const std::vector<Row>& rows, const std::function<double(co
   Rng rng(1);
   std::vector<double> means(1000);
   for (double& m : means) {
-    for (size_t i = 0; i < rows.size(); ++i) m += value(rows[rng.below(static_cast<std::uint32_t>(rows.size()))]);
+    for (size_t i = 0; i < rows.size(); ++i)
+      m += value(rows[rng.below(static_cast<std::uint32_t>(rows.size()))]);
     m /= static_cast<double>(rows.size());
   }
   std::sort(means.begin(), means.end());
@@ -67,11 +68,15 @@ std::string interval(const std::vector<Row>& rows, const std::function<double(co
 
 void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
   app.option_defaults()->always_capture_default();
-  app.add_option("DIR", options.dir, "Folders of image.png, mask.png and joints.json, at any depth")->required();
-  app.add_option("--json", options.json_file, "Write the figures to this file, too")->always_capture_default(false);
-  app.add_flag("--given-mask", options.given_mask, "Hand the true mask over: judges everything after the silhouette");
+  app.add_option("DIR", options.dir, "Folders of image.png, mask.png and joints.json, at any depth")
+      ->required();
+  app.add_option("--json", options.json_file, "Write the figures to this file, too")
+      ->always_capture_default(false);
+  app.add_flag("--given-mask", options.given_mask,
+               "Hand the true mask over: judges everything after the silhouette");
   app.add_flag("--opaque", options.opaque, "Only annotated drawings whose silhouette has to be found");
-  app.add_option("--rotate", options.turn_deg, "Turn all drawings clockwise first, degrees")->check(CLI::IsMember({0, 90, 180, 270}));
+  app.add_option("--rotate", options.turn_deg, "Turn all drawings clockwise first, degrees")
+      ->check(CLI::IsMember({0, 90, 180, 270}));
   bindRecognitionOptions(app, options.infer);
 }
 
@@ -95,20 +100,20 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
   std::printf("%-34s  PCK.05 PCK.10  error usable limbs inside   IoU  worst joint\n", "character");
   for (const Row& row : rows) {
     const Score& s = row.score;
-    std::printf("%-34s  %6.2f %6.2f %6.3f %6.0f %5.2f %6.2f %5.2f  %s\n", row.id.c_str(), s.pck05, s.pck10, s.error, s.usable,
-                s.limbs, s.inside, s.iou, row.found ? s.worst_joint.c_str() : ("no skeleton: " + row.reason).c_str());
-    json["characters"][row.id] = {{"pck05", s.pck05},   {"pck10", s.pck10}, {"error", s.error},
-                                  {"usable", s.usable}, {"limbs", s.limbs}, {"inside", s.inside},
+    std::printf("%-34s  %6.2f %6.2f %6.3f %6.0f %5.2f %6.2f %5.2f  %s\n", row.id.c_str(), s.pck05, s.pck10,
+                s.error, s.usable, s.limbs, s.inside, s.iou,
+                row.found ? s.worst_joint.c_str() : ("no skeleton: " + row.reason).c_str());
+    json["characters"][row.id] = {{"pck05", s.pck05},   {"pck10", s.pck10},          {"error", s.error},
+                                  {"usable", s.usable}, {"limbs", s.limbs},          {"inside", s.inside},
                                   {"iou", s.iou},       {"confidence", s.confidence}};
   }
   for (const Row& row : hard)
-    std::printf("hard case %s: %s\n", row.id.c_str(),
-                row.found ? ("confidence " + std::to_string(row.score.confidence)).c_str() : row.reason.c_str());
+    std::printf(
+        "hard case %s: %s\n", row.id.c_str(),
+        row.found ? ("confidence " + std::to_string(row.score.confidence)).c_str() : row.reason.c_str());
   if (!rows.empty()) {
-    const auto of = [](double Score::* field) {
-      return [field](const Row& row) { return row.score.*field; };
-    };
-    const auto sum = [&](int Score::* field) {
+    const auto of = [](double Score::*field) { return [field](const Row& row) { return row.score.*field; }; };
+    const auto sum = [&](int Score::*field) {
       double total = 0;
       for (const Row& row : rows) total += row.score.*field;
       return total;
@@ -116,7 +121,8 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     const auto pck05 = of(&Score::pck05), pck10 = of(&Score::pck10), usable = of(&Score::usable);
     const auto sharp = [](const Row& row) { return row.score.iou >= 0.9 ? 1.0 : 0.0; };
     const auto confident = [](const Row& row) { return row.score.confidence >= 0.5 ? 1.0 : 0.0; };
-    const double annotated = sum(&Score::annotated), sure = sum(&Score::sure), right = sum(&Score::sure_right);
+    const double annotated = sum(&Score::annotated), sure = sum(&Score::sure),
+                 right = sum(&Score::sure_right);
     Json& figures = json["mean"];
     figures = {{"pck05", mean(rows, pck05)},
                {"pck10", mean(rows, pck10)},
@@ -130,17 +136,24 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
                {"sure_precision", right / std::max(sure, 1.0)},
                {"confident_figures", mean(rows, confident)}};
     const auto figure = [&](const char* key) { return figures[key].get<double>(); };
-    std::printf("mean over %zu characters: PCK@.05 %.3f %s  PCK@.10 %.3f %s  error %.3f  usable %.3f %s  limbs %.3f  inside %.3f\n",
-                rows.size(), figure("pck05"), interval(rows, pck05).c_str(), figure("pck10"), interval(rows, pck10).c_str(),
-                figure("error"), figure("usable"), interval(rows, usable).c_str(), figure("limbs"), figure("inside"));
-    std::printf("silhouette IoU %.3f, >= .9 in %.3f  |  confidence >= .8 for %.2f of joints, %.3f of those within .10; figure confidence >= .5 for %.2f\n",
-                figure("iou"), figure("iou90"), figure("sure_share"), figure("sure_precision"), figure("confident_figures"));
+    std::printf(
+        "mean over %zu characters: PCK@.05 %.3f %s  PCK@.10 %.3f %s  error %.3f  usable %.3f %s  limbs %.3f  "
+        "inside %.3f\n",
+        rows.size(), figure("pck05"), interval(rows, pck05).c_str(), figure("pck10"),
+        interval(rows, pck10).c_str(), figure("error"), figure("usable"), interval(rows, usable).c_str(),
+        figure("limbs"), figure("inside"));
+    std::printf(
+        "silhouette IoU %.3f, >= .9 in %.3f  |  confidence >= .8 for %.2f of joints, %.3f of those within "
+        ".10; figure confidence >= .5 for %.2f\n",
+        figure("iou"), figure("iou90"), figure("sure_share"), figure("sure_precision"),
+        figure("confident_figures"));
   }
   if (!hard.empty()) {
     const auto refused = std::count_if(hard.begin(), hard.end(), [](const Row& row) { return !row.found; });
-    const auto unsure = std::count_if(hard.begin(), hard.end(), [](const Row& row) { return row.found && row.score.confidence < 0.5; });
-    std::printf("hard cases: %td without a skeleton, %td of %td others with confidence < .5\n", refused, unsure,
-                static_cast<std::ptrdiff_t>(hard.size()) - refused);
+    const auto unsure = std::count_if(hard.begin(), hard.end(),
+                                      [](const Row& row) { return row.found && row.score.confidence < 0.5; });
+    std::printf("hard cases: %td without a skeleton, %td of %td others with confidence < .5\n", refused,
+                unsure, static_cast<std::ptrdiff_t>(hard.size()) - refused);
   }
   if (!options.json_file.empty()) writeFile(options.json_file, json.dump(1) + "\n");
   return ExitCode::kDone;

@@ -12,7 +12,7 @@ struct EvaluateOptions {
   std::string dir;
   std::string json_file;
   bool given_mask = false, opaque = false;
-  int turn_deg = 0;  // clockwise
+  int turn_deg = 0;    // clockwise
   InferOptions infer;  // weights, template, recognizer, candidates, jobs
 };
 

@@ -49,8 +49,8 @@ std::vector<Job> jobsOf(const InferOptions& options) {
   for (const Job& job : jobs) {
     const auto [other, is_new] = writers.emplace(job.stem, job.source);
     if (!is_new)
-      throw UsageError(other->second + " and " + job.source + " would both write " + options.out_dir + "/" + job.stem +
-                       ".*; rename one or run them with different -o");
+      throw UsageError(other->second + " and " + job.source + " would both write " + options.out_dir + "/" +
+                       job.stem + ".*; rename one or run them with different -o");
   }
   return jobs;
 }
@@ -58,13 +58,16 @@ std::vector<Job> jobsOf(const InferOptions& options) {
 void checkUsage(const InferOptions& options) {
   const auto single = [&](const std::string& file, const char* option) {
     if (!file.empty() && options.images.size() > 1)
-      throw UsageError(std::string(option) + " goes with one image, " + std::to_string(options.images.size()) + " were given");
+      throw UsageError(std::string(option) + " goes with one image, " +
+                       std::to_string(options.images.size()) + " were given");
   };
   single(options.mask_file, "--mask");
   single(options.skeleton_file, "--skeleton");
   single(options.model_file, "--model");
-  if (options.images.empty() && options.model_file.empty()) throw UsageError("name an image, or --model; see --help");
-  if (options.images.empty() && !options.mask_file.empty()) throw UsageError("--mask needs the image that it belongs to");
+  if (options.images.empty() && options.model_file.empty())
+    throw UsageError("name an image, or --model; see --help");
+  if (options.images.empty() && !options.mask_file.empty())
+    throw UsageError("--mask needs the image that it belongs to");
   if (options.images.empty() && !options.skeleton_file.empty())
     throw UsageError("--skeleton needs the image that it belongs to");
   if (options.figure != "all" &&
@@ -77,31 +80,36 @@ void checkUsage(const InferOptions& options) {
 
 std::string sizeText(long width, long height) { return std::to_string(width) + "x" + std::to_string(height); }
 
-std::optional<SkeletonFile::Mask> useMask(const InferOptions& options, const std::optional<SkeletonFile>& given,
-                                          RigInput& input) {
+std::optional<SkeletonFile::Mask> useMask(const InferOptions& options,
+                                          const std::optional<SkeletonFile>& given, RigInput& input) {
   std::string path = options.mask_file;
   if (path.empty() && given && given->mask) {
     path = (fs::path(options.skeleton_file).parent_path() / given->mask->file).string();
     if (sha256(readFile(path)) != given->mask->sha256)
-      throw InputError(path, "has changed since " + options.skeleton_file + " was made with it; name it by --mask if that is meant");
+      throw InputError(path, "has changed since " + options.skeleton_file +
+                                 " was made with it; name it by --mask if that is meant");
   }
   if (path.empty()) return std::nullopt;
   input.mask = readMask(path);
   if (input.mask->cols() != input.image.width || input.mask->rows() != input.image.height)
-    throw InputError(path, "is a mask of " + sizeText(input.mask->cols(), input.mask->rows()) + " px, the image has " +
-                               sizeText(input.image.width, input.image.height));
+    throw InputError(path, "is a mask of " + sizeText(input.mask->cols(), input.mask->rows()) +
+                               " px, the image has " + sizeText(input.image.width, input.image.height));
   return SkeletonFile::Mask{fs::proximate(path, options.out_dir).generic_string(), sha256(readFile(path))};
 }
 
 // Rigs one figure and writes its files. Returns how many figures there are in the drawing.
-int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job, int figure, Outcome& outcome) {
-  const std::string stem = options.figure == "all" && figure > 0 ? job.stem + "-" + std::to_string(figure) : job.stem;
+int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job, int figure,
+              Outcome& outcome) {
+  const std::string stem =
+      options.figure == "all" && figure > 0 ? job.stem + "-" + std::to_string(figure) : job.stem;
   const std::string skeleton_path = options.out_dir + "/" + stem + ".skeleton.json";
   const bool writes_skeleton = std::count(options.formats.begin(), options.formats.end(), "json") > 0;
   std::error_code no_file;
   if (writes_skeleton && !options.force && !fs::equivalent(skeleton_path, options.skeleton_file, no_file) &&
       hasEditedJoint(skeleton_path))
-    throw InputError(skeleton_path, "holds joints that were edited by hand; go on from it by --skeleton, or give --force to lose them");
+    throw InputError(
+        skeleton_path,
+        "holds joints that were edited by hand; go on from it by --skeleton, or give --force to lose them");
 
   RigInput input;
   if (!options.images.empty()) input.image = readImage(job.source);
@@ -110,8 +118,9 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
   if (!options.skeleton_file.empty()) {
     given = readSkeletonFile(options.skeleton_file, rig.body_plan);
     if (given->image_width != input.image.width || given->image_height != input.image.height)
-      throw InputError(options.skeleton_file, "belongs to an image of " + sizeText(given->image_width, given->image_height) +
-                                                  " px, " + job.source + " has " + sizeText(input.image.width, input.image.height));
+      throw InputError(options.skeleton_file,
+                       "belongs to an image of " + sizeText(given->image_width, given->image_height) +
+                           " px, " + job.source + " has " + sizeText(input.image.width, input.image.height));
     input.skeleton = given->skeleton;
   }
   const auto mask = useMask(options, given, input);
@@ -134,17 +143,21 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
   file.confidence = drawing.recognition.confidence;
   file.missing = drawing.recognition.missing;
   file.warnings = drawing.silhouette.warnings;
-  file.warnings.insert(file.warnings.end(), drawing.recognition.warnings.begin(), drawing.recognition.warnings.end());
+  file.warnings.insert(file.warnings.end(), drawing.recognition.warnings.begin(),
+                       drawing.recognition.warnings.end());
   file.mask = mask;
 
   const std::vector<std::string> written = writeOutputs(options, stem, drawing, file);
   if (!options.trace_dir.empty())
-    writeTrace(drawing, figure_rig, options.images.size() > 1 || options.figure == "all" ? options.trace_dir + "/" + stem : options.trace_dir);
+    writeTrace(drawing, figure_rig,
+               options.images.size() > 1 || options.figure == "all" ? options.trace_dir + "/" + stem
+                                                                    : options.trace_dir);
 
   char line[64];
   std::snprintf(line, sizeof line, "  confidence %.2f\n", file.confidence);
   outcome.report += job.source + ": " + (written.empty() ? "nothing to write" : written.front()) + line;
-  for (const std::string& warning : file.warnings) outcome.complaints += job.source + ": note: " + warning + "\n";
+  for (const std::string& warning : file.warnings)
+    outcome.complaints += job.source + ": note: " + warning + "\n";
   if (options.timings) {
     double total = 0;
     for (const StageTime& time : drawing.times) {
@@ -180,29 +193,43 @@ Outcome rigDrawing(const InferOptions& options, const RigOptions& rig, const Job
 }  // namespace
 
 void bindRecognitionOptions(CLI::App& app, InferOptions& options) {
-  app.add_option("--weights", options.weights_file, "Weights of the candidates' net (default: built in)")->always_capture_default(false);
+  app.add_option("--weights", options.weights_file, "Weights of the candidates' net (default: built in)")
+      ->always_capture_default(false);
   app.add_option("--template", options.body_plan, "Body plan: a built-in name or a .json file");
-  app.add_option("--recognizer", options.recognizer, "How joints are found")->check(namesOf(kRecognizerNames));
-  app.add_option("--candidates", options.candidates, "Which points may be joints")->check(namesOf(kCandidateNames));
+  app.add_option("--recognizer", options.recognizer, "How joints are found")
+      ->check(namesOf(kRecognizerNames));
+  app.add_option("--candidates", options.candidates, "Which points may be joints")
+      ->check(namesOf(kCandidateNames));
   app.add_option("--jobs", options.jobs, "Drawings at a time; 0: one a core")->check(CLI::Range(0, 1024));
 }
 
 void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.option_defaults()->always_capture_default();
-  app.add_option("IMAGE", options.images, "Drawings: PNG, JPEG, WebP, BMP, TIFF, GIF")->always_capture_default(false);
+  app.add_option("IMAGE", options.images, "Drawings: PNG, JPEG, WebP, BMP, TIFF, GIF")
+      ->always_capture_default(false);
   app.add_option("-o,--out", options.out_dir, "Folder for the results");
-  app.add_option("--mask", options.mask_file, "The figure, white on black, instead of finding it")->always_capture_default(false);
-  app.add_option("--model", options.model_file, "Rig this .obj instead of inflating the drawing; without an image, by its own front view")->always_capture_default(false);
-  app.add_option("--skeleton", options.skeleton_file, "Go on from this (corrected) .skeleton.json")->always_capture_default(false);
+  app.add_option("--mask", options.mask_file, "The figure, white on black, instead of finding it")
+      ->always_capture_default(false);
+  app.add_option("--model", options.model_file,
+                 "Rig this .obj instead of inflating the drawing; without an image, by its own front view")
+      ->always_capture_default(false);
+  app.add_option("--skeleton", options.skeleton_file, "Go on from this (corrected) .skeleton.json")
+      ->always_capture_default(false);
   bindRecognitionOptions(app, options);
   app.add_option("--skin", options.skin, "How the skin follows the bones")->check(namesOf(kSkinNames));
-  app.add_option("--max-influences", options.max_influences, "Joints that carry one vertex at most")->check(CLI::Range(1, 4));
+  app.add_option("--max-influences", options.max_influences, "Joints that carry one vertex at most")
+      ->check(CLI::Range(1, 4));
   app.add_option("--clips", options.clips, "Motions to put into the .glb")->delimiter(',');
   app.add_option("--names", options.naming, "What exported joints are called")->check(namesOf(kNamingNames));
   app.add_option("--figure", options.figure, "Which figure of the drawing: 1 is the largest; or all");
-  app.add_option("--mesh-spacing", options.mesh_spacing_px, "Distance of mesh vertices where the figure is 128 px long; 0: chosen")->check(CLI::Range(0.0, 64.0));
-  app.add_option("--formats", options.formats, "What to write: " + formatNames())->delimiter(',')->check(CLI::IsMember(allFormats()));
-  app.add_option("--trace", options.trace_dir, "Folder for a picture of every stage")->always_capture_default(false);
+  app.add_option("--mesh-spacing", options.mesh_spacing_px,
+                 "Distance of mesh vertices where the figure is 128 px long; 0: chosen")
+      ->check(CLI::Range(0.0, 64.0));
+  app.add_option("--formats", options.formats, "What to write: " + formatNames())
+      ->delimiter(',')
+      ->check(CLI::IsMember(allFormats()));
+  app.add_option("--trace", options.trace_dir, "Folder for a picture of every stage")
+      ->always_capture_default(false);
   app.add_flag("--timings", options.timings, "Print how long each stage took");
   app.add_flag("--force", options.force, "Overwrite a skeleton that was edited by hand");
 }

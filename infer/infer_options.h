@@ -13,7 +13,7 @@ namespace skel {
 struct InferOptions {
   std::vector<std::string> images;
   std::string out_dir = "out";
-  std::string weights_file;   // empty: the built-in ones
+  std::string weights_file;  // empty: the built-in ones
   std::string mask_file, model_file, skeleton_file;
   std::string body_plan = "biped";
   std::string recognizer = "paper";

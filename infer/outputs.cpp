@@ -55,9 +55,9 @@ std::vector<OutputFile> makeFeatures(const Request& r) {
     const auto feature = [&](int k) { return static_cast<double>(r.drawing.features(row, k)); };
     const auto chance = [&](int k) { return static_cast<double>(r.drawing.classes(row, k)); };
     char line[160];
-    std::snprintf(line, sizeof line, "%g,%g,%.6g,%.6f,%.6f,%.6f,%.4f,%.4f,%.4f,%.4f,%d\n", static_cast<double>(c.x),
-                  static_cast<double>(c.y), static_cast<double>(c.radius), feature(0), feature(1), feature(2), chance(0),
-                  chance(1), chance(2), chance(3),
+    std::snprintf(line, sizeof line, "%g,%g,%.6g,%.6f,%.6f,%.6f,%.4f,%.4f,%.4f,%.4f,%d\n",
+                  static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.radius),
+                  feature(0), feature(1), feature(2), chance(0), chance(1), chance(2), chance(3),
                   std::binary_search(candidates.kept.begin(), candidates.kept.end(), static_cast<int>(i)));
     csv += line;
   }
@@ -86,12 +86,13 @@ std::string formatNames() {
   return text;
 }
 
-std::vector<std::string> writeOutputs(const InferOptions& options, const std::string& stem, const RiggedDrawing& drawing,
-                                      const SkeletonFile& file) {
+std::vector<std::string> writeOutputs(const InferOptions& options, const std::string& stem,
+                                      const RiggedDrawing& drawing, const SkeletonFile& file) {
   const Request request{options, stem, drawing, file};
   std::vector<OutputFile> files;
   for (const std::string& name : options.formats) {
-    const auto format = std::find_if(formats().begin(), formats().end(), [&](const Format& f) { return f.name == name; });
+    const auto format =
+        std::find_if(formats().begin(), formats().end(), [&](const Format& f) { return f.name == name; });
     for (OutputFile& made : format->make(request)) files.push_back(std::move(made));
   }
   std::vector<std::string> paths;

@@ -14,9 +14,9 @@ std::vector<std::string> allFormats();
 // All of them, for --help.
 std::string formatNames();
 
-// Writes options.out_dir/<stem>.* in the formats asked for and returns the paths in that order. Nothing is written before
-// all of them are ready. Throws OutputError.
-std::vector<std::string> writeOutputs(const InferOptions& options, const std::string& stem, const RiggedDrawing& drawing,
-                                      const SkeletonFile& file);
+// Writes options.out_dir/<stem>.* in the formats asked for and returns the paths in that order. Nothing is
+// written before all of them are ready. Throws OutputError.
+std::vector<std::string> writeOutputs(const InferOptions& options, const std::string& stem,
+                                      const RiggedDrawing& drawing, const SkeletonFile& file);
 
 }  // namespace skel

@@ -11,8 +11,9 @@
 namespace skel {
 
 inline const std::map<std::string, Recognizer> kRecognizerNames = {{"paper", Recognizer::kPaper}};
-inline const std::map<std::string, CandidateMethod> kCandidateNames = {
-    {"maxima", CandidateMethod::kMaxima}, {"strict", CandidateMethod::kStrict}, {"discs", CandidateMethod::kDiscs}};
+inline const std::map<std::string, CandidateMethod> kCandidateNames = {{"maxima", CandidateMethod::kMaxima},
+                                                                       {"strict", CandidateMethod::kStrict},
+                                                                       {"discs", CandidateMethod::kDiscs}};
 inline const std::map<std::string, SkinMethod> kSkinNames = {{"geodesic", SkinMethod::kGeodesic},
                                                              {"euclidean", SkinMethod::kEuclidean}};
 inline const std::map<std::string, JointNaming> kNamingNames = {
