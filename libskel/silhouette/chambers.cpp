@@ -95,6 +95,31 @@ void fillChambers(cv::Mat& barrier, const ChamberOptions& options) {
     region[p] = mine == kNone ? regions.add(height[p], Side::kOpen) : mine;
   }
 
+  // A mended outline has the figure on one side and the outside on the other. What lies between limbs is
+  // bordered by lines with the figure behind them, and stays outside however narrow the way in is.
+  const int reach = std::max(3, static_cast<int>(options.max_stroke * std::max(barrier.cols, barrier.rows)));
+  std::vector<int> facing_outside(regions.parent.size(), 0), facing(regions.parent.size(), 0);
+  for (int y = 1; y + 1 < h; ++y) {
+    for (int x = 1; x + 1 < w; ++x) {
+      const int p = y * w + x;
+      if (region[p] == kNone || height[p] >= 1.5f) continue;
+      const int own = regions.find(region[p]);
+      if (regions.side[own] != Side::kInside) continue;
+      for (const int step : {-w, -1, 1, w}) {
+        if (region[p + step] != kNone) continue;
+        int q = p + step, length = 0;
+        while (length < reach && region[q] == kNone) q += step, ++length;
+        ++facing[own];
+        facing_outside[own] += region[q] != kNone && regions.side[regions.find(region[q])] == Side::kOutside;
+      }
+    }
+  }
+  for (std::size_t r = 0; r < regions.parent.size(); ++r) {
+    if (regions.side[r] == Side::kInside && facing_outside[r] < options.min_facing_outside * facing[r]) {
+      regions.side[r] = Side::kOutside;
+    }
+  }
+
   for (int y = 0; y < barrier.rows; ++y) {
     std::uint8_t* row = barrier.ptr(y);
     for (int x = 0; x < barrier.cols; ++x) {

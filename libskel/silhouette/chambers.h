@@ -6,8 +6,10 @@
 namespace skel {
 
 struct ChamberOptions {
-  double widening = 2.5;   // a chamber is at least so many times as wide as the gap that leads to it
-  double max_gap = 0.035;  // half the width of such a gap, share of the picture's long side
+  double widening = 4.0;            // a chamber is at least so many times as wide as the gap that leads to it
+  double max_gap = 0.035;           // half the width of such a gap, share of the picture's long side
+  double max_stroke = 0.04;         // width of a line, share of the picture's long side
+  double min_facing_outside = 0.2;  // share of a chamber's lines that have the outside behind them
 };
 
 // Adds to `barrier` (8-bit, 255 on lines and fills) all regions that the barrier encloses, also those that

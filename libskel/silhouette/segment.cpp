@@ -2,12 +2,14 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "libskel/silhouette/chambers.h"
+#include "libskel/silhouette/simple_point.h"
 
 namespace skel {
 namespace {
@@ -56,49 +58,47 @@ struct Background {
   }
 };
 
-// A robust fit (iteratively reweighted, Tukey's biweight) that begins with the border of the picture and then
-// takes in everything that agrees with it.
-Background fitBackground(const cv::Mat& lab) {
+struct Sample {
+  Eigen::Matrix<double, 1, 6> basis;
+  Eigen::Vector3d color;
+  bool border;
+};
+
+std::vector<Sample> samplesOf(const cv::Mat& lab) {
   const int w = lab.cols, h = lab.rows;
   const int band = std::max(1, std::min(w, h) / 40), step = std::max(1, std::max(w, h) / 128);
-  struct Sample {
-    Eigen::Matrix<double, 1, 6> basis;
-    Eigen::Vector3d color;
-    bool border;
-    double weight;
-  };
   std::vector<Sample> samples;
   for (int y = 0; y < h; y += step) {
     for (int x = 0; x < w; x += step) {
       const bool border = x < band || y < band || x >= w - band || y >= h - band;
       const cv::Vec3b p = lab.at<cv::Vec3b>(y, x);
-      samples.push_back({Background::basis(2.0 * x / w - 1, 2.0 * y / h - 1),
-                         Eigen::Vector3d(p[0], p[1], p[2]), border, 0});
+      samples.push_back(
+          {Background::basis(2.0 * x / w - 1, 2.0 * y / h - 1), Eigen::Vector3d(p[0], p[1], p[2]), border});
     }
   }
+  return samples;
+}
+
+// A robust fit (iteratively reweighted, Tukey's biweight) that begins with those pixels at the border of the
+// picture that look like `start`, and then takes in everything that agrees with them.
+Background fitBackground(const std::vector<Sample>& samples, const Eigen::Vector3d& start) {
+  constexpr int kBorderPasses = 6, kPasses = 12;
   Background out;
   out.coefficients.setZero();
-  for (int c = 0; c < 3; ++c) {
-    std::vector<float> values;
-    for (const Sample& s : samples) {
-      if (s.border) values.push_back(static_cast<float>(s.color(c)));
-    }
-    out.coefficients(0, c) = median(values);
-  }
+  out.coefficients.row(0) = start.transpose();
   double scale = 40;
-  for (int pass = 0; pass < 12; ++pass) {
-    const bool everywhere = pass >= 6;
-    Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Identity() * 1e-6;
-    Eigen::Matrix<double, 6, 3> right = Eigen::Matrix<double, 6, 3>::Zero();
+  for (int pass = 0; pass < kPasses; ++pass) {
+    Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Identity() * 1e-3;
+    Eigen::Matrix<double, 6, 3> right = 1e-3 * out.coefficients;
     std::vector<float> distances;
-    for (Sample& s : samples) {
-      if (!everywhere && !s.border) continue;
+    for (const Sample& s : samples) {
+      if (pass < kBorderPasses && !s.border) continue;
       const double distance = (s.color.transpose() - s.basis * out.coefficients).norm();
-      const double t = distance / scale;
-      s.weight = t < 1 ? (1 - t * t) * (1 - t * t) : 0;
-      if (s.weight > 0) distances.push_back(static_cast<float>(distance));
-      normal += s.weight * s.basis.transpose() * s.basis;
-      right += s.weight * s.basis.transpose() * s.color.transpose();
+      if (distance >= scale) continue;
+      const double t = distance / scale, weight = (1 - t * t) * (1 - t * t);
+      distances.push_back(static_cast<float>(distance));
+      normal += weight * s.basis.transpose() * s.basis;
+      right += weight * s.basis.transpose() * s.color.transpose();
     }
     if (distances.empty()) break;
     out.coefficients = normal.ldlt().solve(right);
@@ -108,32 +108,102 @@ Background fitBackground(const cv::Mat& lab) {
   return out;
 }
 
-// Distance of each pixel's colour from the background, 8-bit.
-cv::Mat colorDistance(const cv::Mat& lab, const Background& background) {
-  cv::Mat distance(lab.size(), CV_8U);
+// One background that most of the border agrees on, and one more for each corner of the picture that it does
+// not explain: ground and sky. A figure that is cut by the border seldom fills a corner.
+std::vector<Background> fitBackgrounds(const cv::Mat& lab) {
+  const std::vector<Sample> samples = samplesOf(lab);
+  Eigen::Vector3d start;
+  for (int c = 0; c < 3; ++c) {
+    std::vector<float> values;
+    for (const Sample& s : samples) {
+      if (s.border) values.push_back(static_cast<float>(s.color(c)));
+    }
+    start(c) = median(values);
+  }
+  std::vector<Background> backgrounds = {fitBackground(samples, start)};
+  const int side = std::max(1, std::min(lab.cols, lab.rows) / 32);
+  for (const double v : {-1.0, 1.0}) {
+    for (const double u : {-1.0, 1.0}) {
+      const cv::Rect corner(u < 0 ? 0 : lab.cols - side, v < 0 ? 0 : lab.rows - side, side, side);
+      const cv::Scalar mean = cv::mean(lab(corner));
+      const Eigen::Vector3d color(mean[0], mean[1], mean[2]);
+      bool explained = false;
+      for (const Background& b : backgrounds) {
+        const double distance = (color.transpose() - Background::basis(u, v) * b.coefficients).norm();
+        explained |= distance < std::max(25.0, 4 * b.sigma);
+      }
+      if (!explained) backgrounds.push_back(fitBackground(samples, color));
+    }
+  }
+  return backgrounds;
+}
+
+// How far each pixel's colour is from the background, 8-bit: as a whole, in chroma alone, and how much darker
+// it is, in 255ths of the background's lightness.
+struct Differences {
+  cv::Mat color, chroma, darkness;
+};
+
+Differences differencesFrom(const cv::Mat& lab, const Background& background) {
+  Differences out{cv::Mat(lab.size(), CV_8U), cv::Mat(lab.size(), CV_8U), cv::Mat(lab.size(), CV_8U)};
+  const auto toByte = [](float v) { return static_cast<std::uint8_t>(std::clamp(v + 0.5f, 0.0f, 255.0f)); };
   const Eigen::Matrix<float, 6, 3> c = background.coefficients.cast<float>();
   for (int y = 0; y < lab.rows; ++y) {
     const float v = 2.0f * static_cast<float>(y) / static_cast<float>(lab.rows) - 1;
     const Eigen::RowVector3f constant = c.row(0) + v * c.row(2) + v * v * c.row(5);
     const Eigen::RowVector3f linear = c.row(1) + v * c.row(4), square = c.row(3);
     const cv::Vec3b* row = lab.ptr<cv::Vec3b>(y);
-    std::uint8_t* out = distance.ptr(y);
     for (int x = 0; x < lab.cols; ++x) {
       const float u = 2.0f * static_cast<float>(x) / static_cast<float>(lab.cols) - 1;
-      float sum = 0;
+      float d[3], expected[3];
       for (int k = 0; k < 3; ++k) {
-        const float d = static_cast<float>(row[x][k]) - (constant(k) + u * (linear(k) + u * square(k)));
-        sum += d * d;
+        expected[k] = constant(k) + u * (linear(k) + u * square(k));
+        d[k] = static_cast<float>(row[x][k]) - expected[k];
       }
-      out[x] = static_cast<std::uint8_t>(std::min(255.0f, std::sqrt(sum) + 0.5f));
+      const float chroma = d[1] * d[1] + d[2] * d[2];
+      out.color.at<std::uint8_t>(y, x) = toByte(std::sqrt(d[0] * d[0] + chroma));
+      out.chroma.at<std::uint8_t>(y, x) = toByte(std::sqrt(chroma));
+      out.darkness.at<std::uint8_t>(y, x) = toByte(-255 * d[0] / std::max(1.0f, expected[0]));
     }
   }
-  return distance;
+  return out;
+}
+
+Differences differencesFrom(const cv::Mat& lab, const std::vector<Background>& backgrounds) {
+  Differences nearest = differencesFrom(lab, backgrounds.front());
+  for (std::size_t i = 1; i < backgrounds.size(); ++i) {
+    const Differences other = differencesFrom(lab, backgrounds[i]);
+    nearest.color = cv::min(nearest.color, other.color);
+    nearest.chroma = cv::min(nearest.chroma, other.chroma);
+    nearest.darkness = cv::min(nearest.darkness, other.darkness);
+  }
+  return nearest;
+}
+
+// The difference from which on a colour is not the background's: between `low` and `high` the one that fewest
+// pixels have. Compression smears colours around edges, and pale fills begin not far above that.
+double emptiestLevel(const cv::Mat& differences, double low, double high) {
+  std::array<double, 256> count{};
+  for (int y = 0; y < differences.rows; ++y) {
+    const std::uint8_t* row = differences.ptr(y);
+    for (int x = 0; x < differences.cols; ++x) ++count[row[x]];
+  }
+  double best = low, fewest = 1e300;
+  for (int level = static_cast<int>(std::ceil(low)); level <= high && level + 1 < 256; ++level) {
+    // The lower one of two that are alike.
+    const double pixels = count[level - 1] + count[level] + count[level + 1] +
+                          1e-3 * differences.total() * (level - low) / (high - low + 1);
+    if (pixels < fewest) {
+      fewest = pixels;
+      best = level;
+    }
+  }
+  return best;
 }
 
 // Thin dark strokes: how much darker a pixel is, in its darkest channel, than the brightest level that closes
 // over it. Blind to steps, such as the edge of a shadow.
-cv::Mat strokeContrast(const cv::Mat& rgb, bool dark_background) {
+cv::Mat strokeContrast(const cv::Mat& rgb, bool dark_background, bool smooth) {
   cv::Mat value(rgb.size(), CV_8U);
   for (int y = 0; y < rgb.rows; ++y) {
     const cv::Vec3b* row = rgb.ptr<cv::Vec3b>(y);
@@ -143,11 +213,33 @@ cv::Mat strokeContrast(const cv::Mat& rgb, bool dark_background) {
                                : std::min({row[x][0], row[x][1], row[x][2]});
     }
   }
+  if (smooth) cv::GaussianBlur(value, value, cv::Size(3, 3), 0);
   const int size = std::max(3, std::max(rgb.cols, rgb.rows) / 24 * 2 + 1);
   const cv::Mat kernel = cv::getStructuringElement(cv::MORPH_RECT, cv::Size(size, size));
   cv::Mat contrast;
   cv::morphologyEx(value, contrast, dark_background ? cv::MORPH_TOPHAT : cv::MORPH_BLACKHAT, kernel);
   return contrast;
+}
+
+struct Noise {
+  double level = 0, deviation = 0;
+};
+
+// Of the stroke contrast where the colour is the background's.
+Noise noiseOf(const cv::Mat& contrast, const cv::Mat& far) {
+  std::vector<float> values;
+  for (int y = 0; y < contrast.rows; y += 2) {
+    const std::uint8_t *value = contrast.ptr(y), *is_far = far.ptr(y);
+    for (int x = 0; x < contrast.cols; x += 2) {
+      if (!is_far[x]) values.push_back(value[x]);
+    }
+  }
+  if (values.empty()) return {};
+  Noise noise;
+  noise.level = median(values);
+  for (float& v : values) v = static_cast<float>(std::abs(v - noise.level));
+  noise.deviation = 1.48 * median(values);
+  return noise;
 }
 
 // Pixels above `low` that are connected to some above `high`.
@@ -170,6 +262,27 @@ cv::Mat hysteresis(const cv::Mat& values, double low, double high) {
   return weak;
 }
 
+// Takes off the outer pixels that are less than half as strong as their strongest neighbour: where a
+// drawing's edge is soft, it lies at half its contrast. Never tears the figure.
+void trimSoftEdge(cv::Mat& figure, const cv::Mat& drawn, const cv::Mat& strength) {
+  cv::Mat strongest;
+  cv::dilate(strength, strongest, cv::Mat::ones(3, 3, CV_8U));
+  cv::Mat framed;
+  cv::copyMakeBorder(figure, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  for (int y = 0; y < figure.rows; ++y) {
+    const std::uint8_t *own = strength.ptr(y), *best = strongest.ptr(y), *is_drawn = drawn.ptr(y);
+    const std::uint8_t *above = framed.ptr(y) + 1, *below = framed.ptr(y + 2) + 1;
+    std::uint8_t* row = framed.ptr(y + 1) + 1;
+    for (int x = 0; x < figure.cols; ++x) {
+      if (!row[x] || !is_drawn[x] || 2 * own[x] >= best[x]) continue;
+      const std::array<bool, 8> n = {above[x - 1] != 0, above[x] != 0, above[x + 1] != 0, row[x + 1] != 0,
+                                     below[x + 1] != 0, below[x] != 0, below[x - 1] != 0, row[x - 1] != 0};
+      if (isSimplePoint(n)) row[x] = 0;
+    }
+  }
+  figure = framed(cv::Rect(1, 1, figure.cols, figure.rows)).clone();
+}
+
 }  // namespace
 
 Segmentation segment(const Image& image) {
@@ -177,22 +290,40 @@ Segmentation segment(const Image& image) {
   cv::Mat lab;
   cv::cvtColor(rgb, lab, cv::COLOR_RGB2Lab);
 
-  const Background background = fitBackground(lab);
-  const double color_threshold = std::max(6.0, 4.5 * background.sigma);
-  const cv::Mat distance = colorDistance(lab, background);
+  const std::vector<Background> backgrounds = fitBackgrounds(lab);
+  const Differences differences = differencesFrom(lab, backgrounds);
+  double sigma = 0;
+  for (const Background& b : backgrounds) sigma = std::max(sigma, b.sigma);
+  const double low_color = std::max(6.0, 3.5 * sigma);
+  const double color_threshold = emptiestLevel(differences.color, low_color, low_color + 14);
+  const cv::Mat far = differences.color > color_threshold;
 
-  const bool dark_background = background.coefficients(0, 0) < 90;
-  const cv::Mat contrast = strokeContrast(rgb, dark_background);
-  std::vector<float> levels(contrast.begin<std::uint8_t>(), contrast.end<std::uint8_t>());
-  const double level = median(levels);
-  for (float& v : levels) v = static_cast<float>(std::abs(v - level));
-  const double noise = 1.48 * median(levels);
-  const double low = std::max(12.0, level + 4 * noise), high = std::max(30.0, level + 7 * noise);
-
-  cv::Mat barrier = hysteresis(contrast, low, high) | (distance > color_threshold);
+  const bool dark_background = backgrounds.front().coefficients(0, 0) < 90;
+  cv::Mat contrast = strokeContrast(rgb, dark_background, false);
+  Noise noise = noiseOf(contrast, far);
+  const bool textured = noise.level + noise.deviation > 2;
+  if (textured) {
+    contrast = strokeContrast(rgb, dark_background, true);
+    noise = noiseOf(contrast, far);
+  }
+  const double low = std::max(12.0, noise.level + 4 * noise.deviation);
+  const double high = std::max(30.0, noise.level + 7 * noise.deviation);
+  cv::Mat fills;
+  if (textured) {
+    // Shadows on paper change its lightness alone, and leave more than half of it.
+    fills = (differences.chroma > std::max(8.0, 4 * sigma)) | (differences.darkness > 128);
+  } else {
+    fills = far;
+  }
+  const cv::Mat strokes = hysteresis(contrast, low, high);
+  cv::Mat barrier = strokes | fills;
   if (cv::countNonZero(barrier) == 0) return {{}, "the picture is blank"};
 
+  const cv::Mat drawn = barrier.clone();
   fillChambers(barrier);
+  if (!textured) {
+    trimSoftEdge(barrier, drawn, cv::max(differences.color, contrast));
+  }
 
   cv::Mat full;
   if (barrier.cols == image.width && barrier.rows == image.height) {
@@ -201,6 +332,8 @@ Segmentation segment(const Image& image) {
     cv::resize(barrier, full, cv::Size(image.width, image.height), 0, 0, cv::INTER_LINEAR);
     full = full >= 128;
   }
+  // The edges of strokes on paper are soft: what is seen as a stroke is its core.
+  if (textured) cv::dilate(full, full, cv::Mat::ones(3, 3, CV_8U));
   Segmentation out;
   out.foreground = Eigen::Map<Plane8>(full.data, full.rows, full.cols);
   return out;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libskel/core/check.h"
+#include "libskel/silhouette/simple_point.h"
 
 namespace skel {
 namespace {
@@ -65,18 +66,6 @@ PlaneF coverage(const Plane8& mask, const WorkingGrid& grid) {
   return covered;
 }
 
-// Whether taking the middle out of its 3×3 neighbours (clockwise from the top left) leaves the 4-connected
-// figure and the 8-connected background in as many parts as before.
-bool isSimple(const std::array<bool, 8>& n) {
-  int parts = 0, outside = 0;
-  for (int i = 1; i < 8; i += 2) {
-    outside += !n[i] + !n[i - 1];
-    // A side neighbour ends a part unless it is joined to the next side neighbour around the corner.
-    parts += n[i] && !(n[(i + 1) % 8] && n[(i + 2) % 8]);
-  }
-  return parts == 1 && outside > 0;
-}
-
 }  // namespace
 
 WorkingGrid gridOver(const Plane8& mask) {
@@ -128,7 +117,7 @@ Plane8 sampleMask(const Plane8& mask, const WorkingGrid& grid) {
       const std::array<bool, 8> n = {at(x - 1, y - 1), at(x, y - 1), at(x + 1, y - 1), at(x + 1, y),
                                      at(x + 1, y + 1), at(x, y + 1), at(x - 1, y + 1), at(x - 1, y)};
       const bool tip = p.thin && n[1] + n[3] + n[5] + n[7] <= 1;
-      if (tip || !isSimple(n)) continue;
+      if (tip || !isSimplePoint(n)) continue;
       out(y, x) = 0;
       changed = true;
     }
