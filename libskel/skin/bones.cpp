@@ -1,0 +1,42 @@
+#include "libskel/skin/bones.h"
+
+namespace skel {
+namespace {
+
+// Of the bone that leads to a leaf: how long the leaf's own tip is.
+constexpr float kTip = 0.3f;
+
+}  // namespace
+
+std::vector<Bone> skeletonBones(const Skeleton& skeleton) {
+  std::vector<Bone> bones;
+  const int head = skeleton.find("head");
+  const auto position = [&](int joint) -> Eigen::Vector3f {
+    return skeleton.joints[joint].position.cast<float>();
+  };
+  const int count = static_cast<int>(skeleton.joints.size());
+  for (int joint = 0; joint < count; ++joint) {
+    const Eigen::Vector3f here = position(joint);
+    const int parent = skeleton.joints[joint].parent;
+    // A head nods as a whole: its bone begins half way from the neck, where its region (DESIGN's table of
+    // classes) does, although it turns about its own middle.
+    if (joint == head && parent >= 0) bones.push_back({joint, 0.5f * (position(parent) + here), here});
+    bool leaf = true;
+    for (int child = joint + 1; child < count; ++child) {
+      if (skeleton.joints[child].parent != joint) continue;
+      leaf = false;
+      const Eigen::Vector3f there = position(child);
+      bones.push_back({joint, here, child == head ? Eigen::Vector3f(0.5f * (here + there)) : there});
+    }
+    if (leaf)
+      bones.push_back(
+          {joint, here, parent < 0 ? here : Eigen::Vector3f(here + kTip * (here - position(parent)))});
+  }
+  return bones;
+}
+
+bool bonesMeet(const Bone& a, const Bone& b) {
+  return a.joint == b.joint || a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to;
+}
+
+}  // namespace skel

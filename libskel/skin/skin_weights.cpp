@@ -1,0 +1,100 @@
+#include "libskel/skin/skin_weights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "libskel/core/check.h"
+#include "libskel/skin/bones.h"
+#include "libskel/skin/methods.h"
+
+namespace skel {
+namespace {
+
+struct Method {
+  SkinMethod method;
+  std::string_view name;
+  SkinFunction* weights;
+};
+constexpr Method kMethods[] = {
+    {SkinMethod::kGeodesic, "geodesic", geodesicWeights},
+    {SkinMethod::kEuclidean, "euclidean", euclideanWeights},
+};
+
+const Method& find(SkinMethod method) {
+  const auto* found = std::find_if(std::begin(kMethods), std::end(kMethods),
+                                   [&](const Method& m) { return m.method == method; });
+  SKEL_CHECK(found != std::end(kMethods));
+  return *found;
+}
+
+// Rows of zeros become those of the nearest vertex that has weights.
+void fillFromNearest(const Eigen::MatrixX3f& vertices, JointWeights& weights) {
+  std::vector<int> known, empty;
+  for (int v = 0; v < vertices.rows(); ++v) (weights.row(v).maxCoeff() > 0 ? known : empty).push_back(v);
+  if (empty.empty()) return;
+  SKEL_CHECK(!known.empty());
+  // By height: the search goes up and down from the vertex's own height until nothing can be nearer.
+  std::stable_sort(known.begin(), known.end(), [&](int a, int b) { return vertices(a, 1) < vertices(b, 1); });
+  for (const int v : empty) {
+    const auto middle = std::lower_bound(known.begin(), known.end(), vertices(v, 1),
+                                         [&](int a, float y) { return vertices(a, 1) < y; });
+    int nearest = -1;
+    float best = kUnreached;
+    const auto consider = [&](int other) {
+      const float dy = vertices(other, 1) - vertices(v, 1);
+      if (dy * dy >= best) return false;
+      const float distance2 = (vertices.row(other) - vertices.row(v)).squaredNorm();
+      if (distance2 < best) best = distance2, nearest = other;
+      return true;
+    };
+    for (auto up = middle; up != known.end() && consider(*up);) ++up;
+    for (auto down = middle; down != known.begin() && consider(*(down - 1));) --down;
+    weights.row(v) = weights.row(nearest);
+  }
+}
+
+}  // namespace
+
+std::vector<SkinMethod> skinMethods() {
+  std::vector<SkinMethod> methods;
+  for (const Method& method : kMethods) methods.push_back(method.method);
+  return methods;
+}
+
+std::string_view skinMethodName(SkinMethod method) { return find(method).name; }
+
+SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleton, SkinMethod method,
+                               const SkinOptions& options) {
+  SKEL_CHECK(options.max_influences >= 1 && options.max_influences <= 4);
+  SKEL_CHECK(!skeleton.joints.empty());
+  const int joint_count = static_cast<int>(skeleton.joints.size());
+  SkinWeights result;
+  result.joints.setZero(mesh.vertices.rows(), 4);
+  result.weights.setZero(mesh.vertices.rows(), 4);
+  if (mesh.vertices.rows() == 0) return result;
+
+  JointWeights weights = find(method).weights(mesh, skeletonBones(skeleton), joint_count);
+  fillFromNearest(mesh.vertices, weights);
+  std::vector<int> order(joint_count);
+  const int influences = std::min(options.max_influences, joint_count);
+  for (Eigen::Index v = 0; v < weights.rows(); ++v) {
+    std::iota(order.begin(), order.end(), 0);
+    std::partial_sort(order.begin(), order.begin() + influences, order.end(), [&](int a, int b) {
+      return weights(v, a) != weights(v, b) ? weights(v, a) > weights(v, b) : a < b;
+    });
+    float sum = 0;
+    for (int k = 0; k < influences; ++k) sum += weights(v, order[k]);
+    for (int k = 0; k < influences; ++k) {
+      const float weight = weights(v, order[k]) / sum;
+      if (weight < 1e-4f) break;  // nobody sees it move
+      result.joints(v, k) = static_cast<std::uint16_t>(order[k]);
+      result.weights(v, k) = weight;
+    }
+    result.weights.row(v) /= result.weights.row(v).sum();
+  }
+  return result;
+}
+
+}  // namespace skel
