@@ -8,9 +8,9 @@
 
 #include "libskel/core/check.h"
 #include "libskel/export/joint_names.h"
-#include "libskel/export/normals.h"
 #include "libskel/export/write_character.h"
 #include "libskel/image/write_image.h"
+#include "libskel/mesh/vertex_normals.h"
 
 namespace skel {
 
@@ -190,8 +190,8 @@ int addMesh(GlbBuilder& glb, const RiggedCharacter& character, const std::string
   primitive.indices = addTriangles(glb, mesh);
   primitive.attributes["POSITION"] =
       glb.addBoundedAccessor(rowByRow(mesh.vertices), 3, TINYGLTF_TYPE_VEC3, kVertices);
-  primitive.attributes["NORMAL"] =
-      glb.addAccessor(rowByRow(vertexNormals(mesh)), 3, TINYGLTF_TYPE_VEC3, kVertices);
+  primitive.attributes["NORMAL"] = glb.addAccessor(rowByRow(vertexNormals(mesh.vertices, mesh.triangles)), 3,
+                                                   TINYGLTF_TYPE_VEC3, kVertices);
   if (!glb.model.textures.empty()) primitive.attributes["TEXCOORD_0"] = addTextureCoordinates(glb, mesh);
   const std::vector<std::uint16_t> weights = quantizedWeights(character.weights);
   primitive.attributes["JOINTS_0"] = character.skeleton.joints.size() <= 256

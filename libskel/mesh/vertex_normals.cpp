@@ -1,17 +1,17 @@
-#include "libskel/export/normals.h"
+#include "libskel/mesh/vertex_normals.h"
 
 #include <Eigen/Geometry>
 
 namespace skel {
 
-Eigen::MatrixX3f vertexNormals(const TriangleMesh& mesh) {
+Eigen::MatrixX3f vertexNormals(const Eigen::MatrixX3f& vertices, const Eigen::MatrixX3i& triangles) {
   using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
-  Points sums = Points::Zero(mesh.vertices.rows(), 3);
-  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
-    const Eigen::RowVector3i v = mesh.triangles.row(t);
-    const Eigen::RowVector3d a = mesh.vertices.row(v[0]).cast<double>();
-    const Eigen::RowVector3d b = mesh.vertices.row(v[1]).cast<double>();
-    const Eigen::RowVector3d c = mesh.vertices.row(v[2]).cast<double>();
+  Points sums = Points::Zero(vertices.rows(), 3);
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const Eigen::RowVector3i v = triangles.row(t);
+    const Eigen::RowVector3d a = vertices.row(v[0]).cast<double>();
+    const Eigen::RowVector3d b = vertices.row(v[1]).cast<double>();
+    const Eigen::RowVector3d c = vertices.row(v[2]).cast<double>();
     const Eigen::RowVector3d twice_area = (b - a).cross(c - a);
     for (int i = 0; i < 3; ++i) sums.row(v[i]) += twice_area;
   }

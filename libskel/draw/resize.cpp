@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cmath>
+
+#include "libskel/core/check.h"
+#include "libskel/draw/canvas.h"
+
+namespace skel {
+
+namespace {
+
+// How much each source pixel from `first` on gives to one target pixel, along one axis.
+struct Taps {
+  int first;
+  std::vector<float> weights;  // sum 1
+};
+
+std::vector<Taps> tapsFor(int from, int to) {
+  std::vector<Taps> taps;
+  const double scale = double(from) / to;
+  for (int i = 0; i < to; ++i) {
+    const double center = (i + 0.5) * scale - 0.5;
+    // Shrinking: the source pixels that the target pixel covers. Growing: the two nearest.
+    const double half = scale > 1 ? scale / 2 : 1;
+    const int first = std::max(0, int(std::ceil(center - half - 0.5)));
+    const int last = std::min(from - 1, int(std::floor(center + half + 0.5)));
+    Taps tap{first, {}};
+    float sum = 0;
+    for (int k = first; k <= last; ++k) {
+      const double covered = std::min(k + 0.5, center + half) - std::max(k - 0.5, center - half);
+      const double near = 1 - std::abs(k - center);
+      tap.weights.push_back(float(std::max(0.0, scale > 1 ? covered : near)));
+      sum += tap.weights.back();
+    }
+    for (float& weight : tap.weights) weight /= sum;
+    taps.push_back(std::move(tap));
+  }
+  return taps;
+}
+
+}  // namespace
+
+Image resized(const Image& image, int width, int height) {
+  SKEL_CHECK(!image.empty() && width >= 1 && height >= 1);
+  if (width == image.width && height == image.height) return image;
+  const std::vector<Taps> across = tapsFor(image.width, width), down = tapsFor(image.height, height);
+  // Colours weighted by alpha, so that clear pixels do not bleed.
+  std::vector<Eigen::Array4f> narrow(std::size_t(image.height) * width);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < width; ++x) {
+      Eigen::Array4f sum = Eigen::Array4f::Zero();
+      for (std::size_t k = 0; k < across[x].weights.size(); ++k) {
+        const std::uint8_t* p = image.pixel(across[x].first + int(k), y);
+        const float alpha = p[3] * across[x].weights[k];
+        sum += Eigen::Array4f(p[0] * alpha, p[1] * alpha, p[2] * alpha, alpha);
+      }
+      narrow[std::size_t(y) * width + x] = sum;
+    }
+  Image result(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      Eigen::Array4f sum = Eigen::Array4f::Zero();
+      for (std::size_t k = 0; k < down[y].weights.size(); ++k)
+        sum += down[y].weights[k] * narrow[(down[y].first + k) * width + x];
+      std::uint8_t* p = result.pixel(x, y);
+      for (int c = 0; c < 3; ++c)
+        p[c] = sum[3] > 0 ? std::uint8_t(std::min(255l, std::lround(sum[c] / sum[3]))) : 0;
+      p[3] = std::uint8_t(std::min(255l, std::lround(sum[3])));
+    }
+  return result;
+}
+
+Image fitted(const Image& image, int max_width, int max_height) {
+  const double scale = std::min(double(max_width) / image.width, double(max_height) / image.height);
+  return resized(image, std::clamp(int(std::lround(image.width * scale)), 1, max_width),
+                 std::clamp(int(std::lround(image.height * scale)), 1, max_height));
+}
+
+Image magnified(const Image& image, int factor) {
+  SKEL_CHECK(factor >= 1);
+  Image result(image.width * factor, image.height * factor);
+  for (int y = 0; y < result.height; ++y)
+    for (int x = 0; x < result.width; ++x)
+      std::copy_n(image.pixel(x / factor, y / factor), 4, result.pixel(x, y));
+  return result;
+}
+
+}  // namespace skel
