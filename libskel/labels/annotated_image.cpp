@@ -1,0 +1,100 @@
+#include "libskel/labels/annotated_image.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/json.h"
+#include "libskel/core/sha256.h"
+#include "libskel/image/read_image.h"
+#include "libskel/labels/label_from_joints.h"
+
+namespace skel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kJointsEnding = ".joints.json";
+
+std::optional<std::string> imageOfStem(const fs::path& stem) {
+  for (const char* extension : {".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tif", ".tiff", ".gif"})
+    if (fs::is_regular_file(stem.string() + extension)) return stem.string() + extension;
+  return std::nullopt;
+}
+
+LabelFile::Source sourceOf(const std::string& path) {
+  return {fs::path(path).filename().string(), sha256(readFile(path))};
+}
+
+}  // namespace
+
+std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir) {
+  if (!fs::is_directory(dir)) throw InputError(dir, "is not a folder");
+  std::vector<AnnotatedImage> found;
+  for (const auto& entry : fs::recursive_directory_iterator(dir)) {
+    const fs::path path = entry.path();
+    const std::string name = path.filename().string();
+    fs::path stem, mask;
+    if (name == "joints.json") {
+      stem = path.parent_path() / "image";
+      mask = path.parent_path() / "mask.png";
+    } else if (name.ends_with(kJointsEnding)) {
+      stem = path.parent_path() / name.substr(0, name.size() - kJointsEnding.size());
+      mask = stem.string() + ".mask.png";
+    } else {
+      continue;
+    }
+    const auto image = imageOfStem(stem);
+    if (!image) throw InputError(path, "has no image beside it, " + stem.filename().string() + ".png");
+    found.push_back({*image, std::nullopt, path.string()});
+    if (fs::is_regular_file(mask)) found.back().mask = mask.string();
+  }
+  std::sort(found.begin(), found.end(),
+            [](const AnnotatedImage& a, const AnnotatedImage& b) { return a.image < b.image; });
+  return found;
+}
+
+NamedJoints readJointsFile(const std::string& path) {
+  const JsonDocument document = JsonDocument::readFile(path);
+  const JsonValue root = document.root();
+  root.allowOnly({"joints", "image_size", "annotation", "derived_from", "view", "style"});
+  const JsonValue list = root.at("joints");
+  NamedJoints joints;
+  for (const std::string& name : list.keys()) {
+    const JsonValue place = list.at(name);
+    const std::string ours = name == "torso" ? "body" : name == "hip" ? "pelvis" : name;
+    joints.emplace_back(ours, std::nullopt);
+    if (place.isNull()) continue;
+    const auto xy = place.asNumbers(2);
+    joints.back().second = Eigen::Vector2d(xy[0], xy[1]);
+  }
+  if (joints.empty()) list.fail("is empty");
+  return joints;
+}
+
+Silhouette silhouetteOf(const std::string& image, const std::optional<std::string>& mask) {
+  Silhouette silhouette = mask ? silhouetteFromMask(readMask(*mask)) : extractSilhouette(readImage(image));
+  if (!silhouette.found()) throw InputError(mask.value_or(image), silhouette.reason);
+  return silhouette;
+}
+
+LabelFile labelImage(const std::string& image, const std::optional<std::string>& mask,
+                     const NamedJoints& joints, const SkeletonTemplate& body_plan,
+                     const CandidateOptions& options) {
+  const Silhouette silhouette = silhouetteOf(image, mask);
+  const CandidateSet candidates = extractCandidates(silhouette, options);
+  LabelFile labels;
+  labels.image = sourceOf(image);
+  labels.image_width = static_cast<int>(silhouette.mask.cols());
+  labels.image_height = static_cast<int>(silhouette.mask.rows());
+  if (mask) labels.mask = sourceOf(*mask);
+  labels.grid_width = silhouette.grid.width;
+  labels.grid_height = silhouette.grid.height;
+  labels.candidates = candidates.maxima;
+  labels.labels = labelFromJoints(candidates, silhouette.grid, joints, body_plan);
+  labels.joints = joints;
+  return labels;
+}
+
+}  // namespace skel

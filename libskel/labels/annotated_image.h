@@ -1,0 +1,38 @@
+// Pictures with known joints: `image.png`, `mask.png` and `joints.json` in a folder of their own, or
+// `<stem>.png`, `<stem>.mask.png` and `<stem>.joints.json` side by side.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libskel/candidates/candidates.h"
+#include "libskel/labels/label_file.h"
+#include "libskel/silhouette/silhouette.h"
+#include "libskel/skeleton/template.h"
+
+namespace skel {
+
+struct AnnotatedImage {
+  std::string image;                // path
+  std::optional<std::string> mask;  // path; none: the figure is found in the image
+  std::string joints;               // path
+};
+
+// All below `dir`, at any depth, sorted by path. Throws InputError: no such folder, joints without an image.
+std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir);
+
+// Joints by the names of the biped template; a file may also call `body` "torso" and `pelvis` "hip".
+// Throws InputError that names file, JSON path and reason.
+NamedJoints readJointsFile(const std::string& path);
+
+// The figure by its mask, or as found in the image. Throws InputError with the reason if there is none.
+Silhouette silhouetteOf(const std::string& image, const std::optional<std::string>& mask);
+
+// Labels that can be saved beside the image: its candidates, labelled from `joints`, or not at all if those
+// are empty. Throws InputError.
+LabelFile labelImage(const std::string& image, const std::optional<std::string>& mask,
+                     const NamedJoints& joints, const SkeletonTemplate& body_plan,
+                     const CandidateOptions& options = {});
+
+}  // namespace skel

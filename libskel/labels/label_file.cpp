@@ -1,0 +1,222 @@
+#include "libskel/labels/label_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <functional>
+#include <locale>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "libskel/core/check.h"
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/json.h"
+#include "libskel/core/sha256.h"
+
+namespace skel {
+namespace {
+
+constexpr const char* kFormat = "skel-labels";
+constexpr int kVersion = 1;
+constexpr int kMaxImageSide = 100'000;
+constexpr int kMaxGridSide = 4096;
+
+// Runs each step; the complaints of those that fail are kept, so that a check can name all of them.
+class Problems {
+ public:
+  void attempt(const std::function<void()>& step) {
+    try {
+      step();
+    } catch (const InputError& error) {
+      lines_.push_back(error);
+    }
+  }
+  const std::vector<InputError>& all() const { return lines_; }
+
+ private:
+  std::vector<InputError> lines_;
+};
+
+LabelFile::Source readSource(const JsonValue& value) {
+  LabelFile::Source source{value.at("file").asString(), value.at("sha256").asString()};
+  if (source.file.empty() || source.file.find('/') != std::string::npos)
+    value.at("file").fail("must be the name of a file in the same folder");
+  if (source.sha256.size() != 64 || source.sha256.find_first_not_of("0123456789abcdef") != std::string::npos)
+    value.at("sha256").fail("must be 64 hexadecimal digits");
+  return source;
+}
+
+std::optional<JointClass> readLabel(const JsonValue& value) {
+  if (value.isNull()) return std::nullopt;
+  const std::string name = value.asString();
+  for (int c = 0; c < kJointClassCount; ++c)
+    if (name == kJointClassNames[static_cast<std::size_t>(c)]) return static_cast<JointClass>(c);
+  value.fail("is \"" + name + "\", must be head, body, hand, leg or null");
+}
+
+JointCandidate readCandidate(const JsonValue& value, const LabelFile& file) {
+  value.allowOnly({"x", "y", "radius", "label"});
+  JointCandidate candidate;
+  candidate.x = static_cast<float>(value.at("x").asNumber(0, file.grid_width - 1));
+  candidate.y = static_cast<float>(value.at("y").asNumber(0, file.grid_height - 1));
+  candidate.radius = static_cast<float>(value.at("radius").asNumber(0, file.gridSize()));
+  if (candidate.radius <= 0) value.at("radius").fail("must be more than 0");
+  return candidate;
+}
+
+void readCandidates(const JsonValue& list, LabelFile& file, Problems& problems) {
+  std::set<std::pair<float, float>> places;
+  for (const JsonValue& item : list.items()) {
+    problems.attempt([&] {
+      const JointCandidate candidate = readCandidate(item, file);
+      if (!places.emplace(candidate.x, candidate.y).second) item.fail("lies where an earlier candidate lies");
+      file.candidates.push_back(candidate);
+      file.labels.emplace_back();
+    });
+    problems.attempt([&] {
+      const auto label = readLabel(item.at("label"));
+      if (!file.labels.empty()) file.labels.back() = label;
+    });
+  }
+}
+
+NamedJoints readJoints(const JsonValue& value, const LabelFile& file) {
+  NamedJoints joints;
+  for (const std::string& name : value.keys()) {
+    const JsonValue place = value.at(name);
+    if (place.isNull()) {
+      joints.emplace_back(name, std::nullopt);
+      continue;
+    }
+    const auto xy = place.asNumbers(2);
+    if (xy[0] < -0.5 || xy[1] < -0.5 || xy[0] > file.image_width - 0.5 || xy[1] > file.image_height - 0.5)
+      place.fail("lies outside the image");
+    joints.emplace_back(name, Eigen::Vector2d(xy[0], xy[1]));
+  }
+  return joints;
+}
+
+LabelFile parse(const JsonValue& root, Problems& problems) {
+  LabelFile file;
+  root.checkFormat(kFormat, kVersion);
+  problems.attempt([&] {
+    root.allowOnly({"format", "version", "image", "mask", "grid", "candidates", "joints"});
+  });
+  problems.attempt([&] {
+    const JsonValue image = root.at("image");
+    image.allowOnly({"file", "sha256", "width", "height"});
+    file.image = readSource(image);
+    file.image_width = image.at("width").asInt(1, kMaxImageSide);
+    file.image_height = image.at("height").asInt(1, kMaxImageSide);
+  });
+  problems.attempt([&] {
+    const JsonValue mask = root.at("mask");
+    if (mask.isNull()) return;
+    mask.allowOnly({"file", "sha256"});
+    file.mask = readSource(mask);
+  });
+  const JsonValue grid = root.at("grid");
+  grid.allowOnly({"width", "height"});
+  file.grid_width = grid.at("width").asInt(1, kMaxGridSide);
+  file.grid_height = grid.at("height").asInt(1, kMaxGridSide);
+  problems.attempt([&] { readCandidates(root.at("candidates"), file, problems); });
+  problems.attempt([&] {
+    const JsonValue joints = root.at("joints");
+    if (!joints.isNull()) file.joints = readJoints(joints, file);
+  });
+  return file;
+}
+
+LabelFile parseFile(const std::string& path, Problems& problems) {
+  LabelFile file;
+  problems.attempt([&] {
+    const JsonDocument document = JsonDocument::readFile(path);
+    file = parse(document.root(), problems);
+  });
+  return file;
+}
+
+void checkSource(const std::string& path, const char* key, const LabelFile::Source& source) {
+  const std::string place = std::string(key) + ".file: \"" + source.file + "\"";
+  const std::string name = besideLabelFile(path, source.file);
+  if (!std::filesystem::is_regular_file(name)) throw InputError(path, place + " is missing");
+  if (sha256(readFile(name)) != source.sha256)
+    throw InputError(path, place + " has changed since it was labelled; label it anew");
+}
+
+template <class Number>
+std::string show(Number number) {
+  char text[64];
+  return std::string(text, std::to_chars(text, text + sizeof text, number).ptr);
+}
+
+}  // namespace
+
+std::string labelFileFor(const std::string& image) {
+  return std::filesystem::path(image).replace_extension().string() + kLabelFileEnding;
+}
+
+std::string besideLabelFile(const std::string& label_file, const std::string& name) {
+  return (std::filesystem::path(label_file).parent_path() / name).string();
+}
+
+LabelFile readLabelFile(const std::string& path) {
+  Problems problems;
+  LabelFile file = parseFile(path, problems);
+  if (!problems.all().empty()) throw InputError(problems.all().front());
+  return file;
+}
+
+std::vector<std::string> findProblems(const std::string& path) {
+  Problems problems;
+  const LabelFile file = parseFile(path, problems);
+  if (!file.image.file.empty()) problems.attempt([&] { checkSource(path, "image", file.image); });
+  if (file.mask) problems.attempt([&] { checkSource(path, "mask", *file.mask); });
+  std::vector<std::string> lines;
+  for (const InputError& problem : problems.all()) lines.emplace_back(problem.what());
+  return lines;
+}
+
+std::string formatLabelFile(const LabelFile& labels) {
+  SKEL_CHECK_EQ(labels.candidates.size(), labels.labels.size());
+  const auto quote = [](const std::string& text) { return nlohmann::json(text).dump(); };
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << "{\n  \"format\": \"" << kFormat << "\",\n  \"version\": " << kVersion
+      << ",\n  \"image\": {\"file\": " << quote(labels.image.file) << ", \"width\": " << labels.image_width
+      << ", \"height\": " << labels.image_height << ", \"sha256\": " << quote(labels.image.sha256)
+      << "},\n  \"mask\": ";
+  if (labels.mask)
+    out << "{\"file\": " << quote(labels.mask->file) << ", \"sha256\": " << quote(labels.mask->sha256) << "}";
+  else
+    out << "null";
+  out << ",\n  \"grid\": {\"width\": " << labels.grid_width << ", \"height\": " << labels.grid_height
+      << "},\n  \"candidates\": [";
+  for (std::size_t i = 0; i < labels.candidates.size(); ++i) {
+    const JointCandidate& candidate = labels.candidates[i];
+    out << (i ? "," : "") << "\n    {\"x\": " << show(candidate.x) << ", \"y\": " << show(candidate.y)
+        << ", \"radius\": " << show(candidate.radius) << ", \"label\": "
+        << (labels.labels[i] ? quote(kJointClassNames[static_cast<std::size_t>(*labels.labels[i])]) : "null")
+        << "}";
+  }
+  out << "\n  ],\n  \"joints\": ";
+  if (labels.joints.empty()) out << "null";
+  for (std::size_t i = 0; i < labels.joints.size(); ++i) {
+    const auto& [name, place] = labels.joints[i];
+    out << (i ? ",\n    " : "{\n    ") << quote(name) << ": ";
+    if (place)
+      out << "[" << show(place->x()) << ", " << show(place->y()) << "]";
+    else
+      out << "null";
+  }
+  out << (labels.joints.empty() ? "\n}\n" : "\n  }\n}\n");
+  return out.str();
+}
+
+void writeLabelFile(const std::string& path, const LabelFile& labels) {
+  writeFile(path, formatLabelFile(labels));
+}
+
+}  // namespace skel

@@ -1,0 +1,138 @@
+#include "libskel/labels/label_folder.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/sha256.h"
+#include "libskel/labels/annotated_image.h"
+#include "libskel/skeleton/template.h"
+
+namespace skel {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string nameBelow(const std::string& dir, const std::string& file) {
+  const std::string name = fs::path(file).lexically_relative(dir).string();
+  return name.ends_with(kLabelFileEnding) ? name.substr(0, name.size() - std::string(kLabelFileEnding).size())
+                                          : name;
+}
+
+std::string gridComplaint(const std::string& path, const LabelFile& labels, const std::string& first_path,
+                          int first_size) {
+  return path + ": grid: the long side is " + std::to_string(labels.gridSize()) + " px, in " + first_path +
+         " it is " + std::to_string(first_size) + " px; label one of them anew";
+}
+
+LabelledCharacter characterOf(const std::string& name, const std::string& path, const LabelFile& labels) {
+  CandidateSet candidates;
+  candidates.maxima = labels.candidates;
+  LabelledCharacter character{name, features(candidates), {}};
+  for (std::size_t i = 0; i < labels.labels.size(); ++i) {
+    if (!labels.labels[i])
+      throw InputError(path, "candidates[" + std::to_string(i) + "].label: is null; label every candidate");
+    character.labels.push_back(*labels.labels[i]);
+  }
+  return character;
+}
+
+void checkClasses(const std::string& dir, const LabelledSet& set) {
+  const auto counts = set.classCounts();
+  for (std::size_t c = 0; c < counts.size(); ++c)
+    if (counts[c] == 0)
+      throw InputError(dir, "no candidate is labelled \"" + std::string(kJointClassNames[c]) +
+                                "\"; each of the four classes is needed");
+}
+
+}  // namespace
+
+int LabelledSet::sampleCount() const {
+  int count = 0;
+  for (const LabelledCharacter& character : characters) count += static_cast<int>(character.labels.size());
+  return count;
+}
+
+std::array<int, kJointClassCount> LabelledSet::classCounts() const {
+  std::array<int, kJointClassCount> counts{};
+  for (const LabelledCharacter& character : characters)
+    for (const JointClass label : character.labels) ++counts[static_cast<std::size_t>(label)];
+  return counts;
+}
+
+std::vector<std::string> findLabelFiles(const std::string& dir) {
+  if (!fs::is_directory(dir)) throw InputError(dir, "is not a folder");
+  std::vector<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(dir))
+    if (entry.is_regular_file() && entry.path().string().ends_with(kLabelFileEnding))
+      found.push_back(entry.path().string());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<std::string> checkLabelFolder(const std::string& dir) {
+  std::vector<std::string> lines;
+  std::string first_path;
+  int first_size = 0;
+  for (const std::string& path : findLabelFiles(dir)) {
+    const auto problems = findProblems(path);
+    lines.insert(lines.end(), problems.begin(), problems.end());
+    try {
+      const LabelFile labels = readLabelFile(path);
+      if (first_size == 0) {
+        first_path = path;
+        first_size = labels.gridSize();
+      } else if (labels.gridSize() != first_size) {
+        lines.push_back(gridComplaint(path, labels, first_path, first_size));
+      }
+    } catch (const InputError&) {
+      // Among `problems` already.
+    }
+  }
+  return lines;
+}
+
+LabelledSet readLabelledSet(const std::string& dir) {
+  LabelledSet set;
+  std::string hashed, first_path;
+  int grid_size = 0;
+  for (const std::string& path : findLabelFiles(dir)) {
+    const LabelFile labels = readLabelFile(path);
+    if (const auto problems = findProblems(path); !problems.empty())
+      throw InputError(path, problems.front().substr(path.size() + 2));
+    if (grid_size == 0) {
+      first_path = path;
+      grid_size = labels.gridSize();
+    } else if (labels.gridSize() != grid_size) {
+      throw InputError(path, gridComplaint(path, labels, first_path, grid_size).substr(path.size() + 2));
+    }
+    const std::string name = nameBelow(dir, path);
+    set.characters.push_back(characterOf(name, path, labels));
+    hashed += name + " " + sha256(readFile(path)) + "\n";
+  }
+  if (set.characters.empty())
+    throw InputError(dir, "holds no label files (*" + std::string(kLabelFileEnding) + ")");
+  checkClasses(dir, set);
+  set.sha256 = sha256(hashed);
+  return set;
+}
+
+LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions& options) {
+  const SkeletonTemplate body_plan = loadTemplate("biped");
+  LabelledSet set;
+  std::string hashed;
+  for (const AnnotatedImage& annotated : findAnnotatedImages(dir)) {
+    const LabelFile labels =
+        labelImage(annotated.image, annotated.mask, readJointsFile(annotated.joints), body_plan, options);
+    const std::string name = nameBelow(dir, annotated.image);
+    set.characters.push_back(characterOf(name, annotated.joints, labels));
+    hashed += name + " " + sha256(formatLabelFile(labels)) + "\n";
+  }
+  if (set.characters.empty()) throw InputError(dir, "holds no pictures with joints (*.joints.json)");
+  checkClasses(dir, set);
+  set.sha256 = sha256(hashed);
+  return set;
+}
+
+}  // namespace skel

@@ -1,0 +1,43 @@
+// Label files below a folder, as one set of samples.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "libskel/classifier/features.h"
+#include "libskel/labels/label_file.h"
+
+namespace skel {
+
+struct LabelledCharacter {
+  std::string name;  // path of its label file below the folder, without the ending
+  Features features;
+  std::vector<JointClass> labels;  // one for each row
+};
+
+struct LabelledSet {
+  std::vector<LabelledCharacter> characters;  // sorted by name
+  // Over names and bytes of all label files, which hold the hashes of their images and masks in turn.
+  std::string sha256;
+
+  int sampleCount() const;
+  std::array<int, kJointClassCount> classCounts() const;
+};
+
+// Label files below `dir`, at any depth, sorted by path. Throws InputError if there is no such folder.
+std::vector<std::string> findLabelFiles(const std::string& dir);
+
+// Every inconsistency of all label files below `dir`, one line each; none: all is well.
+// Candidates without a label are not one: label files may be in the making.
+std::vector<std::string> checkLabelFolder(const std::string& dir);
+
+// Throws InputError that names file, JSON path and reason: whatever checkLabelFolder() finds, no label files
+// at all, a candidate without label, a class that no candidate has.
+LabelledSet readLabelledSet(const std::string& dir);
+
+// The same from annotated pictures (see annotated_image.h) without label files: candidates of any method,
+// labelled from the joints.
+LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions& options = {});
+
+}  // namespace skel

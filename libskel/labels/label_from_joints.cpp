@@ -1,0 +1,105 @@
+#include "libskel/labels/label_from_joints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "libskel/core/error.h"
+
+namespace skel {
+namespace {
+
+using Place = std::optional<Eigen::Vector2d>;
+
+struct Bone {
+  Eigen::Vector2d from, to;  // grid px
+  JointClass joint_class;
+};
+
+JointClass classNamed(const std::string& name, const SkeletonTemplate& body_plan) {
+  const auto found = std::find(kJointClassNames.begin(), kJointClassNames.end(), name);
+  if (found == kJointClassNames.end())
+    throw InputError(body_plan.name,
+                     "has a joint of class \"" + name + "\", must be head, body, hand or leg");
+  return static_cast<JointClass>(found - kJointClassNames.begin());
+}
+
+// The last place of the figure on the way from `from` through `through`.
+Eigen::Vector2d tipBeyond(const DistanceField& distance, const Eigen::Vector2d& from,
+                          const Eigen::Vector2d& through) {
+  const double length = (through - from).norm();
+  if (length == 0) return through;
+  const Eigen::Vector2d step = (through - from) / length;
+  Eigen::Vector2d tip = through;
+  for (Eigen::Vector2d next = tip + step;; next += step) {
+    const auto x = std::lround(next.x()), y = std::lround(next.y());
+    if (x < 0 || y < 0 || x >= distance.cols() || y >= distance.rows() || distance(y, x) <= 0) return tip;
+    tip = next;
+  }
+}
+
+std::vector<Place> placesOnGrid(const CandidateSet& candidates, const WorkingGrid& grid,
+                                const NamedJoints& joints, const SkeletonTemplate& body_plan) {
+  std::vector<Place> places(body_plan.joints.size());
+  for (const auto& [name, place] : joints)
+    if (const int j = body_plan.find(name); j >= 0 && place)
+      places[static_cast<std::size_t>(j)] = grid.gridFromImage(*place);
+  // A derived joint may come from another one that stands after it: as many passes as there may be links.
+  for (std::size_t pass = 0; pass < places.size(); ++pass)
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      const auto& derived = body_plan.joints[j].derived;
+      if (places[j] || !derived) continue;
+      const Place& a = places[static_cast<std::size_t>(derived->from[0])];
+      const Place& b = places[static_cast<std::size_t>(derived->from[1])];
+      if (!a || !b) continue;
+      places[j] = derived->rule == DerivationRule::kMidpoint ? Eigen::Vector2d((*a + *b) / 2)
+                                                             : tipBeyond(candidates.distance, *a, *b);
+    }
+  return places;
+}
+
+std::vector<Bone> bonesOf(const std::vector<Place>& places, const SkeletonTemplate& body_plan) {
+  std::vector<Bone> bones;
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    const TemplateJoint& joint = body_plan.joints[j];
+    if (joint.parent < 0 || joint.bone_class.empty()) continue;
+    const auto parent = static_cast<std::size_t>(joint.parent);
+    if (!places[j] || !places[parent]) continue;
+    const Eigen::Vector2d from = *places[parent], to = *places[j];
+    const Eigen::Vector2d middle = from + joint.class_from * (to - from);
+    bones.push_back({middle, to, classNamed(joint.bone_class, body_plan)});
+    const std::string& before = body_plan.joints[parent].bone_class;
+    if (joint.class_from > 0 && !before.empty())
+      bones.push_back({from, middle, classNamed(before, body_plan)});
+  }
+  return bones;
+}
+
+double squaredDistance(const Eigen::Vector2d& point, const Bone& bone) {
+  const Eigen::Vector2d along = bone.to - bone.from;
+  const double length = along.squaredNorm();
+  const double t = length > 0 ? std::clamp((point - bone.from).dot(along) / length, 0., 1.) : 0;
+  return (bone.from + t * along - point).squaredNorm();
+}
+
+}  // namespace
+
+std::vector<std::optional<JointClass>> labelFromJoints(const CandidateSet& candidates,
+                                                       const WorkingGrid& grid, const NamedJoints& joints,
+                                                       const SkeletonTemplate& body_plan) {
+  const std::vector<Bone> bones = bonesOf(placesOnGrid(candidates, grid, joints, body_plan), body_plan);
+  std::vector<std::optional<JointClass>> labels;
+  for (const JointCandidate& candidate : candidates.maxima) {
+    const Eigen::Vector2d point(candidate.x, candidate.y);
+    double nearest = std::numeric_limits<double>::infinity();
+    auto& label = labels.emplace_back();
+    for (const Bone& bone : bones)
+      if (const double distance = squaredDistance(point, bone); distance < nearest) {
+        nearest = distance;
+        label = bone.joint_class;
+      }
+  }
+  return labels;
+}
+
+}  // namespace skel

@@ -1,0 +1,21 @@
+// Classes of candidates where the joints are known: the class of the nearest bone, by the template's table.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "libskel/candidates/candidates.h"
+#include "libskel/labels/label_file.h"
+#include "libskel/silhouette/silhouette.h"
+#include "libskel/skeleton/template.h"
+
+namespace skel {
+
+// One entry for each of candidates.maxima. Bones whose joints are not visible are left out; joints that the
+// template derives are derived where they are not given. All nullopt if no bone can be formed. Names that the
+// template does not have are ignored.
+std::vector<std::optional<JointClass>> labelFromJoints(const CandidateSet& candidates,
+                                                       const WorkingGrid& grid, const NamedJoints& joints,
+                                                       const SkeletonTemplate& body_plan);
+
+}  // namespace skel

@@ -1,0 +1,120 @@
+#include "libskel/labels/label_file.h"
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/sha256.h"
+#include "tests/support/catch.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+
+namespace {
+
+LabelFile sample() {
+  LabelFile file;
+  file.image = {"a.png", sha256("picture")};
+  file.image_width = 600;
+  file.image_height = 500;
+  file.mask = LabelFile::Source{"a.mask.png", sha256("mask")};
+  file.grid_width = 100;
+  file.grid_height = 128;
+  file.candidates = {{50, 30, 20.024984f}, {99, 127, 1}, {0, 0, 1.4142135f}};
+  file.labels = {JointClass::kHead, JointClass::kLeg, std::nullopt};
+  file.joints = {{"head", Eigen::Vector2d(300.25, 0.1)}, {"left_hand", std::nullopt}};
+  return file;
+}
+
+// A folder with the sample, in whose label file `from` is replaced by `to`.
+std::vector<std::string> problems(const std::string& from, const std::string& to) {
+  const TempDir dir;
+  writeFile(dir.file("a.png"), "picture");
+  writeFile(dir.file("a.mask.png"), "mask");
+  const std::string path = dir.file("a.labels.json");
+  std::string text = formatLabelFile(sample());
+  const auto at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  text.replace(at, from.size(), to);
+  writeFile(path, text);
+  std::vector<std::string> lines = findProblems(path);
+  for (std::string& line : lines) {
+    REQUIRE(line.starts_with(path + ": "));
+    line.erase(0, path.size() + 2);
+  }
+  return lines;
+}
+
+using Lines = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("label files come back as they were") {
+  const TempDir dir;
+  const std::string path = dir.file("a.labels.json");
+  writeLabelFile(path, sample());
+  const LabelFile again = readLabelFile(path);
+  CHECK(formatLabelFile(again) == readFile(path));
+  REQUIRE(again.candidates.size() == 3);
+  CHECK(again.candidates[0].radius == 20.024984f);
+  CHECK(again.labels == sample().labels);
+  CHECK(again.mask->file == "a.mask.png");
+  CHECK(again.joints == sample().joints);
+
+  LabelFile bare = sample();
+  bare.mask.reset();
+  bare.joints.clear();
+  bare.candidates.clear();
+  bare.labels.clear();
+  writeLabelFile(path, bare);
+  const LabelFile bare_again = readLabelFile(path);
+  CHECK_FALSE(bare_again.mask);
+  CHECK(bare_again.joints.empty());
+  CHECK(bare_again.candidates.empty());
+}
+
+TEST_CASE("a label file stands beside its image") {
+  CHECK(labelFileFor("dir/knight.png") == "dir/knight.labels.json");
+  CHECK(besideLabelFile("dir/knight.labels.json", "knight.png") == "dir/knight.png");
+  CHECK(besideLabelFile("knight.labels.json", "knight.png") == "knight.png");
+}
+
+TEST_CASE("a good label file has no problems") { CHECK(problems("600", "600").empty()); }
+
+TEST_CASE("each problem of a label file is named with file, path and reason") {
+  CHECK(problems("skel-labels", "skel-weights") ==
+        Lines{"is a file of format \"skel-weights\", \"skel-labels\" was expected"});
+  CHECK(problems("\"version\": 1", "\"version\": 7") ==
+        Lines{"version: is 7, this program reads up to 1; use a newer skel"});
+  CHECK(problems("\"head\"", "\"tail\"") ==
+        Lines{"candidates[0].label: is \"tail\", must be head, body, hand, leg or null"});
+  CHECK(problems("\"x\": 99", "\"x\": 100") == Lines{"candidates[1].x: is 100, must be between 0 and 99"});
+  CHECK(problems("\"y\": 127", "\"y\": -1") == Lines{"candidates[1].y: is -1, must be between 0 and 127"});
+  CHECK(problems("\"radius\": 1,", "\"radius\": 0,") == Lines{"candidates[1].radius: must be more than 0"});
+  CHECK(problems("\"radius\": 1,", "\"radius\": null,") == Lines{"candidates[1].radius: must be a number"});
+  CHECK(problems("\"x\": 0, \"y\": 0", "\"x\": 50, \"y\": 30") ==
+        Lines{"candidates[2]: lies where an earlier candidate lies"});
+  CHECK(problems("\"radius\"", "\"size\"") == Lines{"candidates[0]: has the unknown key \"size\""});
+  CHECK(problems("300.25", "700") == Lines{"joints.head: lies outside the image"});
+  CHECK(problems("\"a.png\"", "\"../a.png\"") ==
+        Lines{"image.file: must be the name of a file in the same folder"});
+  CHECK(problems("\"a.png\"", "\"b.png\"") == Lines{"image.file: \"b.png\" is missing"});
+  CHECK(problems(sha256("picture"), sha256("other")) ==
+        Lines{"image.file: \"a.png\" has changed since it was labelled; label it anew"});
+  CHECK(problems(sha256("mask"), sha256("other")) ==
+        Lines{"mask.file: \"a.mask.png\" has changed since it was labelled; label it anew"});
+  CHECK(problems(sha256("mask"), "abc") == Lines{"mask.sha256: must be 64 hexadecimal digits"});
+  CHECK(problems("\"mask\"", "\"musk\"") == Lines{"has the unknown key \"musk\"", "lacks \"mask\""});
+  CHECK(problems("{", "[").size() == 1);
+}
+
+TEST_CASE("several problems are all named, and reading stops at the first") {
+  const TempDir dir;
+  const std::string path = dir.file("a.labels.json");
+  std::string text = formatLabelFile(sample());
+  for (const auto& [from, to] : {std::pair("\"head\"", "\"tail\""), {"\"x\": 99", "\"x\": 999"}})
+    text.replace(text.find(from), std::string(from).size(), to);
+  writeFile(path, text);
+  CHECK(findProblems(path).size() == 4);  // and neither image nor mask is there
+  CHECK_THROWS_WITH(readLabelFile(path),
+                    path + ": candidates[0].label: is \"tail\", must be head, body, hand, leg or null");
+  CHECK_THROWS_AS(readLabelFile(dir.file("none.labels.json")), InputError);
+}

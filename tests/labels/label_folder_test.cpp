@@ -1,0 +1,159 @@
+#include "libskel/labels/label_folder.h"
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/sha256.h"
+#include "libskel/image/write_image.h"
+#include "libskel/labels/annotated_image.h"
+#include "tests/support/catch.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+
+namespace {
+
+LabelFile fourClasses(const std::string& image) {
+  LabelFile file;
+  file.image = {image, sha256("picture")};
+  file.image_width = file.image_height = 200;
+  file.grid_width = 100;
+  file.grid_height = 128;
+  for (int c = 0; c < kJointClassCount; ++c) {
+    file.candidates.push_back({10.f * static_cast<float>(c), 20.f * static_cast<float>(c), 2});
+    file.labels.emplace_back(static_cast<JointClass>(c));
+  }
+  return file;
+}
+
+void put(const TempDir& dir, const std::string& stem, const LabelFile& labels) {
+  writeFile(dir.file(stem + ".png"), "picture");
+  writeLabelFile(dir.file(stem + ".labels.json"), labels);
+}
+
+std::string complaint(const TempDir& dir) {
+  try {
+    readLabelledSet(dir.path());
+  } catch (const InputError& error) {
+    const std::string line = error.what();
+    return line.starts_with(dir.path()) ? line.substr(dir.path().size()) : "not of this folder: " + line;
+  }
+  return "none";
+}
+
+// A figure of rectangles: trunk with head, arms and legs.
+Plane8 blockMan() {
+  Plane8 mask = Plane8::Zero(200, 160);
+  mask.block(10, 60, 40, 40) = 255;
+  mask.block(50, 50, 70, 60) = 255;
+  mask.block(60, 10, 14, 140) = 255;
+  mask.block(120, 55, 70, 16) = 255;
+  mask.block(120, 90, 70, 16) = 255;
+  return mask;
+}
+
+constexpr const char* kBlockManJoints = R"({"joints": {"head": [80, 30], "torso": [80, 85],
+  "right_shoulder": [52, 66], "right_elbow": [32, 66], "right_hand": [12, 66],
+  "left_shoulder": [108, 66], "left_elbow": [128, 66], "left_hand": [148, 66],
+  "right_hip": [63, 120], "right_knee": [63, 150], "right_foot": [63, 186],
+  "left_hip": [98, 120], "left_knee": [98, 150], "left_foot": [98, 186]}})";
+
+}  // namespace
+
+TEST_CASE("a folder of label files becomes one set, sorted by name") {
+  const TempDir dir;
+  put(dir, "b", fourClasses("b.png"));
+  put(dir, "a/c", fourClasses("c.png"));
+  const LabelledSet set = readLabelledSet(dir.path());
+  REQUIRE(set.characters.size() == 2);
+  CHECK(set.characters[0].name == "a/c");
+  CHECK(set.characters[1].name == "b");
+  CHECK(set.sampleCount() == 8);
+  CHECK(set.classCounts() == std::array{2, 2, 2, 2});
+  CHECK(set.characters[0].features.row(3) == Eigen::RowVector3f(1, 1, 0.5));
+  CHECK(checkLabelFolder(dir.path()).empty());
+
+  LabelFile changed = fourClasses("b.png");
+  changed.labels[0] = JointClass::kLeg;
+  put(dir, "b", changed);
+  CHECK(readLabelledSet(dir.path()).sha256 != set.sha256);
+}
+
+TEST_CASE("sets that cannot be trained on are refused") {
+  const TempDir dir;
+  CHECK(complaint(dir) == ": holds no label files (*.labels.json)");
+  CHECK_THROWS_WITH(readLabelledSet(dir.file("none")), dir.file("none") + ": is not a folder");
+
+  LabelFile labels = fourClasses("a.png");
+  labels.labels[2].reset();
+  put(dir, "a", labels);
+  CHECK(complaint(dir) == "/a.labels.json: candidates[2].label: is null; label every candidate");
+  CHECK(checkLabelFolder(dir.path()).empty());  // still in the making
+
+  labels.labels[2] = JointClass::kHead;
+  put(dir, "a", labels);
+  CHECK(complaint(dir) == ": no candidate is labelled \"hand\"; each of the four classes is needed");
+
+  put(dir, "a", fourClasses("a.png"));
+  LabelFile smaller = fourClasses("b.png");
+  smaller.grid_height = 96;
+  put(dir, "b", smaller);
+  const std::string mixed = "/b.labels.json: grid: the long side is 100 px, in " + dir.file("a.labels.json") +
+                            " it is 128 px; label one of them anew";
+  CHECK(complaint(dir) == mixed);
+  CHECK(checkLabelFolder(dir.path()) == std::vector<std::string>{dir.path() + mixed});
+
+  put(dir, "b", fourClasses("b.png"));
+  writeFile(dir.file("b.png"), "another picture");
+  CHECK(complaint(dir) ==
+        "/b.labels.json: image.file: \"b.png\" has changed since it was labelled; label it anew");
+}
+
+TEST_CASE("annotated pictures of both layouts are found and labelled") {
+  const TempDir dir;
+  writeFile(dir.file("man.png"), encodePng(blockMan()));
+  writeFile(dir.file("man.mask.png"), encodePng(blockMan()));
+  writeFile(dir.file("man.joints.json"), kBlockManJoints);
+  writeFile(dir.file("set/7/image.png"), encodePng(blockMan()));
+  writeFile(dir.file("set/7/mask.png"), encodePng(blockMan()));
+  writeFile(dir.file("set/7/joints.json"), kBlockManJoints);
+  const auto found = findAnnotatedImages(dir.path());
+  REQUIRE(found.size() == 2);
+  CHECK(found[0].image == dir.file("man.png"));
+  CHECK(found[0].mask == dir.file("man.mask.png"));
+  CHECK(found[1].image == dir.file("set/7/image.png"));
+
+  const LabelFile labels =
+      labelImage(found[0].image, found[0].mask, readJointsFile(found[0].joints), loadTemplate("biped"));
+  CHECK(labels.gridSize() == kWorkingGridSize);
+  CHECK(labels.image.sha256 == sha256(readFile(found[0].image)));
+  CHECK(labels.joints.size() == 14);
+  writeLabelFile(labelFileFor(found[0].image), labels);
+  const LabelledSet from_file = readLabelledSet(dir.path());
+  const LabelledSet from_joints = labelAnnotatedImages(dir.path());
+  REQUIRE(from_joints.characters.size() == 2);
+  CHECK(from_file.characters[0].labels == from_joints.characters[0].labels);
+  CHECK(from_file.characters[0].features == from_joints.characters[0].features);
+  for (const CandidateMethod method : {CandidateMethod::kDiscs, CandidateMethod::kStrict}) {
+    try {
+      CHECK(labelAnnotatedImages(dir.path(), {method}).sampleCount() > 0);
+    } catch (const InputError& error) {
+      // Plateaus leave next to nothing of a block man to strict maxima.
+      CHECK(std::string(error.what()).find("no candidate is labelled") != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("annotated pictures that cannot be used are refused") {
+  const TempDir dir;
+  CHECK_THROWS_WITH(labelAnnotatedImages(dir.path()),
+                    dir.path() + ": holds no pictures with joints (*.joints.json)");
+  writeFile(dir.file("man.joints.json"), kBlockManJoints);
+  CHECK_THROWS_WITH(findAnnotatedImages(dir.path()),
+                    dir.file("man.joints.json") + ": has no image beside it, man.png");
+  writeFile(dir.file("man.joints.json"), R"({"joints": {"head": [1]}})");
+  CHECK_THROWS_WITH(readJointsFile(dir.file("man.joints.json")),
+                    dir.file("man.joints.json") + ": joints.head: has 1 numbers, must have 2");
+  writeFile(dir.file("blank.png"), encodePng(Plane8(Plane8::Zero(50, 50))));
+  CHECK_THROWS_AS(labelImage(dir.file("blank.png"), dir.file("blank.png"), {}, loadTemplate("biped")),
+                  InputError);
+}

@@ -1,0 +1,76 @@
+#include "libskel/labels/label_from_joints.h"
+
+#include "tests/support/catch.h"
+
+using namespace skel;
+
+namespace {
+
+// A figure that fills its box, so that only the joints decide. Grid = image.
+CandidateSet candidatesAt(const std::vector<JointCandidate>& maxima) {
+  CandidateSet candidates;
+  candidates.distance = DistanceField::Ones(128, 100);
+  candidates.maxima = maxima;
+  return candidates;
+}
+
+WorkingGrid plainGrid() {
+  WorkingGrid grid;
+  grid.width = 100;
+  grid.height = 128;
+  return grid;
+}
+
+NamedJoints standing() {
+  const auto at = [](double x, double y) { return std::optional(Eigen::Vector2d(x, y)); };
+  return {{"head", at(50, 20)},        {"body", at(50, 60)},        {"right_shoulder", at(35, 44)},
+          {"right_elbow", at(20, 60)}, {"right_hand", at(5, 70)},   {"left_shoulder", at(65, 44)},
+          {"left_elbow", at(80, 60)},  {"left_hand", at(95, 70)},   {"right_hip", at(42, 80)},
+          {"right_knee", at(40, 100)}, {"right_foot", at(38, 124)}, {"left_hip", at(58, 80)},
+          {"left_knee", at(60, 100)},  {"left_foot", at(62, 124)}};
+}
+
+std::vector<std::optional<JointClass>> label(const std::vector<JointCandidate>& maxima,
+                                             const NamedJoints& joints) {
+  return labelFromJoints(candidatesAt(maxima), plainGrid(), joints, loadTemplate("biped"));
+}
+
+using Labels = std::vector<std::optional<JointClass>>;
+constexpr auto kHead = JointClass::kHead, kBody = JointClass::kBody, kHand = JointClass::kHand,
+               kLeg = JointClass::kLeg;
+
+}  // namespace
+
+TEST_CASE("candidates get the class of the nearest bone") {
+  // Neck (50, 44) and head (50, 20): body below their middle (50, 32), head above, up to the top of the head.
+  CHECK(label({{50, 20, 1}, {50, 1, 1}, {50, 30, 1}, {50, 34, 1}, {50, 60, 1}, {50, 78, 1}}, standing()) ==
+        Labels{kHead, kHead, kHead, kBody, kBody, kBody});
+  CHECK(label({{6, 70, 1}, {28, 52, 1}, {94, 70, 1}, {41, 90, 1}, {62, 120, 1}}, standing()) ==
+        Labels{kHand, kHand, kHand, kLeg, kLeg});
+  // Neck to shoulder and pelvis to hip count for nothing.
+  CHECK(label({{44, 44, 1}}, standing()) == Labels{kBody});
+}
+
+TEST_CASE("joints that are not visible take their bones with them") {
+  NamedJoints joints = standing();
+  for (auto& [name, place] : joints)
+    if (name == "left_hand" || name == "left_elbow") place.reset();
+  CHECK(label({{90, 70, 1}}, joints) == Labels{kLeg});
+  CHECK(label({{90, 70, 1}}, {}) == Labels{std::nullopt});
+  CHECK(label({}, standing()).empty());
+}
+
+TEST_CASE("a joint that is given is not derived") {
+  NamedJoints joints = standing();
+  joints.emplace_back("neck", Eigen::Vector2d(50, 30));
+  // The middle of neck and head moves up to (50, 25).
+  CHECK(label({{50, 28, 1}}, joints) == Labels{kBody});
+  CHECK(label({{50, 28, 1}}, standing()) == Labels{kHead});
+}
+
+TEST_CASE("the tip of the head ends where the figure ends") {
+  CandidateSet candidates = candidatesAt({{50, 2, 1}});
+  candidates.distance.topRows(15).setZero();
+  candidates.maxima = {{99, 16, 1}};
+  CHECK(labelFromJoints(candidates, plainGrid(), standing(), loadTemplate("biped")) == Labels{kHead});
+}
