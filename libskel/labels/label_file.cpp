@@ -107,9 +107,9 @@ LabelFile parse(const JsonValue& root, Problems& problems) {
   problems.attempt([&] {
     const JsonValue image = root.at("image");
     image.allowOnly({"file", "sha256", "width", "height"});
-    file.image = readSource(image);
     file.image_width = image.at("width").asInt(1, kMaxImageSide);
     file.image_height = image.at("height").asInt(1, kMaxImageSide);
+    file.image = readSource(image);
   });
   problems.attempt([&] {
     const JsonValue mask = root.at("mask");

@@ -133,14 +133,8 @@ TEST_CASE("annotated pictures of both layouts are found and labelled") {
   REQUIRE(from_joints.characters.size() == 2);
   CHECK(from_file.characters[0].labels == from_joints.characters[0].labels);
   CHECK(from_file.characters[0].features == from_joints.characters[0].features);
-  for (const CandidateMethod method : {CandidateMethod::kDiscs, CandidateMethod::kStrict}) {
-    try {
-      CHECK(labelAnnotatedImages(dir.path(), {method}).sampleCount() > 0);
-    } catch (const InputError& error) {
-      // Plateaus leave next to nothing of a block man to strict maxima.
-      CHECK(std::string(error.what()).find("no candidate is labelled") != std::string::npos);
-    }
-  }
+  CHECK(labelAnnotatedImages(dir.path(), {CandidateMethod::kDiscs}).sampleCount() >
+        from_joints.sampleCount());
 }
 
 TEST_CASE("annotated pictures that cannot be used are refused") {
