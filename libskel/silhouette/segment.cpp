@@ -138,41 +138,88 @@ std::vector<Background> fitBackgrounds(const cv::Mat& lab) {
   return backgrounds;
 }
 
-// How far each pixel's colour is from the background, 8-bit: as a whole, in chroma alone, and how much darker
-// it is, in 255ths of the background's lightness.
+// The background's colour at every pixel, float Lab.
+cv::Mat expectedColors(const Background& background, const cv::Size& size) {
+  cv::Mat expected(size, CV_32FC3);
+  const Eigen::Matrix<float, 6, 3> c = background.coefficients.cast<float>();
+  for (int y = 0; y < size.height; ++y) {
+    const float v = 2.0f * static_cast<float>(y) / static_cast<float>(size.height) - 1;
+    const Eigen::RowVector3f constant = c.row(0) + v * c.row(2) + v * v * c.row(5);
+    const Eigen::RowVector3f linear = c.row(1) + v * c.row(4), square = c.row(3);
+    cv::Vec3f* row = expected.ptr<cv::Vec3f>(y);
+    for (int x = 0; x < size.width; ++x) {
+      const float u = 2.0f * static_cast<float>(x) / static_cast<float>(size.width) - 1;
+      for (int k = 0; k < 3; ++k) row[x][k] = constant(k) + u * (linear(k) + u * square(k));
+    }
+  }
+  return expected;
+}
+
+// The background's colour where `covered` is 0, spread smoothly over the rest: follows any light that changes
+// over a few percent of the picture.
+cv::Mat expectedColors(const cv::Mat& lab, const cv::Mat& covered) {
+  constexpr int kCell = 8;
+  const cv::Size coarse((lab.cols + kCell - 1) / kCell, (lab.rows + kCell - 1) / kCell);
+  cv::Mat weight(lab.size(), CV_32F), weighted(lab.size(), CV_32FC3);
+  for (int y = 0; y < lab.rows; ++y) {
+    const std::uint8_t* is_covered = covered.ptr(y);
+    const cv::Vec3b* from = lab.ptr<cv::Vec3b>(y);
+    float* w = weight.ptr<float>(y);
+    cv::Vec3f* to = weighted.ptr<cv::Vec3f>(y);
+    for (int x = 0; x < lab.cols; ++x) {
+      w[x] = is_covered[x] ? 0.0f : 1.0f;
+      to[x] = cv::Vec3f(from[x]) * w[x];
+    }
+  }
+  cv::resize(weight, weight, coarse, 0, 0, cv::INTER_AREA);
+  cv::resize(weighted, weighted, coarse, 0, 0, cv::INTER_AREA);
+  // Where nothing near is background, what is farther away counts.
+  cv::Mat sum = cv::Mat::zeros(coarse, CV_32FC3), total = cv::Mat::zeros(coarse, CV_32F);
+  float trust = 1;
+  for (const double sigma : {1.5, 6.0, 24.0}) {
+    cv::Mat near_weight, near_sum;
+    cv::GaussianBlur(weight, near_weight, cv::Size(), sigma, sigma, cv::BORDER_REPLICATE);
+    cv::GaussianBlur(weighted, near_sum, cv::Size(), sigma, sigma, cv::BORDER_REPLICATE);
+    sum += near_sum * trust;
+    total += near_weight * trust;
+    trust *= 0.01f;
+  }
+  for (int y = 0; y < coarse.height; ++y) {
+    for (int x = 0; x < coarse.width; ++x) sum.at<cv::Vec3f>(y, x) /= std::max(1e-12f, total.at<float>(y, x));
+  }
+  cv::Mat expected;
+  cv::resize(sum, expected, lab.size(), 0, 0, cv::INTER_LINEAR);
+  return expected;
+}
+
+// How far each pixel's colour is from the background's, 8-bit: as a whole, in chroma alone, and how much
+// darker it is, in 255ths of the background's lightness.
 struct Differences {
   cv::Mat color, chroma, darkness;
 };
 
-Differences differencesFrom(const cv::Mat& lab, const Background& background) {
+Differences differencesFrom(const cv::Mat& lab, const cv::Mat& expected) {
   Differences out{cv::Mat(lab.size(), CV_8U), cv::Mat(lab.size(), CV_8U), cv::Mat(lab.size(), CV_8U)};
   const auto toByte = [](float v) { return static_cast<std::uint8_t>(std::clamp(v + 0.5f, 0.0f, 255.0f)); };
-  const Eigen::Matrix<float, 6, 3> c = background.coefficients.cast<float>();
   for (int y = 0; y < lab.rows; ++y) {
-    const float v = 2.0f * static_cast<float>(y) / static_cast<float>(lab.rows) - 1;
-    const Eigen::RowVector3f constant = c.row(0) + v * c.row(2) + v * v * c.row(5);
-    const Eigen::RowVector3f linear = c.row(1) + v * c.row(4), square = c.row(3);
     const cv::Vec3b* row = lab.ptr<cv::Vec3b>(y);
+    const cv::Vec3f* base = expected.ptr<cv::Vec3f>(y);
+    std::uint8_t *color = out.color.ptr(y), *chroma = out.chroma.ptr(y), *darkness = out.darkness.ptr(y);
     for (int x = 0; x < lab.cols; ++x) {
-      const float u = 2.0f * static_cast<float>(x) / static_cast<float>(lab.cols) - 1;
-      float d[3], expected[3];
-      for (int k = 0; k < 3; ++k) {
-        expected[k] = constant(k) + u * (linear(k) + u * square(k));
-        d[k] = static_cast<float>(row[x][k]) - expected[k];
-      }
-      const float chroma = d[1] * d[1] + d[2] * d[2];
-      out.color.at<std::uint8_t>(y, x) = toByte(std::sqrt(d[0] * d[0] + chroma));
-      out.chroma.at<std::uint8_t>(y, x) = toByte(std::sqrt(chroma));
-      out.darkness.at<std::uint8_t>(y, x) = toByte(-255 * d[0] / std::max(1.0f, expected[0]));
+      const cv::Vec3f d = cv::Vec3f(row[x]) - base[x];
+      const float squared = d[1] * d[1] + d[2] * d[2];
+      color[x] = toByte(std::sqrt(d[0] * d[0] + squared));
+      chroma[x] = toByte(std::sqrt(squared));
+      darkness[x] = toByte(-255 * d[0] / std::max(1.0f, base[x][0]));
     }
   }
   return out;
 }
 
 Differences differencesFrom(const cv::Mat& lab, const std::vector<Background>& backgrounds) {
-  Differences nearest = differencesFrom(lab, backgrounds.front());
+  Differences nearest = differencesFrom(lab, expectedColors(backgrounds.front(), lab.size()));
   for (std::size_t i = 1; i < backgrounds.size(); ++i) {
-    const Differences other = differencesFrom(lab, backgrounds[i]);
+    const Differences other = differencesFrom(lab, expectedColors(backgrounds[i], lab.size()));
     nearest.color = cv::min(nearest.color, other.color);
     nearest.chroma = cv::min(nearest.chroma, other.chroma);
     nearest.darkness = cv::min(nearest.darkness, other.darkness);
@@ -262,6 +309,43 @@ cv::Mat hysteresis(const cv::Mat& values, double low, double high) {
   return weak;
 }
 
+// Fills on a sheet of paper in any light that are surely none of its shadows: those change the lightness
+// alone and leave more than half of it.
+cv::Mat fillsOnPaper(const cv::Mat& lab, const cv::Mat& covered) {
+  cv::Mat near_covered;
+  cv::dilate(covered, near_covered, cv::Mat::ones(3, 3, CV_8U));
+  const Differences differences = differencesFrom(lab, expectedColors(lab, near_covered));
+  const Noise noise = noiseOf(differences.chroma, near_covered);
+  return (differences.chroma > std::max(8.0, noise.level + 5 * noise.deviation)) |
+         (differences.darkness > 128);
+}
+
+// Edges of fills, one pixel wide. Those of shadows and creases are among them, but enclose nothing.
+cv::Mat edgesOnPaper(const cv::Mat& lab) {
+  cv::Mat smooth, dx, dy;
+  cv::GaussianBlur(lab, smooth, cv::Size(5, 5), 1.2);
+  cv::Sobel(smooth, dx, CV_16S, 1, 0);
+  cv::Sobel(smooth, dy, CV_16S, 0, 1);
+  std::vector<float> steepness;
+  for (int y = 0; y < lab.rows; y += 2) {
+    const cv::Vec3s *x_row = dx.ptr<cv::Vec3s>(y), *y_row = dy.ptr<cv::Vec3s>(y);
+    for (int x = 0; x < lab.cols; x += 2) {
+      steepness.push_back(static_cast<float>(std::abs(x_row[x][0]) + std::abs(y_row[x][0])));
+    }
+  }
+  const double noise = median(steepness);
+  cv::Mat edges;
+  cv::Canny(dx, dy, edges, std::max(14.0, 2.5 * noise), std::max(30.0, 5 * noise));
+  return edges;
+}
+
+// Takes off pixels of `edges` that have neither a fill nor a stroke nor anything enclosed beside them.
+void dropBareEdges(cv::Mat& figure, const cv::Mat& edges) {
+  cv::Mat body = figure & ~edges;
+  cv::dilate(body, body, cv::Mat::ones(3, 3, CV_8U));
+  figure &= body;
+}
+
 // Takes off the outer pixels that are less than half as strong as their strongest neighbour: where a
 // drawing's edge is soft, it lies at half its contrast. Never tears the figure.
 void trimSoftEdge(cv::Mat& figure, const cv::Mat& drawn, const cv::Mat& strength) {
@@ -308,20 +392,22 @@ Segmentation segment(const Image& image) {
   }
   const double low = std::max(12.0, noise.level + 4 * noise.deviation);
   const double high = std::max(30.0, noise.level + 7 * noise.deviation);
-  cv::Mat fills;
-  if (textured) {
-    // Shadows on paper change its lightness alone, and leave more than half of it.
-    fills = (differences.chroma > std::max(8.0, 4 * sigma)) | (differences.darkness > 128);
-  } else {
-    fills = far;
-  }
   const cv::Mat strokes = hysteresis(contrast, low, high);
-  cv::Mat barrier = strokes | fills;
+  cv::Mat barrier, edges;
+  if (textured) {
+    barrier = strokes | fillsOnPaper(lab, strokes | far);
+    edges = edgesOnPaper(lab) & ~barrier;
+    barrier |= edges;
+  } else {
+    barrier = strokes | far;
+  }
   if (cv::countNonZero(barrier) == 0) return {{}, "the picture is blank"};
 
   const cv::Mat drawn = barrier.clone();
   fillChambers(barrier);
-  if (!textured) {
+  if (textured) {
+    dropBareEdges(barrier, edges);
+  } else {
     trimSoftEdge(barrier, drawn, cv::max(differences.color, contrast));
   }
 
