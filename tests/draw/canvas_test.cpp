@@ -91,10 +91,12 @@ TEST_CASE("text has the width that is said, in all of ASCII and beyond") {
     Image image = blankImage(200, 60);
     drawText(image, {10, 40}, text, 24, kBlack);
     CHECK(ink(image) > 5);
+    int outside = 0;
     for (int y = 0; y < 60; ++y)
       for (int x = 0; x < 200; ++x)
         if (x < 7 || x > 10 + textWidth(text, 24) + 3 || y < 13 || y > 52)
-          REQUIRE(image.pixel(x, y)[0] == 255);
+          outside += image.pixel(x, y)[0] < 255;
+    CHECK(outside == 0);
   }
   CHECK(textWidth("", 10) == 0);
 }

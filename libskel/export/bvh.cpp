@@ -1,0 +1,102 @@
+// Biovision Hierarchy: a skeleton and its motion as text (Meredith & Maddock, "Motion Capture File Formats
+// Explained", 2001).
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "libskel/animation/sample_pose.h"
+#include "libskel/export/formats.h"
+#include "libskel/export/joint_names.h"
+#include "libskel/export/number_text.h"
+#include "libskel/skin/bones.h"
+
+namespace skel {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kCentimetres = 100;
+constexpr double kRate_hz = 30;
+
+void appendVector(std::string& text, const Vector3d& v) {
+  for (int k = 0; k < 3; ++k) {
+    text += ' ';
+    appendNumber(text, v[k], 4);
+  }
+}
+
+// Joints in the file's order: each before its children, branch by branch.
+void appendHierarchy(std::string& text, std::vector<int>& order, const ExportInput& input, int joint,
+                     int depth) {
+  const Skeleton& skeleton = input.character.skeleton;
+  const Joint& self = skeleton.joints[joint];
+  const std::string indent(std::size_t(depth) * 2, ' ');
+  const bool root = self.parent < 0;
+  text += indent + (root ? "ROOT " : "JOINT ") + exportedJointName(self.name, input.options.naming) + "\n";
+  text += indent + "{\n" + indent + "  OFFSET";
+  // The root's place is in its position channels.
+  const Vector3d offset =
+      root ? Vector3d::Zero() : Vector3d(self.position - skeleton.joints[self.parent].position);
+  appendVector(text, kCentimetres * offset);
+  text += "\n" + indent +
+          (root ? "  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"
+                : "  CHANNELS 3 Zrotation Xrotation Yrotation\n");
+  order.push_back(joint);
+  bool leaf = true;
+  for (std::size_t child = 0; child < skeleton.joints.size(); ++child)
+    if (skeleton.joints[child].parent == joint) {
+      leaf = false;
+      appendHierarchy(text, order, input, int(child), depth + 1);
+    }
+  if (leaf) {
+    text += indent + "  End Site\n" + indent + "  {\n" + indent + "    OFFSET";
+    for (const Bone& bone : skeletonBones(skeleton))
+      if (bone.joint == joint) appendVector(text, kCentimetres * (bone.to - bone.from).cast<double>());
+    text += "\n" + indent + "  }\n";
+  }
+  text += indent + "}\n";
+}
+
+// Rz(z) · Rx(x) · Ry(y) = rotation, as (z, x, y) in degrees.
+Vector3d zxyDegrees(const Eigen::Quaternionf& rotation) {
+  const Eigen::Matrix3d r = rotation.cast<double>().normalized().toRotationMatrix();
+  const Vector3d zxy(std::atan2(-r(0, 1), r(1, 1)), std::asin(std::clamp(r(2, 1), -1.0, 1.0)),
+                     std::atan2(-r(2, 0), r(2, 2)));
+  return zxy * 180 / std::numbers::pi;
+}
+
+std::string encodeBvh(const ExportInput& input, const Clip& clip) {
+  const Skeleton& skeleton = input.character.skeleton;
+  std::string text = "HIERARCHY\n";
+  std::vector<int> order;
+  appendHierarchy(text, order, input, 0, 0);
+  const int frames = int(std::lround(clip.duration_s() * kRate_hz)) + 1;
+  text += "MOTION\nFrames: " + std::to_string(frames) + "\nFrame Time: ";
+  appendNumber(text, 1 / kRate_hz, 7);
+  text += '\n';
+  const auto heights = input.character.mesh.vertices.col(1);
+  const double height = heights.size() > 0 ? heights.maxCoeff() - heights.minCoeff() : 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    const Pose pose = samplePose(clip, skeleton, float(frame / kRate_hz));
+    const Vector3d root = skeleton.joints[0].position + height * pose.root_translation.cast<double>();
+    const std::size_t line = text.size();
+    appendVector(text, kCentimetres * root);
+    for (const int joint : order) appendVector(text, zxyDegrees(pose.rotations[joint]));
+    text.erase(line, 1);  // the blank before the first number
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<ExportedFile> exportBvh(const ExportInput& input) {
+  if (input.clips.empty()) return {{".bvh", encodeBvh(input, Clip())}};
+  std::vector<ExportedFile> files;
+  for (const Clip& clip : input.clips)
+    files.push_back({input.clips.size() == 1 ? ".bvh" : "." + clip.name + ".bvh", encodeBvh(input, clip)});
+  return files;
+}
+
+}  // namespace skel

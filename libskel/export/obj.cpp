@@ -1,0 +1,56 @@
+// Wavefront OBJ, for programs that want the shape alone.
+#include "libskel/export/formats.h"
+#include "libskel/export/number_text.h"
+#include "libskel/image/write_image.h"
+#include "libskel/mesh/vertex_normals.h"
+
+namespace skel {
+
+namespace {
+
+template <class Row>
+void appendRow(std::string& text, const char* keyword, const Row& row) {
+  text += keyword;
+  for (Eigen::Index i = 0; i < row.size(); ++i) {
+    text += ' ';
+    appendNumber(text, row[i]);
+  }
+  text += '\n';
+}
+
+}  // namespace
+
+std::vector<ExportedFile> exportObj(const ExportInput& input) {
+  const TriangleMesh& mesh = input.character.mesh;
+  const std::string& name = input.options.name;
+  const bool textured = !mesh.texture.empty() && mesh.uv.rows() == mesh.vertices.rows();
+  const Eigen::MatrixX3f normals = vertexNormals(mesh.vertices, mesh.triangles);
+
+  std::string obj = "# skel\nmtllib " + name + ".mtl\no " + name + "\n";
+  for (Eigen::Index i = 0; i < mesh.vertices.rows(); ++i) appendRow(obj, "v", mesh.vertices.row(i));
+  if (textured)
+    for (Eigen::Index i = 0; i < mesh.uv.rows(); ++i)
+      appendRow(obj, "vt", Eigen::RowVector2f(mesh.uv(i, 0), 1 - mesh.uv(i, 1)));
+  for (Eigen::Index i = 0; i < normals.rows(); ++i) appendRow(obj, "vn", normals.row(i));
+  obj += "usemtl drawing\n";
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    obj += 'f';
+    for (int k = 0; k < 3; ++k) {
+      const std::string index = std::to_string(mesh.triangles(t, k) + 1);
+      obj += " " + index + "/" + (textured ? index : "") + "/" + index;
+    }
+    obj += '\n';
+  }
+
+  std::string mtl = "newmtl drawing\nKd 1 1 1\nKs 0 0 0\n";
+  std::vector<ExportedFile> files;
+  if (textured) {
+    mtl += "map_Kd " + name + ".png\n";
+    files.push_back({".png", encodePng(mesh.texture)});
+  }
+  files.push_back({".mtl", std::move(mtl)});
+  files.push_back({".obj", std::move(obj)});
+  return files;
+}
+
+}  // namespace skel

@@ -1,0 +1,30 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "libskel/export/formats.h"
+#include "libskel/export/joint_names.h"
+
+namespace skel {
+
+std::vector<ExportedFile> exportWeights(const ExportInput& input) {
+  const SkinWeights& weights = input.character.weights;
+  nlohmann::ordered_json document;
+  document["format"] = "skel-weights";
+  document["version"] = 1;
+  auto& names = document["joints"] = nlohmann::ordered_json::array();
+  for (const Joint& joint : input.character.skeleton.joints)
+    names.push_back(exportedJointName(joint.name, input.options.naming));
+  auto& vertices = document["vertices"] = nlohmann::ordered_json::array();
+  for (Eigen::Index i = 0; i < weights.weights.rows(); ++i) {
+    nlohmann::ordered_json joints = nlohmann::ordered_json::array(), shares = joints;
+    for (int k = 0; k < 4; ++k)
+      if (weights.weights(i, k) > 0) {
+        joints.push_back(weights.joints(i, k));
+        shares.push_back(std::round(weights.weights(i, k) * 1e6) / 1e6);
+      }
+    vertices.push_back({{"joints", std::move(joints)}, {"weights", std::move(shares)}});
+  }
+  return {{".weights.json", document.dump() + "\n"}};
+}
+
+}  // namespace skel

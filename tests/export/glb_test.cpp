@@ -1,0 +1,245 @@
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/retarget.h"
+#include "libskel/export/joint_names.h"
+#include "libskel/export/write_character.h"
+#include "tests/support/catch.h"
+#include "tests/support/figure.h"
+
+using namespace skel;
+using nlohmann::json;
+
+namespace {
+
+// A GLB taken apart by the specification alone.
+struct Glb {
+  json document;
+  std::string buffer;
+};
+
+std::uint32_t word(const std::string& bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, bytes.data() + at, 4);
+  return value;
+}
+
+Glb parseGlb(const std::string& bytes) {
+  REQUIRE(bytes.size() > 28);
+  REQUIRE(bytes.substr(0, 4) == "glTF");
+  REQUIRE(word(bytes, 4) == 2);
+  REQUIRE(word(bytes, 8) == bytes.size());
+  const std::size_t json_size = word(bytes, 12);
+  REQUIRE(bytes.substr(16, 4) == "JSON");
+  REQUIRE(json_size % 4 == 0);
+  Glb glb{json::parse(bytes.substr(20, json_size)), {}};
+  REQUIRE(bytes.substr(20 + json_size + 4, 3) == "BIN");
+  glb.buffer = bytes.substr(28 + json_size);
+  REQUIRE(glb.buffer.size() == word(bytes, 20 + json_size));
+  REQUIRE(glb.document["buffers"].size() == 1);
+  return glb;
+}
+
+// The numbers of an accessor, normalised ones in [0, 1].
+std::vector<double> numbers(const Glb& glb, int index) {
+  const json& accessor = glb.document["accessors"][index];
+  const json& view = glb.document["bufferViews"][accessor["bufferView"].get<int>()];
+  const std::map<std::string, int> widths = {
+      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}};
+  const std::size_t count = accessor["count"].get<std::size_t>() * widths.at(accessor["type"]);
+  const int type = accessor["componentType"];
+  const std::size_t size = type == 5121 ? 1 : type == 5123 ? 2 : 4;
+  const std::size_t begin = view.value("byteOffset", 0) + accessor.value("byteOffset", 0);
+  REQUIRE(begin % 4 == 0);
+  REQUIRE(count * size == view["byteLength"]);
+  REQUIRE(begin + count * size <= glb.buffer.size());
+  const double unit = !accessor.value("normalized", false) ? 1 : type == 5121 ? 255 : 65535;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i) {
+    const char* at = glb.buffer.data() + begin + i * size;
+    float real = 0;
+    std::uint32_t whole = 0;
+    std::memcpy(&whole, at, size);
+    std::memcpy(&real, at, size);
+    values.push_back(type == 5126 ? real : whole / unit);
+  }
+  return values;
+}
+
+// What must hold for every GLB that skel writes.
+void checkStructure(const Glb& glb, const RiggedCharacter& character) {
+  const json& document = glb.document;
+  CHECK(document["asset"]["generator"] == "skel");
+  const json& nodes = document["nodes"];
+  std::set<std::string> names;
+  for (const json& node : nodes) names.insert(node["name"].get<std::string>());
+  CHECK(names.size() == nodes.size());
+
+  // One tree of joints beside the mesh.
+  const json& skin = document["skins"][0];
+  std::vector<int> parents(nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const int child : nodes[i].value("children", std::vector<int>())) {
+      CHECK(parents[child] == -1);
+      parents[child] = int(i);
+    }
+  REQUIRE(skin["joints"].size() == character.skeleton.joints.size());
+  int roots = 0;
+  for (const int joint : skin["joints"].get<std::vector<int>>()) roots += parents[joint] < 0;
+  CHECK(roots == 1);
+  CHECK(document["scenes"][0]["nodes"].size() == 2);
+
+  // Inverse bind matrix times global rest transform is the identity.
+  const std::vector<double> inverse_bind = numbers(glb, skin["inverseBindMatrices"]);
+  for (std::size_t j = 0; j < skin["joints"].size(); ++j) {
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    for (int node = skin["joints"][j]; node >= 0; node = parents[node]) {
+      CHECK_FALSE(nodes[node].contains("rotation"));
+      for (int k = 0; k < 3; ++k) at[k] += nodes[node]["translation"][k].get<double>();
+    }
+    CHECK((at - character.skeleton.joints[j].position).norm() < 1e-5);
+    Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix4d>(inverse_bind.data() + 16 * j);
+    Eigen::Matrix4d global = Eigen::Matrix4d::Identity();
+    global.col(3).head<3>() = at;
+    CHECK((matrix * global - Eigen::Matrix4d::Identity()).norm() < 1e-6);
+  }
+
+  const json& primitive = document["meshes"][0]["primitives"][0];
+  const json& attributes = primitive["attributes"];
+  const std::size_t count = std::size_t(character.mesh.vertices.rows());
+  for (const auto& [name, accessor] : attributes.items())
+    CHECK(document["accessors"][accessor.get<int>()]["count"] == count);
+  for (const double index : numbers(glb, primitive["indices"])) REQUIRE(index < double(count));
+  const std::vector<double> positions = numbers(glb, attributes["POSITION"]);
+  for (int k = 0; k < 3; ++k) {
+    double low = 1e9, high = -1e9;
+    for (std::size_t i = k; i < positions.size(); i += 3)
+      low = std::min(low, positions[i]), high = std::max(high, positions[i]);
+    CHECK(document["accessors"][attributes["POSITION"].get<int>()]["min"][k] == low);
+    CHECK(document["accessors"][attributes["POSITION"].get<int>()]["max"][k] == high);
+  }
+  const std::vector<double> normals = numbers(glb, attributes["NORMAL"]);
+  for (std::size_t i = 0; i < count; ++i)
+    REQUIRE(Eigen::Map<const Eigen::Vector3d>(&normals[3 * i]).norm() == Approx(1).margin(1e-5));
+  const std::vector<double> joints = numbers(glb, attributes["JOINTS_0"]);
+  const std::vector<double> weights = numbers(glb, attributes["WEIGHTS_0"]);
+  for (std::size_t i = 0; i < count; ++i) {
+    double sum = 0;
+    for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
+      REQUIRE(joints[k] < double(character.skeleton.joints.size()));
+      if (weights[k] == 0) REQUIRE(joints[k] == 0);
+      REQUIRE(std::abs(weights[k] - character.weights.weights(Eigen::Index(i), Eigen::Index(k - 4 * i))) <
+              3e-5);
+      sum += weights[k];
+    }
+    REQUIRE(sum == Approx(1).margin(1e-9));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a GLB holds the mesh, its skin, its texture and its clips") {
+  const RiggedCharacter character = figure();
+  const Clip wave = retargetToRest(builtinClip("wave"), character.skeleton);
+  const std::string bytes = encodeGlb(character, {wave}, {"figure"});
+  const Glb glb = parseGlb(bytes);
+  checkStructure(glb, character);
+
+  CHECK(glb.document["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] == 0);
+  CHECK(glb.document["images"][0]["mimeType"] == "image/png");
+  const json& view = glb.document["bufferViews"][glb.document["images"][0]["bufferView"].get<int>()];
+  CHECK(glb.buffer.substr(view.value("byteOffset", 0) + 1, 3) == "PNG");
+
+  REQUIRE(glb.document["animations"].size() == 1);
+  const json& animation = glb.document["animations"][0];
+  CHECK(animation["name"] == "wave");
+  CHECK(animation["channels"].size() == wave.tracks.size());
+  for (const json& channel : animation["channels"]) {
+    CHECK(channel["target"]["path"] == "rotation");
+    const json& sampler = animation["samplers"][channel["sampler"].get<int>()];
+    const std::vector<double> times = numbers(glb, sampler["input"]);
+    CHECK(times.front() == 0);
+    CHECK(times.back() == Approx(wave.duration_s()));
+    CHECK(numbers(glb, sampler["output"]).size() == 4 * times.size());
+  }
+  CHECK(bytes == encodeGlb(character, {wave}, {"figure"}));
+}
+
+TEST_CASE("meshes without texture, with repeating texture, with many vertices are written too") {
+  RiggedCharacter character = figure();
+  SECTION("no texture") {
+    character.mesh.texture = Image();
+    character.mesh.uv.resize(0, 2);
+    const Glb glb = parseGlb(encodeGlb(character, {}));
+    checkStructure(glb, character);
+    CHECK_FALSE(glb.document.contains("images"));
+    CHECK_FALSE(glb.document.contains("animations"));
+  }
+  SECTION("texture coordinates beyond the picture") {
+    character.mesh.uv *= 3;
+    const Glb glb = parseGlb(encodeGlb(character, {}));
+    checkStructure(glb, character);
+    CHECK(glb.document["samplers"][0]["wrapS"] == 10497);
+    const int accessor = glb.document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"];
+    CHECK(numbers(glb, accessor)[1] == Approx(character.mesh.uv(0, 1)));
+  }
+  SECTION("more vertices than 16 bits can count") {
+    const Eigen::Index old = character.mesh.vertices.rows(), count = 70000;
+    character.mesh.vertices.conservativeResize(count, 3);
+    character.mesh.uv.conservativeResize(count, 2);
+    character.weights.joints.conservativeResize(count, 4);
+    character.weights.weights.conservativeResize(count, 4);
+    for (Eigen::Index i = old; i < count; ++i) {
+      character.mesh.vertices.row(i) = character.mesh.vertices.row(i % old);
+      character.mesh.uv.row(i) = character.mesh.uv.row(i % old);
+      character.weights.joints.row(i) = character.weights.joints.row(i % old);
+      character.weights.weights.row(i) = character.weights.weights.row(i % old);
+    }
+    character.mesh.triangles(0, 0) = int(count) - 1;
+    checkStructure(parseGlb(encodeGlb(character, {})), character);
+  }
+}
+
+TEST_CASE("a clip that moves the root moves it from its rest position, in the model's scale") {
+  const RiggedCharacter character = figure();
+  Clip hop;
+  hop.name = "hop";
+  hop.root_times_s = {0, 0.5f};
+  hop.root_translations = {{0, 0, 0}, {0, 0.1f, 0}};
+  const Glb glb = parseGlb(encodeGlb(character, {hop}));
+  const json& animation = glb.document["animations"][0];
+  CHECK(animation["channels"][0]["target"]["path"] == "translation");
+  const std::vector<double> values = numbers(glb, animation["samplers"][0]["output"]);
+  const double height = character.mesh.vertices.col(1).maxCoeff() - character.mesh.vertices.col(1).minCoeff();
+  CHECK(values[1] == Approx(character.skeleton.joints[0].position.y()));
+  CHECK(values[4] == Approx(character.skeleton.joints[0].position.y() + 0.1 * height));
+}
+
+TEST_CASE("joints are named as the target program wants them") {
+  const RiggedCharacter character = figure();
+  for (const JointNaming naming : {JointNaming::kSkel, JointNaming::kVrm, JointNaming::kMixamo}) {
+    ExportOptions options;
+    options.naming = naming;
+    options.name = "head";  // also a joint's name
+    checkStructure(parseGlb(encodeGlb(character, {}, options)), character);
+  }
+  CHECK(exportedJointName("left_elbow", JointNaming::kVrm) == "leftLowerArm");
+  CHECK(exportedJointName("left_elbow", JointNaming::kMixamo) == "mixamorig:LeftForeArm");
+  CHECK(exportedJointName("tail", JointNaming::kMixamo) == "tail");
+  std::set<std::string> vrm;
+  for (const Joint& joint : character.skeleton.joints)
+    vrm.insert(exportedJointName(joint.name, JointNaming::kVrm));
+  for (const char* bone : {"hips", "spine", "head", "leftUpperArm", "leftLowerArm", "leftHand",
+                           "rightUpperArm", "rightLowerArm", "rightHand", "leftUpperLeg", "leftLowerLeg",
+                           "leftFoot", "rightUpperLeg", "rightLowerLeg", "rightFoot"})
+    CHECK(vrm.count(bone) == 1);
+}
+
+TEST_CASE("geometry stays small") {
+  RiggedCharacter character = figure();
+  const double per_vertex = double(encodeGlb(character, {}).size()) / double(character.mesh.vertices.rows());
+  CHECK(per_vertex < 0.3e6 / 4100 + 20);  // 20: JSON, texture and skin of this small figure
+}
