@@ -24,14 +24,16 @@ Silhouette noFigure(const std::string& reason) {
   return none;
 }
 
+constexpr int kMinLongSide = 8;  // of a figure, px
+
 struct Part {
   int label, area, left, top, width, height;
 };
 
-// A scribble or a speck is no figure.
-bool largeEnough(const Part& part) {
-  constexpr int kMinLongSide = 8, kMinShortSide = 3, kMinArea = 16;
-  return std::max(part.width, part.height) >= kMinLongSide &&
+// A speck is no figure; what is one stands `min_long_side` px high or wide.
+bool largeEnough(const Part& part, int min_long_side) {
+  constexpr int kMinShortSide = 3, kMinArea = 16;
+  return std::max(part.width, part.height) >= min_long_side &&
          std::min(part.width, part.height) >= kMinShortSide && part.area >= kMinArea;
 }
 
@@ -65,7 +67,7 @@ std::string cutSides(const Plane8& mask, const Part& part) {
 }
 
 // From any foreground to one clean figure and all that is made of it.
-Silhouette finish(Plane8 foreground, const SilhouetteOptions& options) {
+Silhouette finish(Plane8 foreground, const SilhouetteOptions& options, int min_long_side) {
   SKEL_CHECK(options.figure >= 1);
   cv::Mat labels, stats, centroids;
   const int count = cv::connectedComponentsWithStats(viewOf(foreground), labels, stats, centroids, 4, CV_32S);
@@ -78,7 +80,7 @@ Silhouette finish(Plane8 foreground, const SilhouetteOptions& options) {
                     s[cv::CC_STAT_TOP],
                     s[cv::CC_STAT_WIDTH],
                     s[cv::CC_STAT_HEIGHT]};
-    if (largeEnough(part)) parts.push_back(part);
+    if (largeEnough(part, min_long_side)) parts.push_back(part);
   }
   if (parts.empty()) {
     return noFigure(count > 1 ? "what is drawn is too small to be a figure" : "the picture is blank");
@@ -151,27 +153,28 @@ AlphaMask alphaMask(const Image& image) {
 
 Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& options) {
   if (image.empty()) return noFigure("the picture is empty");
+  // A spot on a large sheet is no figure either.
+  const int min_long_side = std::max(kMinLongSide, std::max(image.width, image.height) / 16);
   if (options.method == SilhouetteMethod::kPaper) {
     SilhouetteOptions filled = options;
     filled.fill_holes = true;
-    return finish(paperForeground(image), filled);
+    return finish(paperForeground(image), filled, min_long_side);
   }
   AlphaMask alpha = alphaMask(image);
   if (alpha.meaningful) {
     if ((alpha.opaque == 0).all()) return noFigure("the picture is fully transparent");
-    return finish(std::move(alpha.opaque), options);
+    return finish(std::move(alpha.opaque), options, kMinLongSide);
   }
   Segmentation segmentation = segment(image);
   if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
-  return finish(std::move(segmentation.foreground), options);
+  return finish(std::move(segmentation.foreground), options, min_long_side);
 }
 
 Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options) {
   if (mask.size() == 0) return noFigure("the mask is empty");
-  Silhouette out = finish(
-      (mask >= 128)
-          .select(Plane8::Constant(mask.rows(), mask.cols(), 255), Plane8::Zero(mask.rows(), mask.cols())),
-      options);
+  const Eigen::Index w = mask.cols(), h = mask.rows();
+  Plane8 figures = (mask >= 128).select(Plane8::Constant(h, w, 255), Plane8::Zero(h, w));
+  Silhouette out = finish(std::move(figures), options, kMinLongSide);
   if (!out.found() && out.reason == "the picture is blank") out.reason = "the mask is blank";
   return out;
 }

@@ -35,8 +35,4 @@ std::vector<Bone> skeletonBones(const Skeleton& skeleton) {
   return bones;
 }
 
-bool bonesMeet(const Bone& a, const Bone& b) {
-  return a.joint == b.joint || a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to;
-}
-
 }  // namespace skel

@@ -27,7 +27,4 @@ float distanceToSegment(const Eigen::Matrix<float, kDimension, 1>& p,
   return (a + t * along - p).norm();
 }
 
-// Whether two bones meet: they have an end in common.
-bool bonesMeet(const Bone& a, const Bone& b);
-
 }  // namespace skel

@@ -10,24 +10,27 @@
 
 namespace skel {
 
-// #V×#bones, m; kUnreached where there is no way from the bone, or none that matters.
-using BoneDistances = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-inline constexpr float kUnreached = std::numeric_limits<float>::infinity();
+// How far a bone is from a vertex, and how fast its weight falls beyond the nearest bone.
+struct BoneReach {
+  float power_m2 = std::numeric_limits<float>::infinity();  // squared distance, less the square of how thick
+                                                            // the body is about the bone; infinite: no way
+  float reach_m = 0;
+};
+using BoneReaches = Eigen::Array<BoneReach, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // #V×#bones
 
 // #V×#joints, not negative, any sum. A row of zeros: no bone reaches the vertex.
 using JointWeights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // The nearest bone and those hardly farther share a vertex. Where limbs meet end to end, the difference of
 // the squared distances, d² − d_min², is the square of how far the vertex lies beyond the joint along the
-// limb, whatever its place around the limb: a weight that is a function of it bends limbs like a joint. The
-// weight of the other bone ends where it lies as far beyond as the limb is thick.
-JointWeights weightsFromDistances(const BoneDistances& distances, const std::vector<Bone>& bones,
-                                  int joint_count, float edge_m);
+// limb, whatever its place around the limb: a weight that is a function of it bends limbs like a joint.
+JointWeights weightsFromReaches(const BoneReaches& reaches, const std::vector<Bone>& bones, int joint_count);
+
+// How far beyond a joint the weights reach in a body of this half thickness, on a mesh with edges of this
+// length.
+float reachBeyondJoint(float radius_m, float edge_m);
 
 // Mean length of the triangles' sides, m.
 float meanEdge(const TriangleMesh& mesh);
-
-// The radius of the part of the body that is nearest to each bone, m.
-std::vector<float> boneRadii(const BoneDistances& distances);
 
 }  // namespace skel

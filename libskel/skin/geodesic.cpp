@@ -5,12 +5,15 @@
 // (Dijkstra 1959, from all bones at once), which know every gap between limbs; they start at the two walls
 // before and behind each point of the bone. A way along edges is up to 8 % too long: where it is hardly
 // longer than the straight line, nothing lies between, and the straight line counts.
+//
+// A bone is a row of balls, each as large as the body is deep there, and its distance is a ball's power, d² −
+// r²: the flank of a fat body is the body's, however near the upper arm may be.
 #include "libskel/skin/methods.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <queue>
+#include <limits>
 
 namespace skel {
 namespace {
@@ -19,6 +22,7 @@ namespace {
 constexpr float kDetour = 1.12f;
 // How much a way around something counts beyond its own length.
 constexpr float kPenalty = 2;
+constexpr float kFar = std::numeric_limits<float>::infinity();
 
 // Triangles by the squares of the plane that they touch.
 class TriangleBins {
@@ -40,10 +44,13 @@ class TriangleBins {
     forEach([&](int bin, int triangle) { triangles_[next[bin]++] = triangle; });
   }
 
-  // The triangles just before and just behind a point, -1 for none.
-  std::array<int, 2> walls(const Eigen::Vector3f& p) const {
-    std::array<int, 2> result{-1, -1};
-    std::array<float, 2> depth{kUnreached, kUnreached};
+  struct Wall {
+    int triangle = -1;  // -1: there is none
+    float distance = kFar;
+  };
+  // The triangles just before and just behind a point.
+  std::array<Wall, 2> walls(const Eigen::Vector3f& p) const {
+    std::array<Wall, 2> result;
     const Eigen::Vector2f at = (p.head<2>() - low_) / cell_;
     if (at.minCoeff() < 0 || at.x() >= static_cast<float>(columns_) || at.y() >= static_cast<float>(rows_))
       return result;
@@ -58,8 +65,8 @@ class TriangleBins {
       const float wa = cross(b, c), wb = cross(c, a), wc = cross(a, b), sum = wa + wb + wc;
       if (sum == 0 || wa * sum < 0 || wb * sum < 0 || wc * sum < 0) continue;
       const float z = (wa * a.z() + wb * b.z() + wc * c.z()) / sum - p.z();
-      const int side = z >= 0 ? 0 : 1;
-      if (std::abs(z) < depth[side]) depth[side] = std::abs(z), result[side] = triangles_[k];
+      Wall& wall = result[z >= 0 ? 0 : 1];
+      if (std::abs(z) < wall.distance) wall = {triangles_[k], std::abs(z)};
     }
     return result;
   }
@@ -68,7 +75,7 @@ class TriangleBins {
   template <typename Visit>
   void forEach(const Visit& visit) const {
     for (int t = 0; t < mesh_.triangles.rows(); ++t) {
-      Eigen::Array2f low = Eigen::Array2f::Constant(kUnreached), high = -low;
+      Eigen::Array2f low = Eigen::Array2f::Constant(kFar), high = -low;
       for (int k = 0; k < 3; ++k) {
         const int v = mesh_.triangles(t, k);
         const Eigen::Array2f p =
@@ -153,6 +160,62 @@ Graph buildGraph(const TriangleMesh& mesh) {
   return graph;
 }
 
+// What the body is like along a bone.
+struct Profile {
+  std::vector<Eigen::Vector2f> points;  // at equal steps, at least two
+  std::vector<float> depth2;            // square of half the body's depth there, m²; 0 outside the body
+  float deepest = 0;                    // m
+
+  struct Ball {
+    float distance, depth2;
+  };
+  // The ball of the bone that has the least power with respect to p. Between the points depth2 is linear, and
+  // the power thus quadratic.
+  Ball nearest(const Eigen::Vector2f& p) const {
+    Ball best{kFar, 0};
+    float least = kFar;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      const Eigen::Vector2f along = points[i + 1] - points[i];
+      const float length2 = along.squaredNorm(), rise = depth2[i + 1] - depth2[i];
+      const float t =
+          length2 > 0 ? std::clamp(((p - points[i]).dot(along) + 0.5f * rise) / length2, 0.0f, 1.0f) : 0.0f;
+      const float distance2 = (points[i] + t * along - p).squaredNorm(), depth = depth2[i] + t * rise;
+      if (distance2 - depth < least) least = distance2 - depth, best = {distance2, depth};
+    }
+    best.distance = std::sqrt(best.distance);
+    return best;
+  }
+};
+
+// The fronts of all ways, nearest first but for differences below `step`.
+class Fronts {
+ public:
+  struct Front {
+    float distance;
+    int vertex, bone;
+  };
+  explicit Fronts(float step) : step_(step) {}
+  void push(const Front& front) {
+    const std::size_t bucket = std::max(current_, static_cast<std::size_t>(front.distance / step_));
+    if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
+    buckets_[bucket].push_back(front);
+  }
+  bool pop(Front& front) {
+    while (current_ < buckets_.size() && next_ == buckets_[current_].size()) {
+      buckets_[current_++].clear();
+      next_ = 0;
+    }
+    if (current_ == buckets_.size()) return false;
+    front = buckets_[current_][next_++];
+    return true;
+  }
+
+ private:
+  float step_;
+  std::vector<std::vector<Front>> buckets_;
+  std::size_t current_ = 0, next_ = 0;
+};
+
 }  // namespace
 
 JointWeights geodesicWeights(const TriangleMesh& mesh, const std::vector<Bone>& bones, int joint_count) {
@@ -160,68 +223,81 @@ JointWeights geodesicWeights(const TriangleMesh& mesh, const std::vector<Bone>& 
   const float edge_m = meanEdge(mesh);
   const TriangleBins bins(mesh);
   const int vertices = static_cast<int>(mesh.vertices.rows()), count = static_cast<int>(bones.size());
-  const auto straight = [&](int vertex, int bone) {
-    return distanceToSegment<2>(mesh.vertices.row(vertex).head<2>(), bones[bone].from.head<2>(),
-                                bones[bone].to.head<2>());
+  const auto inPlane = [&](int vertex) {
+    return Eigen::Vector2f(mesh.vertices(vertex, 0), mesh.vertices(vertex, 1));
   };
 
-  struct Front {
-    float distance;
-    int vertex, bone;
-    bool operator>(const Front& other) const {
-      if (distance != other.distance) return distance > other.distance;
-      return std::pair(vertex, bone) > std::pair(other.vertex, other.bone);
-    }
-  };
-  std::priority_queue<Front, std::vector<Front>, std::greater<>> fronts;
-  BoneDistances way = BoneDistances::Constant(vertices, count, kUnreached);
+  const float size = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).maxCoeff();
+  Fronts fronts(std::max({0.5f * edge_m, 1e-4f * size, 1e-12f}));
+  using Lengths = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Lengths way = Lengths::Constant(vertices, count, kFar);
   const auto reach = [&](int vertex, int bone, float distance) {
     if (distance >= way(vertex, bone)) return;
     way(vertex, bone) = distance;
     fronts.push({distance, vertex, bone});
   };
+  std::vector<Profile> profiles(count);
   for (int b = 0; b < count; ++b) {
     const Eigen::Vector3f along = bones[b].to - bones[b].from;
+    // So many points that none of the triangles before and behind the bone is passed over.
+    const int pieces = std::clamp(static_cast<int>(along.norm() / std::max(4 * edge_m, 1e-6f)), 1, 12);
     const int steps =
-        std::clamp(static_cast<int>(std::ceil(along.norm() / std::max(0.7f * edge_m, 1e-6f))), 1, 1000);
+        pieces *
+        std::clamp(static_cast<int>(along.norm() / std::max(0.7f * edge_m * pieces, 1e-6f)) + 1, 1, 50);
+    Profile& profile = profiles[b];
     bool seeded = false;
     for (int k = 0; k <= steps; ++k) {
       const Eigen::Vector3f p = bones[b].from + along * (static_cast<float>(k) / static_cast<float>(steps));
-      for (const int wall : bins.walls(p)) {
-        if (wall < 0) continue;
+      const std::array<TriangleBins::Wall, 2> walls = bins.walls(p);
+      for (const TriangleBins::Wall& wall : walls) {
+        if (wall.triangle < 0) continue;
         for (int corner = 0; corner < 3; ++corner) {
-          const int v = mesh.triangles(wall, corner);
-          reach(v, b, straight(v, b));
+          const int v = mesh.triangles(wall.triangle, corner);
+          reach(v, b, distanceToSegment<2>(inPlane(v), bones[b].from.head<2>(), bones[b].to.head<2>()));
           seeded = true;
         }
       }
+      if (k % (steps / pieces) != 0) continue;
+      const bool within = walls[0].triangle >= 0 && walls[1].triangle >= 0;
+      const float depth = within ? 0.5f * (walls[0].distance + walls[1].distance) : 0;
+      profile.points.push_back(p.head<2>());
+      profile.depth2.push_back(depth * depth);
+      profile.deepest = std::max(profile.deepest, depth);
     }
     if (seeded) continue;
     // A bone beside the body belongs to what is nearest.
     int nearest = 0;
     for (int v = 1; v < vertices; ++v) {
-      if (straight(v, b) < straight(nearest, b)) nearest = v;
+      if (profile.nearest(inPlane(v)).distance < profile.nearest(inPlane(nearest)).distance) nearest = v;
     }
-    reach(nearest, b, straight(nearest, b));
+    reach(nearest, b, profile.nearest(inPlane(nearest)).distance);
   }
 
-  while (!fronts.empty()) {
-    const Front front = fronts.top();
-    fronts.pop();
+  // A way so much longer than the first that came brings no weight any more, nor does any that goes on from
+  // it.
+  std::vector<float> first(vertices, kFar);
+  for (Fronts::Front front; fronts.pop(front);) {
     if (front.distance > way(front.vertex, front.bone)) continue;
+    float& shortest = first[front.vertex];
+    shortest = std::min(shortest, front.distance);
+    const float spare = reachBeyondJoint(2 * profiles[front.bone].deepest, edge_m);
+    if (front.distance > kDetour * std::hypot(shortest, spare) + edge_m) continue;
     for (int k = graph.first[front.vertex]; k < graph.first[front.vertex + 1]; ++k) {
       reach(graph.arcs[k].to, front.bone, front.distance + graph.arcs[k].length);
     }
   }
+
+  BoneReaches reaches(vertices, count);
   for (int v = 0; v < vertices; ++v) {
     for (int b = 0; b < count; ++b) {
-      float& distance = way(v, b);
-      if (distance == kUnreached) continue;
-      const float line = straight(v, b);
-      distance = line + kPenalty * std::max(0.0f, distance - kDetour * line - edge_m);
+      if (way(v, b) == kFar) continue;
+      const Profile::Ball ball = profiles[b].nearest(inPlane(v));
+      const float around = std::max(0.0f, way(v, b) - kDetour * ball.distance - edge_m);
+      const float distance = ball.distance + kPenalty * around;
+      reaches(v, b) = {distance * distance - ball.depth2, reachBeyondJoint(std::sqrt(ball.depth2), edge_m)};
     }
   }
-  return weightsFromDistances(way, bones, joint_count, edge_m);
+  return weightsFromReaches(reaches, bones, joint_count);
 }
 
 }  // namespace skel

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "libskel/core/check.h"
@@ -41,7 +41,7 @@ void fillFromNearest(const Eigen::MatrixX3f& vertices, JointWeights& weights) {
     const auto middle = std::lower_bound(known.begin(), known.end(), vertices(v, 1),
                                          [&](int a, float y) { return vertices(a, 1) < y; });
     int nearest = -1;
-    float best = kUnreached;
+    float best = std::numeric_limits<float>::infinity();
     const auto consider = [&](int other) {
       const float dy = vertices(other, 1) - vertices(v, 1);
       if (dy * dy >= best) return false;
