@@ -4,15 +4,26 @@
 #include <cmath>
 
 namespace skel {
+namespace {
+
+// A limb is drawn along by another one where they touch, but no farther.
+constexpr float kForeign = 0.1f;
+
+}  // namespace
 
 JointWeights weightsFromReaches(const BoneReaches& reaches, const std::vector<Bone>& bones, int joint_count) {
   JointWeights weights = JointWeights::Zero(reaches.rows(), joint_count);
   for (Eigen::Index v = 0; v < reaches.rows(); ++v) {
-    float nearest = std::numeric_limits<float>::infinity();
-    for (Eigen::Index b = 0; b < reaches.cols(); ++b) nearest = std::min(nearest, reaches(v, b).power_m2);
+    Eigen::Index nearest;
+    const float least =
+        reaches.row(v).unaryExpr([](const BoneReach& r) { return r.power_m2; }).minCoeff(&nearest);
+    if (least == std::numeric_limits<float>::infinity()) continue;
+    const int limb = bones[nearest].limb;
     for (Eigen::Index b = 0; b < reaches.cols(); ++b) {
-      const float beyond2 = reaches(v, b).power_m2 - nearest, reach = reaches(v, b).reach_m;
-      if (!(beyond2 < reach * reach)) continue;  // NaN: nothing reaches the vertex
+      const bool foreign = limb >= 0 && bones[b].limb >= 0 && bones[b].limb != limb;
+      const float reach = (foreign ? kForeign : 1) * reaches(v, b).reach_m;
+      const float beyond2 = reaches(v, b).power_m2 - least;
+      if (beyond2 >= reach * reach) continue;
       const float rest = 1 - std::sqrt(beyond2) / reach;
       float& weight = weights(v, bones[b].joint);
       weight = std::max(weight, rest * rest);

@@ -8,6 +8,7 @@
 #include "libskel/core/check.h"
 #include "libskel/skin/bones.h"
 #include "libskel/skin/methods.h"
+#include "libskel/skin/soften.h"
 
 namespace skel {
 namespace {
@@ -77,6 +78,7 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
 
   JointWeights weights = find(method).weights(mesh, skeletonBones(skeleton), joint_count);
   fillFromNearest(mesh.vertices, weights);
+  softenWeights(mesh, skeleton, weights);
   std::vector<int> order(joint_count);
   const int influences = std::min(options.max_influences, joint_count);
   for (Eigen::Index v = 0; v < weights.rows(); ++v) {
