@@ -25,7 +25,8 @@ cv::Mat reduced(const Image& image) {
   if (scale < 1) {
     const cv::Size size(std::max(1, cvRound(image.width * scale)),
                         std::max(1, cvRound(image.height * scale)));
-    cv::resize(rgba, small, size, 0, 0, cv::INTER_AREA);
+    // Averaging over areas is many times slower and differs little at such a scale.
+    cv::resize(rgba, small, size, 0, 0, scale > 0.5 ? cv::INTER_LINEAR : cv::INTER_AREA);
   } else {
     small = rgba;
   }
@@ -41,6 +42,8 @@ cv::Mat reduced(const Image& image) {
   }
   return rgb;
 }
+
+std::uint8_t toByte(float v) { return static_cast<std::uint8_t>(std::clamp(v + 0.5f, 0.0f, 255.0f)); }
 
 // CIE Lab (D65) of sRGB, 8-bit: L·2.55, a + 128, b + 128. OpenCV's own conversion first fills tables for 200
 // ms.
@@ -66,7 +69,6 @@ cv::Mat labOf(const cv::Mat& rgb) {
   const auto f = [](float t) {
     return tables.root[static_cast<std::size_t>(std::min(t, 1.0f) * kSteps + 0.5f)];
   };
-  const auto toByte = [](float v) { return static_cast<std::uint8_t>(std::clamp(v + 0.5f, 0.0f, 255.0f)); };
   cv::Mat lab(rgb.size(), CV_8UC3);
   for (int y = 0; y < rgb.rows; ++y) {
     const cv::Vec3b* from = rgb.ptr<cv::Vec3b>(y);
@@ -178,21 +180,30 @@ std::vector<Background> fitBackgrounds(const cv::Mat& lab) {
   return backgrounds;
 }
 
-// The background's colour at every pixel, float Lab.
-cv::Mat expectedColors(const Background& background, const cv::Size& size) {
-  cv::Mat expected(size, CV_32FC3);
-  const Eigen::Matrix<float, 6, 3> c = background.coefficients.cast<float>();
-  for (int y = 0; y < size.height; ++y) {
-    const float v = 2.0f * static_cast<float>(y) / static_cast<float>(size.height) - 1;
-    const Eigen::RowVector3f constant = c.row(0) + v * c.row(2) + v * v * c.row(5);
-    const Eigen::RowVector3f linear = c.row(1) + v * c.row(4), square = c.row(3);
-    cv::Vec3f* row = expected.ptr<cv::Vec3f>(y);
-    for (int x = 0; x < size.width; ++x) {
-      const float u = 2.0f * static_cast<float>(x) / static_cast<float>(size.width) - 1;
-      for (int k = 0; k < 3; ++k) row[x][k] = constant(k) + u * (linear(k) + u * square(k));
+// How far each pixel's colour is from that of the nearest background, 8-bit.
+cv::Mat colorDifference(const cv::Mat& lab, const std::vector<Background>& backgrounds) {
+  cv::Mat difference(lab.size(), CV_8U, cv::Scalar(255));
+  for (const Background& background : backgrounds) {
+    const Eigen::Matrix<float, 6, 3> c = background.coefficients.cast<float>();
+    for (int y = 0; y < lab.rows; ++y) {
+      const float v = 2.0f * static_cast<float>(y) / static_cast<float>(lab.rows) - 1;
+      const Eigen::RowVector3f constant = c.row(0) + v * c.row(2) + v * v * c.row(5);
+      const Eigen::RowVector3f linear = c.row(1) + v * c.row(4), square = c.row(3);
+      const cv::Vec3b* row = lab.ptr<cv::Vec3b>(y);
+      std::uint8_t* out = difference.ptr(y);
+      const float step = 2.0f / static_cast<float>(lab.cols);
+      for (int x = 0; x < lab.cols; ++x) {
+        const float u = step * static_cast<float>(x) - 1;
+        float sum = 0;
+        for (int k = 0; k < 3; ++k) {
+          const float d = static_cast<float>(row[x][k]) - (constant(k) + u * (linear(k) + u * square(k)));
+          sum += d * d;
+        }
+        out[x] = std::min(out[x], toByte(std::sqrt(sum)));
+      }
     }
   }
-  return expected;
+  return difference;
 }
 
 // The background's colour where `covered` is 0, spread smoothly over the rest: follows any light that changes
@@ -240,7 +251,6 @@ struct Differences {
 
 Differences differencesFrom(const cv::Mat& lab, const cv::Mat& expected) {
   Differences out{cv::Mat(lab.size(), CV_8U), cv::Mat(lab.size(), CV_8U), cv::Mat(lab.size(), CV_8U)};
-  const auto toByte = [](float v) { return static_cast<std::uint8_t>(std::clamp(v + 0.5f, 0.0f, 255.0f)); };
   for (int y = 0; y < lab.rows; ++y) {
     const cv::Vec3b* row = lab.ptr<cv::Vec3b>(y);
     const cv::Vec3f* base = expected.ptr<cv::Vec3f>(y);
@@ -254,17 +264,6 @@ Differences differencesFrom(const cv::Mat& lab, const cv::Mat& expected) {
     }
   }
   return out;
-}
-
-Differences differencesFrom(const cv::Mat& lab, const std::vector<Background>& backgrounds) {
-  Differences nearest = differencesFrom(lab, expectedColors(backgrounds.front(), lab.size()));
-  for (std::size_t i = 1; i < backgrounds.size(); ++i) {
-    const Differences other = differencesFrom(lab, expectedColors(backgrounds[i], lab.size()));
-    nearest.color = cv::min(nearest.color, other.color);
-    nearest.chroma = cv::min(nearest.chroma, other.chroma);
-    nearest.darkness = cv::min(nearest.darkness, other.darkness);
-  }
-  return nearest;
 }
 
 // The difference from which on a colour is not the background's: between `low` and `high` the one that fewest
@@ -331,8 +330,8 @@ Noise noiseOf(const cv::Mat& contrast, const cv::Mat& far) {
 
 // Pixels above `low` that are connected to some above `high`.
 cv::Mat hysteresis(const cv::Mat& values, double low, double high) {
-  cv::Mat weak = values > low, labels, stats, centroids;
-  const int count = cv::connectedComponentsWithStats(weak, labels, stats, centroids, 8, CV_32S);
+  cv::Mat weak = values > low, labels;
+  const int count = cv::connectedComponents(weak, labels, 8, CV_32S);
   std::vector<std::uint8_t> strong(static_cast<std::size_t>(count), 0);
   for (int y = 0; y < values.rows; ++y) {
     const int* label = labels.ptr<int>(y);
@@ -430,10 +429,15 @@ void openLoops(cv::Mat& figure, const cv::Mat& drawn, const Background& backgrou
 
 // Drops what lies along the border of the picture: the table, a finger, the next sheet.
 void dropBorderStrips(cv::Mat& figure) {
+  const int w = figure.cols, h = figure.rows;
+  if (cv::countNonZero(figure.row(0)) + cv::countNonZero(figure.row(h - 1)) +
+          cv::countNonZero(figure.col(0)) + cv::countNonZero(figure.col(w - 1)) ==
+      0) {
+    return;
+  }
   cv::Mat labels, stats, centroids;
   const int count = cv::connectedComponentsWithStats(figure, labels, stats, centroids, 4, CV_32S);
   std::vector<int> contact(static_cast<std::size_t>(count), 0);
-  const int w = figure.cols, h = figure.rows;
   for (int x = 0; x < w; ++x) {
     ++contact[static_cast<std::size_t>(labels.at<int>(0, x))];
     ++contact[static_cast<std::size_t>(labels.at<int>(h - 1, x))];
@@ -462,12 +466,12 @@ Segmentation segment(const Image& image) {
   const cv::Mat lab = labOf(rgb);
 
   const std::vector<Background> backgrounds = fitBackgrounds(lab);
-  const Differences differences = differencesFrom(lab, backgrounds);
+  const cv::Mat difference = colorDifference(lab, backgrounds);
   double sigma = 0;
   for (const Background& b : backgrounds) sigma = std::max(sigma, b.sigma);
   const double low_color = std::max(6.0, 3.5 * sigma);
-  const double color_threshold = emptiestLevel(differences.color, low_color, low_color + 14);
-  const cv::Mat far = differences.color > color_threshold;
+  const double color_threshold = emptiestLevel(difference, low_color, low_color + 14);
+  const cv::Mat far = difference > color_threshold;
 
   const bool dark_background = backgrounds.front().coefficients(0, 0) < 90;
   cv::Mat contrast = strokeContrast(rgb, dark_background, false);
@@ -487,7 +491,7 @@ Segmentation segment(const Image& image) {
     barrier |= edges;
   } else {
     // A gap between bright fills on a dark ground looks like a stroke, but in the background's colour.
-    barrier = (strokes & (differences.color > low_color)) | far;
+    barrier = (strokes & (difference > low_color)) | far;
   }
   if (cv::countNonZero(barrier) == 0) return {{}, "the picture is blank"};
 
@@ -497,7 +501,7 @@ Segmentation segment(const Image& image) {
     dropBareEdges(barrier, edges);
   } else {
     openLoops(barrier, drawn, backgrounds.front());
-    trimSoftEdge(barrier, drawn, cv::max(differences.color, contrast));
+    trimSoftEdge(barrier, drawn, cv::max(difference, contrast));
   }
   dropBorderStrips(barrier);
   if (cv::countNonZero(barrier) == 0) return {{}, "nothing stands out from the background"};
