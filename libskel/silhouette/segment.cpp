@@ -151,8 +151,9 @@ Background fitBackground(const std::vector<Sample>& samples, const Eigen::Vector
 }
 
 // One background that most of the border agrees on, and one more for each corner of the picture that it does
-// not explain: ground and sky. A figure that is cut by the border seldom fills a corner.
-std::vector<Background> fitBackgrounds(const cv::Mat& lab) {
+// not explain: ground and sky. A figure that is cut by the border seldom fills a corner. `explained_border`
+// is the share of the border that has one of these colours.
+std::vector<Background> fitBackgrounds(const cv::Mat& lab, double& explained_border) {
   const std::vector<Sample> samples = samplesOf(lab);
   Eigen::Vector3d start;
   for (int c = 0; c < 3; ++c) {
@@ -177,6 +178,15 @@ std::vector<Background> fitBackgrounds(const cv::Mat& lab) {
       if (!explained) backgrounds.push_back(fitBackground(samples, color));
     }
   }
+  int border = 0, near_any = 0;
+  for (const Sample& s : samples) {
+    if (!s.border) continue;
+    ++border;
+    near_any += std::any_of(backgrounds.begin(), backgrounds.end(), [&](const Background& b) {
+      return (s.color.transpose() - s.basis * b.coefficients).norm() < 25;
+    });
+  }
+  explained_border = static_cast<double>(near_any) / border;
   return backgrounds;
 }
 
@@ -266,8 +276,9 @@ Differences differencesFrom(const cv::Mat& lab, const cv::Mat& expected) {
   return out;
 }
 
-// The difference from which on a colour is not the background's: between `low` and `high` the one that fewest
-// pixels have. Compression smears colours around edges, and pale fills begin not far above that.
+// The difference from which on a colour is not the background's: from `low` up to `high` the level that
+// fewest pixels have, before the first level that many have. Compression smears colours around edges, and
+// pale fills begin not far above that.
 double emptiestLevel(const cv::Mat& differences, double low, double high) {
   std::array<double, 256> count{};
   for (int y = 0; y < differences.rows; ++y) {
@@ -276,10 +287,9 @@ double emptiestLevel(const cv::Mat& differences, double low, double high) {
   }
   double best = low, fewest = 1e300;
   for (int level = static_cast<int>(std::ceil(low)); level <= high && level + 1 < 256; ++level) {
-    // The lower one of two that are alike.
-    const double pixels = count[level - 1] + count[level] + count[level + 1] +
-                          1e-3 * differences.total() * (level - low) / (high - low + 1);
-    if (pixels < fewest) {
+    const double pixels = count[level - 1] + count[level] + count[level + 1];
+    if (pixels > 2 * fewest + 0.003 * static_cast<double>(differences.total())) break;
+    if (pixels < 0.9 * fewest) {
       fewest = pixels;
       best = level;
     }
@@ -379,11 +389,12 @@ cv::Mat edgesOnPaper(const cv::Mat& lab) {
   return edges;
 }
 
-// Takes off pixels of `edges` that have neither a fill nor a stroke nor anything enclosed beside them.
-void dropBareEdges(cv::Mat& figure, const cv::Mat& edges) {
-  cv::Mat body = figure & ~edges;
-  cv::dilate(body, body, cv::Mat::ones(3, 3, CV_8U));
-  figure &= body;
+// Takes off pixels of `edges` beside the outside: an edge lies half outside of its fill, and one that
+// encloses nothing belongs to none.
+void dropOuterEdges(cv::Mat& figure, const cv::Mat& edges) {
+  cv::Mat outside;
+  cv::dilate(figure == 0, outside, cv::Mat::ones(3, 3, CV_8U));
+  figure &= ~(edges & outside);
 }
 
 // Takes off the outer pixels that are less than half as strong as their strongest neighbour: where a
@@ -465,7 +476,10 @@ Segmentation segment(const Image& image) {
   const cv::Mat rgb = reduced(image);
   const cv::Mat lab = labOf(rgb);
 
-  const std::vector<Background> backgrounds = fitBackgrounds(lab);
+  double explained_border = 0;
+  const std::vector<Background> backgrounds = fitBackgrounds(lab, explained_border);
+  if (explained_border < 0.4)
+    return {{}, "no background can be told: the picture's border has no colour in common"};
   const cv::Mat difference = colorDifference(lab, backgrounds);
   double sigma = 0;
   for (const Background& b : backgrounds) sigma = std::max(sigma, b.sigma);
@@ -498,7 +512,7 @@ Segmentation segment(const Image& image) {
   const cv::Mat drawn = barrier.clone();
   fillChambers(barrier);
   if (textured) {
-    dropBareEdges(barrier, edges);
+    dropOuterEdges(barrier, edges);
   } else {
     openLoops(barrier, drawn, backgrounds.front());
     trimSoftEdge(barrier, drawn, cv::max(difference, contrast));
