@@ -102,7 +102,14 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
             << estimate.cell(kMaxInflatedVertices) / px_per_grid_px << " or more";
     throw UsageError(message.str());
   }
-  const PlanarMesh planar = triangulateFigure(silhouette.mask, box, std::move(outline), cell_px);
+  PlanarMesh planar = triangulateFigure(silhouette.mask, box, outline, cell_px);
+  // A figure full of holes smaller than a cell loses them, and with them vertices that were counted on.
+  for (int attempt = 0; attempt < 4 && options.spacing_px == 0; ++attempt) {
+    const double count = 2.0 * planar.inner_count + static_cast<double>(planar.rim.size());
+    if (count > 0.7 * kVertexCount && count < 1.3 * kVertexCount) break;
+    cell_px *= std::sqrt(count / kVertexCount);
+    planar = triangulateFigure(silhouette.mask, box, outline, cell_px);
+  }
 
   Eigen::Vector2d low = planar.vertices.front(), high = low;
   for (const Eigen::Vector2d& p : planar.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);

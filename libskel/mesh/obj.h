@@ -7,9 +7,11 @@
 
 namespace skel {
 
-// A mesh of the user's own: polygons are cut into triangles, the texture named by its .mtl is read if there
-// is one. Vertices keep the file's coordinates; model_from_image is the identity. Throws InputError with the
-// line.
+// A mesh of the user's own: polygons are cut into triangles, the texture named by its .mtl (map_Kd) is read
+// if there is one; without texture coordinates, or with none for some corner, there is no texture. Vertices
+// keep the file's coordinates, and are split where texture coordinates differ; model_from_image is the
+// identity. Throws InputError with the line: numbers that are none, indices that lead nowhere, a .mtl or
+// picture that cannot be read, no faces at all.
 TriangleMesh readObj(const std::string& path);
 
 }  // namespace skel

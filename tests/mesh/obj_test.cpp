@@ -1,0 +1,86 @@
+#include "libskel/mesh/obj.h"
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/image/write_image.h"
+#include "tests/support/catch.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+
+namespace {
+
+TriangleMesh read(const std::string& text) {
+  const TempDir dir;
+  writeFile(dir.file("a.obj"), text);
+  return readObj(dir.file("a.obj"));
+}
+
+std::string complaint(const std::string& text) {
+  try {
+    read(text);
+  } catch (const InputError& error) {
+    return error.problem();
+  }
+  return "none";
+}
+
+const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+}  // namespace
+
+TEST_CASE("all forms of faces are read") {
+  for (const std::string face :
+       {"f 1 2 3 4", "f 1// 2// 3// 4//", "f 1//9 2//9 3//9 4//9", "f -4 -3 -2 -1", "f 1 2 3\nf 1 3 4",
+        "f 1 2 3 \\\n 4", "f 1 2 3 4 # a comment\r", "f 1 2 3 4 4"}) {
+    INFO(face);
+    const TriangleMesh mesh =
+        read(kSquare + "# comment\r\no thing\ng group\ns off\nvn 0 0 1\n" + face + "\n");
+    CHECK(mesh.vertices.rows() == 4);
+    REQUIRE(mesh.triangles.rows() == 2);
+    CHECK(mesh.triangles.row(1) == Eigen::RowVector3i(0, 2, 3));
+    CHECK(mesh.uv.rows() == 0);
+  }
+  CHECK(read("v 1e-1 +2 .5 1.0\nv 1 0 0\nv 0 0 1\nf 1 2 3").vertices.row(0) ==
+        Eigen::RowVector3f(0.1f, 2, 0.5f));
+}
+
+TEST_CASE("the texture is found through the material that is used") {
+  const TempDir dir;
+  Image picture(2, 1);
+  picture.rgba << 255, 0, 0, 255, 0, 0, 255, 255;
+  writeFile(dir.file("my picture.png"), encodePng(picture));
+  writeFile(dir.file("a.mtl"),
+            "newmtl other\r\nmap_Kd nowhere.png\r\nnewmtl skin\r\nKd 1 1 1\r\nmap_Kd my picture.png\r\n");
+  const std::string text =
+      "mtllib a.mtl\nusemtl skin\n" + kSquare + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 0.5 0.5\n";
+  writeFile(dir.file("a.obj"), text + "f 1/1 2/2 3/3\nf 1/5/1 3/3/1 4/4/1\n");
+  const TriangleMesh mesh = readObj(dir.file("a.obj"));
+  CHECK(mesh.texture.width == 2);
+  CHECK(mesh.vertices.rows() == 5);  // the first is split
+  CHECK(mesh.uv.row(0) == Eigen::RowVector2f(0, 1));
+  CHECK(mesh.uv.row(3) == Eigen::RowVector2f(0.5f, 0.5f));
+
+  writeFile(dir.file("a.obj"), text + "f 1/1 2/2 3/3\nf 1 3 4\n");
+  CHECK(readObj(dir.file("a.obj")).uv.rows() == 0);
+  writeFile(dir.file("b.obj"), "mtllib gone.mtl\n" + text.substr(13) + "f 1/1 2/2 3/3\n");
+  CHECK_THROWS_AS(readObj(dir.file("b.obj")), InputError);
+}
+
+TEST_CASE("bad models are refused with the line") {
+  CHECK(complaint("") == "holds no faces; export the model as a polygon mesh");
+  CHECK(complaint(kSquare) == "holds no faces; export the model as a polygon mesh");
+  CHECK(complaint("v 0 0 nan\n") == "line 1: 'nan' is not a finite number");
+  CHECK(complaint("\n\nv 0 0 1e99\n") == "line 3: '1e99' is not a finite number");
+  CHECK(complaint("v 0 0\n") == "line 1: 'v' needs 3 numbers");
+  CHECK(complaint("v 0 0 0x\n") == "line 1: '0x' is not a finite number");
+  CHECK(complaint(kSquare + "f 1 2\n") == "line 5: a face needs at least 3 corners");
+  CHECK(complaint(kSquare + "f 1 2 5\n") == "line 5: there is no vertex 5; 4 are defined so far");
+  CHECK(complaint(kSquare + "f 0 1 2\n") == "line 5: there is no vertex 0; 4 are defined so far");
+  CHECK(complaint(kSquare + "f -5 1 2\n") == "line 5: there is no vertex -5; 4 are defined so far");
+  CHECK(complaint(kSquare + "f 1/1 2/1 3/1\n") ==
+        "line 5: there is no texture coordinate 1; 0 are defined so far");
+  CHECK(complaint(kSquare + "f 1 2 x\n") == "line 5: 'x' is not the index of a vertex");
+  CHECK(complaint(kSquare + "f 1 2 99999999999\n") == "line 5: '99999999999' is not the index of a vertex");
+  CHECK_THROWS_AS(readObj("/nowhere/a.obj"), InputError);
+}
