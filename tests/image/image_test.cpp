@@ -310,7 +310,7 @@ namespace {
 
 std::string little(std::uint32_t value, int size) {
   std::string bytes;
-  for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> 8 * i);
+  for (int i = 0; i < size; ++i) bytes += i < 4 ? static_cast<char>(value >> 8 * i) : 0;
   return bytes;
 }
 
