@@ -22,6 +22,8 @@ add_library(skel_options INTERFACE)
 target_include_directories(skel_options INTERFACE ${PROJECT_SOURCE_DIR})
 # No fused multiply-add unless written: results do not depend on the machine's instruction set.
 target_compile_options(skel_options INTERFACE -Wall -Wextra -Wpedantic -ffp-contract=off)
+# GCC sees uninitialised members in every moved std::optional of a struct of matrices.
+target_compile_options(skel_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 # Eigen's fast square roots start from the CPU's own approximation, which differs between makers.
 target_compile_definitions(skel_options INTERFACE EIGEN_FAST_MATH=0)
 if(PROJECT_IS_TOP_LEVEL)

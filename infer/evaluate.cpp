@@ -26,7 +26,9 @@ struct Row {
 
 Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const std::string& id) {
   AnnotatedDrawing truth = readAnnotatedDrawing(options.dir, id);
-  Row row{.id = id, .annotated = !truth.joints.empty()};
+  Row row;
+  row.id = id;
+  row.annotated = !truth.joints.empty();
   row.counts = !options.opaque || (row.annotated && !isTransparent(truth.image));
   if (!row.counts) return row;
   turnClockwise(truth, options.turn_deg / 90);

@@ -135,7 +135,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
     drawing.recognition.warnings = given->warnings;
   }
 
-  SkeletonFile& file = *(given ? given : given.emplace());
+  SkeletonFile file;
   file.image_file = fs::path(job.source).filename().string();
   file.image_width = drawing.image.width;
   file.image_height = drawing.image.height;
@@ -149,9 +149,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
 
   const std::vector<std::string> written = writeOutputs(options, stem, drawing, file);
   if (!options.trace_dir.empty())
-    writeTrace(drawing, figure_rig,
-               options.images.size() > 1 || options.figure == "all" ? options.trace_dir + "/" + stem
-                                                                    : options.trace_dir);
+    writeTrace(drawing, options.images.size() > 1 || options.figure == "all" ? options.trace_dir + "/" + stem
+                                                                             : options.trace_dir);
 
   char line[64];
   std::snprintf(line, sizeof line, "  confidence %.2f\n", file.confidence);
@@ -220,6 +219,8 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--max-influences", options.max_influences, "Joints that carry one vertex at most")
       ->check(CLI::Range(1, 4));
   app.add_option("--clips", options.clips, "Motions to put into the .glb")->delimiter(',');
+  app.add_option("--rest-pose", options.rest_pose, "How the character stands when nothing moves it")
+      ->check(namesOf(kRestPoseNames));
   app.add_option("--names", options.naming, "What exported joints are called")->check(namesOf(kNamingNames));
   app.add_option("--figure", options.figure, "Which figure of the drawing: 1 is the largest; or all");
   app.add_option("--mesh-spacing", options.mesh_spacing_px,

@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
+#include <system_error>
 
 #include "infer/rig_request.h"
 #include "libskel/core/files.h"
-#include "libskel/export/write_character.h"
+#include "libskel/draw/draw_skeleton.h"
+#include "libskel/export/formats.h"
 #include "libskel/image/write_image.h"
 
 namespace skel {
+namespace fs = std::filesystem;
 namespace {
 
 struct Request {
@@ -28,14 +32,9 @@ struct OutputFile {
 };
 
 struct Format {
-  const char* name;
+  std::string_view name;
   std::function<std::vector<OutputFile>(const Request&)> make;
 };
-
-std::vector<OutputFile> makeGlb(const Request& r) {
-  const ExportOptions options{.name = r.stem, .naming = kNamingNames.at(r.options.naming)};
-  return {{r.path(".glb"), encodeGlb(r.drawing.character, r.drawing.clips, options)}};
-}
 
 std::vector<OutputFile> makeSkeletonJson(const Request& r) {
   return {{r.path(".skeleton.json"), formatSkeletonFile(r.file)}};
@@ -64,11 +63,32 @@ std::vector<OutputFile> makeFeatures(const Request& r) {
   return {{r.path(".features.csv"), csv}};
 }
 
+std::vector<OutputFile> makeOverlay(const Request& r) {
+  Image picture = r.drawing.image;
+  drawSkeleton(picture, r.drawing.character.skeleton);
+  return {{r.path(".overlay.png"), encodePng(picture)}};
+}
+
+// The pictures and lists of this tool, then what the library exports of a character.
+std::vector<Format> makeFormats() {
+  std::vector<Format> all = {{"json", makeSkeletonJson},
+                             {"overlay", makeOverlay},
+                             {"silhouette", makeSilhouette},
+                             {"features", makeFeatures}};
+  for (const ExportFormat& format : exportFormats())
+    all.push_back({format.name, [&format](const Request& r) {
+                     std::vector<OutputFile> files;
+                     const ExportOptions options{.name = r.stem, .naming = kNamingNames.at(r.options.naming)};
+                     for (ExportedFile& file : format.encode({r.drawing.character, r.drawing.clips, options,
+                                                              &r.drawing.image, &r.drawing.silhouette.mask}))
+                       files.push_back({r.path(file.suffix), std::move(file.bytes)});
+                     return files;
+                   }});
+  return all;
+}
+
 const std::vector<Format>& formats() {
-  static const std::vector<Format> all = {{"glb", makeGlb},
-                                          {"json", makeSkeletonJson},
-                                          {"silhouette", makeSilhouette},
-                                          {"features", makeFeatures}};
+  static const std::vector<Format> all = makeFormats();
   return all;
 }
 
@@ -76,7 +96,7 @@ const std::vector<Format>& formats() {
 
 std::vector<std::string> allFormats() {
   std::vector<std::string> names;
-  for (const Format& format : formats()) names.push_back(format.name);
+  for (const Format& format : formats()) names.emplace_back(format.name);
   return names;
 }
 
@@ -95,6 +115,14 @@ std::vector<std::string> writeOutputs(const InferOptions& options, const std::st
         std::find_if(formats().begin(), formats().end(), [&](const Format& f) { return f.name == name; });
     for (OutputFile& made : format->make(request)) files.push_back(std::move(made));
   }
+  std::vector<std::string> inputs = options.images;
+  for (const std::string& other : {options.mask_file, options.model_file, options.weights_file})
+    inputs.push_back(other);
+  for (const OutputFile& made : files)
+    for (const std::string& input : inputs)
+      if (std::error_code none; fs::equivalent(made.path, input, none))
+        throw UsageError(made.path +
+                         " would be written over, but it is an input; name another folder with -o");
   std::vector<std::string> paths;
   for (const OutputFile& made : files) {
     writeFile(made.path, made.bytes);

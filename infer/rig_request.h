@@ -19,6 +19,9 @@ inline const std::map<std::string, SkinMethod> kSkinNames = {{"geodesic", SkinMe
 inline const std::map<std::string, JointNaming> kNamingNames = {
     {"skel", JointNaming::kSkel}, {"vrm", JointNaming::kVrm}, {"mixamo", JointNaming::kMixamo}};
 
+inline const std::map<std::string, RestPose> kRestPoseNames = {
+    {"drawn", RestPose::kDrawn}, {"A", RestPose::kA}, {"T", RestPose::kT}};
+
 // Everything but the figure's number. Reads template and weights. Throws InputError, UsageError.
 RigOptions rigOptions(const InferOptions& options);
 

@@ -77,9 +77,10 @@ void writeFile(const std::string& path, std::string_view bytes) {
 
 void ensureWritableFolder(const std::string& dir) {
   std::error_code failure;
+  if (fs::exists(dir, failure) && !fs::is_directory(dir))
+    throw OutputError(dir, "is not a folder; name another with -o");
   fs::create_directories(dir, failure);
   if (failure) throw OutputError(dir, "cannot be made: " + failure.message());
-  if (!fs::is_directory(dir)) throw OutputError(dir, "is not a folder; name another with -o");
   if (::access(dir.c_str(), W_OK | X_OK) != 0) throw OutputError(dir, "cannot be written to: " + reason());
 }
 

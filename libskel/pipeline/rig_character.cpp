@@ -1,7 +1,7 @@
 #include "libskel/pipeline/rig_character.h"
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "libskel/animation/retarget.h"
 #include "libskel/classifier/features.h"
@@ -21,7 +21,8 @@ class Stopwatch {
   auto operator()(const char* stage, const Work& work) {
     const auto start = std::chrono::steady_clock::now();
     auto result = work();
-    times_.push_back({stage, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+    times_.push_back(
+        {stage, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
     return result;
   }
 
@@ -29,9 +30,19 @@ class Stopwatch {
   std::vector<StageTime>& times_;
 };
 
-// To the hundredth of a pixel that a skeleton file keeps, so that to go on from the file is to go on from here.
+// To the hundredth of a pixel that a skeleton file keeps, so that to go on from the file is to go on from
+// here.
 void roundToFile(Skeleton& skeleton) {
   for (Joint& joint : skeleton.joints) joint.image = (joint.image * 100).array().round() / 100;
+}
+
+Image picture(const Plane8& mask) {
+  Image image(static_cast<int>(mask.cols()), static_cast<int>(mask.rows()));
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      std::fill_n(image.pixel(x, y), 4, static_cast<std::uint8_t>(mask(y, x) ? 150 : 255));
+  image.rgba.col(3).setConstant(255);
+  return image;
 }
 
 }  // namespace
@@ -40,11 +51,12 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   RiggedDrawing drawing;
   Stopwatch timed(drawing.times);
 
+  if (input.model) standUpright(*input.model);
   if (input.image.empty()) {
     SKEL_CHECK(input.model);
-    FrontView view = timed("front view", [&] { return frontView(*input.model); });
-    input.image = std::move(view.image);
-    input.model->model_from_image = view.model_from_image;
+    FrontView view = timed("front view", [&] { return frontSilhouette(*input.model); });
+    input.image = picture(view.mask);
+    input.mask = std::move(view.mask);
   }
   drawing.image = std::move(input.image);
 
@@ -61,7 +73,8 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
 
   drawing.recognition = timed("recognition", [&] {
     if (!input.skeleton)
-      return recognizeByRules(silhouette, drawing.candidates, drawing.classes, options.body_plan, &drawing.paper_trace);
+      return recognizeByRules(silhouette, drawing.candidates, drawing.classes, options.body_plan,
+                              &drawing.paper_trace);
     Recognition given;
     given.skeleton = *input.skeleton;
     return given;
@@ -70,6 +83,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
 
   drawing.character.mesh = timed("mesh", [&] {
     if (!input.model) return inflate(drawing.image, silhouette, options.inflate);
+    input.model->model_from_image = bindByBoundingBox(silhouette.mask, *input.model);
     return std::move(*input.model);
   });
   drawing.character.skeleton = timed("lift", [&] {
@@ -78,8 +92,11 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     return lifted;
   });
   drawing.character.weights = timed("skin", [&] {
-    return computeSkinWeights(drawing.character.mesh, drawing.character.skeleton, options.skin_method, options.skin);
+    return computeSkinWeights(drawing.character.mesh, drawing.character.skeleton, options.skin_method,
+                              options.skin);
   });
+  if (options.rest_pose != RestPose::kDrawn)
+    drawing.character = timed("rest pose", [&] { return poseToRest(drawing.character, options.rest_pose); });
   drawing.clips = timed("clips", [&] {
     std::vector<Clip> clips;
     for (const Clip& clip : options.clips) clips.push_back(retargetToRest(clip, drawing.character.skeleton));

@@ -9,6 +9,7 @@
 #include "libskel/animation/clip.h"
 #include "libskel/candidates/candidates.h"
 #include "libskel/classifier/mlp.h"
+#include "libskel/export/rest_pose.h"
 #include "libskel/export/write_character.h"
 #include "libskel/image/image.h"
 #include "libskel/mesh/inflate.h"
@@ -23,9 +24,9 @@ namespace skel {
 // What a character is made from. `image` is needed unless there is a `model`.
 struct RigInput {
   Image image;
-  std::optional<Plane8> mask;          // the figure, given by hand; of the image's size
-  std::optional<TriangleMesh> model;   // take this mesh instead of inflating the silhouette
-  std::optional<Skeleton> skeleton;    // go on from these joints (image px) instead of recognising any
+  std::optional<Plane8> mask;         // the figure, given by hand; of the image's size
+  std::optional<TriangleMesh> model;  // take this mesh instead of inflating the silhouette
+  std::optional<Skeleton> skeleton;   // go on from these joints (image px) instead of recognising any
 };
 
 enum class Recognizer { kPaper };
@@ -39,6 +40,7 @@ struct RigOptions {
   InflateOptions inflate;
   SkinMethod skin_method = SkinMethod::kGeodesic;
   SkinOptions skin;
+  RestPose rest_pose = RestPose::kDrawn;
   std::vector<Clip> clips;  // for the canonical pose
 };
 
@@ -57,7 +59,7 @@ struct RiggedDrawing {
   Recognition recognition;
   PaperTrace paper_trace;
   RiggedCharacter character;  // empty if the silhouette has not been found
-  std::vector<Clip> clips;    // retargeted to the drawn pose
+  std::vector<Clip> clips;    // retargeted to the rest pose
   std::vector<StageTime> times;
 
   bool found() const { return silhouette.found(); }

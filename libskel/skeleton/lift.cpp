@@ -13,7 +13,10 @@ double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y(
 
 double nearestVertexDepth(const TriangleMesh& mesh, const Vector2d& p) {
   Eigen::Index nearest = 0;
-  (mesh.vertices.leftCols<2>().cast<double>().rowwise() - p.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+  (mesh.vertices.leftCols<2>().cast<double>().rowwise() - p.transpose())
+      .rowwise()
+      .squaredNorm()
+      .minCoeff(&nearest);
   return mesh.vertices(nearest, 2);
 }
 

@@ -6,8 +6,9 @@
 
 namespace skel {
 
-// Sets each joint's position from its image point: x and y by mesh.model_from_image, z half way between the first and the
-// last surface that a line of sight through the point meets; where it meets none, the z of the mesh's nearest vertex.
+// Sets each joint's position from its image point: x and y by mesh.model_from_image, z half way between the
+// first and the last surface that a line of sight through the point meets; where it meets none, the z of the
+// mesh's nearest vertex.
 void liftToModel(Skeleton& skeleton, const TriangleMesh& mesh);
 
 }  // namespace skel

@@ -1,0 +1,159 @@
+#include "libskel/pipeline/trace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libskel/animation/sample_pose.h"
+#include "libskel/core/check.h"
+#include "libskel/core/files.h"
+#include "libskel/deform/skin_vertices.h"
+#include "libskel/draw/canvas.h"
+#include "libskel/draw/draw_skeleton.h"
+#include "libskel/draw/render_mesh.h"
+#include "libskel/image/write_image.h"
+
+namespace skel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kMagnification = 5;  // of the working grid
+constexpr int kViewSize = 360;
+
+Image onPaper(const Image& image) {
+  Image paper = blankImage(image.width, image.height);
+  blit(paper, image, 0, 0);
+  return fitted(paper, 640, 640);
+}
+
+Vector2d magnified(const Vector2d& grid_point) {
+  return ((grid_point.array() + 0.5) * kMagnification - 0.5).matrix();
+}
+
+Image silhouettePicture(const RiggedDrawing& drawing) {
+  Image picture = blankImage(drawing.image.width, drawing.image.height);
+  blit(picture, drawing.image, 0, 0);
+  drawMask(picture, drawing.silhouette.mask, kLeft.withAlpha(110));
+  const double width = std::max(1.0, std::max(picture.width, picture.height) / 250.0);
+  for (const Polygon& polygon : drawing.silhouette.outline) drawPolyline(picture, polygon, width, kInk, true);
+  return fitted(picture, 640, 640);
+}
+
+Image gridPicture(const RiggedDrawing& drawing) {
+  Image picture = blankImage(drawing.silhouette.grid.width, drawing.silhouette.grid.height);
+  drawMask(picture, drawing.silhouette.grid_mask, Color{222, 224, 230});
+  return magnified(picture, kMagnification);
+}
+
+Color candidateColor(const RiggedDrawing& drawing, int i) {
+  Eigen::Index best;
+  drawing.classes.row(i).maxCoeff(&best);
+  return classColor(kJointClassNames[static_cast<size_t>(best)]);
+}
+
+Image candidatesPicture(const RiggedDrawing& drawing) {
+  Image picture = gridPicture(drawing);
+  const auto& maxima = drawing.candidates.maxima;
+  for (const int i : drawing.candidates.kept) {
+    const JointCandidate& c = maxima[static_cast<size_t>(i)];
+    drawCircle(picture, magnified({c.x, c.y}), c.radius * kMagnification, 1.5, candidateColor(drawing, i));
+  }
+  for (size_t i = 0; i < maxima.size(); ++i) {
+    const bool kept = std::binary_search(drawing.candidates.kept.begin(), drawing.candidates.kept.end(),
+                                         static_cast<int>(i));
+    drawDisc(picture, magnified({maxima[i].x, maxima[i].y}), kept ? 5 : 2,
+             candidateColor(drawing, static_cast<int>(i)));
+  }
+  return picture;
+}
+
+// Each joint a colour of its own, neighbours far apart on the colour circle.
+Eigen::Array3d jointColor(int joint) {
+  const double hue = std::fmod(joint * 0.381966, 1.0) * 6;
+  const auto channel = [&](double shift) {
+    const double h = std::fmod(hue + shift, 6.0);
+    return 255 * (0.25 + 0.7 * std::clamp(std::abs(h - 3) - 1, 0.0, 1.0));
+  };
+  return {channel(0), channel(4), channel(2)};
+}
+
+// The character with its skin painted in the colours of the joints that carry it.
+TriangleMesh weightsPainted(const RiggedCharacter& character) {
+  TriangleMesh mesh = character.mesh;
+  if (mesh.uv.rows() == 0) return mesh;
+  mesh.texture = blankImage(512, 512, kGrey);
+  const auto colorOf = [&](int v) {
+    Eigen::Array3d color = Eigen::Array3d::Zero();
+    for (int k = 0; k < 4; ++k)
+      color += character.weights.weights(v, k) * jointColor(character.weights.joints(v, k));
+    return color;
+  };
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    Points corners;
+    Eigen::Array3d color = Eigen::Array3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const int v = mesh.triangles(t, k);
+      corners.push_back(mesh.uv.row(v).transpose().cast<double>() * 512 - Vector2d(0.5, 0.5));
+      color += colorOf(v) / 3;
+    }
+    const auto byte = [&](int c) { return static_cast<std::uint8_t>(std::lround(color(c))); };
+    const Color flat{byte(0), byte(1), byte(2)};
+    fillPolygons(mesh.texture, {corners}, flat);
+    drawPolyline(mesh.texture, corners, 1, flat, true);
+  }
+  return mesh;
+}
+
+Image views(const TriangleMesh& mesh) {
+  std::vector<Panel> panels;
+  for (const auto& [label, yaw] :
+       {std::pair{"front", 0.0}, {"three-quarter", 0.7}, {"side", 1.5708}, {"back", 3.1416}}) {
+    const RenderOptions render{.width = kViewSize, .height = kViewSize};
+    panels.push_back(
+        {renderMesh(mesh.vertices, mesh, framingCamera(mesh.vertices, yaw, 0.1), render), label});
+  }
+  return montage(panels);
+}
+
+Image posed(const RiggedDrawing& drawing) {
+  std::vector<Panel> panels;
+  const TriangleMesh& mesh = drawing.character.mesh;
+  for (const Clip& clip : drawing.clips)
+    for (const double share : {0.2, 0.4, 0.6, 0.8}) {
+      const Pose pose =
+          samplePose(clip, drawing.character.skeleton, static_cast<float>(share) * clip.duration_s());
+      const auto posed_from_rest = posedFromRest(drawing.character.skeleton, pose.rotations,
+                                                 pose.root_translation * static_cast<float>(kModelHeight_m));
+      const auto vertices = skinVertices(mesh.vertices, drawing.character.weights, posed_from_rest);
+      const RenderOptions render{.width = kViewSize, .height = kViewSize};
+      char label[64];
+      std::snprintf(label, sizeof label, "%s, %.1f s", clip.name.c_str(),
+                    share * static_cast<double>(clip.duration_s()));
+      panels.push_back({renderMesh(vertices, mesh, framingCamera(vertices, 0.4, 0.1), render), label});
+    }
+  return panels.empty() ? views(mesh) : montage(panels, {.columns = 4});
+}
+
+}  // namespace
+
+void writeTrace(const RiggedDrawing& drawing, const std::string& dir) {
+  SKEL_CHECK(drawing.found());
+  const auto write = [&](const char* name, const Image& picture) {
+    writeFile(dir + "/" + name, encodePng(picture));
+  };
+  write("1-drawing.png", onPaper(drawing.image));
+  write("2-silhouette.png", silhouettePicture(drawing));
+  Image distance = gridPicture(drawing);
+  blit(distance, magnified(heatMap(drawing.candidates.distance), kMagnification), 0, 0);
+  write("3-distance.png", distance);
+  write("4-candidates.png", candidatesPicture(drawing));
+  Image skeleton = blankImage(drawing.image.width, drawing.image.height);
+  blit(skeleton, drawing.image, 0, 0);
+  drawSkeleton(skeleton, drawing.character.skeleton);
+  write("5-skeleton.png", fitted(skeleton, 640, 640));
+  write("6-mesh.png", views(drawing.character.mesh));
+  write("7-skin.png", views(weightsPainted(drawing.character)));
+  write("8-posed.png", posed(drawing));
+}
+
+}  // namespace skel
