@@ -21,10 +21,12 @@ JointWeights weightsFromReaches(const BoneReaches& reaches, const std::vector<Bo
     const int limb = bones[nearest].limb;
     for (Eigen::Index b = 0; b < reaches.cols(); ++b) {
       const bool foreign = limb >= 0 && bones[b].limb >= 0 && bones[b].limb != limb;
-      const float reach = (foreign ? kForeign : 1) * reaches(v, b).reach_m;
+      // The thinner of the two says how far: the trunk does not reach far down an arm.
+      const float reach =
+          (foreign ? kForeign : 1) * std::min(reaches(v, b).reach_m, reaches(v, nearest).reach_m);
       const float beyond2 = reaches(v, b).power_m2 - least;
-      if (beyond2 >= reach * reach) continue;
-      const float rest = 1 - std::sqrt(beyond2) / reach;
+      if (beyond2 > 0 && beyond2 >= reach * reach) continue;
+      const float rest = beyond2 > 0 ? 1 - std::sqrt(beyond2) / reach : 1;
       float& weight = weights(v, bones[b].joint);
       weight = std::max(weight, rest * rest);
     }

@@ -227,7 +227,13 @@ JointWeights geodesicWeights(const TriangleMesh& mesh, const std::vector<Bone>& 
     return Eigen::Vector2f(mesh.vertices(vertex, 0), mesh.vertices(vertex, 1));
   };
 
-  const float size = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).maxCoeff();
+  // Of the mesh and the bones, which may lie far from it.
+  Eigen::Array3f low = mesh.vertices.colwise().minCoeff(), high = mesh.vertices.colwise().maxCoeff();
+  for (const Bone& bone : bones) {
+    low = low.min(bone.from.array()).min(bone.to.array()),
+    high = high.max(bone.from.array()).max(bone.to.array());
+  }
+  const float size = (high - low).maxCoeff();
   Fronts fronts(std::max({0.5f * edge_m, 1e-4f * size, 1e-12f}));
   using Lengths = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Lengths way = Lengths::Constant(vertices, count, kFar);

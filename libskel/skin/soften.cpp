@@ -15,13 +15,13 @@
 namespace skel {
 namespace {
 
-constexpr float kLargestChange = 0.31f;  // along an edge
+constexpr float kLargestChange = 0.27f;  // along an edge
 constexpr float kFineMesh = 0.03f;       // mean edge, of the mesh's size: coarse ones cannot but change much
 constexpr float kBend = 0.8f;            // of what would turn a triangle inside out
 // In distances from the joint to the nearest vertex: farther out the limb has ended, or lies against the
 // trunk.
 constexpr float kRange = 3;
-constexpr int kSweeps = 30;
+constexpr int kSweeps = 50;
 
 // The joints each of which bends the middle of a limb, with what it moves.
 struct Hinge {

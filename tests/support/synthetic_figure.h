@@ -75,6 +75,8 @@ inline Plane8 capsuleMask(const CapsuleFigure& figure = {}) {
   capsule("neck", "head", 15);
   capsule("head", "head", figure.head_radius);
   for (const std::string side : {"right_", "left_"}) {
+    capsule("neck", side + "shoulder", figure.limb_radius);
+    capsule("pelvis", side + "hip", figure.limb_radius + 2);
     capsule(side + "shoulder", side + "elbow", figure.limb_radius);
     capsule(side + "elbow", side + "hand", figure.limb_radius);
     capsule(side + "hip", side + "knee", figure.limb_radius + 2);
