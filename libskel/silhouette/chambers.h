@@ -1,7 +1,9 @@
 // Which regions between lines belong to a figure, although its outline may have gaps.
 #pragma once
 
-#include <opencv2/core.hpp>
+namespace cv {
+class Mat;
+}
 
 namespace skel {
 
