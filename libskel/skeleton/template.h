@@ -48,7 +48,7 @@ struct RecognitionRules {
       1;  // (1): two candidates are of one line when they are at most line_reach · (D1 + D2) apart
   double limb_probability = 0.5;  // (3): least P_hand + P_leg of a limb
   double limb_radius = 0.5;       // (3): most mean D of a limb, as a share of the mean D of all candidates
-  double separation_px = 4;       // joints closer than this are moved apart, grid px
+  double separation_px = 2;       // joints closer than this are moved apart, grid px
 };
 
 struct SkeletonTemplate {
