@@ -18,12 +18,14 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kMagnification = 5;  // of the working grid
+constexpr int kPictureSize = 640;
 constexpr int kViewSize = 360;
 
-Image onPaper(const Image& image) {
+// Over white, its long side at most `size` px.
+Image onPaper(const Image& image, int size = kPictureSize) {
   Image paper = blankImage(image.width, image.height);
   blit(paper, image, 0, 0);
-  return fitted(paper, 640, 640);
+  return fitted(paper, size, size);
 }
 
 Vector2d magnified(const Vector2d& grid_point) {
@@ -31,12 +33,11 @@ Vector2d magnified(const Vector2d& grid_point) {
 }
 
 Image silhouettePicture(const RiggedDrawing& drawing) {
-  Image picture = blankImage(drawing.image.width, drawing.image.height);
-  blit(picture, drawing.image, 0, 0);
+  Image picture = onPaper(drawing.image, std::max(drawing.image.width, drawing.image.height));
   drawMask(picture, drawing.silhouette.mask, kLeft.withAlpha(110));
   const double width = std::max(1.0, std::max(picture.width, picture.height) / 250.0);
   for (const Polygon& polygon : drawing.silhouette.outline) drawPolyline(picture, polygon, width, kInk, true);
-  return fitted(picture, 640, 640);
+  return fitted(picture, kPictureSize, kPictureSize);
 }
 
 Image gridPicture(const RiggedDrawing& drawing) {
@@ -115,23 +116,37 @@ Image views(const TriangleMesh& mesh) {
   return montage(panels);
 }
 
-Image posed(const RiggedDrawing& drawing) {
+// The character at that share of the clip's duration.
+Image posed(const RiggedDrawing& drawing, const Clip& clip, double share, int size) {
+  const RiggedCharacter& character = drawing.character;
+  const Pose pose = samplePose(clip, character.skeleton, static_cast<float>(share) * clip.duration_s());
+  const auto posed_from_rest = posedFromRest(character.skeleton, pose.rotations,
+                                             pose.root_translation * static_cast<float>(kModelHeight_m));
+  const auto vertices = skinVertices(character.mesh.vertices, character.weights, posed_from_rest);
+  return renderMesh(vertices, character.mesh, framingCamera(vertices, 0.4, 0.1),
+                    {.width = size, .height = size});
+}
+
+Image clipsPicture(const RiggedDrawing& drawing) {
   std::vector<Panel> panels;
-  const TriangleMesh& mesh = drawing.character.mesh;
   for (const Clip& clip : drawing.clips)
     for (const double share : {0.2, 0.4, 0.6, 0.8}) {
-      const Pose pose =
-          samplePose(clip, drawing.character.skeleton, static_cast<float>(share) * clip.duration_s());
-      const auto posed_from_rest = posedFromRest(drawing.character.skeleton, pose.rotations,
-                                                 pose.root_translation * static_cast<float>(kModelHeight_m));
-      const auto vertices = skinVertices(mesh.vertices, drawing.character.weights, posed_from_rest);
-      const RenderOptions render{.width = kViewSize, .height = kViewSize};
       char label[64];
       std::snprintf(label, sizeof label, "%s, %.1f s", clip.name.c_str(),
                     share * static_cast<double>(clip.duration_s()));
-      panels.push_back({renderMesh(vertices, mesh, framingCamera(vertices, 0.4, 0.1), render), label});
+      panels.push_back({posed(drawing, clip, share, kViewSize), label});
     }
-  return panels.empty() ? views(mesh) : montage(panels, {.columns = 4});
+  return panels.empty() ? views(drawing.character.mesh) : montage(panels, {.columns = 4});
+}
+
+// From the drawing to the model that moves, in one row.
+Image summary(const RiggedDrawing& drawing, const Image& skeleton) {
+  std::vector<Panel> panels = {{fitted(onPaper(drawing.image), 420, 420), "the drawing"},
+                               {fitted(skeleton, 420, 420), "its skeleton"}};
+  if (drawing.clips.empty()) return montage(panels);
+  for (const double share : {0.45, 0.6})
+    panels.push_back({posed(drawing, drawing.clips.front(), share, 420), "the model, moving"});
+  return montage(panels);
 }
 
 }  // namespace
@@ -147,13 +162,13 @@ void writeTrace(const RiggedDrawing& drawing, const std::string& dir) {
   blit(distance, magnified(heatMap(drawing.candidates.distance), kMagnification), 0, 0);
   write("3-distance.png", distance);
   write("4-candidates.png", candidatesPicture(drawing));
-  Image skeleton = blankImage(drawing.image.width, drawing.image.height);
-  blit(skeleton, drawing.image, 0, 0);
+  Image skeleton = onPaper(drawing.image, std::max(drawing.image.width, drawing.image.height));
   drawSkeleton(skeleton, drawing.character.skeleton);
-  write("5-skeleton.png", fitted(skeleton, 640, 640));
+  write("5-skeleton.png", fitted(skeleton, kPictureSize, kPictureSize));
   write("6-mesh.png", views(drawing.character.mesh));
   write("7-skin.png", views(weightsPainted(drawing.character)));
-  write("8-posed.png", posed(drawing));
+  write("8-posed.png", clipsPicture(drawing));
+  write("summary.png", summary(drawing, skeleton));
 }
 
 }  // namespace skel
