@@ -1,0 +1,110 @@
+#include "labeler/annotated_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <tuple>
+#include <utility>
+
+#include "labeler/char_cfg.h"
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/json.h"
+#include "libskel/labels/annotated_image.h"
+
+namespace skel {
+namespace {
+
+namespace fs = std::filesystem;
+// Where others leave the middle of the trunk out, it is half way between shoulders and hips.
+void addBody(NamedJoints& joints) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  int found = 0;
+  for (const auto& [name, place] : joints) {
+    if (name == "body") return;
+    if (place && (name.ends_with("_shoulder") || name.ends_with("_hip"))) sum += *place, ++found;
+  }
+  if (found == 4) joints.emplace_back("body", sum / 4);
+}
+
+AnnotatedDrawing readCharCfg(const fs::path& path, const SkeletonTemplate& body_plan) {
+  const fs::path image = path.parent_path() / "texture.png", mask = path.parent_path() / "mask.png";
+  for (const fs::path& needed : {image, mask})
+    if (!fs::is_regular_file(needed))
+      throw InputError(path.string(), "needs " + needed.filename().string() + " beside it");
+  AnnotatedDrawing drawing{path.string(), image.string(), mask.string(), {}, {}};
+  const CharCfg cfg = parseCharCfg(readFile(path.string()), path.string());
+  for (const auto& [theirs, ours] : charCfgJointNames())
+    for (const auto& [name, point] : cfg.joints)
+      if (name == theirs && body_plan.find(ours) >= 0) drawing.joints.emplace_back(ours, point);
+  if (drawing.joints.empty()) throw InputError(path.string(), "none of its joints is known");
+  addBody(drawing.joints);
+  return drawing;
+}
+
+AnnotatedDrawing readJoints(const AnnotatedImage& annotated, const SkeletonTemplate& body_plan) {
+  AnnotatedDrawing drawing{
+      annotated.joints, annotated.image, annotated.mask, {}, readJointsFile(annotated.joints)};
+  for (const auto& [name, place] : drawing.joints)
+    if (body_plan.find(name) < 0)
+      throw InputError(annotated.joints,
+                       "joints." + name + ": is no joint of the template " + body_plan.name);
+  return drawing;
+}
+
+bool isCoco(const fs::path& path) {
+  const std::string name = path.filename().string();
+  if (!name.ends_with(".json") || name == "joints.json") return false;
+  for (const char* ending : {kLabelFileEnding, ".skeleton.json", ".joints.json"})
+    if (name.ends_with(ending)) return false;
+  const JsonDocument document = JsonDocument::readFile(path.string());
+  const JsonValue root = document.root();
+  return root.isObject() && root.find("annotations") && root.find("images");
+}
+
+}  // namespace
+
+std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir,
+                                                    const SkeletonTemplate& body_plan) {
+  std::vector<AnnotatedDrawing> drawings;
+  for (const AnnotatedImage& annotated : findAnnotatedImages(dir))
+    drawings.push_back(readJoints(annotated, body_plan));
+  for (const auto& entry : fs::recursive_directory_iterator(dir)) {
+    if (!entry.is_regular_file()) continue;
+    if (entry.path().filename() == "char_cfg.yaml") drawings.push_back(readCharCfg(entry.path(), body_plan));
+    if (isCoco(entry.path()))
+      for (AnnotatedDrawing& drawing : readCoco(entry.path().string(), body_plan))
+        drawings.push_back(std::move(drawing));
+  }
+  std::sort(drawings.begin(), drawings.end(), [](const AnnotatedDrawing& a, const AnnotatedDrawing& b) {
+    return std::tie(a.image, a.source) < std::tie(b.image, b.source);
+  });
+  for (size_t i = 1; i < drawings.size(); ++i)
+    if (drawings[i].image == drawings[i - 1].image)
+      throw InputError(drawings[i].image,
+                       "is annotated twice, in " + drawings[i - 1].source + " and in " + drawings[i].source);
+  return drawings;
+}
+
+Plane8 maskFromPolygons(const std::vector<Polygon>& polygons, int width, int height) {
+  Plane8 mask = Plane8::Zero(height, width);
+  std::vector<double> crossings;
+  for (int y = 0; y < height; ++y) {
+    crossings.clear();
+    for (const Polygon& polygon : polygons)
+      for (size_t i = 0; i < polygon.size(); ++i) {
+        const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        if ((a.y() <= y) == (b.y() <= y)) continue;
+        crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+      }
+    std::sort(crossings.begin(), crossings.end());
+    for (size_t i = 0; i + 1 < crossings.size(); i += 2) {
+      const int first = static_cast<int>(std::ceil(std::clamp(crossings[i], 0.0, double(width))));
+      const int last = static_cast<int>(std::ceil(std::clamp(crossings[i + 1], 0.0, double(width))));
+      if (last > first) mask.row(y).segment(first, last - first) = 255;
+    }
+  }
+  return mask;
+}
+
+}  // namespace skel

@@ -1,0 +1,47 @@
+// Drawings that something else has annotated: found in a folder, their joints under our names.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libskel/image/image.h"
+#include "libskel/labels/label_file.h"
+#include "libskel/silhouette/silhouette.h"
+#include "libskel/skeleton/template.h"
+
+namespace skel {
+
+struct AnnotatedDrawing {
+  std::string source;                  // the file that the joints come from
+  std::string image;                   // path
+  std::optional<std::string> mask;     // path
+  std::vector<Polygon> mask_polygons;  // instead of a file, image px; empty: none
+  NamedJoints joints;
+};
+
+// All below `dir`, by path:
+//   char_cfg.yaml with texture.png and mask.png          AnimatedDrawings
+//   joints.json with image.png and, if there is one, mask.png
+//   <stem>.joints.json with <stem>.png and, if there is one, <stem>.mask.png
+//   a COCO file (.json with "images" and "annotations") with keypoints and polygons
+// Throws InputError: a file that is broken, two annotations of one picture, a picture that is missing.
+std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir,
+                                                    const SkeletonTemplate& body_plan);
+
+// The annotations of one COCO file. Pictures with several: the largest figure.
+std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTemplate& body_plan);
+
+// COCO keypoints that readCoco() reads back.
+struct CocoPicture {
+  std::string file_name;
+  int width = 0, height = 0;
+  NamedJoints joints;
+  std::vector<Polygon> mask_polygons;
+};
+std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonTemplate& body_plan);
+
+// 255 at pixels whose centre lies inside. Even-odd: a polygon inside another is a hole.
+Plane8 maskFromPolygons(const std::vector<Polygon>& polygons, int width, int height);
+
+}  // namespace skel

@@ -1,0 +1,81 @@
+// The middle of the window: the drawing with its candidates, joints and mask, and what the mouse does there.
+#pragma once
+
+#include <imgui.h>
+
+#include <optional>
+#include <set>
+#include <string>
+
+#include "labeler/document.h"
+#include "libskel/window/window.h"
+
+namespace skel {
+
+enum class Tool { kTouch, kBrush, kLasso, kJoints, kMask };
+inline constexpr int kToolCount = 5;
+
+class CanvasView {
+ public:
+  explicit CanvasView(Document& document) : document_(document) {}
+
+  // Fills the rest of the current Dear ImGui window.
+  void draw();
+  // The whole drawing in view.
+  void fit() { fitted_ = false; }
+  void zoom(double factor) { zoomAround(view_center_, factor); }
+  void growBrush(double factor);
+  // The candidate that keys speak of: what the mouse touched last, or what was chosen by select().
+  int selected() const { return selected_; }
+  void select(int candidate);
+  // Ends a stroke that has not ended yet, so that other steps can follow.
+  void cancel();
+
+  Tool tool = Tool::kTouch;
+  JointClass active_class = JointClass::kHead;  // of brush, lasso and click
+  bool mask_adds = true;  // what the left button does to the mask; the right one: the reverse
+
+ private:
+  Eigen::Vector2d imageFromScreen(const ImVec2& p) const;
+  ImVec2 screenFromImage(const Eigen::Vector2d& p) const;
+  void zoomAround(const ImVec2& screen, double factor);
+  void fitNow();
+  void followDocument();
+  void updateMaskTexture();
+  void navigate(bool hovered);
+  void useTool(bool hovered);
+  void useTouch(bool hovered);
+  void useBrush(bool hovered);
+  void useLasso(bool hovered);
+  void useJoints(bool hovered);
+  void useMask(bool hovered);
+  void drawPicture(ImDrawList* list);
+  void drawCandidates(ImDrawList* list);
+  void drawSkeleton(ImDrawList* list);
+  void drawCursor(ImDrawList* list, bool hovered);
+
+  Document& document_;
+  Texture picture_, mask_tint_;
+  int shown_item_ = -1;
+  bool tinted_ = false;                             // mask_tint_ is of this drawing
+  std::shared_ptr<const MaskVersion> tinted_mask_;  // and of this mask
+
+  ImVec2 view_corner_{}, view_size_{}, view_center_{};
+  bool fitted_ = false;
+  double zoom_ = 1;                                      // screen px per image px
+  Eigen::Vector2d middle_px_ = Eigen::Vector2d::Zero();  // image point in the middle of the view
+  double brush_screen_px_ = 26;
+
+  int selected_ = -1;
+  int dragged_joint_ = -1;
+  bool stroke_ = false;      // a step of the document is open
+  bool stroke_adds_ = true;  // of a stroke on the mask
+  Eigen::Vector2d last_px_ = Eigen::Vector2d::Zero();
+  Polygon lasso_;
+  bool lassoing_ = false;
+};
+
+// The colours of a class and of a joint's side.
+ImU32 imColor(std::optional<JointClass> joint_class, int alpha = 255);
+
+}  // namespace skel

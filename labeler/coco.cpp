@@ -1,0 +1,188 @@
+// COCO keypoint annotations (cocodataset.org/#format-data). Its polygons count from the corner of the top
+// left pixel, ours from its centre; keypoints are pixels in both.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "labeler/annotated_drawing.h"
+#include "libskel/core/error.h"
+#include "libskel/core/json.h"
+
+namespace skel {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kPersonKeypoints = {
+    "nose",           "left_eye",   "right_eye",   "left_ear",   "right_ear",   "left_shoulder",
+    "right_shoulder", "left_elbow", "right_elbow", "left_wrist", "right_wrist", "left_hip",
+    "right_hip",      "left_knee",  "right_knee",  "left_ankle", "right_ankle"};
+
+using Points = std::map<std::string, Eigen::Vector2d>;
+
+// The keypoints of people under our names: hands for wrists, feet for ankles, the head at the nose, or
+// between eyes or ears where it is turned away, the body between shoulders and hips.
+NamedJoints underOurNames(const Points& theirs, const SkeletonTemplate& body_plan) {
+  Points points;
+  for (const auto& [name, point] : theirs) {
+    std::string own = name;
+    if (const size_t at = name.find("_wrist"); at != std::string::npos) own.replace(at, 6, "_hand");
+    if (const size_t at = name.find("_ankle"); at != std::string::npos) own.replace(at, 6, "_foot");
+    points[own] = point;
+  }
+  const auto middle = [&](const std::string& ours, const std::vector<std::string>& of) {
+    if (points.contains(ours)) return;
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const std::string& name : of) {
+      if (!points.contains(name)) return;
+      sum += points.at(name);
+    }
+    points[ours] = sum / static_cast<double>(of.size());
+  };
+  middle("head", {"nose"});
+  middle("head", {"left_eye", "right_eye"});
+  middle("head", {"left_ear", "right_ear"});
+  middle("body", {"left_shoulder", "right_shoulder", "left_hip", "right_hip"});
+  NamedJoints ours;
+  for (const TemplateJoint& joint : body_plan.joints)
+    if (const auto point = points.find(joint.name); point != points.end())
+      ours.emplace_back(joint.name, point->second);
+  return ours;
+}
+
+Points keypoints(const JsonValue& annotation, const std::vector<std::string>& names) {
+  const JsonValue list = annotation.at("keypoints");
+  const std::vector<double> numbers = list.asNumbers();
+  if (numbers.size() != 3 * names.size())
+    list.fail("expected " + std::to_string(names.size()) + " times x, y, visibility");
+  Points points;
+  for (size_t i = 0; i < names.size(); ++i)
+    if (numbers[3 * i + 2] > 0) points[names[i]] = {numbers[3 * i], numbers[3 * i + 1]};
+  return points;
+}
+
+std::vector<Polygon> polygons(const JsonValue& annotation) {
+  const std::optional<JsonValue> segmentation = annotation.find("segmentation");
+  if (!segmentation) return {};
+  if (!segmentation->isArray()) segmentation->fail("run lengths are not read: give polygons");
+  std::vector<Polygon> result;
+  for (const JsonValue& item : segmentation->items()) {
+    const std::vector<double> numbers = item.asNumbers();
+    if (numbers.size() < 6 || numbers.size() % 2 != 0) item.fail("expected x, y of at least three corners");
+    Polygon polygon;
+    for (size_t i = 0; i < numbers.size(); i += 2)
+      polygon.emplace_back(numbers[i] - 0.5, numbers[i + 1] - 0.5);
+    result.push_back(std::move(polygon));
+  }
+  return result;
+}
+
+double boxArea(const JsonValue& annotation) {
+  const std::optional<JsonValue> box = annotation.find("bbox");
+  if (!box) return 0;
+  const std::vector<double> b = box->asNumbers(4);
+  return b[2] * b[3];
+}
+
+}  // namespace
+
+std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTemplate& body_plan) {
+  const JsonDocument document = JsonDocument::readFile(path);
+  const JsonValue root = document.root();
+
+  std::map<double, std::vector<std::string>> names_of;  // by category
+  if (const auto categories = root.find("categories"))
+    for (const JsonValue& category : categories->items())
+      if (const auto names = category.find("keypoints")) {
+        std::vector<std::string>& list = names_of[category.at("id").asNumber()];
+        for (const JsonValue& name : names->items()) list.push_back(name.asString());
+      }
+
+  std::map<double, std::string> file_of;  // by image
+  for (const JsonValue& image : root.at("images").items()) {
+    const JsonValue name = image.at("file_name");
+    const fs::path file = fs::path(path).parent_path() / name.asString();
+    if (!fs::is_regular_file(file)) name.fail("there is no " + file.string());
+    file_of[image.at("id").asNumber()] = file.string();
+  }
+
+  std::map<std::string, std::pair<double, AnnotatedDrawing>> largest;  // by picture
+  for (const JsonValue& annotation : root.at("annotations").items()) {
+    if (!annotation.find("keypoints")) continue;
+    const JsonValue image_id = annotation.at("image_id");
+    const auto file = file_of.find(image_id.asNumber());
+    if (file == file_of.end()) image_id.fail("is no image of this file");
+    const auto category = annotation.find("category_id");
+    const auto names = category ? names_of.find(category->asNumber()) : names_of.end();
+    AnnotatedDrawing drawing;
+    drawing.source = path;
+    drawing.image = file->second;
+    drawing.joints = underOurNames(
+        keypoints(annotation, names == names_of.end() ? kPersonKeypoints : names->second), body_plan);
+    drawing.mask_polygons = polygons(annotation);
+    const double area = boxArea(annotation);
+    const auto [other, is_new] = largest.try_emplace(file->second, area, drawing);
+    if (!is_new && area > other->second.first) other->second = {area, std::move(drawing)};
+  }
+  std::vector<AnnotatedDrawing> drawings;
+  for (auto& [file, entry] : largest) drawings.push_back(std::move(entry.second));
+  return drawings;
+}
+
+std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonTemplate& body_plan) {
+  using Json = nlohmann::ordered_json;
+  Json names = Json::array(), bones = Json::array();
+  for (size_t j = 0; j < body_plan.joints.size(); ++j) {
+    names.push_back(body_plan.joints[j].name);
+    if (body_plan.joints[j].parent >= 0) bones.push_back({body_plan.joints[j].parent + 1, j + 1});
+  }
+  Json images = Json::array(), annotations = Json::array();
+  for (size_t i = 0; i < pictures.size(); ++i) {
+    const CocoPicture& picture = pictures[i];
+    images.push_back({{"id", i + 1},
+                      {"file_name", picture.file_name},
+                      {"width", picture.width},
+                      {"height", picture.height}});
+    Json points = Json::array(), segmentation = Json::array();
+    int known = 0;
+    for (const TemplateJoint& joint : body_plan.joints) {
+      const auto named = std::find_if(picture.joints.begin(), picture.joints.end(),
+                                      [&](const auto& j) { return j.first == joint.name && j.second; });
+      const bool found = named != picture.joints.end();
+      points.push_back(found ? named->second->x() : 0.0);
+      points.push_back(found ? named->second->y() : 0.0);
+      points.push_back(found ? 2 : 0);
+      known += found;
+    }
+    Eigen::AlignedBox2d box;
+    for (const Polygon& polygon : picture.mask_polygons) {
+      Json corners = Json::array();
+      for (const Eigen::Vector2d& corner : polygon) {
+        const Eigen::Vector2d p = corner.array() + 0.5;
+        box.extend(p);
+        corners.push_back(p.x());
+        corners.push_back(p.y());
+      }
+      segmentation.push_back(std::move(corners));
+    }
+    const Eigen::Vector2d low = box.isEmpty() ? Eigen::Vector2d(0, 0) : box.min();
+    const Eigen::Vector2d size = box.isEmpty() ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(box.sizes());
+    annotations.push_back({{"id", i + 1},
+                           {"image_id", i + 1},
+                           {"category_id", 1},
+                           {"iscrowd", 0},
+                           {"num_keypoints", known},
+                           {"keypoints", std::move(points)},
+                           {"bbox", {low.x(), low.y(), size.x(), size.y()}},
+                           {"area", size.prod()},
+                           {"segmentation", std::move(segmentation)}});
+  }
+  const Json category = {{"id", 1}, {"name", body_plan.name}, {"keypoints", names}, {"skeleton", bones}};
+  return Json{{"images", images}, {"annotations", annotations}, {"categories", Json::array({category})}}.dump(
+             1) +
+         "\n";
+}
+
+}  // namespace skel

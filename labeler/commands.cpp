@@ -1,0 +1,96 @@
+#include "labeler/commands.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "labeler/document.h"
+#include "labeler/label_report.h"
+#include "labeler/labeling_window.h"
+#include "libskel/classifier/weights_file.h"
+#include "libskel/core/files.h"
+
+namespace skel {
+namespace {
+
+void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+OnError complaints() {
+  return [](const Error& error) { std::fprintf(stderr, "skel-label: %s\n", error.what()); };
+}
+
+ExitCode report(const ImportCounts& counts) {
+  print(std::to_string(counts.made) + " label files made, " + std::to_string(counts.kept) +
+        " kept as they were, " + std::to_string(counts.failed) + " failed\n");
+  return counts.exit_code;
+}
+
+ExitCode openWindow(const LabelerOptions& options) {
+  if (options.path.empty())
+    throw UsageError("name a folder of pictures, a picture or a skeleton file (see --help)");
+  DocumentOptions document;
+  document.mlp = options.weights.empty() ? defaultMlp() : readMlp(options.weights);
+  document.body_plan = loadTemplate(options.body_plan);
+  return runLabelingWindow(options.path, std::move(document));
+}
+
+ExitCode check(const LabelerOptions& options) {
+  const std::vector<std::string> lines = checkLabels(options.dir, loadTemplate(options.body_plan));
+  for (const std::string& line : lines) std::fprintf(stderr, "skel-label: %s\n", line.c_str());
+  if (lines.empty()) print("no inconsistencies\n");
+  return lines.empty() ? ExitCode::kDone : ExitCode::kInput;
+}
+
+ExitCode exportLabels(const LabelerOptions& options) {
+  if (options.coco == options.csv) throw UsageError("export needs either --coco or --csv");
+  const std::string output = !options.output.empty() ? options.output
+                             : options.coco          ? "out/labels.coco.json"
+                                                     : "out/labels.csv";
+  writeFile(output, options.coco ? labelsAsCoco(options.dir, loadTemplate(options.body_plan))
+                                 : labelsAsCsv(options.dir));
+  print(output + "\n");
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode()>& run) {
+  run = [&] { return openWindow(options); };
+  app.add_option("path", options.path,
+                 "Folder of pictures (any depth), picture, or skeleton file to open in a window");
+  app.add_option("--weights", options.weights, "Weights that suggest labels (default: those built in)");
+  app.add_option("--template", options.body_plan, "Body plan: a name or a file")->capture_default_str();
+  app.require_subcommand(0, 1);
+
+  const auto command = [&](const char* name, const char* description, std::function<ExitCode()> action) {
+    CLI::App* sub = app.add_subcommand(name, description);
+    sub->add_option("dir", options.dir, "Folder, at any depth")->required();
+    sub->fallthrough();
+    sub->parse_complete_callback([&run, action] { run = action; });
+    return sub;
+  };
+  command("candidates", "Make an empty label file for every picture that has none",
+          [&] { return report(makeLabelFiles(options.dir, loadTemplate(options.body_plan), complaints())); });
+  CLI::App* import = command(
+      "import",
+      "Make label files from annotations: char_cfg.yaml, joints.json, <stem>.joints.json, COCO keypoints",
+      [&] {
+        return report(
+            importLabels(options.dir, loadTemplate(options.body_plan), options.import, complaints()));
+      });
+  import->add_option("-o,--output", options.import.output,
+                     "Copy pictures and masks here, with their label files");
+  import->add_flag("--force", options.import.force, "Make label files anew that exist already");
+  command("check", "Name every inconsistency of the label files", [&] { return check(options); });
+  command("stats", "Count drawings, candidates and labels", [&] {
+    print(labelStats(options.dir));
+    return ExitCode::kDone;
+  });
+  CLI::App* exported =
+      command("export", "Write labels for other programs", [&] { return exportLabels(options); });
+  exported->add_flag("--coco", options.coco, "COCO keypoints: joints and outline of every drawing");
+  exported->add_flag("--csv", options.csv, "A table: a row a candidate with features and label");
+  exported->add_option("-o,--output", options.output,
+                       "File (default: out/labels.coco.json or out/labels.csv)");
+}
+
+}  // namespace skel

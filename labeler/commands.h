@@ -1,0 +1,29 @@
+// The commands of skel-label, bound to the command line.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "labeler/import_labels.h"
+#include "libskel/core/error.h"
+
+namespace CLI {
+class App;
+}
+
+namespace skel {
+
+struct LabelerOptions {
+  std::string path;  // of the window: a folder, a picture or a skeleton file
+  std::string weights;
+  std::string body_plan = "biped";
+  std::string dir;  // of the other commands
+  ImportOptions import;
+  bool coco = false, csv = false;
+  std::string output;
+};
+
+// Adds all options and commands; those that are chosen set `run` to a function that returns the exit code.
+void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode()>& run);
+
+}  // namespace skel

@@ -1,0 +1,563 @@
+#include "labeler/document.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "labeler/mask_brush.h"
+#include "labeler/save_drawing.h"
+#include "libskel/animation/builtin_clips.h"
+#include "libskel/classifier/features.h"
+#include "libskel/core/check.h"
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/sha256.h"
+#include "libskel/image/read_image.h"
+#include "libskel/image/write_image.h"
+#include "libskel/labels/label_file.h"
+#include "libskel/labels/label_from_joints.h"
+
+namespace skel {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Older steps are forgotten. Masks of 600×600 px make 0.4 MB each.
+constexpr size_t kMostSteps = 1000;
+
+std::shared_ptr<const Figure> figureOf(Silhouette silhouette, const Mlp& mlp) {
+  auto figure = std::make_shared<Figure>();
+  figure->silhouette = std::move(silhouette);
+  if (!figure->silhouette.found()) return figure;
+  figure->candidates = extractCandidates(figure->silhouette);
+  const ClassProbabilities classes = classify(mlp, features(figure->candidates));
+  for (Eigen::Index i = 0; i < classes.rows(); ++i) {
+    const JointCandidate& candidate = figure->candidates.maxima[static_cast<size_t>(i)];
+    figure->centers_px.push_back(figure->silhouette.grid.imageFromGrid({candidate.x, candidate.y}));
+    Eigen::Index best = 0;
+    figure->certainties.push_back(classes.row(i).maxCoeff(&best));
+    figure->suggestions.push_back(static_cast<JointClass>(best));
+  }
+  return figure;
+}
+
+std::shared_ptr<const Figure> figureOf(const Image& image, const MaskVersion* mask, const Mlp& mlp) {
+  return figureOf(mask ? silhouetteFromMask(mask->pixels) : extractSilhouette(image), mlp);
+}
+
+// A candidate takes over the label of the nearest old one in whose disc it lies.
+std::vector<std::optional<JointClass>> carriedLabels(
+    const std::vector<Eigen::Vector2d>& centers_px, const std::vector<Eigen::Vector2d>& old_centers_px,
+    const std::vector<double>& old_radii_px, const std::vector<std::optional<JointClass>>& old_labels) {
+  std::vector<std::optional<JointClass>> labels;
+  for (const Eigen::Vector2d& center : centers_px) {
+    auto& label = labels.emplace_back();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < old_centers_px.size(); ++i) {
+      const double distance = (old_centers_px[i] - center).norm();
+      if (distance > old_radii_px[i] || distance >= nearest) continue;
+      nearest = distance;
+      label = old_labels[i];
+    }
+  }
+  return labels;
+}
+
+std::vector<std::optional<JointClass>> carriedLabels(
+    const Figure& figure, const Figure& old_figure,
+    const std::vector<std::optional<JointClass>>& old_labels) {
+  std::vector<double> radii_px;
+  for (const JointCandidate& candidate : old_figure.candidates.maxima)
+    radii_px.push_back(candidate.radius / old_figure.silhouette.grid.scale);
+  return carriedLabels(figure.centers_px, old_figure.centers_px, radii_px, old_labels);
+}
+
+bool samePlaces(const std::vector<JointCandidate>& a, const std::vector<JointCandidate>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const JointCandidate& p, const JointCandidate& q) {
+                      return p.x == q.x && p.y == q.y && p.radius == q.radius;
+                    });
+}
+
+std::shared_ptr<const MaskVersion> readMaskVersion(const std::string& path, const Image& image) {
+  auto mask = std::make_shared<MaskVersion>();
+  mask->pixels = readMask(path);
+  if (mask->pixels.cols() != image.width || mask->pixels.rows() != image.height)
+    throw InputError(path, "has " + std::to_string(mask->pixels.cols()) + "x" +
+                               std::to_string(mask->pixels.rows()) + " px, its drawing has " +
+                               std::to_string(image.width) + "x" + std::to_string(image.height) +
+                               "; give both the same size or remove the mask");
+  mask->file = fs::path(path).filename().string();
+  mask->png = readFile(path);
+  mask->sha256 = sha256(mask->png);
+  return mask;
+}
+
+// The mask of a finished stroke, as a file.
+std::shared_ptr<const MaskVersion> sealed(const MaskVersion& stroke) {
+  auto mask = std::make_shared<MaskVersion>(stroke);
+  mask->png = encodePng(mask->pixels);
+  mask->sha256 = sha256(mask->png);
+  return mask;
+}
+
+std::string counted(size_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+NamedJoints namedJoints(const std::vector<std::optional<PlacedJoint>>& joints,
+                        const SkeletonTemplate& body_plan) {
+  NamedJoints named;
+  if (std::none_of(joints.begin(), joints.end(), [](const auto& joint) { return joint.has_value(); }))
+    return named;
+  for (size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j])
+      named.emplace_back(body_plan.joints[j].name, joints[j]->image);
+    else if (!body_plan.joints[j].derived)
+      named.emplace_back(body_plan.joints[j].name, std::nullopt);
+  }
+  return named;
+}
+
+// Joints half way between two others follow them, unless a person has placed them.
+void deriveMidpoints(std::vector<std::optional<PlacedJoint>>& joints, const SkeletonTemplate& body_plan) {
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const auto& derived = body_plan.joints[j].derived;
+    if (!derived || derived->rule != DerivationRule::kMidpoint) continue;
+    if (joints[j] && joints[j]->origin == JointOrigin::kEdited) continue;
+    const auto& a = joints[static_cast<size_t>(derived->from[0])];
+    const auto& b = joints[static_cast<size_t>(derived->from[1])];
+    if (a && b)
+      joints[j] = PlacedJoint{(a->image + b->image) / 2, std::min(a->confidence, b->confidence),
+                              JointOrigin::kDerived};
+  }
+}
+
+int nearest(const std::vector<std::optional<Eigen::Vector2d>>& points, const Eigen::Vector2d& to,
+            double radius) {
+  int best = -1;
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (!points[i] || (*points[i] - to).norm() > radius) continue;
+    best = static_cast<int>(i);
+    radius = (*points[i] - to).norm();
+  }
+  return best;
+}
+
+bool isInside(const Eigen::Vector2d& p, const Polygon& polygon) {
+  bool inside = false;
+  for (size_t i = 0, k = polygon.size() - 1; i < polygon.size(); k = i++) {
+    const Eigen::Vector2d &a = polygon[i], &b = polygon[k];
+    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+    if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+  }
+  return inside;
+}
+
+}  // namespace
+
+bool DrawingState::operator==(const DrawingState& other) const {
+  const bool same_mask = mask == other.mask || (mask && other.mask && mask->file == other.mask->file &&
+                                                (mask->pixels == other.mask->pixels).all());
+  return same_mask && labels == other.labels && joints == other.joints;
+}
+
+// Makes an action a step of its own unless one is open.
+class Document::StepScope {
+ public:
+  explicit StepScope(Document& document) : document_(document), outermost_(!document.open_step_) {
+    if (outermost_) document_.beginStep();
+  }
+  ~StepScope() {
+    if (outermost_) document_.endStep();
+  }
+  StepScope(const StepScope&) = delete;
+  StepScope& operator=(const StepScope&) = delete;
+
+ private:
+  Document& document_;
+  bool outermost_;
+};
+
+Document::Document(const std::string& path, DocumentOptions options) : options_(std::move(options)) {
+  constexpr std::string_view kSkeletonEnding = ".skeleton.json";
+  if (fs::is_directory(path)) {
+    for (DrawingFiles& files : findDrawings(path)) items_.push_back({std::move(files), {}, 0, 0, {}});
+  } else if (path.ends_with(kSkeletonEnding)) {
+    skeleton_file_ = readSkeletonFile(path, options_.body_plan);
+    const std::string image = (fs::path(path).parent_path() / skeleton_file_->image_file).string();
+    items_.push_back({drawingFiles(image, skeleton_file_->image_file), path, 0, 0, {}});
+  } else {
+    readImage(path);
+    items_.push_back({drawingFiles(path, fs::path(path).filename().string()), {}, 0, 0, {}});
+  }
+  for (Item& item : items_) {
+    if (!fs::is_regular_file(item.files.labels)) continue;
+    try {
+      const LabelFile labels = readLabelFile(item.files.labels);
+      item.candidates = static_cast<int>(labels.candidates.size());
+      item.labelled = static_cast<int>(std::count_if(labels.labels.begin(), labels.labels.end(),
+                                                     [](const auto& label) { return label.has_value(); }));
+    } catch (const InputError& error) {
+      item.problem = error.what();
+    }
+  }
+  // Where the last session ended.
+  const auto unfinished =
+      std::find_if(items_.begin(), items_.end(), [](const Item& item) { return !item.done(); });
+  load(unfinished == items_.end() ? 0 : static_cast<int>(unfinished - items_.begin()));
+}
+
+bool Document::go(int item) {
+  if (open_step_) endStep();
+  if (item < 0 || item >= static_cast<int>(items_.size())) return false;
+  if (!save_problem_.empty()) save();
+  if (!save_problem_.empty()) return false;
+  if (item != current_) load(item);
+  return true;
+}
+
+void Document::load(int item) {
+  current_ = item;
+  image_ = {};
+  image_sha256_.clear();
+  figure_ = std::make_shared<Figure>();
+  state_ = {};
+  state_.joints.resize(options_.body_plan.joints.size());
+  saved_mask_ = nullptr;
+  rigged_.reset();
+  message_.clear();
+  try {
+    loadDrawing();
+    mutableItem().problem = figure_->silhouette.found() ? "" : figure_->silhouette.reason;
+    count();
+  } catch (const Error& error) {
+    mutableItem().problem = error.what();
+    state_.mask = nullptr;
+    state_.labels.clear();
+    figure_ = std::make_shared<Figure>();
+  }
+  if (message_.empty()) message_ = mutableItem().problem;
+}
+
+void Document::loadDrawing() {
+  const DrawingFiles& files = item().files;
+  const std::string bytes = readFile(files.image);
+  image_ = decodeImage(bytes, files.image);
+  image_sha256_ = sha256(bytes);
+  finishSave(files.labels);
+
+  std::optional<LabelFile> labels;
+  if (fs::is_regular_file(files.labels)) labels = readLabelFile(files.labels);
+  if (labels && labels->mask) {
+    state_.mask = readMaskVersion(besideLabelFile(files.labels, labels->mask->file), image_);
+    if (state_.mask->sha256 != labels->mask->sha256)
+      message_ = labels->mask->file + " has changed since it was labelled: look through the labels";
+  } else if (const auto given = givenMask(files); !labels && given) {
+    state_.mask = readMaskVersion(*given, image_);
+  }
+  saved_mask_ = state_.mask;
+  figure_ = figureOf(image_, state_.mask.get(), options_.mlp);
+  state_.labels.resize(figure_->centers_px.size());
+  if (labels) {
+    if (labels->image.sha256 != image_sha256_)
+      message_ = labels->image.file + " has changed since it was labelled: look through the labels";
+    for (const auto& [name, place] : labels->joints)
+      if (const int j = options_.body_plan.find(name); j >= 0 && place)
+        state_.joints[static_cast<size_t>(j)] = PlacedJoint{*place, 1, JointOrigin::kEdited};
+    if (samePlaces(labels->candidates, figure_->candidates.maxima)) {
+      state_.labels = labels->labels;
+    } else if (figure_->silhouette.found()) {
+      const WorkingGrid& grid = figure_->silhouette.grid;
+      std::vector<Eigen::Vector2d> centers_px;
+      std::vector<double> radii_px;
+      for (const JointCandidate& candidate : labels->candidates) {
+        centers_px.push_back(grid.imageFromGrid({candidate.x, candidate.y}));
+        radii_px.push_back(candidate.radius / grid.scale);
+      }
+      state_.labels = carriedLabels(figure_->centers_px, centers_px, radii_px, labels->labels);
+      if (message_.empty())
+        message_ = "the candidates are not those of the label file: look through the labels";
+    }
+  }
+  if (skeleton_file_) {
+    for (const Joint& joint : skeleton_file_->skeleton.joints)
+      state_.joints[static_cast<size_t>(options_.body_plan.find(joint.name))] =
+          PlacedJoint{joint.image, joint.confidence, joint.origin};
+  }
+}
+
+void Document::beginStep() {
+  if (open_step_) endStep();
+  open_step_ = OpenStep{state_, figure_};
+}
+
+void Document::endStep() {
+  if (!open_step_) return;
+  const DrawingState before = std::move(open_step_->before);
+  open_step_.reset();
+  if (state_.mask && state_.mask->png.empty()) state_.mask = sealed(*state_.mask);
+  if (state_ == before) {
+    state_ = before;
+    return;
+  }
+  undo_.push_back({current_, before, state_});
+  if (undo_.size() > kMostSteps) undo_.pop_front();
+  redo_.clear();
+  count();
+  save();
+}
+
+void Document::label(const std::vector<int>& candidates, std::optional<JointClass> label) {
+  const StepScope scope(*this);
+  for (const int candidate : candidates) state_.labels.at(static_cast<size_t>(candidate)) = label;
+  if (!candidates.empty())
+    message_ = counted(candidates.size(), "candidate") + ": " +
+               (label ? kJointClassNames[static_cast<size_t>(*label)] : "no label");
+}
+
+void Document::acceptSuggestions() {
+  const StepScope scope(*this);
+  size_t accepted = 0;
+  for (size_t i = 0; i < state_.labels.size(); ++i) {
+    if (state_.labels[i]) continue;
+    state_.labels[i] = figure_->suggestions[i];
+    ++accepted;
+  }
+  message_ = counted(accepted, "suggestion") + " accepted";
+}
+
+void Document::labelFromJoints() {
+  const StepScope scope(*this);
+  const auto labels =
+      skel::labelFromJoints(figure_->candidates, figure_->silhouette.grid,
+                            namedJoints(state_.joints, options_.body_plan), options_.body_plan);
+  size_t changed = 0;
+  for (size_t i = 0; i < labels.size(); ++i) {
+    if (!labels[i] || labels[i] == state_.labels[i]) continue;
+    state_.labels[i] = labels[i];
+    ++changed;
+  }
+  const bool any =
+      std::any_of(labels.begin(), labels.end(), [](const auto& label) { return label.has_value(); });
+  message_ = any ? counted(changed, "label") + " changed to fit the joints"
+                 : "there are no joints to take labels from: press R first";
+}
+
+void Document::moveJoint(int joint, const Eigen::Vector2d& image_px) {
+  if (!figure_->silhouette.found()) return;
+  const StepScope scope(*this);
+  // Within the picture, to the hundredth of a pixel that skeleton files keep.
+  const Eigen::Vector2d low(0, 0), high(image_.width - 1, image_.height - 1);
+  const Eigen::Vector2d place = (image_px.cwiseMax(low).cwiseMin(high) * 100).array().round() / 100;
+  state_.joints.at(static_cast<size_t>(joint)) = PlacedJoint{place, 1, JointOrigin::kEdited};
+  deriveMidpoints(state_.joints, options_.body_plan);
+  rigged_.reset();
+  message_ = options_.body_plan.joints[static_cast<size_t>(joint)].name + " placed by hand";
+  std::replace(message_.begin(), message_.end(), '_', ' ');
+}
+
+void Document::forgetJoints() {
+  if (skeleton_file_) {
+    message_ = "a skeleton file needs all its joints";
+    return;
+  }
+  const StepScope scope(*this);
+  std::fill(state_.joints.begin(), state_.joints.end(), std::nullopt);
+  rigged_.reset();
+  message_ = "all joints forgotten: R finds them anew";
+}
+
+bool Document::replaceMask(std::shared_ptr<const MaskVersion> mask) {
+  auto figure = figureOf(image_, mask.get(), options_.mlp);
+  if (!figure->silhouette.found()) {
+    message_ = "that would leave no figure: " + figure->silhouette.reason;
+    return false;
+  }
+  // From what was there before the whole stroke, so that labels do not wander off in many small moves.
+  state_.labels = carriedLabels(*figure, *open_step_->figure, open_step_->before.labels);
+  figure_ = std::move(figure);
+  state_.mask = std::move(mask);
+  rigged_.reset();
+  return true;
+}
+
+void Document::paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px,
+                         bool add) {
+  if (image_.empty()) return;
+  const StepScope scope(*this);
+  auto mask = std::make_shared<MaskVersion>();
+  if (state_.mask)
+    mask->pixels = state_.mask->pixels;
+  else if (figure_->silhouette.found())
+    mask->pixels = figure_->silhouette.mask;
+  else
+    mask->pixels = Plane8::Zero(image_.height, image_.width);
+  mask->file = fs::path(item().files.mask).filename().string();
+  if (!paintLine(mask->pixels, from_px, to_px, radius_px, add ? 255 : 0)) return;
+  if (replaceMask(std::move(mask))) message_ = add ? "added to the figure" : "erased from the figure";
+}
+
+void Document::forgetMask() {
+  if (!state_.mask) return;
+  const StepScope scope(*this);
+  if (replaceMask(nullptr)) message_ = "the figure is found in the picture again";
+}
+
+void Document::rig() {
+  if (image_.empty()) return;
+  RigInput input;
+  input.image = image_;
+  if (state_.mask) input.mask = state_.mask->pixels;
+  RigOptions options;
+  options.mlp = options_.mlp;
+  options.body_plan = options_.body_plan;
+  options.clips = {builtinClips().front()};
+  auto rigged = std::make_unique<RiggedDrawing>(rigCharacter(input, options));
+  if (!rigged->found()) {
+    message_ = rigged->silhouette.reason;
+    return;
+  }
+  const StepScope scope(*this);
+  for (const Joint& joint : rigged->recognition.skeleton.joints) {
+    auto& place = state_.joints[static_cast<size_t>(options_.body_plan.find(joint.name))];
+    if (!place || place->origin != JointOrigin::kEdited)
+      place = PlacedJoint{joint.image, joint.confidence, joint.origin};
+  }
+  deriveMidpoints(state_.joints, options_.body_plan);
+  // The model is to have the joints that are shown.
+  Skeleton shown = rigged->recognition.skeleton;
+  for (Joint& joint : shown.joints) {
+    const PlacedJoint& place = *state_.joints[static_cast<size_t>(options_.body_plan.find(joint.name))];
+    joint.image = place.image;
+    joint.confidence = place.confidence;
+    joint.origin = place.origin;
+  }
+  input.skeleton = std::move(shown);
+  std::vector<std::string> missing = rigged->recognition.missing;
+  std::erase_if(missing, [&](const std::string& name) {
+    return state_.joints[static_cast<size_t>(options_.body_plan.find(name))]->origin == JointOrigin::kEdited;
+  });
+  rigged_ = std::make_unique<RiggedDrawing>(rigCharacter(std::move(input), options));
+  message_ = "rigged";
+  if (!missing.empty()) message_ += ": look at " + missing.front();
+  if (missing.size() == 2) message_ += " and " + missing.back();
+  if (missing.size() > 2) message_ += " and " + std::to_string(missing.size() - 1) + " other joints";
+  std::replace(message_.begin(), message_.end(), '_', ' ');
+}
+
+bool Document::undo() { return travel(undo_, redo_, &Step::before); }
+bool Document::redo() { return travel(redo_, undo_, &Step::after); }
+
+bool Document::travel(std::deque<Step>& from, std::deque<Step>& to, DrawingState Step::*target) {
+  if (open_step_) endStep();
+  if (from.empty() || !go(from.back().item)) return false;
+  const Step step = std::move(from.back());
+  from.pop_back();
+  const bool same_mask = state_.mask == (step.*target).mask;
+  const bool same_joints = state_.joints == (step.*target).joints;
+  state_ = step.*target;
+  if (!same_mask) figure_ = figureOf(image_, state_.mask.get(), options_.mlp);
+  if (!same_mask || !same_joints) rigged_.reset();
+  message_ = &from == &undo_ ? "undone" : "done again";
+  to.push_back(step);
+  count();
+  save();
+  return true;
+}
+
+void Document::count() {
+  Item& item = mutableItem();
+  item.candidates = static_cast<int>(state_.labels.size());
+  item.labelled = static_cast<int>(std::count_if(state_.labels.begin(), state_.labels.end(),
+                                                 [](const auto& label) { return label.has_value(); }));
+  if (figure_->silhouette.found()) item.problem.clear();
+}
+
+void Document::save() {
+  try {
+    writeFiles();
+    save_problem_.clear();
+  } catch (const OutputError& error) {
+    save_problem_ = error.what();
+    return;
+  }
+  saved_mask_ = state_.mask;
+}
+
+void Document::writeFiles() const {
+  const DrawingFiles& files = item().files;
+  LabelFile labels;
+  labels.image = {fs::path(files.image).filename().string(), image_sha256_};
+  labels.image_width = image_.width;
+  labels.image_height = image_.height;
+  labels.grid_width = figure_->silhouette.grid.width;
+  labels.grid_height = figure_->silhouette.grid.height;
+  labels.candidates = figure_->candidates.maxima;
+  labels.labels = state_.labels;
+  labels.joints = namedJoints(state_.joints, options_.body_plan);
+  if (state_.mask) labels.mask = LabelFile::Source{state_.mask->file, state_.mask->sha256};
+
+  if (skeleton_file_) {
+    SkeletonFile file = *skeleton_file_;
+    for (Joint& joint : file.skeleton.joints) {
+      const auto& place = state_.joints[static_cast<size_t>(options_.body_plan.find(joint.name))];
+      if (!place) continue;
+      joint.image = place->image;
+      joint.confidence = place->confidence;
+      joint.origin = place->origin;
+      if (place->origin == JointOrigin::kEdited) std::erase(file.missing, joint.name);
+    }
+    if (state_.mask) file.mask = SkeletonFile::Mask{state_.mask->file, state_.mask->sha256};
+    writeFile(item().skeleton_path, formatSkeletonFile(file));
+    // Who only moves joints has no use for a label file.
+    const bool labelled = item().labelled > 0 || state_.mask != saved_mask_;
+    if (!labelled && !fs::is_regular_file(files.labels)) return;
+  }
+  const bool mended = state_.mask && state_.mask != saved_mask_ &&
+                      state_.mask->file == fs::path(files.mask).filename().string();
+  if (mended) {
+    saveWithMask(files.labels, labels, state_.mask->png);
+  } else {
+    writeLabelFile(files.labels, labels);
+    // A mask that was undone altogether.
+    if (!state_.mask && saved_mask_ && besideLabelFile(files.labels, saved_mask_->file) == files.mask)
+      fs::remove(files.mask);
+  }
+}
+
+int Document::mostUnsure() const {
+  int best = -1;
+  for (size_t i = 0; i < state_.labels.size(); ++i)
+    if (!state_.labels[i] &&
+        (best < 0 || figure_->certainties[i] < figure_->certainties[static_cast<size_t>(best)]))
+      best = static_cast<int>(i);
+  return best;
+}
+
+int Document::candidateAt(const Eigen::Vector2d& image_px, double radius_px) const {
+  return nearest({figure_->centers_px.begin(), figure_->centers_px.end()}, image_px, radius_px);
+}
+
+int Document::jointAt(const Eigen::Vector2d& image_px, double radius_px) const {
+  std::vector<std::optional<Eigen::Vector2d>> points;
+  for (const auto& joint : state_.joints)
+    points.push_back(joint ? std::optional<Eigen::Vector2d>(joint->image) : std::nullopt);
+  return nearest(points, image_px, radius_px);
+}
+
+std::vector<int> Document::candidatesNear(const Eigen::Vector2d& image_px, double radius_px) const {
+  std::vector<int> found;
+  for (size_t i = 0; i < figure_->centers_px.size(); ++i)
+    if ((figure_->centers_px[i] - image_px).norm() <= radius_px) found.push_back(static_cast<int>(i));
+  return found;
+}
+
+std::vector<int> Document::candidatesInside(const Polygon& lasso) const {
+  std::vector<int> found;
+  for (size_t i = 0; i < figure_->centers_px.size(); ++i)
+    if (isInside(figure_->centers_px[i], lasso)) found.push_back(static_cast<int>(i));
+  return found;
+}
+
+}  // namespace skel

@@ -1,0 +1,163 @@
+// What the labelling window shows and does, without the window: the drawings, what is known about the current
+// one, the steps that change it, undo and redo of every step, and saving after each.
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "labeler/drawing_list.h"
+#include "libskel/candidates/candidates.h"
+#include "libskel/classifier/mlp.h"
+#include "libskel/image/image.h"
+#include "libskel/pipeline/rig_character.h"
+#include "libskel/silhouette/silhouette.h"
+#include "libskel/skeleton/skeleton_file.h"
+#include "libskel/skeleton/template.h"
+
+namespace skel {
+
+// A drawing in the list.
+struct Item {
+  DrawingFiles files;
+  std::string skeleton_path;         // the skeleton file that was opened; else empty
+  int candidates = 0, labelled = 0;  // 0 candidates: not looked at yet
+  std::string problem;               // why it cannot be labelled; else empty
+
+  bool done() const { return candidates > 0 && labelled == candidates; }
+};
+
+// A mask file as it is, or is to be, on the disk.
+struct MaskVersion {
+  Plane8 pixels;       // of the image's size
+  std::string file;    // name, beside the image
+  std::string png;     // its bytes; empty while a stroke is being drawn
+  std::string sha256;  // of these
+};
+
+struct PlacedJoint {
+  Eigen::Vector2d image = Eigen::Vector2d::Zero();  // px
+  double confidence = 0;
+  JointOrigin origin = JointOrigin::kEdited;
+
+  bool operator==(const PlacedJoint&) const = default;
+};
+
+// What steps change and undo brings back. Masks are shared and never change, so that copies are cheap.
+struct DrawingState {
+  std::shared_ptr<const MaskVersion> mask;         // null: the figure is found in the picture
+  std::vector<std::optional<JointClass>> labels;   // one a candidate (CandidateSet::maxima)
+  std::vector<std::optional<PlacedJoint>> joints;  // one a joint of the template
+
+  bool operator==(const DrawingState&) const;
+};
+
+// What follows from picture and mask.
+struct Figure {
+  Silhouette silhouette;
+  CandidateSet candidates;
+  std::vector<Eigen::Vector2d> centers_px;  // of the candidates, image px
+  std::vector<JointClass> suggestions;      // by the current weights
+  std::vector<double> certainties;          // their probabilities
+};
+
+struct DocumentOptions {
+  Mlp mlp;  // suggests labels and rigs
+  SkeletonTemplate body_plan;
+};
+
+class Document {
+ public:
+  // `path` is a folder of pictures of any depth, one picture, or one skeleton file. Throws InputError.
+  Document(const std::string& path, DocumentOptions options);
+
+  const std::vector<Item>& items() const { return items_; }
+  int current() const { return current_; }
+  const Item& item() const { return items_[static_cast<size_t>(current_)]; }
+  const SkeletonTemplate& bodyPlan() const { return options_.body_plan; }
+  // False, and stays, where there is no such item or the last step is not on the disk.
+  bool go(int item);
+
+  const Image& image() const { return image_; }
+  const DrawingState& state() const { return state_; }
+  // Silhouette and candidates; not found where there is no figure.
+  const Figure& figure() const { return *figure_; }
+  // One line about the last step, or why it was refused.
+  const std::string& message() const { return message_; }
+  // Why the last step is not on the disk; empty: it is.
+  const std::string& saveProblem() const { return save_problem_; }
+
+  // Steps. Each can be undone and is saved at once; between beginStep() and endStep() several make one.
+  void label(const std::vector<int>& candidates, std::optional<JointClass> label);
+  // Labels whatever has no label as suggested.
+  void acceptSuggestions();
+  // Labels every candidate by the nearest bone.
+  void labelFromJoints();
+  void moveJoint(int joint, const Eigen::Vector2d& image_px);
+  void forgetJoints();
+  // Adds to the figure, or erases from it, along a line with a round brush. Labels stay where the figure
+  // stays. A stroke that would leave no figure is refused.
+  void paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px, bool add);
+  // The figure is found in the picture again.
+  void forgetMask();
+  // Recognises the joints anew, but for those that a person has placed, and builds the model.
+  void rig();
+  // The model of the last rig(), until picture, mask or joints change; else null.
+  const RiggedDrawing* rigged() const { return rigged_.get(); }
+
+  void beginStep();
+  void endStep();
+  bool canUndo() const { return !undo_.empty() || open_step_; }
+  bool canRedo() const { return !redo_.empty(); }
+  // Goes to the drawing of that step. False if there is none.
+  bool undo();
+  bool redo();
+
+  // The unlabelled candidate that the weights are least sure about; -1 if all are labelled.
+  int mostUnsure() const;
+  // The nearest within `radius_px` of an image point; -1 if there is none.
+  int candidateAt(const Eigen::Vector2d& image_px, double radius_px) const;
+  int jointAt(const Eigen::Vector2d& image_px, double radius_px) const;
+  std::vector<int> candidatesNear(const Eigen::Vector2d& image_px, double radius_px) const;
+  std::vector<int> candidatesInside(const Polygon& lasso) const;
+
+ private:
+  struct Step {
+    int item;
+    DrawingState before, after;
+  };
+  struct OpenStep {
+    DrawingState before;
+    std::shared_ptr<const Figure> figure;
+  };
+  class StepScope;
+
+  Item& mutableItem() { return items_[static_cast<size_t>(current_)]; }
+  void load(int item);
+  void loadDrawing();
+  // Takes a mask and lets the candidates follow; false, with nothing changed, if it shows no figure.
+  bool replaceMask(std::shared_ptr<const MaskVersion> mask);
+  bool travel(std::deque<Step>& from, std::deque<Step>& to, DrawingState Step::*target);
+  void save();
+  void writeFiles() const;
+  void count();
+
+  DocumentOptions options_;
+  std::vector<Item> items_;
+  int current_ = 0;
+  Image image_;
+  std::string image_sha256_;
+  DrawingState state_;
+  std::shared_ptr<const Figure> figure_;
+  std::unique_ptr<RiggedDrawing> rigged_;
+  std::optional<SkeletonFile> skeleton_file_;
+  std::shared_ptr<const MaskVersion> saved_mask_;  // on the disk
+  std::optional<OpenStep> open_step_;
+  std::deque<Step> undo_, redo_;
+  std::string message_, save_problem_;
+};
+
+}  // namespace skel

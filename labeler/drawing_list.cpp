@@ -1,0 +1,56 @@
+#include "labeler/drawing_list.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "libskel/core/error.h"
+#include "libskel/labels/label_file.h"
+
+namespace skel {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isDrawing(const fs::path& path) {
+  std::string name = path.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const char* other : {".mask.png", ".silhouette.png", ".overlay.png"})
+    if (name.ends_with(other)) return false;
+  if (name == "mask.png") return false;
+  for (const char* ending : {".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tif", ".tiff", ".gif"})
+    if (name.ends_with(ending)) return true;
+  return false;
+}
+
+}  // namespace
+
+DrawingFiles drawingFiles(const std::string& image, const std::string& name) {
+  return {name, image, labelFileFor(image), fs::path(image).replace_extension().string() + ".mask.png"};
+}
+
+std::optional<std::string> givenMask(const DrawingFiles& files) {
+  if (fs::is_regular_file(files.mask)) return files.mask;
+  const fs::path image = files.image, beside = image.parent_path() / "mask.png";
+  if ((image.stem() == "image" || image.stem() == "texture") && fs::is_regular_file(beside))
+    return beside.string();
+  return std::nullopt;
+}
+
+std::vector<DrawingFiles> findDrawings(const std::string& dir) {
+  if (!fs::is_directory(dir)) throw InputError(dir, "is not a folder");
+  std::vector<DrawingFiles> drawings;
+  for (const auto& entry : fs::recursive_directory_iterator(dir))
+    if (entry.is_regular_file() && isDrawing(entry.path()))
+      drawings.push_back(
+          drawingFiles(entry.path().string(), entry.path().lexically_relative(dir).generic_string()));
+  if (drawings.empty()) throw InputError(dir, "holds no picture (.png, .jpg, .webp, .bmp, .tif, .gif)");
+  std::sort(drawings.begin(), drawings.end(),
+            [](const DrawingFiles& a, const DrawingFiles& b) { return a.name < b.name; });
+  for (size_t i = 1; i < drawings.size(); ++i)
+    if (drawings[i].labels == drawings[i - 1].labels)
+      throw InputError(drawings[i].image,
+                       "would share its label file with " + drawings[i - 1].image + "; rename one of them");
+  return drawings;
+}
+
+}  // namespace skel

@@ -1,0 +1,115 @@
+#include "labeler/import_labels.h"
+
+#include <filesystem>
+
+#include "labeler/annotated_drawing.h"
+#include "labeler/drawing_list.h"
+#include "libskel/core/files.h"
+#include "libskel/core/progress.h"
+#include "libskel/image/read_image.h"
+#include "libskel/image/write_image.h"
+#include "libskel/labels/annotated_image.h"
+#include "libskel/labels/label_file.h"
+
+namespace skel {
+namespace {
+
+namespace fs = std::filesystem;
+
+// `file` in the output folder, where there is one.
+std::string destination(const std::string& file, const std::string& dir, const ImportOptions& options) {
+  if (options.output.empty()) return file;
+  const fs::path below =
+      fs::path(file).lexically_normal().lexically_relative(fs::path(dir).lexically_normal());
+  if (below.empty() || *below.begin() == "..")
+    throw InputError(file, "lies outside " + dir + "; import it from there");
+  return (fs::path(options.output) / below).string();
+}
+
+void copyFile(const std::string& from, const std::string& to) {
+  if (from != to) writeFile(to, readFile(from));
+}
+
+void checkJoints(const AnnotatedDrawing& drawing, const Image& image) {
+  for (const auto& [name, place] : drawing.joints)
+    if (place && (place->x() < -0.5 || place->y() < -0.5 || place->x() > image.width - 0.5 ||
+                  place->y() > image.height - 0.5))
+      throw InputError(drawing.source, "joint " + name + " lies outside " + drawing.image);
+}
+
+void checkMask(const std::string& mask_path, const Image& image) {
+  const Plane8 mask = readMask(mask_path);
+  if (mask.cols() != image.width || mask.rows() != image.height)
+    throw InputError(mask_path, "has " + std::to_string(mask.cols()) + "x" + std::to_string(mask.rows()) +
+                                    " px, its drawing has " + std::to_string(image.width) + "x" +
+                                    std::to_string(image.height));
+}
+
+// Whether a label file was made.
+bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, const SkeletonTemplate& body_plan,
+                   const ImportOptions& options) {
+  const std::string image_path = destination(drawing.image, dir, options);
+  const std::string label_path = labelFileFor(image_path);
+  if (!options.force && fs::exists(label_path)) return false;
+
+  const Image image = readImage(drawing.image);
+  checkJoints(drawing, image);
+  if (drawing.mask) checkMask(*drawing.mask, image);
+  copyFile(drawing.image, image_path);
+  std::optional<std::string> mask;
+  if (drawing.mask) {
+    mask = destination(*drawing.mask, dir, options);
+    copyFile(*drawing.mask, *mask);
+  } else if (!drawing.mask_polygons.empty()) {
+    mask = drawingFiles(image_path, {}).mask;
+    writeFile(*mask, encodePng(maskFromPolygons(drawing.mask_polygons, image.width, image.height)));
+  }
+  writeLabelFile(label_path, labelImage(image_path, mask, drawing.joints, body_plan));
+  return true;
+}
+
+// Runs `make` for each; it says whether a label file was made.
+template <class List, class Make>
+ImportCounts forEach(const List& list, const char* title, const OnError& on_error, const Make& make) {
+  ImportCounts counts;
+  ProgressBar bar(title, list.size());
+  for (const auto& entry : list) {
+    try {
+      make(entry) ? ++counts.made : ++counts.kept;
+    } catch (const Error& error) {
+      if (counts.failed++ == 0) counts.exit_code = error.exitCode();
+      bar.clear();
+      on_error(error);
+    }
+    bar.advance();
+  }
+  return counts;
+}
+
+}  // namespace
+
+ImportCounts importLabels(const std::string& dir, const SkeletonTemplate& body_plan,
+                          const ImportOptions& options, const OnError& on_error) {
+  const std::vector<AnnotatedDrawing> drawings = findAnnotatedDrawings(dir, body_plan);
+  if (drawings.empty())
+    throw InputError(
+        dir,
+        "holds nothing to import (char_cfg.yaml, joints.json, <stem>.joints.json, or a COCO file with "
+        "keypoints)");
+  return forEach(drawings, "import", on_error, [&](const AnnotatedDrawing& drawing) {
+    return importDrawing(drawing, dir, body_plan, options);
+  });
+}
+
+ImportCounts makeLabelFiles(const std::string& dir, const SkeletonTemplate& body_plan,
+                            const OnError& on_error) {
+  return forEach(findDrawings(dir), "candidates", on_error, [&](const DrawingFiles& files) {
+    if (fs::exists(files.labels)) return false;
+    const auto mask = givenMask(files);
+    if (mask) checkMask(*mask, readImage(files.image));
+    writeLabelFile(files.labels, labelImage(files.image, mask, {}, body_plan));
+    return true;
+  });
+}
+
+}  // namespace skel

@@ -1,0 +1,36 @@
+// Label files from annotations that others have made, and empty ones.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "libskel/core/error.h"
+#include "libskel/skeleton/template.h"
+
+namespace skel {
+
+struct ImportOptions {
+  std::string
+      output;  // folder that pictures and masks are copied to; empty: label files go beside the pictures
+  bool force = false;  // make label files anew that exist already
+};
+
+struct ImportCounts {
+  int made = 0;
+  int kept = 0;  // there was a label file already
+  int failed = 0;
+  ExitCode exit_code = ExitCode::kDone;  // of the first failure
+};
+
+// Is told the error of every drawing that could not be used; the others are still processed.
+using OnError = std::function<void(const Error&)>;
+
+// See findAnnotatedDrawings() for what is read. Throws InputError where there is nothing to import.
+ImportCounts importLabels(const std::string& dir, const SkeletonTemplate& body_plan,
+                          const ImportOptions& options, const OnError& on_error);
+
+// A label file without labels for every drawing below `dir` that has none.
+ImportCounts makeLabelFiles(const std::string& dir, const SkeletonTemplate& body_plan,
+                            const OnError& on_error);
+
+}  // namespace skel

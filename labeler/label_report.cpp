@@ -1,0 +1,171 @@
+#include "labeler/label_report.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+
+#include "labeler/annotated_drawing.h"
+#include "labeler/save_drawing.h"
+#include "libskel/classifier/features.h"
+#include "libskel/core/error.h"
+#include "libskel/labels/annotated_image.h"
+#include "libskel/labels/label_file.h"
+#include "libskel/labels/label_folder.h"
+
+namespace skel {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> labelFiles(const std::string& dir) {
+  std::vector<std::string> files = findLabelFiles(dir);
+  if (files.empty())
+    throw InputError(dir, "holds no label files (" + std::string("*") + kLabelFileEnding +
+                              "): make some with skel-label candidates or import");
+  return files;
+}
+
+std::optional<std::string> maskOf(const std::string& path, const LabelFile& labels) {
+  if (!labels.mask) return std::nullopt;
+  return besideLabelFile(path, labels.mask->file);
+}
+
+void checkFile(const std::string& path, const SkeletonTemplate& body_plan, std::vector<std::string>& lines) {
+  const LabelFile labels = readLabelFile(path);
+  for (const auto& [name, place] : labels.joints)
+    if (body_plan.find(name) < 0)
+      lines.push_back(path + ": joints." + name + ": is no joint of the template " + body_plan.name);
+  const Silhouette silhouette = silhouetteOf(besideLabelFile(path, labels.image.file), maskOf(path, labels));
+  if (silhouette.mask.cols() != labels.image_width || silhouette.mask.rows() != labels.image_height)
+    lines.push_back(path + ": image: is " + std::to_string(silhouette.mask.cols()) + "x" +
+                    std::to_string(silhouette.mask.rows()) + " px");
+  if (silhouette.grid.width != labels.grid_width || silhouette.grid.height != labels.grid_height) {
+    lines.push_back(path + ": grid: the figure's is " + std::to_string(silhouette.grid.width) + "x" +
+                    std::to_string(silhouette.grid.height) + "; open and save it in skel-label");
+    return;
+  }
+  const std::vector<JointCandidate> maxima = extractCandidates(silhouette).maxima;
+  if (maxima.size() != labels.candidates.size()) {
+    lines.push_back(path + ": candidates: are " + std::to_string(labels.candidates.size()) +
+                    ", the figure has " + std::to_string(maxima.size()) + "; open and save it in skel-label");
+    return;
+  }
+  for (size_t i = 0; i < maxima.size(); ++i)
+    if (maxima[i].x != labels.candidates[i].x || maxima[i].y != labels.candidates[i].y ||
+        maxima[i].radius != labels.candidates[i].radius) {
+      lines.push_back(path + ": candidates[" + std::to_string(i) +
+                      "]: is not the figure's; open and save it in skel-label");
+      return;
+    }
+}
+
+std::string shown(double value) {
+  char text[32];
+  return std::string(text, std::to_chars(text, text + sizeof text, static_cast<float>(value)).ptr);
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
+  return result + "\"";
+}
+
+std::string nameBelow(const std::string& dir, const std::string& path) {
+  return fs::path(path).lexically_relative(dir).generic_string();
+}
+
+}  // namespace
+
+std::vector<std::string> checkLabels(const std::string& dir, const SkeletonTemplate& body_plan) {
+  const std::vector<std::string> files = labelFiles(dir);
+  for (const std::string& path : files) {
+    try {
+      finishSave(path);
+    } catch (const InputError&) {
+      // Among checkLabelFolder()'s complaints.
+    }
+  }
+  std::vector<std::string> lines = checkLabelFolder(dir);
+  for (const std::string& path : files) {
+    if (!findProblems(path).empty()) continue;
+    try {
+      checkFile(path, body_plan, lines);
+    } catch (const InputError& error) {
+      lines.emplace_back(path + ": " + error.what());
+    }
+  }
+  return lines;
+}
+
+std::string labelStats(const std::string& dir) {
+  int done = 0, masks = 0, with_joints = 0, candidates = 0, labelled = 0;
+  std::array<int, kJointClassCount> counts{};
+  const std::vector<std::string> files = labelFiles(dir);
+  for (const std::string& path : files) {
+    const LabelFile labels = readLabelFile(path);
+    int here = 0;
+    for (const auto& label : labels.labels)
+      if (label) ++here, ++counts[static_cast<size_t>(*label)];
+    candidates += static_cast<int>(labels.labels.size());
+    labelled += here;
+    done += here == static_cast<int>(labels.labels.size());
+    masks += labels.mask.has_value();
+    with_joints += !labels.joints.empty();
+  }
+  std::string text;
+  const auto line = [&](const char* name, int count, const std::string& note = {}) {
+    char row[128];
+    std::snprintf(row, sizeof row, "%-12s %6d%s\n", name, count, note.c_str());
+    text += row;
+  };
+  const auto share = [](int part, int whole) {
+    char note[32];
+    std::snprintf(note, sizeof note, "  %5.1f %%", whole > 0 ? 100.0 * part / whole : 0.0);
+    return std::string(note);
+  };
+  line("drawings", static_cast<int>(files.size()));
+  line("finished", done, share(done, static_cast<int>(files.size())));
+  line("with joints", with_joints);
+  line("with mask", masks);
+  line("candidates", candidates);
+  line("labelled", labelled, share(labelled, candidates));
+  for (size_t c = 0; c < counts.size(); ++c)
+    line((std::string("  ") + kJointClassNames[c]).c_str(), counts[c], share(counts[c], labelled));
+  return text;
+}
+
+std::string labelsAsCsv(const std::string& dir) {
+  std::string text = "file,candidate,x,y,radius,feature_x,feature_y,feature_radius,label\n";
+  for (const std::string& path : labelFiles(dir)) {
+    const LabelFile labels = readLabelFile(path);
+    CandidateSet candidates;
+    candidates.maxima = labels.candidates;
+    const Features rows = features(candidates);
+    const std::string name = quoted(nameBelow(dir, path));
+    for (size_t i = 0; i < labels.candidates.size(); ++i) {
+      const JointCandidate& candidate = labels.candidates[i];
+      text += name + "," + std::to_string(i);
+      for (const float value : {candidate.x, candidate.y, candidate.radius}) text += "," + shown(value);
+      for (int k = 0; k < 3; ++k) text += "," + shown(rows(static_cast<Eigen::Index>(i), k));
+      text += std::string(",") +
+              (labels.labels[i] ? kJointClassNames[static_cast<size_t>(*labels.labels[i])] : "") + "\n";
+    }
+  }
+  return text;
+}
+
+std::string labelsAsCoco(const std::string& dir, const SkeletonTemplate& body_plan) {
+  std::vector<CocoPicture> pictures;
+  for (const std::string& path : labelFiles(dir)) {
+    const LabelFile labels = readLabelFile(path);
+    const std::string image = besideLabelFile(path, labels.image.file);
+    pictures.push_back({nameBelow(dir, image), labels.image_width, labels.image_height, labels.joints,
+                        silhouetteOf(image, maskOf(path, labels)).outline});
+  }
+  return formatCoco(pictures, body_plan);
+}
+
+}  // namespace skel

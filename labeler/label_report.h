@@ -1,0 +1,26 @@
+// What a folder of label files holds: its inconsistencies, its counts, and exports for other programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libskel/skeleton/template.h"
+
+namespace skel {
+
+// One line each, with file and JSON path: all that checkLabelFolder() finds, candidates that are not those of
+// picture and mask, joints that the template does not have. Throws InputError: no label files.
+std::vector<std::string> checkLabels(const std::string& dir, const SkeletonTemplate& body_plan);
+
+// Counts of drawings, candidates and labels, of every class, of joints and masks, as text. Throws InputError.
+std::string labelStats(const std::string& dir);
+
+// One row a candidate: file, index, place and radius on the grid, the three features, the label (empty:
+// none).
+std::string labelsAsCsv(const std::string& dir);
+
+// One annotation a drawing: known joints as keypoints, the outline as polygons. Pictures by their path below
+// `dir`.
+std::string labelsAsCoco(const std::string& dir, const SkeletonTemplate& body_plan);
+
+}  // namespace skel

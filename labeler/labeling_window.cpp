@@ -1,0 +1,409 @@
+#include "labeler/labeling_window.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "labeler/canvas_view.h"
+#include "labeler/preview.h"
+#include "libskel/draw/color.h"
+#include "libskel/window/keys.h"
+#include "libskel/window/window.h"
+
+namespace skel {
+namespace {
+
+constexpr float kListWidth = 220, kPanelWidth = 270, kStatusHeight = 46, kButtonHeight = 44;
+constexpr const char* kToolNames[kToolCount] = {"Touch", "Brush", "Lasso", "Joints", "Mask"};
+constexpr const char* kToolKeys[kToolCount] = {"V", "B", "L", "J", "M"};
+constexpr const char* kToolHelp[kToolCount] = {
+    "Point at a disc, press 1 to 4", "Paint over discs in the chosen class", "Draw a line around discs",
+    "Drag joints to their place", "Left adds to the figure, right erases"};
+
+constexpr struct {
+  const char *keys, *what;
+} kHelp[] = {
+    {"1  2  3  4", "head, body, hand, leg: for what the mouse touches, or the brush"},
+    {"0  Delete", "take the label away"},
+    {"V  B  L", "touch, brush, lasso"},
+    {"N  Tab", "go to the disc that is least sure"},
+    {"Enter", "accept its suggestion and go on to the next"},
+    {"A", "accept all suggestions that are left"},
+    {"J", "drag joints"},
+    {"D", "labels from the joints"},
+    {"R", "rig and show the model; joints placed by hand stay"},
+    {"Shift R", "forget all joints and rig"},
+    {"M", "mend the mask: left button adds, right button erases"},
+    {"X", "swap adding and erasing"},
+    {"[  ]", "smaller, larger brush"},
+    {"Ctrl Z  Ctrl Y", "undo, redo"},
+    {"Page Up  Page Down", "previous, next drawing (also arrow keys)"},
+    {"U", "next unfinished drawing"},
+    {"Wheel  +  -", "zoom"},
+    {"Right or middle drag", "move the drawing"},
+    {"F", "fit the drawing into the view"},
+    {"H  ?  F1", "this help"},
+};
+
+bool pressed(key::Code code, bool repeat = false) { return ImGui::IsKeyPressed(code, repeat); }
+
+// A flat button of one colour, with a frame if it is the one in use.
+bool colorButton(const char* label, const ImVec2& size, const Color& color, bool in_use) {
+  const ImVec4 c(color.r / 255.f, color.g / 255.f, color.b / 255.f, in_use ? 1.f : 0.42f);
+  ImGui::PushStyleColor(ImGuiCol_Button, c);
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImVec4(c.x, c.y, c.z, in_use ? 1.f : 0.65f));
+  ImGui::PushStyleColor(ImGuiCol_ButtonActive, ImVec4(c.x, c.y, c.z, 1.f));
+  if (in_use) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1, 1, 1, 1));
+  const bool clicked = ImGui::Button(label, size);
+  ImGui::PopStyleColor(in_use ? 4 : 3);
+  return clicked;
+}
+
+void tip(const char* text) {
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
+}
+
+class LabelingWindow {
+ public:
+  explicit LabelingWindow(Document& document) : document_(document), canvas_(document) {}
+
+  NextFrame frame() {
+    keys();
+    const ImGuiIO& io = ImGui::GetIO();
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize(io.DisplaySize);
+    ImGui::Begin("skel-label", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse |
+                     ImGuiWindowFlags_NoNavInputs);
+    const float height = ImGui::GetContentRegionAvail().y - kStatusHeight;
+    drawList(height);
+    ImGui::SameLine();
+    ImGui::BeginChild(
+        "middle", {ImGui::GetContentRegionAvail().x - kPanelWidth - 8, height}, false,
+        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoBackground);
+    drawTools();
+    canvas_.draw();
+    ImGui::EndChild();
+    ImGui::SameLine();
+    const bool moving = drawPanel(height);
+    drawStatus();
+    ImGui::End();
+    if (help_) drawHelp();
+    return moving ? NextFrame::kAtOnce : NextFrame::kOnInput;
+  }
+
+ private:
+  void keys() {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.KeyCtrl) {
+      if (pressed(key::kZ, true)) io.KeyShift ? redo() : undo();
+      if (pressed(key::kY, true)) redo();
+      return;
+    }
+    if (pressed(key::kH) || pressed(key::kSlash) || pressed(key::kF1)) help_ = !help_;
+    if (pressed(key::kEscape)) help_ = false;
+    const key::Code class_keys[] = {key::k1, key::k2, key::k3, key::k4};
+    for (int c = 0; c < kJointClassCount; ++c)
+      if (pressed(class_keys[c])) chooseClass(static_cast<JointClass>(c), true);
+    if (pressed(key::k0) || pressed(key::kDelete) || pressed(key::kBackspace)) labelSelected(std::nullopt);
+    const key::Code tool_keys[] = {key::kV, key::kB, key::kL, key::kJ, key::kM};
+    for (int t = 0; t < kToolCount; ++t)
+      if (pressed(tool_keys[t])) chooseTool(static_cast<Tool>(t));
+    if (pressed(key::kN) || pressed(key::kTab)) nextUnsure();
+    if (pressed(key::kEnter) || pressed(key::kSpace)) acceptSelected();
+    if (pressed(key::kA)) acceptAll();
+    if (pressed(key::kD)) labelFromJoints();
+    if (pressed(key::kR)) rig(io.KeyShift);
+    if (pressed(key::kX)) canvas_.mask_adds = !canvas_.mask_adds;
+    if (pressed(key::kLeftBracket, true)) canvas_.growBrush(1 / 1.2);
+    if (pressed(key::kRightBracket, true)) canvas_.growBrush(1.2);
+    if (pressed(key::kPlus, true)) canvas_.zoom(1.25);
+    if (pressed(key::kMinus, true)) canvas_.zoom(1 / 1.25);
+    if (pressed(key::kF)) canvas_.fit();
+    if (pressed(key::kPageDown, true) || pressed(key::kRight, true) || pressed(key::kDown, true)) go(+1);
+    if (pressed(key::kPageUp, true) || pressed(key::kLeft, true) || pressed(key::kUp, true)) go(-1);
+    if (pressed(key::kU)) goToUnfinished();
+  }
+
+  void undo() { canvas_.cancel(), document_.undo(); }
+  void redo() { canvas_.cancel(), document_.redo(); }
+  void acceptAll() { canvas_.cancel(), document_.acceptSuggestions(); }
+  void labelFromJoints() { canvas_.cancel(), document_.labelFromJoints(); }
+
+  void rig(bool forget) {
+    canvas_.cancel();
+    if (forget) document_.forgetJoints();
+    document_.rig();
+  }
+
+  void chooseTool(Tool tool) {
+    canvas_.cancel();
+    canvas_.tool = tool;
+  }
+
+  void chooseClass(JointClass joint_class, bool label_too) {
+    canvas_.active_class = joint_class;
+    if (label_too && canvas_.tool == Tool::kTouch) labelSelected(joint_class);
+  }
+
+  void labelSelected(std::optional<JointClass> label) {
+    if (canvas_.selected() < 0) return;
+    canvas_.cancel();
+    document_.label({canvas_.selected()}, label);
+  }
+
+  void nextUnsure() {
+    chooseTool(Tool::kTouch);
+    canvas_.select(document_.mostUnsure());
+  }
+
+  void acceptSelected() {
+    if (canvas_.selected() < 0) return nextUnsure();
+    const auto i = static_cast<size_t>(canvas_.selected());
+    if (!document_.state().labels[i]) labelSelected(document_.figure().suggestions[i]);
+    nextUnsure();
+  }
+
+  void go(int by) { goTo(document_.current() + by); }
+
+  void goTo(int item) {
+    canvas_.cancel();
+    if (document_.go(item)) scroll_to_current_ = true;
+  }
+
+  void goToUnfinished() {
+    const int count = static_cast<int>(document_.items().size());
+    for (int by = 1; by < count; ++by) {
+      const int item = (document_.current() + by) % count;
+      if (!document_.items()[static_cast<size_t>(item)].done()) return goTo(item);
+    }
+  }
+
+  void drawList(float height) {
+    const auto& items = document_.items();
+    const int done =
+        static_cast<int>(std::count_if(items.begin(), items.end(), [](const Item& i) { return i.done(); }));
+    ImGui::BeginChild("list", {kListWidth, height}, true);
+    ImGui::Text("%d of %d finished", done, static_cast<int>(items.size()));
+    bar(static_cast<float>(done) / static_cast<float>(items.size()), 10);
+    ImGui::BeginChild("items", {0, -kButtonHeight - 10});
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(items.size()), kRowHeight + ImGui::GetStyle().ItemSpacing.y);
+    if (scroll_to_current_) {
+      const float row =
+          (kRowHeight + ImGui::GetStyle().ItemSpacing.y) * static_cast<float>(document_.current());
+      const float top = ImGui::GetScrollY(), view = ImGui::GetWindowHeight();
+      if (row < top || row + kRowHeight > top + view) ImGui::SetScrollY(std::max(0.f, row - view / 2));
+      scroll_to_current_ = false;
+    }
+    while (clipper.Step())
+      for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) drawRow(i);
+    ImGui::EndChild();
+    const float half = (ImGui::GetContentRegionAvail().x - 8) / 2;
+    if (ImGui::Button("Previous", {half, kButtonHeight})) go(-1);
+    ImGui::SameLine();
+    if (ImGui::Button("Next", {half, kButtonHeight})) go(+1);
+    ImGui::EndChild();
+  }
+
+  void drawRow(int index) {
+    const Item& item = document_.items()[static_cast<size_t>(index)];
+    ImGui::PushID(index);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    if (ImGui::Selectable("##row", index == document_.current(), 0, {0, kRowHeight})) goTo(index);
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip(
+          "%s\n%s", item.files.name.c_str(),
+          !item.problem.empty() ? item.problem.c_str()
+          : item.candidates == 0
+              ? "not looked at yet"
+              : (std::to_string(item.labelled) + " of " + std::to_string(item.candidates)).c_str());
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const ImVec2 c{corner.x + 16, corner.y + kRowHeight / 2};
+    if (!item.problem.empty()) {
+      list->AddCircleFilled(c, 9, IM_COL32(214, 58, 48, 255));
+      list->AddRectFilled({c.x - 1.5f, c.y - 5}, {c.x + 1.5f, c.y + 1}, IM_COL32_WHITE);
+      list->AddRectFilled({c.x - 1.5f, c.y + 3}, {c.x + 1.5f, c.y + 6}, IM_COL32_WHITE);
+    } else if (item.done()) {
+      list->AddCircleFilled(c, 9, IM_COL32(38, 160, 84, 255));
+      const ImVec2 tick[] = {{c.x - 4.5f, c.y}, {c.x - 1, c.y + 3.5f}, {c.x + 4.5f, c.y - 3.5f}};
+      list->AddPolyline(tick, 3, IM_COL32_WHITE, 0, 2.5f);
+    } else {
+      list->AddCircle(c, 8, IM_COL32(170, 178, 192, 255), 24, 2.5f);
+      if (item.labelled > 0) {
+        const float share = static_cast<float>(item.labelled) / static_cast<float>(item.candidates);
+        list->PathArcTo(c, 8, -1.5708f, -1.5708f + 6.2832f * share, 24);
+        list->PathStroke(IM_COL32(38, 160, 84, 255), 0, 3.5f);
+      }
+    }
+    // The end of a long name tells more than its beginning.
+    std::string name = std::filesystem::path(item.files.name).replace_extension().string();
+    const float room = ImGui::GetContentRegionAvail().x - 40;
+    while (name.size() > 4 && ImGui::CalcTextSize(name.c_str()).x > room)
+      name = ".." + name.substr(name.starts_with("..") ? 3 : 1);
+    list->AddText({corner.x + 36, corner.y + (kRowHeight - ImGui::GetTextLineHeight()) / 2},
+                  ImGui::GetColorU32(ImGuiCol_Text), name.c_str());
+    ImGui::PopID();
+  }
+
+  static void bar(float share, float height) {
+    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, {0.15f, 0.63f, 0.33f, 1});
+    ImGui::PushStyleColor(ImGuiCol_FrameBg, {0.88f, 0.90f, 0.93f, 1});
+    ImGui::ProgressBar(share, {-1, height}, "");
+    ImGui::PopStyleColor(2);
+  }
+
+  void drawTools() {
+    for (int t = 0; t < kToolCount; ++t) {
+      if (t > 0) ImGui::SameLine();
+      const bool in_use = static_cast<int>(canvas_.tool) == t;
+      if (colorButton(kToolNames[t], {76, kButtonHeight}, in_use ? Color{44, 92, 180} : Color{190, 200, 220},
+                      in_use))
+        chooseTool(static_cast<Tool>(t));
+      tip((std::string(kToolHelp[t]) + "  (key " + kToolKeys[t] + ")").c_str());
+    }
+    ImGui::SameLine(0, 24);
+    if (canvas_.tool == Tool::kMask) {
+      if (colorButton("Add", {100, kButtonHeight}, {30, 140, 60}, canvas_.mask_adds))
+        canvas_.mask_adds = true;
+      ImGui::SameLine();
+      if (colorButton("Erase", {100, kButtonHeight}, {210, 50, 40}, !canvas_.mask_adds))
+        canvas_.mask_adds = false;
+    } else {
+      for (int c = 0; c < kJointClassCount; ++c) {
+        if (c > 0) ImGui::SameLine();
+        const char* name = kJointClassNames[static_cast<size_t>(c)];
+        const std::string label = std::to_string(c + 1) + " " + name;
+        if (colorButton(label.c_str(), {80, kButtonHeight}, classColor(name),
+                        static_cast<int>(canvas_.active_class) == c))
+          chooseClass(static_cast<JointClass>(c), false);
+      }
+    }
+    ImGui::Spacing();
+  }
+
+  // True while the model moves.
+  bool drawPanel(float height) {
+    ImGui::BeginChild("panel", {kPanelWidth, height}, true);
+    const Item& item = document_.item();
+    const float width = ImGui::GetContentRegionAvail().x, half = (width - 8) / 2;
+    const float third = (width - kButtonHeight - 16) / 2;
+    enabledButton(
+        "Undo", {third, kButtonHeight}, document_.canUndo(), [&] { undo(); }, "Ctrl Z");
+    ImGui::SameLine();
+    enabledButton(
+        "Redo", {third, kButtonHeight}, document_.canRedo(), [&] { redo(); }, "Ctrl Y");
+    ImGui::SameLine();
+    if (ImGui::Button("?", {kButtonHeight, kButtonHeight})) help_ = !help_;
+    tip("All keys  (key H)");
+    ImGui::Spacing();
+
+    ImGui::Text("%d of %d labelled", item.labelled, item.candidates);
+    bar(item.candidates > 0 ? static_cast<float>(item.labelled) / static_cast<float>(item.candidates) : 0,
+        10);
+    const bool found = document_.figure().silhouette.found();
+    const bool open = found && item.labelled < item.candidates;
+    enabledButton(
+        "Next unsure", {half, kButtonHeight}, open, [&] { nextUnsure(); }, "N");
+    ImGui::SameLine();
+    enabledButton(
+        "Accept", {half, kButtonHeight}, open, [&] { acceptSelected(); }, "Enter");
+    enabledButton(
+        "Accept all", {half, kButtonHeight}, open, [&] { acceptAll(); }, "A");
+    ImGui::SameLine();
+    enabledButton(
+        "From joints", {half, kButtonHeight}, found, [&] { labelFromJoints(); }, "D");
+    ImGui::Spacing();
+    enabledButton(
+        "Rig it", {width, kButtonHeight}, found, [&] { rig(false); }, "R");
+    bool moving = false;
+    if (document_.rigged()) {
+      const float room = ImGui::GetContentRegionAvail().y - (document_.state().mask ? kButtonHeight + 12 : 0);
+      moving = preview_.draw(*document_.rigged(), width, std::clamp(room, 120.f, 1.25f * width));
+    }
+    if (canvas_.tool == Tool::kMask && document_.state().mask)
+      enabledButton(
+          "Mask from the picture", {width, kButtonHeight}, true,
+          [&] {
+            canvas_.cancel();
+            document_.forgetMask();
+          },
+          "Find the figure in the picture again");
+    ImGui::EndChild();
+    return moving;
+  }
+
+  template <class Action>
+  static void enabledButton(const char* label, const ImVec2& size, bool enabled, const Action& action,
+                            const char* hint) {
+    ImGui::BeginDisabled(!enabled);
+    if (ImGui::Button(label, size)) action();
+    ImGui::EndDisabled();
+    tip(hint);
+  }
+
+  void drawStatus() {
+    ImGui::Dummy({0, 2});
+    const std::string& message = document_.message();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(message.empty() ? kToolHelp[static_cast<size_t>(canvas_.tool)] : message.c_str());
+    const std::string& problem = document_.saveProblem();
+    const std::string saved = problem.empty() ? "saved" : "NOT SAVED: " + problem;
+    const float width = ImGui::CalcTextSize(saved.c_str()).x + 40;
+    ImGui::SameLine(std::max(20.f, ImGui::GetWindowWidth() - width - 14));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImU32 color = problem.empty() ? IM_COL32(38, 160, 84, 255) : IM_COL32(214, 58, 48, 255);
+    ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 10, at.y + 19}, 7, color);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 26);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(saved.c_str());
+  }
+
+  // Over the drawing, which stays usable: any key still works.
+  void drawHelp() {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowBgAlpha(0.96f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 14);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(28, 22));
+    ImGui::Begin("help", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings);
+    if (ImGui::BeginTable("keys", 2)) {
+      for (const auto& line : kHelp) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextColored({0.17f, 0.36f, 0.71f, 1}, "%s", line.keys);
+        ImGui::TableNextColumn();
+        ImGui::Text("   %s", line.what);
+      }
+      ImGui::EndTable();
+    }
+    ImGui::Spacing();
+    ImGui::TextDisabled("Everything is saved at once, and everything can be undone.");
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+  }
+
+  static constexpr float kRowHeight = 34;
+
+  Document& document_;
+  CanvasView canvas_;
+  Preview preview_;
+  bool help_ = false;
+  bool scroll_to_current_ = true;
+};
+
+}  // namespace
+
+ExitCode runLabelingWindow(const std::string& path, DocumentOptions options) {
+  Document document(path, std::move(options));
+  Window window({"skel-label: " + path, 1320, 860});
+  LabelingWindow content(document);
+  window.run([&] { return content.frame(); });
+  return ExitCode::kDone;
+}
+
+}  // namespace skel

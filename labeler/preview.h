@@ -1,0 +1,21 @@
+// The rigged model, waving: what R shows.
+#pragma once
+
+#include "libskel/pipeline/rig_character.h"
+#include "libskel/window/window.h"
+
+namespace skel {
+
+class Preview {
+ public:
+  // Fills the width that is there with the model as it moves. True while it moves; a click moves it again.
+  bool draw(const RiggedDrawing& rigged, float width, float height);
+
+ private:
+  const RiggedDrawing* shown_ = nullptr;
+  double start_s_ = 0;
+  bool resting_ = false;
+  Texture texture_;
+};
+
+}  // namespace skel

@@ -1,0 +1,43 @@
+#include "labeler/save_drawing.h"
+
+#include <filesystem>
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/sha256.h"
+
+namespace skel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kNext = ".next";
+
+void rename(const std::string& from, const std::string& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) throw OutputError(to, "cannot be replaced: " + error.message());
+}
+
+}  // namespace
+
+void saveWithMask(const std::string& label_file, const LabelFile& labels, const std::string& png) {
+  const std::string mask = besideLabelFile(label_file, labels.mask->file);
+  writeFile(mask + kNext, png);
+  writeLabelFile(label_file, labels);
+  rename(mask + kNext, mask);
+}
+
+void finishSave(const std::string& label_file) {
+  const std::string stem = label_file.substr(0, label_file.size() - std::string(kLabelFileEnding).size());
+  const std::string mask = stem + ".mask.png", next = mask + kNext;
+  if (!fs::is_regular_file(next)) return;
+  const bool labelled = fs::is_regular_file(label_file);
+  const auto source = labelled ? readLabelFile(label_file).mask : std::nullopt;
+  if (source && besideLabelFile(label_file, source->file) == mask && sha256(readFile(next)) == source->sha256)
+    rename(next, mask);
+  else
+    fs::remove(next);
+}
+
+}  // namespace skel

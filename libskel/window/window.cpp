@@ -1,0 +1,173 @@
+#include "libskel/window/window.h"
+
+#define GL_GLEXT_PROTOTYPES
+#define GLFW_INCLUDE_NONE
+#include <GL/gl.h>
+#include <GL/glext.h>
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "libskel/core/error.h"
+
+namespace skel {
+namespace {
+
+// Dear ImGui takes this many frames to settle after an event, e.g. for sizes that depend on the last frame's.
+constexpr int kSettlingFrames = 4;
+constexpr double kLongestWait_s = 0.5;
+
+std::string glfwProblem() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text ? text : "unknown reason";
+}
+
+struct Glfw {
+  Glfw() {
+    if (!glfwInit())
+      throw UnavailableError("no window can be opened (" + glfwProblem() + "): is there a display?");
+  }
+  ~Glfw() { glfwTerminate(); }
+};
+
+GLFWwindow* createWindow(const WindowOptions& options) {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  GLFWwindow* window =
+      glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
+  if (!window) throw UnavailableError("no window with OpenGL 3.3 can be opened (" + glfwProblem() + ")");
+  glfwMakeContextCurrent(window);
+  glfwSwapInterval(1);
+  return window;
+}
+
+// Large enough to be read by a child. Dear ImGui's own font is a bitmap that looks coarse at this size.
+void chooseFont(float scale) {
+  ImGuiIO& io = ImGui::GetIO();
+  const float size_px = 19 * scale;
+  for (const char* path :
+       {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+        "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+        "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+        "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+        "/System/Library/Fonts/Helvetica.ttc"}) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(path, ignored) && io.Fonts->AddFontFromFileTTF(path, size_px))
+      return;
+  }
+  ImFontConfig config;
+  config.SizePixels = size_px;
+  io.Fonts->AddFontDefault(&config);
+}
+
+void chooseStyle(float scale) {
+  ImGui::StyleColorsLight();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = 0;
+  style.FrameRounding = style.GrabRounding = style.ScrollbarRounding = style.ChildRounding = 7;
+  style.FramePadding = {12, 8};
+  style.ItemSpacing = {8, 8};
+  style.WindowPadding = {12, 12};
+  style.WindowBorderSize = 0;
+  style.ScrollbarSize = 16;
+  style.Colors[ImGuiCol_WindowBg] = {0.957f, 0.961f, 0.973f, 1};
+  style.Colors[ImGuiCol_ChildBg] = {1, 1, 1, 1};
+  style.Colors[ImGuiCol_Button] = {0.886f, 0.902f, 0.937f, 1};
+  style.Colors[ImGuiCol_ButtonHovered] = {0.80f, 0.85f, 0.94f, 1};
+  style.Colors[ImGuiCol_ButtonActive] = {0.69f, 0.77f, 0.92f, 1};
+  style.Colors[ImGuiCol_Header] = {0.80f, 0.87f, 0.98f, 1};
+  style.Colors[ImGuiCol_HeaderHovered] = {0.87f, 0.91f, 0.99f, 1};
+  style.Colors[ImGuiCol_HeaderActive] = {0.75f, 0.84f, 0.98f, 1};
+  style.Colors[ImGuiCol_Text] = {0.13f, 0.16f, 0.22f, 1};
+  style.ScaleAllSizes(scale);
+}
+
+struct Gui {
+  explicit Gui(GLFWwindow* window) {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+    float scale_x = 1, scale_y = 1;
+    glfwGetWindowContentScale(window, &scale_x, &scale_y);
+    const float scale = std::clamp(std::max(scale_x, scale_y), 1.f, 4.f);
+    chooseFont(scale);
+    chooseStyle(scale);
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+  }
+  ~Gui() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+  }
+};
+
+NextFrame drawFrame(GLFWwindow* window, const std::function<NextFrame()>& frame) {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+  const NextFrame next = frame();
+  ImGui::Render();
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(window, &width, &height);
+  glViewport(0, 0, width, height);
+  glClearColor(1, 1, 1, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(window);
+  return next;
+}
+
+}  // namespace
+
+struct Window::Parts {
+  explicit Parts(const WindowOptions& options) : window(createWindow(options)), gui(window) {}
+  Glfw glfw;
+  GLFWwindow* window;
+  Gui gui;
+};
+
+Window::Window(const WindowOptions& options) : parts_(std::make_unique<Parts>(options)) {}
+Window::~Window() = default;
+
+void Window::setTitle(const std::string& title) { glfwSetWindowTitle(parts_->window, title.c_str()); }
+
+void Window::run(const std::function<NextFrame()>& frame) {
+  int settling = kSettlingFrames;
+  while (!glfwWindowShouldClose(parts_->window)) {
+    const NextFrame next = drawFrame(parts_->window, frame);
+    if (next == NextFrame::kClose) break;
+    if (next == NextFrame::kAtOnce || --settling > 0) {
+      glfwPollEvents();
+    } else {
+      glfwWaitEventsTimeout(kLongestWait_s);
+      settling = kSettlingFrames;
+    }
+  }
+}
+
+Texture::~Texture() {
+  if (name_ != 0) glDeleteTextures(1, &name_);
+}
+
+void Texture::upload(const Image& image, Zoomed zoomed) {
+  if (name_ == 0) glGenTextures(1, &name_);
+  glBindTexture(GL_TEXTURE_2D, name_);
+  // Mipmaps keep thin lines from breaking when zoomed out.
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, zoomed == Zoomed::kSmooth ? GL_LINEAR : GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, image.width, image.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+               image.rgba.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+}
+
+}  // namespace skel

@@ -1,0 +1,193 @@
+// Annotations of other programs: read, written, read again.
+#include <filesystem>
+
+#include "labeler/annotated_drawing.h"
+#include "labeler/char_cfg.h"
+#include "labeler/mask_brush.h"
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "tests/labeler/drawing_folder.h"
+#include "tests/support/catch.h"
+
+using namespace skel;
+namespace fs = std::filesystem;
+
+namespace {
+
+// As yaml.dump writes it, and as people do.
+const std::string kCharCfg = R"(height: 600
+skeleton:
+- loc:
+  - 300
+  - 400
+  name: root
+  parent: null
+- loc: [300.5, 250]
+  name: "torso"   # between the shoulders
+  parent: root
+- loc: [302, 120]
+  name: neck
+  parent: torso
+- {NAMES}
+width: 600
+)";
+
+std::string charCfg() {
+  std::string limbs;
+  for (const char* side : {"left", "right"}) {
+    int y = 240;
+    for (const char* joint : {"shoulder", "elbow", "hand", "hip", "knee", "foot"})
+      limbs += std::string(limbs.empty() ? "" : "- ") + "loc:\n  - " + (side[0] == 'l' ? "340" : "260") +
+               "\n  - " + std::to_string(y += 40) + "\n  name: " + side + "_" + joint + "\n  parent: torso\n";
+  }
+  std::string text = kCharCfg;
+  return text.replace(text.find("{NAMES}\n"), 8, limbs);
+}
+
+Eigen::Vector2d place(const NamedJoints& joints, const std::string& name) {
+  for (const auto& [joint, point] : joints)
+    if (joint == name && point) return *point;
+  FAIL("no " << name);
+  return {};
+}
+
+std::string problemOf(const std::string& yaml) {
+  try {
+    parseCharCfg(yaml, "char_cfg.yaml");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("char_cfg.yaml: lists in both spellings, quotes and comments") {
+  const CharCfg cfg = parseCharCfg(charCfg(), "char_cfg.yaml");
+  CHECK(cfg.width == 600);
+  CHECK(cfg.height == 600);
+  REQUIRE(cfg.joints.size() == 15);
+  CHECK(cfg.joints[0].first == "root");
+  CHECK(cfg.joints[0].second == Eigen::Vector2d(300, 400));
+  CHECK(cfg.joints[1].first == "torso");
+  CHECK(cfg.joints[1].second == Eigen::Vector2d(300.5, 250));
+}
+
+TEST_CASE("char_cfg.yaml: what is wrong is said with its line") {
+  CHECK(problemOf("width: 3\nheight: 4\n") == "char_cfg.yaml: has no skeleton");
+  CHECK(problemOf("width: 3\nheight: x\n") == "char_cfg.yaml: line 2: expected a number, found 'x'");
+  CHECK(problemOf("width: 0\n") == "char_cfg.yaml: line 1: expected a size in px");
+  CHECK(problemOf("nonsense\n") == "char_cfg.yaml: line 1: expected 'key: value'");
+  CHECK(problemOf("colour: red\n") == "char_cfg.yaml: line 1: unknown key 'colour'");
+  CHECK(problemOf("skeleton:\n- loc: [1 2]\n  name: a\n") == "char_cfg.yaml: line 2: loc needs two numbers");
+  CHECK(problemOf("skeleton:\n- loc:\n  - 1\n  name: a\n") == "char_cfg.yaml: line 3: loc needs two numbers");
+  CHECK(problemOf("skeleton:\n- name: a\n  parent: null\n") ==
+        "char_cfg.yaml: line 3: a joint needs loc and name");
+  CHECK(problemOf("skeleton:\n- 7\n") == "char_cfg.yaml: line 2: expected loc, name and parent of a joint");
+  CHECK(problemOf("") == "char_cfg.yaml: width and height are missing");
+}
+
+TEST_CASE("all layouts are found at any depth") {
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.file("ours"));
+  fs::create_directories(dir.file("deep/er/single"));
+  fs::copy(kCharacters + "runner.png", dir.file("deep/er/single/image.png"));
+  fs::copy(kCharacters + "runner.mask.png", dir.file("deep/er/single/mask.png"));
+  fs::copy(kCharacters + "runner.joints.json", dir.file("deep/er/single/joints.json"));
+  fs::create_directories(dir.file("meta"));
+  fs::copy(kCharacters + "box_robot.png", dir.file("meta/texture.png"));
+  fs::copy(kCharacters + "box_robot.mask.png", dir.file("meta/mask.png"));
+  writeFile(dir.file("meta/char_cfg.yaml"), charCfg());
+
+  const auto drawings = findAnnotatedDrawings(dir.path(), plan);
+  REQUIRE(drawings.size() == 3);
+  CHECK(drawings[0].image == dir.file("deep/er/single/image.png"));
+  CHECK(drawings[0].mask == dir.file("deep/er/single/mask.png"));
+  CHECK(drawings[1].image == dir.file("meta/texture.png"));
+  CHECK(drawings[2].image == dir.file("ours/cap_boy.png"));
+  CHECK(drawings[2].joints.size() == 14);
+  // Their neck is the face, their torso lies between the shoulders.
+  CHECK(place(drawings[1].joints, "head") == Eigen::Vector2d(302, 120));
+  CHECK(place(drawings[1].joints, "neck") == Eigen::Vector2d(300.5, 250));
+  CHECK(place(drawings[1].joints, "pelvis") == Eigen::Vector2d(300, 400));
+  CHECK(place(drawings[1].joints, "left_shoulder") == Eigen::Vector2d(340, 280));
+  CHECK(place(drawings[1].joints, "body") == Eigen::Vector2d(300, 340));
+
+  fs::remove(dir.file("meta/mask.png"));
+  CHECK_THROWS_WITH(findAnnotatedDrawings(dir.path(), plan),
+                    dir.file("meta/char_cfg.yaml") + ": needs mask.png beside it");
+}
+
+TEST_CASE("COCO: people's keypoints under our names") {
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  fs::remove(dir.file("cap_boy.joints.json"));
+  std::string keypoints = "0,0,0, 290,100,2, 310,100,2, 0,0,0, 0,0,0";
+  for (int i = 5; i < 17; ++i)
+    keypoints += "," + std::to_string(200 + 10 * i) + "," + std::to_string(20 * i) + ",1";
+  const auto write = [&](const std::string& annotation) {
+    writeFile(
+        dir.file("people.json"),
+        R"({"images": [{"id": 7, "file_name": "cap_boy.png", "width": 600, "height": 600}], "annotations": [)" +
+            annotation + "]}");
+  };
+  write(R"({"id": 1, "image_id": 7, "keypoints": [)" + keypoints +
+        R"(], "bbox": [0, 0, 9, 9], "segmentation": [[10, 10, 30, 10, 30, 30, 10, 30]]})");
+  const auto drawings = findAnnotatedDrawings(dir.path(), plan);
+  REQUIRE(drawings.size() == 1);
+  CHECK(place(drawings[0].joints, "head") == Eigen::Vector2d(300, 100));
+  CHECK(place(drawings[0].joints, "left_hand") == Eigen::Vector2d(290, 180));
+  CHECK(place(drawings[0].joints, "right_foot") == Eigen::Vector2d(360, 320));
+  CHECK((maskFromPolygons(drawings[0].mask_polygons, 600, 600) != 0).count() == 20 * 20);
+
+  write(R"({"image_id": 8, "keypoints": []})");
+  CHECK_THROWS_WITH(readCoco(dir.file("people.json"), plan),
+                    dir.file("people.json") + ": annotations[0].image_id: is no image of this file");
+  write(R"({"image_id": 7, "keypoints": [1, 2, 2]})");
+  CHECK_THROWS_WITH(
+      readCoco(dir.file("people.json"), plan),
+      dir.file("people.json") + ": annotations[0].keypoints: expected 17 times x, y, visibility");
+  write(R"({"image_id": 7, "keypoints": [)" + keypoints + R"(], "segmentation": {"counts": "abc"}})");
+  CHECK_THROWS_WITH(
+      readCoco(dir.file("people.json"), plan),
+      dir.file("people.json") + ": annotations[0].segmentation: run lengths are not read: give polygons");
+}
+
+TEST_CASE("COCO that we write is COCO that we read: joints, and the mask to the pixel") {
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  fs::remove(dir.file("cap_boy.joints.json"));
+  Plane8 mask = Plane8::Zero(600, 600);
+  paintLine(mask, {100, 100}, {400, 300}, 50, 255);
+  paintLine(mask, {240, 200}, {260, 210}, 9, 0);  // a hole
+  const Silhouette silhouette = silhouetteFromMask(mask);
+  const NamedJoints joints = {{"head", Eigen::Vector2d(12.25, 30)}, {"left_hand", std::nullopt}};
+  writeFile(dir.file("coco.json"), formatCoco({{"cap_boy.png", 600, 600, joints, silhouette.outline}}, plan));
+  const auto drawings = readCoco(dir.file("coco.json"), plan);
+  REQUIRE(drawings.size() == 1);
+  REQUIRE(drawings[0].joints.size() == 1);
+  CHECK(place(drawings[0].joints, "head") == Eigen::Vector2d(12.25, 30));
+  CHECK((maskFromPolygons(drawings[0].mask_polygons, 600, 600) == silhouette.mask).all());
+}
+
+TEST_CASE("a brush is round, leaves no gaps, and may lie outside") {
+  Plane8 mask = Plane8::Zero(40, 60);
+  CHECK(paintLine(mask, {10, 10}, {50, 30}, 4, 255));
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 60; ++x) {
+      const Eigen::Vector2d p(x, y), a(10, 10), d(40, 20);
+      const double t = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
+      CHECK((mask(y, x) != 0) == ((p - a - t * d).norm() <= 4));
+    }
+  CHECK_FALSE(paintLine(mask, {10, 10}, {50, 30}, 4, 255));
+  CHECK_FALSE(paintLine(mask, {-100, -100}, {-90, 500}, 4, 255));
+  CHECK(paintLine(mask, {-3, 39}, {-3, 39}, 4, 255));
+  CHECK(mask(39, 1) == 255);
+  Plane8 one = Plane8::Zero(1, 1);
+  CHECK(paintLine(one, {0, 0}, {0, 0}, 0, 255));
+  Plane8 none(0, 0);
+  CHECK_FALSE(paintLine(none, {0, 0}, {1, 1}, 5, 255));
+}

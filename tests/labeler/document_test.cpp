@@ -1,0 +1,379 @@
+#include "labeler/document.h"
+
+#include <filesystem>
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/rng.h"
+#include "libskel/image/write_image.h"
+#include "libskel/labels/label_file.h"
+#include "tests/labeler/drawing_folder.h"
+#include "tests/support/catch.h"
+
+using namespace skel;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Every kind of step, at random places.
+void randomStep(Document& document, Rng& rng) {
+  const auto place = [&] { return Eigen::Vector2d(rng.uniform(150, 450), rng.uniform(80, 540)); };
+  const auto joint_class = [&] { return static_cast<JointClass>(rng.below(kJointClassCount)); };
+  const auto candidates = [&] {
+    const Eigen::Vector2d p = place();
+    return document.candidatesNear(p, rng.uniform(5, 80));
+  };
+  switch (rng.below(10)) {
+    case 0:
+      return document.label(candidates(), std::nullopt);
+    case 1:
+    case 2:
+      return document.label(candidates(), joint_class());
+    case 3:
+      return document.acceptSuggestions();
+    case 4:
+      return document.labelFromJoints();
+    case 5:
+      return document.moveJoint(static_cast<int>(rng.below(17)), place());
+    case 6: {
+      const Eigen::Vector2d from = place(), to = place();
+      return document.paintMask(from, to, rng.uniform(2, 20), rng.chance(0.5));
+    }
+    case 7:
+      return document.forgetMask();
+    case 8:
+      return document.forgetJoints();
+    default: {
+      document.beginStep();  // a stroke
+      const JointClass painted = joint_class();
+      for (int i = 0; i < 3; ++i) document.label(candidates(), painted);
+      return document.endStep();
+    }
+  }
+}
+
+int undoAll(Document& document) {
+  int count = 0;
+  while (document.undo()) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("labels are set, undone, done again, and are on the disk at once") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.path(), documentOptions());
+  const DrawingState empty = document.state();
+  REQUIRE(document.item().candidates > 20);
+  CHECK(document.item().labelled == 0);
+  CHECK_FALSE(document.canUndo());
+
+  document.label({3, 5}, JointClass::kHand);
+  CHECK(document.item().labelled == 2);
+  const LabelFile saved = readLabelFile(dir.file("cap_boy.labels.json"));
+  CHECK(saved.labels[3] == JointClass::kHand);
+  CHECK_FALSE(saved.labels[4]);
+  CHECK(saved.mask->file == "cap_boy.mask.png");
+  CHECK(findProblems(dir.file("cap_boy.labels.json")).empty());
+
+  CHECK(document.undo());
+  CHECK(document.state() == empty);
+  CHECK_FALSE(readLabelFile(dir.file("cap_boy.labels.json")).labels[3]);
+  CHECK(document.redo());
+  CHECK(document.item().labelled == 2);
+  CHECK_FALSE(document.redo());
+}
+
+TEST_CASE("a step that changes nothing is no step") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.path(), documentOptions());
+  document.label({}, JointClass::kHand);
+  document.label({1}, std::nullopt);
+  document.forgetJoints();
+  CHECK_FALSE(document.canUndo());
+  CHECK_FALSE(fs::exists(dir.file("cap_boy.labels.json")));
+}
+
+TEST_CASE("what was saved is what a new document finds") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  Rng rng(7);
+  DrawingState last;
+  {
+    Document document(dir.path(), documentOptions());
+    document.rig();
+    document.moveJoint(document.bodyPlan().find("head"), {301.25, 150.5});
+    document.labelFromJoints();
+    document.paintMask({300, 100}, {330, 60}, 12, true);
+    document.label({0}, std::nullopt);
+    last = document.state();
+  }
+  const Document document(dir.path(), documentOptions());
+  CHECK(document.message().empty());
+  CHECK(document.state().labels == last.labels);
+  REQUIRE(document.state().mask);
+  CHECK((document.state().mask->pixels == last.mask->pixels).all());
+  CHECK(document.state().mask->sha256 == last.mask->sha256);
+  for (size_t j = 0; j < last.joints.size(); ++j) {
+    REQUIRE(document.state().joints[j].has_value() == last.joints[j].has_value());
+    CHECK(document.state().joints[j]->image == last.joints[j]->image);
+  }
+}
+
+TEST_CASE("any sequence of steps is undone to its start and done again to its end") {
+  const auto seed = GENERATE(range(1u, 7u));
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path(), seed % 2 == 0);
+  copyCharacter("box_robot", dir.file("below"));
+  Document document(dir.path(), documentOptions());
+  const DrawingState start = document.state();
+  document.go(1);
+  const DrawingState other_start = document.state();
+  document.go(0);
+
+  Rng rng(seed);
+  for (int i = 0; i < 25; ++i) {
+    if (rng.chance(0.2)) document.go(static_cast<int>(rng.below(2)));
+    randomStep(document, rng);
+    CHECK(document.state().labels.size() == document.figure().candidates.maxima.size());
+  }
+  std::vector<DrawingState> end(2);
+  for (int i : {0, 1}) {
+    document.go(i);
+    end[static_cast<size_t>(i)] = document.state();
+  }
+
+  const int steps = undoAll(document);
+  CHECK(steps > 5);
+  document.go(0);
+  CHECK(document.state() == start);
+  document.go(1);
+  CHECK(document.state() == other_start);
+
+  int again = 0;
+  while (document.redo()) ++again;
+  CHECK(again == steps);
+  for (int i : {0, 1}) {
+    document.go(i);
+    // Joints come back from the disk as placed by hand, where a drawing was left in between.
+    CHECK(document.state().labels == end[static_cast<size_t>(i)].labels);
+    CHECK((document.state().mask == nullptr) == (end[static_cast<size_t>(i)].mask == nullptr));
+    if (document.state().mask)
+      CHECK((document.state().mask->pixels == end[static_cast<size_t>(i)].mask->pixels).all());
+  }
+}
+
+TEST_CASE("undo goes to the drawing of the step") {
+  const TempDir dir;
+  copyCharacter("box_robot", dir.path());
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.path(), documentOptions());
+  document.label({0}, JointClass::kLeg);
+  REQUIRE(document.go(1));
+  CHECK(document.undo());
+  CHECK(document.current() == 0);
+  CHECK(document.item().labelled == 0);
+}
+
+TEST_CASE("suggestions: the least sure first, and all at once") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.path(), documentOptions());
+  double last = 0;
+  for (int i = 0; i < 10; ++i) {
+    const int unsure = document.mostUnsure();
+    REQUIRE(unsure >= 0);
+    const double certainty = document.figure().certainties[static_cast<size_t>(unsure)];
+    CHECK(certainty >= last);
+    last = certainty;
+    document.label({unsure}, document.figure().suggestions[static_cast<size_t>(unsure)]);
+  }
+  document.acceptSuggestions();
+  CHECK(document.item().done());
+  CHECK(document.mostUnsure() == -1);
+  for (size_t i = 0; i < document.state().labels.size(); ++i)
+    CHECK(document.state().labels[i] == document.figure().suggestions[i]);
+}
+
+TEST_CASE("candidates under a brush, in a lasso, at the mouse") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const Document document(dir.path(), documentOptions());
+  const auto& centers = document.figure().centers_px;
+  const Eigen::Vector2d p = centers[4];
+  CHECK(document.candidateAt(p + Eigen::Vector2d(0.1, 0), 3) == 4);
+  CHECK(document.candidateAt({-50, -50}, 3) == -1);
+  const auto near = document.candidatesNear(p, 40);
+  CHECK(std::find(near.begin(), near.end(), 4) != near.end());
+  for (size_t i = 0; i < centers.size(); ++i)
+    CHECK(((centers[i] - p).norm() <= 40) == (std::find(near.begin(), near.end(), int(i)) != near.end()));
+  CHECK(document.candidatesInside({{-1, -1}, {601, -1}, {601, 601}, {-1, 601}}).size() == centers.size());
+  CHECK(document.candidatesInside({{-1, -1}, {300, -1}, {300, 601}, {-1, 601}}).size() < centers.size());
+  CHECK(document.candidatesInside({}).empty());
+}
+
+TEST_CASE("a joint that is dragged is edited, stays in the picture, and takes its midpoint along") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.path(), documentOptions());
+  document.rig();
+  REQUIRE(document.rigged());
+  const SkeletonTemplate& plan = document.bodyPlan();
+  const auto joint = [&](const char* name) { return *document.state().joints[size_t(plan.find(name))]; };
+  document.moveJoint(plan.find("left_shoulder"), {900, -20});
+  CHECK_FALSE(document.rigged());
+  CHECK(joint("left_shoulder").image == Eigen::Vector2d(599, 0));
+  CHECK(joint("left_shoulder").origin == JointOrigin::kEdited);
+  CHECK(joint("neck").origin == JointOrigin::kDerived);
+  CHECK(joint("neck").image == (joint("left_shoulder").image + joint("right_shoulder").image) / 2);
+
+  // Rigging keeps what a person has placed, and finds the rest anew.
+  document.rig();
+  CHECK(joint("left_shoulder").image == Eigen::Vector2d(599, 0));
+  CHECK(document.rigged()->recognition.skeleton.joints[size_t(plan.find("left_shoulder"))].origin ==
+        JointOrigin::kEdited);
+}
+
+TEST_CASE("candidates follow the mask; labels stay where the figure stays") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path(), false);
+  Document document(dir.path(), documentOptions());
+  document.acceptSuggestions();
+  const size_t before = document.figure().centers_px.size();
+  const auto figure_pixels = (document.figure().silhouette.mask != 0).count();
+
+  document.beginStep();
+  for (int y = 60; y < 160; y += 5) document.paintMask({560, y}, {590, y}, 8, true);
+  document.paintMask({560, 100}, {300, 100}, 8, true);  // a flag on a pole
+  document.endStep();
+  CHECK((document.figure().silhouette.mask != 0).count() > figure_pixels + 1000);
+  CHECK(document.state().labels.size() == document.figure().centers_px.size());
+  CHECK(document.figure().centers_px.size() != before);
+  CHECK(document.item().labelled > 0.7 * static_cast<double>(before));
+  const LabelFile labels = readLabelFile(dir.file("cap_boy.labels.json"));
+  REQUIRE(labels.mask);
+  CHECK(labels.mask->file == "cap_boy.mask.png");
+  CHECK(findProblems(dir.file("cap_boy.labels.json")).empty());
+
+  CHECK(document.undo());
+  CHECK(document.item().done());
+  CHECK_FALSE(fs::exists(dir.file("cap_boy.mask.png")));
+}
+
+TEST_CASE("a mask that would show no figure is refused") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.path(), documentOptions());
+  const DrawingState before = document.state();
+  document.paintMask({0, 300}, {600, 300}, 900, false);
+  CHECK(document.state() == before);
+  CHECK(contains(document.message(), "no figure"));
+  CHECK_FALSE(document.canUndo());
+}
+
+TEST_CASE("a mended mask that lay there before comes back byte by byte") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const std::string original = readFile(dir.file("cap_boy.mask.png"));
+  Document document(dir.path(), documentOptions());
+  document.paintMask({300, 60}, {300, 20}, 12, true);
+  CHECK(readFile(dir.file("cap_boy.mask.png")) != original);
+  document.undo();
+  CHECK(readFile(dir.file("cap_boy.mask.png")) == original);
+}
+
+TEST_CASE("a skeleton file: joints are edited in it, and no label file comes up") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const SkeletonTemplate plan = loadTemplate("biped");
+  SkeletonFile file;
+  file.image_file = "cap_boy.png";
+  file.image_width = file.image_height = 600;
+  file.skeleton = presetSkeleton(plan, {100, 50}, {500, 550});
+  file.missing = {"head", "left_hand"};
+  const std::string path = dir.file("cap_boy.skeleton.json");
+  writeFile(path, formatSkeletonFile(file));
+
+  Document document(path, documentOptions());
+  document.moveJoint(plan.find("head"), {300, 100});
+  const SkeletonFile saved = readSkeletonFile(path, plan);
+  CHECK(saved.skeleton.joints[size_t(saved.skeleton.index("head"))].origin == JointOrigin::kEdited);
+  CHECK(saved.skeleton.joints[size_t(saved.skeleton.index("head"))].image == Eigen::Vector2d(300, 100));
+  CHECK(saved.missing == std::vector<std::string>{"left_hand"});
+  CHECK_FALSE(fs::exists(dir.file("cap_boy.labels.json")));
+  document.undo();
+  CHECK_FALSE(hasEditedJoint(path));
+
+  document.label({0}, JointClass::kBody);
+  CHECK(fs::exists(dir.file("cap_boy.labels.json")));
+}
+
+TEST_CASE("pictures that cannot be labelled say why and do not stop the others") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  writeFile(dir.file("a_broken.png"), "not a picture");
+  Image blank(60, 60);
+  blank.rgba.setConstant(255);
+  writeFile(dir.file("b_blank.png"), encodePng(blank));
+  Document document(dir.path(), documentOptions());
+  REQUIRE(document.items().size() == 3);
+  CHECK(contains(document.item().problem, "a_broken.png"));
+  document.rig();
+  document.acceptSuggestions();
+  document.labelFromJoints();
+  document.paintMask({1, 1}, {2, 2}, 3, true);
+  CHECK_FALSE(document.canUndo());
+  CHECK(document.go(1));
+  CHECK_FALSE(document.item().problem.empty());
+  document.moveJoint(0, {3, 3});
+  document.rig();
+  CHECK_FALSE(document.canUndo());
+  CHECK(document.go(2));
+  CHECK(document.item().problem.empty());
+  CHECK_FALSE(document.go(3));
+}
+
+TEST_CASE("a step that cannot be saved is kept, said, and saved later") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  copyCharacter("box_robot", dir.path());
+  Document document(dir.path(), documentOptions());
+  const std::string labels = document.item().files.labels;
+  fs::create_directories(labels + "/in the way");
+  document.label({0}, JointClass::kHead);
+  CHECK_FALSE(document.saveProblem().empty());
+  CHECK(document.item().labelled == 1);
+  CHECK_FALSE(document.go(1));
+  fs::remove_all(labels);
+  CHECK(document.go(1));
+  CHECK(readLabelFile(labels).labels[0] == JointClass::kHead);
+}
+
+TEST_CASE("labels are carried over when the picture's candidates are no longer those of the label file") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  {
+    Document document(dir.path(), documentOptions());
+    document.acceptSuggestions();
+  }
+  LabelFile labels = readLabelFile(dir.file("cap_boy.labels.json"));
+  labels.candidates.pop_back();
+  labels.labels.pop_back();
+  writeLabelFile(dir.file("cap_boy.labels.json"), labels);
+  const Document document(dir.path(), documentOptions());
+  CHECK(contains(document.message(), "look through the labels"));
+  CHECK(document.item().labelled >= document.item().candidates - 1);
+}
+
+TEST_CASE("folders without pictures and pictures that share a label file are refused") {
+  const TempDir dir;
+  CHECK_THROWS_AS(Document(dir.path(), documentOptions()), InputError);
+  CHECK_THROWS_AS(Document(dir.file("nowhere"), documentOptions()), InputError);
+  copyCharacter("cap_boy", dir.path());
+  fs::copy(dir.file("cap_boy.png"), dir.file("cap_boy.jpg"));
+  CHECK_THROWS_WITH(Document(dir.path(), documentOptions()),
+                    dir.file("cap_boy.png") + ": would share its label file with " + dir.file("cap_boy.jpg") +
+                        "; rename one of them");
+}
