@@ -1,0 +1,425 @@
+#include "libskel/figures/figure.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "libskel/figures/biped_painter.h"
+#include "libskel/figures/other_figures.h"
+#include "libskel/figures/scene.h"
+#include "libskel/jointnet/line_strength.h"
+
+namespace skel {
+namespace {
+
+using Vec = Eigen::Vector2d;
+
+constexpr int kLongSide = 128;    // of the finished mask
+constexpr int kOversampling = 2;  // raster px per grid px
+constexpr int kMargin = 12;       // raster px around the scene, for what the finish adds
+
+using Bits = std::vector<std::uint8_t>;
+
+BodyKind sampleKind(Rng& rng, const std::vector<BodyKind>& kinds) {
+  if (!kinds.empty()) return kinds[rng.below(static_cast<std::uint32_t>(kinds.size()))];
+  constexpr double kShare[kBodyKinds] = {.13, .13, .13, .15, .12, .05, .05, .10, .05, .06, .05};
+  double r = rng.uniform();
+  int i = 0;
+  while (i + 1 < kBodyKinds && r >= kShare[i]) r -= kShare[i++];
+  return static_cast<BodyKind>(i);
+}
+
+// A slight or sometimes strong turn, stretch and shear, and sometimes a soft bending of the plane.
+std::function<Vec(const Vec&)> sampleWarp(Rng& rng) {
+  const double angle = rng.normal(0, rng.chance(.9) ? .06 : .4);
+  const double sx = std::exp(rng.normal(0, .1)), sy = std::exp(rng.normal(0, .1)), shear = rng.normal(0, .05);
+  Eigen::Matrix2d linear;
+  linear << sx, shear, 0, sy;
+  linear = Eigen::Rotation2Dd(angle).toRotationMatrix() * linear;
+  struct Wave {
+    Vec direction, shift;
+    double phase;
+  };
+  std::array<Wave, 4> waves{};
+  if (rng.chance(.4)) {
+    const double size = rng.uniform(.003, .02);
+    for (Wave& w : waves) {
+      w.direction = rotated(Vec(rng.uniform(3, 14), 0), rng.uniform(0, 2 * std::numbers::pi));
+      w.shift = Vec(rng.normal(0, size), rng.normal(0, size));
+      w.phase = rng.uniform(0, 2 * std::numbers::pi);
+    }
+  }
+  return [=](const Vec& p) -> Vec {
+    Vec q = linear * p;
+    for (const Wave& w : waves) {
+      if (!w.shift.isZero()) q += w.shift * std::sin(w.direction.dot(p) + w.phase);
+    }
+    return q;
+  };
+}
+
+// Mean over a (2·radius + 1)² window, twice: close to a Gaussian.
+void blur(std::vector<float>& plane, int width, int height, int radius) {
+  std::vector<float> line(std::max(width, height));
+  const auto pass = [&](float* first, int count, int stride) {
+    for (int i = 0; i < count; ++i) line[i] = first[i * stride];
+    float sum = 0;
+    for (int i = -radius; i <= radius; ++i) sum += line[std::clamp(i, 0, count - 1)];
+    for (int i = 0; i < count; ++i) {
+      first[i * stride] = sum / (2 * radius + 1);
+      sum += line[std::min(i + radius + 1, count - 1)] - line[std::max(i - radius, 0)];
+    }
+  };
+  for (int round = 0; round < 2; ++round) {
+    for (int y = 0; y < height; ++y) pass(plane.data() + y * width, width, 1);
+    for (int x = 0; x < width; ++x) pass(plane.data() + x, height, width);
+  }
+}
+
+// Outline made ragged (noise > 0) or rounder.
+void roughen(Rng& rng, Bits& solid, int width, int height, int radius, double noise) {
+  std::vector<float> plane(solid.begin(), solid.end());
+  blur(plane, width, height, radius);
+  if (noise > 0) {
+    const int cell = 2 + rng.below(8);
+    const int columns = width / cell + 2, rows = height / cell + 2;
+    std::vector<float> lattice(static_cast<std::size_t>(columns) * rows);
+    for (float& v : lattice) v = static_cast<float>(noise * rng.normal());
+    for (int y = 0; y < height; ++y) {
+      const float fy = static_cast<float>(y) / cell;
+      const int j = static_cast<int>(fy);
+      for (int x = 0; x < width; ++x) {
+        const float fx = static_cast<float>(x) / cell;
+        const int i = static_cast<int>(fx);
+        const float* l = &lattice[j * columns + i];
+        const float upper = l[0] + (l[1] - l[0]) * (fx - i),
+                    lower = l[columns] + (l[columns + 1] - l[columns]) * (fx - i);
+        plane[y * width + x] += upper + (lower - upper) * (fy - j);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = plane[i] > .5f;
+}
+
+// Grows (or, with value 0, shrinks) by a diamond of the given radius.
+void grow(Bits& solid, int width, int height, int radius, std::uint8_t value) {
+  for (int step = 0; step < radius; ++step) {
+    const Bits before = solid;
+    for (int y = 1; y + 1 < height; ++y) {
+      for (int x = 1; x + 1 < width; ++x) {
+        const int i = y * width + x;
+        if (before[i - 1] == value || before[i + 1] == value || before[i - width] == value ||
+            before[i + width] == value) {
+          solid[i] = value;
+        }
+      }
+    }
+  }
+}
+
+// A row's stretch of equal pixels. `label` is the same for all runs of one 4-connected region.
+struct Run {
+  int y, x0, x1;  // x1 excluded
+  int label;
+};
+
+std::vector<Run> labelledRuns(const Bits& plane, int width, int height, std::uint8_t value) {
+  std::vector<Run> runs;
+  const auto root = [&](int i) {
+    while (runs[i].label != i) i = runs[i].label = runs[runs[i].label].label;
+    return i;
+  };
+  std::size_t above = 0;
+  for (int y = 0; y < height; ++y) {
+    const std::size_t first = runs.size();
+    const std::uint8_t* row = plane.data() + y * width;
+    for (int x = 0; x < width;) {
+      if (row[x] != value) {
+        ++x;
+        continue;
+      }
+      const int x0 = x;
+      while (x < width && row[x] == value) ++x;
+      const int self = static_cast<int>(runs.size());
+      runs.push_back({y, x0, x, self});
+      while (above < first && runs[above].x1 <= x0) ++above;
+      for (std::size_t k = above; k < first && runs[k].x0 < x; ++k) {
+        const int a = root(static_cast<int>(k)), b = root(self);
+        runs[std::max(a, b)].label = std::min(a, b);
+      }
+    }
+    above = first;
+  }
+  for (int i = 0; i < static_cast<int>(runs.size()); ++i) runs[i].label = root(i);
+  return runs;
+}
+
+void fillHoles(Bits& solid, int width, int height) {
+  const std::vector<Run> runs = labelledRuns(solid, width, height, 0);
+  std::vector<bool> outside(runs.size(), false);
+  for (const Run& run : runs) {
+    if (run.y == 0 || run.y == height - 1 || run.x0 == 0 || run.x1 == width) outside[run.label] = true;
+  }
+  for (const Run& run : runs) {
+    if (!outside[run.label])
+      std::fill(&solid[run.y * width + run.x0], &solid[run.y * width + run.x1 - 1] + 1, 1);
+  }
+}
+
+// Keeps the largest part; returns its share of all that was there.
+double keepLargestPart(Bits& solid, int width, int height) {
+  const std::vector<Run> runs = labelledRuns(solid, width, height, 1);
+  std::vector<int> size(runs.size(), 0);
+  int all = 0;
+  for (const Run& run : runs) {
+    size[run.label] += run.x1 - run.x0;
+    all += run.x1 - run.x0;
+  }
+  if (all == 0) return 0;
+  const int best = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
+  for (const Run& run : runs) {
+    if (run.label != best)
+      std::fill(&solid[run.y * width + run.x0], &solid[run.y * width + run.x1 - 1] + 1, 0);
+  }
+  return static_cast<double>(size[best]) / all;
+}
+
+struct Drawing {
+  Scene scene;
+  bool human = true;
+  NetJointPositions joints;
+  FigureView view = FigureView::kFront;
+  BodyKind kind = BodyKind::kKid;
+};
+
+Drawing drawBiped(Rng& rng, const FigureOptions& options) {
+  const BodyKind kind = sampleKind(rng, options.kinds);
+  const BipedPlan plan = sampleBipedPlan(rng, kind);
+  PaintedBiped painted = paintBiped(rng, plan);
+  const auto warp = sampleWarp(rng);
+  painted.scene.transform(warp);
+  for (Vec& p : painted.joints) p = warp(p);
+  return {std::move(painted.scene), true, painted.joints, plan.view, kind};
+}
+
+// Two figures that touch, or one with an animal or a thing as large as itself.
+Drawing drawPair(Rng& rng, const FigureOptions& options) {
+  Drawing a = drawBiped(rng, options);
+  Scene b = rng.chance(.6) ? drawBiped(rng, options).scene : paintOther(rng);
+  const Scene::Box box_a = a.scene.box(), box_b = b.box();
+  const double scale =
+      (box_a.high - box_a.low).maxCoeff() / (box_b.high - box_b.low).maxCoeff() * rng.uniform(.7, 1.2);
+  const bool beside = rng.chance(.75);
+  const double overlap = rng.uniform(.05, .4);
+  const Vec size_a = box_a.high - box_a.low, size_b = (box_b.high - box_b.low) * scale;
+  Vec shift;
+  if (beside) {
+    shift = {box_a.low.x() + size_a.x() - overlap * std::min(size_a.x(), size_b.x()),
+             box_a.high.y() - size_b.y() + rng.normal(0, .1)};
+  } else {
+    shift = {box_a.low.x() + rng.normal(0, .2), box_a.high.y() - overlap * size_b.y()};
+  }
+  b.transform([&](const Vec& p) { return Vec((p - box_b.low) * scale + shift); });
+  a.scene.append(b);
+  a.human = false;
+  return a;
+}
+
+enum class Cut { kNone, kSlight, kHeavy };
+
+// Where a cut through the picture leaves the figure, in raster px.
+struct Window {
+  int x0, y0, x1, y1;  // x1, y1 excluded
+};
+
+Window sampleWindow(Rng& rng, Cut cut, int width, int height) {
+  Window w{0, 0, width, height};
+  if (cut == Cut::kNone) return w;
+  const double share = cut == Cut::kSlight ? rng.uniform(.01, .05) : rng.uniform(.3, .6);
+  const double r = rng.uniform();
+  const int dx = static_cast<int>((width - 2 * kMargin) * share) + kMargin;
+  const int dy = static_cast<int>((height - 2 * kMargin) * share) + kMargin;
+  if (r < .5) {
+    w.y1 = height - dy;
+  } else if (r < .65) {
+    w.y0 = dy;
+  } else if (r < .82) {
+    w.x0 = dx;
+  } else {
+    w.x1 = width - dx;
+  }
+  return w;
+}
+
+void sortSides(Figure& figure) {
+  for (const int first : {2, 5}) {
+    double x_left = 0, x_right = 0;
+    for (int k = 0; k < 3; ++k) {
+      x_left += figure.joints[first + k].x();
+      x_right += figure.joints[first + 6 + k].x();
+    }
+    if (x_right <= x_left) continue;
+    for (int k = first; k < first + 3; ++k) {
+      std::swap(figure.joints[k], figure.joints[kMirroredJoint[k]]);
+      std::swap(figure.visible[k], figure.visible[kMirroredJoint[k]]);
+    }
+  }
+}
+
+PartOwner ownerOfJoint(int joint) {
+  if (joint == 0) return PartOwner::kHead;
+  if (joint == 1) return PartOwner::kTorso;
+  const bool left = joint < 8, arm = (joint - 2) % 6 < 3;
+  if (arm) return left ? PartOwner::kLeftArm : PartOwner::kRightArm;
+  return left ? PartOwner::kLeftLeg : PartOwner::kRightLeg;
+}
+
+// Whether hands and feet are still there, and not everything is hidden behind a hat or a shield.
+bool isReadable(const Figure& figure) {
+  constexpr int kLeastVisible = 6, kReach = 6;
+  for (const int j : {4, 7, 10, 13}) {
+    const int x = static_cast<int>(std::lround(figure.joints[j].x())),
+              y = static_cast<int>(std::lround(figure.joints[j].y()));
+    const int x0 = std::max(0, x - kReach),
+              x1 = std::min<int>(static_cast<int>(figure.mask.cols()), x + kReach + 1);
+    const int y0 = std::max(0, y - kReach),
+              y1 = std::min<int>(static_cast<int>(figure.mask.rows()), y + kReach + 1);
+    if (x0 >= x1 || y0 >= y1 || (figure.mask.block(y0, x0, y1 - y0, x1 - x0) == 0).all()) return false;
+  }
+  return std::count(figure.visible.begin(), figure.visible.end(), true) >= kLeastVisible;
+}
+
+std::optional<Figure> render(Rng& rng, const Drawing& drawing, Cut cut) {
+  const Scene::Box box = drawing.scene.box();
+  const Vec size = box.high - box.low;
+  const double scale = kOversampling * kLongSide / size.maxCoeff();
+  const int width = static_cast<int>(std::ceil(size.x() * scale)) + 2 * kMargin;
+  const int height = static_cast<int>(std::ceil(size.y() * scale)) + 2 * kMargin;
+  const Vec low = box.low - Vec::Constant(kMargin / scale);
+  const Raster raster = rasterize(drawing.scene, low, scale, width, height);
+
+  Bits solid(raster.part.size());
+  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = raster.part[i] != 0;
+
+  const double finish = rng.uniform();
+  if (finish < .28) {
+    roughen(rng, solid, width, height, 1 + rng.below(3), rng.uniform(.05, .4));
+  } else if (finish < .45) {
+    roughen(rng, solid, width, height, 1 + rng.below(4), 0);
+  }
+  const double thickness = rng.uniform();
+  if (thickness < .14) {
+    grow(solid, width, height, 1 + rng.below(3), 1);
+  } else if (thickness < .32) {
+    const int radius = 1 + rng.below(6);
+    grow(solid, width, height, radius, 1);
+    grow(solid, width, height, radius, 0);
+  } else if (thickness < .36) {
+    grow(solid, width, height, 1, 0);
+  }
+  const Window window = sampleWindow(rng, cut, width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (x < window.x0 || x >= window.x1 || y < window.y0 || y >= window.y1) solid[y * width + x] = 0;
+    }
+  }
+  const double kept = keepLargestPart(solid, width, height);
+  if (kept < (drawing.human ? .85 : .5)) return std::nullopt;
+  if (rng.chance(.5)) fillHoles(solid, width, height);
+
+  // The box of what is left, in raster px.
+  int x0 = width, y0 = height, x1 = -1, y1 = -1;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (!solid[y * width + x]) continue;
+      x0 = std::min(x0, x), x1 = std::max(x1, x);
+      y0 = std::min(y0, y), y1 = std::max(y1, y);
+    }
+  }
+  // The grid's px as areas of the raster: the finish may have changed the size by a few px.
+  const double step = static_cast<double>(std::max(x1 - x0, y1 - y0) + 1) / kLongSide;
+  const int columns = std::clamp(static_cast<int>(std::lround((x1 - x0 + 1) / step)), 1, kLongSide);
+  const int rows = std::clamp(static_cast<int>(std::lround((y1 - y0 + 1) / step)), 1, kLongSide);
+
+  Bits grid(static_cast<std::size_t>(columns) * rows, 0);
+  GridColours colours = GridColours::Constant(columns * rows, 3, 255.f);
+  for (int y = 0; y < rows; ++y) {
+    const int b0 = y0 + static_cast<int>(y * step),
+              b1 = std::max(b0 + 1, y0 + static_cast<int>((y + 1) * step));
+    for (int x = 0; x < columns; ++x) {
+      const int a0 = x0 + static_cast<int>(x * step),
+                a1 = std::max(a0 + 1, x0 + static_cast<int>((x + 1) * step));
+      int inside = 0, all = 0;
+      Eigen::Array3f sum = Eigen::Array3f::Zero();
+      for (int b = b0; b < b1 && b < height; ++b) {
+        for (int a = a0; a < a1 && a < width; ++a) {
+          ++all;
+          if (!solid[b * width + a]) continue;
+          ++inside;
+          const Colour c = raster.colour(a, b);
+          sum += Eigen::Array3f(c[0], c[1], c[2]);
+        }
+      }
+      if (2 * inside >= all && inside > 0) {
+        grid[y * columns + x] = 1;
+        colours.row(y * columns + x) = (sum / static_cast<float>(inside)).transpose();
+      }
+    }
+  }
+  if (keepLargestPart(grid, columns, rows) < .8) return std::nullopt;
+
+  Figure figure;
+  figure.human = drawing.human && cut != Cut::kHeavy;
+  figure.view = drawing.view;
+  figure.kind = drawing.kind;
+  figure.mask.resize(rows, columns);
+  for (int i = 0; i < rows * columns; ++i) figure.mask.data()[i] = grid[i] ? 255 : 0;
+  figure.lines = lineStrength(colours, figure.mask);
+  for (int j = 0; j < kNetJoints; ++j) {
+    const Vec p = (drawing.joints[j] - low) * scale;  // raster px, corner at 0
+    const int x = std::clamp(static_cast<int>(p.x()), 0, width - 1),
+              y = std::clamp(static_cast<int>(p.y()), 0, height - 1);
+    // Inside a limb that is drawn as an outline there is nothing.
+    figure.visible[j] = !raster.solid(x, y) || raster.owner(x, y) == ownerOfJoint(j);
+    figure.joints[j] = (p - Vec(x0, y0)) / step - Vec::Constant(.5);
+  }
+  if (figure.human && !isReadable(figure)) return std::nullopt;
+  if (figure.view == FigureView::kSide) sortSides(figure);
+  return figure;
+}
+
+}  // namespace
+
+Figure generateFigure(Rng& rng, const FigureOptions& options) {
+  while (true) {
+    Drawing drawing;
+    Cut cut = Cut::kNone;
+    if (rng.chance(options.other_share)) {
+      const double r = rng.uniform();
+      if (r < .4) {
+        drawing.scene = paintOther(rng);
+        drawing.scene.transform(sampleWarp(rng));
+        drawing.joints.fill(Vec::Zero());
+        drawing.human = false;
+      } else if (r < .68) {
+        drawing = drawBiped(rng, options);
+        cut = Cut::kHeavy;
+      } else if (r < .83) {  // lying or upside down: to be told from upright, so that it can be turned
+        drawing = drawBiped(rng, options);
+        const double angle = rng.uniform(1.2, 2 * std::numbers::pi - 1.2);
+        drawing.scene.transform([&](const Vec& p) { return rotated(p, angle); });
+        drawing.human = false;
+      } else {
+        drawing = drawPair(rng, options);
+      }
+    } else {
+      drawing = drawBiped(rng, options);
+      if (rng.chance(.05)) cut = Cut::kSlight;
+    }
+    if (std::optional<Figure> figure = render(rng, drawing, cut)) return *std::move(figure);
+  }
+}
+
+}  // namespace skel

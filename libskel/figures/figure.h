@@ -1,0 +1,36 @@
+// Random figures with exact joints: what the joint net is trained on, and synthetic truth for tests. Nothing
+// here is taken from a drawing.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "libskel/core/rng.h"
+#include "libskel/figures/biped_plan.h"
+#include "libskel/image/image.h"
+#include "libskel/jointnet/net_joints.h"
+
+namespace skel {
+
+struct Figure {
+  Plane8 mask;        // 255 on the figure; one 4-connected part whose box is the plane; the long side is 128
+  Plane8 lines;       // strength of inner lines, 0 outside the mask (see jointnet/line_strength.h)
+  bool human = true;  // a whole biped; if not, the joints mean nothing
+  NetJointPositions joints;              // px of the mask, the origin at the first px's centre
+  std::array<bool, kNetJoints> visible;  // not covered by another part
+  FigureView view = FigureView::kFront;
+  BodyKind kind = BodyKind::kKid;
+};
+
+struct FigureOptions {
+  std::vector<BodyKind> kinds;  // empty: all, as often as is useful for training
+  double other_share = 0;       // share of figures that are no whole human: animals, things, pairs, cut-offs,
+                                // humans that lie or stand on their heads
+};
+
+// The same figure for the same state of rng and the same build. In a side view the limb at the left of the
+// picture is called the right one, since which one is the far one cannot be seen.
+Figure generateFigure(Rng& rng, const FigureOptions& options = {});
+
+}  // namespace skel

@@ -1,0 +1,12 @@
+// Scenes that are no whole human: what the recogniser must not be sure about.
+#pragma once
+
+#include "libskel/core/rng.h"
+#include "libskel/figures/scene.h"
+
+namespace skel {
+
+// An animal, a plant, a thing, a face, or a mere shape.
+Scene paintOther(Rng& rng);
+
+}  // namespace skel

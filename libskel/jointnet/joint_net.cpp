@@ -1,0 +1,221 @@
+#include "libskel/jointnet/joint_net.h"
+
+#include <algorithm>
+#include <array>
+
+#include "libskel/core/check.h"
+
+namespace skel {
+namespace {
+
+class Builder {
+ public:
+  Builder() { net_.maps.push_back({kNetInputSize, kNetInputSize, kNetInputChannels}); }
+
+  int convolution(int input, int channels, int kernel, bool relu, int skip = -1) {
+    const MapShape in = net_.maps[input];
+    JointNetLayer layer{JointNetLayer::Kind::kConvolution, input, skip, channels, kernel, relu};
+    layer.weights = net_.parameters.size();
+    layer.biases = layer.weights + static_cast<std::size_t>(kernel * kernel * in.channels * channels);
+    net_.parameters.resize(layer.biases + static_cast<std::size_t>(channels), 0.f);
+    return add(layer, {in.height, in.width, channels});
+  }
+  int pool(int input) {
+    const MapShape in = net_.maps[input];
+    return add({JointNetLayer::Kind::kPool, input, -1, in.channels},
+               {in.height / 2, in.width / 2, in.channels});
+  }
+  int upsampleAdd(int input, int skip) {
+    const MapShape to = net_.maps[skip];
+    SKEL_CHECK_EQ(net_.maps[input].channels, to.channels);
+    return add({JointNetLayer::Kind::kUpsampleAdd, input, skip, to.channels}, to);
+  }
+  JointNet take() { return std::move(net_); }
+
+ private:
+  int add(const JointNetLayer& layer, const MapShape& shape) {
+    net_.layers.push_back(layer);
+    net_.maps.push_back(shape);
+    return static_cast<int>(net_.maps.size()) - 1;
+  }
+  JointNet net_;
+};
+
+void runConvolution(const JointNet& net, const JointNetLayer& layer, InstructionSet set, JointNetMaps& maps,
+                    std::vector<float>& out) {
+  convolve(set, convShape(net, layer), maps.maps[layer.input].data(), net.parameters.data() + layer.weights,
+           net.parameters.data() + layer.biases, layer.skip < 0 ? nullptr : maps.maps[layer.skip].data(),
+           layer.relu, out.data());
+}
+
+void runPool(const MapShape& to, const std::vector<float>& in, std::vector<float>& out) {
+  const int width_in = 2 * to.width, channels = to.channels, stride = paddedStride(width_in) * channels;
+  for (int y = 0; y < to.height; ++y) {
+    for (int x = 0; x < to.width; ++x) {
+      const float* a = in.data() + static_cast<std::size_t>(paddedIndex(width_in, 2 * y, 2 * x)) * channels;
+      float* o = out.data() + static_cast<std::size_t>(paddedIndex(to.width, y, x)) * channels;
+      for (int c = 0; c < channels; ++c) {
+        o[c] = std::max(std::max(a[c], a[c + channels]), std::max(a[c + stride], a[c + stride + channels]));
+      }
+    }
+  }
+}
+
+void runUpsampleAdd(const MapShape& to, const std::vector<float>& in, const std::vector<float>& skip,
+                    std::vector<float>& out) {
+  const int channels = to.channels;
+  for (int y = 0; y < to.height; ++y) {
+    for (int x = 0; x < to.width; ++x) {
+      const float* a =
+          in.data() + static_cast<std::size_t>(paddedIndex(to.width / 2, y / 2, x / 2)) * channels;
+      const std::size_t i = static_cast<std::size_t>(paddedIndex(to.width, y, x)) * channels;
+      for (int c = 0; c < channels; ++c) out[i + c] = a[c] + skip[i + c];
+    }
+  }
+}
+
+}  // namespace
+
+ConvShape convShape(const JointNet& net, const JointNetLayer& layer) {
+  const MapShape& in = net.maps[layer.input];
+  return {in.height, in.width, in.channels, layer.channels, layer.kernel};
+}
+
+JointNet makeJointNet() {
+  Builder b;
+  const int a0 = b.convolution(0, 16, 3, true);
+  const int a1 = b.convolution(b.pool(a0), 32, 3, true);
+  const int a2 = b.convolution(a1, 32, 3, true, a1);
+  const int a3 = b.convolution(b.pool(a2), 64, 3, true);
+  const int a4 = b.convolution(a3, 64, 3, true, a3);
+  const int a5 = b.convolution(b.pool(a4), 96, 3, true);
+  const int a6 = b.convolution(a5, 96, 3, true, a5);
+  const int a7 = b.convolution(a6, 96, 3, true, a6);
+  const int u1 = b.upsampleAdd(b.convolution(a7, 64, 1, false), a4);
+  const int a8 = b.convolution(u1, 64, 3, true, u1);
+  const int u2 = b.upsampleAdd(b.convolution(a8, 32, 1, false), a2);
+  const int a9 = b.convolution(u2, 32, 3, true, u2);
+  const int a10 = b.convolution(a9, 32, 3, true, a9);
+  b.convolution(a10, kHeatmapChannels, 1, false);
+  return b.take();
+}
+
+JointNetMaps::JointNetMaps(const JointNet& net) {
+  for (const MapShape& shape : net.maps) maps.emplace_back(shape.paddedSize(), 0.f);
+}
+
+void forward(const JointNet& net, InstructionSet set, JointNetMaps& maps) {
+  for (std::size_t i = 0; i < net.layers.size(); ++i) {
+    const JointNetLayer& layer = net.layers[i];
+    std::vector<float>& out = maps.maps[i + 1];
+    switch (layer.kind) {
+      case JointNetLayer::Kind::kConvolution:
+        runConvolution(net, layer, set, maps, out);
+        break;
+      case JointNetLayer::Kind::kPool:
+        runPool(net.maps[i + 1], maps.maps[layer.input], out);
+        break;
+      case JointNetLayer::Kind::kUpsampleAdd:
+        runUpsampleAdd(net.maps[i + 1], maps.maps[layer.input], maps.maps[layer.skip], out);
+        break;
+    }
+  }
+}
+
+FramePlacement FramePlacement::centred(const Plane8& mask, bool mirrored) {
+  return {static_cast<int>(kFrameSize - mask.cols()) / 2, static_cast<int>(kFrameSize - mask.rows()) / 2,
+          mirrored};
+}
+
+void encodeJointNetInput(const Plane8& mask, const Plane8& lines, const FramePlacement& placement,
+                         std::vector<float>& input) {
+  const int width = static_cast<int>(mask.cols()), height = static_cast<int>(mask.rows());
+  SKEL_CHECK(width <= kFrameSize && height <= kFrameSize);
+  SKEL_CHECK(lines.size() == 0 || (lines.cols() == width && lines.rows() == height));
+  constexpr int kSize = kNetInputSize;
+
+  // Mask and lines at half the resolution.
+  struct Cell {
+    int inside = 0, lines = 0, strongest = 0;
+  };
+  std::array<Cell, kSize * kSize> cells{};
+  for (int y = 0; y < height; ++y) {
+    const int frame_y = y + placement.offset_y;
+    if (frame_y < 0 || frame_y >= kFrameSize) continue;
+    for (int x = 0; x < width; ++x) {
+      if (mask(y, x) == 0) continue;
+      int frame_x = x + placement.offset_x;
+      if (placement.mirrored) frame_x = kFrameSize - 1 - frame_x;
+      if (frame_x < 0 || frame_x >= kFrameSize) continue;
+      Cell& cell = cells[frame_y / 2 * kSize + frame_x / 2];
+      ++cell.inside;
+      if (lines.size() != 0) {
+        cell.lines += lines(y, x);
+        cell.strongest = std::max<int>(cell.strongest, lines(y, x));
+      }
+    }
+  }
+
+  // Steps to the outside; from cell to cell, so thickness as a rough measure.
+  std::array<int, kSize * kSize> depth;
+  const auto depthAt = [&](int y, int x) {
+    return y < 0 || x < 0 || y >= kSize || x >= kSize ? 0 : depth[y * kSize + x];
+  };
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      depth[y * kSize + x] =
+          cells[y * kSize + x].inside < 2 ? 0 : 1 + std::min(depthAt(y - 1, x), depthAt(y, x - 1));
+    }
+  }
+  for (int y = kSize - 1; y >= 0; --y) {
+    for (int x = kSize - 1; x >= 0; --x) {
+      int& d = depth[y * kSize + x];
+      d = std::min(d, 1 + std::min(depthAt(y + 1, x), depthAt(y, x + 1)));
+    }
+  }
+
+  // Background that is shut in.
+  std::array<bool, kSize * kSize> open{};
+  std::vector<int> stack;
+  const auto visit = [&](int y, int x) {
+    if (y < 0 || x < 0 || y >= kSize || x >= kSize) return;
+    const int i = y * kSize + x;
+    if (open[i] || cells[i].inside > 0) return;
+    open[i] = true;
+    stack.push_back(i);
+  };
+  for (int k = 0; k < kSize; ++k) {
+    visit(0, k);
+    visit(kSize - 1, k);
+    visit(k, 0);
+    visit(k, kSize - 1);
+  }
+  while (!stack.empty()) {
+    const int y = stack.back() / kSize, x = stack.back() % kSize;
+    stack.pop_back();
+    visit(y - 1, x);
+    visit(y + 1, x);
+    visit(y, x - 1);
+    visit(y, x + 1);
+  }
+
+  input.resize(MapShape{kSize, kSize, kNetInputChannels}.paddedSize());
+  std::fill(input.begin(), input.end(), 0.f);
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      const int i = y * kSize + x;
+      const Cell& cell = cells[i];
+      float* o = input.data() + static_cast<std::size_t>(paddedIndex(kSize, y, x)) * kNetInputChannels;
+      o[0] = static_cast<float>(cell.inside) / 4;
+      o[1] = cell.inside > 0 ? 1.f : 0.f;
+      o[2] = static_cast<float>(cell.lines) / (4 * 255);
+      o[3] = static_cast<float>(cell.strongest) / 255;
+      o[4] = static_cast<float>(std::min(depth[i], 24)) / 12;
+      o[5] = cell.inside == 0 && !open[i] ? 1.f : 0.f;
+      o[6] = (static_cast<float>(x) - (kSize - 1) / 2.f) / (kSize / 2);
+      o[7] = (static_cast<float>(y) - (kSize - 1) / 2.f) / (kSize / 2);
+    }
+  }
+}
+
+}  // namespace skel

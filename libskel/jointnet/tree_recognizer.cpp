@@ -1,0 +1,278 @@
+// The tree search is exact dynamic programming over the best cells of each heatmap, as in pictorial
+// structures: P. Felzenszwalb, D. Huttenlocher, "Pictorial structures for object recognition" (2005), §3.
+#include "libskel/jointnet/tree_recognizer.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "libskel/core/check.h"
+
+namespace skel {
+namespace {
+
+using Vec = Eigen::Vector2d;
+
+constexpr int kCells = kHeatmapSize * kHeatmapSize;
+constexpr int kLongSide = 128;
+constexpr int kCandidates = 30;               // cells a joint that the search looks at
+constexpr float kLeastShare = 1e-4f;          // of the highest probability: what such a cell needs
+constexpr double kOutsidePenalty = 4;         // nats for a bone that lies wholly outside the figure
+constexpr double kBoneSample = 2;             // grid px between samples along a bone
+constexpr double kNear = .1 * kLongSide / 4;  // cells: what counts as found
+// Turned figures: the entropy above which, or the log-odds of a human below which, other orientations are
+// tried, and what they must gain to be preferred. Nats; from generated figures.
+constexpr double kDoubtfulEntropy = 2.6;
+constexpr double kDoubtfulLogit = 0;
+constexpr double kUprightMargin = .35;
+constexpr int kOrientations = 8;
+
+// Parents come before children; the body is the root.
+constexpr std::array<int, kNetJoints> kParent = {1, -1, 1, 2, 3, 1, 5, 6, 1, 8, 9, 1, 11, 12};
+constexpr std::array<int, kNetJoints> kOrder = {1, 0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
+
+using Heatmap = std::array<float, kCells>;
+
+struct Heatmaps {
+  std::array<Heatmap, kNetJoints> joints;  // probabilities, each sums to 1
+  double human_logit = 0;
+  double entropy = 0;
+};
+
+// Logits averaged over one or two passes, then softmax.
+Heatmaps evaluateNet(const Plane8& mask, const Plane8& lines, const JointNet& net, InstructionSet set,
+                     bool mirror) {
+  Heatmaps out{};
+  JointNetMaps maps(net);
+  const int passes = mirror ? 2 : 1;
+  for (int pass = 0; pass < passes; ++pass) {
+    const bool mirrored = pass == 1;
+    encodeJointNetInput(mask, lines, FramePlacement::centred(mask, mirrored), maps.maps[0]);
+    forward(net, set, maps);
+    const float* map = maps.maps.back().data();
+    for (int y = 0; y < kHeatmapSize; ++y) {
+      for (int x = 0; x < kHeatmapSize; ++x) {
+        const float* a = map + static_cast<std::size_t>(paddedIndex(kHeatmapSize, y, x)) * kHeatmapChannels;
+        const int cell = y * kHeatmapSize + (mirrored ? kHeatmapSize - 1 - x : x);
+        for (int j = 0; j < kNetJoints; ++j)
+          out.joints[mirrored ? kMirroredJoint[j] : j][cell] += a[j] / static_cast<float>(passes);
+        out.human_logit += a[kHumanChannel] / (static_cast<double>(kCells) * passes);
+      }
+    }
+  }
+  for (Heatmap& map : out.joints) {
+    const float highest = *std::max_element(map.begin(), map.end());
+    double sum = 0, mean = 0;  // of e^l and of l·e^l, l relative to the highest
+    for (float& v : map) {
+      const float l = v - highest;
+      v = std::exp(l);
+      sum += v;
+      mean += static_cast<double>(l) * v;
+    }
+    for (float& v : map) v /= static_cast<float>(sum);
+    out.entropy += (std::log(sum) - mean / sum) / kNetJoints;
+  }
+  return out;
+}
+
+// The figure turned by `angle` about its middle and scaled so that it fits the grid again.
+struct Turned {
+  Plane8 mask, lines;
+  Eigen::Matrix2d original_from_turned = Eigen::Matrix2d::Identity();
+  Vec shift = Vec::Zero();  // original grid px = original_from_turned · turned px + shift
+
+  Vec original(const Vec& p) const { return original_from_turned * p + shift; }
+};
+
+Turned turnedBy(const Plane8& mask, const Plane8& lines, double angle) {
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
+  Vec low = Vec::Constant(1e9), high = Vec::Constant(-1e9);
+  for (int y = 0; y < mask.rows(); ++y) {
+    for (int x = 0; x < mask.cols(); ++x) {
+      if (mask(y, x) == 0) continue;
+      const Vec p = turn * Vec(x, y);
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
+  const Vec size = high - low + Vec::Ones();
+  const double scale = size.maxCoeff() / kLongSide;  // original px a turned px
+  Turned out;
+  const int width = std::clamp(static_cast<int>(std::lround(size.x() / scale)), 1, kLongSide);
+  const int height = std::clamp(static_cast<int>(std::lround(size.y() / scale)), 1, kLongSide);
+  out.original_from_turned = turn.transpose() * scale;
+  out.shift = turn.transpose() * (low + Vec::Constant((scale - 1) / 2));
+  out.mask = Plane8::Zero(height, width);
+  if (lines.size() != 0) out.lines = Plane8::Zero(height, width);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const Vec p = out.original(Vec(x, y));
+      const int px = static_cast<int>(std::lround(p.x())), py = static_cast<int>(std::lround(p.y()));
+      if (px < 0 || py < 0 || px >= mask.cols() || py >= mask.rows() || mask(py, px) == 0) continue;
+      out.mask(y, x) = 255;
+      if (lines.size() != 0) out.lines(y, x) = lines(py, px);
+    }
+  }
+  return out;
+}
+
+// Share of the bone between two points that lies outside the figure.
+double shareOutside(const Plane8& mask, const Vec& a, const Vec& b) {
+  const int steps = std::max(1, static_cast<int>((b - a).norm() / kBoneSample));
+  const Vec step = (b - a) / steps;
+  int outside = 0;
+  Vec p = a + Vec::Constant(.5);  // so that cutting off the fraction rounds
+  for (int i = 0; i <= steps; ++i, p += step) {
+    const int x = static_cast<int>(p.x()), y = static_cast<int>(p.y());
+    outside += p.x() < 0 || p.y() < 0 || x >= mask.cols() || y >= mask.rows() || mask(y, x) == 0;
+  }
+  return static_cast<double>(outside) / (steps + 1);
+}
+
+struct Candidate {
+  int cell;
+  Vec position;                       // grid px
+  double score;                       // log probability, later with the best of the joints below it
+  std::array<int, kNetJoints> below;  // of each child joint, the candidate that is best with this one
+};
+
+// The cell of each joint in the tree of highest total score.
+std::array<int, kNetJoints> searchTree(const Plane8& mask, const FramePlacement& placement,
+                                       const Heatmaps& maps) {
+  std::array<std::vector<Candidate>, kNetJoints> candidates;
+  for (int j = 0; j < kNetJoints; ++j) {
+    const Heatmap& map = maps.joints[j];
+    const float least = *std::max_element(map.begin(), map.end()) * kLeastShare;
+    std::vector<Candidate>& list = candidates[j];
+    for (int i = 0; i < kCells; ++i) {
+      if (map[i] >= least) list.push_back({i, Vec::Zero(), std::log(static_cast<double>(map[i])), {}});
+    }
+    const std::size_t kept = std::min<std::size_t>(list.size(), kCandidates);
+    std::partial_sort(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(kept), list.end(),
+                      [](const Candidate& a, const Candidate& b) {
+                        return a.score != b.score ? a.score > b.score : a.cell < b.cell;
+                      });
+    list.resize(kept);
+    for (Candidate& c : list) {
+      c.position = placement.gridFromFrame(frameFromCell(Vec(c.cell % kHeatmapSize, c.cell / kHeatmapSize)));
+    }
+  }
+  for (int i = kNetJoints - 1; i > 0; --i) {
+    const int j = kOrder[i];
+    std::vector<Candidate>& list = candidates[j];
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+    for (Candidate& parent : candidates[kParent[j]]) {
+      double best = -std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < list.size(); ++k) {
+        // They come by falling score: no later one can win, even without any penalty.
+        if (list[k].score <= best) break;
+        const double s =
+            list[k].score - kOutsidePenalty * shareOutside(mask, parent.position, list[k].position);
+        if (s > best) best = s, parent.below[j] = static_cast<int>(k);
+      }
+      parent.score += best;
+    }
+  }
+  std::array<const Candidate*, kNetJoints> chosen;
+  std::array<int, kNetJoints> cells;
+  for (const int j : kOrder) {
+    const std::vector<Candidate>& list = candidates[j];
+    if (kParent[j] < 0) {
+      chosen[j] = &*std::max_element(
+          list.begin(), list.end(), [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
+    } else {
+      chosen[j] = &list[chosen[kParent[j]]->below[j]];
+    }
+    cells[j] = chosen[j]->cell;
+  }
+  return cells;
+}
+
+// The mean cell of the heatmap around a cell.
+Vec refined(const Heatmap& map, int cell) {
+  const int cx = cell % kHeatmapSize, cy = cell / kHeatmapSize;
+  Vec sum = Vec::Zero();
+  double weight = 0;
+  for (int y = std::max(0, cy - 2); y <= std::min(kHeatmapSize - 1, cy + 2); ++y) {
+    for (int x = std::max(0, cx - 2); x <= std::min(kHeatmapSize - 1, cx + 2); ++x) {
+      const double p = map[y * kHeatmapSize + x];
+      sum += p * Vec(x, y);
+      weight += p;
+    }
+  }
+  return weight > 0 ? Vec(sum / weight) : Vec(cx, cy);
+}
+
+// Probability that the joint is within kNear of a place.
+double massAround(const Heatmap& map, const Vec& centre) {
+  double mass = 0;
+  const auto first = [](double c) { return std::max(0, static_cast<int>(std::ceil(c - kNear))); };
+  const auto last = [](double c) {
+    return std::min(kHeatmapSize - 1, static_cast<int>(std::floor(c + kNear)));
+  };
+  for (int y = first(centre.y()); y <= last(centre.y()); ++y) {
+    for (int x = first(centre.x()); x <= last(centre.x()); ++x) {
+      if ((Vec(x, y) - centre).squaredNorm() <= kNear * kNear) mass += map[y * kHeatmapSize + x];
+    }
+  }
+  return mass;
+}
+
+// The nearest point of the figure; itself if it lies in it.
+Vec insideFigure(const Plane8& mask, const Vec& p) {
+  const int px = static_cast<int>(std::lround(p.x())), py = static_cast<int>(std::lround(p.y()));
+  if (px >= 0 && py >= 0 && px < mask.cols() && py < mask.rows() && mask(py, px) != 0) return p;
+  Vec best = p;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int y = 0; y < mask.rows(); ++y) {
+    for (int x = 0; x < mask.cols(); ++x) {
+      const double d = (Vec(x, y) - p).squaredNorm();
+      if (mask(y, x) != 0 && d < nearest) nearest = d, best = Vec(x, y);
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+TreeRecognition recognizeByJointNet(const Plane8& mask, const Plane8& lines, const JointNet& net,
+                                    const TreeRecognizerOptions& options) {
+  SKEL_CHECK((mask != 0).any());
+  Turned figure{mask, lines, Eigen::Matrix2d::Identity(), Vec::Zero()};
+  Heatmaps maps = evaluateNet(mask, lines, net, options.instructions, options.mirror);
+  TreeRecognition result;
+  if (options.try_orientations && (maps.entropy > kDoubtfulEntropy || maps.human_logit < kDoubtfulLogit)) {
+    const auto doubt = [](const Heatmaps& m) { return m.entropy - .25 * std::clamp(m.human_logit, -4., 4.); };
+    double least = doubt(maps) - kUprightMargin;
+    for (int k = 1; k < kOrientations; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kOrientations;
+      Turned turned = turnedBy(mask, lines, -angle);
+      Heatmaps turned_maps =
+          evaluateNet(turned.mask, turned.lines, net, options.instructions, options.mirror);
+      if (doubt(turned_maps) >= least) continue;
+      least = doubt(turned_maps);
+      result.turned = angle;
+      figure = std::move(turned);
+      maps = turned_maps;
+    }
+  }
+  const FramePlacement placement = FramePlacement::centred(figure.mask);
+  const std::array<int, kNetJoints> cells = searchTree(figure.mask, placement, maps);
+  double mean_confidence = 0;
+  for (int j = 0; j < kNetJoints; ++j) {
+    const Vec cell = refined(maps.joints[j], cells[j]);
+    const Vec at = insideFigure(figure.mask, placement.gridFromFrame(frameFromCell(cell)));
+    result.joints[j].position = insideFigure(mask, figure.original(at));
+    result.joints[j].confidence = massAround(maps.joints[j], cell);
+    mean_confidence += result.joints[j].confidence / kNetJoints;
+  }
+  result.entropy = maps.entropy;
+  result.figure_confidence = mean_confidence / (1 + std::exp(-maps.human_logit));
+  return result;
+}
+
+}  // namespace skel

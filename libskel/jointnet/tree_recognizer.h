@@ -1,0 +1,33 @@
+// From a silhouette to its joints: the net's heatmaps, then the best tree of joints in them.
+#pragma once
+
+#include <array>
+
+#include "libskel/jointnet/joint_net.h"
+
+namespace skel {
+
+struct TreeJoint {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // grid px, inside the figure
+  double confidence = 0;  // [0, 1]: chance that it lies within 10 % of the figure's long side
+};
+
+struct TreeRecognition {
+  std::array<TreeJoint, kNetJoints> joints;  // in the order of kNetJointNames
+  double figure_confidence = 0;              // [0, 1]: below 0.5 it is hardly a whole biped
+  double turned = 0;   // radians: how far (from +x towards +y) the figure is turned against upright
+  double entropy = 0;  // nats, mean over the heatmaps
+};
+
+struct TreeRecognizerOptions {
+  InstructionSet instructions = bestInstructionSet();
+  bool mirror = true;            // average with the mirrored figure
+  bool try_orientations = true;  // if the figure as it is leaves the net in doubt
+};
+
+// `mask` is the working grid (not 0 on the figure, at least one such px, long side at most 128 px), `lines`
+// its inner lines (line_strength.h) or none.
+TreeRecognition recognizeByJointNet(const Plane8& mask, const Plane8& lines, const JointNet& net,
+                                    const TreeRecognizerOptions& options = {});
+
+}  // namespace skel

@@ -1,0 +1,45 @@
+// Derivatives of the joint net and of its loss.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "libskel/jointnet/joint_net.h"
+
+namespace skel {
+
+// Weights as the pass backwards wants them: of each convolution, outputs and inputs swapped, taps turned
+// round. To be made anew after each change of the parameters.
+std::vector<float> transposedWeights(const JointNet& net);
+
+struct JointNetGradient {
+  std::vector<std::vector<float>> maps;  // of the maps of one pass; as JointNetMaps
+  std::vector<float> parameters;         // summed over passes
+  explicit JointNetGradient(const JointNet& net);
+};
+
+// `gradient.maps.back()` holds the loss's derivative by the last map and the other maps' hold zeros. Adds
+// the derivative by the parameters to gradient.parameters. The input's own derivative is not computed.
+void backward(const JointNet& net, InstructionSet set, const std::vector<float>& transposed,
+              const JointNetMaps& maps, JointNetGradient& gradient);
+
+// What the net should say about one figure.
+struct JointTarget {
+  struct Joint {
+    Eigen::Vector2d cell;  // heatmap cells
+    double weight;         // 0: does not count
+  };
+  std::array<Joint, kNetJoints> joints;
+  bool human;
+};
+
+inline constexpr double kTargetVariance = 0.8;  // cells², of the Gaussian around a joint
+inline constexpr double kHumanWeight = 0.3;     // of the figure's own loss against a joint's
+
+// Cross-entropy of each heatmap's softmax against a Gaussian, averaged over the joints, plus that of "is a
+// whole human". Adds `scale` times its derivative to `gradient` (the last map, padded). Returns the loss.
+template <typename Scalar>
+double jointLoss(const std::vector<Scalar>& heatmaps, const JointTarget& target, double scale,
+                 std::vector<Scalar>* gradient);
+
+}  // namespace skel

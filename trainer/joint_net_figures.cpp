@@ -1,0 +1,65 @@
+#include "trainer/joint_net_figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libskel/core/files.h"
+#include "libskel/figures/figure.h"
+#include "libskel/image/write_image.h"
+
+namespace skel {
+
+void bindFigureSheetOptions(CLI::App& command, FigureSheetOptions& options) {
+  command.add_option("-o,--output", options.output, "Picture to write (PNG)")->capture_default_str();
+  command.add_option("--seed", options.seed, "Of the random numbers")->capture_default_str();
+  command.add_option("--columns", options.columns)->check(CLI::Range(1, 100))->capture_default_str();
+  command.add_option("--rows", options.rows)->check(CLI::Range(1, 100))->capture_default_str();
+  command.add_option("--others", options.other_share, "Share of figures that are no whole human")
+      ->check(CLI::Range(0., 1.))
+      ->capture_default_str();
+  command.add_flag("--plain", options.plain, "Without joints");
+}
+
+ExitCode runFigureSheet(const FigureSheetOptions& options) {
+  constexpr int kCell = 140;
+  Image sheet(options.columns * kCell, options.rows * kCell);
+  sheet.rgba.col(0) = 40;
+  sheet.rgba.col(1) = 32;
+  sheet.rgba.col(2) = 32;
+  sheet.rgba.col(3) = 255;
+  Rng rng(options.seed);
+  FigureOptions figure_options;
+  figure_options.other_share = options.other_share;
+  for (int cell = 0; cell < options.columns * options.rows; ++cell) {
+    const Figure figure = generateFigure(rng, figure_options);
+    const int left = cell % options.columns * kCell + 6, top = cell / options.columns * kCell + 6;
+    for (int y = 0; y < figure.mask.rows(); ++y) {
+      for (int x = 0; x < figure.mask.cols(); ++x) {
+        if (figure.mask(y, x) == 0) continue;
+        std::uint8_t* p = sheet.pixel(left + x, top + y);
+        p[0] = p[1] = p[2] = static_cast<std::uint8_t>(210 - figure.lines(y, x) * 180 / 255);
+      }
+    }
+    if (options.plain || !figure.human) continue;
+    for (int j = 0; j < kNetJoints; ++j) {
+      const int x = left + static_cast<int>(std::lround(figure.joints[j].x()));
+      const int y = top + static_cast<int>(std::lround(figure.joints[j].y()));
+      for (int dy = -2; dy <= 2; ++dy) {
+        for (int dx = -2; dx <= 2; ++dx) {
+          if (dx * dx + dy * dy > 5 || x + dx < 0 || y + dy < 0 || x + dx >= sheet.width ||
+              y + dy >= sheet.height) {
+            continue;
+          }
+          std::uint8_t* p = sheet.pixel(x + dx, y + dy);
+          p[0] = j >= 8 ? 255 : 0;
+          p[1] = j < 2 ? 200 : figure.visible[j] ? 0 : 150;
+          p[2] = j >= 2 && j < 8 ? 255 : 0;
+        }
+      }
+    }
+  }
+  writeFile(options.output, encodePng(sheet));
+  return ExitCode::kDone;
+}
+
+}  // namespace skel

@@ -1,0 +1,380 @@
+#include "trainer/joint_net_training.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <numbers>
+#include <sstream>
+
+#include "libskel/core/check.h"
+#include "libskel/core/files.h"
+#include "libskel/core/parallel.h"
+#include "libskel/core/progress.h"
+#include "libskel/figures/figure.h"
+#include "trainer/joint_net_backward.h"
+
+namespace skel {
+namespace {
+
+// Gradients of a batch are summed in so many lanes, image b in lane b modulo kLanes, then lane by lane: a
+// fixed order, so that the bytes of the result do not depend on the number of threads.
+constexpr int kLanes = 4;
+constexpr double kHiddenWeight = .6;  // of a covered joint
+constexpr double kGradientNorm = 1;   // longer ones are shortened
+constexpr double kWarmUp = .03;       // share of the steps
+constexpr int kValidationFigures = 1000;
+
+// Streams of random numbers of one seed. Figures and batches have a stream each by number.
+enum Stream : std::uint64_t {
+  kInitialStream = 1,
+  kValidationStream = 2,
+  kFigureStream = 1u << 20,
+  kStepStream = 1ull << 40
+};
+
+std::vector<BodyKind> trainedKinds(const std::vector<int>& held_back, bool others) {
+  std::vector<BodyKind> kinds;
+  for (int k = 0; k < kBodyKinds; ++k) {
+    const bool held = std::find(held_back.begin(), held_back.end(), k) != held_back.end();
+    if (held == others) kinds.push_back(static_cast<BodyKind>(k));
+  }
+  return kinds;
+}
+
+// He's initialisation; what is added to a skip starts small.
+void initialise(JointNet& net, Rng& rng) {
+  for (std::size_t i = 0; i < net.layers.size(); ++i) {
+    const JointNetLayer& layer = net.layers[i];
+    if (layer.kind != JointNetLayer::Kind::kConvolution) continue;
+    const ConvShape shape = convShape(net, layer);
+    const bool last = i + 1 == net.layers.size();
+    const double size =
+        std::sqrt(2. / (shape.taps() * shape.in_channels)) * (layer.skip >= 0 ? .5 : 1) * (last ? .3 : 1);
+    for (std::size_t k = layer.weights; k < layer.biases; ++k) {
+      net.parameters[k] = static_cast<float>(size * rng.normal());
+    }
+  }
+}
+
+struct Sample {
+  FramePlacement placement;
+  Plane8 lines;  // as the net gets to see them
+};
+
+JointTarget targetOf(const Figure& figure, const FramePlacement& placement) {
+  JointTarget target;
+  target.human = figure.human;
+  for (int j = 0; j < kNetJoints; ++j) {
+    const int from = placement.mirrored ? kMirroredJoint[j] : j;
+    target.joints[j].cell = cellFromFrame(placement.frameFromGrid(figure.joints[from]));
+    target.joints[j].weight = !figure.human ? 0 : figure.visible[from] ? 1 : kHiddenWeight;
+  }
+  // Mirrored, a side view still calls the limb at the left of the picture the right one.
+  if (placement.mirrored && figure.view == FigureView::kSide) {
+    for (const int j : {2, 3, 4, 5, 6, 7}) std::swap(target.joints[j], target.joints[kMirroredJoint[j]]);
+  }
+  return target;
+}
+
+Sample augmented(Rng& rng, const Figure& figure, double no_lines_share) {
+  Sample sample;
+  sample.placement = FramePlacement::centred(figure.mask, rng.chance(.5));
+  sample.placement.offset_x += static_cast<int>(rng.below(7)) - 3;
+  sample.placement.offset_y += static_cast<int>(rng.below(7)) - 3;
+  if (!rng.chance(no_lines_share)) {
+    const double strength = rng.uniform(.4, 1.4);
+    sample.lines = (figure.lines.cast<double>() * strength).min(255).cast<std::uint8_t>();
+  }
+  return sample;
+}
+
+// Everything that a step changes.
+struct State {
+  std::int64_t step = 0;
+  std::vector<float> parameters, first_moment, second_moment, average;
+
+  std::string bytes() const {
+    std::string out(reinterpret_cast<const char*>(&step), sizeof step);
+    for (const auto* v : {&parameters, &first_moment, &second_moment, &average}) {
+      out.append(reinterpret_cast<const char*>(v->data()), v->size() * sizeof(float));
+    }
+    return out;
+  }
+  void restore(const std::string& bytes, const std::string& file) {
+    if (bytes.size() != sizeof step + 4 * parameters.size() * sizeof(float)) {
+      throw InputError(file, "is no checkpoint of this net: remove it to start anew");
+    }
+    const char* at = bytes.data();
+    std::memcpy(&step, at, sizeof step);
+    at += sizeof step;
+    for (auto* v : {&parameters, &first_moment, &second_moment, &average}) {
+      std::memcpy(v->data(), at, v->size() * sizeof(float));
+      at += v->size() * sizeof(float);
+    }
+  }
+};
+
+// Mean loss and the share of joints whose highest cell is within 10 % and 5 % of the figure's long side.
+struct Report {
+  double loss = 0, within_10 = 0, within_5 = 0, human_right = 0;
+};
+
+Report validate(const JointNet& net, InstructionSet set, const std::vector<Figure>& figures, int threads) {
+  std::vector<Report> reports(figures.size());
+  parallelFor(figures.size(), threads, [&](std::size_t i) {
+    thread_local JointNetMaps maps(net);
+    const Figure& figure = figures[i];
+    const FramePlacement placement = FramePlacement::centred(figure.mask);
+    encodeJointNetInput(figure.mask, figure.lines, placement, maps.maps[0]);
+    forward(net, set, maps);
+    const std::vector<float>& heatmaps = maps.maps.back();
+    const JointTarget target = targetOf(figure, placement);
+    Report& report = reports[i];
+    report.loss = jointLoss<float>(heatmaps, target, 0, nullptr);
+    double logit = 0;
+    std::array<int, kNetJoints> best{};
+    const auto at = [&](int cell, int c) {
+      return heatmaps[static_cast<std::size_t>(
+                          paddedIndex(kHeatmapSize, cell / kHeatmapSize, cell % kHeatmapSize)) *
+                          kHeatmapChannels +
+                      c];
+    };
+    for (int cell = 0; cell < kHeatmapSize * kHeatmapSize; ++cell) {
+      logit += at(cell, kHumanChannel);
+      for (int j = 0; j < kNetJoints; ++j) {
+        if (at(cell, j) > at(best[j], j)) best[j] = cell;
+      }
+    }
+    report.human_right = (logit > 0) == figure.human;
+    for (int j = 0; j < kNetJoints; ++j) {
+      const Eigen::Vector2d cell(best[j] % kHeatmapSize, best[j] / kHeatmapSize);
+      const double error =
+          4 * (cell - target.joints[j].cell).norm() / std::max(figure.mask.rows(), figure.mask.cols());
+      report.within_10 += error <= .1;
+      report.within_5 += error <= .05;
+    }
+  });
+  Report mean;
+  int humans = 0;
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    mean.human_right += reports[i].human_right / static_cast<double>(figures.size());
+    if (!figures[i].human) continue;
+    ++humans;
+    mean.loss += reports[i].loss;
+    mean.within_10 += reports[i].within_10 / kNetJoints;
+    mean.within_5 += reports[i].within_5 / kNetJoints;
+  }
+  for (double* v : {&mean.loss, &mean.within_10, &mean.within_5}) *v /= std::max(1, humans);
+  return mean;
+}
+
+std::vector<Figure> drawFigures(std::uint64_t seed, std::uint64_t first, int count,
+                                const FigureOptions& options, int threads) {
+  std::vector<Figure> figures(count);
+  parallelFor(figures.size(), threads, [&](std::size_t i) {
+    Rng rng(seed, first + i);
+    figures[i] = generateFigure(rng, options);
+  });
+  return figures;
+}
+
+class Training {
+ public:
+  explicit Training(const JointTrainingOptions& options)
+      : options_(options), set_(bestInstructionSet()), net_(makeJointNet()) {
+    Rng rng(options.seed, kInitialStream);
+    initialise(net_, rng);
+    const std::size_t n = net_.parameters.size();
+    state_.parameters = net_.parameters;
+    state_.average = net_.parameters;
+    state_.first_moment.assign(n, 0.f);
+    state_.second_moment.assign(n, 0.f);
+    for (int i = 0; i < kLanes; ++i) {
+      maps_.emplace_back(net_);
+      gradients_.emplace_back(net_);
+    }
+    if (!options.held_back.empty()) figure_options_.kinds = trainedKinds(options.held_back, false);
+    figure_options_.other_share = options.other_share;
+    FigureOptions validation = figure_options_;
+    if (!options.held_back.empty()) validation.kinds = trainedKinds(options.held_back, true);
+    validation_ = drawFigures(options.seed ^ 0x5eed, kValidationStream, kValidationFigures, validation,
+                              options.threads);
+  }
+
+  void run() {
+    if (!options_.checkpoint.empty() && std::filesystem::exists(options_.checkpoint)) {
+      state_.restore(readFile(options_.checkpoint), options_.checkpoint);
+    }
+    const int steps_per_round = options_.figures_per_round * options_.passes / options_.batch;
+    ProgressBar bar("training", static_cast<std::size_t>(options_.steps));
+    bar.advance(static_cast<std::size_t>(state_.step));
+    std::int64_t round = -1;
+    double loss = 0;
+    int counted = 0;
+    while (state_.step < options_.steps) {
+      if (state_.step / steps_per_round != round) {
+        round = state_.step / steps_per_round;
+        figures_ = drawFigures(options_.seed,
+                               kFigureStream + static_cast<std::uint64_t>(round * options_.figures_per_round),
+                               options_.figures_per_round, figure_options_, options_.threads);
+        shuffle(round);
+      }
+      loss += step(static_cast<std::size_t>(state_.step % steps_per_round));
+      ++counted;
+      ++state_.step;
+      bar.advance();
+      if (state_.step % options_.report_every == 0 || state_.step == options_.steps) {
+        report(bar, loss / counted);
+        loss = 0;
+        counted = 0;
+      }
+    }
+  }
+
+ private:
+  // The order of a round: each pass sees every figure once.
+  void shuffle(std::int64_t round) {
+    Rng rng(options_.seed, kStepStream - 1 - static_cast<std::uint64_t>(round));
+    order_.clear();
+    for (int pass = 0; pass < options_.passes; ++pass) {
+      const std::size_t first = order_.size();
+      for (int i = 0; i < options_.figures_per_round; ++i) order_.push_back(i);
+      for (std::size_t i = order_.size() - 1; i > first; --i) {
+        std::swap(order_[i], order_[first + rng.below(static_cast<std::uint32_t>(i - first + 1))]);
+      }
+    }
+  }
+
+  double step(std::size_t step_of_round) {
+    net_.parameters = state_.parameters;
+    const std::vector<float> transposed = transposedWeights(net_);
+    const std::size_t first = step_of_round * static_cast<std::size_t>(options_.batch);
+    std::array<double, kLanes> losses{};
+    parallelFor(kLanes, options_.threads, [&](std::size_t lane) {
+      JointNetMaps& maps = maps_[lane];
+      JointNetGradient& gradient = gradients_[lane];
+      std::fill(gradient.parameters.begin(), gradient.parameters.end(), 0.f);
+      for (int b = static_cast<int>(lane); b < options_.batch; b += kLanes) {
+        Rng rng(options_.seed, kStepStream + static_cast<std::uint64_t>(state_.step * options_.batch + b));
+        const Figure& figure = figures_[order_[first + b]];
+        const Sample sample = augmented(rng, figure, options_.no_lines_share);
+        encodeJointNetInput(figure.mask, sample.lines, sample.placement, maps.maps[0]);
+        forward(net_, set_, maps);
+        for (auto& map : gradient.maps) std::fill(map.begin(), map.end(), 0.f);
+        losses[lane] += jointLoss<float>(maps.maps.back(), targetOf(figure, sample.placement),
+                                         1. / options_.batch, &gradient.maps.back());
+        backward(net_, set_, transposed, maps, gradient);
+      }
+    });
+    adam();
+    double loss = 0;
+    for (const double l : losses) loss += l / options_.batch;
+    return loss;
+  }
+
+  double rate() const {
+    const double t = static_cast<double>(state_.step) / options_.steps;
+    if (t < kWarmUp) return options_.peak_rate * (t / kWarmUp + 1e-3);
+    return options_.peak_rate * (.5 + .5 * std::cos(std::numbers::pi * (t - kWarmUp) / (1 - kWarmUp)) + 1e-3);
+  }
+
+  // Kingma & Ba, "Adam" (2015), with decoupled weight decay; and a running mean of the weights.
+  void adam() {
+    std::vector<float>& sum = gradients_[0].parameters;
+    double norm = 0;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      for (int lane = 1; lane < kLanes; ++lane) sum[i] += gradients_[lane].parameters[i];
+      norm += static_cast<double>(sum[i]) * sum[i];
+    }
+    norm = std::sqrt(norm);
+    const auto shorten = static_cast<float>(norm > kGradientNorm ? kGradientNorm / norm : 1);
+    constexpr float kBeta1 = .9f, kBeta2 = .99f;
+    const double t = static_cast<double>(state_.step + 1);
+    const auto unbias1 = static_cast<float>(1 / (1 - std::pow(kBeta1, t)));
+    const auto unbias2 = static_cast<float>(1 / (1 - std::pow(kBeta2, t)));
+    const auto r = static_cast<float>(rate()), decay = static_cast<float>(options_.weight_decay);
+    // A young mean follows closely.
+    const auto keep = static_cast<float>(std::min(options_.averaging, (1 + t) / (10 + t)));
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      const float g = sum[i] * shorten;
+      float& w = state_.parameters[i];
+      float& m = state_.first_moment[i];
+      float& v = state_.second_moment[i];
+      m = kBeta1 * m + (1 - kBeta1) * g;
+      v = kBeta2 * v + (1 - kBeta2) * g * g;
+      w -= r * (m * unbias1 / (std::sqrt(v * unbias2) + 1e-8f) + decay * w);
+      state_.average[i] = keep * state_.average[i] + (1 - keep) * w;
+    }
+  }
+
+  void report(ProgressBar& bar, double loss) {
+    JointNet net = net_;
+    net.parameters = state_.average;
+    const Report r = validate(quantized(net), set_, validation_, options_.threads);
+    std::ostringstream provenance;
+    provenance << "skel-train joints: seed " << options_.seed << ", step " << state_.step << " of "
+               << options_.steps << ", batch " << options_.batch << ", validation loss " << r.loss
+               << ", within 10 % " << r.within_10;
+    net.provenance = provenance.str();
+    bar.clear();
+    std::printf("step %lld  loss %.4f  validation: loss %.4f  within 10 %% %.4f  5 %% %.4f  human %.4f\n",
+                static_cast<long long>(state_.step), loss, r.loss, r.within_10, r.within_5, r.human_right);
+    std::fflush(stdout);
+    writeFile(options_.output, formatJointNet(net));
+    if (!options_.checkpoint.empty()) writeFile(options_.checkpoint, state_.bytes());
+  }
+
+  JointTrainingOptions options_;
+  InstructionSet set_;
+  JointNet net_;
+  State state_;
+  FigureOptions figure_options_;
+  std::vector<Figure> validation_, figures_;
+  std::vector<int> order_;
+  std::vector<JointNetMaps> maps_;
+  std::vector<JointNetGradient> gradients_;
+};
+
+}  // namespace
+
+void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) {
+  command.add_option("-o,--output", options.output, "Weights file to write")->capture_default_str();
+  command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report");
+  command.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
+  command.add_option("--steps", options.steps)->check(CLI::Range(1, 10'000'000))->capture_default_str();
+  command.add_option("--batch", options.batch, "Figures a step")
+      ->check(CLI::Range(4, 1024))
+      ->capture_default_str();
+  command.add_option("--rate", options.peak_rate, "Highest learning rate")->capture_default_str();
+  command.add_option("--weight-decay", options.weight_decay)->capture_default_str();
+  command.add_option("--averaging", options.averaging, "Of the weights over steps")->capture_default_str();
+  command.add_option("--figures", options.figures_per_round, "Figures drawn anew each round")
+      ->check(CLI::Range(64, 1'000'000))
+      ->capture_default_str();
+  command.add_option("--passes", options.passes, "Passes over them")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  command.add_option("--others", options.other_share, "Share of figures that are no whole human")
+      ->check(CLI::Range(0., .9))
+      ->capture_default_str();
+  command.add_option("--no-lines", options.no_lines_share, "Share of figures whose inner lines are withheld")
+      ->check(CLI::Range(0., 1.))
+      ->capture_default_str();
+  command
+      .add_option("--hold-back", options.held_back, "Body kinds to validate on instead of training on them")
+      ->check(CLI::Range(0, kBodyKinds - 1));
+  command.add_option("--threads", options.threads, "0: one a core")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command.add_option("--report-every", options.report_every, "Steps")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+}
+
+ExitCode runJointTraining(const JointTrainingOptions& options) {
+  Training(options).run();
+  return ExitCode::kDone;
+}
+
+}  // namespace skel

@@ -1,0 +1,33 @@
+// skel-train joints: trains the joint net on generated figures.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+#include "libskel/core/error.h"
+
+namespace skel {
+
+struct JointTrainingOptions {
+  std::string output = "weights/joint_net.bin";
+  std::string checkpoint;  // "": none
+  std::uint64_t seed = 1;
+  int steps = 12000;
+  int batch = 32;
+  double peak_rate = 2e-3;
+  double weight_decay = 1e-4;
+  double averaging = .999;       // of the weights over steps
+  int figures_per_round = 4096;  // drawn anew each round
+  int passes = 3;                // over the figures of a round
+  double other_share = .12;      // of figures that are no whole human
+  double no_lines_share = .3;    // of figures whose inner lines are withheld
+  std::vector<int> held_back;    // body kinds not trained on
+  int threads = 0;               // 0: one a core. The result does not depend on it.
+  int report_every = 500;        // steps
+};
+
+void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options);
+ExitCode runJointTraining(const JointTrainingOptions& options);
+
+}  // namespace skel
