@@ -37,6 +37,8 @@ std::string readFile(const std::string& path) {
   struct stat status;
   if (::stat(path.c_str(), &status) != 0) throw InputError(path, "cannot be read: " + reason());
   if (S_ISDIR(status.st_mode)) throw InputError(path, "is a folder, not a file");
+  // /dev/zero never ends.
+  if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) throw InputError(path, "is a device, not a file");
   Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
   if (file.fd < 0) throw InputError(path, "cannot be read: " + reason());
   std::string bytes;

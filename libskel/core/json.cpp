@@ -58,6 +58,8 @@ JsonDocument JsonDocument::parse(std::string_view text, const std::string& file)
     const auto line = std::count(upto.begin(), upto.end(), '\n') + 1;
     throw InputError(file, text.empty() ? "is empty, not JSON"
                                         : "is not JSON: line " + std::to_string(line) + " cannot be read");
+  } catch (const nlohmann::json::out_of_range&) {
+    throw InputError(file, "holds a number that is too large");
   }
   if (!check.duplicate.empty())
     throw InputError(file, "has the key \"" + check.duplicate + "\" twice in one object");

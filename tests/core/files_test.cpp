@@ -30,6 +30,7 @@ TEST_CASE("reading says what is wrong with which file") {
   const std::string missing = dir.file("missing");
   CHECK_THROWS_WITH(readFile(missing), missing + ": cannot be read: No such file or directory");
   CHECK_THROWS_WITH(readFile(dir.path()), dir.path() + ": is a folder, not a file");
+  CHECK_THROWS_WITH(readFile("/dev/zero"), "/dev/zero: is a device, not a file");
 }
 
 TEST_CASE("a file where a folder is wanted is refused") {

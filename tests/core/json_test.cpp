@@ -54,6 +54,8 @@ TEST_CASE("what is not JSON is refused with its line") {
   CHECK_THROWS_WITH(JsonDocument::parse(R"({"a": {"b": 1, "b": 2}})", "f.json"),
                     "f.json: has the key \"b\" twice in one object");
   CHECK_THROWS_AS(JsonDocument::parse("{\"a\": NaN}", "f.json"), InputError);
+  CHECK_THROWS_WITH(JsonDocument::parse("{\"a\": 1e999}", "f.json"),
+                    "f.json: holds a number that is too large");
 }
 
 TEST_CASE("format and version are checked") {
