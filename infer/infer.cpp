@@ -218,7 +218,7 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--skin", options.skin, "How the skin follows the bones")->check(namesOf(kSkinNames));
   app.add_option("--max-influences", options.max_influences, "Joints that carry one vertex at most")
       ->check(CLI::Range(1, 4));
-  app.add_option("--clips", options.clips, "Motions to put into the .glb")->delimiter(',');
+  app.add_option("--clips", options.clips, "Motions to put into the .glb, or none")->delimiter(',');
   app.add_option("--rest-pose", options.rest_pose, "How the character stands when nothing moves it")
       ->check(namesOf(kRestPoseNames));
   app.add_option("--names", options.naming, "What exported joints are called")->check(namesOf(kNamingNames));

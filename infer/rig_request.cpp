@@ -17,7 +17,8 @@ RigOptions rigOptions(const InferOptions& options) {
   rig.skin.max_influences = options.max_influences;
   rig.inflate.spacing_px = options.mesh_spacing_px;
   rig.rest_pose = kRestPoseNames.at(options.rest_pose);
-  for (const std::string& name : options.clips) rig.clips.push_back(builtinClip(name));
+  if (options.clips != std::vector<std::string>{"none"})
+    for (const std::string& name : options.clips) rig.clips.push_back(builtinClip(name));
   return rig;
 }
 
