@@ -16,7 +16,7 @@ struct InferOptions {
   std::string weights_file;  // empty: the built-in ones
   std::string mask_file, model_file, skeleton_file;
   std::string body_plan = "biped";
-  std::string recognizer = "paper";
+  std::string recognizer = "tree";
   std::string candidates = "maxima";
   std::string skin = "geodesic";
   int max_influences = 4;

@@ -10,7 +10,8 @@
 
 namespace skel {
 
-inline const std::map<std::string, Recognizer> kRecognizerNames = {{"paper", Recognizer::kPaper}};
+inline const std::map<std::string, Recognizer> kRecognizerNames = {{"paper", Recognizer::kPaper},
+                                                                   {"tree", Recognizer::kTree}};
 inline const std::map<std::string, CandidateMethod> kCandidateNames = {{"maxima", CandidateMethod::kMaxima},
                                                                        {"strict", CandidateMethod::kStrict},
                                                                        {"discs", CandidateMethod::kDiscs}};

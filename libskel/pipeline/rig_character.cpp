@@ -7,6 +7,8 @@
 #include "libskel/classifier/features.h"
 #include "libskel/core/check.h"
 #include "libskel/mesh/front_view.h"
+#include "libskel/recognition/paper_recognizer.h"
+#include "libskel/recognition/tree_recognition.h"
 #include "libskel/skeleton/lift.h"
 
 namespace skel {
@@ -73,8 +75,9 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
 
   drawing.recognition = timed("recognition", [&] {
     if (!input.skeleton)
-      return recognizeByRules(silhouette, drawing.candidates, drawing.classes, options.body_plan,
-                              &drawing.paper_trace);
+      return options.recognizer == Recognizer::kPaper
+                 ? recognizeByRules(silhouette, drawing.candidates, drawing.classes, options.body_plan)
+                 : recognizeByTree(drawing.image, silhouette, options.body_plan, builtInJointNet());
     Recognition given;
     given.skeleton = *input.skeleton;
     return given;

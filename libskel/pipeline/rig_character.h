@@ -13,7 +13,6 @@
 #include "libskel/export/write_character.h"
 #include "libskel/image/image.h"
 #include "libskel/mesh/inflate.h"
-#include "libskel/recognition/paper_recognizer.h"
 #include "libskel/recognition/recognition.h"
 #include "libskel/silhouette/silhouette.h"
 #include "libskel/skeleton/template.h"
@@ -29,14 +28,17 @@ struct RigInput {
   std::optional<Skeleton> skeleton;   // go on from these joints (image px) instead of recognising any
 };
 
-enum class Recognizer { kPaper };
+enum class Recognizer {
+  kTree,   // a net that sees the whole figure, and a tree search (tree_recognition.h)
+  kPaper,  // the rules of the paper (paper_recognizer.h)
+};
 
 struct RigOptions {
   SilhouetteOptions silhouette;
   CandidateOptions candidates;
   Mlp mlp;  // tells the classes of candidates apart
   SkeletonTemplate body_plan;
-  Recognizer recognizer = Recognizer::kPaper;
+  Recognizer recognizer = Recognizer::kTree;
   InflateOptions inflate;
   SkinMethod skin_method = SkinMethod::kGeodesic;
   SkinOptions skin;
@@ -57,7 +59,6 @@ struct RiggedDrawing {
   Features features;
   ClassProbabilities classes;
   Recognition recognition;
-  PaperTrace paper_trace;
   RiggedCharacter character;  // empty if the silhouette has not been found
   std::vector<Clip> clips;    // retargeted to the rest pose
   std::vector<StageTime> times;
