@@ -1,0 +1,191 @@
+// The default recogniser against synthetic truth: figures of capsules in several poses, moved, turned,
+// blemished.
+#include "libskel/recognition/tree_recognition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "libskel/core/error.h"
+#include "libskel/core/rng.h"
+#include "tests/support/catch.h"
+#include "tests/support/synthetic_figure.h"
+
+using namespace skel;
+using Eigen::Vector2d;
+
+namespace {
+
+std::vector<CapsuleFigure> poses() {
+  CapsuleFigure down, out, up, mixed, walking;
+  down.right_arm = down.left_arm = 28, down.right_forearm = down.left_forearm = 20;
+  out.right_arm = out.left_arm = out.right_forearm = out.left_forearm = 85;
+  up.right_arm = up.left_arm = 120, up.right_forearm = up.left_forearm = 150;
+  mixed.right_arm = 110, mixed.right_forearm = 160, mixed.left_arm = 40, mixed.left_forearm = 30;
+  walking.right_thigh = 30, walking.left_thigh = 25, walking.right_shin = 30, walking.left_shin = 25;
+  return {down, out, up, mixed, walking};
+}
+
+Image inkOn(const Plane8& mask) {
+  Image image(static_cast<int>(mask.cols()), static_cast<int>(mask.rows()));
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      std::fill_n(image.pixel(x, y), 4, static_cast<std::uint8_t>(mask(y, x) ? 90 : 255));
+  image.rgba.col(3).setConstant(255);
+  return image;
+}
+
+Recognition recognize(const Plane8& mask) {
+  const Silhouette silhouette = silhouetteFromMask(mask);
+  REQUIRE(silhouette.found());
+  return recognizeByTree(inkOn(mask), silhouette, loadTemplate("biped"), builtInJointNet());
+}
+
+Vector2d at(const Recognition& recognition, const std::string& joint) {
+  return recognition.skeleton.joints[static_cast<size_t>(recognition.skeleton.index(joint))].image;
+}
+
+// Share of the net's joints within a tenth of the figure's long side of where `moved` takes the true ones.
+double shareRight(
+    const CapsuleFigure& figure, const Recognition& recognition,
+    const std::function<Vector2d(Vector2d)>& moved = [](Vector2d p) { return p; }, double scale = 1) {
+  const Skeleton truth = capsuleSkeleton(figure);
+  const double near_px = 0.1 * 330 * scale;
+  int right = 0;
+  for (const std::string_view name : kNetJointNames)
+    right +=
+        (at(recognition, std::string(name)) - moved(truth.joints[truth.index(name)].image)).norm() <= near_px;
+  return static_cast<double>(right) / kNetJoints;
+}
+
+bool liesOn(const Plane8& mask, const Recognition& recognition) {
+  return std::all_of(recognition.skeleton.joints.begin(), recognition.skeleton.joints.end(),
+                     [&](const Joint& joint) {
+                       return mask(std::lround(joint.image.y()), std::lround(joint.image.x())) != 0;
+                     });
+}
+
+}  // namespace
+
+TEST_CASE("plain figures are found, whole and sure") {
+  for (const CapsuleFigure& figure : poses()) {
+    const Plane8 mask = capsuleMask(figure);
+    const Recognition recognition = recognize(mask);
+    CHECK(shareRight(figure, recognition) >= 13.0 / 14);
+    CHECK(recognition.confidence >= 0.5);
+    CHECK(recognition.missing.empty());
+    CHECK(liesOn(mask, recognition));
+  }
+}
+
+TEST_CASE("a shifted figure has shifted joints") {
+  const CapsuleFigure figure = poses()[3];
+  const Plane8 mask = capsuleMask(figure);
+  Plane8 shifted = Plane8::Zero(mask.rows() + 90, mask.cols() + 170);
+  shifted.block(33, 121, mask.rows(), mask.cols()) = mask;
+  const Recognition here = recognize(mask), there = recognize(shifted);
+  for (const std::string_view name : kNetJointNames)
+    CHECK((at(there, std::string(name)) - at(here, std::string(name)) - Vector2d(121, 33)).norm() < 1);
+}
+
+TEST_CASE("a figure of another size has joints at the same places") {
+  for (const int size : {160, 900}) {
+    CapsuleFigure figure = poses()[1];
+    const Recognition recognition = [&] {
+      CapsuleFigure sized = figure;
+      sized.size = size;
+      return recognize(capsuleMask(sized));
+    }();
+    const double scale = size / 400.0;
+    CHECK(shareRight(
+              figure, recognition, [&](Vector2d p) { return Vector2d(p * scale); }, scale) >= 13.0 / 14);
+  }
+}
+
+TEST_CASE("a mirrored figure has mirrored joints, left and right exchanged") {
+  for (const CapsuleFigure& figure : poses()) {
+    const Plane8 mask = capsuleMask(figure), mirrored = mask.rowwise().reverse();
+    const Recognition one = recognize(mask), other = recognize(mirrored);
+    const double last = static_cast<double>(mask.cols()) - 1;
+    for (size_t j = 0; j < kNetJoints; ++j) {
+      const Vector2d p = at(one, std::string(kNetJointNames[j]));
+      const Vector2d q = at(other, std::string(kNetJointNames[static_cast<size_t>(kMirroredJoint[j])]));
+      CHECK((Vector2d(last - p.x(), p.y()) - q).norm() < 5);
+    }
+  }
+}
+
+TEST_CASE("figures on their side and on their head are turned back, and it is said") {
+  for (const CapsuleFigure& figure : poses()) {
+    Plane8 mask = capsuleMask(figure);
+    const double last = static_cast<double>(mask.cols()) - 1;
+    for (int quarter = 1; quarter <= 3; ++quarter) {
+      mask = Plane8(mask.transpose().rowwise().reverse());
+      const Recognition recognition = recognize(mask);
+      const auto turned = [&](Vector2d p) {
+        for (int k = 0; k < quarter; ++k) p = Vector2d(last - p.y(), p.x());
+        return p;
+      };
+      CHECK(shareRight(figure, recognition, turned) >= 12.0 / 14);
+      CHECK(std::any_of(recognition.warnings.begin(), recognition.warnings.end(),
+                        [](const std::string& w) { return w.starts_with("the figure is turned by "); }));
+    }
+  }
+}
+
+TEST_CASE("noise on the outline and holes do not matter") {
+  Rng rng(23);
+  for (const CapsuleFigure& figure : poses()) {
+    Plane8 mask = capsuleMask(figure);
+    for (int k = 0; k < 250; ++k) {
+      // A bite or a bump of 2 to 5 px at the outline.
+      const int x = 10 + static_cast<int>(rng.below(380)), y = 10 + static_cast<int>(rng.below(380));
+      const int r = 2 + static_cast<int>(rng.below(4));
+      const auto around = mask.block(y - r, x - r, 2 * r, 2 * r);
+      if ((around > 0).any() && (around == 0).any())
+        mask.block(y - r, x - r, 2 * r, 2 * r) = rng.chance(0.5) ? 255 : 0;
+    }
+    for (int k = 0; k < 3; ++k) mask.block(160 + 25 * k, 185 + 8 * k, 12, 14).setZero();
+    CHECK(shareRight(figure, recognize(mask)) >= 12.0 / 14);
+  }
+}
+
+TEST_CASE("a limb that is missing is named") {
+  CapsuleFigure figure = poses()[1];
+  Plane8 mask = capsuleMask(figure);
+  mask.block(100, 245, 130, 155).setZero();  // the whole left arm
+  const Recognition recognition = recognize(mask);
+  const auto missing = [&](const std::string& joint) {
+    return std::count(recognition.missing.begin(), recognition.missing.end(), joint) > 0;
+  };
+  CHECK((missing("left_hand") || missing("left_elbow")));
+  CHECK_FALSE(missing("right_hand"));
+  CHECK_FALSE(missing("head"));
+}
+
+TEST_CASE("an arm that is closed off against the body is found all the same") {
+  CapsuleFigure figure = poses()[0];
+  Plane8 mask = capsuleMask(figure);
+  // Fill what lies between arm and trunk, down to the hand.
+  const Skeleton truth = capsuleSkeleton(figure);
+  const Vector2d hand = truth.joints[truth.index("left_hand")].image;
+  for (int y = 140; y < hand.y(); ++y) {
+    int last = 200;
+    for (int x = 200; x < mask.cols(); ++x)
+      if (mask(y, x)) last = x;
+    mask.row(y).segment(200, last - 200).setConstant(255);
+  }
+  const Recognition recognition = recognize(mask);
+  CHECK((at(recognition, "left_hand") - hand).norm() < 0.15 * 330);
+  CHECK(shareRight(figure, recognition) >= 11.0 / 14);
+}
+
+TEST_CASE("a body plan that the net does not know is refused") {
+  SkeletonTemplate other = loadTemplate("biped");
+  for (TemplateJoint& joint : other.joints)
+    if (joint.name == "left_hand") joint.name = "left_paw";
+  other.name = "cat";
+  const Plane8 mask = capsuleMask();
+  CHECK_THROWS_WITH(recognizeByTree(inkOn(mask), silhouetteFromMask(mask), other, builtInJointNet()),
+                    "the net knows no template like \"cat\"; use --recognizer paper for it");
+}
