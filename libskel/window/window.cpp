@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <vector>
 
 #include "libskel/core/error.h"
 
@@ -35,7 +36,50 @@ struct Glfw {
   ~Glfw() { glfwTerminate(); }
 };
 
+#if IMGUI_VERSION_NUM < 18700
+// Up to 1.86, Dear ImGui sees only what is down when a frame begins: a key that is pressed and released
+// between two frames would be lost. Such keys are held down for one frame. From 1.87 on it has a queue of its
+// own.
+class KeyTaps {
+ public:
+  static void note(GLFWwindow*, int key, int, int action, int) {
+    if (key >= 0 && action == GLFW_PRESS) pressed().push_back(key);
+  }
+  // Before ImGui::NewFrame().
+  void hold() {
+    ImGuiIO& io = ImGui::GetIO();
+    for (const int key : pressed())
+      if (!io.KeysDown[key]) {
+        io.KeysDown[key] = true;
+        held_.push_back(key);
+      }
+    pressed().clear();
+  }
+  // After it.
+  void release() {
+    for (const int key : held_) ImGui::GetIO().KeysDown[key] = false;
+    held_.clear();
+  }
+
+ private:
+  // GLFW's callbacks are plain functions; there is one window.
+  static std::vector<int>& pressed() {
+    static std::vector<int> keys;
+    return keys;
+  }
+  std::vector<int> held_;
+};
+#else
+struct KeyTaps {
+  static void note(GLFWwindow*, int, int, int, int) {}
+  void hold() {}
+  void release() {}
+};
+#endif
+
 GLFWwindow* createWindow(const WindowOptions& options) {
+  // Shown with its first frame, not before.
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -98,6 +142,7 @@ struct Gui {
     const float scale = std::clamp(std::max(scale_x, scale_y), 1.f, 4.f);
     chooseFont(scale);
     chooseStyle(scale);
+    glfwSetKeyCallback(window, KeyTaps::note);  // Dear ImGui calls it before its own
     ImGui_ImplGlfw_InitForOpenGL(window, true);
     ImGui_ImplOpenGL3_Init("#version 330 core");
   }
@@ -108,10 +153,12 @@ struct Gui {
   }
 };
 
-NextFrame drawFrame(GLFWwindow* window, const std::function<NextFrame()>& frame) {
+NextFrame drawFrame(GLFWwindow* window, KeyTaps& taps, const std::function<NextFrame()>& frame) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  taps.hold();
   ImGui::NewFrame();
+  taps.release();
   const NextFrame next = frame();
   ImGui::Render();
   int width = 0, height = 0;
@@ -140,8 +187,10 @@ void Window::setTitle(const std::string& title) { glfwSetWindowTitle(parts_->win
 
 void Window::run(const std::function<NextFrame()>& frame) {
   int settling = kSettlingFrames;
+  KeyTaps taps;
   while (!glfwWindowShouldClose(parts_->window)) {
-    const NextFrame next = drawFrame(parts_->window, frame);
+    const NextFrame next = drawFrame(parts_->window, taps, frame);
+    if (!glfwGetWindowAttrib(parts_->window, GLFW_VISIBLE)) glfwShowWindow(parts_->window);
     if (next == NextFrame::kClose) break;
     if (next == NextFrame::kAtOnce || --settling > 0) {
       glfwPollEvents();
