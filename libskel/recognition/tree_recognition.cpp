@@ -1,5 +1,6 @@
 #include "libskel/recognition/tree_recognition.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,22 @@
 #include "libskel/recognition/complete_skeleton.h"
 
 namespace skel {
+namespace {
+
+// Figure pixels along the side of the picture that has most of them, as a share of the figure's long side. A
+// tight crop touches the border with a hand or a sole; a figure that goes on beyond it lies there with its
+// width.
+double shareCutOff(const Plane8& mask, const WorkingGrid& grid) {
+  const auto count = [](const auto& line) { return static_cast<double>((line > 0).count()); };
+  const double most = std::max({count(mask.row(0)), count(mask.row(mask.rows() - 1)), count(mask.col(0)),
+                                count(mask.col(mask.cols() - 1))});
+  return most * grid.scale / kWorkingGridSize;
+}
+
+constexpr double kCutOff = 0.25;        // share that says that the figure goes on beyond the border
+constexpr double kCutConfidence = 0.4;  // the most that such a figure can have
+
+}  // namespace
 
 Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
                             const SkeletonTemplate& body_plan, const JointNet& net) {
@@ -36,6 +53,8 @@ Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
     if (!found) recognition.missing.push_back(joint.name);
   }
   recognition.confidence = tree.figure_confidence;
+  if (shareCutOff(silhouette.mask, grid) > kCutOff)
+    recognition.confidence = std::min(recognition.confidence, kCutConfidence);
   if (recognition.confidence < 0.5) {
     std::string warning = "this hardly looks like one whole " + body_plan.name;
     for (size_t i = 0; i < recognition.missing.size(); ++i)

@@ -163,6 +163,15 @@ TEST_CASE("a limb that is missing is named") {
   CHECK_FALSE(missing("head"));
 }
 
+TEST_CASE("a figure that the picture's border cuts is no sure figure") {
+  const Plane8 whole = capsuleMask(poses()[0]);
+  // Below the hips there is nothing; then a crop that only just takes the soles off.
+  const Plane8 cut = whole.topRows(240), tight = whole.topRows(385);
+  CHECK(recognize(cut).confidence < 0.5);
+  CHECK(recognize(cut).warnings.front().starts_with("this hardly looks like one whole biped"));
+  CHECK(recognize(tight).confidence >= 0.5);
+}
+
 TEST_CASE("an arm that is closed off against the body is found all the same") {
   CapsuleFigure figure = poses()[0];
   Plane8 mask = capsuleMask(figure);
