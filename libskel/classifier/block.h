@@ -17,7 +17,5 @@ using Block = Eigen::Array<Scalar, kBlockSize, Eigen::Dynamic>;
 // outputs. weights: outputs × inputs.
 void forwardBlock(const Eigen::MatrixXf& weights, const Eigen::VectorXf& biases, const Block<float>& inputs,
                   Block<float>& outputs);
-void forwardBlock(const Eigen::MatrixXd& weights, const Eigen::VectorXd& biases, const Block<double>& inputs,
-                  Block<double>& outputs);
 
 }  // namespace skel

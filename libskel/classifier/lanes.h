@@ -18,54 +18,49 @@
 
 namespace skel {
 
-inline constexpr int kLaneBytes = 32;
-using FloatLanes = float __attribute__((vector_size(kLaneBytes)));
-using DoubleLanes = double __attribute__((vector_size(kLaneBytes)));
+// kCount numbers that are computed together.
+template <class Scalar, int kCount>
+struct LaneVector {
+  typedef Scalar Type __attribute__((vector_size(kCount * sizeof(Scalar))));
+};
+template <class Scalar, int kCount>
+using Lanes = typename LaneVector<Scalar, kCount>::Type;
+// As many as AVX2 takes.
+template <class Scalar>
+inline constexpr int kLaneCount = 32 / sizeof(Scalar);
 
+// Of a number or of Lanes: the type of one, and whole numbers of the same size.
 template <class Value>
-struct LaneTraits;
+struct LaneTraits {
+  using Scalar = std::remove_cvref_t<decltype(Value{}[0])>;
+  using Bits = Lanes<std::conditional_t<sizeof(Scalar) == 4, std::uint32_t, std::uint64_t>,
+                     sizeof(Value) / sizeof(Scalar)>;
+};
 template <>
 struct LaneTraits<float> {
   using Scalar = float;
   using Bits = std::uint32_t;
-  using Lanes = FloatLanes;
 };
 template <>
 struct LaneTraits<double> {
   using Scalar = double;
   using Bits = std::uint64_t;
-  using Lanes = DoubleLanes;
-};
-template <>
-struct LaneTraits<FloatLanes> {
-  using Scalar = float;
-  using Bits = std::uint32_t __attribute__((vector_size(kLaneBytes)));
-};
-template <>
-struct LaneTraits<DoubleLanes> {
-  using Scalar = double;
-  using Bits = std::uint64_t __attribute__((vector_size(kLaneBytes)));
 };
 template <class Value>
 using ScalarOf = typename LaneTraits<Value>::Scalar;
 template <class Value>
 using BitsOf = typename LaneTraits<Value>::Bits;
-// kLaneBytes of Scalars.
-template <class Scalar>
-using Lanes = typename LaneTraits<Scalar>::Lanes;
-template <class Scalar>
-inline constexpr int kLaneCount = kLaneBytes / sizeof(Scalar);
 
 // Unaligned.
-template <class Scalar>
-SKEL_INLINE Lanes<Scalar> load(const Scalar* from) {
-  Lanes<Scalar> lanes;
-  __builtin_memcpy(&lanes, from, kLaneBytes);
+template <int kCount, class Scalar>
+SKEL_INLINE Lanes<Scalar, kCount> load(const Scalar* from) {
+  Lanes<Scalar, kCount> lanes;
+  __builtin_memcpy(&lanes, from, sizeof lanes);
   return lanes;
 }
-template <class Scalar>
-SKEL_INLINE void store(Scalar* to, Lanes<Scalar> lanes) {
-  __builtin_memcpy(to, &lanes, kLaneBytes);
+template <class Value>
+SKEL_INLINE void store(ScalarOf<Value>* to, Value lanes) {
+  __builtin_memcpy(to, &lanes, sizeof lanes);
 }
 
 }  // namespace skel

@@ -43,7 +43,8 @@ SKEL_INLINE void sigmoidInPlace(Value (&x)[kCount]) {
                                            Scalar(1. / 6227020800)};
   const Value limit = Value{} + (kSingle ? Scalar(16) : Scalar(36));
 
-  Value shifted[kCount], series[kCount];
+  // The even and the odd powers of r, so that two chains run side by side.
+  Value shifted[kCount], square[kCount], even[kCount], odd[kCount];
 #pragma GCC unroll 8
   for (int c = 0; c < kCount; ++c) {
     x[c] = x[c] < limit ? x[c] : limit;
@@ -51,17 +52,25 @@ SKEL_INLINE void sigmoidInPlace(Value (&x)[kCount]) {
     shifted[c] = kRounder - x[c] * kLog2E;
     const Value n = shifted[c] - kRounder;
     x[c] = (-x[c] - n * kLn2High) - n * kLn2Low;
-    series[c] = Value{} + kInverseFactorials[kTerms];
+    square[c] = x[c] * x[c];
+    even[c] = Value{} + kInverseFactorials[kTerms];
+    odd[c] = Value{} + kInverseFactorials[kTerms - 1];
   }
-#pragma GCC unroll 16
-  for (int k = kTerms - 1; k >= 0; --k)
 #pragma GCC unroll 8
-    for (int c = 0; c < kCount; ++c) series[c] = kInverseFactorials[k] + series[c] * x[c];
+  for (int k = kTerms - 2; k > 0; k -= 2)
+#pragma GCC unroll 8
+    for (int c = 0; c < kCount; ++c) {
+      even[c] = kInverseFactorials[k] + even[c] * square[c];
+      odd[c] = kInverseFactorials[k - 1] + odd[c] * square[c];
+    }
 #pragma GCC unroll 8
   for (int c = 0; c < kCount; ++c) {
+    // kTerms even: `even` has one more step to go. Odd: the two have changed their places.
+    const Value series =
+        kTerms % 2 == 0 ? (1 + even[c] * square[c]) + odd[c] * x[c] : odd[c] + even[c] * x[c];
     const Value power_of_two =
         std::bit_cast<Value>((std::bit_cast<Bits>(shifted[c]) << kExponentShift) + kOne);
-    x[c] = 1 / (1 + series[c] * power_of_two);
+    x[c] = 1 / (1 + series * power_of_two);
   }
 }
 

@@ -1,0 +1,196 @@
+// skel-train as a user runs it.
+#include "libskel/classifier/weights_file.h"
+#include "libskel/core/files.h"
+#include "libskel/core/json.h"
+#include "libskel/core/sha256.h"
+#include "libskel/labels/label_file.h"
+#include "tests/support/benchmark_samples.h"
+#include "tests/support/catch.h"
+#include "tests/support/run_tool.h"
+
+using namespace skel;
+
+namespace {
+
+const std::string kTool = SKEL_TRAIN;
+
+// A folder of the benchmark's samples as six characters.
+void fill(const TempDir& dir) {
+  const Samples samples = benchmarkSamples();
+  for (int c = 0; c < 6; ++c) {
+    const std::string name = "c" + std::to_string(c);
+    writeFile(dir.file(name + ".png"), "picture");
+    LabelFile file;
+    file.image = {name + ".png", sha256("picture")};
+    file.image_width = file.image_height = 100;
+    file.grid_width = file.grid_height = 128;
+    for (Eigen::Index i = c * 100; i < c * 100 + 100; ++i) {
+      const Eigen::RowVector3f row = samples.inputs.row(i) * 126;
+      file.candidates.push_back({row[0], row[1] + static_cast<float>(i) * 1e-4f, row[2] + 1});
+      const auto target = samples.targets.row(i);
+      file.labels.emplace_back(static_cast<JointClass>(2 * std::lround(target[0]) + std::lround(target[1])));
+    }
+    writeLabelFile(dir.file(name + ".labels.json"), file);
+  }
+}
+
+ToolRun run(const std::string& arguments) { return runTool(kTool + " " + arguments); }
+
+constexpr const char* kQuick = " --epochs 80 --restarts 2 --folds 3";
+
+}  // namespace
+
+TEST_CASE("skel-train writes weights, report and figures, the same bytes for every number of threads") {
+  const TempDir dir;
+  fill(dir);
+  const auto train = [&](const std::string& name, const std::string& more) {
+    return run(dir.path() + " -o " + dir.file(name) + kQuick + more);
+  };
+  const ToolRun one =
+      train("a.json", " --threads 1 --json " + dir.file("f.json") + " --report " + dir.file("report"));
+  REQUIRE(one.exit_code == 0);
+  CHECK(one.out.find("on characters left out of training (3 folds)") != std::string::npos);
+  CHECK(one.out.find("accuracy 0.9") != std::string::npos);
+  CHECK(train("b.json", " --threads 3").exit_code == 0);
+  CHECK(readFile(dir.file("a.json")) == readFile(dir.file("b.json")));
+  CHECK(train("c.json", " --seed 9").exit_code == 0);
+  CHECK(readFile(dir.file("a.json")) != readFile(dir.file("c.json")));
+
+  const WeightsFile weights = readWeights(dir.file("a.json"));
+  CHECK(weights.mlp.sizes() == std::vector<int>{3, 4, 4, 2});
+  CHECK(weights.provenance.options == "--epochs 80 --restarts 2");
+  CHECK(weights.provenance.samples == 600);
+  CHECK(weights.provenance.characters == 6);
+  CHECK(readWeights(dir.file("c.json")).provenance.seed == 9);
+
+  for (const char* name : {"report/loss.png", "report/confusion.png"})
+    CHECK(readFile(dir.file(name)).starts_with("\x89PNG"));
+  for (const auto& [file, key] : {std::pair("f.json", ""), {"report/report.json", "evaluation"}}) {
+    const JsonDocument document = JsonDocument::readFile(dir.file(file));
+    const JsonValue figures = *key ? document.root().at(key) : document.root();
+    CHECK(figures.at("accuracy").asNumber(0, 1) > 0.9);
+    CHECK(figures.at("balanced_accuracy").asNumber(0, 1) > 0.9);
+    CHECK(figures.at("confusion").items().size() == 4);
+    CHECK(figures.at("characters").items().size() == 6);
+  }
+
+  const ToolRun evaluated =
+      run("evaluate " + dir.path() + " --weights " + dir.file("a.json") + " --json " + dir.file("e.json"));
+  CHECK(evaluated.exit_code == 0);
+  const JsonDocument document = JsonDocument::readFile(dir.file("e.json"));
+  CHECK(document.root().at("accuracy").asNumber(0.9, 1) > 0.9);
+  CHECK(document.root().at("characters").items()[3].at("name").asString() == "c3");
+}
+
+TEST_CASE("every way of training works from the command line") {
+  const TempDir dir;
+  fill(dir);
+  for (const char* options :
+       {"--folds 2 --method lbfgs", "--folds 2 --method gradient",
+        "--folds 2 --method gradient --batch 0 --momentum 0.9 --learning-rate 5",
+        "--folds 3 --method gradient --batch 16 --class-weights balanced",
+        "--folds 3 --no-mirror --weight-decay 1e-5", "--layers 3-6-2 --leave-one-out",
+        "--folds 3 --validation 0 --warps 2 --warp 0.3", "--folds 0", "--folds 3 --draws 2 --drawn 4"}) {
+    INFO(options);
+    const ToolRun done =
+        run(dir.path() + " -o " + dir.file("w.json") + " --epochs 60 --restarts 2 " + options);
+    CHECK(done.err == "");
+    CHECK(done.exit_code == 0);
+    CHECK(readWeights(dir.file("w.json")).mlp.sizes().front() == 3);
+  }
+}
+
+TEST_CASE("wrong arguments are refused in one line, with exit code 1") {
+  const TempDir dir;
+  fill(dir);
+  const std::string good = dir.path() + " -o " + dir.file("w.json") + " ";
+  for (const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
+           {"", "a folder of label files and -o FILE are needed"},
+           {dir.path(), "a folder of label files and -o FILE are needed"},
+           {good + "--layers 3-x-2", "--layers \"3-x-2\": must be sizes such as 3-4-4-2"},
+           {good + "--layers 3-0-2", "must be sizes such as 3-4-4-2"},
+           {good + "--layers 4-4-2", "must begin with 3"},
+           {good + "--layers 3", "must begin with 3"},
+           {good + "--method newton", "--method"},
+           {good + "--epochs 0", "--epochs"},
+           {good + "--restarts 0", "--restarts"},
+           {good + "--momentum 1", "--momentum"},
+           {good + "--learning-rate -1", "--learning-rate"},
+           {good + "--learning-rate nan", "--learning-rate"},
+           {good + "--weight-decay 2", "--weight-decay"},
+           {good + "--weight-decay nan", "--weight-decay"},
+           {good + "--validation 1", "--validation"},
+           {good + "--class-weights some", "--class-weights"},
+           {good + "--folds 1", "--folds 1: must be 0 or at least 2"},
+           {good + "--folds 9", "--folds 9: there are only 6 characters"},
+           {good + "--folds 0 --draws 2", "--drawn 17: must be less than the 6 characters"},
+           {good + "--candidates all", "--candidates"},
+           {good + "--frobnicate", "--frobnicate"},
+           {"evaluate", "dir is required"}}) {
+    INFO(arguments);
+    const ToolRun refused = run(arguments);
+    CHECK(refused.exit_code == 1);
+    CHECK(refused.err.find(message) != std::string::npos);
+    CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("bad data is refused with file, path and reason, and exit code 2") {
+  const TempDir dir;
+  fill(dir);
+  const std::string label_file = dir.file("c2.labels.json");
+  const std::string good = readFile(label_file);
+  const auto refusal = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    writeFile(label_file, text);
+    const ToolRun refused = run(dir.path() + " -o " + dir.file("w.json") + kQuick);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.err.starts_with("skel-train: " + dir.path()));
+    writeFile(label_file, good);
+    return refused.err;
+  };
+  const auto holds = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  CHECK(holds(refusal("\"label\": \"leg\"", "\"label\": null"), "].label: is null; label every candidate"));
+  CHECK(holds(refusal("\"label\": \"leg\"", "\"label\": \"tail\""), "must be head, body, hand, leg or null"));
+  CHECK(holds(refusal("\"radius\": ", "\"radius\": NaN, \"r\": "), "is not JSON"));
+  CHECK(holds(refusal("\"height\": 128", "\"height\": 256"), "it is 128 px; label one of them anew"));
+  CHECK(holds(refusal(sha256("picture"), sha256("other")), "has changed since it was labelled"));
+  CHECK(holds(refusal("\"version\": 1", "\"version\": 2"), "use a newer skel"));
+
+  const TempDir empty;
+  const ToolRun none = run(empty.path() + " -o " + dir.file("w.json"));
+  CHECK(none.exit_code == 2);
+  CHECK(holds(none.err, "holds no label files"));
+  CHECK(run(empty.file("none") + " -o w.json").exit_code == 2);
+
+  for (const char* joint_class : {"head", "body", "hand"}) {
+    const TempDir lacking;
+    fill(lacking);
+    for (int c = 0; c < 6; ++c) {
+      const std::string path = lacking.file("c" + std::to_string(c) + ".labels.json");
+      LabelFile file = readLabelFile(path);
+      for (auto& label : file.labels)
+        if (kJointClassNames[static_cast<std::size_t>(*label)] == std::string(joint_class))
+          label = JointClass::kLeg;
+      writeLabelFile(path, file);
+    }
+    const ToolRun refused = run(lacking.path() + " -o " + dir.file("w.json"));
+    CHECK(refused.exit_code == 2);
+    CHECK(holds(refused.err, "no candidate is labelled \"" + std::string(joint_class) + "\""));
+  }
+
+  writeFile(dir.file("bad.json"), "{}");
+  const ToolRun weights = run("evaluate " + dir.path() + " --weights " + dir.file("bad.json"));
+  CHECK(weights.exit_code == 2);
+  CHECK(holds(weights.err, "bad.json: lacks \"format\""));
+}
+
+TEST_CASE("an output that cannot be written has exit code 4") {
+  const TempDir dir;
+  fill(dir);
+  writeFile(dir.file("file"), "");
+  CHECK(run(dir.path() + " -o " + dir.file("file/w.json") + kQuick).exit_code == 4);
+}

@@ -1,0 +1,61 @@
+#include "trainer/cross_validation.h"
+
+#include "libskel/core/check.h"
+#include "libskel/core/parallel.h"
+
+namespace skel {
+namespace {
+
+Characters shuffled(Characters characters, const TrainingOptions& options, std::uint64_t stream) {
+  Rng rng(static_cast<std::uint64_t>(options.seed), stream);
+  for (std::size_t i = characters.size(); i > 1; --i)
+    std::swap(characters[i - 1], characters[rng.below(static_cast<std::uint32_t>(i))]);
+  return characters;
+}
+
+struct Split {
+  Characters training, test;
+};
+
+// The splits run side by side, so that each of them trains on one thread.
+std::vector<Evaluation> evaluateSplits(const std::vector<Split>& splits, const TrainingOptions& options,
+                                       const TrainingProgress& progress) {
+  TrainingOptions single = options;
+  single.threads = 1;
+  std::vector<Evaluation> evaluations(splits.size());
+  parallelFor(splits.size(), options.threads, [&](std::size_t i) {
+    evaluations[i] = evaluateOn(train(splits[i].training, single, progress).mlp, splits[i].test);
+  });
+  return evaluations;
+}
+
+constexpr std::uint64_t kFoldStream = 1'000'000, kDrawStream = 2'000'000;
+
+}  // namespace
+
+Evaluation crossValidate(const Characters& characters, int folds, const TrainingOptions& options,
+                         const TrainingProgress& progress) {
+  SKEL_CHECK(folds >= 2 && static_cast<std::size_t>(folds) <= characters.size());
+  const Characters order = shuffled(characters, options, kFoldStream);
+  std::vector<Split> splits(static_cast<std::size_t>(folds));
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t f = 0; f < splits.size(); ++f)
+      (i % splits.size() == f ? splits[f].test : splits[f].training).push_back(order[i]);
+  Evaluation all;
+  for (const Evaluation& evaluation : evaluateSplits(splits, options, progress)) all.add(evaluation);
+  return all;
+}
+
+std::vector<Evaluation> drawAndTest(const Characters& characters, int draws, int drawn,
+                                    const TrainingOptions& options, const TrainingProgress& progress) {
+  SKEL_CHECK(drawn >= 1 && static_cast<std::size_t>(drawn) < characters.size());
+  std::vector<Split> splits;
+  for (int d = 0; d < draws; ++d) {
+    const Characters order = shuffled(characters, options, kDrawStream + static_cast<std::uint64_t>(d));
+    const auto border = order.begin() + drawn;
+    splits.push_back({Characters(order.begin(), border), Characters(border, order.end())});
+  }
+  return evaluateSplits(splits, options, progress);
+}
+
+}  // namespace skel

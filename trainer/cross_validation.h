@@ -1,0 +1,22 @@
+// How good nets trained on such characters are on characters that they have not seen. Characters are split,
+// never the samples of one.
+#pragma once
+
+#include <vector>
+
+#include "trainer/evaluation.h"
+#include "trainer/training.h"
+
+namespace skel {
+
+// Each character is left out once, in one of `folds` groups (as many as there are characters: leave-one-out).
+// 2 <= folds <= number of characters.
+Evaluation crossValidate(const Characters& characters, int folds, const TrainingOptions& options,
+                         const TrainingProgress& progress);
+
+// The paper's protocol: `draws` times, `drawn` random characters for training, the rest to measure. One
+// evaluation a draw. 1 <= drawn < number of characters.
+std::vector<Evaluation> drawAndTest(const Characters& characters, int draws, int drawn,
+                                    const TrainingOptions& options, const TrainingProgress& progress);
+
+}  // namespace skel

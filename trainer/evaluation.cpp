@@ -1,0 +1,99 @@
+#include "trainer/evaluation.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace skel {
+namespace {
+
+template <class... Numbers>
+std::string line(const char* format, Numbers... numbers) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, numbers...);
+  return text;
+}
+
+double share(int part, int whole) { return whole > 0 ? static_cast<double>(part) / whole : 0; }
+
+}  // namespace
+
+int Evaluation::samples() const {
+  int count = 0;
+  for (const CharacterScore& character : characters) count += character.samples;
+  return count;
+}
+
+double Evaluation::accuracy() const {
+  int right = 0;
+  for (const CharacterScore& character : characters) right += character.right;
+  return share(right, samples());
+}
+
+double Evaluation::balancedAccuracy() const {
+  double sum = 0;
+  int classes = 0;
+  for (std::size_t c = 0; c < confusion.size(); ++c) {
+    int count = 0;
+    for (const int cell : confusion[c]) count += cell;
+    if (count == 0) continue;
+    sum += share(confusion[c][c], count);
+    ++classes;
+  }
+  return classes > 0 ? sum / classes : 0;
+}
+
+void Evaluation::add(const Evaluation& other) {
+  for (std::size_t c = 0; c < confusion.size(); ++c)
+    for (std::size_t k = 0; k < confusion.size(); ++k) confusion[c][k] += other.confusion[c][k];
+  characters.insert(characters.end(), other.characters.begin(), other.characters.end());
+}
+
+Evaluation evaluateOn(const Mlp& mlp, const Characters& characters) {
+  Evaluation evaluation;
+  for (const LabelledCharacter* character : characters) {
+    const ClassProbabilities classes = classify(mlp, character->features);
+    CharacterScore& score = evaluation.characters.emplace_back();
+    score.name = character->name;
+    for (std::size_t i = 0; i < character->labels.size(); ++i) {
+      Eigen::Index found;
+      classes.row(static_cast<Eigen::Index>(i)).maxCoeff(&found);
+      const auto truth = static_cast<std::size_t>(character->labels[i]);
+      ++evaluation.confusion[truth][static_cast<std::size_t>(found)];
+      score.right += static_cast<std::size_t>(found) == truth;
+      ++score.samples;
+    }
+  }
+  return evaluation;
+}
+
+std::string formatEvaluation(const Evaluation& evaluation) {
+  nlohmann::ordered_json json;
+  json["accuracy"] = evaluation.accuracy();
+  json["balanced_accuracy"] = evaluation.balancedAccuracy();
+  json["samples"] = evaluation.samples();
+  json["classes"] = kJointClassNames;
+  json["confusion"] = evaluation.confusion;
+  json["characters"] = nlohmann::ordered_json::array();
+  for (const CharacterScore& character : evaluation.characters)
+    json["characters"].push_back({{"name", character.name},
+                                  {"samples", character.samples},
+                                  {"accuracy", share(character.right, character.samples)}});
+  return json.dump(2) + "\n";
+}
+
+std::string describeEvaluation(const Evaluation& evaluation) {
+  std::string text = line("accuracy %.3f, balanced %.3f (%d candidates of %d characters)\n",
+                          evaluation.accuracy(), evaluation.balancedAccuracy(), evaluation.samples(),
+                          static_cast<int>(evaluation.characters.size()));
+  text += "is \\ found as";
+  for (const char* name : kJointClassNames) text += line("%8s", name);
+  text += "\n";
+  for (std::size_t c = 0; c < kJointClassNames.size(); ++c) {
+    text += line("%-13s", kJointClassNames[c]);
+    for (const int cell : evaluation.confusion[c]) text += line("%8d", cell);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace skel

@@ -1,0 +1,37 @@
+// How well a net tells the classes apart.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "libskel/classifier/mlp.h"
+#include "trainer/samples.h"
+
+namespace skel {
+
+struct CharacterScore {
+  std::string name;
+  int right = 0, samples = 0;
+};
+
+struct Evaluation {
+  // Samples by their true class (row) and the class of largest probability (column).
+  std::array<std::array<int, kJointClassCount>, kJointClassCount> confusion{};
+  std::vector<CharacterScore> characters;
+
+  int samples() const;
+  double accuracy() const;
+  // Mean over the classes that occur of the share of their samples that are recognised.
+  double balancedAccuracy() const;
+  void add(const Evaluation& other);
+};
+
+Evaluation evaluateOn(const Mlp& mlp, const Characters& characters);
+
+// Keys accuracy, balanced_accuracy, samples, classes, confusion, characters.
+std::string formatEvaluation(const Evaluation& evaluation);
+// Accuracy and confusion matrix as lines for a terminal.
+std::string describeEvaluation(const Evaluation& evaluation);
+
+}  // namespace skel

@@ -1,0 +1,276 @@
+#include "trainer/train_command.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "libskel/classifier/weights_file.h"
+#include "libskel/core/files.h"
+#include "libskel/core/progress.h"
+#include "libskel/labels/annotated_image.h"
+#include "trainer/cross_validation.h"
+#include "trainer/evaluation.h"
+#include "trainer/report.h"
+
+namespace skel {
+namespace {
+
+const std::map<std::string, CandidateMethod> kCandidateMethods = {{"maxima", CandidateMethod::kMaxima},
+                                                                  {"strict", CandidateMethod::kStrict},
+                                                                  {"discs", CandidateMethod::kDiscs}};
+const std::map<std::string, TrainingMethod> kMethods = {{"gradient", TrainingMethod::kGradient},
+                                                        {"rprop", TrainingMethod::kRprop},
+                                                        {"lbfgs", TrainingMethod::kLbfgs}};
+
+std::string trim(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", number);
+  return text;
+}
+
+template <class Value>
+CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& value,
+                       const std::map<std::string, Value>& choices, const std::string& help) {
+  std::string list, preset;
+  for (const auto& [text, choice] : choices) {
+    list += (list.empty() ? "" : "|") + text;
+    if (choice == value) preset = text;
+  }
+  return app.add_option(name, value, help)
+      ->transform(CLI::CheckedTransformer(choices).description(""))
+      ->type_name(list)
+      ->default_str(preset);
+}
+
+// As CLI::Range, which lets "nan" pass.
+CLI::Validator numberBetween(double low, double high) {
+  const std::string range = "[" + trim(low) + " - " + trim(high) + "]";
+  return CLI::Validator(
+      [=](std::string& text) {
+        double number;
+        const bool good = CLI::detail::lexical_cast(text, number) && number >= low && number <= high;
+        return good ? std::string() : text + " is not a number in " + range;
+      },
+      range);
+}
+
+std::vector<int> parseLayers(const std::string& text) {
+  std::vector<int> sizes;
+  for (const std::string& part : CLI::detail::split(text, '-')) {
+    const bool number = !part.empty() && part.size() <= 3 &&
+                        part.find_first_not_of("0123456789") == std::string::npos && std::stoi(part) > 0;
+    if (!number) throw UsageError("--layers \"" + text + "\": must be sizes such as 3-4-4-2, each 1 to 999");
+    sizes.push_back(std::stoi(part));
+  }
+  if (sizes.size() < 2 || sizes.size() > 16 || sizes.front() != 3 || sizes.back() != 2)
+    throw UsageError("--layers \"" + text +
+                     "\": must begin with 3 (x, y, radius), end with 2 (the bits of the class)");
+  return sizes;
+}
+
+LabelledSet readSet(const std::string& dir, CandidateMethod method) {
+  return method == CandidateMethod::kMaxima ? readLabelledSet(dir) : labelAnnotatedImages(dir, {method});
+}
+
+// The options that decide over the weights and are not at their defaults, as on the command line.
+std::string spell(const TrainOptions& options) {
+  const TrainOptions preset;
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : " ") + part; };
+  const TrainingOptions &ours = options.training, &theirs = preset.training;
+  if (options.layers != preset.layers) add("--layers " + options.layers);
+  if (ours.method != theirs.method)
+    add(std::string("--method ") + kTrainingMethodNames[static_cast<std::size_t>(ours.method)]);
+  if (ours.optimizer.learning_rate != theirs.optimizer.learning_rate)
+    add("--learning-rate " + trim(ours.optimizer.learning_rate));
+  if (ours.optimizer.momentum != theirs.optimizer.momentum)
+    add("--momentum " + trim(ours.optimizer.momentum));
+  if (ours.optimizer.batch != theirs.optimizer.batch) add("--batch " + std::to_string(ours.optimizer.batch));
+  if (ours.optimizer.weight_decay != theirs.optimizer.weight_decay)
+    add("--weight-decay " + trim(ours.optimizer.weight_decay));
+  if (ours.epochs != theirs.epochs) add("--epochs " + std::to_string(ours.epochs));
+  if (ours.restarts != theirs.restarts) add("--restarts " + std::to_string(ours.restarts));
+  if (ours.validation != theirs.validation) add("--validation " + trim(ours.validation));
+  if (ours.patience != theirs.patience) add("--patience " + std::to_string(ours.patience));
+  if (options.class_weights != preset.class_weights) add("--class-weights " + options.class_weights);
+  if (options.no_mirror) add("--no-mirror");
+  if (options.candidates == CandidateMethod::kStrict) add("--candidates strict");
+  if (options.candidates == CandidateMethod::kDiscs) add("--candidates discs");
+  return text;
+}
+
+// Runs `work` with a progress bar over the passes of `trainings` trainings, restarts included.
+template <class Work>
+auto withProgress(const std::string& title, std::size_t trainings, const TrainingOptions& options,
+                  Work work) {
+  const auto passes = static_cast<std::size_t>(options.epochs) * static_cast<std::size_t>(options.restarts);
+  ProgressBar bar(title, trainings * passes);
+  return work([&bar](double loss) { bar.advance(1, "loss " + trim(loss)); });
+}
+
+void printDraws(const std::vector<Evaluation>& draws, int drawn) {
+  double mean = 0, square = 0;
+  for (const Evaluation& draw : draws) {
+    mean += draw.accuracy() / static_cast<double>(draws.size());
+    square += draw.accuracy() * draw.accuracy() / static_cast<double>(draws.size());
+  }
+  std::printf("%d draws of %d characters: accuracy %.3f +- %.3f on the others\n",
+              static_cast<int>(draws.size()), drawn, mean, std::sqrt(std::max(0., square - mean * mean)));
+}
+
+void checkCounts(const TrainOptions& options, std::size_t characters) {
+  const auto count = std::to_string(characters);
+  if (!options.leave_one_out && static_cast<std::size_t>(options.folds) > characters)
+    throw UsageError("--folds " + std::to_string(options.folds) + ": there are only " + count +
+                     " characters; take fewer folds, or --folds 0");
+  if (options.draws > 0 && static_cast<std::size_t>(options.drawn) >= characters)
+    throw UsageError("--drawn " + std::to_string(options.drawn) + ": must be less than the " + count +
+                     " characters that there are");
+}
+
+}  // namespace
+
+void bindTrainOptions(CLI::App& app, TrainOptions& options) {
+  TrainingOptions& training = options.training;
+  app.add_option("dir", options.dir, "Folder of label files (*.labels.json), searched at any depth")
+      ->type_name("DIR");
+  app.add_option("-o,--output", options.output, "The weights file to write")->type_name("FILE");
+  app.add_option("--layers", options.layers, "Sizes of the layers")->capture_default_str();
+  addChoice(app, "--method", training.method, kMethods, "How the net is trained");
+  app.add_option("--batch", training.optimizer.batch, "gradient: samples a step; 0: all of them; 1: online")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
+  app.add_option("--learning-rate", training.optimizer.learning_rate, "gradient: 0: to suit the batch")
+      ->check(numberBetween(0, 100.))
+      ->capture_default_str();
+  app.add_option("--momentum", training.optimizer.momentum, "gradient: share of a step kept for the next")
+      ->check(numberBetween(0, 0.999))
+      ->capture_default_str();
+  app.add_option("--weight-decay", training.optimizer.weight_decay,
+                 "Adds this times the weights' squares to the loss")
+      ->check(numberBetween(0, 1.))
+      ->capture_default_str();
+  app.add_option("--epochs", training.epochs, "Passes over the samples, at most")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  app.add_option("--restarts", training.restarts, "Trainings from other first weights; the best is kept")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--validation", training.validation,
+                 "Share of the characters held out to stop early; 0: none")
+      ->check(numberBetween(0, 0.9))
+      ->capture_default_str();
+  app.add_option("--patience", training.patience,
+                 "Epochs without gain on the held-out characters before stopping")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  app.add_option("--class-weights", options.class_weights, "balanced: each class counts the same in sum")
+      ->check(CLI::IsMember({"none", "balanced"}))
+      ->capture_default_str();
+  app.add_flag("--no-mirror", options.no_mirror, "Do not train on the mirror images as well");
+  app.add_option("--warps", training.samples.warps,
+                 "Also train on so many copies of each character with other proportions")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str();
+  app.add_option("--warp", training.samples.warp, "How far proportions are bent")
+      ->check(numberBetween(0, 0.7))
+      ->capture_default_str();
+  addChoice(app, "--candidates", options.candidates, kCandidateMethods,
+            "strict, discs: not those of the label files, but found anew and labelled from *.joints.json");
+  app.add_option("--seed", training.seed, "Same data, seed and options: same bytes")
+      ->check(CLI::Range(0, 2'000'000'000))
+      ->capture_default_str();
+  app.add_option("--threads", training.threads, "0: one a core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.add_option("--folds", options.folds, "Groups of characters for cross-validation; 0: none")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
+  app.add_flag("--leave-one-out", options.leave_one_out, "As many folds as there are characters");
+  app.add_option("--draws", options.draws, "Also train on so many random draws of --drawn characters")
+      ->check(CLI::Range(0, 10'000))
+      ->capture_default_str();
+  app.add_option("--drawn", options.drawn, "Characters of a draw (the paper: 17)")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  app.add_option("--json", options.json, "Writes accuracy and confusion of the cross-validation")
+      ->type_name("FILE");
+  app.add_option("--report", options.report, "Writes loss curve and confusion matrix, as pictures and JSON")
+      ->type_name("DIR");
+}
+
+ExitCode runTrain(const TrainOptions& given) {
+  if (given.dir.empty() || given.output.empty())
+    throw UsageError("a folder of label files and -o FILE are needed; see --help");
+  TrainOptions options = given;
+  TrainingOptions& training = options.training;
+  training.layers = parseLayers(options.layers);
+  training.samples.mirror = !options.no_mirror;
+  training.samples.balance_classes = options.class_weights == "balanced";
+  if (options.folds == 1) throw UsageError("--folds 1: must be 0 or at least 2");
+
+  const LabelledSet set = readSet(options.dir, options.candidates);
+  const Characters characters = pointersTo(set.characters);
+  checkCounts(options, characters.size());
+  const int folds = options.leave_one_out ? static_cast<int>(characters.size()) : options.folds;
+
+  const Training result = withProgress("training", 1, training, [&](const TrainingProgress& progress) {
+    return train(characters, training, progress);
+  });
+  Evaluation evaluation;
+  if (folds > 1) {
+    evaluation = withProgress("cross-validation", static_cast<std::size_t>(folds), training,
+                              [&](const TrainingProgress& progress) {
+                                return crossValidate(characters, folds, training, progress);
+                              });
+    std::printf("on characters left out of training (%d folds):\n", folds);
+  } else {
+    evaluation = evaluateOn(result.mlp, characters);
+    std::printf("on the training set itself:\n");
+  }
+  std::printf("%s", describeEvaluation(evaluation).c_str());
+  if (options.draws > 0)
+    printDraws(withProgress("draws", static_cast<std::size_t>(options.draws), training,
+                            [&](const TrainingProgress& progress) {
+                              return drawAndTest(characters, options.draws, options.drawn, training,
+                                                 progress);
+                            }),
+               options.drawn);
+
+  WeightsFile weights;
+  weights.mlp = result.mlp;
+  weights.provenance = {set.sha256,           spell(options),    training.seed,
+                        result.epochs,        set.sampleCount(), static_cast<int>(characters.size()),
+                        evaluation.accuracy()};
+  writeFile(options.output, formatWeights(weights));
+  if (!options.json.empty()) writeFile(options.json, formatEvaluation(evaluation));
+  if (!options.report.empty()) writeReport(options.report, result, evaluation);
+  std::printf("wrote %s (%d epochs)\n", options.output.c_str(), result.epochs);
+  return ExitCode::kDone;
+}
+
+void bindEvaluateWeightsOptions(CLI::App& app, EvaluateWeightsOptions& options) {
+  app.add_option("dir", options.dir, "Folder of label files, or of pictures with joints.json and mask.png")
+      ->required()
+      ->type_name("DIR");
+  app.add_option("--weights", options.weights, "Weights file; without: those built in")->type_name("FILE");
+  app.add_option("--json", options.json, "Writes the figures")->type_name("FILE");
+  addChoice(app, "--candidates", options.candidates, kCandidateMethods,
+            "strict, discs: found anew in the pictures");
+}
+
+ExitCode runEvaluateWeights(const EvaluateWeightsOptions& options) {
+  const bool from_labels =
+      options.candidates == CandidateMethod::kMaxima && !findLabelFiles(options.dir).empty();
+  const LabelledSet set =
+      from_labels ? readLabelledSet(options.dir) : labelAnnotatedImages(options.dir, {options.candidates});
+  const Mlp mlp = options.weights.empty() ? defaultMlp() : readMlp(options.weights);
+  const Evaluation evaluation = evaluateOn(mlp, pointersTo(set.characters));
+  std::printf("%s", describeEvaluation(evaluation).c_str());
+  if (!options.json.empty()) writeFile(options.json, formatEvaluation(evaluation));
+  return ExitCode::kDone;
+}
+
+}  // namespace skel

@@ -1,0 +1,79 @@
+#include "trainer/training.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "libskel/core/check.h"
+#include "libskel/core/parallel.h"
+
+namespace skel {
+namespace {
+
+// Moves `count` random characters to the end.
+void shuffleTail(Characters& characters, std::size_t count, Rng& rng) {
+  for (std::size_t i = characters.size(); i > characters.size() - count; --i)
+    std::swap(characters[i - 1], characters[rng.below(static_cast<std::uint32_t>(i))]);
+}
+
+}  // namespace
+
+Training trainOnce(const TrainingData& data, const TrainingData* held_out, const TrainingOptions& options,
+                   int start, const TrainingProgress& progress) {
+  Network<float> network(options.layers);
+  Rng rng(static_cast<std::uint64_t>(options.seed), static_cast<std::uint64_t>(start));
+  randomize(network, rng);
+  OptimizerOptions optimizer_options = options.optimizer;
+  optimizer_options.seed =
+      (static_cast<std::uint64_t>(options.seed) << 16) + static_cast<std::uint64_t>(start);
+  const auto optimizer = makeOptimizer(options.method, data, options.layers, optimizer_options);
+  Backprop<float> backprop(options.layers);
+  Training training;
+  training.loss = std::numeric_limits<double>::infinity();
+  Network<float> best = network;
+  for (int epoch = 0; epoch < options.epochs; ++epoch) {
+    const Eigen::VectorXf before = network.parameters;
+    double loss = held_out ? backprop.loss(network, held_out->blocks) : 0;
+    if (held_out) training.validation_curve.push_back(static_cast<float>(loss));
+    const double training_loss = optimizer->pass(network);
+    training.training_curve.push_back(static_cast<float>(training_loss));
+    if (!held_out) loss = training_loss;
+    if (progress) progress(loss);
+    if (loss < training.loss) {
+      training.loss = loss;
+      training.epochs = epoch;
+      best.parameters = before;
+    }
+    if (held_out && epoch - training.epochs >= options.patience) break;
+  }
+  training.mlp = toMlp(best);
+  return training;
+}
+
+Training train(const Characters& characters, const TrainingOptions& options,
+               const TrainingProgress& progress) {
+  SKEL_CHECK(!characters.empty());
+  Characters order = characters;
+  std::size_t held_out = 0;
+  if (options.validation > 0 && characters.size() > 1)
+    held_out = std::clamp<std::size_t>(
+        static_cast<std::size_t>(std::lround(options.validation * static_cast<double>(characters.size()))), 1,
+        characters.size() - 1);
+  Rng rng(static_cast<std::uint64_t>(options.seed), ~std::uint64_t{0} >> 1);
+  shuffleTail(order, held_out, rng);
+  const auto border = order.end() - static_cast<std::ptrdiff_t>(held_out);
+  const TrainingData data(samplesOf(Characters(order.begin(), border), options.samples));
+  std::unique_ptr<TrainingData> validation;
+  if (held_out > 0)
+    validation = std::make_unique<TrainingData>(samplesOf(Characters(border, order.end()), options.samples));
+
+  std::vector<Training> trainings(static_cast<std::size_t>(options.restarts));
+  parallelFor(trainings.size(), options.threads, [&](std::size_t i) {
+    trainings[i] = trainOnce(data, validation.get(), options, static_cast<int>(i), progress);
+  });
+  return *std::min_element(trainings.begin(), trainings.end(),
+                           [](const Training& a, const Training& b) { return a.loss < b.loss; });
+}
+
+}  // namespace skel
