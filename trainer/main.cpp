@@ -1,4 +1,6 @@
 #include "libskel/cli/tool.h"
+#include "trainer/joint_net_figures.h"
+#include "trainer/joint_net_training.h"
 #include "trainer/train_command.h"
 
 int main(int argc, char** argv) {
@@ -11,7 +13,16 @@ int main(int argc, char** argv) {
   skel::EvaluateWeightsOptions evaluate;
   CLI::App* evaluation = app.add_subcommand("evaluate", "Measures weights on labelled characters");
   skel::bindEvaluateWeightsOptions(*evaluation, evaluate);
+  skel::FigureSheetOptions sheet;
+  CLI::App* figures = app.add_subcommand("figures", "Draws a sheet of generated figures");
+  skel::bindFigureSheetOptions(*figures, sheet);
+  skel::JointTrainingOptions joint_training;
+  CLI::App* joints = app.add_subcommand("joints", "Trains the net that finds joints, on generated figures");
+  skel::bindJointTrainingOptions(*joints, joint_training);
   return skel::runTool(app, argc, argv, [&] {
-    return *evaluation ? skel::runEvaluateWeights(evaluate) : skel::runTrain(train);
+    if (*evaluation) return skel::runEvaluateWeights(evaluate);
+    if (*figures) return skel::runFigureSheet(sheet);
+    if (*joints) return skel::runJointTraining(joint_training);
+    return skel::runTrain(train);
   });
 }
