@@ -16,9 +16,19 @@ const std::map<std::string, std::string_view>& builtins() {
   return all;
 }
 
+constexpr size_t kMaxJoints = 1000;
+
 int jointAt(const SkeletonTemplate& body_plan, const JsonValue& value) {
   const int index = body_plan.find(value.asString());
   if (index < 0) value.fail("names no joint of this template: \"" + value.asString() + "\"");
+  return index;
+}
+
+// One that the rules look for themselves.
+int recognizedJointAt(const SkeletonTemplate& body_plan, const JsonValue& value) {
+  const int index = jointAt(body_plan, value);
+  if (body_plan.joints[static_cast<size_t>(index)].derived)
+    value.fail("names the joint \"" + value.asString() + "\", which is derived from others");
   return index;
 }
 
@@ -39,10 +49,14 @@ Derivation derivationAt(const SkeletonTemplate& body_plan, const JsonValue& valu
 
 void readJoints(SkeletonTemplate& body_plan, const JsonValue& list) {
   const std::vector<JsonValue> items = list.items();
+  if (items.empty() || items.size() > kMaxJoints)
+    list.fail("has " + std::to_string(items.size()) + " joints, must have 1 to " +
+              std::to_string(kMaxJoints));
   for (const JsonValue& item : items) {
     item.allowOnly({"name", "parent", "mirror", "preset", "class", "class_from", "derived"});
     TemplateJoint joint;
     joint.name = item.at("name").asString();
+    if (joint.name.empty()) item.at("name").fail("must not be empty");
     if (body_plan.find(joint.name) >= 0)
       item.at("name").fail("is the second joint named \"" + joint.name + "\"");
     const JsonValue parent = item.at("parent");
@@ -51,11 +65,12 @@ void readJoints(SkeletonTemplate& body_plan, const JsonValue& list) {
     if (!parent.isNull()) joint.parent = jointAt(body_plan, parent);
     const auto preset = item.at("preset").asNumbers(2);
     joint.preset = {preset[0], preset[1]};
+    if ((joint.preset.array() < 0).any() || (joint.preset.array() > 1).any())
+      item.at("preset").fail("must lie in the figure's box, from [0, 0] to [1, 1]");
     joint.bone_class = classAt(item.at("class"));
     if (const auto from = item.find("class_from")) joint.class_from = from->asNumber(0, 1);
     body_plan.joints.push_back(joint);
   }
-  if (items.empty()) list.fail("must not be empty");
   for (size_t i = 0; i < items.size(); ++i) {
     body_plan.joints[i].mirror = jointAt(body_plan, items[i].at("mirror"));
     if (const auto derived = items[i].find("derived"))
@@ -82,15 +97,15 @@ SkeletonTemplate parseTemplate(std::string_view text, const std::string& file) {
   SkeletonTemplate body_plan;
   body_plan.name = root.at("name").asString();
   readJoints(body_plan, root.at("joints"));
-  body_plan.head = jointAt(body_plan, root.at("head"));
-  body_plan.body = jointAt(body_plan, root.at("body"));
+  body_plan.head = recognizedJointAt(body_plan, root.at("head"));
+  body_plan.body = recognizedJointAt(body_plan, root.at("body"));
   for (const JsonValue& item : root.at("limbs").items()) {
     item.allowOnly({"class", "joints"});
     TemplateLimb limb;
     limb.limb_class = item.at("class").asString();
     const auto joints = item.at("joints").items();
     if (joints.size() != 3) item.at("joints").fail("must name three joints");
-    for (size_t i = 0; i < 3; ++i) limb.joints[i] = jointAt(body_plan, joints[i]);
+    for (size_t i = 0; i < 3; ++i) limb.joints[i] = recognizedJointAt(body_plan, joints[i]);
     body_plan.limbs.push_back(limb);
   }
   const JsonValue rules = root.at("rules");

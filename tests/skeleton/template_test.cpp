@@ -59,3 +59,19 @@ TEST_CASE("a template file that makes no sense is refused") {
       parseTemplate(start + "[" + joint("a", "null", "a") + "," + joint("b", "\"a\"", "a") + "]}", "t"),
       "t: joints[1].mirror: must name the joint that names this one");
 }
+
+TEST_CASE("a template that would place joints far outside the figure is refused") {
+  const std::string biped = readFile(SKEL_SOURCE_DIR "/libskel/skeleton/templates/biped.json");
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = biped;
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  CHECK(parseTemplate(biped, "t").joints.size() == 17);
+  CHECK_THROWS_WITH(parseTemplate(changed("[0.5, 0.66]", "[1e300, 0.66]"), "t"),
+                    "t: joints[0].preset: must lie in the figure's box, from [0, 0] to [1, 1]");
+  CHECK_THROWS_WITH(parseTemplate(changed("\"name\": \"pelvis\"", "\"name\": \"\""), "t"),
+                    "t: joints[0].name: must not be empty");
+  CHECK_THROWS_WITH(parseTemplate(changed("\"head\": \"head\"", "\"head\": \"neck\""), "t"),
+                    "t: head: names the joint \"neck\", which is derived from others");
+}
