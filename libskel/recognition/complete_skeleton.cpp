@@ -61,7 +61,8 @@ void derive(Skeleton& skeleton, const SkeletonTemplate& body_plan, const Plane8&
   }
 }
 
-// A joint and its parent that coincide have no bone between them: both give way along the preset's direction.
+// A joint and its parent that coincide have no bone between them: the joint gives way along the preset's
+// direction.
 void separate(Skeleton& skeleton, const Skeleton& preset, double least_px) {
   for (size_t i = 1; i < skeleton.joints.size(); ++i) {
     Joint& joint = skeleton.joints[i];
