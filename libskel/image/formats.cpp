@@ -50,7 +50,7 @@ std::uint32_t tiffTag(std::string_view tiff, std::uint32_t tag) {
 Format formatOf(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return Format::kPng;
   if (bytes.starts_with("\xff\xd8\xff")) return Format::kJpeg;
-  if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return Format::kWebp;
+  if (bytes.size() >= 16 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP") return Format::kWebp;
   if (bytes.starts_with("BM") && bytes.size() >= 26) return Format::kBmp;
   if (bytes.starts_with(std::string_view("II*\0", 4)) || bytes.starts_with(std::string_view("MM\0*", 4))) {
     return Format::kTiff;

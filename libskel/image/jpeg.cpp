@@ -22,7 +22,6 @@ struct Session {
   jpeg_progress_mgr progress;
   std::jmp_buf leave;
   char message[JMSG_LENGTH_MAX] = "";
-  bool ends_early = false;
 };
 
 Session* sessionOf(j_common_ptr jpeg) { return static_cast<Session*>(jpeg->client_data); }
@@ -35,7 +34,11 @@ void onError(j_common_ptr jpeg) {
 
 void onMessage(j_common_ptr jpeg, int level) {
   const int code = jpeg->err->msg_code;
-  if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER)) sessionOf(jpeg)->ends_early = true;
+  if (level >= 0 || (code != JWRN_JPEG_EOF && code != JWRN_HIT_MARKER)) return;
+  // At once: a short file may promise a large picture.
+  Session* session = sessionOf(jpeg);
+  std::snprintf(session->message, sizeof session->message, "it ends too early");
+  std::longjmp(session->leave, 1);
 }
 
 // A small file may ask for thousands of passes over a large picture.
@@ -106,7 +109,6 @@ Image decodeJpeg(std::string_view bytes, const std::string& file) {
   const int orientation = orientationOf(reader.jpeg);  // the markers are gone once the pixels are read
   Image image(static_cast<int>(reader.jpeg.image_width), static_cast<int>(reader.jpeg.image_height));
   if (!readPixels(&reader, image.rgba.data())) throw broken();
-  if (reader.ends_early) throw InputError(file, "is a broken JPEG (it ends too early); export it again");
   return oriented(std::move(image), orientation);
 }
 

@@ -52,6 +52,8 @@ bool readHeader(png_structp png, png_infop info, Header* header) {
   if (setjmp(png_jmpbuf(png))) return false;
   // Sizes are checked by the caller, before anything of that size is allocated.
   png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
+  // A few kB of compressed text, which we never look at, unpack to 8 MB.
+  png_set_chunk_cache_max(png, 8);
   png_read_info(png, info);
   header->width = png_get_image_width(png, info);
   header->height = png_get_image_height(png, info);

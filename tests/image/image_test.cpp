@@ -1,4 +1,6 @@
 #include <png.h>
+#include <sys/resource.h>
+#include <zlib.h>
 
 #include <csetjmp>
 #include <cstdio>
@@ -224,6 +226,33 @@ TEST_CASE("PNG: a header that promises more than the file can hold is refused") 
   CHECK_THAT(complaint(bytes.substr(0, 2000)), Contains("ends too early"));
 }
 
+TEST_CASE("PNG: packed text takes no memory") {
+  const auto number = [](unsigned long value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift);
+    return bytes;
+  };
+  const std::string text(7'900'000, 'a');
+  std::string packed(20'000, '\0');
+  uLongf size = packed.size();
+  REQUIRE(compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+                   reinterpret_cast<const Bytef*>(text.data()), text.size()) == Z_OK);
+  std::string chunk = "zTXtkey";
+  chunk += std::string(2, '\0') + packed.substr(0, size);
+  const auto crc = crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), static_cast<uInt>(chunk.size()));
+  chunk = number(chunk.size() - 4) + chunk + number(crc);
+  std::string png = makePng(1, 1, 8, PNG_COLOR_TYPE_RGB, {1, 2, 3});
+  for (int i = 0; i < 100; ++i) png.insert(33, chunk);  // behind the header
+  const auto peak_kB = [] {
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  };
+  const long before_kB = peak_kB();
+  CHECK(complaint(png) == "none");
+  CHECK(peak_kB() - before_kB < 400'000);
+}
+
 TEST_CASE("JPEG: colour, grey, progressive") {
   const bool progressive = GENERATE(false, true);
   Bytes samples;
@@ -297,6 +326,7 @@ TEST_CASE("what is no picture is refused by its name") {
                                    "ftypavif\0\0\0\0",
                                    16)),
              Contains("AVIF"));
+  CHECK_THAT(complaint("RIFFWEBP"), Contains("is not a picture that can be read"));
   CHECK_THROWS_WITH(readImage(dir.file("gone.png")), Contains("gone.png: cannot be read"));
 }
 
