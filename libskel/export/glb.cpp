@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -288,6 +289,12 @@ void addClip(GlbBuilder& glb, const Clip& clip, const RiggedCharacter& character
   if (!animation.channels.empty()) glb.model.animations.push_back(animation);
 }
 
+// Names of files may hold any bytes, those of glTF may not.
+std::string asUtf8(const std::string& name) {
+  using nlohmann::json;
+  return json::parse(json(name).dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
 // `name`, with as many underscores as make it differ from all joints' names.
 std::string meshNodeName(std::string name, const Skeleton& skeleton, JointNaming naming) {
   std::set<std::string> taken;
@@ -309,17 +316,18 @@ std::string encodeGlb(const RiggedCharacter& character, const std::vector<Clip>&
 
   GlbBuilder glb;
   const int kMeshNode = 0, kFirstJoint = 1;
+  const std::string name = asUtf8(options.name);
   tinygltf::Node node;
-  node.name = meshNodeName(options.name, character.skeleton, options.naming);
-  node.mesh = addMesh(glb, character, options.name);
+  node.name = meshNodeName(name, character.skeleton, options.naming);
+  node.mesh = addMesh(glb, character, name);
   node.skin = 0;
   glb.model.nodes.push_back(node);
   addJoints(glb, character.skeleton, options.naming, kFirstJoint);
-  addSkin(glb, character.skeleton, options.name, kFirstJoint);
+  addSkin(glb, character.skeleton, name, kFirstJoint);
   for (const Clip& clip : clips) addClip(glb, clip, character, kFirstJoint);
 
   tinygltf::Scene scene;
-  scene.name = options.name;
+  scene.name = name;
   scene.nodes = {kMeshNode, kFirstJoint};
   glb.model.scenes.push_back(scene);
   glb.model.defaultScene = 0;

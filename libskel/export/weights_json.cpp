@@ -9,7 +9,7 @@ namespace skel {
 std::vector<ExportedFile> exportWeights(const ExportInput& input) {
   const SkinWeights& weights = input.character.weights;
   nlohmann::ordered_json document;
-  document["format"] = "skel-weights";
+  document["format"] = "skel-skin";
   document["version"] = 1;
   auto& names = document["joints"] = nlohmann::ordered_json::array();
   for (const Joint& joint : input.character.skeleton.joints)

@@ -113,7 +113,7 @@ TEST_CASE("weights name their joints and sum to one") {
   Fixture fixture;
   fixture.input.options.naming = JointNaming::kVrm;
   const auto document = nlohmann::json::parse(bySuffix(exportWeights(fixture.input)).at(".weights.json"));
-  CHECK(document["format"] == "skel-weights");
+  CHECK(document["format"] == "skel-skin");
   CHECK(document["version"] == 1);
   CHECK(document["joints"][0] == "hips");
   REQUIRE(document["vertices"].size() == std::size_t(fixture.character.mesh.vertices.rows()));

@@ -243,3 +243,10 @@ TEST_CASE("geometry stays small") {
   const double per_vertex = double(encodeGlb(character, {}).size()) / double(character.mesh.vertices.rows());
   CHECK(per_vertex < 0.3e6 / 4100 + 20);  // 20: JSON, texture and skin of this small figure
 }
+
+TEST_CASE("the name of a drawing need not be UTF-8") {
+  ExportOptions options;
+  options.name = "caf\xe9";
+  const Glb glb = parseGlb(encodeGlb(figure(), {}, options));
+  CHECK(glb.document["scenes"][0]["name"] == "caf\xef\xbf\xbd");
+}
