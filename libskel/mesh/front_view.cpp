@@ -76,12 +76,12 @@ ModelFromImage bindByBoundingBox(const Plane8& mask, const TriangleMesh& mesh) {
 
 void standUpright(TriangleMesh& mesh) {
   SKEL_CHECK(mesh.vertices.rows() > 0);
-  const Eigen::RowVector3f low = mesh.vertices.colwise().minCoeff(),
-                           high = mesh.vertices.colwise().maxCoeff();
+  // In double: a model may have any unit.
+  const Eigen::MatrixX3d vertices = mesh.vertices.cast<double>();
+  const Eigen::RowVector3d low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
   SKEL_CHECK(high.y() > low.y());
-  const Eigen::RowVector3f soles(0.5f * (low.x() + high.x()), low.y(), 0.5f * (low.z() + high.z()));
-  mesh.vertices =
-      (mesh.vertices.rowwise() - soles) * (static_cast<float>(kModelHeight_m) / (high.y() - low.y()));
+  const Eigen::RowVector3d soles(0.5 * (low.x() + high.x()), low.y(), 0.5 * (low.z() + high.z()));
+  mesh.vertices = ((vertices.rowwise() - soles) * (kModelHeight_m / (high.y() - low.y()))).cast<float>();
 }
 
 }  // namespace skel

@@ -18,6 +18,7 @@ namespace skel {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r";
+constexpr double kMaxWidth = 1e4;  // of a model, in its heights
 
 // A text file line by line: without comments, with lines that end in a backslash joined.
 class Lines {
@@ -195,6 +196,10 @@ TriangleMesh readObj(const std::string& path) {
   for (std::size_t v = 0; v < corners.size(); ++v) {
     mesh.vertices.row(static_cast<Eigen::Index>(v)) = positions[corners[v][0]];
   }
+  const Eigen::RowVector3d size =
+      mesh.vertices.colwise().maxCoeff().cast<double>() - mesh.vertices.colwise().minCoeff().cast<double>();
+  if (!(size.y() * kMaxWidth > size.maxCoeff()))
+    throw InputError(path, "is flat: it has no height along y; turn it so that y points up");
   if (!textured) return mesh;
   for (const std::string& library : libraries) {
     const std::optional<std::string> picture = textureFile(besides(path, library), materials);

@@ -35,6 +35,17 @@ TEST_CASE("the front view of an inflated figure is the figure") {
   CHECK(mesh.vertices.col(1).maxCoeff() == Approx(kModelHeight_m));
 }
 
+TEST_CASE("models of any unit are stood upright") {
+  for (const float unit : {1e-38f, 1e-3f, 3e38f}) {
+    TriangleMesh mesh;
+    mesh.vertices.resize(3, 3);
+    mesh.vertices << -unit, -unit, 0, unit, -unit, 0, 0, unit, unit;
+    standUpright(mesh);
+    CHECK(mesh.vertices.row(0).isApprox(Eigen::RowVector3f(-0.85f, 0, -0.425f)));
+    CHECK(mesh.vertices.row(2).isApprox(Eigen::RowVector3f(0, 1.7f, 0.425f)));
+  }
+}
+
 TEST_CASE("a model of other proportions is bound with a scale for each axis") {
   TriangleMesh box;
   box.vertices.resize(3, 3);

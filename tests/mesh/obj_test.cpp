@@ -67,6 +67,13 @@ TEST_CASE("the texture is found through the material that is used") {
   CHECK_THROWS_AS(readObj(dir.file("b.obj")), InputError);
 }
 
+TEST_CASE("a model without height is refused") {
+  CHECK(complaint("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n") ==
+        "is flat: it has no height along y; turn it so that y points up");
+  CHECK(complaint("v 0 0 0\nv 1e30 1e-20 0\nv 0 1e-20 1\nf 1 2 3\n") ==
+        "is flat: it has no height along y; turn it so that y points up");
+}
+
 TEST_CASE("bad models are refused with the line") {
   CHECK(complaint("") == "holds no faces; export the model as a polygon mesh");
   CHECK(complaint(kSquare) == "holds no faces; export the model as a polygon mesh");
