@@ -54,9 +54,11 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   Stopwatch timed(drawing.times);
 
   if (input.model) standUpright(*input.model);
-  if (input.image.empty()) {
+  const bool own_view = input.image.empty();
+  if (own_view) {
     SKEL_CHECK(input.model);
     FrontView view = timed("front view", [&] { return frontSilhouette(*input.model); });
+    input.model->model_from_image = view.model_from_image;
     input.image = picture(view.mask);
     input.mask = std::move(view.mask);
   }
@@ -86,7 +88,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
 
   drawing.character.mesh = timed("mesh", [&] {
     if (!input.model) return inflate(drawing.image, silhouette, options.inflate);
-    input.model->model_from_image = bindByBoundingBox(silhouette.mask, *input.model);
+    if (!own_view) input.model->model_from_image = bindByBoundingBox(silhouette.mask, *input.model);
     return std::move(*input.model);
   });
   drawing.character.skeleton = timed("lift", [&] {
