@@ -90,7 +90,11 @@ AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string
   AnnotatedDrawing drawing;
   drawing.id = id;
   drawing.image = readImage(folder + "image.png");
-  if (fs::exists(folder + "mask.png")) drawing.mask = readMask(folder + "mask.png");
+  if (fs::exists(folder + "mask.png")) {
+    drawing.mask = readMask(folder + "mask.png");
+    if (drawing.mask->cols() != drawing.image.width || drawing.mask->rows() != drawing.image.height)
+      throw InputError(folder + "mask.png", "has another size than the image.png beside it");
+  }
   if (!fs::exists(folder + "joints.json")) return drawing;
   if (!drawing.mask) throw InputError(folder + "joints.json", "needs a mask.png beside it");
   const JsonDocument document = JsonDocument::readFile(folder + "joints.json");

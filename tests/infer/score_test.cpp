@@ -1,7 +1,11 @@
 #include "infer/annotation.h"
 
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/image/write_image.h"
 #include "libskel/skeleton/template.h"
 #include "tests/support/catch.h"
+#include "tests/support/temp_dir.h"
 
 using namespace skel;
 using Eigen::Vector2d;
@@ -90,4 +94,13 @@ TEST_CASE("four quarter turns bring a drawing back") {
   CHECK((truth.image.rgba == before.image.rgba).all());
   CHECK((*truth.mask == *before.mask).all());
   CHECK(truth.joints["left_hand"]->isApprox(*before.joints.at("left_hand")));
+}
+
+TEST_CASE("a true mask of another size than its picture is refused") {
+  const TempDir dir;
+  Image image(4, 3);
+  image.rgba.setConstant(255);
+  writeFile(dir.file("a/image.png"), encodePng(image));
+  writeFile(dir.file("a/mask.png"), encodePng(Plane8(Plane8::Zero(4, 3))));
+  CHECK_THROWS_AS(readAnnotatedDrawing(dir.path(), "a"), InputError);
 }
