@@ -33,6 +33,12 @@ if(SKEL_SANITIZE)
   target_compile_options(skel_options INTERFACE -fsanitize=${SKEL_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(skel_options INTERFACE -fsanitize=${SKEL_SANITIZE})
 endif()
+if(SKEL_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "SKEL_FUZZ needs clang: use the preset fuzz")
+  endif()
+  target_compile_options(skel_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # skel_room(NAME SOURCES file... [ROOMS room...] [PRIVATE lib...])
 # A room is the static library skel_NAME. ROOMS are the rooms whose headers it may include; script/check-layers

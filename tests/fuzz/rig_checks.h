@@ -1,0 +1,42 @@
+// The whole pipeline for fuzzers: what must hold for any figure.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "libskel/classifier/weights_file.h"
+#include "libskel/export/write_character.h"
+#include "libskel/pipeline/rig_character.h"
+#include "tests/fuzz/fuzz.h"
+#include "tests/support/mesh_checks.h"
+
+namespace skel {
+
+inline RigOptions rigOptions() {
+  static const SkeletonTemplate biped = loadTemplate("biped");
+  RigOptions options;
+  options.mlp = defaultMlp();
+  options.body_plan = biped;
+  options.inflate.spacing_px = 4;  // coarse, to try more figures
+  return options;
+}
+
+inline void requireSound(const RiggedDrawing& drawing) {
+  if (!drawing.found()) {
+    require(!drawing.silhouette.reason.empty(), "a figure that is not found has a reason");
+    return;
+  }
+  const RiggedCharacter& character = drawing.character;
+  require(character.mesh.vertices.allFinite(), "vertices are finite");
+  for (const Joint& joint : character.skeleton.joints)
+    require(joint.image.allFinite() && joint.position.allFinite(), "joints are finite: " + joint.name);
+  const auto& weights = character.weights.weights;
+  require(weights.rows() == character.mesh.vertices.rows() && weights.allFinite() &&
+              weights.minCoeff() >= 0 && (weights.rowwise().sum().array() - 1).abs().maxCoeff() < 1e-4f,
+          "weights of a vertex are not negative and sum to 1");
+  require(character.weights.joints.maxCoeff() < static_cast<int>(character.skeleton.joints.size()),
+          "weights name joints");
+  require(!encodeGlb(character, drawing.clips, {.name = "fuzz"}).empty(), "it can be written");
+}
+
+}  // namespace skel
