@@ -49,6 +49,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   RigOptions options = rigOptions();
   options.silhouette.fill_holes = size % 2 == 0;
   options.candidates.method = static_cast<CandidateMethod>(size % 3);
+  if (size % 5 == 0) options.recognizer = Recognizer::kPaper;
   if (size % 7 == 0) options.inflate.spacing_px = 0;
   mayRefuse([&] {
     const RiggedDrawing drawing = rigCharacter(std::move(input), options);
