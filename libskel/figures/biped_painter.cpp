@@ -238,7 +238,7 @@ class Painter {
       }
     }
     if (chance(.17)) {  // long hair
-      const double l = in(.2, 1.1) * T + H * .3, w = p_.head_width * in(.43, .64), tip = w * in(.4, 1.4);
+      const double l = in(.2, 1.1) * T + H * .3, w = p_.head_width * in(.43, .6), tip = w * in(.4, 1.4);
       const Vec end = p_.head - p_.head_up * (H * .3 + l) + p_.head_right * gauss(0, .12) * w;
       scene_.begin(ink(hair_), PartOwner::kHead);
       scene_.polygon({p_.head + p_.head_right * w, p_.head - p_.head_right * w, end - p_.head_right * tip,
@@ -546,7 +546,10 @@ class Painter {
                 owner);
     }
     hideSeam(path, r, trousers_, owner);
-    joints_.leg[s] = {leg.root, leg.middle, foot};
+    // Where the leg is seen to begin is a little below where it turns.
+    const bool short_legs = p_.leg < .32;
+    const Vec hip = path[0] + (path[2] - path[0]) * in(0, short_legs ? .9 : .4);
+    joints_.leg[s] = {hip, leg.middle, foot};
   }
 
   Vec paintFoot(const Vec& ankle, const Vec& d, double r, double outwards) {
@@ -566,13 +569,13 @@ class Painter {
       } else {
         scene_.line(ankle + d * h * .1, q + d * h * .2, h, h * in(.6, 1.2));
       }
-      return tip * r * foot_length_ * in(0, .55) + d * r * .1;
+      return tip * r * foot_length_ * in(0, .45) - d * r * in(-.1, .5);
     }
     if (foot_ == Foot::kDown) {
       scene_.ellipse(ankle + d * r, {r * 1.8, r * foot_height_}, angleOf(d));
       return d * r * in(0, .6);
     }
-    return -d * r * in(-.2, .5);
+    return -d * r * in(-.1, .7);
   }
 
   // ---- torso
@@ -839,7 +842,7 @@ class Painter {
   void paintHat() {
     const double H = p_.head_height, W = p_.head_width;
     const Vec up = p_.head_up, right = p_.head_right;
-    const double brim = W * in(.45, .85), tall = H * in(.15, .65), thick = H * .07;
+    const double brim = W * in(.45, .85), tall = std::min(H, .25) * in(.15, 1), thick = H * .07;
     const double tip = brim * in(0, .9), crown = std::max(tip, brim * in(.5, .8));
     const Vec base = p_.head + up * H * in(.18, .42), shift = right * gauss(0, .08) * brim;
     scene_.begin(ink(accent_), PartOwner::kHead);
@@ -886,9 +889,13 @@ class Painter {
       scene_.line(spine(.95) + p_.right * off, spine(in(0, .4)) + p_.right * off, in(.003, .012),
                   in(.003, .012));
     }
-    const int marks = chance(.4) ? 1 + rng_.below(6) : 0;  // folds, patterns, badges
+    // Folds, patterns, badges, armour: few, or all over the figure.
+    const int marks = chance(.2) ? 10 + rng_.below(20) : chance(.4) ? 1 + rng_.below(6) : 0;
     for (int k = 0; k < marks; ++k) {
-      const Vec at = spine(in(-.5, 1)) + p_.right * p_.top * in(-1, 1);
+      const LimbPlan& limb = chance(.5) ? p_.arms[rng_.below(2)] : p_.legs[rng_.below(2)];
+      const Vec at = k % 3 == 0   ? Vec(spine(in(-.3, 1)) + p_.right * p_.top * in(-1, 1))
+                     : k % 3 == 1 ? Vec(limbPath(limb)[rng_.below(kLimbPoints)])
+                                  : Vec(p_.head + right * W * in(-.5, .5) + up * H * in(-.5, .6));
       scene_.begin(detail(chance(.5) ? dark : randomColour()));
       if (chance(.5)) {
         scene_.line(at, at + rotated(p_.right, in(0, kPi)) * p_.torso * in(.05, .3), .004, .004);

@@ -186,7 +186,7 @@ class Sampler {
       case BodyKind::kBlock:
       case BodyKind::kBlob:
       case BodyKind::kPlush:
-        p.neck_gap = in(-.16, .06);
+        p.neck_gap = in(-.06, .08);
         break;
       case BodyKind::kAdult:
       case BodyKind::kDoodle:
@@ -218,7 +218,8 @@ class Sampler {
     const double shared = rng_.normal();
     const double rubber = chance(.6) ? in(0, .5) : in(.6, 1.2);
     const bool wavy = chance(is(BodyKind::kDoodle) ? .2 : .04);
-    const double split = in(.44, .56), drop = in(.03, .2);
+    const bool large_head = p.head_height > p.torso;
+    const double split = in(.44, .56), drop = in(.03, large_head ? .32 : .2);
     const bool side = p.view == FigureView::kSide;
     // A side view swings both arms along the facing direction.
     const bool swings = p.view != FigureView::kFront && chance(side ? .7 : .4);
@@ -326,8 +327,8 @@ class Sampler {
     BipedPlan& p = plan_;
     //               stand spread walk run crouch floor kick float random crossed fold kneel chair jump stork
     //               lunge lotus
-    double plain[] = {.32, .14, .13, .08, .05, .05, .06, .03, .05, .03, .03, .015, .02, .03, .025, .02, .01};
-    double lively[] = {.10, .11, .15, .17, .05, .04, .13, .02, .12, .05, .06, .02, .02, .07, .04, .05, .01};
+    double plain[] = {.32, .14, .13, .09, .05, .05, .06, .03, .04, .03, .07, .015, .02, .03, .04, .02, .01};
+    double lively[] = {.10, .10, .14, .17, .05, .04, .12, .02, .10, .05, .13, .02, .02, .06, .08, .05, .01};
     if (is(BodyKind::kPlush)) plain[static_cast<int>(LegPose::kSitFloor)] = .3;
     const auto pose = pick<LegPose>(rng_, is(BodyKind::kDoodle) ? lively : plain);
     p.sitting = pose == LegPose::kSitFloor || pose == LegPose::kChair || pose == LegPose::kLotus;
@@ -391,8 +392,8 @@ class Sampler {
           flex = leads ? -in(-.2, .4) : in(-.2, .3);
           break;
         case LegPose::kFoldBack:
-          raise = leads ? varied(.05, .08) : in(-.2, .7);
-          flex = leads ? varied(0, .08) : (chance(.7) ? -1 : 1) * in(1.3, 2.7);
+          raise = leads ? varied(.05, .1) : in(-.6, .8);
+          flex = leads ? varied(0, .1) : (chance(.6) ? -1 : 1) * in(1.2, 2.6);
           if (!leads) lower *= in(.4, 1);
           break;
         case LegPose::kKneel:

@@ -376,6 +376,10 @@ std::optional<Figure> render(Rng& rng, const Drawing& drawing, Cut cut) {
   figure.kind = drawing.kind;
   figure.mask.resize(rows, columns);
   for (int i = 0; i < rows * columns; ++i) figure.mask.data()[i] = grid[i] ? 255 : 0;
+  if (rng.chance(.35)) {  // grain of paper, noise of a camera
+    const auto grain = static_cast<float>(rng.uniform(2, 14));
+    for (float& c : colours.reshaped()) c += grain * static_cast<float>(rng.normal());
+  }
   figure.lines = lineStrength(colours, figure.mask);
   for (int j = 0; j < kNetJoints; ++j) {
     const Vec p = (drawing.joints[j] - low) * scale;  // raster px, corner at 0
@@ -398,15 +402,15 @@ Figure generateFigure(Rng& rng, const FigureOptions& options) {
     Cut cut = Cut::kNone;
     if (rng.chance(options.other_share)) {
       const double r = rng.uniform();
-      if (r < .4) {
+      if (r < .36) {
         drawing.scene = paintOther(rng);
         drawing.scene.transform(sampleWarp(rng));
         drawing.joints.fill(Vec::Zero());
         drawing.human = false;
-      } else if (r < .68) {
+      } else if (r < .6) {
         drawing = drawBiped(rng, options);
         cut = Cut::kHeavy;
-      } else if (r < .83) {  // lying or upside down: to be told from upright, so that it can be turned
+      } else if (r < .85) {  // lying or upside down: to be told from upright, so that it can be turned
         drawing = drawBiped(rng, options);
         const double angle = rng.uniform(1.2, 2 * std::numbers::pi - 1.2);
         drawing.scene.transform([&](const Vec& p) { return rotated(p, angle); });

@@ -23,16 +23,21 @@ constexpr float kLeastShare = 1e-4f;          // of the highest probability: wha
 constexpr double kOutsidePenalty = 4;         // nats for a bone that lies wholly outside the figure
 constexpr double kBoneSample = 2;             // grid px between samples along a bone
 constexpr double kNear = .1 * kLongSide / 4;  // cells: what counts as found
-// Turned figures: the entropy above which, or the log-odds of a human below which, other orientations are
-// tried, and what they must gain to be preferred. Nats; from generated figures.
-constexpr double kDoubtfulEntropy = 2.6;
-constexpr double kDoubtfulLogit = 0;
-constexpr double kUprightMargin = .35;
+// How doubtful the net is about an orientation: mean entropy of the heatmaps (nats) less kHumanShare times
+// the log-odds of a whole upright human. Of generated figures 20 % of the upright and 96 % of those on their
+// side or head exceed kDoubtful; only then other orientations are tried. They must gain kUprightMargin.
+constexpr double kHumanShare = .25, kLargestLogit = 4;
+constexpr double kDoubtful = 3.2;
+constexpr double kUprightMargin = .2;
 constexpr int kOrientations = 8;
 
 // Parents come before children; the body is the root.
 constexpr std::array<int, kNetJoints> kParent = {1, -1, 1, 2, 3, 1, 5, 6, 1, 8, 9, 1, 11, 12};
 constexpr std::array<int, kNetJoints> kOrder = {1, 0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
+
+// The figure's confidence: a logistic regression on generated figures and others over the net's log-odds of a
+// human and the joints' mean confidence, its constant set so that four of five generated humans exceed 0.5.
+constexpr double kFigureLogit = .97, kFigureJoints = 1.9, kFigureConstant = -4.35;
 
 using Heatmap = std::array<float, kCells>;
 
@@ -76,6 +81,10 @@ Heatmaps evaluateNet(const Plane8& mask, const Plane8& lines, const JointNet& ne
     out.entropy += (std::log(sum) - mean / sum) / kNetJoints;
   }
   return out;
+}
+
+double doubt(const Heatmaps& maps) {
+  return maps.entropy - kHumanShare * std::clamp(maps.human_logit, -kLargestLogit, kLargestLogit);
 }
 
 // The figure turned by `angle` about its middle and scaled so that it fits the grid again.
@@ -245,20 +254,19 @@ TreeRecognition recognizeByJointNet(const Plane8& mask, const Plane8& lines, con
   Turned figure{mask, lines, Eigen::Matrix2d::Identity(), Vec::Zero()};
   Heatmaps maps = evaluateNet(mask, lines, net, options.instructions, options.mirror);
   TreeRecognition result;
-  if (options.try_orientations && (maps.entropy > kDoubtfulEntropy || maps.human_logit < kDoubtfulLogit)) {
-    const auto doubt = [](const Heatmaps& m) { return m.entropy - .25 * std::clamp(m.human_logit, -4., 4.); };
+  if (options.try_orientations && doubt(maps) > kDoubtful) {
     double least = doubt(maps) - kUprightMargin;
     for (int k = 1; k < kOrientations; ++k) {
       const double angle = 2 * std::numbers::pi * k / kOrientations;
       Turned turned = turnedBy(mask, lines, -angle);
-      Heatmaps turned_maps =
-          evaluateNet(turned.mask, turned.lines, net, options.instructions, options.mirror);
-      if (doubt(turned_maps) >= least) continue;
-      least = doubt(turned_maps);
+      const double d = doubt(evaluateNet(turned.mask, turned.lines, net, options.instructions, false));
+      if (d >= least) continue;
+      least = d;
       result.turned = angle;
       figure = std::move(turned);
-      maps = turned_maps;
     }
+    if (result.turned != 0)
+      maps = evaluateNet(figure.mask, figure.lines, net, options.instructions, options.mirror);
   }
   const FramePlacement placement = FramePlacement::centred(figure.mask);
   const std::array<int, kNetJoints> cells = searchTree(figure.mask, placement, maps);
@@ -271,7 +279,8 @@ TreeRecognition recognizeByJointNet(const Plane8& mask, const Plane8& lines, con
     mean_confidence += result.joints[j].confidence / kNetJoints;
   }
   result.entropy = maps.entropy;
-  result.figure_confidence = mean_confidence / (1 + std::exp(-maps.human_logit));
+  const double logit = kFigureLogit * maps.human_logit + kFigureJoints * mean_confidence + kFigureConstant;
+  result.figure_confidence = 1 / (1 + std::exp(-logit));
   return result;
 }
 
