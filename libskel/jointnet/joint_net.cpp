@@ -123,8 +123,9 @@ void forward(const JointNet& net, InstructionSet set, JointNetMaps& maps) {
 }
 
 FramePlacement FramePlacement::centred(const Plane8& mask, bool mirrored) {
-  return {static_cast<int>(kFrameSize - mask.cols()) / 2, static_cast<int>(kFrameSize - mask.rows()) / 2,
-          mirrored};
+  const int spare_x = static_cast<int>(kFrameSize - mask.cols()),
+            spare_y = static_cast<int>(kFrameSize - mask.rows());
+  return {(mirrored ? spare_x + 1 : spare_x) / 2, spare_y / 2, mirrored};
 }
 
 void encodeJointNetInput(const Plane8& mask, const Plane8& lines, const FramePlacement& placement,

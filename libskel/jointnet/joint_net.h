@@ -73,6 +73,8 @@ struct FramePlacement {
   int offset_x = 0, offset_y = 0;
   bool mirrored = false;
 
+  // An odd figure lies half a px left of the middle, before it is mirrored half a px right of it: the figure
+  // and its mirror image then have the same two inputs.
   static FramePlacement centred(const Plane8& mask, bool mirrored = false);
   Eigen::Vector2d frameFromGrid(const Eigen::Vector2d& p) const {
     const double x = p.x() + offset_x;

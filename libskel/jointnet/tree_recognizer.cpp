@@ -38,6 +38,9 @@ constexpr std::array<int, kNetJoints> kOrder = {1, 0, 2, 3, 4, 5, 6, 7, 8, 9, 10
 // The figure's confidence: a logistic regression on generated figures and others over the net's log-odds of a
 // human and the joints' mean confidence, its constant set so that four of five generated humans exceed 0.5.
 constexpr double kFigureLogit = .97, kFigureJoints = 1.9, kFigureConstant = -4.35;
+// Off the log-odds of a figure that was turned: drawings seldom lie or stand on their heads, and of eight
+// views of an animal one may look human.
+constexpr double kTurnedOdds = 1.5;
 
 using Heatmap = std::array<float, kCells>;
 
@@ -128,17 +131,23 @@ Turned turnedBy(const Plane8& mask, const Plane8& lines, double angle) {
   return out;
 }
 
-// Share of the bone between two points that lies outside the figure.
+// Share of the bone between two points that lies outside the figure. A sample halfway between two columns
+// counts for both, so that a mirrored figure gives the same.
 double shareOutside(const Plane8& mask, const Vec& a, const Vec& b) {
+  constexpr double kHalf = .5 + 1e-6;
   const int steps = std::max(1, static_cast<int>((b - a).norm() / kBoneSample));
-  const Vec step = (b - a) / steps;
-  int outside = 0;
-  Vec p = a + Vec::Constant(.5);  // so that cutting off the fraction rounds
-  for (int i = 0; i <= steps; ++i, p += step) {
-    const int x = static_cast<int>(p.x()), y = static_cast<int>(p.y());
-    outside += p.x() < 0 || p.y() < 0 || x >= mask.cols() || y >= mask.rows() || mask(y, x) == 0;
+  const auto outside = [&](int y, int x) {
+    return y < 0 || x < 0 || y >= mask.rows() || x >= mask.cols() || mask(y, x) == 0;
+  };
+  int sum = 0;
+  for (int i = 0; i <= steps; ++i) {
+    const Vec p = a + (b - a) * (static_cast<double>(i) / steps);
+    const int y = static_cast<int>(std::floor(p.y() + .5));
+    const int last = static_cast<int>(std::floor(p.x() + kHalf)),
+              first = static_cast<int>(std::ceil(p.x() - kHalf));
+    sum += outside(y, first) + outside(y, last);
   }
-  return static_cast<double>(outside) / (steps + 1);
+  return static_cast<double>(sum) / (2 * (steps + 1));
 }
 
 struct Candidate {
@@ -148,9 +157,8 @@ struct Candidate {
   std::array<int, kNetJoints> below;  // of each child joint, the candidate that is best with this one
 };
 
-// The cell of each joint in the tree of highest total score.
-std::array<int, kNetJoints> searchTree(const Plane8& mask, const FramePlacement& placement,
-                                       const Heatmaps& maps) {
+// The cell of each joint in the tree of highest total score. frame px = grid px + offset.
+std::array<int, kNetJoints> searchTree(const Plane8& mask, const Vec& offset, const Heatmaps& maps) {
   std::array<std::vector<Candidate>, kNetJoints> candidates;
   for (int j = 0; j < kNetJoints; ++j) {
     const Heatmap& map = maps.joints[j];
@@ -166,7 +174,7 @@ std::array<int, kNetJoints> searchTree(const Plane8& mask, const FramePlacement&
                       });
     list.resize(kept);
     for (Candidate& c : list) {
-      c.position = placement.gridFromFrame(frameFromCell(Vec(c.cell % kHeatmapSize, c.cell / kHeatmapSize)));
+      c.position = frameFromCell(Vec(c.cell % kHeatmapSize, c.cell / kHeatmapSize)) - offset;
     }
   }
   for (int i = kNetJoints - 1; i > 0; --i) {
@@ -268,18 +276,22 @@ TreeRecognition recognizeByJointNet(const Plane8& mask, const Plane8& lines, con
     if (result.turned != 0)
       maps = evaluateNet(figure.mask, figure.lines, net, options.instructions, options.mirror);
   }
-  const FramePlacement placement = FramePlacement::centred(figure.mask);
-  const std::array<int, kNetJoints> cells = searchTree(figure.mask, placement, maps);
+  // Of the two passes' placements the mean.
+  const FramePlacement one = FramePlacement::centred(figure.mask);
+  const FramePlacement other = FramePlacement::centred(figure.mask, options.mirror);
+  const Vec offset((one.offset_x + other.offset_x) / 2., one.offset_y);
+  const std::array<int, kNetJoints> cells = searchTree(figure.mask, offset, maps);
   double mean_confidence = 0;
   for (int j = 0; j < kNetJoints; ++j) {
     const Vec cell = refined(maps.joints[j], cells[j]);
-    const Vec at = insideFigure(figure.mask, placement.gridFromFrame(frameFromCell(cell)));
+    const Vec at = insideFigure(figure.mask, frameFromCell(cell) - offset);
     result.joints[j].position = insideFigure(mask, figure.original(at));
     result.joints[j].confidence = massAround(maps.joints[j], cell);
     mean_confidence += result.joints[j].confidence / kNetJoints;
   }
   result.entropy = maps.entropy;
-  const double logit = kFigureLogit * maps.human_logit + kFigureJoints * mean_confidence + kFigureConstant;
+  const double logit = kFigureLogit * maps.human_logit + kFigureJoints * mean_confidence + kFigureConstant -
+                       (result.turned != 0 ? kTurnedOdds : 0);
   result.figure_confidence = 1 / (1 + std::exp(-logit));
   return result;
 }

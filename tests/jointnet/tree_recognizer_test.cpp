@@ -73,14 +73,13 @@ TEST_CASE("A mirrored figure has mirrored joints") {
     options.try_orientations = false;
     const TreeRecognition a = recognizeByJointNet(f.mask, f.lines, builtInJointNet(), options);
     const TreeRecognition b = recognizeByJointNet(mask, lines, builtInJointNet(), options);
-    int apart = 0;
     for (int j = 0; j < kNetJoints; ++j) {
       const Eigen::Vector2d p = b.joints[kMirroredJoint[j]].position;
-      apart += (Eigen::Vector2d(static_cast<double>(mask.cols()) - 1 - p.x(), p.y()) - a.joints[j].position)
-                   .norm() > 4;
+      const Eigen::Vector2d back(static_cast<double>(mask.cols()) - 1 - p.x(), p.y());
+      INFO(kNetJointNames[j]);
+      // Two ways to the nearest point of the figure may be equally short: one cell of slack.
+      CHECK((back - a.joints[j].position).norm() < 4);
     }
-    // A figure of odd width lies half a pixel off the frame's middle, which may turn a close decision.
-    CHECK(apart <= 2);
   }
 }
 
