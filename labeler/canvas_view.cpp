@@ -53,6 +53,8 @@ void CanvasView::growBrush(double factor) {
 
 void CanvasView::select(int candidate) {
   selected_ = candidate;
+  touched_ = false;
+  chosen_at_ = ImGui::GetIO().MousePos;
   if (candidate < 0) return;
   // Into view, if it is not.
   const ImVec2 p = screenFromImage(document_.figure().centers_px[static_cast<size_t>(candidate)]);
@@ -173,8 +175,13 @@ void CanvasView::useTool(bool hovered) {
 
 void CanvasView::useTouch(bool hovered) {
   const ImGuiIO& io = ImGui::GetIO();
-  if (hovered && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0))
-    selected_ = document_.candidateAt(imageFromScreen(io.MousePos), kTouch_px / zoom_);
+  // A hand that rests on the mouse does not take away what N has chosen.
+  const ImVec2 moved{io.MousePos.x - chosen_at_.x, io.MousePos.y - chosen_at_.y};
+  if (hovered && std::hypot(moved.x, moved.y) > kTouch_px / 2) {
+    const int touched = document_.candidateAt(imageFromScreen(io.MousePos), kTouch_px / zoom_);
+    if (touched >= 0 || touched_) selected_ = touched;
+    touched_ = touched >= 0;
+  }
   if (hovered && ImGui::IsMouseClicked(0)) {
     selected_ = document_.candidateAt(imageFromScreen(io.MousePos), kTouch_px / zoom_);
     if (selected_ >= 0) document_.label({selected_}, active_class);

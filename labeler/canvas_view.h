@@ -67,6 +67,8 @@ class CanvasView {
   double brush_screen_px_ = 26;
 
   int selected_ = -1;
+  bool touched_ = false;  // by the mouse, not by select()
+  ImVec2 chosen_at_{};    // where the mouse was at select()
   int dragged_joint_ = -1;
   bool stroke_ = false;      // a step of the document is open
   bool stroke_adds_ = true;  // of a stroke on the mask

@@ -20,7 +20,6 @@ namespace {
 
 // Dear ImGui takes this many frames to settle after an event, e.g. for sizes that depend on the last frame's.
 constexpr int kSettlingFrames = 4;
-constexpr double kLongestWait_s = 0.5;
 
 std::string glfwProblem() {
   const char* text = nullptr;
@@ -195,7 +194,7 @@ void Window::run(const std::function<NextFrame()>& frame) {
     if (next == NextFrame::kAtOnce || --settling > 0) {
       glfwPollEvents();
     } else {
-      glfwWaitEventsTimeout(kLongestWait_s);
+      glfwWaitEvents();
       settling = kSettlingFrames;
     }
   }
