@@ -24,7 +24,7 @@ constexpr double kOutsidePenalty = 4;         // nats for a bone that lies wholl
 constexpr double kBoneSample = 2;             // grid px between samples along a bone
 constexpr double kNear = .1 * kLongSide / 4;  // cells: what counts as found
 // How doubtful the net is about an orientation: mean entropy of the heatmaps (nats) less kHumanShare times
-// the log-odds of a whole upright human. Of generated figures 20 % of the upright and 96 % of those on their
+// the log-odds of a whole upright human. Of generated figures 9 % of the upright and 97 % of those on their
 // side or head exceed kDoubtful; only then other orientations are tried. They must gain kUprightMargin.
 constexpr double kHumanShare = .25, kLargestLogit = 4;
 constexpr double kDoubtful = 3.2;
