@@ -1,9 +1,7 @@
 #include "libskel/skin/skin_weights.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <numeric>
 
 #include "libskel/core/check.h"
 #include "libskel/skin/bones.h"
@@ -78,23 +76,18 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
 
   JointWeights weights = find(method).weights(mesh, skeletonBones(skeleton), joint_count);
   fillFromNearest(mesh.vertices, weights);
-  softenWeights(mesh, skeleton, weights);
-  std::vector<int> order(joint_count);
-  const int influences = std::min(options.max_influences, joint_count);
+  softenWeights(mesh, skeleton, options.max_influences, weights);
+  std::vector<int> order;
   for (Eigen::Index v = 0; v < weights.rows(); ++v) {
-    std::iota(order.begin(), order.end(), 0);
-    std::partial_sort(order.begin(), order.begin() + influences, order.end(), [&](int a, int b) {
-      return weights(v, a) != weights(v, b) ? weights(v, a) > weights(v, b) : a < b;
-    });
-    float sum = 0;
-    for (int k = 0; k < influences; ++k) sum += weights(v, order[k]);
-    for (int k = 0; k < influences; ++k) {
-      const float weight = weights(v, order[k]) / sum;
-      if (weight < 1e-4f) break;  // nobody sees it move
-      result.joints(v, k) = static_cast<std::uint16_t>(order[k]);
-      result.weights(v, k) = weight;
+    order.clear();
+    for (int joint = 0; joint < joint_count; ++joint) {
+      if (weights(v, joint) > 0) order.push_back(joint);
     }
-    result.weights.row(v) /= result.weights.row(v).sum();
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weights(v, a) > weights(v, b); });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      result.joints(v, k) = static_cast<std::uint16_t>(order[k]);
+      result.weights(v, k) = weights(v, order[k]);
+    }
   }
   return result;
 }

@@ -1,13 +1,22 @@
 // A joint bent by 90° moves a point at p from it to A·p with A = (1 − w)·I + w·R, w the weight of all that
 // the joint moves, and the plane about it by A + D·∇wᵀ, D = (R − I)·p. That turns inside out where ∇w·A⁻¹D <
-// −1. A⁻¹D is as long as √2·|p| / √((1 − w)² + w²), and for w = ½ it lies square to p: so |∇w × p| must stay
-// below √((1 − w)² + w²) / √2.
+// −1. A⁻¹D is √2·|p| / √((1 − w)² + w²) long and, as w goes from 0 to 1, turns from 135° off p to 45° off it.
+// For all w, and bends to both sides, it is enough that 2·|∇w across p| + |∇w along p| stays below 1 / |p|:
+// w may change by max(½·|e across p|, |e along p|) / |p| along an edge e.
+//
+// Of all weights that nowhere change faster than allowed, the largest that is not above the given one is the
+// given one's lower envelope, min over y of w(y) + way(x, y), a way being as long as the changes that it
+// allows: Dijkstra's (1959) algorithm finds it in one go, however far the change has to spread. So too the
+// smallest not below, and their mean keeps a joint's bend where it was.
 #include "libskel/skin/soften.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <numeric>
+#include <queue>
 #include <vector>
 
 #include "libskel/skin/bones.h"
@@ -15,135 +24,322 @@
 namespace skel {
 namespace {
 
-constexpr float kLargestChange = 0.27f;  // along an edge
-constexpr float kFineMesh = 0.03f;       // mean edge, of the mesh's size: coarse ones cannot but change much
-constexpr float kBend = 0.8f;            // of what would turn a triangle inside out
-// In distances from the joint to the nearest vertex: farther out the limb has ended, or lies against the
-// trunk.
-constexpr float kRange = 3;
-constexpr int kSweeps = 50;
+constexpr float kLargestChange = 0.33f;   // along an edge
+constexpr float kFineMesh = 0.03f;        // mean edge, of the mesh's size: coarse ones cannot but change much
+constexpr float kBend = 0.8f;             // of what would turn a triangle inside out
+constexpr float kClear = 0.01f;           // of a triangle's area: thinner than that, it counts as inside out
+constexpr int kRounds = 10;               // of all limits in turn
+constexpr int kTries = 12, kSweeps = 60;  // of smoothing and cutting, of smoothing
 
-// The joints each of which bends the middle of a limb, with what it moves.
-struct Hinge {
-  Eigen::Vector3f position;
-  std::vector<int> moved;
-  std::vector<int> others;  // joints of other limbs
-  float range = 0;          // m
-
-  float foreign(const float* weights) const {
-    float sum = 0;
-    for (const int joint : others) sum += weights[joint];
-    return sum;
-  }
+struct Edges {
+  std::vector<int> first, to;  // of vertex v: to[first[v]] … to[first[v + 1] - 1], ascending
 };
 
-std::vector<Hinge> hinges(const Skeleton& skeleton) {
-  const std::vector<int> limbs = jointLimbs(skeleton);
+Edges edgesOf(const TriangleMesh& mesh) {
+  const int vertices = static_cast<int>(mesh.vertices.rows());
+  std::vector<int> start(vertices + 1, 0);
+  for (const int v : mesh.triangles.reshaped()) start[v + 1] += 2;
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<int> all(start.back()), next(start.begin(), start.end() - 1);
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles(t, k), b = mesh.triangles(t, (k + 1) % 3);
+      all[next[a]++] = b, all[next[b]++] = a;
+    }
+  }
+  Edges edges;
+  edges.first.push_back(0);
+  edges.to.reserve(all.size() / 2);
+  for (int v = 0; v < vertices; ++v) {
+    const auto begin = all.begin() + start[v], end = all.begin() + start[v + 1];
+    std::sort(begin, end);
+    edges.to.insert(edges.to.end(), begin, std::unique(begin, end));
+    edges.first.push_back(static_cast<int>(edges.to.size()));
+  }
+  return edges;
+}
+
+// The joints each of which bends the middle of a limb.
+struct Hinge {
+  int joint;
+  Eigen::RowVector3f position;
+  std::vector<int> above, moved;  // joints of the limb: those it hangs on, and itself with those it moves
+  std::vector<float> allowed;  // change of the weight of all that is moved, by arc; negative: not known yet
+};
+
+std::vector<Hinge> hinges(const Skeleton& skeleton, const std::vector<int>& limbs) {
   const int count = static_cast<int>(skeleton.joints.size());
   std::vector<Hinge> result;
   for (int joint = 1; joint < count; ++joint) {
     const int parent = skeleton.joints[joint].parent;
     if (limbs[joint] < 0 || limbs[joint] == joint || limbs[parent] != limbs[joint]) continue;
-    Hinge hinge;
-    hinge.position = skeleton.joints[joint].position.cast<float>();
-    for (int moved = joint; moved < count; ++moved) {
-      if (limbs[moved] == limbs[joint]) hinge.moved.push_back(moved);
-    }
-    for (int other = 0; other < count; ++other) {
-      if (limbs[other] >= 0 && limbs[other] != limbs[joint]) hinge.others.push_back(other);
+    Hinge hinge{joint, skeleton.joints[joint].position.cast<float>().transpose(), {}, {}, {}};
+    for (int other = 1; other < count; ++other) {
+      if (limbs[other] == limbs[joint]) (other < joint ? hinge.above : hinge.moved).push_back(other);
     }
     result.push_back(std::move(hinge));
   }
   return result;
 }
 
-}  // namespace
+// How much may change from v along the arc.
+float allowedChange(const TriangleMesh& mesh, const Edges& edges, Hinge& hinge, int v, int arc) {
+  float& allowed = hinge.allowed[arc];
+  if (allowed >= 0) return allowed;
+  const Eigen::RowVector3f a = mesh.vertices.row(v), b = mesh.vertices.row(edges.to[arc]);
+  const Eigen::RowVector3f arm = 0.5f * (a + b) - hinge.position, edge = b - a;
+  const float arm2 = std::max(arm.squaredNorm(), 1e-12f), along = edge.dot(arm);
+  const float along2 = along * along / arm2;
+  const float across2 = std::max(0.0f, edge.squaredNorm() - along2);
+  allowed = kBend * std::sqrt(std::max(0.25f * across2, along2) / arm2);
+  return allowed;
+}
 
-void softenWeights(const TriangleMesh& mesh, const Skeleton& skeleton, JointWeights& weights) {
-  const int vertices = static_cast<int>(weights.rows()), joints = static_cast<int>(weights.cols());
-  const int triangles = static_cast<int>(mesh.triangles.rows());
-  for (int v = 0; v < vertices; ++v) weights.row(v) /= weights.row(v).sum();
-  if (triangles == 0) return;
-  const float size = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).maxCoeff();
-  const float edge_m = meanEdge(mesh);
-  const bool fine = edge_m < kFineMesh * size;
-  std::vector<Hinge> bends = hinges(skeleton);
-  for (Hinge& hinge : bends) {
-    const Eigen::RowVector3f at = hinge.position;
-    const float radius = std::sqrt((mesh.vertices.rowwise() - at).rowwise().squaredNorm().minCoeff());
-    hinge.range = kRange * std::max(radius, edge_m);
-  }
-
-  // How many times too large the changes in a triangle are.
-  const auto excess = [&](int triangle) {
-    const Eigen::RowVector3i t = mesh.triangles.row(triangle);
-    const float *a = weights.row(t[0]).data(), *b = weights.row(t[1]).data(), *c = weights.row(t[2]).data();
-    float change = 0;
-    for (int j = 0; j < joints; ++j) {
-      const float high = std::max(std::max(a[j], b[j]), c[j]), low = std::min(std::min(a[j], b[j]), c[j]);
-      change = std::max(change, high - low);
+// Lowers values until none is above a neighbour's by more than allowed.
+void lowerEnvelope(const TriangleMesh& mesh, const Edges& edges, Hinge& hinge, std::vector<float>& values) {
+  using Front = std::pair<float, int>;
+  std::priority_queue<Front, std::vector<Front>, std::greater<>> fronts;
+  const auto spread = [&](int v) {
+    for (int i = edges.first[v]; i < edges.first[v + 1]; ++i) {
+      const int to = edges.to[i];
+      if (values[to] <= values[v]) continue;
+      const float limit = values[v] + allowedChange(mesh, edges, hinge, v, i);
+      if (values[to] <= limit) continue;
+      values[to] = limit;
+      fronts.emplace(limit, to);
     }
-    if (change < 0.02f) return 0.0f;
-    const Eigen::Vector3f p = mesh.vertices.row(t[0]), q = mesh.vertices.row(t[1]),
-                          r = mesh.vertices.row(t[2]);
-    float result = fine ? change / kLargestChange : 0;
-    const Eigen::Vector3f normal = (q - p).cross(r - p), middle = (p + q + r) / 3;
-    const float double_area2 = normal.squaredNorm();
-    if (double_area2 == 0) return result;
-    for (const Hinge& hinge : bends) {
-      const Eigen::Vector3f arm = middle - hinge.position;
-      if (arm.squaredNorm() > hinge.range * hinge.range) continue;
-      Eigen::Vector3f w = Eigen::Vector3f::Zero();
-      for (const int joint : hinge.moved) w += Eigen::Vector3f(a[joint], b[joint], c[joint]);
-      // Where two limbs touch, nothing but weights that blur both could bend one without a crease.
-      const float foreign = std::max({hinge.foreign(a), hinge.foreign(b), hinge.foreign(c)});
-      if (foreign > 0.02f) continue;
-      const Eigen::Vector3f gradient =
-          normal.cross(w[0] * (r - q) + w[1] * (p - r) + w[2] * (q - p)) / double_area2;
-      const float mean = w.mean();
-      const float limit = std::sqrt(0.5f * ((1 - mean) * (1 - mean) + mean * mean));
-      result = std::max(result, gradient.cross(arm).norm() / (kBend * limit));
-    }
-    return result;
   };
+  // Each vertex once, lowered ones again in the order of their values.
+  for (int v = 0; v < static_cast<int>(values.size()); ++v) spread(v);
+  while (!fronts.empty()) {
+    const auto [value, v] = fronts.top();
+    fronts.pop();
+    if (value == values[v]) spread(v);
+  }
+}
 
-  std::vector<int> first(vertices + 1, 0), around(3 * static_cast<std::size_t>(triangles));
-  for (int t = 0; t < triangles; ++t) {
-    for (int k = 0; k < 3; ++k) ++first[mesh.triangles(t, k) + 1];
+void bendSoftly(const TriangleMesh& mesh, const Edges& edges, Hinge& hinge, JointWeights& weights) {
+  const int vertices = static_cast<int>(weights.rows());
+  std::vector<float> given(vertices), limb(vertices);
+  for (int v = 0; v < vertices; ++v) {
+    for (const int joint : hinge.moved) given[v] += weights(v, joint);
+    limb[v] = given[v];
+    for (const int joint : hinge.above) limb[v] += weights(v, joint);
   }
-  for (int v = 0; v < vertices; ++v) first[v + 1] += first[v];
-  std::vector<int> next(first.begin(), first.end() - 1);
-  for (int t = 0; t < triangles; ++t) {
-    for (int k = 0; k < 3; ++k) around[next[mesh.triangles(t, k)]++] = t;
+  std::vector<float> low = given, high(vertices);
+  lowerEnvelope(mesh, edges, hinge, low);
+  for (int v = 0; v < vertices; ++v) high[v] = -given[v];
+  lowerEnvelope(mesh, edges, hinge, high);
+  // Not more than the limb has: what it lies against is not drawn along.
+  for (int v = 0; v < vertices; ++v) low[v] = 0.5f * (low[v] + std::min(-high[v], limb[v]));
+  lowerEnvelope(mesh, edges, hinge, low);
+  for (int v = 0; v < vertices; ++v) {
+    const float change = low[v] - given[v];
+    if (change < 0) {
+      for (const int joint : hinge.moved) weights(v, joint) *= low[v] / given[v];
+      weights(v, hinge.above.back()) -= change;
+    } else if (change > 0) {
+      for (const int joint : hinge.above)
+        weights(v, joint) *= std::max(0.0f, limb[v] - low[v]) / (limb[v] - given[v]);
+      weights(v, hinge.joint) += change;
+    }
   }
-  // Only what lies around a change needs another look.
-  std::vector<int> waiting(triangles), later;
-  std::iota(waiting.begin(), waiting.end(), 0);
-  std::vector<int> queued(triangles, 0);
+}
+
+// Where the hinge, bent by 90° to either side or out of the drawing's plane, turns triangles inside out, the
+// weights about them may change half as much from now on. Returns whether there are such.
+bool tighten(const TriangleMesh& mesh, const Skeleton& skeleton, const Edges& edges,
+             const JointWeights& weights, Hinge& hinge) {
+  const Eigen::Vector3f bone =
+      (skeleton.joints[hinge.joint].position - skeleton.joints[skeleton.joints[hinge.joint].parent].position)
+          .cast<float>();
+  const Eigen::Vector3f out = bone.cross(Eigen::Vector3f::UnitZ()).stableNormalized();
+  Eigen::Matrix3f turns[4];  // less the identity
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::Vector3f axis = k < 2 ? Eigen::Vector3f(Eigen::Vector3f::UnitZ()) : out;
+    const Eigen::AngleAxisf turn((k % 2 ? 0.5f : -0.5f) * std::numbers::pi_v<float>, axis);
+    turns[k] = turn.toRotationMatrix() - Eigen::Matrix3f::Identity();
+  }
+  std::vector<float> moved(weights.rows());
+  for (int v = 0; v < weights.rows(); ++v) {
+    for (const int joint : hinge.moved) moved[v] += weights(v, joint);
+  }
+  std::vector<char> tight(weights.rows(), 0);
+  bool any = false;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    const Eigen::RowVector3i corners = mesh.triangles.row(t);
+    const float w[3] = {moved[corners[0]], moved[corners[1]], moved[corners[2]]};
+    if (std::max({w[0], w[1], w[2]}) - std::min({w[0], w[1], w[2]}) < 1e-4f) continue;
+    Eigen::Vector3f p[3];
+    for (int k = 0; k < 3; ++k) p[k] = (mesh.vertices.row(corners[k]) - hinge.position).transpose();
+    const Eigen::Vector3f normal = (p[1] - p[0]).cross(p[2] - p[0]);
+    const float mean = (w[0] + w[1] + w[2]) / 3;
+    bool inside_out = false;
+    for (const Eigen::Matrix3f& turn : turns) {
+      const Eigen::Vector3f a = p[0] + w[0] * (turn * p[0]), b = p[1] + w[1] * (turn * p[1]),
+                            c = p[2] + w[2] * (turn * p[2]);
+      inside_out = inside_out ||
+                   (b - a).cross(c - a).dot(normal + mean * (turn * normal)) <= kClear * normal.squaredNorm();
+    }
+    if (!inside_out) continue;
+    any = true;
+    for (int k = 0; k < 3; ++k) tight[corners[k]] = 1;
+  }
+  if (!any) return false;
+  for (std::size_t v = 0; v < tight.size(); ++v) {
+    for (int i = edges.first[v]; i < edges.first[v + 1]; ++i) {
+      if (!tight[v] && !tight[edges.to[i]]) continue;
+      hinge.allowed[i] = 0.5f * allowedChange(mesh, edges, hinge, static_cast<int>(v), i);
+    }
+  }
+  return true;
+}
+
+// Where two limbs share a vertex, what the weaker has goes, from both, to the trunk that they hang on.
+void partLimbs(const Skeleton& skeleton, const std::vector<int>& limbs, JointWeights& weights) {
+  const int joints = static_cast<int>(weights.cols());
+  std::vector<int> trunk(joints, -1);  // by limb
+  for (int joint = joints - 1; joint > 0; --joint) {
+    if (limbs[joint] >= 0) trunk[limbs[joint]] = skeleton.joints[joint].parent;
+  }
+  std::vector<float> sums(joints);
+  for (Eigen::Index v = 0; v < weights.rows(); ++v) {
+    std::fill(sums.begin(), sums.end(), 0.0f);
+    for (int joint = 0; joint < joints; ++joint) {
+      if (limbs[joint] >= 0) sums[limbs[joint]] += weights(v, joint);
+    }
+    const int first = static_cast<int>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+    float second = 0;
+    for (int limb = 0; limb < joints; ++limb) {
+      if (limb != first) second = std::max(second, sums[limb]);
+    }
+    if (second == 0) continue;
+    for (int joint = 0; joint < joints; ++joint) {
+      const int limb = limbs[joint];
+      if (limb < 0) continue;
+      weights(v, joint) *= limb == first ? 1 - second / sums[first] : 0;
+    }
+    for (int limb = 0; limb < joints; ++limb) {
+      if (sums[limb] > 0) weights(v, trunk[limb]) += limb == first ? second : sums[limb];
+    }
+  }
+}
+
+// The rows at the ends of an edge come nearer to each other until no edge sees too large a change. `waiting`:
+// where to begin; becomes the vertices whose rows changed, ascending.
+void smoothEdges(const Edges& edges, std::vector<int>& waiting, JointWeights& weights) {
+  std::vector<int> later, changed, queued(weights.rows(), -1);
+  for (const int v : waiting) queued[v] = 0;
   for (int sweep = 1; sweep <= kSweeps && !waiting.empty(); ++sweep) {
     later.clear();
-    for (const int triangle : waiting) {
-      const float times = excess(triangle);
-      if (times <= 1) continue;
-      // The rows come nearer to their mean, so that all their differences shrink.
-      const float keep = 1 / std::min(1.05f * times, 4.0f);
-      float* rows[3];
-      for (int k = 0; k < 3; ++k) rows[k] = weights.row(mesh.triangles(triangle, k)).data();
-      for (int j = 0; j < joints; ++j) {
-        const float mean = (rows[0][j] + rows[1][j] + rows[2][j]) / 3;
-        for (float* row : rows) row[j] = mean + keep * (row[j] - mean);
-      }
-      for (int k = 0; k < 3; ++k) {
-        const int v = mesh.triangles(triangle, k);
-        for (int i = first[v]; i < first[v + 1]; ++i) {
-          if (queued[around[i]] == sweep) continue;
-          queued[around[i]] = sweep;
-          later.push_back(around[i]);
+    for (const int v : waiting) {
+      for (int i = edges.first[v]; i < edges.first[v + 1]; ++i) {
+        const int to = edges.to[i];
+        if (to < v && queued[to] >= sweep - 1) continue;  // seen from there
+        auto a = weights.row(v), b = weights.row(to);
+        const float change = (a - b).cwiseAbs().maxCoeff();
+        if (change <= kLargestChange) continue;
+        const float share = 0.5f * (1 - 0.97f * kLargestChange / change);
+        for (Eigen::Index j = 0; j < a.size(); ++j) {
+          const float step = share * (b[j] - a[j]);
+          a[j] += step, b[j] -= step;
+        }
+        for (const int end : {v, to}) {
+          if (queued[end] != sweep) queued[end] = sweep, later.push_back(end);
         }
       }
     }
     std::sort(later.begin(), later.end());
+    changed.insert(changed.end(), later.begin(), later.end());
     waiting.swap(later);
+  }
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  waiting.swap(changed);
+}
+
+// An influence too many joins its neighbour in the skeleton, so that what each other joint moves in all stays
+// the same; without a neighbour, or without `join`, it goes. Of the `vertices`; becomes those that had any.
+void cutInfluences(const Skeleton& skeleton, const std::vector<Hinge>& bends, int max_influences, bool join,
+                   std::vector<int>& vertices, JointWeights& weights) {
+  constexpr float kLeast = 1e-4f;  // nobody sees it move
+  constexpr float kHinge = 4;      // what a hinge's weight is worth
+  const int joints = static_cast<int>(weights.cols());
+  std::vector<float> worth(joints, 1);
+  for (const Hinge& hinge : bends) worth[hinge.joint] = kHinge;
+  std::vector<int> cut;
+  for (const int v : vertices) {
+    float* row = weights.row(v).data();
+    int more = -max_influences;
+    for (int j = 0; j < joints; ++j) {
+      if (row[j] < kLeast) row[j] = 0;
+      more += row[j] > 0;
+    }
+    if (more > 0) cut.push_back(v);
+    for (; more > 0; --more) {
+      int least = -1, from = -1, to = -1;
+      float lowest = std::numeric_limits<float>::infinity();
+      for (int j = 0; j < joints; ++j) {
+        if (row[j] == 0) continue;
+        if (least < 0 || row[j] <= row[least]) least = j;
+        const int parent = skeleton.joints[j].parent;
+        if (!join || parent < 0 || row[parent] == 0) continue;
+        const float loss = worth[j] * std::min(row[j], row[parent]);
+        if (loss >= lowest) continue;
+        lowest = loss;
+        from = row[j] <= row[parent] ? j : parent, to = row[j] <= row[parent] ? parent : j;
+      }
+      if (from < 0) {
+        row[least] = 0;
+      } else {
+        row[to] += row[from];
+        row[from] = 0;
+      }
+    }
+    weights.row(v) /= weights.row(v).sum();
+  }
+  vertices.swap(cut);
+}
+
+}  // namespace
+
+void softenWeights(const TriangleMesh& mesh, const Skeleton& skeleton, int max_influences,
+                   JointWeights& weights) {
+  const std::vector<int> limbs = jointLimbs(skeleton);
+  std::vector<Hinge> bends = hinges(skeleton, limbs);
+  std::vector<int> all(weights.rows()), vertices;
+  std::iota(all.begin(), all.end(), 0);
+  for (const int v : all) weights.row(v) /= weights.row(v).sum();
+  if (mesh.triangles.rows() == 0) {
+    cutInfluences(skeleton, bends, max_influences, true, all, weights);
+    return;
+  }
+  const Edges edges = edgesOf(mesh);
+  for (Hinge& hinge : bends) hinge.allowed.assign(edges.to.size(), -1);
+  const float size = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).maxCoeff();
+  const bool fine = meanEdge(mesh) < kFineMesh * size;
+  std::vector<char> stiff(bends.size(), 1);
+  for (int round = 0; round < kRounds; ++round) {
+    // Smoothing mixes limbs where they touch, a little the second time.
+    if (round < 2) partLimbs(skeleton, limbs, weights);
+    for (std::size_t i = 0; i < bends.size(); ++i) {
+      if (stiff[i]) bendSoftly(mesh, edges, bends[i], weights);
+    }
+    vertices = all;
+    for (int attempt = 0; attempt < kTries && !vertices.empty(); ++attempt) {
+      std::vector<int> changed = vertices;
+      if (fine) smoothEdges(edges, changed, weights);
+      // The joined weights of several vertices may again be too far apart for ever.
+      cutInfluences(skeleton, bends, max_influences, attempt < 3, attempt == 0 ? vertices : changed, weights);
+      if (attempt > 0) vertices.swap(changed);
+      if (!fine) break;
+    }
+    bool any = false;
+    for (std::size_t i = 0; i < bends.size(); ++i) {
+      stiff[i] = tighten(mesh, skeleton, edges, weights, bends[i]);
+      any = any || stiff[i];
+    }
+    if (!any && round > 0) break;
   }
 }
 

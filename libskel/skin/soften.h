@@ -7,9 +7,13 @@
 
 namespace skel {
 
-// Scales rows to a sum of 1, then spreads weights along the mesh until (within a number of sweeps) no short
-// edge sees a large change, and no triangle turns inside out when the joint in the middle of a limb is bent
-// by 90°.
-void softenWeights(const TriangleMesh& mesh, const Skeleton& skeleton, JointWeights& weights);
+// Rows that sum to 1 with at most `max_influences` weights above 0, and, as far as the mesh lets them:
+// - no edge sees a change above 0.35, unless the mesh is coarse;
+// - no triangle turns inside out when the joint in the middle of a limb is bent by 90°, to either side,
+// forwards
+//   or backwards. Where a limb is drawn over the trunk, it gives way;
+// - limbs that touch share hardly any weight: what lies between them goes with the trunk.
+void softenWeights(const TriangleMesh& mesh, const Skeleton& skeleton, int max_influences,
+                   JointWeights& weights);
 
 }  // namespace skel

@@ -264,4 +264,7 @@ TEST_CASE("real drawings: foreign weight, edges, bends") {
   std::cout << drawings << " drawings: foreign weight <= 2 % in " << foreign << ", edges <= 0.35 in " << edges
             << ", " << whole_bends << " of " << bends << " bends without a triangle inside out\n";
   REQUIRE(drawings > 20);
+  CHECK(foreign >= drawings - 1);
+  CHECK(edges >= drawings - 1);
+  CHECK(whole_bends >= bends - bends / 50);
 }

@@ -66,7 +66,9 @@ inline float largestEdgeChange(const TriangleMesh& mesh, const SkinWeights& weig
   return worst;
 }
 
-// Triangles that face the wrong way, compared with the mean rotation of their corners' joints.
+// Triangles that face the wrong way, compared with their own rest normal turned by the mean of their corners'
+// joints: so that one that was edge-on at rest, or lies on the rim, is judged by where it should look now,
+// not by where the viewer stands.
 inline int insideOut(const TriangleMesh& mesh, const SkinWeights& weights,
                      const JointTransforms& posed_from_rest) {
   const Eigen::MatrixX3f posed = skinVertices(mesh.vertices, weights, posed_from_rest);
