@@ -281,15 +281,24 @@ JointWeights geodesicWeights(const TriangleMesh& mesh, const std::vector<Bone>& 
 
   // A way so much longer than the first that came brings no weight any more, nor does any that goes on from
   // it.
-  std::vector<float> first(vertices, kFar);
+  std::vector<float> first2(vertices, kFar), spare2(count);  // m²
+  for (int b = 0; b < count; ++b) {
+    const float spare = reachBeyondJoint(2 * profiles[b].deepest, edge_m);
+    spare2[b] = spare * spare;
+  }
+  const auto useless = [&](int vertex, int bone, float distance) {
+    const float beyond = distance - edge_m;
+    return beyond > 0 && beyond * beyond > kDetour * kDetour * (first2[vertex] + spare2[bone]);
+  };
   for (Fronts::Front front; fronts.pop(front);) {
     if (front.distance > way(front.vertex, front.bone)) continue;
-    float& shortest = first[front.vertex];
-    shortest = std::min(shortest, front.distance);
-    const float spare = reachBeyondJoint(2 * profiles[front.bone].deepest, edge_m);
-    if (front.distance > kDetour * std::hypot(shortest, spare) + edge_m) continue;
+    first2[front.vertex] = std::min(first2[front.vertex], front.distance * front.distance);
+    if (useless(front.vertex, front.bone, front.distance)) continue;
     for (int k = graph.first[front.vertex]; k < graph.first[front.vertex + 1]; ++k) {
-      reach(graph.arcs[k].to, front.bone, front.distance + graph.arcs[k].length);
+      const int to = graph.arcs[k].to;
+      const float distance = front.distance + graph.arcs[k].length;
+      if (distance < way(to, front.bone) && !useless(to, front.bone, distance))
+        reach(to, front.bone, distance);
     }
   }
 

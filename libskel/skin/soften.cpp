@@ -109,8 +109,15 @@ void lowerEnvelope(const TriangleMesh& mesh, const Edges& edges, Hinge& hinge, s
       fronts.emplace(limit, to);
     }
   };
-  // Each vertex once, lowered ones again in the order of their values.
-  for (int v = 0; v < static_cast<int>(values.size()); ++v) spread(v);
+  for (int v = 0; v < static_cast<int>(values.size()); ++v) {
+    for (int i = edges.first[v]; i < edges.first[v + 1]; ++i) {
+      if (values[edges.to[i]] <= values[v] ||
+          values[edges.to[i]] <= values[v] + allowedChange(mesh, edges, hinge, v, i))
+        continue;
+      fronts.emplace(values[v], v);
+      break;
+    }
+  }
   while (!fronts.empty()) {
     const auto [value, v] = fronts.top();
     fronts.pop();
@@ -169,17 +176,25 @@ bool tighten(const TriangleMesh& mesh, const Skeleton& skeleton, const Edges& ed
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     const Eigen::RowVector3i corners = mesh.triangles.row(t);
     const float w[3] = {moved[corners[0]], moved[corners[1]], moved[corners[2]]};
-    if (std::max({w[0], w[1], w[2]}) - std::min({w[0], w[1], w[2]}) < 1e-4f) continue;
+    const float change = std::max({w[0], w[1], w[2]}) - std::min({w[0], w[1], w[2]});
+    if (change < 1e-4f) continue;
     Eigen::Vector3f p[3];
     for (int k = 0; k < 3; ++k) p[k] = (mesh.vertices.row(corners[k]) - hinge.position).transpose();
     const Eigen::Vector3f normal = (p[1] - p[0]).cross(p[2] - p[0]);
+    if (normal.isZero(0)) continue;  // of a user's model: it has no side to turn
+    // Far below what could: the weight's slope is at most its change over the triangle's least height,
+    // 2·|∇w|·|p| at most what the top of this file has.
+    const float side2 =
+        std::max({(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()});
+    const float arm2 = std::max({p[0].squaredNorm(), p[1].squaredNorm(), p[2].squaredNorm()});
+    if (4 * change * change * side2 * arm2 < 0.8f * normal.squaredNorm()) continue;
     const float mean = (w[0] + w[1] + w[2]) / 3;
     bool inside_out = false;
     for (const Eigen::Matrix3f& turn : turns) {
-      const Eigen::Vector3f a = p[0] + w[0] * (turn * p[0]), b = p[1] + w[1] * (turn * p[1]),
-                            c = p[2] + w[2] * (turn * p[2]);
-      inside_out = inside_out ||
-                   (b - a).cross(c - a).dot(normal + mean * (turn * normal)) <= kClear * normal.squaredNorm();
+      const Eigen::Vector3f ta = turn * p[0], tb = turn * p[1], tc = turn * p[2], turned = turn * normal;
+      const Eigen::Vector3f a = p[0] + w[0] * ta, b = p[1] + w[1] * tb, c = p[2] + w[2] * tc;
+      inside_out =
+          inside_out || (b - a).cross(c - a).dot(normal + mean * turned) <= kClear * normal.squaredNorm();
     }
     if (!inside_out) continue;
     any = true;
