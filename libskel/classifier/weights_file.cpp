@@ -94,7 +94,8 @@ WeightsProvenance readProvenance(const JsonValue& value) {
 // The shortest text that reads back as the same float.
 std::string show(float number) {
   char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, number).ptr;
+  // A JSON reader takes -0 for 0.
+  const auto end = std::to_chars(text, text + sizeof text, number == 0 ? 0 : number).ptr;
   return std::string(text, end);
 }
 
@@ -149,8 +150,8 @@ std::string formatWeights(const WeightsFile& weights) {
         << kJointClassCodes[c][1] << "]";
   const WeightsProvenance& from = weights.provenance;
   out << "},\n  \"normalization\": \"" << kNormalization
-      << "\",\n  \"provenance\": {\n    \"data_sha256\": \"" << from.data_sha256
-      << "\",\n    \"samples\": " << from.samples << ",\n    \"characters\": " << from.characters
+      << "\",\n  \"provenance\": {\n    \"data_sha256\": " << nlohmann::json(from.data_sha256).dump()
+      << ",\n    \"samples\": " << from.samples << ",\n    \"characters\": " << from.characters
       << ",\n    \"seed\": " << from.seed << ",\n    \"options\": " << nlohmann::json(from.options).dump()
       << ",\n    \"epochs\": " << from.epochs
       << ",\n    \"accuracy\": " << nlohmann::json(from.accuracy).dump() << "\n  }\n}\n";
