@@ -157,7 +157,8 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     std::printf("hard cases: %td without a skeleton, %td of %td others with confidence < .5\n", refused,
                 unsure, static_cast<std::ptrdiff_t>(hard.size()) - refused);
   }
-  if (!options.json_file.empty()) writeFile(options.json_file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (!options.json_file.empty())
+    writeFile(options.json_file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   return ExitCode::kDone;
 }
 

@@ -11,7 +11,8 @@ namespace {
 std::string summary(const std::string& text) {
   const size_t start = text.find("mean over ");
   std::string line = text.substr(start, text.find('\n', start) - start);
-  for (size_t open; (open = line.find('[')) != std::string::npos;) line.erase(open, line.find(']') - open + 1);
+  for (size_t open; (open = line.find('[')) != std::string::npos;)
+    line.erase(open, line.find(']') - open + 1);
   return line;
 }
 
