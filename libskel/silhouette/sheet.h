@@ -1,0 +1,17 @@
+// What is drawn on a photographed sheet of paper, whose light is uneven.
+#pragma once
+
+namespace cv {
+class Mat;
+}
+
+namespace skel {
+
+// Strokes, and fills that are surely none of the shadows on a sheet of paper: those change the lightness
+// alone and leave more than half of it.
+cv::Mat drawnOnPaper(const cv::Mat& lab, const cv::Mat& strokes, const cv::Mat& far);
+
+// Edges of fills, one pixel wide. Those of shadows and creases are among them, but enclose nothing.
+cv::Mat edgesOnPaper(const cv::Mat& lab);
+
+}  // namespace skel

@@ -1,0 +1,18 @@
+// The picture as the segmentation looks at it: small, opaque, in RGB and in Lab.
+#pragma once
+
+#include "libskel/image/image.h"
+
+namespace cv {
+class Mat;
+}
+
+namespace skel {
+
+// RGB on white, 8-bit. Figures are found with the long side at 512 px; larger pictures are reduced.
+cv::Mat workingRgb(const Image& image);
+
+// CIE Lab (D65) of sRGB, 8-bit: L·2.55, a + 128, b + 128.
+cv::Mat labOf(const cv::Mat& rgb);
+
+}  // namespace skel
