@@ -41,6 +41,7 @@ std::vector<Sample> samplesOf(const cv::Mat& lab) {
 // picture that look like `start`, and then takes in everything that agrees with them.
 Background fitBackground(const std::vector<Sample>& samples, const Eigen::Vector3d& start) {
   constexpr int kBorderPasses = 6, kPasses = 12;
+  constexpr double kSettled = 0.05;  // change of a coefficient, colour units
   Background out;
   out.coefficients.setZero();
   out.coefficients.row(0) = start.transpose();
@@ -59,9 +60,14 @@ Background fitBackground(const std::vector<Sample>& samples, const Eigen::Vector
       right += weight * s.basis.transpose() * s.color.transpose();
     }
     if (distances.empty()) break;
-    out.coefficients = normal.ldlt().solve(right);
+    const Eigen::Matrix<double, 6, 3> coefficients = normal.ldlt().solve(right);
+    const double change = (coefficients - out.coefficients).cwiseAbs().maxCoeff();
+    out.coefficients = coefficients;
     out.sigma = median(distances);
     scale = std::clamp(5 * out.sigma, 8.0, 40.0);
+    if (change > kSettled) continue;
+    if (pass >= kBorderPasses) break;
+    pass = kBorderPasses - 1;
   }
   return out;
 }
@@ -128,11 +134,6 @@ std::vector<Background> fitBackgrounds(const cv::Mat& lab, double& explained_bor
       if (!explained) backgrounds.push_back(fitBackground(samples, color));
     }
   }
-  while (backgrounds.size() < kMaxBackgrounds) {
-    const std::optional<Eigen::Vector3d> color = colorOnTwoSides(samples, backgrounds);
-    if (!color) break;
-    backgrounds.push_back(fitBackground(samples, *color));
-  }
   int border = 0, near_any = 0;
   for (const Sample& s : samples) {
     if (!s.border) continue;
@@ -142,6 +143,11 @@ std::vector<Background> fitBackgrounds(const cv::Mat& lab, double& explained_bor
     });
   }
   explained_border = static_cast<double>(near_any) / border;
+  while (backgrounds.size() < kMaxBackgrounds) {
+    const std::optional<Eigen::Vector3d> color = colorOnTwoSides(samples, backgrounds);
+    if (!color) break;
+    backgrounds.push_back(fitBackground(samples, *color));
+  }
   return backgrounds;
 }
 

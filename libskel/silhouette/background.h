@@ -22,8 +22,8 @@ struct Background {
 
 // One background that most of the border agrees on, and one more for each corner of the picture that it does
 // not explain, and for each colour that takes a part of two sides: sky, ground, hills. A figure that is cut
-// by the border seldom fills a corner or shows one colour on two sides. `explained_border`
-// is the share of the border that has one of these colours.
+// by the border seldom fills a corner or shows one colour on two sides. `explained_border` is the share of
+// the border that has the main colour or that of a corner.
 //
 // Each is a robust fit (iteratively reweighted least squares with Tukey's biweight: Holland, Welsch 1977),
 // which begins with pixels of the border and then takes in everything that agrees with them.

@@ -78,7 +78,10 @@ cv::Mat outlinedFigure(const cv::Mat& lab, const cv::Mat& figure) {
   if (cv::countNonZero(shown ^ largest) < 0.02 * shown_area || area < 0.2 * shown_area) return {};
   const int shown_ink = cv::countNonZero(ink & shown);
   if (cv::countNonZero(ink & shown & largest) < 0.85 * shown_ink) return {};
-  if (linedShare(largest, lines) < 0.75) return {};
+  // A dark fill without lines, such as hair, is an outline where it encloses the rest from top to bottom.
+  const bool encloses = cv::countNonZero(largest & ~ink) > 0.15 * area &&
+                        cv::boundingRect(largest).height > 0.8 * cv::boundingRect(shown).height;
+  if (!encloses && linedShare(largest, lines) < 0.75) return {};
   return outlined;
 }
 

@@ -67,7 +67,9 @@ Segmentation segment(const Image& image) {
   if (textured) {
     dropOuterEdges(barrier, edges);
   } else {
-    const cv::Mat outlined = outlinedFigure(lab, barrier);
+    // Scenery shows at the border of the picture.
+    cv::Mat outlined;
+    if (backgrounds.size() > 1 || touchesBorder(barrier)) outlined = outlinedFigure(lab, barrier);
     const bool scenery = !outlined.empty();
     if (scenery) barrier = outlined;
     openLoops(barrier, drawn, isColored(backgrounds.front()));

@@ -1,6 +1,7 @@
 #include "libskel/silhouette/sheet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -72,6 +73,47 @@ Differences differencesFrom(const cv::Mat& lab, const cv::Mat& expected) {
   return out;
 }
 
+// Shadows change the lightness alone and end at the border of the picture. If there is such an edge, all
+// edges as steep as it is are dropped: together with limbs they would enclose paper.
+void dropShadowEdges(cv::Mat& edges, const cv::Mat& dx, const cv::Mat& dy) {
+  constexpr int kMaxChromaShare = 4;  // how many times the step of the lightness is that of the chroma
+  cv::Mat steepness = cv::Mat::zeros(edges.size(), CV_32F);
+  for (int y = 0; y < edges.rows; ++y) {
+    const cv::Vec3s *x_row = dx.ptr<cv::Vec3s>(y), *y_row = dy.ptr<cv::Vec3s>(y);
+    const std::uint8_t* edge = edges.ptr(y);
+    float* out = steepness.ptr<float>(y);
+    for (int x = 0; x < edges.cols; ++x) {
+      if (!edge[x]) continue;
+      std::array<float, 3> step;
+      for (int c = 0; c < 3; ++c) step[c] = std::hypot(x_row[x][c], y_row[x][c]);
+      if (kMaxChromaShare * std::max(step[1], step[2]) < step[0]) out[x] = step[0];
+    }
+  }
+  cv::Mat labels, stats, centroids;
+  const int count = cv::connectedComponentsWithStats(steepness > 0, labels, stats, centroids, 8, CV_32S);
+  constexpr int kMargin = 3;
+  int longest = 0, length = std::max(edges.cols, edges.rows) / 10;
+  for (int label = 1; label < count; ++label) {
+    const int* s = stats.ptr<int>(label);
+    const int left = s[cv::CC_STAT_LEFT], top = s[cv::CC_STAT_TOP];
+    const int width = s[cv::CC_STAT_WIDTH], height = s[cv::CC_STAT_HEIGHT];
+    const bool ends_at_border = left < kMargin || top < kMargin || left + width > edges.cols - kMargin ||
+                                top + height > edges.rows - kMargin;
+    if (!ends_at_border || std::max(width, height) < length) continue;
+    longest = label;
+    length = std::max(width, height);
+  }
+  if (longest == 0) return;
+  std::vector<float> steps;
+  for (int y = 0; y < edges.rows; ++y) {
+    for (int x = 0; x < edges.cols; ++x) {
+      if (labels.at<int>(y, x) == longest) steps.push_back(steepness.at<float>(y, x));
+    }
+  }
+  const double shadow = median(steps);
+  edges &= ~((steepness > 0.6 * shadow) & (steepness < 1.6 * shadow));
+}
+
 }  // namespace
 
 cv::Mat drawnOnPaper(const cv::Mat& lab, const cv::Mat& strokes, const cv::Mat& far) {
@@ -99,6 +141,7 @@ cv::Mat edgesOnPaper(const cv::Mat& lab) {
   const double noise = median(steepness);
   cv::Mat edges;
   cv::Canny(dx, dy, edges, std::max(14.0, 2.5 * noise), std::max(30.0, 5 * noise));
+  dropShadowEdges(edges, dx, dy);
   return edges;
 }
 

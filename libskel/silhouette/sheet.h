@@ -11,7 +11,8 @@ namespace skel {
 // alone and leave more than half of it.
 cv::Mat drawnOnPaper(const cv::Mat& lab, const cv::Mat& strokes, const cv::Mat& far);
 
-// Edges of fills, one pixel wide. Those of shadows and creases are among them, but enclose nothing.
+// Edges of fills (Canny 1986), one pixel wide. Those of creases are among them, but enclose nothing; those of
+// shadows are left out where they run to the border of the picture.
 cv::Mat edgesOnPaper(const cv::Mat& lab);
 
 }  // namespace skel

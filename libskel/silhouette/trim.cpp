@@ -51,13 +51,15 @@ void openLoops(cv::Mat& figure, const cv::Mat& drawn, bool colored_ground) {
   }
 }
 
+bool touchesBorder(const cv::Mat& figure) {
+  return cv::countNonZero(figure.row(0)) + cv::countNonZero(figure.row(figure.rows - 1)) +
+             cv::countNonZero(figure.col(0)) + cv::countNonZero(figure.col(figure.cols - 1)) >
+         0;
+}
+
 void dropBorderStrips(cv::Mat& figure) {
   const int w = figure.cols, h = figure.rows;
-  if (cv::countNonZero(figure.row(0)) + cv::countNonZero(figure.row(h - 1)) +
-          cv::countNonZero(figure.col(0)) + cv::countNonZero(figure.col(w - 1)) ==
-      0) {
-    return;
-  }
+  if (!touchesBorder(figure)) return;
   cv::Mat labels, stats, centroids;
   const int count = cv::connectedComponentsWithStats(figure, labels, stats, centroids, 4, CV_32S);
   std::vector<int> contact(static_cast<std::size_t>(count), 0);

@@ -19,6 +19,8 @@ void trimSoftEdge(cv::Mat& figure, const cv::Mat& drawn, const cv::Mat& strength
 // white paper, but from fills on a coloured ground.
 void openLoops(cv::Mat& figure, const cv::Mat& drawn, bool colored_ground);
 
+bool touchesBorder(const cv::Mat& figure);
+
 // Drops what lies along the border of the picture: the table, a finger, the next sheet.
 void dropBorderStrips(cv::Mat& figure);
 
