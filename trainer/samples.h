@@ -36,8 +36,8 @@ Characters pointersTo(const std::vector<LabelledCharacter>& characters);
 struct SampleOptions {
   bool mirror = true;  // add each character's mirror image
   // Add so many copies of each character with other proportions: x, y and radius each bent by up to `warp`.
-  int warps = 0;
-  double warp = 0.5;             // [0, 0.7]
+  int warps = 2;
+  double warp = 0.3;             // [0, 0.7]
   std::uint64_t seed = 1;        // of the bends
   bool balance_classes = false;  // let each class count the same in sum
 };

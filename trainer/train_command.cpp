@@ -96,6 +96,8 @@ std::string spell(const TrainOptions& options) {
   if (ours.patience != theirs.patience) add("--patience " + std::to_string(ours.patience));
   if (options.class_weights != preset.class_weights) add("--class-weights " + options.class_weights);
   if (options.no_mirror) add("--no-mirror");
+  if (ours.samples.warps != theirs.samples.warps) add("--warps " + std::to_string(ours.samples.warps));
+  if (ours.samples.warp != theirs.samples.warp) add("--warp " + trim(ours.samples.warp));
   if (options.candidates == CandidateMethod::kStrict) add("--candidates strict");
   if (options.candidates == CandidateMethod::kDiscs) add("--candidates discs");
   return text;

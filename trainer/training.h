@@ -16,8 +16,8 @@ struct TrainingOptions {
   TrainingMethod method = TrainingMethod::kRprop;
   OptimizerOptions optimizer;  // its seed is set by `seed`
   SampleOptions samples;
-  int epochs = 600;         // at most
-  int restarts = 8;         // trainings from different first weights; the best is kept
+  int epochs = 400;         // at most
+  int restarts = 4;         // trainings from different first weights; the best is kept
   double validation = 0.2;  // share of the characters held out to stop early; 0: none
   int patience = 100;       // epochs without a better loss on the held-out characters before a training stops
   int seed = 1;

@@ -2,7 +2,7 @@
 
 #include "tests/support/benchmark_samples.h"
 #include "tests/support/catch.h"
-#include "trainer/online_step.h"
+#include "trainer/online_pass.h"
 #include "trainer/training.h"
 
 using namespace skel;
@@ -120,9 +120,11 @@ TEST_CASE("samples that cannot be told apart do no harm") {
   }
 }
 
-TEST_CASE("an online step follows the gradient of its sample") {
+TEST_CASE("an online step follows the gradient of its sample, in any layers") {
+  const std::vector<int> sizes =
+      GENERATE(std::vector{3, 4, 4, 2}, std::vector{3, 2}, std::vector{3, 7, 5, 2});
   Rng rng(8);
-  Network<float> network({3, 4, 4, 2});
+  Network<float> network(sizes);
   randomize(network, rng);
   const Samples& all = benchmarkData().samples;
   const Samples one{all.inputs.topRows(1), all.targets.topRows(1), Eigen::VectorXf::Constant(1, 1.f)};
@@ -130,9 +132,7 @@ TEST_CASE("an online step follows the gradient of its sample") {
   const double loss =
       Backprop<float>(network.sizes).lossAndGradient(network, SampleBlocks<float>(one), gradient);
   const Eigen::VectorXf before = network.parameters;
-  OnlineStep step(network.sizes, 0.25f, 0, Eigen::VectorXf::Zero(before.size()));
-  const Eigen::VectorXf input = one.inputs.row(0), target = one.targets.row(0);
-  CHECK(step.step(network, input.data(), target.data(), 1) == Approx(loss).epsilon(1e-5));
+  CHECK(OnlinePass(sizes, one, {0.25f, 0, 0}).run(network, {0}) == Approx(loss).epsilon(1e-5));
   CHECK((network.parameters - (before - 0.25f * gradient)).norm() < 1e-6f);
 }
 

@@ -90,7 +90,7 @@ TEST_CASE("every way of training works from the command line") {
         "--folds 2 --method gradient --batch 0 --momentum 0.9 --learning-rate 5",
         "--folds 3 --method gradient --batch 16 --class-weights balanced",
         "--folds 3 --no-mirror --weight-decay 1e-5", "--layers 3-6-2 --leave-one-out",
-        "--folds 3 --validation 0 --warps 2 --warp 0.3", "--folds 0", "--folds 3 --draws 2 --drawn 4"}) {
+        "--folds 3 --validation 0 --warps 2 --warp 0.5", "--folds 0", "--folds 3 --draws 2 --drawn 4"}) {
     INFO(options);
     const ToolRun done =
         run(dir.path() + " -o " + dir.file("w.json") + " --epochs 60 --restarts 2 " + options);

@@ -77,6 +77,7 @@ TEST_CASE("mirror images, bent copies and class weights make the samples they sh
   all[0].labels = {JointClass::kHead, JointClass::kLeg, JointClass::kLeg};
   SampleOptions options;
   options.balance_classes = true;
+  options.warps = 0;
   const Samples samples = samplesOf(pointersTo(all), options);
   REQUIRE(samples.count() == 6);
   CHECK(samples.inputs.row(4) == Eigen::RowVector3f(0.75, 0.5, 0));
