@@ -117,6 +117,25 @@ void backward(const JointNet& net, InstructionSet set, const std::vector<float>&
   }
 }
 
+JointTarget jointTarget(const Figure& figure, const FramePlacement& placement, const NetJoints& joints) {
+  constexpr double kHiddenWeight = .6;  // of a covered joint
+  JointTarget target;
+  target.whole = figure.whole;
+  for (int j = 0; j < joints.count(); ++j) {
+    const int from = placement.mirrored ? joints.mirrored[j] : j;
+    target.joints.push_back({cellFromFrame(placement.frameFromGrid(figure.joints[from])),
+                             !figure.whole          ? 0
+                             : figure.visible[from] ? 1
+                                                    : kHiddenWeight});
+  }
+  // Mirrored, a side view still calls the limb at the left of the picture the right one.
+  if (placement.mirrored && figure.view == FigureView::kSide) {
+    for (const std::vector<int>& limb : joints.limbs)
+      for (const int j : limb) std::swap(target.joints[j], target.joints[joints.mirrored[j]]);
+  }
+  return target;
+}
+
 template <typename Scalar>
 double jointLoss(const std::vector<Scalar>& heatmaps, const JointTarget& target, double scale,
                  std::vector<Scalar>* gradient) {
@@ -127,7 +146,8 @@ double jointLoss(const std::vector<Scalar>& heatmaps, const JointTarget& target,
   };
   double loss = 0;
   std::array<Scalar, kSize * kSize> p;
-  for (int j = 0; j < kNetJoints; ++j) {
+  const int count = static_cast<int>(target.joints.size()), figure_channel = count;
+  for (int j = 0; j < count; ++j) {
     const JointTarget::Joint& joint = target.joints[j];
     if (joint.weight == 0) continue;
     Scalar highest = heatmaps[at(0, j)];
@@ -144,7 +164,7 @@ double jointLoss(const std::vector<Scalar>& heatmaps, const JointTarget& target,
     }
     // A joint outside the frame has no cell to point at.
     if (sum_x * sum_y < .5) continue;
-    const double weight = joint.weight / kNetJoints;
+    const double weight = joint.weight / count;
     for (int i = 0; i < kSize * kSize; ++i) {
       const double wanted = gx[i % kSize] * gy[i / kSize] / (sum_x * sum_y);
       if (wanted > 1e-9) loss -= weight * wanted * (heatmaps[at(i, j)] - highest - std::log(sum));
@@ -152,14 +172,14 @@ double jointLoss(const std::vector<Scalar>& heatmaps, const JointTarget& target,
     }
   }
   double logit = 0;
-  for (int i = 0; i < kSize * kSize; ++i) logit += heatmaps[at(i, kHumanChannel)];
+  for (int i = 0; i < kSize * kSize; ++i) logit += heatmaps[at(i, figure_channel)];
   logit /= kSize * kSize;
-  const double probability = 1 / (1 + std::exp(-logit)), wanted = target.human ? 1 : 0;
+  const double probability = 1 / (1 + std::exp(-logit)), wanted = target.whole ? 1 : 0;
   // log(1 + e^x) without overflow.
-  loss += kHumanWeight * (std::max(logit, 0.) + std::log1p(std::exp(-std::abs(logit))) - wanted * logit);
+  loss += kFigureWeight * (std::max(logit, 0.) + std::log1p(std::exp(-std::abs(logit))) - wanted * logit);
   if (gradient) {
-    const double g = scale * kHumanWeight * (probability - wanted) / (kSize * kSize);
-    for (int i = 0; i < kSize * kSize; ++i) (*gradient)[at(i, kHumanChannel)] += static_cast<Scalar>(g);
+    const double g = scale * kFigureWeight * (probability - wanted) / (kSize * kSize);
+    for (int i = 0; i < kSize * kSize; ++i) (*gradient)[at(i, figure_channel)] += static_cast<Scalar>(g);
   }
   return loss;
 }

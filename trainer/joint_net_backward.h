@@ -1,10 +1,11 @@
 // Derivatives of the joint net and of its loss.
 #pragma once
 
-#include <optional>
 #include <vector>
 
+#include "libskel/figures/figure.h"
 #include "libskel/jointnet/joint_net.h"
+#include "libskel/jointnet/net_joints.h"
 
 namespace skel {
 
@@ -29,15 +30,18 @@ struct JointTarget {
     Eigen::Vector2d cell;  // heatmap cells
     double weight;         // 0: does not count
   };
-  std::array<Joint, kNetJoints> joints;
-  bool human;
+  std::vector<Joint> joints;
+  bool whole;
 };
 
-inline constexpr double kTargetVariance = 0.8;  // cells², of the Gaussian around a joint
-inline constexpr double kHumanWeight = 0.3;     // of the figure's own loss against a joint's
+// Where the joints of a generated figure lie in the net's frame.
+JointTarget jointTarget(const Figure& figure, const FramePlacement& placement, const NetJoints& joints);
 
-// Cross-entropy of each heatmap's softmax against a Gaussian, averaged over the joints, plus that of "is a
-// whole human". Adds `scale` times its derivative to `gradient` (the last map, padded). Returns the loss.
+inline constexpr double kTargetVariance = 0.8;  // cells², of the Gaussian around a joint
+inline constexpr double kFigureWeight = 0.3;    // of the figure's own loss against a joint's
+
+// Cross-entropy of each heatmap's softmax against a Gaussian, averaged over the joints, plus that of "is one
+// whole figure". Adds `scale` times its derivative to `gradient` (the last map, padded). Returns the loss.
 template <typename Scalar>
 double jointLoss(const std::vector<Scalar>& heatmaps, const JointTarget& target, double scale,
                  std::vector<Scalar>* gradient);

@@ -10,11 +10,13 @@
 namespace skel {
 
 void bindFigureSheetOptions(CLI::App& command, FigureSheetOptions& options) {
+  command.add_option("--template", options.body_plan, "Body plan, by the name of its template")
+      ->capture_default_str();
   command.add_option("-o,--output", options.output, "Picture to write (PNG)")->capture_default_str();
   command.add_option("--seed", options.seed, "Of the random numbers")->capture_default_str();
   command.add_option("--columns", options.columns)->check(CLI::Range(1, 100))->capture_default_str();
   command.add_option("--rows", options.rows)->check(CLI::Range(1, 100))->capture_default_str();
-  command.add_option("--others", options.other_share, "Share of figures that are no whole human")
+  command.add_option("--others", options.other_share, "Share of figures that are not whole")
       ->check(CLI::Range(0., 1.))
       ->capture_default_str();
   command.add_flag("--plain", options.plain, "Without joints");
@@ -27,8 +29,10 @@ ExitCode runFigureSheet(const FigureSheetOptions& options) {
   sheet.rgba.col(1) = 32;
   sheet.rgba.col(2) = 32;
   sheet.rgba.col(3) = 255;
+  const std::vector<std::string> names = jointNames(figurePlan(options.body_plan));
   Rng rng(options.seed);
   FigureOptions figure_options;
+  figure_options.body_plan = options.body_plan;
   figure_options.other_share = options.other_share;
   for (int cell = 0; cell < options.columns * options.rows; ++cell) {
     const Figure figure = generateFigure(rng, figure_options);
@@ -40,8 +44,9 @@ ExitCode runFigureSheet(const FigureSheetOptions& options) {
         p[0] = p[1] = p[2] = static_cast<std::uint8_t>(210 - figure.lines(y, x) * 180 / 255);
       }
     }
-    if (options.plain || !figure.human) continue;
-    for (int j = 0; j < kNetJoints; ++j) {
+    if (options.plain || !figure.whole) continue;
+    for (std::size_t j = 0; j < figure.joints.size(); ++j) {
+      const bool of_left = names[j].starts_with("left_"), of_right = names[j].starts_with("right_");
       const int x = left + static_cast<int>(std::lround(figure.joints[j].x()));
       const int y = top + static_cast<int>(std::lround(figure.joints[j].y()));
       for (int dy = -2; dy <= 2; ++dy) {
@@ -51,9 +56,9 @@ ExitCode runFigureSheet(const FigureSheetOptions& options) {
             continue;
           }
           std::uint8_t* p = sheet.pixel(x + dx, y + dy);
-          p[0] = j >= 8 ? 255 : 0;
-          p[1] = j < 2 ? 200 : figure.visible[j] ? 0 : 150;
-          p[2] = j >= 2 && j < 8 ? 255 : 0;
+          p[0] = of_right ? 255 : 0;
+          p[1] = !of_left && !of_right ? 200 : figure.visible[j] ? 0 : 150;
+          p[2] = of_left ? 255 : 0;
         }
       }
     }

@@ -10,6 +10,7 @@
 namespace skel {
 
 struct FigureSheetOptions {
+  std::string body_plan = "biped";
   std::string output = "out/figures.png";
   std::uint64_t seed = 1;
   int columns = 16, rows = 9;

@@ -20,9 +20,8 @@ namespace {
 // Gradients of a batch are summed in so many lanes, image b in lane b modulo kLanes, then lane by lane: a
 // fixed order, so that the bytes of the result do not depend on the number of threads.
 constexpr int kLanes = 4;
-constexpr double kHiddenWeight = .6;  // of a covered joint
-constexpr double kGradientNorm = 1;   // longer ones are shortened
-constexpr double kWarmUp = .03;       // share of the steps
+constexpr double kGradientNorm = 1;  // longer ones are shortened
+constexpr double kWarmUp = .03;      // share of the steps
 constexpr int kValidationFigures = 1000;
 
 // Streams of random numbers of one seed. Figures and batches have a stream each by number.
@@ -33,12 +32,11 @@ enum Stream : std::uint64_t {
   kStepStream = 1ull << 40
 };
 
-std::vector<BodyKind> trainedKinds(const std::vector<int>& held_back, bool others) {
-  std::vector<BodyKind> kinds;
-  for (int k = 0; k < kBodyKinds; ++k) {
-    const bool held = std::find(held_back.begin(), held_back.end(), k) != held_back.end();
-    if (held == others) kinds.push_back(static_cast<BodyKind>(k));
-  }
+// The kinds that are held back, or all others.
+std::vector<int> kindsOf(const FigurePlan& plan, const std::vector<int>& held_back, bool held) {
+  std::vector<int> kinds;
+  for (int k = 0; k < static_cast<int>(plan.kinds.size()); ++k)
+    if ((std::find(held_back.begin(), held_back.end(), k) != held_back.end()) == held) kinds.push_back(k);
   return kinds;
 }
 
@@ -61,21 +59,6 @@ struct Sample {
   FramePlacement placement;
   Plane8 lines;  // as the net gets to see them
 };
-
-JointTarget targetOf(const Figure& figure, const FramePlacement& placement) {
-  JointTarget target;
-  target.human = figure.human;
-  for (int j = 0; j < kNetJoints; ++j) {
-    const int from = placement.mirrored ? kMirroredJoint[j] : j;
-    target.joints[j].cell = cellFromFrame(placement.frameFromGrid(figure.joints[from]));
-    target.joints[j].weight = !figure.human ? 0 : figure.visible[from] ? 1 : kHiddenWeight;
-  }
-  // Mirrored, a side view still calls the limb at the left of the picture the right one.
-  if (placement.mirrored && figure.view == FigureView::kSide) {
-    for (const int j : {2, 3, 4, 5, 6, 7}) std::swap(target.joints[j], target.joints[kMirroredJoint[j]]);
-  }
-  return target;
-}
 
 Sample augmented(Rng& rng, const Figure& figure, double no_lines_share) {
   Sample sample;
@@ -117,10 +100,12 @@ struct State {
 
 // Mean loss and the share of joints whose highest cell is within 10 % and 5 % of the figure's long side.
 struct Report {
-  double loss = 0, within_10 = 0, within_5 = 0, human_right = 0;
+  double loss = 0, within_10 = 0, within_5 = 0, whole_right = 0;
 };
 
-Report validate(const JointNet& net, InstructionSet set, const std::vector<Figure>& figures, int threads) {
+Report validate(const JointNet& net, const NetJoints& joints, InstructionSet set,
+                const std::vector<Figure>& figures, int threads) {
+  const int count = joints.count();
   std::vector<Report> reports(figures.size());
   parallelFor(figures.size(), threads, [&](std::size_t i) {
     thread_local JointNetMaps maps(net);
@@ -129,11 +114,11 @@ Report validate(const JointNet& net, InstructionSet set, const std::vector<Figur
     encodeJointNetInput(figure.mask, figure.lines, placement, maps.maps[0]);
     forward(net, set, maps);
     const std::vector<float>& heatmaps = maps.maps.back();
-    const JointTarget target = targetOf(figure, placement);
+    const JointTarget target = jointTarget(figure, placement, joints);
     Report& report = reports[i];
     report.loss = jointLoss<float>(heatmaps, target, 0, nullptr);
     double logit = 0;
-    std::array<int, kNetJoints> best{};
+    std::vector<int> best(count, 0);
     const auto at = [&](int cell, int c) {
       return heatmaps[static_cast<std::size_t>(
                           paddedIndex(kHeatmapSize, cell / kHeatmapSize, cell % kHeatmapSize)) *
@@ -141,13 +126,13 @@ Report validate(const JointNet& net, InstructionSet set, const std::vector<Figur
                       c];
     };
     for (int cell = 0; cell < kHeatmapSize * kHeatmapSize; ++cell) {
-      logit += at(cell, kHumanChannel);
-      for (int j = 0; j < kNetJoints; ++j) {
+      logit += at(cell, net.figureChannel());
+      for (int j = 0; j < count; ++j) {
         if (at(cell, j) > at(best[j], j)) best[j] = cell;
       }
     }
-    report.human_right = (logit > 0) == figure.human;
-    for (int j = 0; j < kNetJoints; ++j) {
+    report.whole_right = (logit > 0) == figure.whole;
+    for (int j = 0; j < count; ++j) {
       const Eigen::Vector2d cell(best[j] % kHeatmapSize, best[j] / kHeatmapSize);
       const double error =
           4 * (cell - target.joints[j].cell).norm() / std::max(figure.mask.rows(), figure.mask.cols());
@@ -156,16 +141,16 @@ Report validate(const JointNet& net, InstructionSet set, const std::vector<Figur
     }
   });
   Report mean;
-  int humans = 0;
+  int whole = 0;
   for (std::size_t i = 0; i < figures.size(); ++i) {
-    mean.human_right += reports[i].human_right / static_cast<double>(figures.size());
-    if (!figures[i].human) continue;
-    ++humans;
+    mean.whole_right += reports[i].whole_right / static_cast<double>(figures.size());
+    if (!figures[i].whole) continue;
+    ++whole;
     mean.loss += reports[i].loss;
-    mean.within_10 += reports[i].within_10 / kNetJoints;
-    mean.within_5 += reports[i].within_5 / kNetJoints;
+    mean.within_10 += reports[i].within_10 / count;
+    mean.within_5 += reports[i].within_5 / count;
   }
-  for (double* v : {&mean.loss, &mean.within_10, &mean.within_5}) *v /= std::max(1, humans);
+  for (double* v : {&mean.loss, &mean.within_10, &mean.within_5}) *v /= std::max(1, whole);
   return mean;
 }
 
@@ -182,7 +167,11 @@ std::vector<Figure> drawFigures(std::uint64_t seed, std::uint64_t first, int cou
 class Training {
  public:
   explicit Training(const JointTrainingOptions& options)
-      : options_(options), set_(bestInstructionSet()), net_(makeJointNet()) {
+      : options_(options),
+        set_(bestInstructionSet()),
+        plan_(figurePlan(options.body_plan)),
+        net_(makeJointNet(std::string(plan_.body_plan), jointNames(plan_))),
+        joints_(netJoints(net_.joints, loadTemplate(net_.body_plan))) {
     Rng rng(options.seed, kInitialStream);
     initialise(net_, rng);
     const std::size_t n = net_.parameters.size();
@@ -194,10 +183,15 @@ class Training {
       maps_.emplace_back(net_);
       gradients_.emplace_back(net_);
     }
-    if (!options.held_back.empty()) figure_options_.kinds = trainedKinds(options.held_back, false);
+    for (const int kind : options.held_back)
+      if (kind >= static_cast<int>(plan_.kinds.size()))
+        throw UsageError("--hold-back: there is no body kind " + std::to_string(kind) + "; the last is " +
+                         std::to_string(plan_.kinds.size() - 1));
+    figure_options_.body_plan = net_.body_plan;
+    if (!options.held_back.empty()) figure_options_.kinds = kindsOf(plan_, options.held_back, false);
     figure_options_.other_share = options.other_share;
     FigureOptions validation = figure_options_;
-    if (!options.held_back.empty()) validation.kinds = trainedKinds(options.held_back, true);
+    if (!options.held_back.empty()) validation.kinds = kindsOf(plan_, options.held_back, true);
     validation_ = drawFigures(options.seed ^ 0x5eed, kValidationStream, kValidationFigures, validation,
                               options.threads);
   }
@@ -262,7 +256,7 @@ class Training {
         encodeJointNetInput(figure.mask, sample.lines, sample.placement, maps.maps[0]);
         forward(net_, set_, maps);
         for (auto& map : gradient.maps) std::fill(map.begin(), map.end(), 0.f);
-        losses[lane] += jointLoss<float>(maps.maps.back(), targetOf(figure, sample.placement),
+        losses[lane] += jointLoss<float>(maps.maps.back(), jointTarget(figure, sample.placement, joints_),
                                          1. / options_.batch, &gradient.maps.back());
         backward(net_, set_, transposed, maps, gradient);
       }
@@ -311,15 +305,15 @@ class Training {
   void report(ProgressBar& bar, double loss) {
     JointNet net = net_;
     net.parameters = state_.average;
-    const Report r = validate(quantized(net), set_, validation_, options_.threads);
+    const Report r = validate(quantized(net), joints_, set_, validation_, options_.threads);
     std::ostringstream provenance;
     provenance << "skel-train joints: seed " << options_.seed << ", step " << state_.step << " of "
                << options_.steps << ", batch " << options_.batch << ", validation loss " << r.loss
                << ", within 10 % " << r.within_10;
     net.provenance = provenance.str();
     bar.clear();
-    std::printf("step %lld  loss %.4f  validation: loss %.4f  within 10 %% %.4f  5 %% %.4f  human %.4f\n",
-                static_cast<long long>(state_.step), loss, r.loss, r.within_10, r.within_5, r.human_right);
+    std::printf("step %lld  loss %.4f  validation: loss %.4f  within 10 %% %.4f  5 %% %.4f  whole %.4f\n",
+                static_cast<long long>(state_.step), loss, r.loss, r.within_10, r.within_5, r.whole_right);
     std::fflush(stdout);
     writeFile(options_.output, formatJointNet(net));
     if (!options_.checkpoint.empty()) writeFile(options_.checkpoint, state_.bytes());
@@ -327,7 +321,9 @@ class Training {
 
   JointTrainingOptions options_;
   InstructionSet set_;
+  const FigurePlan& plan_;
   JointNet net_;
+  NetJoints joints_;
   State state_;
   FigureOptions figure_options_;
   std::vector<Figure> validation_, figures_;
@@ -339,6 +335,8 @@ class Training {
 }  // namespace
 
 void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) {
+  command.add_option("--template", options.body_plan, "Body plan, by the name of its template")
+      ->capture_default_str();
   command.add_option("-o,--output", options.output, "Weights file to write")->capture_default_str();
   command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report");
   command.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
@@ -355,7 +353,7 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
   command.add_option("--passes", options.passes, "Passes over them")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  command.add_option("--others", options.other_share, "Share of figures that are no whole human")
+  command.add_option("--others", options.other_share, "Share of figures that are not whole")
       ->check(CLI::Range(0., .9))
       ->capture_default_str();
   command.add_option("--no-lines", options.no_lines_share, "Share of figures whose inner lines are withheld")
@@ -363,7 +361,7 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
       ->capture_default_str();
   command
       .add_option("--hold-back", options.held_back, "Body kinds to validate on instead of training on them")
-      ->check(CLI::Range(0, kBodyKinds - 1));
+      ->check(CLI::NonNegativeNumber);
   command.add_option("--threads", options.threads, "0: one a core")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();

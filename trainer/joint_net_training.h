@@ -10,6 +10,7 @@
 namespace skel {
 
 struct JointTrainingOptions {
+  std::string body_plan = "biped";
   std::string output = "weights/joint_net.bin";
   std::string checkpoint;  // "": none
   std::uint64_t seed = 1;
@@ -20,7 +21,7 @@ struct JointTrainingOptions {
   double averaging = .999;       // of the weights over steps
   int figures_per_round = 4096;  // drawn anew each round
   int passes = 3;                // over the figures of a round
-  double other_share = .16;      // of figures that are no whole human
+  double other_share = .16;      // of figures that are not whole
   double no_lines_share = .3;    // of figures whose inner lines are withheld
   std::vector<int> held_back;    // body kinds not trained on
   int threads = 0;               // 0: one a core. The result does not depend on it.

@@ -3,13 +3,13 @@
 
 #include "libskel/figures/biped_plan.h"
 #include "libskel/figures/scene.h"
-#include "libskel/jointnet/net_joints.h"
 
 namespace skel {
 
 struct PaintedBiped {
   Scene scene;
-  NetJointPositions joints;
+  // head, body, then of the left and the right side shoulder, elbow, hand, hip, knee, foot.
+  std::array<Eigen::Vector2d, 14> joints;
 };
 
 PaintedBiped paintBiped(Rng& rng, const BipedPlan& plan);

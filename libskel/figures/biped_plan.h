@@ -5,10 +5,9 @@
 #include <array>
 
 #include "libskel/core/rng.h"
+#include "libskel/figures/drawing.h"
 
 namespace skel {
-
-enum class FigureView { kFront, kThreeQuarter, kSide };
 
 // Families of proportions. A family can be held back from training to measure on it.
 enum class BodyKind {

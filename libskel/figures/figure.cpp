@@ -3,13 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 
-#include "libskel/figures/biped_painter.h"
-#include "libskel/figures/other_figures.h"
-#include "libskel/figures/scene.h"
+#include "libskel/figures/biped_plan.h"
 #include "libskel/jointnet/line_strength.h"
+#include "libskel/jointnet/net_joints.h"
 
 namespace skel {
 namespace {
@@ -22,13 +22,12 @@ constexpr int kMargin = 12;       // raster px around the scene, for what the fi
 
 using Bits = std::vector<std::uint8_t>;
 
-BodyKind sampleKind(Rng& rng, const std::vector<BodyKind>& kinds) {
+int sampleKind(Rng& rng, const std::vector<int>& kinds, const std::vector<double>& shares) {
   if (!kinds.empty()) return kinds[rng.below(static_cast<std::uint32_t>(kinds.size()))];
-  constexpr double kShare[kBodyKinds] = {.13, .13, .13, .15, .12, .05, .05, .10, .05, .06, .05};
   double r = rng.uniform();
   int i = 0;
-  while (i + 1 < kBodyKinds && r >= kShare[i]) r -= kShare[i++];
-  return static_cast<BodyKind>(i);
+  while (i + 1 < static_cast<int>(shares.size()) && r >= shares[i]) r -= shares[i++];
+  return i;
 }
 
 // A slight or sometimes strong turn, stretch and shear, and sometimes a soft bending of the plane.
@@ -186,28 +185,18 @@ double keepLargestPart(Bits& solid, int width, int height) {
   return static_cast<double>(size[best]) / all;
 }
 
-struct Drawing {
-  Scene scene;
-  bool human = true;
-  NetJointPositions joints;
-  FigureView view = FigureView::kFront;
-  BodyKind kind = BodyKind::kKid;
-};
-
-Drawing drawBiped(Rng& rng, const FigureOptions& options) {
-  const BodyKind kind = sampleKind(rng, options.kinds);
-  const BipedPlan plan = sampleBipedPlan(rng, kind);
-  PaintedBiped painted = paintBiped(rng, plan);
+Drawing drawFigure(Rng& rng, const FigurePlan& plan, const FigureOptions& options) {
+  Drawing drawing = plan.draw(rng, sampleKind(rng, options.kinds, plan.kinds));
   const auto warp = sampleWarp(rng);
-  painted.scene.transform(warp);
-  for (Vec& p : painted.joints) p = warp(p);
-  return {std::move(painted.scene), true, painted.joints, plan.view, kind};
+  drawing.scene.transform(warp);
+  for (Vec& p : drawing.joints) p = warp(p);
+  return drawing;
 }
 
-// Two figures that touch, or one with an animal or a thing as large as itself.
-Drawing drawPair(Rng& rng, const FigureOptions& options) {
-  Drawing a = drawBiped(rng, options);
-  Scene b = rng.chance(.6) ? drawBiped(rng, options).scene : paintOther(rng);
+// Two figures that touch, or one with another being or a thing as large as itself.
+Drawing drawPair(Rng& rng, const FigurePlan& plan, const FigureOptions& options) {
+  Drawing a = drawFigure(rng, plan, options);
+  Scene b = rng.chance(.6) ? drawFigure(rng, plan, options).scene : plan.drawOther(rng);
   const Scene::Box box_a = a.scene.box(), box_b = b.box();
   const double scale =
       (box_a.high - box_a.low).maxCoeff() / (box_b.high - box_b.low).maxCoeff() * rng.uniform(.7, 1.2);
@@ -223,7 +212,7 @@ Drawing drawPair(Rng& rng, const FigureOptions& options) {
   }
   b.transform([&](const Vec& p) { return Vec((p - box_b.low) * scale + shift); });
   a.scene.append(b);
-  a.human = false;
+  a.whole = false;
   return a;
 }
 
@@ -253,33 +242,39 @@ Window sampleWindow(Rng& rng, Cut cut, int width, int height) {
   return w;
 }
 
-void sortSides(Figure& figure) {
-  for (const int first : {2, 5}) {
+// By the template, made once.
+const NetJoints& jointsOf(const FigurePlan& plan) {
+  static const auto all = [] {
+    std::map<std::string_view, NetJoints> joints;
+    for (const FigurePlan& p : figurePlans())
+      joints.emplace(p.body_plan, netJoints(jointNames(p), loadTemplate(std::string(p.body_plan))));
+    return joints;
+  }();
+  return all.at(plan.body_plan);
+}
+
+void sortSides(Figure& figure, const NetJoints& joints) {
+  for (const std::vector<int>& limb : joints.limbs) {
     double x_left = 0, x_right = 0;
-    for (int k = 0; k < 3; ++k) {
-      x_left += figure.joints[first + k].x();
-      x_right += figure.joints[first + 6 + k].x();
+    for (const int k : limb) {
+      x_left += figure.joints[k].x();
+      x_right += figure.joints[joints.mirrored[k]].x();
     }
     if (x_right <= x_left) continue;
-    for (int k = first; k < first + 3; ++k) {
-      std::swap(figure.joints[k], figure.joints[kMirroredJoint[k]]);
-      std::swap(figure.visible[k], figure.visible[kMirroredJoint[k]]);
+    for (const int k : limb) {
+      const int other = joints.mirrored[k];
+      std::swap(figure.joints[k], figure.joints[other]);
+      std::vector<bool>::swap(figure.visible[k], figure.visible[other]);
     }
   }
 }
 
-PartOwner ownerOfJoint(int joint) {
-  if (joint == 0) return PartOwner::kHead;
-  if (joint == 1) return PartOwner::kTorso;
-  const bool left = joint < 8, arm = (joint - 2) % 6 < 3;
-  if (arm) return left ? PartOwner::kLeftArm : PartOwner::kRightArm;
-  return left ? PartOwner::kLeftLeg : PartOwner::kRightLeg;
-}
-
 // Whether hands and feet are still there, and not everything is hidden behind a hat or a shield.
-bool isReadable(const Figure& figure) {
-  constexpr int kLeastVisible = 6, kReach = 6;
-  for (const int j : {4, 7, 10, 13}) {
+bool isReadable(const Figure& figure, const FigurePlan& plan) {
+  constexpr double kLeastVisible = .42;
+  constexpr int kReach = 6;
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    if (!plan.joints[j].end) continue;
     const int x = static_cast<int>(std::lround(figure.joints[j].x())),
               y = static_cast<int>(std::lround(figure.joints[j].y()));
     const int x0 = std::max(0, x - kReach),
@@ -288,10 +283,11 @@ bool isReadable(const Figure& figure) {
               y1 = std::min<int>(static_cast<int>(figure.mask.rows()), y + kReach + 1);
     if (x0 >= x1 || y0 >= y1 || (figure.mask.block(y0, x0, y1 - y0, x1 - x0) == 0).all()) return false;
   }
-  return std::count(figure.visible.begin(), figure.visible.end(), true) >= kLeastVisible;
+  return static_cast<double>(std::count(figure.visible.begin(), figure.visible.end(), true)) >=
+         kLeastVisible * static_cast<double>(plan.joints.size());
 }
 
-std::optional<Figure> render(Rng& rng, const Drawing& drawing, Cut cut) {
+std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& drawing, Cut cut) {
   const Scene::Box box = drawing.scene.box();
   const Vec size = box.high - box.low;
   const double scale = kOversampling * kLongSide / size.maxCoeff();
@@ -326,7 +322,7 @@ std::optional<Figure> render(Rng& rng, const Drawing& drawing, Cut cut) {
     }
   }
   const double kept = keepLargestPart(solid, width, height);
-  if (kept < (drawing.human ? .85 : .5)) return std::nullopt;
+  if (kept < (drawing.whole ? .85 : .5)) return std::nullopt;
   if (rng.chance(.5)) fillHoles(solid, width, height);
 
   // The box of what is left, in raster px.
@@ -371,7 +367,7 @@ std::optional<Figure> render(Rng& rng, const Drawing& drawing, Cut cut) {
   if (keepLargestPart(grid, columns, rows) < .8) return std::nullopt;
 
   Figure figure;
-  figure.human = drawing.human && cut != Cut::kHeavy;
+  figure.whole = drawing.whole && cut != Cut::kHeavy;
   figure.view = drawing.view;
   figure.kind = drawing.kind;
   figure.mask.resize(rows, columns);
@@ -381,48 +377,51 @@ std::optional<Figure> render(Rng& rng, const Drawing& drawing, Cut cut) {
     for (float& c : colours.reshaped()) c += grain * static_cast<float>(rng.normal());
   }
   figure.lines = lineStrength(colours, figure.mask);
-  for (int j = 0; j < kNetJoints; ++j) {
+  figure.joints.resize(plan.joints.size());
+  figure.visible.resize(plan.joints.size());
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     const Vec p = (drawing.joints[j] - low) * scale;  // raster px, corner at 0
     const int x = std::clamp(static_cast<int>(p.x()), 0, width - 1),
               y = std::clamp(static_cast<int>(p.y()), 0, height - 1);
     // Inside a limb that is drawn as an outline there is nothing.
-    figure.visible[j] = !raster.solid(x, y) || raster.owner(x, y) == ownerOfJoint(j);
+    figure.visible[j] = !raster.solid(x, y) || raster.owner(x, y) == plan.joints[j].owner;
     figure.joints[j] = (p - Vec(x0, y0)) / step - Vec::Constant(.5);
   }
-  if (figure.human && !isReadable(figure)) return std::nullopt;
-  if (figure.view == FigureView::kSide) sortSides(figure);
+  if (figure.whole && !isReadable(figure, plan)) return std::nullopt;
+  if (figure.view == FigureView::kSide) sortSides(figure, jointsOf(plan));
   return figure;
 }
 
 }  // namespace
 
 Figure generateFigure(Rng& rng, const FigureOptions& options) {
+  const FigurePlan& plan = figurePlan(options.body_plan);
   while (true) {
     Drawing drawing;
     Cut cut = Cut::kNone;
     if (rng.chance(options.other_share)) {
       const double r = rng.uniform();
       if (r < .36) {
-        drawing.scene = paintOther(rng);
+        drawing.scene = plan.drawOther(rng);
         drawing.scene.transform(sampleWarp(rng));
-        drawing.joints.fill(Vec::Zero());
-        drawing.human = false;
+        drawing.joints.assign(plan.joints.size(), Vec::Zero());
+        drawing.whole = false;
       } else if (r < .6) {
-        drawing = drawBiped(rng, options);
+        drawing = drawFigure(rng, plan, options);
         cut = Cut::kHeavy;
       } else if (r < .85) {  // lying or upside down: to be told from upright, so that it can be turned
-        drawing = drawBiped(rng, options);
+        drawing = drawFigure(rng, plan, options);
         const double angle = rng.uniform(1.2, 2 * std::numbers::pi - 1.2);
         drawing.scene.transform([&](const Vec& p) { return rotated(p, angle); });
-        drawing.human = false;
+        drawing.whole = false;
       } else {
-        drawing = drawPair(rng, options);
+        drawing = drawPair(rng, plan, options);
       }
     } else {
-      drawing = drawBiped(rng, options);
+      drawing = drawFigure(rng, plan, options);
       if (rng.chance(.05)) cut = Cut::kSlight;
     }
-    if (std::optional<Figure> figure = render(rng, drawing, cut)) return *std::move(figure);
+    if (std::optional<Figure> figure = render(rng, plan, drawing, cut)) return *std::move(figure);
   }
 }
 

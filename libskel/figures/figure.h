@@ -3,30 +3,31 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+#include <string>
 #include <vector>
 
 #include "libskel/core/rng.h"
-#include "libskel/figures/biped_plan.h"
+#include "libskel/figures/drawing.h"
 #include "libskel/image/image.h"
-#include "libskel/jointnet/net_joints.h"
 
 namespace skel {
 
 struct Figure {
   Plane8 mask;        // 255 on the figure; one 4-connected part whose box is the plane; the long side is 128
   Plane8 lines;       // strength of inner lines, 0 outside the mask (see jointnet/line_strength.h)
-  bool human = true;  // a whole biped; if not, the joints mean nothing
-  NetJointPositions joints;              // px of the mask, the origin at the first px's centre
-  std::array<bool, kNetJoints> visible;  // not covered by another part
+  bool whole = true;  // one whole upright figure of its body plan; if not, the joints mean nothing
+  std::vector<Eigen::Vector2d>
+      joints;                 // as FigurePlan::joints; px of the mask, the origin at the first px's centre
+  std::vector<bool> visible;  // of each joint: not covered by another part
   FigureView view = FigureView::kFront;
-  BodyKind kind = BodyKind::kKid;
+  int kind = 0;
 };
 
 struct FigureOptions {
-  std::vector<BodyKind> kinds;  // empty: all, as often as is useful for training
-  double other_share = 0;       // share of figures that are no whole human: animals, things, pairs, cut-offs,
-                                // humans that lie or stand on their heads
+  std::string body_plan = "biped";  // one of figurePlans()
+  std::vector<int> kinds;           // empty: all, as often as is useful for training
+  double other_share = 0;  // share of figures that are not whole: other beings, things, pairs, cut-offs, and
+                           // some that lie or stand on their heads
 };
 
 // The same figure for the same state of rng and the same build. In a side view the limb at the left of the

@@ -81,7 +81,8 @@ ConvShape convShape(const JointNet& net, const JointNetLayer& layer) {
   return {in.height, in.width, in.channels, layer.channels, layer.kernel};
 }
 
-JointNet makeJointNet() {
+JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints) {
+  SKEL_CHECK(!joints.empty() && joints.size() <= kMaxNetJoints);
   Builder b;
   const int a0 = b.convolution(0, 16, 3, true);
   const int a1 = b.convolution(b.pool(a0), 32, 3, true);
@@ -97,7 +98,10 @@ JointNet makeJointNet() {
   const int a9 = b.convolution(u2, 32, 3, true, u2);
   const int a10 = b.convolution(a9, 32, 3, true, a9);
   b.convolution(a10, kHeatmapChannels, 1, false);
-  return b.take();
+  JointNet net = b.take();
+  net.body_plan = std::move(body_plan);
+  net.joints = std::move(joints);
+  return net;
 }
 
 JointNetMaps::JointNetMaps(const JointNet& net) {

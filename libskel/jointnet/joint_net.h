@@ -5,13 +5,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "libskel/image/image.h"
 #include "libskel/jointnet/conv_kernels.h"
-#include "libskel/jointnet/net_joints.h"
 
 namespace skel {
 
@@ -21,8 +21,8 @@ inline constexpr int kFrameSize = 144;
 inline constexpr int kNetInputSize = kFrameSize / 2;
 inline constexpr int kNetInputChannels = 8;
 inline constexpr int kHeatmapSize = kFrameSize / 4;
-inline constexpr int kHeatmapChannels = 16;  // kNetJoints heatmaps, then the following
-inline constexpr int kHumanChannel = 14;     // its mean is the log-odds of a whole human figure
+inline constexpr int kHeatmapChannels = 16;  // one a joint, one for the figure, the others are idle
+inline constexpr int kMaxNetJoints = kHeatmapChannels - 1;
 
 struct JointNetLayer {
   enum class Kind {
@@ -47,16 +47,21 @@ struct MapShape {
 };
 
 struct JointNet {
+  std::string body_plan;            // name of the template that it was trained for
+  std::vector<std::string> joints;  // of the heatmaps, at most kMaxNetJoints
   std::vector<JointNetLayer> layers;
   std::vector<MapShape> maps;     // the input, then the output of each layer
   std::vector<float> parameters;  // weights of a layer (see weightIndex), then its biases
   std::string provenance;         // how the weights came to be, for people
+
+  // The channel after the joints': its mean is the log-odds of one whole upright figure of the body plan.
+  int figureChannel() const { return static_cast<int>(joints.size()); }
 };
 
 ConvShape convShape(const JointNet& net, const JointNetLayer& layer);
 
-// The architecture with all parameters zero.
-JointNet makeJointNet();
+// The architecture with all parameters zero, for at most kMaxNetJoints joints.
+JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints);
 
 // The maps of one pass, padded as the kernels want them.
 struct JointNetMaps {
@@ -93,16 +98,18 @@ inline Eigen::Vector2d frameFromCell(const Eigen::Vector2d& p) { return (p.array
 void encodeJointNetInput(const Plane8& mask, const Plane8& lines, const FramePlacement& placement,
                          std::vector<float>& input);
 
-// A weights file: one line of JSON (format, version, provenance, layers, the SHA-256 of what follows), then
-// for each convolution `outputs` scales (float32, little endian), `outputs` biases (float32) and the weights
-// as int8, in the order of JointNet::parameters; weight = int8 · scale of its output.
-// Throws InputError.
+// A weights file: one line of JSON (format, version, provenance, body plan, joints, layers, the SHA-256 of
+// what follows), then for each convolution `outputs` scales (float32, little endian), `outputs` biases
+// (float32) and the weights as int8, in the order of JointNet::parameters; weight = int8 · scale of its
+// output. Version 1 names no body plan: it was the biped. Throws InputError.
 JointNet parseJointNet(std::string_view bytes, const std::string& file);
 std::string formatJointNet(const JointNet& net);
 // The net with its weights rounded as a weights file rounds them.
 JointNet quantized(const JointNet& net);
 
-// The one compiled in.
-const JointNet& builtInJointNet();
+// The names of the body plans that there is a net compiled in for.
+std::span<const std::string_view> builtInJointNets();
+// The net of one of them.
+const JointNet& builtInJointNet(std::string_view body_plan);
 
 }  // namespace skel

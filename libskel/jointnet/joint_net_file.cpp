@@ -18,7 +18,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "weights files are read and written as they lie");
 
 constexpr std::string_view kFormat = "skel-joint-net";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 // [inputs, outputs, kernel] of each convolution: what the bytes are laid out by.
 std::vector<std::array<int, 3>> convolutions(const JointNet& net) {
@@ -53,6 +53,19 @@ std::int8_t rounded(float weight, float scale) {
   return static_cast<std::int8_t>(std::clamp(std::lround(weight / scale), -127l, 127l));
 }
 
+std::vector<std::string> jointsAt(const JsonValue& list) {
+  std::vector<std::string> joints;
+  for (const JsonValue& item : list.items()) {
+    joints.push_back(item.asString());
+    if (std::count(joints.begin(), joints.end(), joints.back()) > 1)
+      item.fail("is the second joint named \"" + joints.back() + "\"");
+  }
+  if (joints.empty() || joints.size() > kMaxNetJoints)
+    list.fail("has " + std::to_string(joints.size()) + " joints, must have 1 to " +
+              std::to_string(kMaxNetJoints));
+  return joints;
+}
+
 }  // namespace
 
 JointNet quantized(const JointNet& net) {
@@ -83,12 +96,10 @@ std::string formatJointNet(const JointNet& net) {
       append(&w, 1);
     }
   }
-  const nlohmann::ordered_json header = {{"format", kFormat},
-                                         {"version", kVersion},
-                                         {"provenance", net.provenance},
-                                         {"joints", kNetJointNames},
-                                         {"convolutions", convolutions(net)},
-                                         {"sha256", sha256(payload)}};
+  const nlohmann::ordered_json header = {
+      {"format", kFormat},          {"version", kVersion},  {"provenance", net.provenance},
+      {"body_plan", net.body_plan}, {"joints", net.joints}, {"convolutions", convolutions(net)},
+      {"sha256", sha256(payload)}};
   return header.dump() + "\n" + payload;
 }
 
@@ -97,18 +108,18 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file) {
   if (end == std::string_view::npos) throw InputError(file, "not a joint net: it has no header line");
   const JsonDocument document = JsonDocument::parse(bytes.substr(0, end), file);
   const JsonValue root = document.root();
-  root.checkFormat(kFormat, kVersion);
-  root.allowOnly({"format", "version", "provenance", "joints", "convolutions", "sha256"});
+  const bool names_plan = root.checkFormat(kFormat, kVersion) > 1;
+  if (names_plan)
+    root.allowOnly({"format", "version", "provenance", "body_plan", "joints", "convolutions", "sha256"});
+  else
+    root.allowOnly({"format", "version", "provenance", "joints", "convolutions", "sha256"});
 
-  JointNet net = makeJointNet();
+  JointNet net =
+      makeJointNet(names_plan ? root.at("body_plan").asString() : "biped", jointsAt(root.at("joints")));
   net.provenance = root.at("provenance").asString();
-  const std::vector<JsonValue> joints = root.at("joints").items();
-  bool same = joints.size() == kNetJointNames.size();
-  for (std::size_t i = 0; same && i < joints.size(); ++i) same = joints[i].asString() == kNetJointNames[i];
-  if (!same) root.at("joints").fail("not the joints that this program finds");
   const auto expected = convolutions(net);
   const std::vector<JsonValue> given = root.at("convolutions").items();
-  same = given.size() == expected.size();
+  bool same = given.size() == expected.size();
   for (std::size_t i = 0; same && i < given.size(); ++i) {
     const std::vector<double> sizes = given[i].asNumbers(3);
     same = std::equal(sizes.begin(), sizes.end(), expected[i].begin());
@@ -151,9 +162,15 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file) {
   return net;
 }
 
-const JointNet& builtInJointNet() {
-  static const JointNet net = parseJointNet(embedded::joint_net_weights, "built-in joint net");
-  return net;
+std::span<const std::string_view> builtInJointNets() {
+  static constexpr std::string_view kNames[] = {"biped"};
+  return kNames;
+}
+
+const JointNet& builtInJointNet(std::string_view body_plan) {
+  SKEL_CHECK(body_plan == "biped");
+  static const JointNet biped = parseJointNet(embedded::joint_net_weights, "built-in joint net");
+  return biped;
 }
 
 }  // namespace skel

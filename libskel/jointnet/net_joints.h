@@ -1,19 +1,32 @@
-// The joints that the net finds, in the order of its outputs.
+// The joints that a net finds, in the order of its heatmaps, and how a body plan ties them together.
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
-#include <string_view>
+#include <string>
+#include <vector>
+
+#include "libskel/jointnet/joint_net.h"
+#include "libskel/skeleton/template.h"
 
 namespace skel {
 
-inline constexpr int kNetJoints = 14;
-inline constexpr std::array<std::string_view, kNetJoints> kNetJointNames = {
-    "head",      "body",           "left_shoulder", "left_elbow", "left_hand", "left_hip",   "left_knee",
-    "left_foot", "right_shoulder", "right_elbow",   "right_hand", "right_hip", "right_knee", "right_foot"};
-// The same joint of the other side.
-inline constexpr std::array<int, kNetJoints> kMirroredJoint = {0, 1, 8, 9, 10, 11, 12, 13, 2, 3, 4, 5, 6, 7};
+struct NetJoints {
+  std::vector<std::string> names;
+  std::vector<int> mirrored;  // the same joint of the other side; itself if it lies in the middle
+  // The joint next on the template's way to its body joint, over joints that are derived; -1 for the body.
+  std::vector<int> parent;
+  std::vector<int> order;  // all joints, parents before children
+  // Of each pair of limbs, the joints of the one further right in the template's preset (the left one).
+  std::vector<std::vector<int>> limbs;
 
-using NetJointPositions = std::array<Eigen::Vector2d, kNetJoints>;
+  int count() const { return static_cast<int>(names.size()); }
+};
+
+// Throws UsageError if `body_plan` lacks one of the joints, or derives it from others, or if its body or a
+// joint's counterpart is not among them.
+NetJoints netJoints(const std::vector<std::string>& names, const SkeletonTemplate& body_plan);
+
+// The built-in net that knows a template of this name, or else one that finds joints which the template has;
+// null if there is none.
+const JointNet* builtInJointNetFor(const SkeletonTemplate& body_plan);
 
 }  // namespace skel

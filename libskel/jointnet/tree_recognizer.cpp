@@ -23,20 +23,16 @@ constexpr float kLeastShare = 1e-4f;          // of the highest probability: wha
 constexpr double kOutsidePenalty = 4;         // nats for a bone that lies wholly outside the figure
 constexpr double kBoneSample = 2;             // grid px between samples along a bone
 constexpr double kNear = .1 * kLongSide / 4;  // cells: what counts as found
-// How doubtful the net is about an orientation: mean entropy of the heatmaps (nats) less kHumanShare times
-// the log-odds of a whole upright human. Of generated figures 9 % of the upright and 97 % of those on their
+// How doubtful the net is about an orientation: mean entropy of the heatmaps (nats) less kFigureShare times
+// the log-odds of a whole upright figure. Of generated figures 9 % of the upright and 97 % of those on their
 // side or head exceed kDoubtful; only then other orientations are tried. They must gain kUprightMargin.
-constexpr double kHumanShare = .25, kLargestLogit = 4;
+constexpr double kFigureShare = .25, kLargestLogit = 4;
 constexpr double kDoubtful = 3.2;
 constexpr double kUprightMargin = .2;
 constexpr int kOrientations = 8;
 
-// Parents come before children; the body is the root.
-constexpr std::array<int, kNetJoints> kParent = {1, -1, 1, 2, 3, 1, 5, 6, 1, 8, 9, 1, 11, 12};
-constexpr std::array<int, kNetJoints> kOrder = {1, 0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
-
 // The figure's confidence: a logistic regression on generated figures and others over the net's log-odds of a
-// human and the joints' mean confidence, its constant set so that four of five generated humans exceed 0.5.
+// whole figure and the joints' mean confidence, its constant set so that four of five whole ones exceed 0.5.
 constexpr double kFigureLogit = .97, kFigureJoints = 1.9, kFigureConstant = -4.35;
 // Off the log-odds of a figure that was turned: drawings seldom lie or stand on their heads, and of eight
 // views of an animal one may look human.
@@ -45,15 +41,17 @@ constexpr double kTurnedOdds = 1.5;
 using Heatmap = std::array<float, kCells>;
 
 struct Heatmaps {
-  std::array<Heatmap, kNetJoints> joints;  // probabilities, each sums to 1
-  double human_logit = 0;
+  std::vector<Heatmap> joints;  // probabilities, each sums to 1
+  double figure_logit = 0;
   double entropy = 0;
 };
 
 // Logits averaged over one or two passes, then softmax.
-Heatmaps evaluateNet(const Plane8& mask, const Plane8& lines, const JointNet& net, InstructionSet set,
-                     bool mirror) {
-  Heatmaps out{};
+Heatmaps evaluateNet(const Plane8& mask, const Plane8& lines, const JointNet& net, const NetJoints& joints,
+                     InstructionSet set, bool mirror) {
+  const int count = joints.count(), figure_channel = net.figureChannel();
+  Heatmaps out;
+  out.joints.assign(static_cast<std::size_t>(count), Heatmap{});
   JointNetMaps maps(net);
   const int passes = mirror ? 2 : 1;
   for (int pass = 0; pass < passes; ++pass) {
@@ -65,9 +63,9 @@ Heatmaps evaluateNet(const Plane8& mask, const Plane8& lines, const JointNet& ne
       for (int x = 0; x < kHeatmapSize; ++x) {
         const float* a = map + static_cast<std::size_t>(paddedIndex(kHeatmapSize, y, x)) * kHeatmapChannels;
         const int cell = y * kHeatmapSize + (mirrored ? kHeatmapSize - 1 - x : x);
-        for (int j = 0; j < kNetJoints; ++j)
-          out.joints[mirrored ? kMirroredJoint[j] : j][cell] += a[j] / static_cast<float>(passes);
-        out.human_logit += a[kHumanChannel] / (static_cast<double>(kCells) * passes);
+        for (int j = 0; j < count; ++j)
+          out.joints[mirrored ? joints.mirrored[j] : j][cell] += a[j] / static_cast<float>(passes);
+        out.figure_logit += a[figure_channel] / (static_cast<double>(kCells) * passes);
       }
     }
   }
@@ -81,13 +79,13 @@ Heatmaps evaluateNet(const Plane8& mask, const Plane8& lines, const JointNet& ne
       mean += static_cast<double>(l) * v;
     }
     for (float& v : map) v /= static_cast<float>(sum);
-    out.entropy += (std::log(sum) - mean / sum) / kNetJoints;
+    out.entropy += (std::log(sum) - mean / sum) / count;
   }
   return out;
 }
 
 double doubt(const Heatmaps& maps) {
-  return maps.entropy - kHumanShare * std::clamp(maps.human_logit, -kLargestLogit, kLargestLogit);
+  return maps.entropy - kFigureShare * std::clamp(maps.figure_logit, -kLargestLogit, kLargestLogit);
 }
 
 // The figure turned by `angle` about its middle and scaled so that it fits the grid again.
@@ -152,15 +150,17 @@ double shareOutside(const Plane8& mask, const Vec& a, const Vec& b) {
 
 struct Candidate {
   int cell;
-  Vec position;                       // grid px
-  double score;                       // log probability, later with the best of the joints below it
-  std::array<int, kNetJoints> below;  // of each child joint, the candidate that is best with this one
+  Vec position;                          // grid px
+  double score;                          // log probability, later with the best of the joints below it
+  std::array<int, kMaxNetJoints> below;  // of each child joint, the candidate that is best with this one
 };
 
 // The cell of each joint in the tree of highest total score. frame px = grid px + offset.
-std::array<int, kNetJoints> searchTree(const Plane8& mask, const Vec& offset, const Heatmaps& maps) {
-  std::array<std::vector<Candidate>, kNetJoints> candidates;
-  for (int j = 0; j < kNetJoints; ++j) {
+std::vector<int> searchTree(const Plane8& mask, const Vec& offset, const Heatmaps& maps,
+                            const NetJoints& joints) {
+  const int count = joints.count();
+  std::vector<std::vector<Candidate>> candidates(count);
+  for (int j = 0; j < count; ++j) {
     const Heatmap& map = maps.joints[j];
     const float least = *std::max_element(map.begin(), map.end()) * kLeastShare;
     std::vector<Candidate>& list = candidates[j];
@@ -177,12 +177,12 @@ std::array<int, kNetJoints> searchTree(const Plane8& mask, const Vec& offset, co
       c.position = frameFromCell(Vec(c.cell % kHeatmapSize, c.cell / kHeatmapSize)) - offset;
     }
   }
-  for (int i = kNetJoints - 1; i > 0; --i) {
-    const int j = kOrder[i];
+  for (int i = count - 1; i > 0; --i) {
+    const int j = joints.order[i];
     std::vector<Candidate>& list = candidates[j];
     std::stable_sort(list.begin(), list.end(),
                      [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-    for (Candidate& parent : candidates[kParent[j]]) {
+    for (Candidate& parent : candidates[joints.parent[j]]) {
       double best = -std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < list.size(); ++k) {
         // They come by falling score: no later one can win, even without any penalty.
@@ -194,15 +194,15 @@ std::array<int, kNetJoints> searchTree(const Plane8& mask, const Vec& offset, co
       parent.score += best;
     }
   }
-  std::array<const Candidate*, kNetJoints> chosen;
-  std::array<int, kNetJoints> cells;
-  for (const int j : kOrder) {
+  std::vector<const Candidate*> chosen(count);
+  std::vector<int> cells(count);
+  for (const int j : joints.order) {
     const std::vector<Candidate>& list = candidates[j];
-    if (kParent[j] < 0) {
+    if (joints.parent[j] < 0) {
       chosen[j] = &*std::max_element(
           list.begin(), list.end(), [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
     } else {
-      chosen[j] = &list[chosen[kParent[j]]->below[j]];
+      chosen[j] = &list[chosen[joints.parent[j]]->below[j]];
     }
     cells[j] = chosen[j]->cell;
   }
@@ -257,40 +257,44 @@ Vec insideFigure(const Plane8& mask, const Vec& p) {
 }  // namespace
 
 TreeRecognition recognizeByJointNet(const Plane8& mask, const Plane8& lines, const JointNet& net,
-                                    const TreeRecognizerOptions& options) {
+                                    const NetJoints& joints, const TreeRecognizerOptions& options) {
   SKEL_CHECK((mask != 0).any());
+  SKEL_CHECK_EQ(joints.names.size(), net.joints.size());
+  const auto evaluate = [&](const Turned& figure, bool mirror) {
+    return evaluateNet(figure.mask, figure.lines, net, joints, options.instructions, mirror);
+  };
   Turned figure{mask, lines, Eigen::Matrix2d::Identity(), Vec::Zero()};
-  Heatmaps maps = evaluateNet(mask, lines, net, options.instructions, options.mirror);
+  Heatmaps maps = evaluate(figure, options.mirror);
   TreeRecognition result;
   if (options.try_orientations && doubt(maps) > kDoubtful) {
     double least = doubt(maps) - kUprightMargin;
     for (int k = 1; k < kOrientations; ++k) {
       const double angle = 2 * std::numbers::pi * k / kOrientations;
       Turned turned = turnedBy(mask, lines, -angle);
-      const double d = doubt(evaluateNet(turned.mask, turned.lines, net, options.instructions, false));
+      const double d = doubt(evaluate(turned, false));
       if (d >= least) continue;
       least = d;
       result.turned = angle;
       figure = std::move(turned);
     }
-    if (result.turned != 0)
-      maps = evaluateNet(figure.mask, figure.lines, net, options.instructions, options.mirror);
+    if (result.turned != 0) maps = evaluate(figure, options.mirror);
   }
   // Of the two passes' placements the mean.
   const FramePlacement one = FramePlacement::centred(figure.mask);
   const FramePlacement other = FramePlacement::centred(figure.mask, options.mirror);
   const Vec offset((one.offset_x + other.offset_x) / 2., one.offset_y);
-  const std::array<int, kNetJoints> cells = searchTree(figure.mask, offset, maps);
+  const std::vector<int> cells = searchTree(figure.mask, offset, maps, joints);
+  result.joints.resize(cells.size());
   double mean_confidence = 0;
-  for (int j = 0; j < kNetJoints; ++j) {
+  for (int j = 0; j < joints.count(); ++j) {
     const Vec cell = refined(maps.joints[j], cells[j]);
     const Vec at = insideFigure(figure.mask, frameFromCell(cell) - offset);
     result.joints[j].position = insideFigure(mask, figure.original(at));
     result.joints[j].confidence = massAround(maps.joints[j], cell);
-    mean_confidence += result.joints[j].confidence / kNetJoints;
+    mean_confidence += result.joints[j].confidence / joints.count();
   }
   result.entropy = maps.entropy;
-  const double logit = kFigureLogit * maps.human_logit + kFigureJoints * mean_confidence + kFigureConstant -
+  const double logit = kFigureLogit * maps.figure_logit + kFigureJoints * mean_confidence + kFigureConstant -
                        (result.turned != 0 ? kTurnedOdds : 0);
   result.figure_confidence = 1 / (1 + std::exp(-logit));
   return result;

@@ -1,9 +1,10 @@
 // From a silhouette to its joints: the net's heatmaps, then the best tree of joints in them.
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "libskel/jointnet/joint_net.h"
+#include "libskel/jointnet/net_joints.h"
 
 namespace skel {
 
@@ -13,8 +14,8 @@ struct TreeJoint {
 };
 
 struct TreeRecognition {
-  std::array<TreeJoint, kNetJoints> joints;  // in the order of kNetJointNames
-  double figure_confidence = 0;              // [0, 1]: below 0.5 it is hardly a whole biped
+  std::vector<TreeJoint> joints;  // as NetJoints
+  double figure_confidence = 0;   // [0, 1]: below 0.5 it is hardly one whole figure of the body plan
   double turned = 0;   // radians: how far (from +x towards +y) the figure is turned against upright
   double entropy = 0;  // nats, mean over the heatmaps
 };
@@ -26,8 +27,8 @@ struct TreeRecognizerOptions {
 };
 
 // `mask` is the working grid (not 0 on the figure, at least one such px, long side at most 128 px), `lines`
-// its inner lines (line_strength.h) or none.
+// its inner lines (line_strength.h) or none. `joints`: netJoints(net.joints, ...).
 TreeRecognition recognizeByJointNet(const Plane8& mask, const Plane8& lines, const JointNet& net,
-                                    const TreeRecognizerOptions& options = {});
+                                    const NetJoints& joints, const TreeRecognizerOptions& options = {});
 
 }  // namespace skel

@@ -6,6 +6,8 @@
 #include "libskel/animation/retarget.h"
 #include "libskel/classifier/features.h"
 #include "libskel/core/check.h"
+#include "libskel/core/error.h"
+#include "libskel/jointnet/net_joints.h"
 #include "libskel/mesh/front_view.h"
 #include "libskel/recognition/paper_recognizer.h"
 #include "libskel/recognition/tree_recognition.h"
@@ -36,6 +38,14 @@ class Stopwatch {
 // here.
 void roundToFile(Skeleton& skeleton) {
   for (Joint& joint : skeleton.joints) joint.image = (joint.image * 100).array().round() / 100;
+}
+
+const JointNet& jointNetOf(const RigOptions& options) {
+  const JointNet* net = options.joint_net ? options.joint_net.get() : builtInJointNetFor(options.body_plan);
+  if (!net)
+    throw UsageError("no net is built in that knows the joints of the template \"" + options.body_plan.name +
+                     "\"; name one by --joint-net, or use --recognizer paper");
+  return *net;
 }
 
 Image picture(const Plane8& mask) {
@@ -79,7 +89,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     if (!input.skeleton)
       return options.recognizer == Recognizer::kPaper
                  ? recognizeByRules(silhouette, drawing.candidates, drawing.classes, options.body_plan)
-                 : recognizeByTree(drawing.image, silhouette, options.body_plan, builtInJointNet());
+                 : recognizeByTree(drawing.image, silhouette, options.body_plan, jointNetOf(options));
     Recognition given;
     given.skeleton = *input.skeleton;
     return given;

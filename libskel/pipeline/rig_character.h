@@ -1,6 +1,7 @@
 // The whole way from a drawing to a rigged character. All tools and tests go through rigCharacter().
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "libskel/export/rest_pose.h"
 #include "libskel/export/write_character.h"
 #include "libskel/image/image.h"
+#include "libskel/jointnet/joint_net.h"
 #include "libskel/mesh/inflate.h"
 #include "libskel/recognition/recognition.h"
 #include "libskel/silhouette/silhouette.h"
@@ -39,6 +41,7 @@ struct RigOptions {
   Mlp mlp;  // tells the classes of candidates apart
   SkeletonTemplate body_plan;
   Recognizer recognizer = Recognizer::kTree;
+  std::shared_ptr<const JointNet> joint_net;  // null: the built-in one that knows the body plan
   InflateOptions inflate;
   SkinMethod skin_method = SkinMethod::kGeodesic;
   SkinOptions skin;
@@ -66,7 +69,8 @@ struct RiggedDrawing {
   bool found() const { return silhouette.found(); }
 };
 
-// Stages 2 to 8. Where there is no figure, `found()` is false and silhouette.reason says why.
+// Stages 2 to 8. Where there is no figure, `found()` is false and silhouette.reason says why. Throws
+// UsageError if no net knows the body plan.
 RiggedDrawing rigCharacter(RigInput input, const RigOptions& options);
 
 }  // namespace skel

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "libskel/core/check.h"
-#include "libskel/core/error.h"
 #include "libskel/jointnet/line_strength.h"
 #include "libskel/jointnet/tree_recognizer.h"
 #include "libskel/recognition/complete_skeleton.h"
@@ -31,19 +30,17 @@ constexpr double kCutConfidence = 0.4;  // the most that such a figure can have
 Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
                             const SkeletonTemplate& body_plan, const JointNet& net) {
   SKEL_CHECK(silhouette.found());
+  const NetJoints joints = netJoints(net.joints, body_plan);
   const WorkingGrid& grid = silhouette.grid;
   const Plane8 lines = lineStrength(gridColours(image, grid.corner_px, grid.scale, grid.width, grid.height),
                                     silhouette.grid_mask);
-  const TreeRecognition tree = recognizeByJointNet(silhouette.grid_mask, lines, net);
+  const TreeRecognition tree = recognizeByJointNet(silhouette.grid_mask, lines, net, joints);
 
   Recognition recognition;
   recognition.skeleton = presetSkeleton(body_plan, {0, 0}, {1, 1});
   std::vector<bool> placed(body_plan.joints.size(), false);
-  for (size_t j = 0; j < kNetJoints; ++j) {
-    const int index = body_plan.find(kNetJointNames[j]);
-    if (index < 0)
-      throw UsageError("the net knows no template like \"" + body_plan.name +
-                       "\"; use --recognizer paper for it");
+  for (size_t j = 0; j < joints.names.size(); ++j) {
+    const int index = recognition.skeleton.index(joints.names[j]);
     Joint& joint = recognition.skeleton.joints[static_cast<size_t>(index)];
     joint.image = grid.imageFromGrid(tree.joints[j].position);
     joint.confidence = tree.joints[j].confidence;

@@ -14,7 +14,7 @@ namespace skel {
 inline constexpr double kFoundConfidence = 0.3;
 
 // `silhouette` must be found and belong to `image`, whose inner lines show limbs before the body. `body_plan`
-// must have the joints that the net knows (net_joints.h); throws UsageError otherwise.
+// must have the joints that the net knows; throws UsageError otherwise.
 Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
                             const SkeletonTemplate& body_plan, const JointNet& net);
 

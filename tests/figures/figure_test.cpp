@@ -7,7 +7,7 @@
 namespace skel {
 namespace {
 
-constexpr int kFigures = 300;
+constexpr int kFigures = 300, kJoints = 14;
 
 bool sameFigure(const Figure& a, const Figure& b) {
   return a.mask.rows() == b.mask.rows() && a.mask.cols() == b.mask.cols() && (a.mask == b.mask).all() &&
@@ -59,8 +59,8 @@ TEST_CASE("Joints lie at the figure, hands and feet in it") {
   int inside = 0, visible = 0;
   for (int i = 0; i < kFigures; ++i) {
     const Figure f = generateFigure(rng);
-    REQUIRE(f.human);
-    for (int j = 0; j < kNetJoints; ++j) {
+    REQUIRE(f.whole);
+    for (int j = 0; j < kJoints; ++j) {
       const int x = static_cast<int>(std::lround(f.joints[j].x())),
                 y = static_cast<int>(std::lround(f.joints[j].y()));
       inside += x >= 0 && y >= 0 && x < f.mask.cols() && y < f.mask.rows() && f.mask(y, x) != 0;
@@ -68,8 +68,8 @@ TEST_CASE("Joints lie at the figure, hands and feet in it") {
     }
   }
   // The rest are holes of figures that are mere outlines, and ends that the finish has shortened.
-  CHECK(inside > .93 * kFigures * kNetJoints);
-  CHECK(visible > .6 * kFigures * kNetJoints);
+  CHECK(inside > .93 * kFigures * kJoints);
+  CHECK(visible > .6 * kFigures * kJoints);
 }
 
 TEST_CASE("In side views the limb at the left of the picture is the right one") {
@@ -81,8 +81,7 @@ TEST_CASE("In side views the limb at the left of the picture is the right one") 
     ++seen;
     for (const int first : {2, 5}) {
       double left = 0, right = 0;
-      for (int k = first; k < first + 3; ++k)
-        left += f.joints[k].x(), right += f.joints[kMirroredJoint[k]].x();
+      for (int k = first; k < first + 3; ++k) left += f.joints[k].x(), right += f.joints[k + 6].x();
       CHECK(right <= left);
     }
   }
@@ -92,19 +91,19 @@ TEST_CASE("In side views the limb at the left of the picture is the right one") 
 TEST_CASE("Kinds can be chosen, and come all if not") {
   Rng rng(4);
   FigureOptions options;
-  options.kinds = {BodyKind::kStick, BodyKind::kBlob};
-  std::set<BodyKind> chosen, all;
+  options.kinds = {3, 5};
+  std::set<int> chosen, all;
   for (int i = 0; i < 40; ++i) chosen.insert(generateFigure(rng, options).kind);
   for (int i = 0; i < kFigures; ++i) all.insert(generateFigure(rng).kind);
-  CHECK(chosen == std::set<BodyKind>{BodyKind::kStick, BodyKind::kBlob});
-  CHECK(all.size() == kBodyKinds);
+  CHECK(chosen == std::set<int>{3, 5});
+  CHECK(all.size() == figurePlan("biped").kinds.size());
 }
 
-TEST_CASE("Others are marked as no humans") {
+TEST_CASE("Others are marked as not whole") {
   Rng rng(5);
   FigureOptions options;
   options.other_share = 1;
-  for (int i = 0; i < 50; ++i) CHECK_FALSE(generateFigure(rng, options).human);
+  for (int i = 0; i < 50; ++i) CHECK_FALSE(generateFigure(rng, options).whole);
 }
 
 }  // namespace

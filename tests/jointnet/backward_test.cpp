@@ -8,13 +8,16 @@
 namespace skel {
 namespace {
 
-JointTarget someTarget(Rng& rng, bool human) {
+constexpr int kJoints = 14;
+
+JointTarget someTarget(Rng& rng, bool whole) {
   JointTarget target;
+  target.joints.resize(kJoints);
   for (auto& joint : target.joints) {
     joint.cell = {rng.uniform(5, 30), rng.uniform(5, 30)};
     joint.weight = rng.uniform(.3, 1);
   }
-  target.human = human;
+  target.whole = whole;
   return target;
 }
 
@@ -45,14 +48,14 @@ TEST_CASE("Perfect heatmaps cost no more than the target's own entropy") {
   const JointTarget target = someTarget(rng, true);
   std::vector<double> map(MapShape{kHeatmapSize, kHeatmapSize, kHeatmapChannels}.paddedSize(), 0.);
   double weight = 0;
-  for (int j = 0; j < kNetJoints; ++j) {
-    weight += target.joints[j].weight / kNetJoints;
+  for (int j = 0; j < kJoints; ++j) {
+    weight += target.joints[j].weight / kJoints;
     for (int y = 0; y < kHeatmapSize; ++y) {
       for (int x = 0; x < kHeatmapSize; ++x) {
         const double d = (Eigen::Vector2d(x, y) - target.joints[j].cell).squaredNorm();
         const std::size_t i = static_cast<std::size_t>(paddedIndex(kHeatmapSize, y, x)) * kHeatmapChannels;
         map[i + j] = -d / (2 * kTargetVariance);
-        map[i + kHumanChannel] = 20;
+        map[i + kJoints] = 20;
       }
     }
   }
@@ -64,7 +67,7 @@ TEST_CASE("Perfect heatmaps cost no more than the target's own entropy") {
 // step that is small enough for the curvature drowns in rounding where few cells count, so the step is long
 // and the net's kinks leave some error.
 TEST_CASE("The whole net has the derivative that its differences show") {
-  JointNet net = makeJointNet();
+  JointNet net = makeJointNet("biped", std::vector<std::string>(kJoints));
   Rng rng(3);
   for (const JointNetLayer& layer : net.layers) {
     if (layer.kind != JointNetLayer::Kind::kConvolution) continue;

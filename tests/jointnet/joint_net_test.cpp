@@ -1,16 +1,20 @@
 #include "libskel/jointnet/joint_net.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "libskel/core/error.h"
+#include "libskel/core/files.h"
 #include "libskel/core/rng.h"
+#include "libskel/figures/drawing.h"
+#include "libskel/jointnet/net_joints.h"
 #include "tests/support/catch.h"
 
 namespace skel {
 namespace {
 
 JointNet randomNet() {
-  JointNet net = makeJointNet();
+  JointNet net = makeJointNet("spider", {"head", "left_leg", "right_leg"});
   Rng rng(1);
   for (const JointNetLayer& layer : net.layers) {
     if (layer.kind != JointNetLayer::Kind::kConvolution) continue;
@@ -39,6 +43,8 @@ TEST_CASE("A weights file gives back the rounded net") {
   const JointNet read = parseJointNet(bytes, "net.bin");
   CHECK(read.parameters == quantized(net).parameters);
   CHECK(read.provenance == "random");
+  CHECK(read.body_plan == "spider");
+  CHECK(read.joints == net.joints);
   // Rounding twice changes nothing.
   CHECK(formatJointNet(read) == bytes);
   double worst = 0;
@@ -59,18 +65,69 @@ TEST_CASE("Damaged weights files are refused with a reason") {
   flipped.back() = static_cast<char>(flipped.back() ^ 1);
   CHECK_THAT(complaint(flipped), Contains("sha256"));
   std::string joints = bytes;
-  joints.replace(joints.find("left_knee"), 9, "left_kneo");
-  CHECK_THAT(complaint(joints), Contains("joints"));
+  joints.replace(joints.find("right_leg"), 9, "left_leg\",\"left_leg");
+  CHECK_THAT(complaint(joints), Contains("joints[2]: is the second joint named \"left_leg\""));
+  std::string none = bytes;
+  none.replace(none.find("[\"head\",\"left_leg\",\"right_leg\"]"), 31, "[]");
+  CHECK_THAT(complaint(none), Contains("joints: has 0 joints, must have 1 to 15"));
   std::string layers = bytes;
   layers.replace(layers.find("[8,16,3]"), 8, "[8,16,1]");
   CHECK_THAT(complaint(layers), Contains("convolutions"));
   std::string version = bytes;
-  version.replace(version.find("\"version\":1"), 11, "\"version\":9");
+  version.replace(version.find("\"version\":2"), 11, "\"version\":9");
   CHECK_THAT(complaint(version), Contains("version"));
 }
 
-TEST_CASE("The net that is compiled in can be read, and its file is small") {
-  CHECK(builtInJointNet().parameters.size() == makeJointNet().parameters.size());
+TEST_CASE("The nets that are compiled in know their templates") {
+  for (const std::string_view name : builtInJointNets()) {
+    INFO(name);
+    const SkeletonTemplate body_plan = loadTemplate(std::string(name));
+    CHECK(builtInJointNet(name).body_plan == name);
+    CHECK(builtInJointNetFor(body_plan) == &builtInJointNet(name));
+    CHECK(netJoints(builtInJointNet(name).joints, body_plan).count() ==
+          std::count_if(body_plan.joints.begin(), body_plan.joints.end(),
+                        [](const TemplateJoint& joint) { return !joint.derived; }));
+  }
+}
+
+TEST_CASE("Files of every version can be read") {
+  const std::string file = SKEL_SOURCE_DIR "/weights/archive/joint-net-version-1.bin";
+  const JointNet net = parseJointNet(readFile(file), file);
+  CHECK(net.body_plan == "biped");
+  CHECK(net.joints == jointNames(figurePlan("biped")));
+  // What it finds is pinned down by one heatmap value.
+  JointNetMaps maps(net);
+  encodeJointNetInput(Plane8::Constant(128, 40, 255), {}, {52, 8}, maps.maps[0]);
+  forward(net, InstructionSet::kBaseline, maps);
+  CHECK(maps.maps.back()[static_cast<std::size_t>(paddedIndex(kHeatmapSize, 10, 18)) * kHeatmapChannels] ==
+        Approx(-0.40456).epsilon(1e-3));
+}
+
+TEST_CASE("Joints of a net hang together as the template says") {
+  const SkeletonTemplate biped = loadTemplate("biped");
+  const std::vector<std::string> names = {"left_knee", "left_hip",   "head",          "body",
+                                          "right_hip", "right_knee", "left_shoulder", "right_shoulder"};
+  const NetJoints joints = netJoints(names, biped);
+  CHECK(joints.mirrored == std::vector<int>{5, 4, 2, 3, 1, 0, 7, 6});
+  CHECK(joints.parent == std::vector<int>{1, 3, 3, -1, 3, 4, 3, 3});
+  CHECK(joints.order == std::vector<int>{3, 4, 5, 6, 7, 1, 2, 0});
+  CHECK(joints.limbs == std::vector<std::vector<int>>{{6}, {1, 0}});
+  CHECK_THROWS_WITH(netJoints({"body", "tail"}, biped),
+                    "the template \"biped\" has no joint \"tail\" that could be found in a drawing");
+  CHECK_THROWS_WITH(netJoints({"body", "pelvis"}, biped),
+                    "the template \"biped\" has no joint \"pelvis\" that could be found in a drawing");
+  CHECK_THROWS_WITH(netJoints({"head"}, biped),
+                    "the net does not find the body joint of the template \"biped\"");
+  CHECK_THROWS_WITH(netJoints({"body", "left_hip"}, biped),
+                    "the net finds \"left_hip\" but not its counterpart of the other side");
+}
+
+TEST_CASE("A template of another name takes the net that finds its joints") {
+  SkeletonTemplate body_plan = loadTemplate("biped");
+  body_plan.name = "pirate";
+  CHECK(builtInJointNetFor(body_plan) == &builtInJointNet("biped"));
+  body_plan.joints[static_cast<size_t>(body_plan.find("left_hand"))].name = "left_hook";
+  CHECK(builtInJointNetFor(body_plan) == nullptr);
 }
 
 TEST_CASE("Frame and grid points turn into each other") {

@@ -9,6 +9,8 @@ namespace skel {
 namespace {
 
 constexpr int kFigures = 40;
+const JointNet& kNet = builtInJointNet("biped");
+const NetJoints kJoints = netJoints(kNet.joints, loadTemplate("biped"));
 
 bool isInside(const Plane8& mask, const Eigen::Vector2d& p) {
   const int x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
@@ -19,11 +21,11 @@ double shareWithin(const std::vector<Figure>& figures, const std::vector<TreeRec
                    double share) {
   double hits = 0;
   for (std::size_t i = 0; i < figures.size(); ++i) {
-    for (int j = 0; j < kNetJoints; ++j) {
+    for (int j = 0; j < kJoints.count(); ++j) {
       hits += (found[i].joints[j].position - figures[i].joints[j]).norm() <= share * 128;
     }
   }
-  return hits / static_cast<double>(figures.size() * kNetJoints);
+  return hits / static_cast<double>(figures.size() * kJoints.names.size());
 }
 
 std::vector<Figure> someFigures(std::uint64_t seed) {
@@ -37,7 +39,7 @@ TEST_CASE("Joints of generated figures are found, all inside the figure") {
   const std::vector<Figure> figures = someFigures(1001);
   std::vector<TreeRecognition> found;
   for (const Figure& f : figures) {
-    found.push_back(recognizeByJointNet(f.mask, f.lines, builtInJointNet()));
+    found.push_back(recognizeByJointNet(f.mask, f.lines, kNet, kJoints));
     for (const TreeJoint& joint : found.back().joints) {
       CHECK(isInside(f.mask, joint.position));
       CHECK((joint.confidence >= 0 && joint.confidence <= 1));
@@ -53,13 +55,13 @@ TEST_CASE("The instruction sets agree within a tenth of a pixel") {
     TreeRecognizerOptions options;
     options.try_orientations = false;
     options.instructions = InstructionSet::kBaseline;
-    const TreeRecognition baseline = recognizeByJointNet(f.mask, f.lines, builtInJointNet(), options);
+    const TreeRecognition baseline = recognizeByJointNet(f.mask, f.lines, kNet, kJoints, options);
     for (const InstructionSet set : kInstructionSets) {
       if (!hasInstructionSet(set)) continue;
       options.instructions = set;
-      const TreeRecognition other = recognizeByJointNet(f.mask, f.lines, builtInJointNet(), options);
-      for (int j = 0; j < kNetJoints; ++j) {
-        INFO(instructionSetName(set) << " " << kNetJointNames[j]);
+      const TreeRecognition other = recognizeByJointNet(f.mask, f.lines, kNet, kJoints, options);
+      for (int j = 0; j < kJoints.count(); ++j) {
+        INFO(instructionSetName(set) << " " << kJoints.names[j]);
         CHECK((other.joints[j].position - baseline.joints[j].position).norm() < .1);
       }
     }
@@ -71,12 +73,12 @@ TEST_CASE("A mirrored figure has mirrored joints") {
     const Plane8 mask = f.mask.rowwise().reverse(), lines = f.lines.rowwise().reverse();
     TreeRecognizerOptions options;
     options.try_orientations = false;
-    const TreeRecognition a = recognizeByJointNet(f.mask, f.lines, builtInJointNet(), options);
-    const TreeRecognition b = recognizeByJointNet(mask, lines, builtInJointNet(), options);
-    for (int j = 0; j < kNetJoints; ++j) {
-      const Eigen::Vector2d p = b.joints[kMirroredJoint[j]].position;
+    const TreeRecognition a = recognizeByJointNet(f.mask, f.lines, kNet, kJoints, options);
+    const TreeRecognition b = recognizeByJointNet(mask, lines, kNet, kJoints, options);
+    for (int j = 0; j < kJoints.count(); ++j) {
+      const Eigen::Vector2d p = b.joints[kJoints.mirrored[j]].position;
       const Eigen::Vector2d back(static_cast<double>(mask.cols()) - 1 - p.x(), p.y());
-      INFO(kNetJointNames[j]);
+      INFO(kJoints.names[j]);
       // Two ways to the nearest point of the figure may be equally short: one cell of slack.
       CHECK((back - a.joints[j].position).norm() < 4);
     }
@@ -90,7 +92,7 @@ TEST_CASE("Degenerate figures come out unsure and without a crash") {
   masks.push_back(Plane8::Constant(128, 128, 255));
   masks.back().block(1, 1, 126, 126) = 0;
   for (const Plane8& mask : masks) {
-    const TreeRecognition r = recognizeByJointNet(mask, {}, builtInJointNet());
+    const TreeRecognition r = recognizeByJointNet(mask, {}, kNet, kJoints);
     for (const TreeJoint& joint : r.joints) CHECK(isInside(mask, joint.position));
     INFO(mask.rows() << "×" << mask.cols());
     CHECK(r.figure_confidence < .5);

@@ -8,6 +8,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/rng.h"
+#include "libskel/jointnet/net_joints.h"
 #include "tests/support/catch.h"
 #include "tests/support/synthetic_figure.h"
 
@@ -15,6 +16,8 @@ using namespace skel;
 using Eigen::Vector2d;
 
 namespace {
+
+const JointNet& kNet = builtInJointNet("biped");
 
 std::vector<CapsuleFigure> poses() {
   CapsuleFigure down, out, up, mixed, walking;
@@ -38,7 +41,7 @@ Image inkOn(const Plane8& mask) {
 Recognition recognize(const Plane8& mask) {
   const Silhouette silhouette = silhouetteFromMask(mask);
   REQUIRE(silhouette.found());
-  return recognizeByTree(inkOn(mask), silhouette, loadTemplate("biped"), builtInJointNet());
+  return recognizeByTree(inkOn(mask), silhouette, loadTemplate("biped"), kNet);
 }
 
 Vector2d at(const Recognition& recognition, const std::string& joint) {
@@ -52,10 +55,9 @@ double shareRight(
   const Skeleton truth = capsuleSkeleton(figure);
   const double near_px = 0.1 * 330 * scale;
   int right = 0;
-  for (const std::string_view name : kNetJointNames)
-    right +=
-        (at(recognition, std::string(name)) - moved(truth.joints[truth.index(name)].image)).norm() <= near_px;
-  return static_cast<double>(right) / kNetJoints;
+  for (const std::string& name : kNet.joints)
+    right += (at(recognition, name) - moved(truth.joints[truth.index(name)].image)).norm() <= near_px;
+  return right / static_cast<double>(kNet.joints.size());
 }
 
 bool liesOn(const Plane8& mask, const Recognition& recognition) {
@@ -84,8 +86,8 @@ TEST_CASE("a shifted figure has shifted joints") {
   Plane8 shifted = Plane8::Zero(mask.rows() + 90, mask.cols() + 170);
   shifted.block(33, 121, mask.rows(), mask.cols()) = mask;
   const Recognition here = recognize(mask), there = recognize(shifted);
-  for (const std::string_view name : kNetJointNames)
-    CHECK((at(there, std::string(name)) - at(here, std::string(name)) - Vector2d(121, 33)).norm() < 1);
+  for (const std::string& name : kNet.joints)
+    CHECK((at(there, name) - at(here, name) - Vector2d(121, 33)).norm() < 1);
 }
 
 TEST_CASE("a figure of another size has joints at the same places") {
@@ -103,13 +105,14 @@ TEST_CASE("a figure of another size has joints at the same places") {
 }
 
 TEST_CASE("a mirrored figure has mirrored joints, left and right exchanged") {
+  const std::vector<int> mirrored = netJoints(kNet.joints, loadTemplate("biped")).mirrored;
   for (const CapsuleFigure& figure : poses()) {
-    const Plane8 mask = capsuleMask(figure), mirrored = mask.rowwise().reverse();
-    const Recognition one = recognize(mask), other = recognize(mirrored);
+    const Plane8 mask = capsuleMask(figure), reversed = mask.rowwise().reverse();
+    const Recognition one = recognize(mask), other = recognize(reversed);
     const double last = static_cast<double>(mask.cols()) - 1;
-    for (size_t j = 0; j < kNetJoints; ++j) {
-      const Vector2d p = at(one, std::string(kNetJointNames[j]));
-      const Vector2d q = at(other, std::string(kNetJointNames[static_cast<size_t>(kMirroredJoint[j])]));
+    for (size_t j = 0; j < kNet.joints.size(); ++j) {
+      const Vector2d p = at(one, kNet.joints[j]);
+      const Vector2d q = at(other, kNet.joints[static_cast<size_t>(mirrored[j])]);
       CHECK((Vector2d(last - p.x(), p.y()) - q).norm() < 5);
     }
   }
@@ -195,6 +198,6 @@ TEST_CASE("a body plan that the net does not know is refused") {
     if (joint.name == "left_hand") joint.name = "left_paw";
   other.name = "cat";
   const Plane8 mask = capsuleMask();
-  CHECK_THROWS_WITH(recognizeByTree(inkOn(mask), silhouetteFromMask(mask), other, builtInJointNet()),
-                    "the net knows no template like \"cat\"; use --recognizer paper for it");
+  CHECK_THROWS_WITH(recognizeByTree(inkOn(mask), silhouetteFromMask(mask), other, kNet),
+                    "the template \"cat\" has no joint \"left_hand\" that could be found in a drawing");
 }

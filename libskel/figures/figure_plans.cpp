@@ -1,0 +1,60 @@
+#include <algorithm>
+
+#include "libskel/core/error.h"
+#include "libskel/figures/biped_painter.h"
+#include "libskel/figures/drawing.h"
+#include "libskel/figures/other_figures.h"
+
+namespace skel {
+namespace {
+
+Drawing drawBiped(Rng& rng, int kind) {
+  const BipedPlan plan = sampleBipedPlan(rng, static_cast<BodyKind>(kind));
+  PaintedBiped painted = paintBiped(rng, plan);
+  return {std::move(painted.scene), true, {painted.joints.begin(), painted.joints.end()}, plan.view, kind};
+}
+
+FigurePlan biped() {
+  FigurePlan plan;
+  plan.body_plan = "biped";
+  plan.joints = {{"head", PartOwner::kHead, false}, {"body", PartOwner::kTorso, false}};
+  for (const bool left : {true, false}) {
+    const std::string side = left ? "left_" : "right_";
+    const PartOwner arm = left ? PartOwner::kLeftArm : PartOwner::kRightArm;
+    const PartOwner leg = left ? PartOwner::kLeftLeg : PartOwner::kRightLeg;
+    for (const char* joint : {"shoulder", "elbow", "hand"})
+      plan.joints.push_back({side + joint, arm, joint == std::string_view("hand")});
+    for (const char* joint : {"hip", "knee", "foot"})
+      plan.joints.push_back({side + joint, leg, joint == std::string_view("foot")});
+  }
+  plan.kinds = {.13, .13, .13, .15, .12, .05, .05, .10, .05, .06, .05};  // as BodyKind
+  plan.draw = drawBiped;
+  plan.drawOther = paintOther;
+  return plan;
+}
+
+}  // namespace
+
+std::vector<std::string> jointNames(const FigurePlan& plan) {
+  std::vector<std::string> names;
+  for (const FigurePlan::Joint& joint : plan.joints) names.push_back(joint.name);
+  return names;
+}
+
+std::span<const FigurePlan> figurePlans() {
+  static const std::vector<FigurePlan> plans = {biped()};
+  return plans;
+}
+
+const FigurePlan& figurePlan(std::string_view body_plan) {
+  const auto plans = figurePlans();
+  const auto plan =
+      std::find_if(plans.begin(), plans.end(), [&](const FigurePlan& p) { return p.body_plan == body_plan; });
+  if (plan != plans.end()) return *plan;
+  std::string known;
+  for (const FigurePlan& p : plans) known += (known.empty() ? "" : ", ") + std::string(p.body_plan);
+  throw UsageError("no figures can be drawn of the template \"" + std::string(body_plan) +
+                   "\"; there are figures of: " + known);
+}
+
+}  // namespace skel
