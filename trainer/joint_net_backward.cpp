@@ -128,11 +128,6 @@ JointTarget jointTarget(const Figure& figure, const FramePlacement& placement, c
                              : figure.visible[from] ? 1
                                                     : kHiddenWeight});
   }
-  // Mirrored, a side view still calls the limb at the left of the picture the right one.
-  if (placement.mirrored && figure.view == FigureView::kSide) {
-    for (const std::vector<int>& limb : joints.limbs)
-      for (const int j : limb) std::swap(target.joints[j], target.joints[joints.mirrored[j]]);
-  }
   return target;
 }
 

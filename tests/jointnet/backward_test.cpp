@@ -63,6 +63,28 @@ TEST_CASE("Perfect heatmaps cost no more than the target's own entropy") {
   CHECK(jointLoss<double>(map, target, 1, nullptr) == Approx(weight * entropy).epsilon(.02));
 }
 
+TEST_CASE("In side views, mirrored or not, the limb at the left of the picture is called the right one") {
+  const FigurePlan& plan = figurePlan("biped");
+  const NetJoints joints = netJoints(jointNames(plan), loadTemplate("biped"));
+  Rng rng(4);
+  int seen = 0;
+  while (seen < 20) {
+    const Figure figure = generateFigure(rng);
+    if (figure.view != FigureView::kSide) continue;
+    ++seen;
+    for (const bool mirrored : {false, true}) {
+      const JointTarget target = jointTarget(figure, FramePlacement::centred(figure.mask, mirrored), joints);
+      for (const std::vector<int>& limb : joints.limbs) {
+        double left = 0, right = 0;
+        for (const int j : limb)
+          left += target.joints[j].cell.x(), right += target.joints[joints.mirrored[j]].cell.x();
+        INFO(joints.names[limb[0]] << (mirrored ? ", mirrored" : ""));
+        CHECK(right <= left);
+      }
+    }
+  }
+}
+
 // Along a random direction d of the parameters: loss(w + h d) - loss(w - h d) = 2 h <gradient, d>. In float a
 // step that is small enough for the curvature drowns in rounding where few cells count, so the step is long
 // and the net's kinks leave some error.
