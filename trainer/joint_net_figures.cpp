@@ -23,7 +23,7 @@ void bindFigureSheetOptions(CLI::App& command, FigureSheetOptions& options) {
 }
 
 ExitCode runFigureSheet(const FigureSheetOptions& options) {
-  constexpr int kCell = 140;
+  constexpr int kCell = 140, kGrey = 160;
   Image sheet(options.columns * kCell, options.rows * kCell);
   sheet.rgba.col(0) = 40;
   sheet.rgba.col(1) = 32;
@@ -41,7 +41,11 @@ ExitCode runFigureSheet(const FigureSheetOptions& options) {
       for (int x = 0; x < figure.mask.cols(); ++x) {
         if (figure.mask(y, x) == 0) continue;
         std::uint8_t* p = sheet.pixel(left + x, top + y);
-        p[0] = p[1] = p[2] = static_cast<std::uint8_t>(210 - figure.lines(y, x) * 180 / 255);
+        const auto tone = [&](std::size_t k) { return figure.look.tones[k](y, x) - kMeanTone; };
+        // As far as the tones tell: mean, red less green, blue less the mean of both.
+        const int yellow = kGrey + tone(0) - 2 * tone(2) / 3, half = tone(1);
+        const int rgb[] = {yellow + half, yellow - half, yellow + 2 * tone(2)};
+        for (int c = 0; c < 3; ++c) p[c] = static_cast<std::uint8_t>(std::clamp(rgb[c], 0, 255));
       }
     }
     if (options.plain || !figure.whole) continue;

@@ -1,5 +1,6 @@
 #include "trainer/joint_net_training.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -57,18 +58,39 @@ void initialise(JointNet& net, Rng& rng) {
 
 struct Sample {
   FramePlacement placement;
-  Plane8 lines;  // as the net gets to see them
+  FigureLook look;  // as the net gets to see it
 };
 
-Sample augmented(Rng& rng, const Figure& figure, double no_lines_share) {
+// Other ink, other light, other colours: what is drawn counts, not in which colour.
+FigureLook recoloured(Rng& rng, const FigureLook& look, double no_colours_share) {
+  FigureLook out;
+  const double strength = rng.uniform(.4, 1.4);
+  out.lines = (look.lines.cast<double>() * strength).min(255).cast<std::uint8_t>();
+  const bool grey = rng.chance(.3), flat = rng.chance(no_colours_share);
+  const double brightness = flat ? 0 : rng.uniform(.4, 1.4) * (rng.chance(.15) ? -1 : 1);
+  const double chroma = grey || flat ? 0 : rng.uniform(.2, 1.5), hue = rng.uniform(0, 2 * std::numbers::pi);
+  Eigen::Matrix3d mix = Eigen::Matrix3d::Zero();
+  mix(0, 0) = brightness;
+  mix.bottomRightCorner<2, 2>() = chroma * Eigen::Rotation2Dd(hue).toRotationMatrix();
+  for (Plane8& tone : out.tones) tone.resize(look.lines.rows(), look.lines.cols());
+  for (int i = 0; i < look.lines.size(); ++i) {
+    Eigen::Vector3d t;
+    for (int k = 0; k < 3; ++k) t[k] = look.tones[k].data()[i] - kMeanTone;
+    t = mix * t;
+    for (int k = 0; k < 3; ++k) {
+      out.tones[k].data()[i] = static_cast<std::uint8_t>(std::clamp(std::lround(kMeanTone + t[k]), 0l, 255l));
+    }
+  }
+  return out;
+}
+
+Sample augmented(Rng& rng, const Figure& figure, const JointTrainingOptions& options) {
   Sample sample;
   sample.placement = FramePlacement::centred(figure.mask, rng.chance(.5));
   sample.placement.offset_x += static_cast<int>(rng.below(7)) - 3;
   sample.placement.offset_y += static_cast<int>(rng.below(7)) - 3;
-  if (!rng.chance(no_lines_share)) {
-    const double strength = rng.uniform(.4, 1.4);
-    sample.lines = (figure.lines.cast<double>() * strength).min(255).cast<std::uint8_t>();
-  }
+  if (!rng.chance(options.no_look_share))
+    sample.look = recoloured(rng, figure.look, options.no_colours_share);
   return sample;
 }
 
@@ -111,7 +133,7 @@ Report validate(const JointNet& net, const NetJoints& joints, InstructionSet set
     thread_local JointNetMaps maps(net);
     const Figure& figure = figures[i];
     const FramePlacement placement = FramePlacement::centred(figure.mask);
-    encodeJointNetInput(figure.mask, figure.lines, placement, maps.maps[0]);
+    encodeJointNetInput(figure.mask, figure.look, placement, kNetInputChannels, maps.maps[0]);
     forward(net, set, maps);
     const std::vector<float>& heatmaps = maps.maps.back();
     const JointTarget target = jointTarget(figure, placement, joints);
@@ -252,8 +274,8 @@ class Training {
       for (int b = static_cast<int>(lane); b < options_.batch; b += kLanes) {
         Rng rng(options_.seed, kStepStream + static_cast<std::uint64_t>(state_.step * options_.batch + b));
         const Figure& figure = figures_[order_[first + b]];
-        const Sample sample = augmented(rng, figure, options_.no_lines_share);
-        encodeJointNetInput(figure.mask, sample.lines, sample.placement, maps.maps[0]);
+        const Sample sample = augmented(rng, figure, options_);
+        encodeJointNetInput(figure.mask, sample.look, sample.placement, kNetInputChannels, maps.maps[0]);
         forward(net_, set_, maps);
         for (auto& map : gradient.maps) std::fill(map.begin(), map.end(), 0.f);
         losses[lane] += jointLoss<float>(maps.maps.back(), jointTarget(figure, sample.placement, joints_),
@@ -356,7 +378,13 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
   command.add_option("--others", options.other_share, "Share of figures that are not whole")
       ->check(CLI::Range(0., .9))
       ->capture_default_str();
-  command.add_option("--no-lines", options.no_lines_share, "Share of figures whose inner lines are withheld")
+  command
+      .add_option("--no-look", options.no_look_share,
+                  "Share of figures of which only the silhouette is shown")
+      ->check(CLI::Range(0., 1.))
+      ->capture_default_str();
+  command
+      .add_option("--no-colours", options.no_colours_share, "Share of the others that show only their lines")
       ->check(CLI::Range(0., 1.))
       ->capture_default_str();
   command

@@ -22,7 +22,8 @@ struct JointTrainingOptions {
   int figures_per_round = 4096;  // drawn anew each round
   int passes = 3;                // over the figures of a round
   double other_share = .16;      // of figures that are not whole
-  double no_lines_share = .3;    // of figures whose inner lines are withheld
+  double no_look_share = .25;    // of figures of which only the silhouette is shown
+  double no_colours_share = .2;  // of the others: those that show only their lines
   std::vector<int> held_back;    // body kinds not trained on
   int threads = 0;               // 0: one a core. The result does not depend on it.
   int report_every = 500;        // steps

@@ -174,6 +174,10 @@ class Painter {
     arm_taper_ = in(.6, 1.25);
     sleeve_ = chance(.45) ? in(.2, 1) : 0;
     sleeve_width_ = in(.95, 1.75);
+    if (chance(.1)) {  // a robe's
+      sleeve_ = in(.5, .95);
+      sleeve_width_ = in(1.6, 3);
+    }
     glove_ = chance(.1) ? in(.12, .4) : 0;
 
     leg_radius_ = std::max(kThinnest, limb_radius_ * in(1, 1.8));
@@ -187,7 +191,7 @@ class Painter {
     trouser_width_ = chance(.3) ? in(1, 1.7) : 1;
     boot_ = chance(.14) ? in(.2, .5) : 0;
     boot_width_ = in(1.0, 1.8);
-    foot_length_ = in(.6, 2.3);
+    foot_length_ = chance(.08) ? in(2.3, 3.6) : in(.6, 2.3);
     foot_height_ = in(.65, 1.2);
   }
 
@@ -208,6 +212,8 @@ class Painter {
 
   void paintBehind() {
     const double T = p_.torso, H = p_.head_height, L = p_.leg;
+    if (p_.on_chair) paintSeat();
+    if (chance(.025)) paintBoard();
     if (chance(.08)) {  // cape
       const Vec hem = p_.pelvis - p_.up * L * in(-.2, 1);
       const double w = p_.top * in(1.1, 2.6), skew = gauss(0, .4) * w;
@@ -216,8 +222,8 @@ class Painter {
                       hem + p_.right * (skew - w), hem - p_.up * in(-.05, .05) + p_.right * skew,
                       hem + p_.right * (skew + w)});
     }
-    if (chance(is(BodyKind::kPlush) ? .25 : .06)) paintTail();
-    if (chance(.09)) paintWings();
+    if (chance(is(BodyKind::kPlush) ? .35 : .07)) paintTail();
+    if (chance(.1)) paintWings();
     if (chance(.05)) {  // backpack, shell, tank
       const double off = p_.view == FigureView::kFront ? gauss(0, .15) : -p_.face * in(.4, 1.2);
       scene_.begin(ink(accent_));
@@ -263,11 +269,54 @@ class Painter {
     }
   }
 
+  // A box, a stool, a chair with a back.
+  void paintSeat() {
+    const double L = p_.leg, w = std::max(p_.bottom, .05) * in(1, 1.8);
+    const Vec top = p_.pelvis - p_.up * leg_radius_ * in(.5, 1.2) - p_.right * p_.face * w * in(0, .6);
+    const Vec floor = top - p_.up * L * in(.45, .75);
+    const double thick = L * in(.04, .12), leg = std::max(kThinnest, L * in(.02, .06));
+    scene_.begin(ink(accent_));
+    if (chance(.4)) {
+      scene_.polygon({top - p_.right * w, top + p_.right * w, floor + p_.right * w, floor - p_.right * w});
+    } else {
+      scene_.line(top - p_.right * w, top + p_.right * w, thick, thick);
+      for (const double s : {-1., 1.})
+        scene_.line(top + p_.right * s * w * .9, floor + p_.right * s * w * in(.8, 1.1), leg, leg);
+    }
+    if (chance(.4)) {
+      const Vec edge = top - p_.right * p_.face * w;
+      scene_.line(edge, edge + p_.up * p_.torso * in(.3, 1), thick, thick);
+    }
+  }
+
+  // Under the feet: skateboard, surfboard, skis, ground, a cloud.
+  void paintBoard() {
+    const Vec &a = p_.legs[kRight].end, &b = p_.legs[kLeft].end;
+    const Vec low = a.dot(p_.up) < b.dot(p_.up) ? a : b;
+    const Vec middle(((a + b) / 2).x(), low.y() + leg_radius_ * in(.3, 1.2));
+    const double half = std::max((a - b).norm() * .5, .08) * in(1, 2);
+    scene_.begin(ink(accent_));
+    scene_.ellipse(middle, {half, half * in(.05, .3)}, gauss(0, .12), in(2, 5));
+    if (chance(.3)) {
+      for (const double s : {-.7, .7}) scene_.disc(middle + Vec(s * half, half * .15), half * in(.08, .18));
+    }
+  }
+
   void paintTail() {
     const double T = p_.torso;
     const Vec d = rotated(p_.right * sign(), in(-.9, .9)), a = p_.pelvis + p_.up * T * in(0, .2);
     const double l = T * in(.4, 1.8);
     scene_.begin(ink(skin_));
+    if (chance(.25)) {  // as a lizard's: as thick as the hips, down to the ground
+      const double side = p_.view == FigureView::kFront ? sign() : -p_.face;
+      const Vec tip =
+          p_.pelvis + p_.right * side * (p_.bottom + T * in(.5, 1.6)) - p_.up * p_.leg * in(.1, 1);
+      scene_.path(
+          flowing(p_.pelvis, p_.pelvis + p_.right * side * (p_.bottom + l * .3) - p_.up * p_.leg * in(.1, .6),
+                  tip),
+          radiiThrough(p_.bottom * in(.4, .9), p_.bottom * in(.2, .5), kThinnest));
+      return;
+    }
     if (chance(.25)) {
       scene_.disc(a + d * p_.bottom * in(.8, 1.1), T * in(.08, .2));
       return;
@@ -333,7 +382,7 @@ class Painter {
     };
     const Vec direction = normalised(path[kLimbPoints - 1] - path[kLimbPoints - 2]);
     const bool prop_behind = chance(.4);
-    const bool has_prop = chance(.12);
+    const bool has_prop = chance(.15);
     Vec hand = arm.end;
     const Colour lower = sleeve_ > .8 ? top_ : skin_;
 
@@ -433,8 +482,12 @@ class Painter {
     scene_.begin(ink(accent_));
     switch (weighted({.22, .18, .14, .1, .12, .08, .06, .1})) {
       case 0: {  // stick
-        const double l = A * in(.4, 1.6);
-        scene_.line(hand - v * l * in(0, .4), hand + v * l, std::max(kThinnest, w * in(.1, .4)),
+        double l = A * in(.4, 1.6), below = l * in(0, .4);
+        if (chance(.25)) {  // a staff, a spear, a broom: to the ground
+          l = A * in(.5, 2);
+          below = A * in(.5, 1.6);
+        }
+        scene_.line(hand - v * below, hand + v * l, std::max(kThinnest, w * in(.1, .4)),
                     std::max(kThinnest, w * in(.1, .5)));
         break;
       }
@@ -493,7 +546,7 @@ class Painter {
   }
 
   void paintHeldByBoth() {
-    if (!chance(.03)) return;
+    if (!chance(.04)) return;
     const Vec a = joints_.arm[kRight][2], b = joints_.arm[kLeft][2];
     const Vec v = normalised(b - a);
     const double w = std::max(p_.limb_width, .04);
@@ -645,11 +698,12 @@ class Painter {
     if (across.dot(p_.right) < 0) across = -across;
 
     if (chance(p_.sitting ? .05 : .17)) {  // skirt, dress, robe
-      const double l = L * in(.12, 1.05), w = std::max(p_.bottom, .04) * in(1, 2.6);
+      const bool robe = chance(.3);        // down to the shoes
+      const double l = L * (robe ? in(.8, 1.1) : in(.12, 1.05)), w = std::max(p_.bottom, .04) * in(1, 2.6);
       const double from = chance(.3) ? in(.6, 1) : in(.05, .5);
       const Vec top = spine(from), hem = p_.pelvis + down * l;
       const double w0 = std::max(p_.waist, p_.bottom) * in(.75, 1.05);
-      scene_.begin(ink(chance(.5) ? top_ : accent_), PartOwner::kTorso);
+      scene_.begin(ink(robe || chance(.5) ? top_ : accent_), PartOwner::kTorso);
       const double sag = in(-.05, .12) * w;
       scene_.polygon({top - p_.right * w0, top + p_.right * w0, hem + across * w,
                       hem + down * sag + across * w * .4, hem + down * sag - across * w * .4,
@@ -740,7 +794,7 @@ class Painter {
     }
     if (chance(.06)) {  // beard
       scene_.begin(ink(hair_), PartOwner::kHead);
-      const double w = W * in(.2, .45), l = H * in(.15, .6);
+      const double w = W * in(.2, .45), l = chance(.3) ? H * in(.6, 1) : H * in(.15, .6);
       scene_.polygon({c - up * H * .2 - right * w, c - up * H * .2 + right * w,
                       c - up * (H * .4 + l) + right * w * in(0, .8),
                       c - up * (H * .4 + l) - right * w * in(0, .8)});
@@ -830,6 +884,20 @@ class Painter {
       scene_.begin(ink(hair_), PartOwner::kHead);
       scene_.ellipse(c + up * H * in(.05, .3) + right * W * gauss(0, .1), {W * in(.55, .85), H * in(.35, .6)},
                      in(-.3, .3));
+    }
+    if (chance(.04)) {  // puffs at both sides
+      const double r = H * in(.12, .32), a = in(.9, 1.8);
+      scene_.begin(ink(hair_), PartOwner::kHead);
+      for (const double s : {-1., 1.}) {
+        const Vec b = onHead(s * a, in(.95, 1.15));
+        scene_.disc(b, r);
+        if (chance(.5)) scene_.disc(b + up * r * in(-.8, .8) + right * s * r * in(0, .5), r * in(.6, .9));
+      }
+    }
+    if (chance(.02)) {  // the cap of a mushroom, a sun hat
+      scene_.begin(ink(hair_), PartOwner::kHead);
+      const double w = W * in(.8, 1.4);
+      scene_.ellipse(c + up * H * in(.3, .5), {w, H * in(.25, .5)}, angleOf(right), in(2, 3));
     }
     if (chance(.05)) {  // crest
       const double s = p_.view == FigureView::kFront ? sign() : -p_.face;

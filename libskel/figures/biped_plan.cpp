@@ -49,6 +49,8 @@ enum class ArmPose {
   kFace,
   kChest,
   kHeadBack,  // hand behind the head
+  kReach,     // stretched out to where the figure faces
+  kGround,    // down between or beside the legs
   kCount
 };
 enum class LegPose {
@@ -69,6 +71,8 @@ enum class LegPose {
   kStork,
   kLunge,
   kLotus,
+  kSquat,      // knees beside the body, as a frog sits
+  kArabesque,  // one leg stretched far out
   kCount
 };
 
@@ -205,8 +209,9 @@ class Sampler {
   }
 
   ArmPose sampleArmPose() {
-    double w[static_cast<int>(ArmPose::kCount)] = {.24, .13, .07, .07, .06,  .09,  .10,  .07,
-                                                   .07, .05, .08, .05, .045, .035, .045, .025};
+    double w[static_cast<int>(ArmPose::kCount)] = {.24, .13, .07, .07,  .06,  .09, .10,  .07, .07,
+                                                   .05, .08, .05, .045, .035, .06, .025, .03, .02};
+    if (plan_.view != FigureView::kFront) w[static_cast<int>(ArmPose::kReach)] = .09;
     if (is(BodyKind::kChibi) || is(BodyKind::kBlock)) w[static_cast<int>(ArmPose::kCheer)] += .08;
     return pick<ArmPose>(rng_, w);
   }
@@ -299,6 +304,15 @@ class Sampler {
         case ArmPose::kChest:
           reach(p.middle + p.chest_up * p.torso * in(-.3, .4) + p.chest_right * sign * p.top * in(-.5, .5));
           break;
+        case ArmPose::kReach: {
+          const Vec ahead = rotated(p.chest_right * p.face, -p.face * (.1 + .35 * shared));
+          reach(arm.root + ahead * length * in(.6, 1) + p.chest_up * length * gauss(0, .15));
+          arm.in_front = s == p.near_side || chance(.6);
+          break;
+        }
+        case ArmPose::kGround:
+          reach(p.pelvis - p.up * p.leg * in(.2, .9) + p.right * sign * p.bottom * in(-.2, .8));
+          break;
         case ArmPose::kHeadBack:
           reach(p.head + p.head_right * p.head_width * sign * in(.2, .55) +
                 p.head_up * p.head_height * in(-.3, .35));
@@ -326,12 +340,16 @@ class Sampler {
   void sampleLegs() {
     BipedPlan& p = plan_;
     //               stand spread walk run crouch floor kick float random crossed fold kneel chair jump stork
-    //               lunge lotus
-    double plain[] = {.32, .14, .13, .09, .05, .05, .06, .03, .04, .03, .07, .015, .02, .03, .04, .02, .01};
-    double lively[] = {.10, .10, .14, .17, .05, .04, .12, .02, .10, .05, .13, .02, .02, .06, .08, .05, .01};
+    //               lunge lotus squat arabesque
+    double plain[] = {.32, .14, .13, .09, .05, .05, .06,  .03, .04, .03,
+                      .07, .02, .04, .03, .04, .02, .015, .02, .02};
+    double lively[] = {.10, .10, .14, .17, .05, .04, .12, .02, .10, .05,
+                       .13, .02, .04, .06, .08, .05, .01, .02, .04};
     if (is(BodyKind::kPlush)) plain[static_cast<int>(LegPose::kSitFloor)] = .3;
     const auto pose = pick<LegPose>(rng_, is(BodyKind::kDoodle) ? lively : plain);
-    p.sitting = pose == LegPose::kSitFloor || pose == LegPose::kChair || pose == LegPose::kLotus;
+    p.sitting = pose == LegPose::kSitFloor || pose == LegPose::kChair || pose == LegPose::kLotus ||
+                pose == LegPose::kSquat;
+    p.on_chair = pose == LegPose::kChair && chance(.6);
 
     const double shared = rng_.normal(), split = in(.44, .56), upright = in(0, 1);
     const double rubber = chance(.75) ? p.arms[0].rubber : 0;
@@ -414,6 +432,14 @@ class Sampler {
         case LegPose::kLunge:
           raise = ahead * (leads ? in(.8, 1.3) : -in(.6, 1.1));
           flex = leads ? -ahead * in(.8, 1.3) : -ahead * in(-.1, .5);
+          break;
+        case LegPose::kSquat:
+          raise = varied(2.1, .25), flex = -varied(1.9, .3);
+          length *= in(.8, 1.2);
+          break;
+        case LegPose::kArabesque:
+          raise = leads ? varied(.02, .08) : in(1.0, 2.3);
+          flex = leads ? varied(0, .06) : gauss(0, .25);
           break;
         case LegPose::kLotus:
           raise = varied(1.2, .15), flex = -in(2.0, 2.7);

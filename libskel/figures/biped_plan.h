@@ -54,6 +54,7 @@ struct BipedPlan {
   std::array<LimbPlan, 2> arms, legs;
   int near_side = kRight;  // the side that is closer to the viewer, where it matters
   bool sitting = false;
+  bool on_chair = false;
 };
 
 Eigen::Vector2d rotated(const Eigen::Vector2d& v, double angle);

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "libskel/figures/biped_plan.h"
-#include "libskel/jointnet/line_strength.h"
+#include "libskel/jointnet/figure_look.h"
 #include "libskel/jointnet/net_joints.h"
 
 namespace skel {
@@ -372,11 +372,21 @@ std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& dr
   figure.kind = drawing.kind;
   figure.mask.resize(rows, columns);
   for (int i = 0; i < rows * columns; ++i) figure.mask.data()[i] = grid[i] ? 255 : 0;
+  if (rng.chance(.3)) {  // light from one side
+    const double angle = rng.uniform(0, 2 * std::numbers::pi), depth = rng.uniform(.1, .5);
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < columns; ++x) {
+        const double t =
+            ((x - columns / 2.) * std::cos(angle) + (y - rows / 2.) * std::sin(angle)) / kLongSide;
+        colours.row(y * columns + x) *= static_cast<float>(1 + depth * t);
+      }
+    }
+  }
   if (rng.chance(.35)) {  // grain of paper, noise of a camera
     const auto grain = static_cast<float>(rng.uniform(2, 14));
     for (float& c : colours.reshaped()) c += grain * static_cast<float>(rng.normal());
   }
-  figure.lines = lineStrength(colours, figure.mask);
+  figure.look = figureLook(colours, figure.mask);
   figure.joints.resize(plan.joints.size());
   figure.visible.resize(plan.joints.size());
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {

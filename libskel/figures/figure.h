@@ -9,12 +9,13 @@
 #include "libskel/core/rng.h"
 #include "libskel/figures/drawing.h"
 #include "libskel/image/image.h"
+#include "libskel/jointnet/figure_look.h"
 
 namespace skel {
 
 struct Figure {
   Plane8 mask;        // 255 on the figure; one 4-connected part whose box is the plane; the long side is 128
-  Plane8 lines;       // strength of inner lines, 0 outside the mask (see jointnet/line_strength.h)
+  FigureLook look;    // of what is drawn inside
   bool whole = true;  // one whole upright figure of its body plan; if not, the joints mean nothing
   std::vector<Eigen::Vector2d>
       joints;                 // as FigurePlan::joints; px of the mask, the origin at the first px's centre

@@ -10,7 +10,9 @@ namespace {
 
 class Builder {
  public:
-  Builder() { net_.maps.push_back({kNetInputSize, kNetInputSize, kNetInputChannels}); }
+  explicit Builder(int input_channels) {
+    net_.maps.push_back({kNetInputSize, kNetInputSize, input_channels});
+  }
 
   int convolution(int input, int channels, int kernel, bool relu, int skip = -1) {
     const MapShape in = net_.maps[input];
@@ -81,9 +83,9 @@ ConvShape convShape(const JointNet& net, const JointNetLayer& layer) {
   return {in.height, in.width, in.channels, layer.channels, layer.kernel};
 }
 
-JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints) {
+JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints, int input_channels) {
   SKEL_CHECK(!joints.empty() && joints.size() <= kMaxNetJoints);
-  Builder b;
+  Builder b(input_channels);
   const int a0 = b.convolution(0, 16, 3, true);
   const int a1 = b.convolution(b.pool(a0), 32, 3, true);
   const int a2 = b.convolution(a1, 32, 3, true, a1);
@@ -132,16 +134,19 @@ FramePlacement FramePlacement::centred(const Plane8& mask, bool mirrored) {
   return {(mirrored ? spare_x + 1 : spare_x) / 2, spare_y / 2, mirrored};
 }
 
-void encodeJointNetInput(const Plane8& mask, const Plane8& lines, const FramePlacement& placement,
-                         std::vector<float>& input) {
+void encodeJointNetInput(const Plane8& mask, const FigureLook& look, const FramePlacement& placement,
+                         int channels, std::vector<float>& input) {
+  SKEL_CHECK(channels == kNetInputChannels || channels == kColourlessInputChannels);
   const int width = static_cast<int>(mask.cols()), height = static_cast<int>(mask.rows());
   SKEL_CHECK(width <= kFrameSize && height <= kFrameSize);
-  SKEL_CHECK(lines.size() == 0 || (lines.cols() == width && lines.rows() == height));
+  SKEL_CHECK(!look.known() || (look.lines.cols() == width && look.lines.rows() == height));
   constexpr int kSize = kNetInputSize;
 
-  // Mask and lines at half the resolution.
+  // Mask and look at half the resolution.
   struct Cell {
     int inside = 0, lines = 0, strongest = 0;
+    std::array<int, 3> tones{};    // sums of differences to the mean
+    std::array<bool, 4> pixels{};  // by row
   };
   std::array<Cell, kSize * kSize> cells{};
   for (int y = 0; y < height; ++y) {
@@ -154,10 +159,11 @@ void encodeJointNetInput(const Plane8& mask, const Plane8& lines, const FramePla
       if (frame_x < 0 || frame_x >= kFrameSize) continue;
       Cell& cell = cells[frame_y / 2 * kSize + frame_x / 2];
       ++cell.inside;
-      if (lines.size() != 0) {
-        cell.lines += lines(y, x);
-        cell.strongest = std::max<int>(cell.strongest, lines(y, x));
-      }
+      cell.pixels[frame_y % 2 * 2 + frame_x % 2] = true;
+      if (!look.known()) continue;
+      cell.lines += look.lines(y, x);
+      cell.strongest = std::max<int>(cell.strongest, look.lines(y, x));
+      for (int k = 0; k < 3; ++k) cell.tones[k] += look.tones[k](y, x) - kMeanTone;
     }
   }
 
@@ -204,13 +210,13 @@ void encodeJointNetInput(const Plane8& mask, const Plane8& lines, const FramePla
     visit(y, x + 1);
   }
 
-  input.resize(MapShape{kSize, kSize, kNetInputChannels}.paddedSize());
+  input.resize(MapShape{kSize, kSize, channels}.paddedSize());
   std::fill(input.begin(), input.end(), 0.f);
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {
       const int i = y * kSize + x;
       const Cell& cell = cells[i];
-      float* o = input.data() + static_cast<std::size_t>(paddedIndex(kSize, y, x)) * kNetInputChannels;
+      float* o = input.data() + static_cast<std::size_t>(paddedIndex(kSize, y, x)) * channels;
       o[0] = static_cast<float>(cell.inside) / 4;
       o[1] = cell.inside > 0 ? 1.f : 0.f;
       o[2] = static_cast<float>(cell.lines) / (4 * 255);
@@ -219,6 +225,10 @@ void encodeJointNetInput(const Plane8& mask, const Plane8& lines, const FramePla
       o[5] = cell.inside == 0 && !open[i] ? 1.f : 0.f;
       o[6] = (static_cast<float>(x) - (kSize - 1) / 2.f) / (kSize / 2);
       o[7] = (static_cast<float>(y) - (kSize - 1) / 2.f) / (kSize / 2);
+      if (channels == kColourlessInputChannels) continue;
+      for (int k = 0; k < 3; ++k) o[8 + k] = static_cast<float>(cell.tones[k]) / (4 * 64);
+      o[11] = look.known() && cell.inside > 0 ? 1.f : 0.f;
+      for (int k = 0; k < 4; ++k) o[12 + k] = cell.pixels[k] ? 1.f : 0.f;
     }
   }
 }

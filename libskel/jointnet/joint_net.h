@@ -12,6 +12,7 @@
 
 #include "libskel/image/image.h"
 #include "libskel/jointnet/conv_kernels.h"
+#include "libskel/jointnet/figure_look.h"
 
 namespace skel {
 
@@ -19,7 +20,7 @@ namespace skel {
 // half the resolution; its heatmaps have a quarter of it.
 inline constexpr int kFrameSize = 144;
 inline constexpr int kNetInputSize = kFrameSize / 2;
-inline constexpr int kNetInputChannels = 8;
+inline constexpr int kNetInputChannels = 16, kColourlessInputChannels = 8;
 inline constexpr int kHeatmapSize = kFrameSize / 4;
 inline constexpr int kHeatmapChannels = 16;  // one a joint, one for the figure, the others are idle
 inline constexpr int kMaxNetJoints = kHeatmapChannels - 1;
@@ -61,7 +62,9 @@ struct JointNet {
 ConvShape convShape(const JointNet& net, const JointNetLayer& layer);
 
 // The architecture with all parameters zero, for at most kMaxNetJoints joints.
-JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints);
+// A net of kColourlessInputChannels, as before colours were shown to it, sees silhouette and lines alone.
+JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints,
+                      int input_channels = kNetInputChannels);
 
 // The maps of one pass, padded as the kernels want them.
 struct JointNetMaps {
@@ -93,10 +96,10 @@ struct FramePlacement {
 inline Eigen::Vector2d cellFromFrame(const Eigen::Vector2d& p) { return ((p.array() - 1.5) / 4).matrix(); }
 inline Eigen::Vector2d frameFromCell(const Eigen::Vector2d& p) { return (p.array() * 4 + 1.5).matrix(); }
 
-// Fills the net's input map. `mask` (at most kFrameSize² px) is not 0 on the figure; `lines`
-// (line_strength.h) has its size, or none if the inside of the figure is not known.
-void encodeJointNetInput(const Plane8& mask, const Plane8& lines, const FramePlacement& placement,
-                         std::vector<float>& input);
+// Fills the net's input map, of so many channels. `mask` (at most kFrameSize² px) is not 0 on the figure;
+// `look` belongs to it.
+void encodeJointNetInput(const Plane8& mask, const FigureLook& look, const FramePlacement& placement,
+                         int channels, std::vector<float>& input);
 
 // A weights file: one line of JSON (format, version, provenance, body plan, joints, layers, the SHA-256 of
 // what follows), then for each convolution `outputs` scales (float32, little endian), `outputs` biases

@@ -114,11 +114,13 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file) {
   else
     root.allowOnly({"format", "version", "provenance", "joints", "convolutions", "sha256"});
 
+  const std::vector<JsonValue> given = root.at("convolutions").items();
+  const bool colourless = !given.empty() && given[0].asNumbers(3)[0] == kColourlessInputChannels;
   JointNet net =
-      makeJointNet(names_plan ? root.at("body_plan").asString() : "biped", jointsAt(root.at("joints")));
+      makeJointNet(names_plan ? root.at("body_plan").asString() : "biped", jointsAt(root.at("joints")),
+                   colourless ? kColourlessInputChannels : kNetInputChannels);
   net.provenance = root.at("provenance").asString();
   const auto expected = convolutions(net);
-  const std::vector<JsonValue> given = root.at("convolutions").items();
   bool same = given.size() == expected.size();
   for (std::size_t i = 0; same && i < given.size(); ++i) {
     const std::vector<double> sizes = given[i].asNumbers(3);

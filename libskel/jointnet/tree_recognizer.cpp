@@ -47,7 +47,7 @@ struct Heatmaps {
 };
 
 // Logits averaged over one or two passes, then softmax.
-Heatmaps evaluateNet(const Plane8& mask, const Plane8& lines, const JointNet& net, const NetJoints& joints,
+Heatmaps evaluateNet(const Plane8& mask, const FigureLook& look, const JointNet& net, const NetJoints& joints,
                      InstructionSet set, bool mirror) {
   const int count = joints.count(), figure_channel = net.figureChannel();
   Heatmaps out;
@@ -56,7 +56,8 @@ Heatmaps evaluateNet(const Plane8& mask, const Plane8& lines, const JointNet& ne
   const int passes = mirror ? 2 : 1;
   for (int pass = 0; pass < passes; ++pass) {
     const bool mirrored = pass == 1;
-    encodeJointNetInput(mask, lines, FramePlacement::centred(mask, mirrored), maps.maps[0]);
+    encodeJointNetInput(mask, look, FramePlacement::centred(mask, mirrored), net.maps[0].channels,
+                        maps.maps[0]);
     forward(net, set, maps);
     const float* map = maps.maps.back().data();
     for (int y = 0; y < kHeatmapSize; ++y) {
@@ -90,14 +91,15 @@ double doubt(const Heatmaps& maps) {
 
 // The figure turned by `angle` about its middle and scaled so that it fits the grid again.
 struct Turned {
-  Plane8 mask, lines;
+  Plane8 mask;
+  FigureLook look;
   Eigen::Matrix2d original_from_turned = Eigen::Matrix2d::Identity();
   Vec shift = Vec::Zero();  // original grid px = original_from_turned · turned px + shift
 
   Vec original(const Vec& p) const { return original_from_turned * p + shift; }
 };
 
-Turned turnedBy(const Plane8& mask, const Plane8& lines, double angle) {
+Turned turnedBy(const Plane8& mask, const FigureLook& look, double angle) {
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
   Vec low = Vec::Constant(1e9), high = Vec::Constant(-1e9);
   for (int y = 0; y < mask.rows(); ++y) {
@@ -116,14 +118,19 @@ Turned turnedBy(const Plane8& mask, const Plane8& lines, double angle) {
   out.original_from_turned = turn.transpose() * scale;
   out.shift = turn.transpose() * (low + Vec::Constant((scale - 1) / 2));
   out.mask = Plane8::Zero(height, width);
-  if (lines.size() != 0) out.lines = Plane8::Zero(height, width);
+  if (look.known()) {
+    out.look.lines = Plane8::Zero(height, width);
+    out.look.tones.fill(Plane8::Constant(height, width, kMeanTone));
+  }
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const Vec p = out.original(Vec(x, y));
       const int px = static_cast<int>(std::lround(p.x())), py = static_cast<int>(std::lround(p.y()));
       if (px < 0 || py < 0 || px >= mask.cols() || py >= mask.rows() || mask(py, px) == 0) continue;
       out.mask(y, x) = 255;
-      if (lines.size() != 0) out.lines(y, x) = lines(py, px);
+      if (!look.known()) continue;
+      out.look.lines(y, x) = look.lines(py, px);
+      for (std::size_t k = 0; k < 3; ++k) out.look.tones[k](y, x) = look.tones[k](py, px);
     }
   }
   return out;
@@ -256,21 +263,21 @@ Vec insideFigure(const Plane8& mask, const Vec& p) {
 
 }  // namespace
 
-TreeRecognition recognizeByJointNet(const Plane8& mask, const Plane8& lines, const JointNet& net,
+TreeRecognition recognizeByJointNet(const Plane8& mask, const FigureLook& look, const JointNet& net,
                                     const NetJoints& joints, const TreeRecognizerOptions& options) {
   SKEL_CHECK((mask != 0).any());
   SKEL_CHECK_EQ(joints.names.size(), net.joints.size());
   const auto evaluate = [&](const Turned& figure, bool mirror) {
-    return evaluateNet(figure.mask, figure.lines, net, joints, options.instructions, mirror);
+    return evaluateNet(figure.mask, figure.look, net, joints, options.instructions, mirror);
   };
-  Turned figure{mask, lines, Eigen::Matrix2d::Identity(), Vec::Zero()};
+  Turned figure{mask, look, Eigen::Matrix2d::Identity(), Vec::Zero()};
   Heatmaps maps = evaluate(figure, options.mirror);
   TreeRecognition result;
   if (options.try_orientations && doubt(maps) > kDoubtful) {
     double least = doubt(maps) - kUprightMargin;
     for (int k = 1; k < kOrientations; ++k) {
       const double angle = 2 * std::numbers::pi * k / kOrientations;
-      Turned turned = turnedBy(mask, lines, -angle);
+      Turned turned = turnedBy(mask, look, -angle);
       const double d = doubt(evaluate(turned, false));
       if (d >= least) continue;
       least = d;

@@ -26,9 +26,9 @@ struct TreeRecognizerOptions {
   bool try_orientations = true;  // if the figure as it is leaves the net in doubt
 };
 
-// `mask` is the working grid (not 0 on the figure, at least one such px, long side at most 128 px), `lines`
-// its inner lines (line_strength.h) or none. `joints`: netJoints(net.joints, ...).
-TreeRecognition recognizeByJointNet(const Plane8& mask, const Plane8& lines, const JointNet& net,
+// `mask` is the working grid (not 0 on the figure, at least one such px, long side at most 128 px), `look`
+// what its inside looks like, or nothing. `joints`: netJoints(net.joints, ...).
+TreeRecognition recognizeByJointNet(const Plane8& mask, const FigureLook& look, const JointNet& net,
                                     const NetJoints& joints, const TreeRecognizerOptions& options = {});
 
 }  // namespace skel

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "libskel/core/check.h"
-#include "libskel/jointnet/line_strength.h"
+#include "libskel/jointnet/figure_look.h"
 #include "libskel/jointnet/tree_recognizer.h"
 #include "libskel/recognition/complete_skeleton.h"
 
@@ -32,9 +32,9 @@ Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
   SKEL_CHECK(silhouette.found());
   const NetJoints joints = netJoints(net.joints, body_plan);
   const WorkingGrid& grid = silhouette.grid;
-  const Plane8 lines = lineStrength(gridColours(image, grid.corner_px, grid.scale, grid.width, grid.height),
-                                    silhouette.grid_mask);
-  const TreeRecognition tree = recognizeByJointNet(silhouette.grid_mask, lines, net, joints);
+  const FigureLook look = figureLook(gridColours(image, grid.corner_px, grid.scale, grid.width, grid.height),
+                                     silhouette.grid_mask);
+  const TreeRecognition tree = recognizeByJointNet(silhouette.grid_mask, look, net, joints);
 
   Recognition recognition;
   recognition.skeleton = presetSkeleton(body_plan, {0, 0}, {1, 1});

@@ -11,7 +11,8 @@ constexpr int kFigures = 300, kJoints = 14;
 
 bool sameFigure(const Figure& a, const Figure& b) {
   return a.mask.rows() == b.mask.rows() && a.mask.cols() == b.mask.cols() && (a.mask == b.mask).all() &&
-         (a.lines == b.lines).all() && a.joints == b.joints && a.visible == b.visible;
+         (a.look.lines == b.look.lines).all() && (a.look.tones[0] == b.look.tones[0]).all() &&
+         a.joints == b.joints && a.visible == b.visible;
 }
 
 TEST_CASE("A seed gives the same figure, another seed another") {
@@ -30,7 +31,7 @@ TEST_CASE("A figure is one part that fills its grid") {
     const Figure f = generateFigure(rng, options);
     CHECK(std::max(f.mask.rows(), f.mask.cols()) == 128);
     REQUIRE((f.mask == 0 || f.mask == 255).all());
-    CHECK((f.lines == 0 || f.mask == 255).all());
+    CHECK((f.look.lines == 0 || f.mask == 255).all());
     // Flood from any pixel of the figure.
     Plane8 left = f.mask;
     std::vector<std::pair<int, int>> stack;

@@ -104,7 +104,7 @@ TEST_CASE("The whole net has the derivative that its differences show") {
   Plane8 mask = Plane8::Zero(128, 60);
   mask.block(0, 10, 128, 30) = 255;
   mask.block(30, 0, 20, 60) = 255;
-  encodeJointNetInput(mask, {}, FramePlacement::centred(mask), maps.maps[0]);
+  encodeJointNetInput(mask, {}, FramePlacement::centred(mask), kNetInputChannels, maps.maps[0]);
   const JointTarget target = someTarget(rng, true);
 
   for (const InstructionSet set : kInstructionSets) {

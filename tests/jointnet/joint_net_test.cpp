@@ -141,22 +141,28 @@ TEST_CASE("Frame and grid points turn into each other") {
 
 TEST_CASE("A mirrored figure gives the mirrored input") {
   Rng rng(5);
-  Plane8 mask = Plane8::Zero(101, 128), lines = mask;
+  Plane8 mask = Plane8::Zero(101, 128);
+  FigureLook look{mask, {}};
+  look.tones.fill(Plane8::Constant(101, 128, kMeanTone));
   for (int y = 0; y < 101; ++y) {
     for (int x = 0; x < 128; ++x) {
-      if (rng.chance(.7)) mask(y, x) = 255, lines(y, x) = static_cast<std::uint8_t>(rng.below(256));
+      if (!rng.chance(.7)) continue;
+      mask(y, x) = 255;
+      for (Plane8* plane : {&look.lines, &look.tones[0], &look.tones[1], &look.tones[2]})
+        (*plane)(y, x) = static_cast<std::uint8_t>(rng.below(256));
     }
   }
   std::vector<float> a, b;
-  encodeJointNetInput(mask, lines, FramePlacement::centred(mask), a);
-  encodeJointNetInput(mask, lines, FramePlacement::centred(mask, true), b);
+  encodeJointNetInput(mask, look, FramePlacement::centred(mask), kNetInputChannels, a);
+  encodeJointNetInput(mask, look, FramePlacement::centred(mask, true), kNetInputChannels, b);
   int differ = 0;
   for (int y = 0; y < kNetInputSize; ++y) {
     for (int x = 0; x < kNetInputSize; ++x) {
       const float* p = &a[static_cast<std::size_t>(paddedIndex(kNetInputSize, y, x)) * kNetInputChannels];
       const float* q = &b[static_cast<std::size_t>(paddedIndex(kNetInputSize, y, kNetInputSize - 1 - x)) *
                           kNetInputChannels];
-      for (int c = 0; c < kNetInputChannels; ++c) differ += c == 6 ? p[c] != -q[c] : p[c] != q[c];
+      for (int c = 0; c < 12; ++c) differ += c == 6 ? p[c] != -q[c] : p[c] != q[c];
+      for (int c = 12; c < 16; ++c) differ += p[c] != q[c ^ 1];
     }
   }
   CHECK(differ == 0);
@@ -166,7 +172,7 @@ TEST_CASE("Background that is shut in is told from the outside") {
   Plane8 mask = Plane8::Constant(128, 128, 255);
   mask.block(40, 40, 40, 40) = 0;
   std::vector<float> input;
-  encodeJointNetInput(mask, {}, FramePlacement::centred(mask), input);
+  encodeJointNetInput(mask, {}, FramePlacement::centred(mask), kNetInputChannels, input);
   const auto hole = [&](int y, int x) {
     return input[static_cast<std::size_t>(paddedIndex(kNetInputSize, y, x)) * kNetInputChannels + 5];
   };

@@ -39,7 +39,7 @@ TEST_CASE("Joints of generated figures are found, all inside the figure") {
   const std::vector<Figure> figures = someFigures(1001);
   std::vector<TreeRecognition> found;
   for (const Figure& f : figures) {
-    found.push_back(recognizeByJointNet(f.mask, f.lines, kNet, kJoints));
+    found.push_back(recognizeByJointNet(f.mask, f.look, kNet, kJoints));
     for (const TreeJoint& joint : found.back().joints) {
       CHECK(isInside(f.mask, joint.position));
       CHECK((joint.confidence >= 0 && joint.confidence <= 1));
@@ -55,11 +55,11 @@ TEST_CASE("The instruction sets agree within a tenth of a pixel") {
     TreeRecognizerOptions options;
     options.try_orientations = false;
     options.instructions = InstructionSet::kBaseline;
-    const TreeRecognition baseline = recognizeByJointNet(f.mask, f.lines, kNet, kJoints, options);
+    const TreeRecognition baseline = recognizeByJointNet(f.mask, f.look, kNet, kJoints, options);
     for (const InstructionSet set : kInstructionSets) {
       if (!hasInstructionSet(set)) continue;
       options.instructions = set;
-      const TreeRecognition other = recognizeByJointNet(f.mask, f.lines, kNet, kJoints, options);
+      const TreeRecognition other = recognizeByJointNet(f.mask, f.look, kNet, kJoints, options);
       for (int j = 0; j < kJoints.count(); ++j) {
         INFO(instructionSetName(set) << " " << kJoints.names[j]);
         CHECK((other.joints[j].position - baseline.joints[j].position).norm() < .1);
@@ -70,11 +70,13 @@ TEST_CASE("The instruction sets agree within a tenth of a pixel") {
 
 TEST_CASE("A mirrored figure has mirrored joints") {
   for (const Figure& f : someFigures(1003)) {
-    const Plane8 mask = f.mask.rowwise().reverse(), lines = f.lines.rowwise().reverse();
+    const Plane8 mask = f.mask.rowwise().reverse();
+    FigureLook look{f.look.lines.rowwise().reverse(), {}};
+    for (std::size_t k = 0; k < 3; ++k) look.tones[k] = f.look.tones[k].rowwise().reverse();
     TreeRecognizerOptions options;
     options.try_orientations = false;
-    const TreeRecognition a = recognizeByJointNet(f.mask, f.lines, kNet, kJoints, options);
-    const TreeRecognition b = recognizeByJointNet(mask, lines, kNet, kJoints, options);
+    const TreeRecognition a = recognizeByJointNet(f.mask, f.look, kNet, kJoints, options);
+    const TreeRecognition b = recognizeByJointNet(mask, look, kNet, kJoints, options);
     for (int j = 0; j < kJoints.count(); ++j) {
       const Eigen::Vector2d p = b.joints[kJoints.mirrored[j]].position;
       const Eigen::Vector2d back(static_cast<double>(mask.cols()) - 1 - p.x(), p.y());

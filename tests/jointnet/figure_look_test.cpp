@@ -1,4 +1,4 @@
-#include "libskel/jointnet/line_strength.h"
+#include "libskel/jointnet/figure_look.h"
 
 #include "tests/support/catch.h"
 

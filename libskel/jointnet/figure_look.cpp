@@ -1,4 +1,4 @@
-#include "libskel/jointnet/line_strength.h"
+#include "libskel/jointnet/figure_look.h"
 
 #include <algorithm>
 #include <array>
@@ -8,29 +8,36 @@
 #include "libskel/core/check.h"
 
 namespace skel {
+namespace {
 
-Plane8 lineStrength(const GridColours& colours, const Plane8& mask) {
-  const int width = static_cast<int>(mask.cols()), height = static_cast<int>(mask.rows());
-  SKEL_CHECK_EQ(colours.rows(), mask.size());
-  Plane8 strength = Plane8::Zero(height, width);
-
-  // Range of brightness from the 2nd to the 98th percentile.
+// Range of brightness inside the figure, from the 2nd to the 98th percentile; no less than kLeastRange, since
+// a figure of one colour has no lines, only noise. 0 without any pixel.
+double brightnessRange(const GridColours& colours, const Plane8& mask) {
+  constexpr double kLeastRange = 40;
   std::array<int, 256> histogram{};
   int pixels = 0;
-  for (int i = 0; i < width * height; ++i) {
+  for (int i = 0; i < mask.size(); ++i) {
     if (mask.data()[i] == 0) continue;
     ++histogram[std::clamp(static_cast<int>(colours.row(i).mean()), 0, 255)];
     ++pixels;
   }
-  if (pixels == 0) return strength;
+  if (pixels == 0) return 0;
   const auto percentile = [&](double share) {
     int left = static_cast<int>(share * pixels), value = 0;
     while (value < 255 && left >= histogram[value]) left -= histogram[value++];
     return value;
   };
-  // A figure of one colour has no lines, only noise.
-  constexpr double kLeastRange = 40;
-  const double range = std::max<double>(kLeastRange, percentile(.98) - percentile(.02));
+  return std::max<double>(kLeastRange, percentile(.98) - percentile(.02));
+}
+
+}  // namespace
+
+Plane8 lineStrength(const GridColours& colours, const Plane8& mask) {
+  const int width = static_cast<int>(mask.cols()), height = static_cast<int>(mask.rows());
+  SKEL_CHECK_EQ(colours.rows(), mask.size());
+  Plane8 strength = Plane8::Zero(height, width);
+  const double range = brightnessRange(colours, mask);
+  if (range == 0) return strength;
   const auto scale = static_cast<float>(255 / (.6 * range));
 
   const auto compare = [&](int a, int b) {
@@ -47,6 +54,34 @@ Plane8 lineStrength(const GridColours& colours, const Plane8& mask) {
     }
   }
   return strength;
+}
+
+FigureLook figureLook(const GridColours& colours, const Plane8& mask) {
+  FigureLook look;
+  look.lines = lineStrength(colours, mask);
+  for (Plane8& tone : look.tones) tone = Plane8::Constant(mask.rows(), mask.cols(), kMeanTone);
+  const double range = brightnessRange(colours, mask);
+  if (range == 0) return look;
+  // Chroma spans more than brightness only in garish figures; a grey one has none that could be stretched.
+  const Eigen::Array3f scale(static_cast<float>(160 / range), .5f, .5f);
+  const auto toneOf = [&](int i) {
+    const auto c = colours.row(i);
+    return Eigen::Array3f(c.mean(), c(0) - c(1), c(2) - (c(0) + c(1)) / 2);
+  };
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  int pixels = 0;
+  for (int i = 0; i < mask.size(); ++i) {
+    if (mask.data()[i] == 0) continue;
+    sum += toneOf(i).cast<double>();
+    ++pixels;
+  }
+  const Eigen::Array3f mean = (sum / pixels).cast<float>();
+  for (int i = 0; i < mask.size(); ++i) {
+    if (mask.data()[i] == 0) continue;
+    const Eigen::Array3f t = (static_cast<float>(kMeanTone) + (toneOf(i) - mean) * scale).max(0).min(255);
+    for (int k = 0; k < 3; ++k) look.tones[k].data()[i] = static_cast<std::uint8_t>(std::lround(t[k]));
+  }
+  return look;
 }
 
 GridColours gridColours(const Image& image, const Eigen::Vector2d& corner_px, double scale, int width,
