@@ -14,7 +14,7 @@ struct JointTrainingOptions {
   std::string output = "weights/joint_net.bin";
   std::string checkpoint;  // "": none
   std::uint64_t seed = 1;
-  int steps = 12000;
+  int steps = 11000;
   int batch = 32;
   double peak_rate = 2e-3;
   double weight_decay = 1e-4;

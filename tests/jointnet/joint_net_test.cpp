@@ -71,7 +71,7 @@ TEST_CASE("Damaged weights files are refused with a reason") {
   none.replace(none.find("[\"head\",\"left_leg\",\"right_leg\"]"), 31, "[]");
   CHECK_THAT(complaint(none), Contains("joints: has 0 joints, must have 1 to 15"));
   std::string layers = bytes;
-  layers.replace(layers.find("[8,16,3]"), 8, "[8,16,1]");
+  layers.replace(layers.find("[16,16,3]"), 9, "[16,16,1]");
   CHECK_THAT(complaint(layers), Contains("convolutions"));
   std::string version = bytes;
   version.replace(version.find("\"version\":2"), 11, "\"version\":9");
@@ -97,7 +97,7 @@ TEST_CASE("Files of every version can be read") {
   CHECK(net.joints == jointNames(figurePlan("biped")));
   // What it finds is pinned down by one heatmap value.
   JointNetMaps maps(net);
-  encodeJointNetInput(Plane8::Constant(128, 40, 255), {}, {52, 8}, maps.maps[0]);
+  encodeJointNetInput(Plane8::Constant(128, 40, 255), {}, {52, 8}, net.maps[0].channels, maps.maps[0]);
   forward(net, InstructionSet::kBaseline, maps);
   CHECK(maps.maps.back()[static_cast<std::size_t>(paddedIndex(kHeatmapSize, 10, 18)) * kHeatmapChannels] ==
         Approx(-0.40456).epsilon(1e-3));
