@@ -6,6 +6,7 @@
 #include <clocale>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <functional>
 
 #include "libskel/core/error.h"
@@ -29,6 +30,9 @@ inline int runTool(CLI::App& app, int argc, char** argv, const std::function<Exi
     return say(error, ExitCode::kUsage);
   } catch (const Error& error) {
     return say(error, error.exitCode());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return say(InputError(error.path1().string(), "cannot be looked at: " + error.code().message()),
+               ExitCode::kInput);
   } catch (const std::bad_alloc& error) {
     return say(error, ExitCode::kUnavailable);
   }

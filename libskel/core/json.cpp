@@ -7,6 +7,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/json_names.h"
 
 namespace skel {
 namespace {
@@ -20,16 +21,23 @@ std::string show(double number) {
   return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
 }
 
-// The parser keeps the last of several equal keys; a file written by hand deserves to be told.
-struct DuplicateKeyCheck {
+// Objects keep the order of their keys and so search them one by one.
+constexpr std::size_t kMostKeys = 1000;
+
+struct KeyCheck {
+  const std::string& file;
   std::vector<std::set<std::string>> open;
-  std::string duplicate;
 
   bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
     if (event == Json::parse_event_t::object_start) open.emplace_back();
     if (event == Json::parse_event_t::object_end) open.pop_back();
-    if (event == Json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second)
-      duplicate = parsed.get<std::string>();
+    if (event != Json::parse_event_t::key) return true;
+    // The parser keeps the last of several equal keys; a file written by hand deserves to be told.
+    const std::string key = parsed.get<std::string>();
+    if (!open.back().insert(key).second)
+      throw InputError(file, "has the key \"" + key + "\" twice in one object");
+    if (open.back().size() > kMostKeys)
+      throw InputError(file, "has an object with more than " + std::to_string(kMostKeys) + " keys");
     return true;
   }
 };
@@ -50,7 +58,7 @@ JsonDocument JsonDocument::readFile(const std::string& path) { return parse(skel
 JsonDocument JsonDocument::parse(std::string_view text, const std::string& file) {
   JsonDocument document;
   document.content_->file = file;
-  DuplicateKeyCheck check;
+  KeyCheck check{file, {}};
   try {
     document.content_->json = Json::parse(text, std::ref(check));
   } catch (const nlohmann::json::parse_error& error) {
@@ -61,8 +69,6 @@ JsonDocument JsonDocument::parse(std::string_view text, const std::string& file)
   } catch (const nlohmann::json::out_of_range&) {
     throw InputError(file, "holds a number that is too large");
   }
-  if (!check.duplicate.empty())
-    throw InputError(file, "has the key \"" + check.duplicate + "\" twice in one object");
   return document;
 }
 
@@ -82,6 +88,8 @@ std::string JsonValue::asString() const {
   if (!isString()) fail("must be a text");
   return get(value_).get<std::string>();
 }
+
+std::string JsonValue::asFileName() const { return fileNameFromJson(asString()); }
 
 bool JsonValue::asBool() const {
   if (!get(value_).is_boolean()) fail("must be true or false");

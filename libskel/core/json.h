@@ -29,6 +29,7 @@ class JsonValue {
   bool isObject() const;
 
   std::string asString() const;
+  std::string asFileName() const;  // see json_names.h
   bool asBool() const;
   double asNumber() const;                            // finite
   double asNumber(double low, double high) const;     // in [low, high]

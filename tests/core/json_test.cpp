@@ -58,6 +58,17 @@ TEST_CASE("what is not JSON is refused with its line") {
                     "f.json: holds a number that is too large");
 }
 
+TEST_CASE("objects of endless length are refused before they cost time") {
+  const auto keys = [](int count) {
+    std::string text = "{";
+    for (int i = 0; i < count; ++i) text += (i ? ",\"k" : "\"k") + std::to_string(i) + "\":0";
+    return text + "}";
+  };
+  CHECK(JsonDocument::parse(keys(1000), "f.json").root().keys().size() == 1000);
+  CHECK_THROWS_WITH(JsonDocument::parse(keys(1'000'000), "f.json"),
+                    "f.json: has an object with more than 1000 keys");
+}
+
 TEST_CASE("format and version are checked") {
   const auto check = [](const JsonValue& root) { root.checkFormat("skel-x", 2); };
   CHECK(complaint(R"({"format": "skel-x", "version": 2})", check) == "none");
