@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "libskel/core/error.h"
+#include "libskel/core/files.h"
 #include "libskel/core/json.h"
 #include "libskel/image/read_image.h"
 
@@ -76,10 +77,8 @@ void swapPairsThatFitBetter(const AnnotatedDrawing& truth, std::map<std::string,
 
 std::vector<std::string> drawingFolders(const std::string& root) {
   std::vector<std::string> ids;
-  if (!fs::is_directory(root)) throw InputError(root, "is not a folder");
-  for (const auto& entry : fs::recursive_directory_iterator(root))
-    if (entry.path().filename() == "image.png")
-      ids.push_back(fs::relative(entry.path().parent_path(), root).string());
+  for (const fs::path file : filesBelow(root))
+    if (file.filename() == "image.png") ids.push_back(fs::relative(file.parent_path(), root).string());
   if (ids.empty()) throw InputError(root, "holds no folder with an image.png");
   std::sort(ids.begin(), ids.end());
   return ids;

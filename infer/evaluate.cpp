@@ -8,6 +8,7 @@
 #include "infer/annotation.h"
 #include "infer/rig_request.h"
 #include "libskel/core/files.h"
+#include "libskel/core/json_names.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
 #include "libskel/core/rng.h"
@@ -105,9 +106,9 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     std::printf("%-34s  %6.2f %6.2f %6.3f %6.0f %5.2f %6.2f %5.2f  %s\n", row.id.c_str(), s.pck05, s.pck10,
                 s.error, s.usable, s.limbs, s.inside, s.iou,
                 row.found ? s.worst_joint.c_str() : ("no skeleton: " + row.reason).c_str());
-    json["characters"][row.id] = {{"pck05", s.pck05},   {"pck10", s.pck10},          {"error", s.error},
-                                  {"usable", s.usable}, {"limbs", s.limbs},          {"inside", s.inside},
-                                  {"iou", s.iou},       {"confidence", s.confidence}};
+    json["characters"][jsonFromFileName(row.id)] = {
+        {"pck05", s.pck05}, {"pck10", s.pck10},   {"error", s.error}, {"usable", s.usable},
+        {"limbs", s.limbs}, {"inside", s.inside}, {"iou", s.iou},     {"confidence", s.confidence}};
   }
   for (const Row& row : hard)
     std::printf(
@@ -157,8 +158,7 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     std::printf("hard cases: %td without a skeleton, %td of %td others with confidence < .5\n", refused,
                 unsure, static_cast<std::ptrdiff_t>(hard.size()) - refused);
   }
-  if (!options.json_file.empty())
-    writeFile(options.json_file, json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (!options.json_file.empty()) writeFile(options.json_file, json.dump(1) + "\n");
   return ExitCode::kDone;
 }
 

@@ -94,7 +94,7 @@ std::optional<SkeletonFile::Mask> useMask(const InferOptions& options,
   if (input.mask->cols() != input.image.width || input.mask->rows() != input.image.height)
     throw InputError(path, "is a mask of " + sizeText(input.mask->cols(), input.mask->rows()) +
                                " px, the image has " + sizeText(input.image.width, input.image.height));
-  return SkeletonFile::Mask{fs::proximate(path, options.out_dir).generic_string(), sha256(readFile(path))};
+  return SkeletonFile::Mask{pathSeenFrom(options.out_dir + "/", path), sha256(readFile(path))};
 }
 
 // Rigs one figure and writes its files. Returns how many figures there are in the drawing.
@@ -136,7 +136,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
   }
 
   SkeletonFile file;
-  file.image_file = fs::path(job.source).filename().string();
+  file.image_file = pathSeenFrom(skeleton_path, job.source);
   file.image_width = drawing.image.width;
   file.image_height = drawing.image.height;
   file.skeleton = drawing.character.skeleton;

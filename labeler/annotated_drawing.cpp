@@ -11,11 +11,13 @@
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
 #include "libskel/labels/annotated_image.h"
+#include "libskel/skeleton/motion_file.h"
 
 namespace skel {
 namespace {
 
 namespace fs = std::filesystem;
+
 // Where others leave the middle of the trunk out, it is half way between shoulders and hips.
 void addBody(NamedJoints& joints) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -55,7 +57,7 @@ AnnotatedDrawing readJoints(const AnnotatedImage& annotated, const SkeletonTempl
 bool isCoco(const fs::path& path) {
   const std::string name = path.filename().string();
   if (!name.ends_with(".json") || name == "joints.json") return false;
-  for (const char* ending : {kLabelFileEnding, ".skeleton.json", ".joints.json"})
+  for (const char* ending : {kLabelFileEnding, ".skeleton.json", ".joints.json", kMotionFileEnding})
     if (name.ends_with(ending)) return false;
   const JsonDocument document = JsonDocument::readFile(path.string());
   const JsonValue root = document.root();
@@ -69,11 +71,10 @@ std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir,
   std::vector<AnnotatedDrawing> drawings;
   for (const AnnotatedImage& annotated : findAnnotatedImages(dir))
     drawings.push_back(readJoints(annotated, body_plan));
-  for (const auto& entry : fs::recursive_directory_iterator(dir)) {
-    if (!entry.is_regular_file()) continue;
-    if (entry.path().filename() == "char_cfg.yaml") drawings.push_back(readCharCfg(entry.path(), body_plan));
-    if (isCoco(entry.path()))
-      for (AnnotatedDrawing& drawing : readCoco(entry.path().string(), body_plan))
+  for (const fs::path file : filesBelow(dir)) {
+    if (file.filename() == "char_cfg.yaml") drawings.push_back(readCharCfg(file, body_plan));
+    if (isCoco(file))
+      for (AnnotatedDrawing& drawing : readCoco(file.string(), body_plan))
         drawings.push_back(std::move(drawing));
   }
   std::sort(drawings.begin(), drawings.end(), [](const AnnotatedDrawing& a, const AnnotatedDrawing& b) {

@@ -9,6 +9,7 @@
 #include "labeler/annotated_drawing.h"
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
+#include "libskel/core/json_names.h"
 
 namespace skel {
 namespace {
@@ -103,7 +104,7 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTe
   std::map<double, std::string> file_of;  // by image
   for (const JsonValue& image : root.at("images").items()) {
     const JsonValue name = image.at("file_name");
-    const fs::path file = fs::path(path).parent_path() / name.asString();
+    const fs::path file = fs::path(path).parent_path() / name.asFileName();
     if (!fs::is_regular_file(file)) name.fail("there is no " + file.string());
     file_of[image.at("id").asNumber()] = file.string();
   }
@@ -142,7 +143,7 @@ std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonT
   for (size_t i = 0; i < pictures.size(); ++i) {
     const CocoPicture& picture = pictures[i];
     images.push_back({{"id", i + 1},
-                      {"file_name", picture.file_name},
+                      {"file_name", jsonFromFileName(picture.file_name)},
                       {"width", picture.width},
                       {"height", picture.height}});
     Json points = Json::array(), segmentation = Json::array();

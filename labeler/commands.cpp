@@ -6,8 +6,10 @@
 #include "labeler/document.h"
 #include "labeler/label_report.h"
 #include "labeler/labeling_window.h"
+#include "labeler/make_motion.h"
 #include "libskel/classifier/weights_file.h"
 #include "libskel/core/files.h"
+#include "libskel/skeleton/motion_file.h"
 
 namespace skel {
 namespace {
@@ -24,13 +26,30 @@ ExitCode report(const ImportCounts& counts) {
   return counts.exit_code;
 }
 
+Mlp mlpOf(const LabelerOptions& options) {
+  return options.weights.empty() ? defaultMlp() : readMlp(options.weights);
+}
+
+Recognizer recognizerOf(const LabelerOptions& options) {
+  return options.recognizer == "paper" ? Recognizer::kPaper : Recognizer::kTree;
+}
+
 ExitCode openWindow(const LabelerOptions& options) {
   if (options.path.empty())
-    throw UsageError("name a folder of pictures, a picture or a skeleton file (see --help)");
-  DocumentOptions document;
-  document.mlp = options.weights.empty() ? defaultMlp() : readMlp(options.weights);
-  document.body_plan = loadTemplate(options.body_plan);
-  return runLabelingWindow(options.path, std::move(document));
+    throw UsageError("name a folder of pictures, a picture, a skeleton file or a motion file (see --help)");
+  return runLabelingWindow(options.path,
+                           {mlpOf(options), loadTemplate(options.body_plan), recognizerOf(options)});
+}
+
+ExitCode motion(const LabelerOptions& options) {
+  const MotionCounts counts =
+      makeMotion(options.dir,
+                 {options.output, options.frame_rate, options.force, mlpOf(options),
+                  loadTemplate(options.body_plan), recognizerOf(options)},
+                 [](const Error& error) { std::fprintf(stderr, "%s\n", error.what()); });
+  print(counts.output + ": " + std::to_string(counts.frames) + " frames, " +
+        std::to_string(counts.without_figure) + " without a figure\n");
+  return ExitCode::kDone;
 }
 
 ExitCode check(const LabelerOptions& options) {
@@ -56,9 +75,12 @@ ExitCode exportLabels(const LabelerOptions& options) {
 void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode()>& run) {
   run = [&] { return openWindow(options); };
   app.add_option("path", options.path,
-                 "Folder of pictures (any depth), picture, or skeleton file to open in a window");
+                 "Folder of pictures (any depth), picture, skeleton file or motion file to open in a window");
   app.add_option("--weights", options.weights, "Weights that suggest labels (default: those built in)");
   app.add_option("--template", options.body_plan, "Body plan: a name or a file")->capture_default_str();
+  app.add_option("--recognizer", options.recognizer, "How joints are found")
+      ->check(CLI::IsMember({"paper", "tree"}))
+      ->capture_default_str();
   app.require_subcommand(0, 1);
 
   const auto command = [&](const char* name, const char* description, std::function<ExitCode()> action) {
@@ -85,6 +107,13 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
     print(labelStats(options.dir));
     return ExitCode::kDone;
   });
+  CLI::App* motion_of = command("motion", "Find the joints in every frame of a video (a folder of pictures)",
+                                [&] { return motion(options); });
+  motion_of->add_option("-o,--output", options.output, "File (default: out/<folder>.motion.json)");
+  motion_of->add_option("--frame-rate", options.frame_rate, "Frames a second")
+      ->check(CLI::Range(kMinFrameRate, kMaxFrameRate))
+      ->capture_default_str();
+  motion_of->add_flag("--force", options.force, "Also over joints that were placed by hand");
   CLI::App* exported =
       command("export", "Write labels for other programs", [&] { return exportLabels(options); });
   exported->add_flag("--coco", options.coco, "COCO keypoints: joints and outline of every drawing");

@@ -14,13 +14,16 @@ class App;
 namespace skel {
 
 struct LabelerOptions {
-  std::string path;  // of the window: a folder, a picture or a skeleton file
+  std::string path;  // of the window: a folder, a picture, a skeleton file or a motion file
   std::string weights;
   std::string body_plan = "biped";
+  std::string recognizer = "tree";
   std::string dir;  // of the other commands
   ImportOptions import;
   bool coco = false, csv = false;
   std::string output;
+  double frame_rate = 12;  // 1/s
+  bool force = false;      // of motion
 };
 
 // Adds all options and commands; those that are chosen set `run` to a function that returns the exit code.

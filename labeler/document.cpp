@@ -14,6 +14,7 @@
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
+#include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/labels/label_from_joints.h"
 
@@ -81,16 +82,15 @@ bool samePlaces(const std::vector<JointCandidate>& a, const std::vector<JointCan
 
 std::shared_ptr<const MaskVersion> readMaskVersion(const std::string& path, const Image& image) {
   auto mask = std::make_shared<MaskVersion>();
-  mask->pixels = readMask(path);
-  if (mask->pixels.cols() != image.width || mask->pixels.rows() != image.height)
-    throw InputError(path, "has " + std::to_string(mask->pixels.cols()) + "x" +
-                               std::to_string(mask->pixels.rows()) + " px, its drawing has " +
-                               std::to_string(image.width) + "x" + std::to_string(image.height) +
-                               "; give both the same size or remove the mask");
+  mask->pixels = readMaskOf(image, path);
   mask->file = fs::path(path).filename().string();
   mask->png = readFile(path);
   mask->sha256 = sha256(mask->png);
   return mask;
+}
+
+bool sameFile(const MaskVersion* a, const MaskVersion* b) {
+  return a == b || (a && b && a->file == b->file && a->sha256 == b->sha256);
 }
 
 // The mask of a finished stroke, as a file.
@@ -133,6 +133,22 @@ void deriveMidpoints(std::vector<std::optional<PlacedJoint>>& joints, const Skel
   }
 }
 
+int countLabels(const std::vector<std::optional<JointClass>>& labels) {
+  return static_cast<int>(
+      std::count_if(labels.begin(), labels.end(), [](const auto& label) { return label.has_value(); }));
+}
+
+// Joints that nobody has to look for any more.
+int countFound(const std::vector<std::optional<PlacedJoint>>& joints) {
+  return static_cast<int>(std::count_if(joints.begin(), joints.end(), [](const auto& joint) {
+    return joint && joint->origin != JointOrigin::kCompleted;
+  }));
+}
+
+std::string besideFile(const std::string& file, const std::string& name) {
+  return (fs::path(file).parent_path() / name).lexically_normal().string();
+}
+
 int nearest(const std::vector<std::optional<Eigen::Vector2d>>& points, const Eigen::Vector2d& to,
             double radius) {
   int best = -1;
@@ -142,6 +158,19 @@ int nearest(const std::vector<std::optional<Eigen::Vector2d>>& points, const Eig
     radius = (*points[i] - to).norm();
   }
   return best;
+}
+
+// A file that says where joints are in a picture must mean this picture.
+template <class Claim>
+void checkSize(const Image& image, const std::string& image_path, const Claim& claim,
+               const std::string& claim_path, const std::string& place) {
+  const auto size = [](int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  if (claim.image_width != image.width || claim.image_height != image.height)
+    throw InputError(claim_path, place + ": has " + size(claim.image_width, claim.image_height) + " px, " +
+                                     image_path + " has " + size(image.width, image.height) +
+                                     "; find the joints anew");
 }
 
 bool isInside(const Eigen::Vector2d& p, const Polygon& polygon) {
@@ -179,25 +208,36 @@ class Document::StepScope {
   bool outermost_;
 };
 
-Document::Document(const std::string& path, DocumentOptions options) : options_(std::move(options)) {
+Document::Document(const std::string& path, DocumentOptions options)
+    : options_(std::move(options)), path_(path) {
   constexpr std::string_view kSkeletonEnding = ".skeleton.json";
   if (fs::is_directory(path)) {
-    for (DrawingFiles& files : findDrawings(path)) items_.push_back({std::move(files), {}, 0, 0, {}});
+    for (DrawingFiles& files : findDrawings(path)) items_.push_back({std::move(files), 0, 0, {}});
   } else if (path.ends_with(kSkeletonEnding)) {
     skeleton_file_ = readSkeletonFile(path, options_.body_plan);
-    const std::string image = (fs::path(path).parent_path() / skeleton_file_->image_file).string();
-    items_.push_back({drawingFiles(image, skeleton_file_->image_file), path, 0, 0, {}});
+    items_.push_back({drawingFiles(besideFile(path, skeleton_file_->image_file),
+                                   fs::path(skeleton_file_->image_file).filename().string()),
+                      0,
+                      0,
+                      {}});
+  } else if (path.ends_with(kMotionFileEnding)) {
+    motion_file_ = readMotionFile(path, options_.body_plan);
+    for (const MotionFrame& frame : motion_file_->frames)
+      items_.push_back({drawingFiles(besideFile(path, frame.image_file), frame.image_file),
+                        static_cast<int>(frame.joints.size()),
+                        countFound(frame.joints),
+                        {}});
   } else {
     readImage(path);
-    items_.push_back({drawingFiles(path, fs::path(path).filename().string()), {}, 0, 0, {}});
+    items_.push_back({drawingFiles(path, fs::path(path).filename().string()), 0, 0, {}});
   }
   for (Item& item : items_) {
-    if (!fs::is_regular_file(item.files.labels)) continue;
+    if (fs::exists(item.files.mask)) given_masks_.insert(item.files.mask);
+    if (item.parts > 0 || !fs::is_regular_file(item.files.labels)) continue;
     try {
       const LabelFile labels = readLabelFile(item.files.labels);
-      item.candidates = static_cast<int>(labels.candidates.size());
-      item.labelled = static_cast<int>(std::count_if(labels.labels.begin(), labels.labels.end(),
-                                                     [](const auto& label) { return label.has_value(); }));
+      item.parts = static_cast<int>(labels.candidates.size());
+      item.parts_done = countLabels(labels.labels);
     } catch (const InputError& error) {
       item.problem = error.what();
     }
@@ -224,7 +264,7 @@ void Document::load(int item) {
   figure_ = std::make_shared<Figure>();
   state_ = {};
   state_.joints.resize(options_.body_plan.joints.size());
-  saved_mask_ = nullptr;
+  opened_mask_ = saved_mask_ = nullptr;
   rigged_.reset();
   message_.clear();
   try {
@@ -233,8 +273,11 @@ void Document::load(int item) {
     count();
   } catch (const Error& error) {
     mutableItem().problem = error.what();
+    // What cannot be read must not be written over: nothing can be done here.
+    image_ = {};
     state_.mask = nullptr;
     state_.labels.clear();
+    state_.joints.assign(options_.body_plan.joints.size(), std::nullopt);
     figure_ = std::make_shared<Figure>();
   }
   if (message_.empty()) message_ = mutableItem().problem;
@@ -247,16 +290,24 @@ void Document::loadDrawing() {
   image_sha256_ = sha256(bytes);
   finishSave(files.labels);
 
+  if (skeleton_file_) checkSize(image_, files.image, *skeleton_file_, path_, "image");
+  if (motion_file_)
+    checkSize(image_, files.image, motion_file_->frames[static_cast<size_t>(current_)], path_,
+              "frames[" + std::to_string(current_) + "].image");
+
   std::optional<LabelFile> labels;
   if (fs::is_regular_file(files.labels)) labels = readLabelFile(files.labels);
-  if (labels && labels->mask) {
-    state_.mask = readMaskVersion(besideLabelFile(files.labels, labels->mask->file), image_);
-    if (state_.mask->sha256 != labels->mask->sha256)
+  if (skeleton_file_ && skeleton_file_->mask) {
+    loadSkeletonsMask();
+  } else if (labels && labels->mask) {
+    saved_mask_ = readMaskVersion(besideLabelFile(files.labels, labels->mask->file), image_);
+    if (saved_mask_->sha256 != labels->mask->sha256)
       message_ = labels->mask->file + " has changed since it was labelled: look through the labels";
   } else if (const auto given = givenMask(files); !labels && given) {
-    state_.mask = readMaskVersion(*given, image_);
+    saved_mask_ = readMaskVersion(*given, image_);
   }
-  saved_mask_ = state_.mask;
+  if (!opened_mask_) opened_mask_ = saved_mask_;
+  state_.mask = opened_mask_;
   figure_ = figureOf(image_, state_.mask.get(), options_.mlp);
   state_.labels.resize(figure_->centers_px.size());
   if (labels) {
@@ -285,6 +336,24 @@ void Document::loadDrawing() {
       state_.joints[static_cast<size_t>(options_.body_plan.find(joint.name))] =
           PlacedJoint{joint.image, joint.confidence, joint.origin};
   }
+  if (motion_file_) state_.joints = motion_file_->frames[static_cast<size_t>(current_)].joints;
+}
+
+void Document::loadSkeletonsMask() {
+  const DrawingFiles& files = item().files;
+  const std::string path = besideFile(path_, skeleton_file_->mask->file);
+  auto mask = std::make_shared<MaskVersion>(*readMaskVersion(path, image_));
+  if (mask->sha256 != skeleton_file_->mask->sha256)
+    message_ = path + " has changed since the skeleton was found: look through the joints";
+  std::error_code not_there;
+  // Label files speak of masks in their own folder only: with labels a mask from elsewhere is saved there.
+  const bool beside = fs::equivalent(path, besideFile(files.image, mask->file), not_there);
+  if (!beside) mask->file = fs::path(files.mask).filename().string();
+  if (!beside && fs::exists(files.mask) && readFile(files.mask) != mask->png)
+    throw InputError(files.mask,
+                     "is not the mask that " + path_ + " was made with, " + path + "; take one of them away");
+  opened_mask_ = mask;
+  if (beside || fs::exists(files.mask)) saved_mask_ = mask;
 }
 
 void Document::beginStep() {
@@ -345,7 +414,7 @@ void Document::labelFromJoints() {
 }
 
 void Document::moveJoint(int joint, const Eigen::Vector2d& image_px) {
-  if (!figure_->silhouette.found()) return;
+  if (image_.empty() || !(figure_->silhouette.found() || skeleton_file_ || motion_file_)) return;
   const StepScope scope(*this);
   // Within the picture, to the hundredth of a pixel that skeleton files keep.
   const Eigen::Vector2d low(0, 0), high(image_.width - 1, image_.height - 1);
@@ -366,6 +435,24 @@ void Document::forgetJoints() {
   std::fill(state_.joints.begin(), state_.joints.end(), std::nullopt);
   rigged_.reset();
   message_ = "all joints forgotten: R finds them anew";
+}
+
+void Document::takeJointsOfFrameBefore() {
+  if (!motion_file_ || image_.empty()) return;
+  if (current_ == 0) {
+    message_ = "this is the first frame";
+    return;
+  }
+  const StepScope scope(*this);
+  const Eigen::Vector2d high(image_.width - 1, image_.height - 1);
+  const auto& before = motion_file_->frames[static_cast<size_t>(current_) - 1].joints;
+  for (size_t j = 0; j < before.size(); ++j) {
+    auto& joint = state_.joints[j];
+    if (!before[j] || (joint && joint->origin == JointOrigin::kEdited)) continue;
+    joint = PlacedJoint{before[j]->image.cwiseMin(high), 0, JointOrigin::kCompleted};
+  }
+  rigged_.reset();
+  message_ = "joints as in the frame before: drag them";
 }
 
 bool Document::replaceMask(std::shared_ptr<const MaskVersion> mask) {
@@ -406,12 +493,21 @@ void Document::forgetMask() {
 
 void Document::rig() {
   if (image_.empty()) return;
+  try {
+    rigOrThrow();
+  } catch (const Error& error) {
+    message_ = error.what();
+  }
+}
+
+void Document::rigOrThrow() {
   RigInput input;
   input.image = image_;
   if (state_.mask) input.mask = state_.mask->pixels;
   RigOptions options;
   options.mlp = options_.mlp;
   options.body_plan = options_.body_plan;
+  options.recognizer = options_.recognizer;
   options.clips = {builtinClips().front()};
   auto rigged = std::make_unique<RiggedDrawing>(rigCharacter(input, options));
   if (!rigged->found()) {
@@ -454,9 +550,11 @@ bool Document::travel(std::deque<Step>& from, std::deque<Step>& to, DrawingState
   if (from.empty() || !go(from.back().item)) return false;
   const Step step = std::move(from.back());
   from.pop_back();
-  const bool same_mask = state_.mask == (step.*target).mask;
+  const bool same_mask = sameFile(state_.mask.get(), (step.*target).mask.get());
   const bool same_joints = state_.joints == (step.*target).joints;
+  const auto mask = same_mask ? state_.mask : (step.*target).mask;
   state_ = step.*target;
+  state_.mask = mask;
   if (!same_mask) figure_ = figureOf(image_, state_.mask.get(), options_.mlp);
   if (!same_mask || !same_joints) rigged_.reset();
   message_ = &from == &undo_ ? "undone" : "done again";
@@ -468,9 +566,9 @@ bool Document::travel(std::deque<Step>& from, std::deque<Step>& to, DrawingState
 
 void Document::count() {
   Item& item = mutableItem();
-  item.candidates = static_cast<int>(state_.labels.size());
-  item.labelled = static_cast<int>(std::count_if(state_.labels.begin(), state_.labels.end(),
-                                                 [](const auto& label) { return label.has_value(); }));
+  const bool joints = skeleton_file_ || motion_file_;
+  item.parts = static_cast<int>(joints ? state_.joints.size() : state_.labels.size());
+  item.parts_done = joints ? countFound(state_.joints) : countLabels(state_.labels);
   if (figure_->silhouette.found()) item.problem.clear();
 }
 
@@ -480,13 +578,18 @@ void Document::save() {
     save_problem_.clear();
   } catch (const OutputError& error) {
     save_problem_ = error.what();
-    return;
   }
-  saved_mask_ = state_.mask;
 }
 
-void Document::writeFiles() const {
+void Document::writeFiles() {
   const DrawingFiles& files = item().files;
+  if (skeleton_file_) writeSkeletonFile();
+  if (motion_file_) writeMotionFile();
+  if (skeleton_file_ || motion_file_) {
+    // Who only moves joints has no use for a label file.
+    const bool labelled = countLabels(state_.labels) > 0 || state_.mask != opened_mask_;
+    if (!figure_->silhouette.found() || (!labelled && !fs::is_regular_file(files.labels))) return;
+  }
   LabelFile labels;
   labels.image = {fs::path(files.image).filename().string(), image_sha256_};
   labels.image_width = image_.width;
@@ -498,32 +601,45 @@ void Document::writeFiles() const {
   labels.joints = namedJoints(state_.joints, options_.body_plan);
   if (state_.mask) labels.mask = LabelFile::Source{state_.mask->file, state_.mask->sha256};
 
-  if (skeleton_file_) {
-    SkeletonFile file = *skeleton_file_;
-    for (Joint& joint : file.skeleton.joints) {
-      const auto& place = state_.joints[static_cast<size_t>(options_.body_plan.find(joint.name))];
-      if (!place) continue;
-      joint.image = place->image;
-      joint.confidence = place->confidence;
-      joint.origin = place->origin;
-      if (place->origin == JointOrigin::kEdited) std::erase(file.missing, joint.name);
-    }
-    if (state_.mask) file.mask = SkeletonFile::Mask{state_.mask->file, state_.mask->sha256};
-    writeFile(item().skeleton_path, formatSkeletonFile(file));
-    // Who only moves joints has no use for a label file.
-    const bool labelled = item().labelled > 0 || state_.mask != saved_mask_;
-    if (!labelled && !fs::is_regular_file(files.labels)) return;
-  }
   const bool mended = state_.mask && state_.mask != saved_mask_ &&
                       state_.mask->file == fs::path(files.mask).filename().string();
   if (mended) {
     saveWithMask(files.labels, labels, state_.mask->png);
-  } else {
-    writeLabelFile(files.labels, labels);
-    // A mask that was undone altogether.
-    if (!state_.mask && saved_mask_ && besideLabelFile(files.labels, saved_mask_->file) == files.mask)
-      fs::remove(files.mask);
+    saved_mask_ = state_.mask;
+    return;
   }
+  writeLabelFile(files.labels, labels);
+  // A mask that was undone altogether; one that had been there before stays.
+  if (!state_.mask && saved_mask_ && besideLabelFile(files.labels, saved_mask_->file) == files.mask &&
+      !given_masks_.contains(files.mask)) {
+    removeFile(files.mask);
+    saved_mask_ = nullptr;
+  }
+}
+
+void Document::writeSkeletonFile() {
+  SkeletonFile file = *skeleton_file_;
+  for (Joint& joint : file.skeleton.joints) {
+    const auto& place = state_.joints[static_cast<size_t>(options_.body_plan.find(joint.name))];
+    if (!place) continue;
+    joint.image = place->image;
+    joint.confidence = place->confidence;
+    joint.origin = place->origin;
+    if (place->origin == JointOrigin::kEdited) std::erase(file.missing, joint.name);
+  }
+  if (!state_.mask)
+    file.mask.reset();
+  else if (file.mask && state_.mask == opened_mask_)
+    file.mask->sha256 = state_.mask->sha256;  // it may have changed since
+  else
+    file.mask = SkeletonFile::Mask{pathSeenFrom(path_, besideFile(item().files.image, state_.mask->file)),
+                                   state_.mask->sha256};
+  writeFile(path_, formatSkeletonFile(file));
+}
+
+void Document::writeMotionFile() {
+  motion_file_->frames[static_cast<size_t>(current_)].joints = state_.joints;
+  writeFile(path_, formatMotionFile(*motion_file_, options_.body_plan));
 }
 
 int Document::mostUnsure() const {

@@ -6,6 +6,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "libskel/image/image.h"
 #include "libskel/pipeline/rig_character.h"
 #include "libskel/silhouette/silhouette.h"
+#include "libskel/skeleton/motion_file.h"
 #include "libskel/skeleton/skeleton_file.h"
 #include "libskel/skeleton/template.h"
 
@@ -23,11 +25,12 @@ namespace skel {
 // A drawing in the list.
 struct Item {
   DrawingFiles files;
-  std::string skeleton_path;         // the skeleton file that was opened; else empty
-  int candidates = 0, labelled = 0;  // 0 candidates: not looked at yet
-  std::string problem;               // why it cannot be labelled; else empty
+  // Candidates and those that have a label; of a frame of a motion: joints and those that were found or
+  // placed by hand. 0 parts: not looked at yet.
+  int parts = 0, parts_done = 0;
+  std::string problem;  // why it cannot be labelled; else empty
 
-  bool done() const { return candidates > 0 && labelled == candidates; }
+  bool done() const { return parts > 0 && parts_done == parts; }
 };
 
 // A mask file as it is, or is to be, on the disk.
@@ -36,14 +39,6 @@ struct MaskVersion {
   std::string file;    // name, beside the image
   std::string png;     // its bytes; empty while a stroke is being drawn
   std::string sha256;  // of these
-};
-
-struct PlacedJoint {
-  Eigen::Vector2d image = Eigen::Vector2d::Zero();  // px
-  double confidence = 0;
-  JointOrigin origin = JointOrigin::kEdited;
-
-  bool operator==(const PlacedJoint&) const = default;
 };
 
 // What steps change and undo brings back. Masks are shared and never change, so that copies are cheap.
@@ -65,19 +60,24 @@ struct Figure {
 };
 
 struct DocumentOptions {
-  Mlp mlp;  // suggests labels and rigs
+  Mlp mlp;  // suggests labels
   SkeletonTemplate body_plan;
+  Recognizer recognizer = Recognizer::kTree;
 };
 
 class Document {
  public:
-  // `path` is a folder of pictures of any depth, one picture, or one skeleton file. Throws InputError.
+  // `path` is a folder of pictures of any depth, one picture, one skeleton file or one motion file. Throws
+  // InputError.
   Document(const std::string& path, DocumentOptions options);
 
   const std::vector<Item>& items() const { return items_; }
   int current() const { return current_; }
   const Item& item() const { return items_[static_cast<size_t>(current_)]; }
   const SkeletonTemplate& bodyPlan() const { return options_.body_plan; }
+  // Joints are what this is about: they are kept in a file of their own.
+  bool editsSkeleton() const { return skeleton_file_.has_value(); }
+  bool editsMotion() const { return motion_file_.has_value(); }
   // False, and stays, where there is no such item or the last step is not on the disk.
   bool go(int item);
 
@@ -98,12 +98,15 @@ class Document {
   void labelFromJoints();
   void moveJoint(int joint, const Eigen::Vector2d& image_px);
   void forgetJoints();
+  // Of a motion: all joints as in the frame before, for frames in which none are found.
+  void takeJointsOfFrameBefore();
   // Adds to the figure, or erases from it, along a line with a round brush. Labels stay where the figure
   // stays. A stroke that would leave no figure is refused.
   void paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px, bool add);
   // The figure is found in the picture again.
   void forgetMask();
-  // Recognises the joints anew, but for those that a person has placed, and builds the model.
+  // Recognises the joints anew, but for those that a person has placed, and builds the model. Says why where
+  // that cannot be done.
   void rig();
   // The model of the last rig(), until picture, mask or joints change; else null.
   const RiggedDrawing* rigged() const { return rigged_.get(); }
@@ -138,11 +141,16 @@ class Document {
   Item& mutableItem() { return items_[static_cast<size_t>(current_)]; }
   void load(int item);
   void loadDrawing();
+  // The one that the skeleton file was made with.
+  void loadSkeletonsMask();
+  void rigOrThrow();
   // Takes a mask and lets the candidates follow; false, with nothing changed, if it shows no figure.
   bool replaceMask(std::shared_ptr<const MaskVersion> mask);
   bool travel(std::deque<Step>& from, std::deque<Step>& to, DrawingState Step::*target);
   void save();
-  void writeFiles() const;
+  void writeFiles();
+  void writeSkeletonFile();
+  void writeMotionFile();
   void count();
 
   DocumentOptions options_;
@@ -153,8 +161,12 @@ class Document {
   DrawingState state_;
   std::shared_ptr<const Figure> figure_;
   std::unique_ptr<RiggedDrawing> rigged_;
-  std::optional<SkeletonFile> skeleton_file_;
-  std::shared_ptr<const MaskVersion> saved_mask_;  // on the disk
+  std::string path_;                           // that was opened
+  std::optional<SkeletonFile> skeleton_file_;  // what `path_` holds
+  std::optional<MotionFile> motion_file_;
+  std::set<std::string> given_masks_;               // mask files that were there before
+  std::shared_ptr<const MaskVersion> opened_mask_;  // of the current drawing when it was opened
+  std::shared_ptr<const MaskVersion> saved_mask_;   // beside the drawing
   std::optional<OpenStep> open_step_;
   std::deque<Step> undo_, redo_;
   std::string message_, save_problem_;

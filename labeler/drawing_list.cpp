@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "libskel/core/error.h"
+#include "libskel/core/files.h"
 #include "libskel/labels/label_file.h"
 
 namespace skel {
@@ -37,12 +38,10 @@ std::optional<std::string> givenMask(const DrawingFiles& files) {
 }
 
 std::vector<DrawingFiles> findDrawings(const std::string& dir) {
-  if (!fs::is_directory(dir)) throw InputError(dir, "is not a folder");
   std::vector<DrawingFiles> drawings;
-  for (const auto& entry : fs::recursive_directory_iterator(dir))
-    if (entry.is_regular_file() && isDrawing(entry.path()))
-      drawings.push_back(
-          drawingFiles(entry.path().string(), entry.path().lexically_relative(dir).generic_string()));
+  for (const std::string& file : filesBelow(dir))
+    if (isDrawing(file))
+      drawings.push_back(drawingFiles(file, fs::path(file).lexically_relative(dir).generic_string()));
   if (drawings.empty()) throw InputError(dir, "holds no picture (.png, .jpg, .webp, .bmp, .tif, .gif)");
   std::sort(drawings.begin(), drawings.end(),
             [](const DrawingFiles& a, const DrawingFiles& b) { return a.name < b.name; });

@@ -37,14 +37,6 @@ void checkJoints(const AnnotatedDrawing& drawing, const Image& image) {
       throw InputError(drawing.source, "joint " + name + " lies outside " + drawing.image);
 }
 
-void checkMask(const std::string& mask_path, const Image& image) {
-  const Plane8 mask = readMask(mask_path);
-  if (mask.cols() != image.width || mask.rows() != image.height)
-    throw InputError(mask_path, "has " + std::to_string(mask.cols()) + "x" + std::to_string(mask.rows()) +
-                                    " px, its drawing has " + std::to_string(image.width) + "x" +
-                                    std::to_string(image.height));
-}
-
 // Whether a label file was made.
 bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, const SkeletonTemplate& body_plan,
                    const ImportOptions& options) {
@@ -54,7 +46,7 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
 
   const Image image = readImage(drawing.image);
   checkJoints(drawing, image);
-  if (drawing.mask) checkMask(*drawing.mask, image);
+  if (drawing.mask) readMaskOf(image, *drawing.mask);  // before anything is copied
   copyFile(drawing.image, image_path);
   std::optional<std::string> mask;
   if (drawing.mask) {
@@ -105,9 +97,7 @@ ImportCounts makeLabelFiles(const std::string& dir, const SkeletonTemplate& body
                             const OnError& on_error) {
   return forEach(findDrawings(dir), "candidates", on_error, [&](const DrawingFiles& files) {
     if (fs::exists(files.labels)) return false;
-    const auto mask = givenMask(files);
-    if (mask) checkMask(*mask, readImage(files.image));
-    writeLabelFile(files.labels, labelImage(files.image, mask, {}, body_plan));
+    writeLabelFile(files.labels, labelImage(files.image, givenMask(files), {}, body_plan));
     return true;
   });
 }

@@ -34,6 +34,7 @@ constexpr struct {
     {"D", "labels from the joints"},
     {"R", "rig and show the model; joints placed by hand stay"},
     {"Shift R", "forget all joints and rig"},
+    {"C", "of a motion: joints as in the frame before"},
     {"M", "mend the mask: left button adds, right button erases"},
     {"X", "swap adding and erasing"},
     {"[  ]", "smaller, larger brush"},
@@ -66,7 +67,9 @@ void tip(const char* text) {
 
 class LabelingWindow {
  public:
-  explicit LabelingWindow(Document& document) : document_(document), canvas_(document) {}
+  explicit LabelingWindow(Document& document) : document_(document), canvas_(document) {
+    if (document.editsSkeleton() || document.editsMotion()) canvas_.tool = Tool::kJoints;
+  }
 
   NextFrame frame() {
     keys();
@@ -116,6 +119,7 @@ class LabelingWindow {
     if (pressed(key::kA)) acceptAll();
     if (pressed(key::kD)) labelFromJoints();
     if (pressed(key::kR)) rig(io.KeyShift);
+    if (pressed(key::kC)) takeJointsOfFrameBefore();
     if (pressed(key::kX)) canvas_.mask_adds = !canvas_.mask_adds;
     if (pressed(key::kLeftBracket, true)) canvas_.growBrush(1 / 1.2);
     if (pressed(key::kRightBracket, true)) canvas_.growBrush(1.2);
@@ -131,6 +135,8 @@ class LabelingWindow {
   void redo() { canvas_.cancel(), document_.redo(); }
   void acceptAll() { canvas_.cancel(), document_.acceptSuggestions(); }
   void labelFromJoints() { canvas_.cancel(), document_.labelFromJoints(); }
+
+  void takeJointsOfFrameBefore() { canvas_.cancel(), document_.takeJointsOfFrameBefore(); }
 
   void rig(bool forget) {
     canvas_.cancel();
@@ -217,9 +223,9 @@ class LabelingWindow {
       ImGui::SetTooltip(
           "%s\n%s", item.files.name.c_str(),
           !item.problem.empty() ? item.problem.c_str()
-          : item.candidates == 0
+          : item.parts == 0
               ? "not looked at yet"
-              : (std::to_string(item.labelled) + " of " + std::to_string(item.candidates)).c_str());
+              : (std::to_string(item.parts_done) + " of " + std::to_string(item.parts)).c_str());
     ImDrawList* list = ImGui::GetWindowDrawList();
     const ImVec2 c{corner.x + 16, corner.y + kRowHeight / 2};
     if (!item.problem.empty()) {
@@ -232,8 +238,8 @@ class LabelingWindow {
       list->AddPolyline(tick, 3, IM_COL32_WHITE, 0, 2.5f);
     } else {
       list->AddCircle(c, 8, IM_COL32(170, 178, 192, 255), 24, 2.5f);
-      if (item.labelled > 0) {
-        const float share = static_cast<float>(item.labelled) / static_cast<float>(item.candidates);
+      if (item.parts_done > 0) {
+        const float share = static_cast<float>(item.parts_done) / static_cast<float>(item.parts);
         list->PathArcTo(c, 8, -1.5708f, -1.5708f + 6.2832f * share, 24);
         list->PathStroke(IM_COL32(38, 160, 84, 255), 0, 3.5f);
       }
@@ -287,7 +293,10 @@ class LabelingWindow {
   // True while the model moves.
   bool drawPanel(float height) {
     ImGui::BeginChild("panel", {kPanelWidth, height}, true);
-    const Item& item = document_.item();
+    const auto& labels = document_.state().labels;
+    const auto labelled = static_cast<int>(
+        std::count_if(labels.begin(), labels.end(), [](const auto& label) { return label.has_value(); }));
+    const auto candidates = static_cast<int>(labels.size());
     const float width = ImGui::GetContentRegionAvail().x, half = (width - 8) / 2;
     const float third = (width - kButtonHeight - 16) / 2;
     enabledButton(
@@ -300,11 +309,14 @@ class LabelingWindow {
     tip("All keys  (key H)");
     ImGui::Spacing();
 
-    ImGui::Text("%d of %d labelled", item.labelled, item.candidates);
-    bar(item.candidates > 0 ? static_cast<float>(item.labelled) / static_cast<float>(item.candidates) : 0,
-        10);
+    if (const Item& item = document_.item(); document_.editsSkeleton() || document_.editsMotion()) {
+      ImGui::Text("%d of %d joints found", item.parts_done, item.parts);
+      bar(item.parts > 0 ? static_cast<float>(item.parts_done) / static_cast<float>(item.parts) : 0, 10);
+    }
+    ImGui::Text("%d of %d labelled", labelled, candidates);
+    bar(candidates > 0 ? static_cast<float>(labelled) / static_cast<float>(candidates) : 0, 10);
     const bool found = document_.figure().silhouette.found();
-    const bool open = found && item.labelled < item.candidates;
+    const bool open = found && labelled < candidates;
     enabledButton(
         "Next unsure", {half, kButtonHeight}, open, [&] { nextUnsure(); }, "N");
     ImGui::SameLine();
@@ -318,6 +330,10 @@ class LabelingWindow {
     ImGui::Spacing();
     enabledButton(
         "Rig it", {width, kButtonHeight}, found, [&] { rig(false); }, "R");
+    if (document_.editsMotion())
+      enabledButton(
+          "As in the frame before", {width, kButtonHeight}, document_.current() > 0,
+          [&] { takeJointsOfFrameBefore(); }, "C");
     bool moving = false;
     if (document_.rigged()) {
       const float room = ImGui::GetContentRegionAvail().y - (document_.state().mask ? kButtonHeight + 12 : 0);

@@ -21,6 +21,12 @@ void rename(const std::string& from, const std::string& to) {
 
 }  // namespace
 
+void removeFile(const std::string& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) throw OutputError(path, "cannot be removed: " + error.message());
+}
+
 void saveWithMask(const std::string& label_file, const LabelFile& labels, const std::string& png) {
   const std::string mask = besideLabelFile(label_file, labels.mask->file);
   writeFile(mask + kNext, png);
@@ -37,7 +43,7 @@ void finishSave(const std::string& label_file) {
   if (source && besideLabelFile(label_file, source->file) == mask && sha256(readFile(next)) == source->sha256)
     rename(next, mask);
   else
-    fs::remove(next);
+    removeFile(next);
 }
 
 }  // namespace skel

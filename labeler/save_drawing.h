@@ -16,4 +16,7 @@ void saveWithMask(const std::string& label_file, const LabelFile& labels, const 
 // Completes, or takes back, what an earlier process did not finish. `label_file` need not exist.
 void finishSave(const std::string& label_file);
 
+// Throws OutputError where there is one and it stays.
+void removeFile(const std::string& path);
+
 }  // namespace skel

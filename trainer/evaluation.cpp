@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "libskel/core/json_names.h"
+
 namespace skel {
 namespace {
 
@@ -75,7 +77,7 @@ std::string formatEvaluation(const Evaluation& evaluation) {
   json["confusion"] = evaluation.confusion;
   json["characters"] = nlohmann::ordered_json::array();
   for (const CharacterScore& character : evaluation.characters)
-    json["characters"].push_back({{"name", character.name},
+    json["characters"].push_back({{"name", jsonFromFileName(character.name)},
                                   {"samples", character.samples},
                                   {"accuracy", share(character.right, character.samples)}});
   return json.dump(2) + "\n";

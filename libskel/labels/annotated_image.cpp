@@ -30,10 +30,8 @@ LabelFile::Source sourceOf(const std::string& path) {
 }  // namespace
 
 std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir) {
-  if (!fs::is_directory(dir)) throw InputError(dir, "is not a folder");
   std::vector<AnnotatedImage> found;
-  for (const auto& entry : fs::recursive_directory_iterator(dir)) {
-    const fs::path path = entry.path();
+  for (const fs::path path : filesBelow(dir)) {
     const std::string name = path.filename().string();
     fs::path stem, mask;
     if (name == "joints.json") {
@@ -73,9 +71,19 @@ NamedJoints readJointsFile(const std::string& path) {
   return joints;
 }
 
-Silhouette silhouetteOf(const std::string& image, const std::optional<std::string>& mask) {
-  Silhouette silhouette = mask ? silhouetteFromMask(readMask(*mask)) : extractSilhouette(readImage(image));
-  if (!silhouette.found()) throw InputError(mask.value_or(image), silhouette.reason);
+Plane8 readMaskOf(const Image& image, const std::string& mask) {
+  Plane8 pixels = readMask(mask);
+  if (pixels.cols() != image.width || pixels.rows() != image.height)
+    throw InputError(mask, "has " + std::to_string(pixels.cols()) + "x" + std::to_string(pixels.rows()) +
+                               " px, its drawing has " + std::to_string(image.width) + "x" +
+                               std::to_string(image.height) + "; give both the same size or remove the mask");
+  return pixels;
+}
+
+Silhouette silhouetteOf(const std::string& image_path, const std::optional<std::string>& mask) {
+  const Image image = readImage(image_path);
+  Silhouette silhouette = mask ? silhouetteFromMask(readMaskOf(image, *mask)) : extractSilhouette(image);
+  if (!silhouette.found()) throw InputError(mask.value_or(image_path), silhouette.reason);
   return silhouette;
 }
 

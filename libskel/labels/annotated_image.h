@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libskel/candidates/candidates.h"
+#include "libskel/image/image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/silhouette/silhouette.h"
 #include "libskel/skeleton/template.h"
@@ -19,12 +20,16 @@ struct AnnotatedImage {
   std::string joints;               // path
 };
 
-// All below `dir`, at any depth, sorted by path. Throws InputError: no such folder, joints without an image.
+// All below `dir`, at any depth, sorted by path. Throws InputError: no such folder, a folder that cannot be
+// read, joints without an image.
 std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir);
 
 // Joints by the names of the biped template; a file may also call `body` "torso" and `pelvis` "hip".
 // Throws InputError that names file, JSON path and reason.
 NamedJoints readJointsFile(const std::string& path);
+
+// Throws InputError also where its size is not that of the image.
+Plane8 readMaskOf(const Image& image, const std::string& mask);
 
 // The figure by its mask, or as found in the image. Throws InputError with the reason if there is none.
 Silhouette silhouetteOf(const std::string& image, const std::optional<std::string>& mask);

@@ -13,6 +13,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
+#include "libskel/core/json_names.h"
 #include "libskel/core/sha256.h"
 
 namespace skel {
@@ -40,7 +41,7 @@ class Problems {
 };
 
 LabelFile::Source readSource(const JsonValue& value) {
-  LabelFile::Source source{value.at("file").asString(), value.at("sha256").asString()};
+  LabelFile::Source source{value.at("file").asFileName(), value.at("sha256").asString()};
   if (source.file.empty() || source.file.find('/') != std::string::npos)
     value.at("file").fail("must be the name of a file in the same folder");
   if (source.sha256.size() != 64 || source.sha256.find_first_not_of("0123456789abcdef") != std::string::npos)
@@ -181,15 +182,18 @@ std::vector<std::string> findProblems(const std::string& path) {
 
 std::string formatLabelFile(const LabelFile& labels) {
   SKEL_CHECK_EQ(labels.candidates.size(), labels.labels.size());
-  const auto quote = [](const std::string& text) { return nlohmann::json(text).dump(); };
+  const auto quote = [](const std::string& text) {
+    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  };
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out << "{\n  \"format\": \"" << kFormat << "\",\n  \"version\": " << kVersion
-      << ",\n  \"image\": {\"file\": " << quote(labels.image.file) << ", \"width\": " << labels.image_width
-      << ", \"height\": " << labels.image_height << ", \"sha256\": " << quote(labels.image.sha256)
-      << "},\n  \"mask\": ";
+      << ",\n  \"image\": {\"file\": " << quote(jsonFromFileName(labels.image.file))
+      << ", \"width\": " << labels.image_width << ", \"height\": " << labels.image_height
+      << ", \"sha256\": " << quote(labels.image.sha256) << "},\n  \"mask\": ";
   if (labels.mask)
-    out << "{\"file\": " << quote(labels.mask->file) << ", \"sha256\": " << quote(labels.mask->sha256) << "}";
+    out << "{\"file\": " << quote(jsonFromFileName(labels.mask->file))
+        << ", \"sha256\": " << quote(labels.mask->sha256) << "}";
   else
     out << "null";
   out << ",\n  \"grid\": {\"width\": " << labels.grid_width << ", \"height\": " << labels.grid_height

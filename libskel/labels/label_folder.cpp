@@ -1,6 +1,5 @@
 #include "libskel/labels/label_folder.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "libskel/core/error.h"
@@ -62,13 +61,9 @@ std::array<int, kJointClassCount> LabelledSet::classCounts() const {
 }
 
 std::vector<std::string> findLabelFiles(const std::string& dir) {
-  if (!fs::is_directory(dir)) throw InputError(dir, "is not a folder");
-  std::vector<std::string> found;
-  for (const auto& entry : fs::recursive_directory_iterator(dir))
-    if (entry.is_regular_file() && entry.path().string().ends_with(kLabelFileEnding))
-      found.push_back(entry.path().string());
-  std::sort(found.begin(), found.end());
-  return found;
+  std::vector<std::string> files = filesBelow(dir);
+  std::erase_if(files, [](const std::string& file) { return !file.ends_with(kLabelFileEnding); });
+  return files;
 }
 
 std::vector<std::string> checkLabelFolder(const std::string& dir) {

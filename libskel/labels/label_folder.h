@@ -25,7 +25,8 @@ struct LabelledSet {
   std::array<int, kJointClassCount> classCounts() const;
 };
 
-// Label files below `dir`, at any depth, sorted by path. Throws InputError if there is no such folder.
+// Label files below `dir`, at any depth, sorted by path. Throws InputError: no such folder, one that
+// cannot be read.
 std::vector<std::string> findLabelFiles(const std::string& dir);
 
 // Every inconsistency of all label files below `dir`, one line each; none: all is well.

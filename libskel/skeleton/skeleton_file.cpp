@@ -1,30 +1,17 @@
 #include "libskel/skeleton/skeleton_file.h"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
+#include "libskel/core/json_names.h"
+#include "libskel/skeleton/joint_json.h"
 
 namespace skel {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double rounded(double value, double steps) {
-  const double r = std::round(value * steps) / steps;
-  return r == 0 ? 0 : r;  // no -0
-}
-
-JointOrigin originAt(const JsonValue& value) {
-  const std::string name = value.asString();
-  const auto found = std::find(kJointOriginNames.begin(), kJointOriginNames.end(), name);
-  if (found == kJointOriginNames.end())
-    value.fail("is \"" + name + "\", must be recognized, completed, derived or edited");
-  return static_cast<JointOrigin>(found - kJointOriginNames.begin());
-}
 
 std::vector<std::string> textsAt(const JsonValue& value) {
   std::vector<std::string> texts;
@@ -45,12 +32,7 @@ Joint jointAt(const JsonValue& item, const SkeletonTemplate& body_plan, const Sk
       joint.parent < 0 ? "" : body_plan.joints[static_cast<size_t>(joint.parent)].name;
   if ((parent.isNull() ? "" : parent.asString()) != expected)
     parent.fail("must be " + (expected.empty() ? "null" : "\"" + expected + "\""));
-  const auto image = item.at("image").asNumbers(2);
-  joint.image = {image[0], image[1]};
-  if (image[0] < -0.5 || image[1] < -0.5 || image[0] > file.image_width - 0.5 ||
-      image[1] > file.image_height - 0.5)
-    item.at("image").fail("joint \"" + joint.name + "\" lies outside the image of " +
-                          std::to_string(file.image_width) + "x" + std::to_string(file.image_height) + " px");
+  joint.image = imagePointAt(item.at("image"), joint.name, file.image_width, file.image_height);
   const auto position = item.at("position").asNumbers(3);
   joint.position = {position[0], position[1], position[2]};
   joint.confidence = item.at("confidence").asNumber(0, 1);
@@ -64,12 +46,15 @@ std::string formatSkeletonFile(const SkeletonFile& file) {
   Json root;
   root["format"] = "skel-skeleton";
   root["version"] = 1;
-  root["image"] = {{"file", file.image_file}, {"width", file.image_width}, {"height", file.image_height}};
+  root["image"] = {{"file", jsonFromFileName(file.image_file)},
+                   {"width", file.image_width},
+                   {"height", file.image_height}};
   root["template"] = file.skeleton.template_name;
   root["confidence"] = rounded(file.confidence, 1000);
   root["missing"] = file.missing;
   root["warnings"] = file.warnings;
-  root["mask"] = file.mask ? Json{{"file", file.mask->file}, {"sha256", file.mask->sha256}} : Json(nullptr);
+  root["mask"] = file.mask ? Json{{"file", jsonFromFileName(file.mask->file)}, {"sha256", file.mask->sha256}}
+                           : Json(nullptr);
   // One joint a line, so that a person finds and mends it.
   std::string text = root.dump(2, ' ', false, Json::error_handler_t::replace);
   text.resize(text.size() - 2);
@@ -99,19 +84,16 @@ SkeletonFile readSkeletonFile(const std::string& path, const SkeletonTemplate& b
   SkeletonFile file;
   const JsonValue image = root.at("image");
   image.allowOnly({"file", "width", "height"});
-  file.image_file = image.at("file").asString();
+  file.image_file = image.at("file").asFileName();
   file.image_width = image.at("width").asInt(1, 1'000'000);
   file.image_height = image.at("height").asInt(1, 1'000'000);
-  if (root.at("template").asString() != body_plan.name)
-    root.at("template")
-        .fail("is \"" + root.at("template").asString() + "\", but the template in use is \"" +
-              body_plan.name + "\"; give the same --template");
+  checkTemplate(root.at("template"), body_plan.name);
   file.confidence = root.at("confidence").asNumber(0, 1);
   file.missing = textsAt(root.at("missing"));
   file.warnings = textsAt(root.at("warnings"));
   if (const JsonValue mask = root.at("mask"); !mask.isNull()) {
     mask.allowOnly({"file", "sha256"});
-    file.mask = SkeletonFile::Mask{mask.at("file").asString(), mask.at("sha256").asString()};
+    file.mask = SkeletonFile::Mask{mask.at("file").asFileName(), mask.at("sha256").asString()};
   }
   file.skeleton.template_name = body_plan.name;
   file.skeleton.joints.resize(body_plan.joints.size());

@@ -16,7 +16,7 @@ struct SkeletonFile {
     std::string sha256;
   };
 
-  std::string image_file;  // without folders
+  std::string image_file;  // a path relative to the skeleton file
   int image_width = 0, image_height = 0;
   Skeleton skeleton;
   double confidence = 0;

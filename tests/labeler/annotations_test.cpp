@@ -8,6 +8,7 @@
 #include "libskel/core/files.h"
 #include "tests/labeler/drawing_folder.h"
 #include "tests/support/catch.h"
+#include "tests/support/locked_folder.h"
 
 using namespace skel;
 namespace fs = std::filesystem;
@@ -117,6 +118,14 @@ TEST_CASE("all layouts are found at any depth") {
   fs::remove(dir.file("meta/mask.png"));
   CHECK_THROWS_WITH(findAnnotatedDrawings(dir.path(), plan),
                     dir.file("meta/char_cfg.yaml") + ": needs mask.png beside it");
+}
+
+TEST_CASE("a folder of annotations that may not be read is named") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.file("a/locked"));
+  const LockedFolder locked(dir, "a/locked");
+  CHECK_THROWS_WITH(findAnnotatedDrawings(dir.path(), loadTemplate("biped")),
+                    dir.file("a/locked") + ": cannot be read: Permission denied");
 }
 
 TEST_CASE("COCO: people's keypoints under our names") {

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 
+#include "labeler/make_motion.h"
 #include "libskel/core/files.h"
 #include "libskel/image/write_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/labels/label_folder.h"
+#include "libskel/skeleton/motion_file.h"
 #include "tests/labeler/drawing_folder.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
@@ -34,13 +36,16 @@ TEST_CASE("wrong arguments are refused with one line") {
   const TempDir dir;
   fs::create_directories(dir.file("empty"));
   copyCharacter("cap_boy", dir.file("good"));
+  fs::create_directories(dir.file("loop"));
+  fs::create_symlink("a.labels.json", dir.file("loop/a.labels.json"));
   struct Case {
     std::string arguments;
     int exit_code;
     std::string line;
   };
   const std::vector<Case> cases = {
-      {"", 1, "skel-label: name a folder of pictures, a picture or a skeleton file (see --help)\n"},
+      {"", 1,
+       "skel-label: name a folder of pictures, a picture, a skeleton file or a motion file (see --help)\n"},
       {"--colour good", 1, "skel-label: The following argument was not expected: --colour\n"},
       {"check", 1, "skel-label: dir is required\n"},
       {"export good", 1, "skel-label: export needs either --coco or --csv\n"},
@@ -58,6 +63,14 @@ TEST_CASE("wrong arguments are refused with one line") {
       {"stats empty", 2, "skel-label: empty: holds no label files (*.labels.json)"},
       {"export empty --csv", 2, "skel-label: empty: holds no label files (*.labels.json)"},
       {"import good -o good/cap_boy.png", 4, "cap_boy.png"},
+      {"good --recognizer magic", 1, "--recognizer"},
+      {"nowhere.motion.json", 2,
+       "skel-label: nowhere.motion.json: cannot be read: No such file or directory\n"},
+      {"motion empty", 2, "skel-label: empty: holds no picture (.png, .jpg, .webp, .bmp, .tif, .gif)\n"},
+      {"motion good --frame-rate 0", 1, "--frame-rate"},
+      {"motion good -o good/cap_boy.png/x.motion.json", 4, "cap_boy.png"},
+      {"check loop", 2,
+       "skel-label: loop/a.labels.json: cannot be read: Too many levels of symbolic links\n"},
   };
   for (const Case& wrong : cases) {
     INFO(wrong.arguments);
@@ -80,7 +93,7 @@ TEST_CASE("help names the commands") {
   const TempDir dir;
   const ToolRun run = label(dir, "--help");
   CHECK(run.exit_code == 0);
-  for (const char* command : {"candidates", "import", "check", "stats", "export"})
+  for (const char* command : {"candidates", "import", "check", "stats", "export", "motion"})
     CHECK(contains(run.out, command));
 }
 
@@ -204,6 +217,76 @@ TEST_CASE("stats and the table count the same candidates") {
   CHECK(csv.starts_with(
       "file,candidate,x,y,radius,feature_x,feature_y,feature_radius,label\ncap_boy.labels.json,0,"));
   CHECK(csv.substr(0, csv.find("cap_boy.labels.json,1,")).ends_with(",\n"));  // the one without label
+}
+
+TEST_CASE("motion: the joints of every frame, in the order of their numbers") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.file("walk"), false);
+  copyCharacter("box_robot", dir.file("walk"), false);
+  fs::rename(dir.file("walk/cap_boy.png"), dir.file("walk/frame 10.png"));
+  fs::rename(dir.file("walk/box_robot.png"), dir.file("walk/frame 9.png"));
+  Image blank(60, 60);
+  blank.rgba.setConstant(255);
+  writeFile(dir.file("walk/frame 11.png"), encodePng(blank));
+  ToolRun run = label(dir, "motion walk --frame-rate 8");
+  CHECK(run.exit_code == 0);
+  CHECK(run.out == "out/walk.motion.json: 3 frames, 1 without a figure\n");
+  CHECK(contains(run.err, "walk/frame 11.png: "));
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const std::string path = dir.file("out/walk.motion.json"), made = readFile(path);
+  MotionFile motion = readMotionFile(path, plan);
+  CHECK(motion.frame_rate == 8);
+  REQUIRE(motion.frames.size() == 3);
+  CHECK(motion.frames[0].image_file == "../walk/frame 9.png");
+  CHECK(motion.frames[1].image_file == "../walk/frame 10.png");
+  CHECK(motion.frames[1].time_s == 0.125);
+  for (const auto& joint : motion.frames[1].joints) CHECK(joint);
+  for (const auto& joint : motion.frames[2].joints) CHECK_FALSE(joint);
+
+  // What a person has placed is not written over.
+  CHECK(label(dir, "motion walk --frame-rate 8").exit_code == 0);
+  CHECK(readFile(path) == made);
+  motion.frames[0].joints[0]->origin = JointOrigin::kEdited;
+  writeFile(path, formatMotionFile(motion, plan));
+  run = label(dir, "motion walk --frame-rate 8");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.err, "out/walk.motion.json: holds joints that were edited by hand"));
+  CHECK(label(dir, "motion walk --frame-rate 8 --force").exit_code == 0);
+  CHECK(readFile(path) == made);
+
+  fs::remove(dir.file("walk/frame 9.png"));
+  fs::remove(dir.file("walk/frame 10.png"));
+  run = label(dir, "motion walk -o none.motion.json");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.err, "skel-label: walk: shows no figure in any frame"));
+  CHECK_FALSE(fs::exists(dir.file("none.motion.json")));
+}
+
+TEST_CASE("numbers in the names of frames count as numbers") {
+  const std::vector<std::string> sorted = {"", "a", "a1", "a2", "a10", "a10b", "a10b1", "a11", "ab", "b"};
+  for (size_t i = 0; i < sorted.size(); ++i)
+    for (size_t k = 0; k < sorted.size(); ++k) CHECK(comesBefore(sorted[i], sorted[k]) == (i < k));
+  CHECK(comesBefore("a01", "a1") != comesBefore("a1", "a01"));
+  CHECK(comesBefore("a01", "a2"));
+  CHECK(comesBefore("a99999999999999999999", "a100000000000000000000"));
+}
+
+TEST_CASE("drawings whose names are not UTF-8 are imported, checked, exported, and come back") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.file("in"));
+  for (const char* ending : {".png", ".mask.png", ".joints.json"})
+    fs::rename(dir.file(std::string("in/cap_boy") + ending), dir.file(std::string("in/h\xe9ros") + ending));
+  CHECK(label(dir, "candidates in").exit_code == 0);
+  CHECK(label(dir, "import in --force").exit_code == 0);
+  CHECK(label(dir, "check in").exit_code == 0);
+  CHECK(label(dir, "stats in").exit_code == 0);
+  CHECK(label(dir, "export in --csv").exit_code == 0);
+  CHECK(label(dir, "motion in").exit_code == 0);
+  CHECK(label(dir, "export in --coco -o round/coco.json").exit_code == 0);
+  fs::copy(dir.file("in/h\xe9ros.png"), dir.file("round/h\xe9ros.png"));
+  CHECK(label(dir, "import round").exit_code == 0);
+  CHECK(readLabelFile(dir.file("round/h\xe9ros.labels.json")).labels ==
+        readLabelFile(dir.file("in/h\xe9ros.labels.json")).labels);
 }
 
 TEST_CASE("COCO: out and in again gives the same labels") {

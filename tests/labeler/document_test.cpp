@@ -5,10 +5,13 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/rng.h"
+#include "libskel/core/sha256.h"
+#include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "libskel/labels/label_file.h"
 #include "tests/labeler/drawing_folder.h"
 #include "tests/support/catch.h"
+#include "tests/support/locked_folder.h"
 
 using namespace skel;
 namespace fs = std::filesystem;
@@ -52,6 +55,32 @@ void randomStep(Document& document, Rng& rng) {
   }
 }
 
+// Two characters as the frames of a motion, without joints in the second.
+std::string motionOfTwo(const TempDir& dir) {
+  const SkeletonTemplate plan = loadTemplate("biped");
+  MotionFile motion;
+  motion.frame_rate = 12;
+  for (const char* name : {"cap_boy", "box_robot"}) {
+    copyCharacter(name, dir.file("frames"), false);
+    MotionFrame& frame = motion.frames.emplace_back();
+    frame.image_file = std::string("frames/") + name + ".png";
+    frame.image_width = frame.image_height = 600;
+    frame.time_s = static_cast<double>(motion.frames.size()) / 12;
+    frame.joints.resize(plan.joints.size());
+  }
+  for (auto& joint : motion.frames[0].joints) joint = PlacedJoint{{300, 200}, 0.5, JointOrigin::kRecognized};
+  writeFile(dir.file("walk.motion.json"), formatMotionFile(motion, plan));
+  return dir.file("walk.motion.json");
+}
+
+SkeletonFile skeletonOfCapBoy(const SkeletonTemplate& plan) {
+  SkeletonFile file;
+  file.image_file = "cap_boy.png";
+  file.image_width = file.image_height = 600;
+  file.skeleton = presetSkeleton(plan, {100, 50}, {500, 550});
+  return file;
+}
+
 int undoAll(Document& document) {
   int count = 0;
   while (document.undo()) ++count;
@@ -65,12 +94,12 @@ TEST_CASE("labels are set, undone, done again, and are on the disk at once") {
   copyCharacter("cap_boy", dir.path());
   Document document(dir.path(), documentOptions());
   const DrawingState empty = document.state();
-  REQUIRE(document.item().candidates > 20);
-  CHECK(document.item().labelled == 0);
+  REQUIRE(document.item().parts > 20);
+  CHECK(document.item().parts_done == 0);
   CHECK_FALSE(document.canUndo());
 
   document.label({3, 5}, JointClass::kHand);
-  CHECK(document.item().labelled == 2);
+  CHECK(document.item().parts_done == 2);
   const LabelFile saved = readLabelFile(dir.file("cap_boy.labels.json"));
   CHECK(saved.labels[3] == JointClass::kHand);
   CHECK_FALSE(saved.labels[4]);
@@ -81,7 +110,7 @@ TEST_CASE("labels are set, undone, done again, and are on the disk at once") {
   CHECK(document.state() == empty);
   CHECK_FALSE(readLabelFile(dir.file("cap_boy.labels.json")).labels[3]);
   CHECK(document.redo());
-  CHECK(document.item().labelled == 2);
+  CHECK(document.item().parts_done == 2);
   CHECK_FALSE(document.redo());
 }
 
@@ -174,7 +203,7 @@ TEST_CASE("undo goes to the drawing of the step") {
   REQUIRE(document.go(1));
   CHECK(document.undo());
   CHECK(document.current() == 0);
-  CHECK(document.item().labelled == 0);
+  CHECK(document.item().parts_done == 0);
 }
 
 TEST_CASE("suggestions: the least sure first, and all at once") {
@@ -251,7 +280,7 @@ TEST_CASE("candidates follow the mask; labels stay where the figure stays") {
   CHECK((document.figure().silhouette.mask != 0).count() > figure_pixels + 1000);
   CHECK(document.state().labels.size() == document.figure().centers_px.size());
   CHECK(document.figure().centers_px.size() != before);
-  CHECK(document.item().labelled > 0.7 * static_cast<double>(before));
+  CHECK(document.item().parts_done > 0.7 * static_cast<double>(before));
   const LabelFile labels = readLabelFile(dir.file("cap_boy.labels.json"));
   REQUIRE(labels.mask);
   CHECK(labels.mask->file == "cap_boy.mask.png");
@@ -288,10 +317,7 @@ TEST_CASE("a skeleton file: joints are edited in it, and no label file comes up"
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());
   const SkeletonTemplate plan = loadTemplate("biped");
-  SkeletonFile file;
-  file.image_file = "cap_boy.png";
-  file.image_width = file.image_height = 600;
-  file.skeleton = presetSkeleton(plan, {100, 50}, {500, 550});
+  SkeletonFile file = skeletonOfCapBoy(plan);
   file.missing = {"head", "left_hand"};
   const std::string path = dir.file("cap_boy.skeleton.json");
   writeFile(path, formatSkeletonFile(file));
@@ -308,6 +334,230 @@ TEST_CASE("a skeleton file: joints are edited in it, and no label file comes up"
 
   document.label({0}, JointClass::kBody);
   CHECK(fs::exists(dir.file("cap_boy.labels.json")));
+}
+
+TEST_CASE("a skeleton file of another picture is not edited") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const SkeletonTemplate plan = loadTemplate("biped");
+  SkeletonFile file = skeletonOfCapBoy(plan);
+  file.image_height = 640;
+  const std::string path = dir.file("cap_boy.skeleton.json");
+  writeFile(path, formatSkeletonFile(file));
+  Document document(path, documentOptions());
+  CHECK(document.item().problem ==
+        path + ": image: has 600x640 px, " + dir.file("cap_boy.png") + " has 600x600; find the joints anew");
+  document.moveJoint(3, {10, 10});
+  document.rig();
+  CHECK_FALSE(document.canUndo());
+  CHECK(readFile(path) == formatSkeletonFile(file));
+}
+
+TEST_CASE("a skeleton file lies in another folder than its picture") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.file("pictures"), false);
+  const SkeletonTemplate plan = loadTemplate("biped");
+  SkeletonFile file = skeletonOfCapBoy(plan);
+  file.image_file = "../pictures/cap_boy.png";
+  writeFile(dir.file("out/cap_boy.skeleton.json"), formatSkeletonFile(file));
+  Document document(dir.file("out/cap_boy.skeleton.json"), documentOptions());
+  CHECK(document.item().problem.empty());
+  document.paintMask({300, 60}, {300, 20}, 12, true);
+  const auto saved = readSkeletonFile(dir.file("out/cap_boy.skeleton.json"), plan);
+  REQUIRE(saved.mask);
+  CHECK(saved.mask->file == "../pictures/cap_boy.mask.png");
+  CHECK(saved.mask->sha256 == sha256(readFile(dir.file("pictures/cap_boy.mask.png"))));
+}
+
+TEST_CASE("a skeleton file is edited with the mask that it was made with") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const SkeletonTemplate plan = loadTemplate("biped");
+  // Half of the figure.
+  Plane8 mask = readMask(dir.file("cap_boy.mask.png"));
+  mask.rightCols(300) = 0;
+  const std::string path = dir.file("cap_boy.skeleton.json"), given = dir.file("given/half.png");
+  writeFile(given, encodePng(mask));
+  SkeletonFile file = skeletonOfCapBoy(plan);
+  file.mask = SkeletonFile::Mask{"given/half.png", sha256(readFile(given))};
+  writeFile(path, formatSkeletonFile(file));
+
+  // The mask beside the drawing is another one, which must not be lost.
+  CHECK(contains(Document(path, documentOptions()).item().problem,
+                 dir.file("cap_boy.mask.png") + ": is not the mask that " + path + " was made with"));
+  fs::remove(dir.file("cap_boy.mask.png"));
+  {
+    Document document(path, documentOptions());
+    REQUIRE(document.state().mask);
+    CHECK((document.figure().silhouette.mask.rightCols(300) == 0).all());
+    document.moveJoint(plan.find("head"), {250, 100});
+    CHECK(readSkeletonFile(path, plan).mask->file == "given/half.png");
+    CHECK_FALSE(fs::exists(dir.file("cap_boy.mask.png")));
+    CHECK_FALSE(fs::exists(dir.file("cap_boy.labels.json")));
+    // Label files speak of masks beside them.
+    document.label({0}, JointClass::kBody);
+    CHECK(readFile(dir.file("cap_boy.mask.png")) == readFile(given));
+    CHECK(findProblems(dir.file("cap_boy.labels.json")).empty());
+    document.paintMask({250, 60}, {250, 20}, 12, true);
+    CHECK(readSkeletonFile(path, plan).mask->file == "cap_boy.mask.png");
+    CHECK(findProblems(dir.file("cap_boy.labels.json")).empty());
+    document.undo();
+    CHECK(readSkeletonFile(path, plan).mask->file == "given/half.png");
+    CHECK(readFile(dir.file("cap_boy.mask.png")) == readFile(given));
+  }
+  writeFile(given, encodePng(Plane8(Plane8::Constant(600, 600, 255))));
+  fs::remove(dir.file("cap_boy.mask.png"));
+  fs::remove(dir.file("cap_boy.labels.json"));
+  CHECK(contains(Document(path, documentOptions()).message(), "half.png has changed"));
+  fs::remove(given);
+  CHECK(contains(Document(path, documentOptions()).item().problem, "half.png: cannot be read"));
+}
+
+TEST_CASE("a mask that lay there before is not removed when the figure is found in the picture again") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const std::string original = readFile(dir.file("cap_boy.mask.png"));
+  Document document(dir.path(), documentOptions());
+  document.forgetMask();
+  CHECK_FALSE(readLabelFile(dir.file("cap_boy.labels.json")).mask);
+  CHECK(readFile(dir.file("cap_boy.mask.png")) == original);
+  document.undo();
+  CHECK(readLabelFile(dir.file("cap_boy.labels.json")).mask);
+  CHECK(findProblems(dir.file("cap_boy.labels.json")).empty());
+}
+
+TEST_CASE("a template that the recogniser does not know is said, not thrown") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  DocumentOptions options = documentOptions();
+  for (TemplateJoint& joint : options.body_plan.joints)
+    if (joint.name == "head") joint.name = "beak";
+  Document document(dir.path(), std::move(options));
+  document.rig();
+  CHECK(contains(document.message(), "--recognizer paper"));
+  CHECK_FALSE(document.rigged());
+  CHECK_FALSE(document.canUndo());
+}
+
+TEST_CASE("a motion file: the joints of its frames are moved, undone, done again, and saved at once") {
+  const TempDir dir;
+  const std::string path = motionOfTwo(dir), before = readFile(path);
+  const SkeletonTemplate plan = loadTemplate("biped");
+  Document document(path, documentOptions());
+  REQUIRE(document.items().size() == 2);
+  CHECK(document.items()[0].done());
+  CHECK(document.current() == 1);  // the first unfinished
+  CHECK(document.item().files.name == "frames/box_robot.png");
+
+  document.rig();
+  CHECK(document.rigged());
+  CHECK(document.state().joints[0]);
+  REQUIRE(document.go(0));
+  document.moveJoint(plan.find("left_hand"), {450.5, 320});
+  const auto saved = [&](size_t frame, const char* joint) {
+    return readMotionFile(path, plan).frames[frame].joints[size_t(plan.find(joint))];
+  };
+  CHECK(saved(0, "left_hand") == PlacedJoint{{450.5, 320}, 1, JointOrigin::kEdited});
+  CHECK(saved(0, "right_hand") == PlacedJoint{{300, 200}, 0.5, JointOrigin::kRecognized});
+  CHECK(saved(1, "pelvis"));
+  CHECK_FALSE(fs::exists(dir.file("frames/cap_boy.labels.json")));
+  CHECK_FALSE(fs::exists(dir.file("frames/box_robot.labels.json")));
+  const std::string after = readFile(path);
+
+  CHECK(undoAll(document) == 2);
+  CHECK(readFile(path) == before);
+  CHECK(document.current() == 1);
+  CHECK(document.redo());
+  CHECK(document.redo());
+  CHECK(readFile(path) == after);
+  CHECK(document.current() == 0);
+  CHECK(Document(path, documentOptions()).state().joints.size() == 17);
+}
+
+TEST_CASE("a frame takes its joints from the frame before, but for those placed by hand") {
+  const TempDir dir;
+  const std::string path = motionOfTwo(dir);
+  Document document(path, documentOptions());
+  const auto hand = size_t(document.bodyPlan().find("left_hand"));
+  REQUIRE(document.current() == 1);
+  document.moveJoint(int(hand), {90, 90});
+  document.takeJointsOfFrameBefore();
+  CHECK(document.state().joints[hand]->image == Eigen::Vector2d(90, 90));
+  CHECK(document.state().joints[0] == PlacedJoint{{300, 200}, 0, JointOrigin::kCompleted});
+  CHECK_FALSE(document.item().done());
+  CHECK(readMotionFile(path, document.bodyPlan()).frames[1].joints == document.state().joints);
+  document.go(0);
+  document.takeJointsOfFrameBefore();
+  CHECK(contains(document.message(), "first frame"));
+  CHECK(document.undo());
+  CHECK(document.current() == 1);
+  CHECK_FALSE(document.state().joints[0]);
+}
+
+TEST_CASE("joints are placed in a frame that shows no figure") {
+  const TempDir dir;
+  const std::string path = motionOfTwo(dir);
+  Image blank(600, 600);
+  blank.rgba.setConstant(255);
+  writeFile(dir.file("frames/box_robot.png"), encodePng(blank));
+  Document document(path, documentOptions());
+  REQUIRE(document.current() == 1);
+  CHECK_FALSE(document.item().problem.empty());
+  document.takeJointsOfFrameBefore();
+  document.moveJoint(1, {250, 260});
+  CHECK(readMotionFile(path, document.bodyPlan()).frames[1].joints[1]->image == Eigen::Vector2d(250, 260));
+  CHECK_FALSE(fs::exists(dir.file("frames/box_robot.labels.json")));
+}
+
+TEST_CASE("frames that are missing or of another size say so, and the others can be edited") {
+  const TempDir dir;
+  const std::string path = motionOfTwo(dir);
+  fs::remove(dir.file("frames/box_robot.png"));
+  Document document(path, documentOptions());
+  CHECK(contains(document.item().problem, "box_robot.png: cannot be read"));
+  Image small(60, 60);
+  small.rgba.setConstant(255);
+  writeFile(dir.file("frames/box_robot.png"), encodePng(small));
+  CHECK(document.go(0));
+  CHECK(document.item().problem.empty());
+  CHECK(document.go(1));
+  CHECK(contains(document.item().problem, path + ": frames[1].image: has 600x600 px"));
+  const std::string before = readFile(path);
+  document.moveJoint(0, {3, 3});
+  document.takeJointsOfFrameBefore();
+  document.rig();
+  CHECK_FALSE(document.canUndo());
+  CHECK(readFile(path) == before);
+}
+
+TEST_CASE("a label file that cannot be read is not written over") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  writeFile(dir.file("cap_boy.labels.json"), "{}");
+  Document document(dir.path(), documentOptions());
+  CHECK(contains(document.item().problem, "cap_boy.labels.json: lacks"));
+  document.rig();
+  document.acceptSuggestions();
+  document.paintMask({300, 60}, {300, 20}, 12, true);
+  CHECK_FALSE(document.canUndo());
+  CHECK(readFile(dir.file("cap_boy.labels.json")) == "{}");
+}
+
+TEST_CASE("drawings whose names are not UTF-8 are labelled like any other") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  fs::rename(dir.file("cap_boy.png"), dir.file("h\xe9ros.png"));
+  fs::rename(dir.file("cap_boy.mask.png"), dir.file("h\xe9ros.mask.png"));
+  {
+    Document document(dir.path(), documentOptions());
+    document.acceptSuggestions();
+    document.paintMask({300, 60}, {300, 20}, 12, true);
+    CHECK(document.saveProblem().empty());
+  }
+  CHECK(findProblems(dir.file("h\xe9ros.labels.json")).empty());
+  const Document document(dir.path(), documentOptions());
+  CHECK(document.message().empty());
+  CHECK(document.state().mask);
 }
 
 TEST_CASE("pictures that cannot be labelled say why and do not stop the others") {
@@ -344,7 +594,7 @@ TEST_CASE("a step that cannot be saved is kept, said, and saved later") {
   fs::create_directories(labels + "/in the way");
   document.label({0}, JointClass::kHead);
   CHECK_FALSE(document.saveProblem().empty());
-  CHECK(document.item().labelled == 1);
+  CHECK(document.item().parts_done == 1);
   CHECK_FALSE(document.go(1));
   fs::remove_all(labels);
   CHECK(document.go(1));
@@ -364,13 +614,20 @@ TEST_CASE("labels are carried over when the picture's candidates are no longer t
   writeLabelFile(dir.file("cap_boy.labels.json"), labels);
   const Document document(dir.path(), documentOptions());
   CHECK(contains(document.message(), "look through the labels"));
-  CHECK(document.item().labelled >= document.item().candidates - 1);
+  CHECK(document.item().parts_done >= document.item().parts - 1);
 }
 
 TEST_CASE("folders without pictures and pictures that share a label file are refused") {
   const TempDir dir;
   CHECK_THROWS_AS(Document(dir.path(), documentOptions()), InputError);
   CHECK_THROWS_AS(Document(dir.file("nowhere"), documentOptions()), InputError);
+  {
+    copyCharacter("cap_boy", dir.file("locked"));
+    const LockedFolder locked(dir, "locked");
+    CHECK_THROWS_WITH(Document(dir.path(), documentOptions()),
+                      dir.file("locked") + ": cannot be read: Permission denied");
+  }
+  fs::remove_all(dir.file("locked"));
   copyCharacter("cap_boy", dir.path());
   fs::copy(dir.file("cap_boy.png"), dir.file("cap_boy.jpg"));
   CHECK_THROWS_WITH(Document(dir.path(), documentOptions()),

@@ -10,6 +10,7 @@
 #include "libskel/core/rng.h"
 #include "libskel/core/sha256.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/skeleton/motion_file.h"
 #include "tests/labeler/drawing_folder.h"
 #include "tests/support/catch.h"
 
@@ -21,7 +22,7 @@ extern char** environ;
 namespace {
 
 // Starts save_loop at `first_step`, kills it after a random time, returns the last step that it has reported.
-int saveUntilKilled(const std::string& folder, int first_step, Rng& rng) {
+int saveUntilKilled(const std::string& opened, int first_step, Rng& rng) {
   int ends[2];
   REQUIRE(pipe(ends) == 0);
   posix_spawn_file_actions_t actions;
@@ -29,7 +30,7 @@ int saveUntilKilled(const std::string& folder, int first_step, Rng& rng) {
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_addclose(&actions, ends[0]);
   const std::string start = std::to_string(first_step);
-  char* const arguments[] = {const_cast<char*>(SKEL_SAVE_LOOP), const_cast<char*>(folder.c_str()),
+  char* const arguments[] = {const_cast<char*>(SKEL_SAVE_LOOP), const_cast<char*>(opened.c_str()),
                              const_cast<char*>(start.c_str()), nullptr};
   pid_t child = 0;
   REQUIRE(posix_spawn(&child, SKEL_SAVE_LOOP, &actions, nullptr, arguments, environ) == 0);
@@ -75,6 +76,38 @@ TEST_CASE("a process that is killed again and again while it saves loses at most
   }
   CHECK(checkLabels(dir.path(), loadTemplate("biped")).empty());
   CHECK(step > 40);
+}
+
+TEST_CASE("a process that is killed while it edits a motion loses at most the step in hand") {
+  const TempDir dir;
+  const SkeletonTemplate plan = loadTemplate("biped");
+  copyCharacter("cap_boy", dir.path(), false);
+  MotionFile motion;
+  motion.frame_rate = 12;
+  for (int f = 0; f < 40; ++f)
+    motion.frames.push_back(
+        {"cap_boy.png", 600, 600, f / 12.0, std::vector<std::optional<PlacedJoint>>(plan.joints.size())});
+  const std::string path = dir.file("walk.motion.json");
+  writeFile(path, formatMotionFile(motion, plan));
+  Rng rng(2);
+  int step = 0;
+  for (int round = 0; round < 15; ++round) {
+    const int reported = saveUntilKilled(path, step, rng);
+    const MotionFile saved = readMotionFile(path, plan);
+    // The steps go through the frames; the last one is the largest that is there.
+    int last = -1;
+    for (const MotionFrame& frame : saved.frames)
+      if (const auto& head = frame.joints[static_cast<size_t>(plan.find("head"))])
+        last = std::max(last, static_cast<int>(head->image.x()) + 500 * static_cast<int>(head->image.y()));
+    CHECK(last >= reported);
+    CHECK(last <= reported + 1);
+    step = last + 1;
+  }
+  CHECK(step > 15);
+  int temporary = 0;
+  for (const auto& entry : fs::directory_iterator(dir.path()))
+    temporary += entry.path().string().ends_with(".skel-tmp");
+  CHECK(temporary <= 2);  // one a file, taken over by the next save
 }
 
 TEST_CASE("a save that ended anywhere between label file and mask is taken to one of its ends") {

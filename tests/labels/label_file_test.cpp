@@ -71,6 +71,21 @@ TEST_CASE("label files come back as they were") {
   CHECK(bare_again.candidates.empty());
 }
 
+TEST_CASE("a picture whose name is not UTF-8 is found again") {
+  const TempDir dir;
+  const std::string path = dir.file("h\xe9ros.labels.json");
+  LabelFile labels = sample();
+  labels.image.file = "h\xe9ros.png";
+  labels.mask->file = "h\xe9ros.mask.png";
+  labels.joints[1].first = "no joint\xff";
+  writeFile(dir.file(labels.image.file), "picture");
+  writeFile(dir.file(labels.mask->file), "mask");
+  writeLabelFile(path, labels);
+  CHECK(findProblems(path).empty());
+  CHECK(readLabelFile(path).image.file == labels.image.file);
+  CHECK(readLabelFile(path).mask->file == labels.mask->file);
+}
+
 TEST_CASE("a label file stands beside its image") {
   CHECK(labelFileFor("dir/knight.png") == "dir/knight.labels.json");
   CHECK(besideLabelFile("dir/knight.labels.json", "knight.png") == "dir/knight.png");

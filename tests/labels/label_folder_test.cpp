@@ -6,6 +6,7 @@
 #include "libskel/image/write_image.h"
 #include "libskel/labels/annotated_image.h"
 #include "tests/support/catch.h"
+#include "tests/support/locked_folder.h"
 #include "tests/support/temp_dir.h"
 
 using namespace skel;
@@ -150,4 +151,39 @@ TEST_CASE("annotated pictures that cannot be used are refused") {
   writeFile(dir.file("blank.png"), encodePng(Plane8(Plane8::Zero(50, 50))));
   CHECK_THROWS_AS(labelImage(dir.file("blank.png"), dir.file("blank.png"), {}, loadTemplate("biped")),
                   InputError);
+}
+
+TEST_CASE("a mask of another size than its picture is refused") {
+  const TempDir dir;
+  writeFile(dir.file("man.png"), encodePng(blockMan()));
+  writeFile(dir.file("man.mask.png"), encodePng(Plane8(blockMan().transpose())));
+  writeFile(dir.file("man.joints.json"), kBlockManJoints);
+  const std::string line =
+      dir.file("man.mask.png") +
+      ": has 200x160 px, its drawing has 160x200; give both the same size or remove the mask";
+  CHECK_THROWS_WITH(labelImage(dir.file("man.png"), dir.file("man.mask.png"), {}, loadTemplate("biped")),
+                    line);
+  CHECK_THROWS_WITH(labelAnnotatedImages(dir.path()), line);
+}
+
+TEST_CASE("annotated pictures in folders and files whose names are not UTF-8 are labelled") {
+  const TempDir dir;
+  for (const char* name : {"h\xe9ros", "h\xe8ros"}) {
+    writeFile(dir.file(std::string("\xff/") + name + ".png"), encodePng(blockMan()));
+    writeFile(dir.file(std::string("\xff/") + name + ".joints.json"), kBlockManJoints);
+  }
+  const LabelledSet set = labelAnnotatedImages(dir.path());
+  REQUIRE(set.characters.size() == 2);
+  CHECK(set.characters[0].name == "\xff/h\xe8ros.png");
+}
+
+TEST_CASE("a folder that may not be read is named") {
+  const TempDir dir;
+  put(dir, "a", fourClasses("a.png"));
+  put(dir, "locked/b", fourClasses("b.png"));
+  const LockedFolder locked(dir, "locked");
+  const std::string line = dir.file("locked") + ": cannot be read: Permission denied";
+  CHECK_THROWS_WITH(readLabelledSet(dir.path()), line);
+  CHECK_THROWS_WITH(checkLabelFolder(dir.path()), line);
+  CHECK_THROWS_WITH(labelAnnotatedImages(dir.path()), line);
 }

@@ -51,6 +51,17 @@ TEST_CASE("a skeleton file comes back as it was written") {
   CHECK(back.mask->file == "cat.mask.png");
 }
 
+TEST_CASE("a skeleton of a drawing whose name is not UTF-8") {
+  const TempDir dir;
+  SkeletonFile file = example();
+  file.image_file = "../h\xe9ros.png";
+  file.mask->file = "../h\xe9ros.mask.png";
+  writeFile(dir.file("s.json"), formatSkeletonFile(file));
+  const SkeletonFile again = readSkeletonFile(dir.file("s.json"), loadTemplate("biped"));
+  CHECK(again.image_file == file.image_file);
+  CHECK(again.mask->file == file.mask->file);
+}
+
 TEST_CASE("a skeleton file with a mistake is refused with its place") {
   CHECK(complaint("\"cat.png\"", "\"cat.png\"") == "none");
   CHECK(complaint("\"head_top\"", "\"tail\"") ==

@@ -1,0 +1,113 @@
+#include "labeler/make_motion.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <optional>
+
+#include "labeler/drawing_list.h"
+#include "libskel/core/files.h"
+#include "libskel/core/parallel.h"
+#include "libskel/core/progress.h"
+#include "libskel/image/read_image.h"
+#include "libskel/labels/annotated_image.h"
+#include "libskel/skeleton/motion_file.h"
+
+namespace skel {
+namespace {
+
+namespace fs = std::filesystem;
+
+void keepEdited(const std::string& path, const SkeletonTemplate& body_plan) {
+  if (!fs::exists(path)) return;
+  for (const MotionFrame& frame : readMotionFile(path, body_plan).frames)
+    for (const auto& joint : frame.joints)
+      if (joint && joint->origin == JointOrigin::kEdited)
+        throw InputError(path,
+                         "holds joints that were edited by hand; write to another file by -o, or give --force "
+                         "to lose them");
+}
+
+// Joints stay open, and `reason` says why, where there is no figure.
+MotionFrame frameOf(const DrawingFiles& files, const MotionOptions& options, std::string& reason) {
+  RigInput input;
+  input.image = readImage(files.image);
+  if (const auto mask = givenMask(files)) input.mask = readMaskOf(input.image, *mask);
+  RigOptions rig;
+  rig.mlp = options.mlp;
+  rig.body_plan = options.body_plan;
+  rig.recognizer = options.recognizer;
+  MotionFrame frame;
+  frame.image_file = pathSeenFrom(options.output, files.image);
+  frame.image_width = input.image.width;
+  frame.image_height = input.image.height;
+  frame.joints.resize(options.body_plan.joints.size());
+  const RiggedDrawing rigged = rigCharacter(std::move(input), rig);
+  reason = rigged.silhouette.reason;
+  if (!rigged.found()) return frame;
+  for (const Joint& joint : rigged.recognition.skeleton.joints)
+    frame.joints[static_cast<size_t>(options.body_plan.find(joint.name))] =
+        PlacedJoint{joint.image, joint.confidence, joint.origin};
+  return frame;
+}
+
+}  // namespace
+
+bool comesBefore(const std::string& a, const std::string& b) {
+  const auto isDigit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  size_t i = 0, k = 0;
+  while (i < a.size() && k < b.size()) {
+    if (!isDigit(a[i]) || !isDigit(b[k])) {
+      if (a[i] != b[k]) return a[i] < b[k];
+      ++i, ++k;
+      continue;
+    }
+    const auto number = [&](const std::string& text, size_t& at) {
+      while (at < text.size() && text[at] == '0') ++at;
+      const size_t first = at;
+      while (at < text.size() && isDigit(text[at])) ++at;
+      return text.substr(first, at - first);
+    };
+    const std::string m = number(a, i), n = number(b, k);
+    if (m.size() != n.size()) return m.size() < n.size();
+    if (m != n) return m < n;
+  }
+  // "a1" and "a01": any order, but always the same.
+  return i < a.size() || k < b.size() ? k < b.size() : a < b;
+}
+
+MotionCounts makeMotion(const std::string& dir, const MotionOptions& given, const OnError& on_note) {
+  MotionOptions options = given;
+  if (options.output.empty()) {
+    const fs::path folder = fs::absolute(dir).lexically_normal();
+    const fs::path name = folder.has_filename() ? folder.filename() : folder.parent_path().filename();
+    options.output = "out/" + name.string() + kMotionFileEnding;
+  }
+  std::vector<DrawingFiles> drawings = findDrawings(dir);
+  std::sort(drawings.begin(), drawings.end(),
+            [](const DrawingFiles& a, const DrawingFiles& b) { return comesBefore(a.name, b.name); });
+  if (!options.force) keepEdited(options.output, options.body_plan);
+
+  MotionFile motion;
+  motion.frame_rate = options.frame_rate;
+  motion.frames.resize(drawings.size());
+  std::vector<std::string> reasons(drawings.size());
+  ProgressBar bar("motion", drawings.size());
+  parallelFor(drawings.size(), 0, [&](std::size_t i) {
+    motion.frames[i] = frameOf(drawings[i], options, reasons[i]);
+    motion.frames[i].time_s = static_cast<double>(i) / options.frame_rate;
+    bar.advance();
+  });
+  bar.clear();
+  MotionCounts counts{options.output, static_cast<int>(drawings.size()), 0};
+  for (std::size_t i = 0; i < drawings.size(); ++i) {
+    if (reasons[i].empty()) continue;
+    ++counts.without_figure;
+    on_note(InputError(drawings[i].image, reasons[i]));
+  }
+  if (counts.without_figure == counts.frames) throw InputError(dir, "shows no figure in any frame");
+  writeFile(options.output, formatMotionFile(motion, options.body_plan));
+  return counts;
+}
+
+}  // namespace skel

@@ -1,0 +1,99 @@
+#include "libskel/skeleton/motion_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "libskel/core/check.h"
+#include "libskel/core/error.h"
+#include "libskel/core/json_names.h"
+#include "libskel/skeleton/joint_json.h"
+
+namespace skel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFormat = "skel-motion";
+constexpr int kVersion = 1;
+constexpr int kMaxImageSide = 1'000'000;
+constexpr double kMaxTime_s = 1e6;
+
+MotionFrame frameAt(const JsonValue& value, const SkeletonTemplate& body_plan) {
+  value.allowOnly({"image", "time_s", "joints"});
+  MotionFrame frame;
+  const JsonValue image = value.at("image");
+  image.allowOnly({"file", "width", "height"});
+  frame.image_file = image.at("file").asFileName();
+  if (frame.image_file.empty()) image.at("file").fail("must be the path of the frame's picture");
+  frame.image_width = image.at("width").asInt(1, kMaxImageSide);
+  frame.image_height = image.at("height").asInt(1, kMaxImageSide);
+  frame.time_s = value.at("time_s").asNumber(0, kMaxTime_s);
+  frame.joints.resize(body_plan.joints.size());
+  for (const JsonValue& item : value.at("joints").items()) {
+    item.allowOnly({"name", "image", "confidence", "origin"});
+    const JsonValue name = item.at("name");
+    const int index = body_plan.find(name.asString());
+    if (index < 0)
+      name.fail("\"" + name.asString() + "\" is no joint of the template \"" + body_plan.name + "\"");
+    auto& joint = frame.joints[static_cast<size_t>(index)];
+    if (joint) name.fail("joint \"" + name.asString() + "\" stands here for the second time");
+    joint = PlacedJoint{
+        imagePointAt(item.at("image"), name.asString(), frame.image_width, frame.image_height),
+        item.at("confidence").asNumber(0, 1), originAt(item.at("origin"))};
+  }
+  return frame;
+}
+
+}  // namespace
+
+std::string formatMotionFile(const MotionFile& motion, const SkeletonTemplate& body_plan) {
+  const auto text = [](const Json& value) {
+    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  };
+  std::string out = "{\n  \"format\": \"" + std::string(kFormat) +
+                    "\",\n  \"version\": " + std::to_string(kVersion) +
+                    ",\n  \"template\": " + text(body_plan.name) +
+                    ",\n  \"frame_rate\": " + text(rounded(motion.frame_rate, 1e6)) + ",\n  \"frames\": [";
+  for (size_t f = 0; f < motion.frames.size(); ++f) {
+    const MotionFrame& frame = motion.frames[f];
+    SKEL_CHECK_EQ(frame.joints.size(), body_plan.joints.size());
+    const Json image = {{"file", jsonFromFileName(frame.image_file)},
+                        {"width", frame.image_width},
+                        {"height", frame.image_height}};
+    out += (f ? ",\n    " : "\n    ") + std::string("{\"image\": ") + text(image) +
+           ", \"time_s\": " + text(rounded(frame.time_s, 1e6)) + ", \"joints\": [";
+    // One joint a line, so that a person finds and mends it.
+    bool first = true;
+    for (size_t j = 0; j < frame.joints.size(); ++j) {
+      if (!frame.joints[j]) continue;
+      const PlacedJoint& joint = *frame.joints[j];
+      out += (first ? "\n      " : ",\n      ") +
+             text({{"name", body_plan.joints[j].name},
+                   {"image", {rounded(joint.image.x(), 100), rounded(joint.image.y(), 100)}},
+                   {"confidence", rounded(joint.confidence, 1000)},
+                   {"origin", jointOriginName(joint.origin)}});
+      first = false;
+    }
+    out += first ? "]}" : "\n    ]}";
+  }
+  return out + "\n  ]\n}\n";
+}
+
+MotionFile readMotionFile(const std::string& path, const SkeletonTemplate& body_plan) {
+  const JsonDocument document = JsonDocument::readFile(path);
+  const JsonValue root = document.root();
+  root.checkFormat(kFormat, kVersion);
+  root.allowOnly({"format", "version", "template", "frame_rate", "frames"});
+  checkTemplate(root.at("template"), body_plan.name);
+  MotionFile motion;
+  motion.frame_rate = root.at("frame_rate").asNumber(kMinFrameRate, kMaxFrameRate);
+  for (const JsonValue& item : root.at("frames").items()) {
+    motion.frames.push_back(frameAt(item, body_plan));
+    const size_t count = motion.frames.size();
+    if (count > 1 && rounded(motion.frames[count - 1].time_s, 1e6) <= rounded(motion.frames[count - 2].time_s, 1e6))
+      item.at("time_s").fail("must be later than that of the frame before");
+  }
+  if (motion.frames.empty()) root.at("frames").fail("is empty");
+  return motion;
+}
+
+}  // namespace skel
