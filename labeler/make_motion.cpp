@@ -23,9 +23,10 @@ void keepEdited(const std::string& path, const SkeletonTemplate& body_plan) {
   for (const MotionFrame& frame : readMotionFile(path, body_plan).frames)
     for (const auto& joint : frame.joints)
       if (joint && joint->origin == JointOrigin::kEdited)
-        throw InputError(path,
-                         "holds joints that were edited by hand; write to another file by -o, or give --force "
-                         "to lose them");
+        throw InputError(
+            path,
+            "holds joints that were edited by hand; write to another file by -o, or give --force "
+            "to lose them");
 }
 
 // Joints stay open, and `reason` says why, where there is no figure.

@@ -11,9 +11,9 @@
 namespace skel {
 
 struct MotionOptions {
-  std::string output;           // empty: out/<name of the folder>.motion.json
-  double frame_rate = 12;       // of the frames, 1/s
-  bool force = false;           // also over joints that were placed by hand
+  std::string output;      // empty: out/<name of the folder>.motion.json
+  double frame_rate = 12;  // of the frames, 1/s
+  bool force = false;      // also over joints that were placed by hand
   Mlp mlp;
   SkeletonTemplate body_plan;
   Recognizer recognizer = Recognizer::kTree;

@@ -36,9 +36,9 @@ MotionFrame frameAt(const JsonValue& value, const SkeletonTemplate& body_plan) {
       name.fail("\"" + name.asString() + "\" is no joint of the template \"" + body_plan.name + "\"");
     auto& joint = frame.joints[static_cast<size_t>(index)];
     if (joint) name.fail("joint \"" + name.asString() + "\" stands here for the second time");
-    joint = PlacedJoint{
-        imagePointAt(item.at("image"), name.asString(), frame.image_width, frame.image_height),
-        item.at("confidence").asNumber(0, 1), originAt(item.at("origin"))};
+    joint =
+        PlacedJoint{imagePointAt(item.at("image"), name.asString(), frame.image_width, frame.image_height),
+                    item.at("confidence").asNumber(0, 1), originAt(item.at("origin"))};
   }
   return frame;
 }
@@ -89,7 +89,8 @@ MotionFile readMotionFile(const std::string& path, const SkeletonTemplate& body_
   for (const JsonValue& item : root.at("frames").items()) {
     motion.frames.push_back(frameAt(item, body_plan));
     const size_t count = motion.frames.size();
-    if (count > 1 && rounded(motion.frames[count - 1].time_s, 1e6) <= rounded(motion.frames[count - 2].time_s, 1e6))
+    if (count > 1 &&
+        rounded(motion.frames[count - 1].time_s, 1e6) <= rounded(motion.frames[count - 2].time_s, 1e6))
       item.at("time_s").fail("must be later than that of the frame before");
   }
   if (motion.frames.empty()) root.at("frames").fail("is empty");

@@ -21,7 +21,7 @@ struct PlacedJoint {
 };
 
 struct MotionFrame {
-  std::string image_file;  // a path relative to the motion file
+  std::string image_file;                          // a path relative to the motion file
   int image_width = 0, image_height = 0;           // px
   double time_s = 0;                               // in the video, later than that of the frame before
   std::vector<std::optional<PlacedJoint>> joints;  // one a joint of the template; nullopt: not known

@@ -25,8 +25,9 @@ TEST_CASE("any bytes become JSON text and come back") {
   };
   for (int byte = 0x80; byte < 0x100; ++byte) comesBack(std::string("a") + static_cast<char>(byte) + ".png");
   // Latin-1, an overlong slash, a surrogate, beyond Unicode, cut off, and the escapes themselves.
-  for (const char* name : {"h\xe9ros.png", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xf8\x88\x80\x80\x80",
-                           "\xe7\x8c", "\xee\xbe\x80", "\xee\xbf\xbf\xff", "\xee\xbe"})
+  for (const char* name :
+       {"h\xe9ros.png", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xf8\x88\x80\x80\x80", "\xe7\x8c",
+        "\xee\xbe\x80", "\xee\xbf\xbf\xff", "\xee\xbe"})
     comesBack(name);
   Rng rng(1);
   const std::string bytes = "ab\x80\xbe\xbf\xc3\xa9\xee\xef\xf0\x9f";
