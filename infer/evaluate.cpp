@@ -85,6 +85,7 @@ void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
 
 ExitCode runEvaluate(const EvaluateOptions& options) {
   const RigOptions rig = rigOptions(options.infer);
+  noteUnusedWeights(options.infer);
   const std::vector<std::string> ids = drawingFolders(options.dir);
   std::vector<Row> all(ids.size());
   {

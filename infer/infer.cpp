@@ -239,6 +239,7 @@ ExitCode runInfer(const InferOptions& options) {
   checkUsage(options);
   const std::vector<Job> jobs = jobsOf(options);
   const RigOptions rig = rigOptions(options);
+  noteUnusedWeights(options);
   ensureWritableFolder(options.out_dir);
   std::vector<Outcome> outcomes(jobs.size());
   {

@@ -1,5 +1,8 @@
 #include "infer/rig_request.h"
 
+#include <algorithm>
+#include <cstdio>
+
 #include "libskel/animation/builtin_clips.h"
 #include "libskel/classifier/weights_file.h"
 
@@ -20,6 +23,17 @@ RigOptions rigOptions(const InferOptions& options) {
   if (options.clips != std::vector<std::string>{"none"})
     for (const std::string& name : options.clips) rig.clips.push_back(builtinClip(name));
   return rig;
+}
+
+void noteUnusedWeights(const InferOptions& options) {
+  const auto& formats = options.formats;
+  if (options.weights_file.empty() || options.recognizer == "paper" ||
+      std::find(formats.begin(), formats.end(), "features") != formats.end())
+    return;
+  std::fprintf(stderr,
+               "skel-infer: note: the joints come from the recognizer \"%s\", which has a net of its own; "
+               "--weights needs --recognizer paper or --formats features\n",
+               options.recognizer.c_str());
 }
 
 }  // namespace skel

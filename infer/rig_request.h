@@ -26,4 +26,7 @@ inline const std::map<std::string, RestPose> kRestPoseNames = {
 // Everything but the figure's number. Reads template and weights. Throws InputError, UsageError.
 RigOptions rigOptions(const InferOptions& options);
 
+// Says on stderr that the weights that were named decide nothing.
+void noteUnusedWeights(const InferOptions& options);
+
 }  // namespace skel

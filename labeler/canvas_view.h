@@ -27,6 +27,7 @@ class CanvasView {
   void growBrush(double factor);
   // The candidate that keys speak of: what the mouse touched last, or what was chosen by select().
   int selected() const { return selected_; }
+  bool chosen() const { return selected_ >= 0 && !touched_; }  // by select()
   void select(int candidate);
   // Ends a stroke that has not ended yet, so that other steps can follow.
   void cancel();

@@ -24,11 +24,11 @@ constexpr const char* kToolHelp[kToolCount] = {
 constexpr struct {
   const char *keys, *what;
 } kHelp[] = {
-    {"1  2  3  4", "head, body, hand, leg: for what the mouse touches, or the brush"},
+    {"1  2  3  4", "head, body, hand, leg: for what the mouse touches or N has chosen, or the brush"},
     {"0  Delete", "take the label away"},
     {"V  B  L", "touch, brush, lasso"},
     {"N  Tab", "go to the disc that is least sure"},
-    {"Enter", "accept its suggestion and go on to the next"},
+    {"Enter", "accept its suggestion and go on to the next, as 1 to 4 do"},
     {"A", "accept all suggestions that are left"},
     {"J", "drag joints"},
     {"D", "labels from the joints"},
@@ -151,7 +151,10 @@ class LabelingWindow {
 
   void chooseClass(JointClass joint_class, bool label_too) {
     canvas_.active_class = joint_class;
-    if (label_too && canvas_.tool == Tool::kTouch) labelSelected(joint_class);
+    if (!label_too || canvas_.tool != Tool::kTouch) return;
+    const bool goes_on = canvas_.chosen();
+    labelSelected(joint_class);
+    if (goes_on) nextUnsure();
   }
 
   void labelSelected(std::optional<JointClass> label) {

@@ -141,6 +141,21 @@ TEST_CASE("masks, weights, templates and models that do not fit are refused") {
   CHECK(filesIn(dir.file("out")) == 0);
 }
 
+TEST_CASE("weights that decide nothing are said to") {
+  const TempDir dir;
+  writeFile(dir.file("a.png"), readFile(kDrawing));
+  const std::string weights = " --weights " SKEL_SOURCE_DIR "/weights/default.json";
+  const std::string note = "--weights needs --recognizer paper or --formats features";
+  const auto says = [&](const std::string& arguments) {
+    const ToolRun run = infer(dir, "a.png" + weights + arguments);
+    CHECK(run.exit_code == 0);
+    return run.err.find(note) != std::string::npos;
+  };
+  CHECK(says(""));
+  CHECK_FALSE(says(" --recognizer paper"));
+  CHECK_FALSE(says(" --formats features"));
+}
+
 TEST_CASE("a folder that cannot be written to is an output error") {
   if (::geteuid() == 0) {
     // Root may write anywhere; a file in the folder's place stops it, too.

@@ -306,3 +306,21 @@ TEST_CASE("COCO: out and in again gives the same labels") {
     CHECK(back.candidates.size() == there.candidates.size());
   }
 }
+
+TEST_CASE("the card of the labelled set tells its counts") {
+  const std::string card = readFile(SKEL_SOURCE_DIR "/datasets/README.md");
+  const LabelledSet set = readLabelledSet(kCharacters);
+  const auto grouped = [](int count) {
+    std::string text = std::to_string(count);
+    return text.size() > 3 ? text.insert(text.size() - 3, ",") : text;
+  };
+  CHECK(contains(card, "| characters | " + std::to_string(set.characters.size()) + ", "));
+  CHECK(contains(card, "| candidates | " + grouped(set.sampleCount()) + ", "));
+  for (size_t c = 0; c < kJointClassCount; ++c) {
+    const int count = set.classCounts()[c];
+    char text[64];
+    std::snprintf(text, sizeof text, "%s %s (%.1f %%)", kJointClassNames[c], grouped(count).c_str(),
+                  100.0 * count / set.sampleCount());
+    CHECK(contains(card, text));
+  }
+}
