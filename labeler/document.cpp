@@ -652,7 +652,19 @@ int Document::mostUnsure() const {
 }
 
 int Document::candidateAt(const Eigen::Vector2d& image_px, double radius_px) const {
-  return nearest({figure_->centers_px.begin(), figure_->centers_px.end()}, image_px, radius_px);
+  const int centre = nearest({figure_->centers_px.begin(), figure_->centers_px.end()}, image_px, radius_px);
+  if (centre >= 0) return centre;
+  int best = -1;
+  double best_distance = std::numeric_limits<double>::infinity();
+  for (const int index : figure_->candidates.kept) {
+    const auto i = static_cast<size_t>(index);
+    const double distance = (figure_->centers_px[i] - image_px).norm();
+    const double disc_px = figure_->candidates.maxima[i].radius / figure_->silhouette.grid.scale;
+    if (distance > disc_px || distance >= best_distance) continue;
+    best = index;
+    best_distance = distance;
+  }
+  return best;
 }
 
 int Document::jointAt(const Eigen::Vector2d& image_px, double radius_px) const {

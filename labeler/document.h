@@ -121,8 +121,10 @@ class Document {
 
   // The unlabelled candidate that the weights are least sure about; -1 if all are labelled.
   int mostUnsure() const;
-  // The nearest within `radius_px` of an image point; -1 if there is none.
+  // The one whose centre is nearest to an image point, within `radius_px`; else, of the discs that hold the
+  // point, the kept one with the nearest centre; -1 if there is none.
   int candidateAt(const Eigen::Vector2d& image_px, double radius_px) const;
+  // The nearest within `radius_px`; -1 if there is none.
   int jointAt(const Eigen::Vector2d& image_px, double radius_px) const;
   std::vector<int> candidatesNear(const Eigen::Vector2d& image_px, double radius_px) const;
   std::vector<int> candidatesInside(const Polygon& lasso) const;

@@ -234,6 +234,12 @@ TEST_CASE("candidates under a brush, in a lasso, at the mouse") {
   const Eigen::Vector2d p = centers[4];
   CHECK(document.candidateAt(p + Eigen::Vector2d(0.1, 0), 3) == 4);
   CHECK(document.candidateAt({-50, -50}, 3) == -1);
+  // Away from all centres, but in the largest disc.
+  const auto& figure = document.figure();
+  const auto largest = static_cast<size_t>(figure.candidates.kept.front());
+  const double radius_px = figure.candidates.maxima[largest].radius / figure.silhouette.grid.scale;
+  const Eigen::Vector2d inside = centers[largest] + Eigen::Vector2d(0, -0.6 * radius_px);
+  CHECK(document.candidateAt(inside, 0.1) == static_cast<int>(largest));
   const auto near = document.candidatesNear(p, 40);
   CHECK(std::find(near.begin(), near.end(), 4) != near.end());
   for (size_t i = 0; i < centers.size(); ++i)
