@@ -100,6 +100,20 @@ TEST_CASE("every way of training works from the command line") {
   }
 }
 
+TEST_CASE("characters whose names are not UTF-8 are trained on and reported") {
+  const TempDir dir;
+  fill(dir);
+  std::filesystem::create_directories(dir.file("\xff"));
+  for (const char* name : {"c5.png", "c5.labels.json"})
+    std::filesystem::rename(dir.file(name), dir.file(std::string("\xff/") + name));
+  CHECK(run(dir.path() + " -o " + dir.file("w.json") + kQuick + " --json " + dir.file("f.json") +
+            " --report " + dir.file("report"))
+            .exit_code == 0);
+  const JsonDocument document = JsonDocument::readFile(dir.file("f.json"));
+  CHECK(document.root().at("characters").items().back().at("name").asFileName() == "\xff/c5");
+  CHECK(std::filesystem::exists(dir.file("report/report.json")));
+}
+
 TEST_CASE("wrong arguments are refused in one line, with exit code 1") {
   const TempDir dir;
   fill(dir);
