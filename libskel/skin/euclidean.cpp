@@ -16,7 +16,7 @@ JointWeights euclideanWeights(const TriangleMesh& mesh, const std::vector<Bone>&
     int nearest = 0;
     for (int b = 0; b < count; ++b) {
       const float distance = distanceToSegment<3>(mesh.vertices.row(v), bones[b].from, bones[b].to);
-      reaches(v, b).power_m2 = distance * distance;
+      reaches(v, b).distance_m2 = reaches(v, b).power_m2 = distance * distance;
       if (reaches(v, b).power_m2 < reaches(v, nearest).power_m2) nearest = b;
     }
     own[nearest].push_back(std::sqrt(reaches(v, nearest).power_m2));

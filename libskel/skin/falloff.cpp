@@ -9,35 +9,59 @@ namespace {
 // A limb is drawn along by another one where they touch, but no farther.
 constexpr float kForeign = 0.1f;
 
+// 1 at the nearest, 0 from `reach_m` on.
+float falloff(float beyond_m2, float reach_m) {
+  if (beyond_m2 <= 0) return 1;
+  if (beyond_m2 >= reach_m * reach_m) return 0;
+  const float rest = 1 - std::sqrt(beyond_m2) / reach_m;
+  return rest * rest;
+}
+
 }  // namespace
 
 JointWeights weightsFromReaches(const BoneReaches& reaches, const std::vector<Bone>& bones, int joint_count) {
+  struct Limb {
+    const BoneReach *by_power, *by_distance;  // its nearest bones
+  };
+  const BoneReach no_way;
+  std::vector<Limb> limbs(joint_count);
   JointWeights weights = JointWeights::Zero(reaches.rows(), joint_count);
   for (Eigen::Index v = 0; v < reaches.rows(); ++v) {
-    Eigen::Index nearest;
-    const float least =
-        reaches.row(v).unaryExpr([](const BoneReach& r) { return r.power_m2; }).minCoeff(&nearest);
-    if (least == std::numeric_limits<float>::infinity()) continue;
-    const int limb = bones[nearest].limb;
+    std::fill(limbs.begin(), limbs.end(), Limb{&no_way, &no_way});
+    const BoneReach* nearest = &no_way;
+    int nearest_limb = -1;
     for (Eigen::Index b = 0; b < reaches.cols(); ++b) {
-      const bool foreign = limb >= 0 && bones[b].limb >= 0 && bones[b].limb != limb;
-      // The thinner of the two says how far: the trunk does not reach far down an arm.
-      const float reach =
-          (foreign ? kForeign : 1) * std::min(reaches(v, b).reach_m, reaches(v, nearest).reach_m);
-      const float beyond2 = reaches(v, b).power_m2 - least;
-      if (beyond2 > 0 && beyond2 >= reach * reach) continue;
-      const float rest = beyond2 > 0 ? 1 - std::sqrt(beyond2) / reach : 1;
+      const BoneReach& bone = reaches(v, b);
+      if (bone.power_m2 < nearest->power_m2) nearest = &bone, nearest_limb = bones[b].limb;
+      if (bones[b].limb < 0) continue;
+      Limb& limb = limbs[bones[b].limb];
+      if (bone.power_m2 < limb.by_power->power_m2) limb.by_power = &bone;
+      if (bone.distance_m2 < limb.by_distance->distance_m2) limb.by_distance = &bone;
+    }
+    for (Eigen::Index b = 0; b < reaches.cols(); ++b) {
+      const BoneReach& bone = reaches(v, b);
+      if (bone.distance_m2 == no_way.distance_m2) continue;
+      const bool of_limb = bones[b].limb >= 0;
+      const Limb limb = of_limb ? limbs[bones[b].limb] : Limb{&bone, &bone};
+      const bool foreign = of_limb && nearest_limb >= 0 && bones[b].limb != nearest_limb;
+      // The thinner of two says how far: the trunk does not reach far down an arm.
+      const float share =
+          falloff(limb.by_power->power_m2 - nearest->power_m2,
+                  (foreign ? kForeign : 1) * std::min(limb.by_power->reach_m, nearest->reach_m));
+      if (share == 0) continue;
+      const float within = falloff(bone.distance_m2 - limb.by_distance->distance_m2,
+                                   std::min(bone.reach_m, limb.by_distance->reach_m));
       float& weight = weights(v, bones[b].joint);
-      weight = std::max(weight, rest * rest);
+      weight = std::max(weight, share * within);
     }
   }
   return weights;
 }
 
 float reachBeyondJoint(float radius_m, float edge_m) {
-  // A bend by 90° folds the inner side of a limb over itself when the weights change within less than its
-  // radius.
-  constexpr float kRadii = 1.8f, kEdges = 3;
+  // A bend by 90° folds the inner side of a limb over itself when the weights change within less than three
+  // quarters of its radius to either side.
+  constexpr float kRadii = 1.2f, kEdges = 3;
   return std::max(kRadii * radius_m, kEdges * edge_m);
 }
 

@@ -12,8 +12,9 @@ namespace skel {
 
 // How far a bone is from a vertex, and how fast its weight falls beyond the nearest bone.
 struct BoneReach {
+  float distance_m2 = std::numeric_limits<float>::infinity();  // squared; infinite: no way
   float power_m2 = std::numeric_limits<float>::infinity();  // squared distance, less the square of how thick
-                                                            // the body is about the bone; infinite: no way
+                                                            // the body is about the bone
   float reach_m = 0;
 };
 using BoneReaches = Eigen::Array<BoneReach, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // #V×#bones
@@ -21,9 +22,11 @@ using BoneReaches = Eigen::Array<BoneReach, Eigen::Dynamic, Eigen::Dynamic, Eige
 // #V×#joints, not negative, any sum. A row of zeros: no bone reaches the vertex.
 using JointWeights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// The nearest bone and those hardly farther share a vertex. Where limbs meet end to end, the difference of
+// The nearest bone and those hardly farther share a vertex. Where bones meet end to end, the difference of
 // the squared distances, d² − d_min², is the square of how far the vertex lies beyond the joint along the
 // limb, whatever its place around the limb: a weight that is a function of it bends limbs like a joint.
+// Powers part the limbs from the trunk and from each other, distances the bones of one limb: an upper arm,
+// the thicker, would take the elbow with it by its power.
 JointWeights weightsFromReaches(const BoneReaches& reaches, const std::vector<Bone>& bones, int joint_count);
 
 // How far beyond a joint the weights reach in a body of this half thickness, on a mesh with edges of this

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace skel {
@@ -23,6 +24,7 @@ constexpr float kDetour = 1.12f;
 // How much a way around something counts beyond its own length.
 constexpr float kPenalty = 2;
 constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr std::int64_t kMostSquares = 64;  // that a triangle touches, on average
 
 // Triangles by the squares of the plane that they touch.
 class TriangleBins {
@@ -34,13 +36,19 @@ class TriangleBins {
     cell_ =
         std::sqrt(std::max(size.x() * size.y(), 1e-12f) / static_cast<float>(mesh.triangles.rows() + 1) * 2);
     cell_ = std::max(cell_, size.maxCoeff() / 1000);
-    columns_ = static_cast<int>(size.x() / cell_) + 1;
-    rows_ = static_cast<int>(size.y() / cell_) + 1;
+    // Of a user's own model, each triangle may touch most squares.
+    for (;; cell_ *= 2) {
+      columns_ = static_cast<int>(size.x() / cell_) + 1;
+      rows_ = static_cast<int>(size.y() / cell_) + 1;
+      std::int64_t touched = 0;
+      for (int t = 0; t < mesh.triangles.rows(); ++t) touched += squares(t).area();
+      if (touched <= kMostSquares * (mesh.triangles.rows() + 1000)) break;
+    }
     first_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
     forEach([&](int bin, int) { ++first_[bin + 1]; });
     for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     triangles_.resize(first_.back());
-    std::vector<int> next(first_.begin(), first_.end() - 1);
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
     forEach([&](int bin, int triangle) { triangles_[next[bin]++] = triangle; });
   }
 
@@ -55,7 +63,7 @@ class TriangleBins {
     if (at.minCoeff() < 0 || at.x() >= static_cast<float>(columns_) || at.y() >= static_cast<float>(rows_))
       return result;
     const int bin = static_cast<int>(at.y()) * columns_ + static_cast<int>(at.x());
-    for (int k = first_[bin]; k < first_[bin + 1]; ++k) {
+    for (std::size_t k = first_[bin]; k < first_[bin + 1]; ++k) {
       const Eigen::RowVector3i t = mesh_.triangles.row(triangles_[k]);
       const Eigen::Vector3f a = mesh_.vertices.row(t[0]), b = mesh_.vertices.row(t[1]),
                             c = mesh_.vertices.row(t[2]);
@@ -72,21 +80,29 @@ class TriangleBins {
   }
 
  private:
+  struct Squares {
+    int x0, y0, x1, y1;  // the last ones included
+    std::int64_t area() const { return std::int64_t(x1 - x0 + 1) * (y1 - y0 + 1); }
+  };
+  Squares squares(int triangle) const {
+    Eigen::Array2f low = Eigen::Array2f::Constant(kFar), high = -low;
+    for (int k = 0; k < 3; ++k) {
+      const int v = mesh_.triangles(triangle, k);
+      const Eigen::Array2f p =
+          (Eigen::Array2f(mesh_.vertices(v, 0), mesh_.vertices(v, 1)) - low_.array()) / cell_;
+      low = low.min(p), high = high.max(p);
+    }
+    return {static_cast<int>(low.x()), static_cast<int>(low.y()),
+            std::min(static_cast<int>(high.x()), columns_ - 1),
+            std::min(static_cast<int>(high.y()), rows_ - 1)};
+  }
+
   template <typename Visit>
   void forEach(const Visit& visit) const {
     for (int t = 0; t < mesh_.triangles.rows(); ++t) {
-      Eigen::Array2f low = Eigen::Array2f::Constant(kFar), high = -low;
-      for (int k = 0; k < 3; ++k) {
-        const int v = mesh_.triangles(t, k);
-        const Eigen::Array2f p =
-            (Eigen::Array2f(mesh_.vertices(v, 0), mesh_.vertices(v, 1)) - low_.array()) / cell_;
-        low = low.min(p), high = high.max(p);
-      }
-      for (int y = static_cast<int>(low.y()); y <= std::min(static_cast<int>(high.y()), rows_ - 1); ++y) {
-        for (int x = static_cast<int>(low.x()); x <= std::min(static_cast<int>(high.x()), columns_ - 1);
-             ++x) {
-          visit(y * columns_ + x, t);
-        }
+      const Squares touched = squares(t);
+      for (int y = touched.y0; y <= touched.y1; ++y) {
+        for (int x = touched.x0; x <= touched.x1; ++x) visit(y * columns_ + x, t);
       }
     }
   }
@@ -95,7 +111,8 @@ class TriangleBins {
   Eigen::Vector2f low_;
   float cell_ = 1;
   int columns_ = 0, rows_ = 0;
-  std::vector<int> first_, triangles_;
+  std::vector<std::size_t> first_;  // of a square's triangles
+  std::vector<int> triangles_;
 };
 
 // Neighbours along edges and across them.
@@ -309,7 +326,8 @@ JointWeights geodesicWeights(const TriangleMesh& mesh, const std::vector<Bone>& 
       const Profile::Ball ball = profiles[b].nearest(inPlane(v));
       const float around = std::max(0.0f, way(v, b) - kDetour * ball.distance - edge_m);
       const float distance = ball.distance + kPenalty * around;
-      reaches(v, b) = {distance * distance - ball.depth2, reachBeyondJoint(std::sqrt(ball.depth2), edge_m)};
+      reaches(v, b) = {distance * distance, distance * distance - ball.depth2,
+                       reachBeyondJoint(std::sqrt(ball.depth2), edge_m)};
     }
   }
   return weightsFromReaches(reaches, bones, joint_count);

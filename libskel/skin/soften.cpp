@@ -1,11 +1,12 @@
 // A joint bent by 90° moves a point at p from it to A·p with A = (1 − w)·I + w·R, w the weight of all that
 // the joint moves, and the plane about it by A + D·∇wᵀ, D = (R − I)·p. That turns inside out where ∇w·A⁻¹D <
-// −1. A⁻¹D is √2·|p| / √((1 − w)² + w²) long and, as w goes from 0 to 1, turns from 135° off p to 45° off it.
-// For all w, and bends to both sides, it is enough that 2·|∇w across p| + |∇w along p| stays below 1 / |p|:
-// w may change by max(½·|e across p|, |e along p|) / |p| along an edge e.
+// −1. With J·p, p turned by 90°, A⁻¹D = ((2w − 1)·p ± J·p) / ((1 − w)² + w²). The angle by which the point
+// turns, ψ = atan(w / (1 − w)), has ∇ψ = ∇w / ((1 − w)² + w²): bends to both sides are sound where |∇ψ across
+// p| − (2w − 1)·(∇ψ along p) < 1 / |p|. Around the joint, then, ψ may change no faster than the direction to
+// the joint: by |e across p| / |p| along an edge e. Straight away from the joint, more does no harm.
 //
-// Of all weights that nowhere change faster than allowed, the largest that is not above the given one is the
-// given one's lower envelope, min over y of w(y) + way(x, y), a way being as long as the changes that it
+// Of all turns that nowhere change faster than allowed, the largest that is not above the given one is the
+// given one's lower envelope, min over y of ψ(y) + way(x, y), a way being as long as the changes that it
 // allows: Dijkstra's (1959) algorithm finds it in one go, however far the change has to spread. So too the
 // smallest not below, and their mean keeps a joint's bend where it was.
 #include "libskel/skin/soften.h"
@@ -24,11 +25,13 @@
 namespace skel {
 namespace {
 
-constexpr float kLargestChange = 0.33f;   // along an edge
-constexpr float kFineMesh = 0.03f;        // mean edge, of the mesh's size: coarse ones cannot but change much
-constexpr float kBend = 0.8f;             // of what would turn a triangle inside out
-constexpr float kClear = 0.01f;           // of a triangle's area: thinner than that, it counts as inside out
-constexpr int kRounds = 10;               // of all limits in turn
+constexpr float kLargestChange = 0.33f;  // along an edge
+constexpr float kFineMesh = 0.03f;       // mean edge, of the mesh's size: coarse ones cannot but change much
+constexpr float kBend = 0.9f;            // of what would turn a triangle inside out
+constexpr float kAlong = 1.5f;           // how much of it, straight away from the joint, where less is needed
+constexpr float kTighter = 0.7f;         // by how much the weights change less where a triangle did turn
+constexpr float kClear = 0.01f;          // of a triangle's area: thinner than that, it counts as inside out
+constexpr int kRounds = 16;              // of all limits in turn
 constexpr int kTries = 12, kSweeps = 60;  // of smoothing and cutting, of smoothing
 
 struct Edges {
@@ -64,7 +67,7 @@ struct Hinge {
   int joint;
   Eigen::RowVector3f position;
   std::vector<int> above, moved;  // joints of the limb: those it hangs on, and itself with those it moves
-  std::vector<float> allowed;  // change of the weight of all that is moved, by arc; negative: not known yet
+  std::vector<float> allowed;     // change of the turn, rad, by arc; negative: not known yet
 };
 
 std::vector<Hinge> hinges(const Skeleton& skeleton, const std::vector<int>& limbs) {
@@ -82,7 +85,7 @@ std::vector<Hinge> hinges(const Skeleton& skeleton, const std::vector<int>& limb
   return result;
 }
 
-// How much may change from v along the arc.
+// How much the turn may change from v along the arc, rad.
 float allowedChange(const TriangleMesh& mesh, const Edges& edges, Hinge& hinge, int v, int arc) {
   float& allowed = hinge.allowed[arc];
   if (allowed >= 0) return allowed;
@@ -91,7 +94,7 @@ float allowedChange(const TriangleMesh& mesh, const Edges& edges, Hinge& hinge, 
   const float arm2 = std::max(arm.squaredNorm(), 1e-12f), along = edge.dot(arm);
   const float along2 = along * along / arm2;
   const float across2 = std::max(0.0f, edge.squaredNorm() - along2);
-  allowed = kBend * std::sqrt(std::max(0.25f * across2, along2) / arm2);
+  allowed = kBend * std::sqrt(std::max(across2, kAlong * kAlong * along2) / arm2);
   return allowed;
 }
 
@@ -133,13 +136,18 @@ void bendSoftly(const TriangleMesh& mesh, const Edges& edges, Hinge& hinge, Join
     limb[v] = given[v];
     for (const int joint : hinge.above) limb[v] += weights(v, joint);
   }
-  std::vector<float> low = given, high(vertices);
+  const auto turn = [](float weight) { return std::atan2(weight, 1 - weight); };
+  std::vector<float> low(vertices), high(vertices);  // turns; high ones are negative
+  for (int v = 0; v < vertices; ++v) low[v] = turn(given[v]), high[v] = -low[v];
   lowerEnvelope(mesh, edges, hinge, low);
-  for (int v = 0; v < vertices; ++v) high[v] = -given[v];
   lowerEnvelope(mesh, edges, hinge, high);
   // Not more than the limb has: what it lies against is not drawn along.
-  for (int v = 0; v < vertices; ++v) low[v] = 0.5f * (low[v] + std::min(-high[v], limb[v]));
+  for (int v = 0; v < vertices; ++v) low[v] = 0.5f * (low[v] + std::min(-high[v], turn(limb[v])));
   lowerEnvelope(mesh, edges, hinge, low);
+  for (int v = 0; v < vertices; ++v) {
+    const float weight = std::sin(low[v]) / (std::sin(low[v]) + std::cos(low[v]));
+    low[v] = std::abs(weight - given[v]) < 1e-5f ? given[v] : std::min(weight, limb[v]);
+  }
   for (int v = 0; v < vertices; ++v) {
     const float change = low[v] - given[v];
     if (change < 0) {
@@ -154,7 +162,7 @@ void bendSoftly(const TriangleMesh& mesh, const Edges& edges, Hinge& hinge, Join
 }
 
 // Where the hinge, bent by 90° to either side or out of the drawing's plane, turns triangles inside out, the
-// weights about them may change half as much from now on. Returns whether there are such.
+// weights about them may change less from now on. Returns whether there are such.
 bool tighten(const TriangleMesh& mesh, const Skeleton& skeleton, const Edges& edges,
              const JointWeights& weights, Hinge& hinge) {
   const Eigen::Vector3f bone =
@@ -204,7 +212,7 @@ bool tighten(const TriangleMesh& mesh, const Skeleton& skeleton, const Edges& ed
   for (std::size_t v = 0; v < tight.size(); ++v) {
     for (int i = edges.first[v]; i < edges.first[v + 1]; ++i) {
       if (!tight[v] && !tight[edges.to[i]]) continue;
-      hinge.allowed[i] = 0.5f * allowedChange(mesh, edges, hinge, static_cast<int>(v), i);
+      hinge.allowed[i] = kTighter * allowedChange(mesh, edges, hinge, static_cast<int>(v), i);
     }
   }
   return true;

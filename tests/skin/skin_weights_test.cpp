@@ -1,8 +1,11 @@
 #include "libskel/skin/skin_weights.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <numeric>
+#include <optional>
 #include <set>
 
 #include "libskel/core/json.h"
@@ -91,6 +94,8 @@ TEST_CASE("a figure of capsules bends like one") {
         INFO(joint << " bent, way " << way);
         CHECK(insideOut(body.mesh, weights, bent(body.skeleton, joint, way)) == 0);
       }
+      CHECK(turnedShare(capsuleMask(figure), body.mesh, weights, body.skeleton, joint, 45) > 0.99);
+      CHECK(turnedShare(capsuleMask(figure), body.mesh, weights, body.skeleton, joint, 90) > 0.99);
     }
     // Half way along a bone, its own joint carries nearly everything.
     const Eigen::MatrixXf dense = denseWeights(weights, body.skeleton);
@@ -180,6 +185,41 @@ TEST_CASE("meshes that are open, in parts, or far from the bones get weights") {
   }
 }
 
+TEST_CASE("thousands of triangles that each cover the whole model") {
+  Body body = capsuleBody({});
+  const auto count = static_cast<int>(body.mesh.vertices.rows());
+  std::vector<int> by_height(count);
+  std::iota(by_height.begin(), by_height.end(), 0);
+  std::sort(by_height.begin(), by_height.end(),
+            [&](int a, int b) { return body.mesh.vertices(a, 1) < body.mesh.vertices(b, 1); });
+  body.mesh.triangles.resize(40000, 3);
+  for (int t = 0; t < body.mesh.triangles.rows(); ++t) {
+    body.mesh.triangles.row(t) << by_height[t % 50], by_height[count - 1 - t % 50], by_height[t % count];
+  }
+  checkRows(computeSkinWeights(body.mesh, body.skeleton, SkinMethod::kGeodesic), 17, 4);
+}
+
+TEST_CASE("an arm that thins out from the shoulder bends at its elbow") {
+  // What was nearer to the thick upper arm's balls than to the forearm's used to follow the upper arm.
+  CapsuleFigure figure;
+  figure.left_arm = figure.left_forearm = 80;
+  const Skeleton skeleton = capsuleSkeleton(figure);
+  Plane8 mask = capsuleMask(figure);
+  const Eigen::Vector2d shoulder = skeleton.joints[skeleton.index("left_shoulder")].image;
+  const Eigen::Vector2d arm = skeleton.joints[skeleton.index("left_hand")].image - shoulder;
+  for (int y = 0; y < figure.size; ++y) {
+    for (int x = 0; x < figure.size; ++x) {
+      const Eigen::Vector2d p = Eigen::Vector2d(x, y) - shoulder;
+      const double along = std::clamp(p.dot(arm) / arm.squaredNorm(), 0.0, 1.0);
+      if ((p - along * arm).norm() <= 38 - 28 * along) mask(y, x) = 255;
+    }
+  }
+  Body body{inflate(capsuleImage(figure), silhouetteFromMask(mask)), skeleton};
+  lift(body.skeleton, body.mesh.model_from_image);
+  const SkinWeights weights = computeSkinWeights(body.mesh, body.skeleton, SkinMethod::kGeodesic);
+  CHECK(turnedShare(mask, body.mesh, weights, body.skeleton, "left_elbow", 90) > 0.95);
+}
+
 TEST_CASE("a joint moves the segment to its child, a leaf a tip, the head its half of the neck") {
   Skeleton skeleton = capsuleSkeleton();
   lift(skeleton, ModelFromImage());
@@ -204,67 +244,119 @@ TEST_CASE("a joint moves the segment to its child, a leaf a tip, the head its ha
   CHECK(limbs[skeleton.index("left_shoulder")] != limbs[skeleton.index("right_shoulder")]);
 }
 
+namespace {
+
+// A drawing whose file of joints has that name; nothing if not all of them are visible.
+struct DrawnBody : Body {
+  Plane8 mask;
+};
+std::optional<DrawnBody> drawnBody(const std::string& joints_file) {
+  DrawnBody body;
+  body.skeleton = capsuleSkeleton();
+  const JsonDocument document = JsonDocument::readFile(joints_file);
+  const JsonValue joints = document.root().at("joints");
+  for (Joint& joint : body.skeleton.joints) {
+    const std::string& name = joint.name;
+    if (name == "pelvis" || name == "body" || name == "neck" || name == "head_top") continue;
+    const std::optional<JsonValue> at = joints.find(name);
+    if (!at || at->isNull()) return std::nullopt;
+    const std::vector<double> xy = at->asNumbers(2);
+    joint.image = {xy[0], xy[1]};
+  }
+  const auto at = [&](const char* name) -> Eigen::Vector2d& {
+    return body.skeleton.joints[body.skeleton.index(name)].image;
+  };
+  at("pelvis") = 0.5 * (at("left_hip") + at("right_hip"));
+  at("neck") = 0.5 * (at("left_shoulder") + at("right_shoulder"));
+  at("body") = 0.5 * (at("pelvis") + at("neck"));
+  at("head_top") = at("head") + 0.8 * (at("head") - at("neck"));
+
+  // <stem>.png, or image.png in a folder of its own; so too the mask.
+  const std::string stem = joints_file.substr(0, joints_file.size() - std::string("joints.json").size());
+  body.mask = readMask(stem + "mask.png");
+  const Image image = readImage(stem.ends_with('/') ? stem + "image.png" : stem + "png");
+  body.mesh = inflate(image, silhouetteFromMask(body.mask));
+  lift(body.skeleton, body.mesh.model_from_image);
+  return body;
+}
+
+struct SkinQuality {
+  int drawings = 0, foreign = 0, edges = 0, whole_bends = 0, bends = 0;
+  int free_limbs = 0;
+  double turned = 0, least_turned = 1;  // of the free limbs: mean and least turnedShare()
+};
+
+SkinQuality skinQuality(const std::string& dir) {
+  std::set<std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(dir)) {
+    if (entry.path().string().ends_with("joints.json")) files.insert(entry.path().string());
+  }
+  SkinQuality quality;
+  for (const std::string& file : files) {
+    const std::optional<DrawnBody> body = drawnBody(file);
+    if (!body) continue;
+    INFO(file);
+    const SkinWeights weights = computeSkinWeights(body->mesh, body->skeleton, SkinMethod::kGeodesic);
+    checkRows(weights, 17, 4);
+    const double share = foreignShare(weights, body->skeleton);
+    const float change = largestEdgeChange(body->mesh, weights, body->skeleton);
+    int wrong = 0;
+    std::string turned;
+    for (const std::string joint : kBends) {
+      for (int way = 0; way < 4; ++way) {
+        const int count = insideOut(body->mesh, weights, bent(body->skeleton, joint, way));
+        wrong += count;
+        ++quality.bends;
+        quality.whole_bends += count == 0;
+      }
+      if (!isFree(body->mask, body->skeleton, joint)) continue;
+      for (const float degrees : {45.0f, 90.0f}) {
+        const double part = turnedShare(body->mask, body->mesh, weights, body->skeleton, joint, degrees);
+        quality.turned += part / 2;
+        quality.least_turned = std::min(quality.least_turned, part);
+        turned += " " + std::to_string(part).substr(0, 4);
+      }
+      ++quality.free_limbs;
+    }
+    ++quality.drawings;
+    quality.foreign += share <= 0.02;
+    quality.edges += change <= 0.35f;
+    std::cout << std::filesystem::relative(file, dir).string() << ": foreign " << share << ", edge " << change
+              << ", inside out " << wrong << " in 16 bends of " << body->mesh.triangles.rows()
+              << ", free limbs turn by" << turned << "\n";
+  }
+  quality.turned /= std::max(1, quality.free_limbs);
+  std::cout << quality.drawings << " drawings: foreign weight <= 2 % in " << quality.foreign
+            << ", edges <= 0.35 in " << quality.edges << ", " << quality.whole_bends << " of "
+            << quality.bends << " bends without a triangle inside out; " << quality.free_limbs
+            << " free limbs turn by " << quality.turned << " of the angle, at least by "
+            << quality.least_turned << "\n";
+  return quality;
+}
+
+}  // namespace
+
+TEST_CASE("the drawings of the repository: foreign weight, edges, bends") {
+  const SkinQuality quality = skinQuality(SKEL_SOURCE_DIR "/datasets/characters");
+  CHECK(quality.drawings > 60);
+  CHECK(quality.foreign == quality.drawings);
+  CHECK(quality.edges == quality.drawings);
+  CHECK(quality.whole_bends == quality.bends);
+  CHECK(quality.free_limbs > 50);
+  CHECK(quality.turned > 0.98);
+  CHECK(quality.least_turned > 0.9);
+}
+
 TEST_CASE("real drawings: foreign weight, edges, bends") {
   const char* root = std::getenv("SKEL_EVAL_DIR");
   if (!root) {
     std::cout << "SKIPPED: SKEL_EVAL_DIR is not set\n";
     return;
   }
-  std::set<std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(root) + "/characters")) {
-    if (entry.path().filename() == "joints.json") files.insert(entry.path().parent_path().string());
-  }
-  int drawings = 0, foreign = 0, edges = 0, whole_bends = 0, bends = 0;
-  for (const std::string& folder : files) {
-    Skeleton skeleton = capsuleSkeleton();
-    const JsonDocument document = JsonDocument::readFile(folder + "/joints.json");
-    const JsonValue joints = document.root().at("joints");
-    bool complete = true;
-    for (Joint& joint : skeleton.joints) {
-      const std::string& name = joint.name;
-      if (name == "pelvis" || name == "body" || name == "neck" || name == "head_top") continue;
-      const std::optional<JsonValue> at = joints.find(name);
-      complete = complete && at && !at->isNull();
-      if (!complete) break;
-      const std::vector<double> xy = at->asNumbers(2);
-      joint.image = {xy[0], xy[1]};
-    }
-    if (!complete) continue;
-    const auto at = [&](const char* name) -> Eigen::Vector2d& {
-      return skeleton.joints[skeleton.index(name)].image;
-    };
-    at("pelvis") = 0.5 * (at("left_hip") + at("right_hip"));
-    at("neck") = 0.5 * (at("left_shoulder") + at("right_shoulder"));
-    at("body") = 0.5 * (at("pelvis") + at("neck"));
-    at("head_top") = at("head") + 0.8 * (at("head") - at("neck"));
-
-    const TriangleMesh mesh =
-        inflate(readImage(folder + "/image.png"), silhouetteFromMask(readMask(folder + "/mask.png")));
-    lift(skeleton, mesh.model_from_image);
-    const SkinWeights weights = computeSkinWeights(mesh, skeleton, SkinMethod::kGeodesic);
-    INFO(folder);
-    checkRows(weights, 17, 4);
-    const double share = foreignShare(weights, skeleton);
-    const float change = largestEdgeChange(mesh, weights, skeleton);
-    int wrong = 0;
-    for (const std::string joint : kBends) {
-      for (int way = 0; way < 4; ++way) {
-        const int count = insideOut(mesh, weights, bent(skeleton, joint, way));
-        wrong += count;
-        ++bends;
-        whole_bends += count == 0;
-      }
-    }
-    ++drawings;
-    foreign += share <= 0.02;
-    edges += change <= 0.35f;
-    std::cout << std::filesystem::relative(folder, root).string() << ": foreign " << share << ", edge "
-              << change << ", inside out " << wrong << " in 16 bends of " << mesh.triangles.rows() << "\n";
-  }
-  std::cout << drawings << " drawings: foreign weight <= 2 % in " << foreign << ", edges <= 0.35 in " << edges
-            << ", " << whole_bends << " of " << bends << " bends without a triangle inside out\n";
-  REQUIRE(drawings > 20);
-  CHECK(foreign >= drawings - 1);
-  CHECK(edges >= drawings - 1);
-  CHECK(whole_bends >= bends - bends / 50);
+  const SkinQuality quality = skinQuality(std::string(root) + "/characters");
+  REQUIRE(quality.drawings > 20);
+  CHECK(quality.foreign >= quality.drawings - 1);
+  CHECK(quality.edges >= quality.drawings - 1);
+  CHECK(quality.whole_bends >= quality.bends - quality.bends / 50);
+  CHECK(quality.turned > 0.98);
 }

@@ -92,15 +92,72 @@ inline int insideOut(const TriangleMesh& mesh, const SkinWeights& weights,
 }
 
 // A joint bent by 90° in the drawing's plane, to either side, or out of it, forwards or backwards: `way` 0…3.
-inline JointTransforms bent(const Skeleton& skeleton, const std::string& joint, int way) {
+inline JointTransforms bent(const Skeleton& skeleton, const std::string& joint, int way, float degrees = 90) {
   const int j = skeleton.index(joint);
   const Eigen::Vector3f bone =
       (skeleton.joints[j].position - skeleton.joints[skeleton.joints[j].parent].position).cast<float>();
   const Eigen::Vector3f axis =
       way < 2 ? Eigen::Vector3f::UnitZ() : Eigen::Vector3f(bone.cross(Eigen::Vector3f::UnitZ()).normalized());
   std::vector<Eigen::Quaternionf> rotations(skeleton.joints.size(), Eigen::Quaternionf::Identity());
-  rotations[j] = Eigen::AngleAxisf((way % 2 ? 0.5f : -0.5f) * std::numbers::pi_v<float>, axis);
+  rotations[j] = Eigen::AngleAxisf((way % 2 ? 1 : -1) * degrees / 180 * std::numbers::pi_v<float>, axis);
   return posedFromRest(skeleton, rotations);
+}
+
+// Whether the way from a to b, image px, lies in the figure.
+inline bool inFigure(const Plane8& mask, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const int steps = static_cast<int>(2 * (b - a).norm()) + 1;
+  for (int k = 0; k <= steps; ++k) {
+    const Eigen::Vector2d p = a + (b - a) * k / steps;
+    const auto x = std::lround(p.x()), y = std::lround(p.y());
+    if (x < 0 || y < 0 || x >= mask.cols() || y >= mask.rows() || mask(y, x) == 0) return false;
+  }
+  return true;
+}
+
+// How far the hand (the foot) turns about the elbow (the knee) when that is bent in the drawing's plane: the
+// mean share of the asked angle, over the vertices straight beside the last two fifths of the forearm (the
+// shin). 0: there are none.
+inline double turnedShare(const Plane8& mask, const TriangleMesh& mesh, const SkinWeights& weights,
+                          const Skeleton& skeleton, const std::string& joint, float degrees) {
+  const int j = skeleton.index(joint);
+  const auto flat = [](const Eigen::Vector3d& p) { return Eigen::Vector2f(p.head<2>().cast<float>()); };
+  const Eigen::Vector2f from = flat(skeleton.joints[j].position);
+  const Eigen::Vector2f bone = flat(skeleton.joints[j + 1].position) - from;
+  const Eigen::Vector2d from_px = skeleton.joints[j].image, bone_px = skeleton.joints[j + 1].image - from_px;
+  const double px_per_m = bone_px.norm() / static_cast<double>(bone.norm());
+  const Eigen::MatrixX3f posed = skinVertices(mesh.vertices, weights, bent(skeleton, joint, 1, degrees));
+  double sum = 0;
+  int count = 0;
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    const Eigen::Vector2f rest = mesh.vertices.row(v).head<2>().transpose() - from;
+    const float along = rest.dot(bone) / bone.squaredNorm();
+    if (along < 0.6f || along > 1) continue;
+    const Eigen::Vector2d across = px_per_m * (rest - along * bone).cast<double>();
+    const Eigen::Vector2d beside = from_px + static_cast<double>(along) * bone_px;
+    if (!inFigure(mask, beside, beside + 0.9 * Eigen::Vector2d(across.x(), -across.y()))) continue;
+    const Eigen::Vector2f now = posed.row(v).head<2>().transpose() - from;
+    const float turn_rad = std::atan2(rest.x() * now.y() - rest.y() * now.x(), rest.dot(now));
+    sum += static_cast<double>(turn_rad * 180 / std::numbers::pi_v<float> / degrees);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+// Whether nothing but the forearm (the shin) is drawn where it is: the figure is nowhere wider across it than
+// four fifths of its length.
+inline bool isFree(const Plane8& mask, const Skeleton& skeleton, const std::string& joint) {
+  const int j = skeleton.index(joint);
+  const Eigen::Vector2d from = skeleton.joints[j].image, bone = skeleton.joints[j + 1].image - from;
+  const Eigen::Vector2d across = Eigen::Vector2d(-bone.y(), bone.x()).normalized();
+  for (int step = 0; step <= 10; ++step) {
+    double width = 0;
+    const Eigen::Vector2d p = from + 0.1 * step * bone;
+    for (const double side : {-1.0, 1.0}) {
+      for (double way = 0; way < bone.norm() && inFigure(mask, p, p + side * way * across); ++way) ++width;
+    }
+    if (width > 0.8 * bone.norm()) return false;
+  }
+  return true;
 }
 
 inline const char* const kBends[] = {"left_elbow", "right_elbow", "left_knee", "right_knee"};
