@@ -309,7 +309,7 @@ SkinQuality skinQuality(const std::string& dir) {
         ++quality.bends;
         quality.whole_bends += count == 0;
       }
-      if (!isFree(body->mask, body->skeleton, joint)) continue;
+      if (!isFree(body->mask, body->mesh, body->skeleton, joint)) continue;
       for (const float degrees : {45.0f, 90.0f}) {
         const double part = turnedShare(body->mask, body->mesh, weights, body->skeleton, joint, degrees);
         quality.turned += part / 2;
@@ -354,9 +354,11 @@ TEST_CASE("real drawings: foreign weight, edges, bends") {
     return;
   }
   const SkinQuality quality = skinQuality(std::string(root) + "/characters");
-  REQUIRE(quality.drawings > 20);
-  CHECK(quality.foreign >= quality.drawings - 1);
-  CHECK(quality.edges >= quality.drawings - 1);
-  CHECK(quality.whole_bends >= quality.bends - quality.bends / 50);
+  CHECK(quality.drawings > 30);
+  CHECK(quality.foreign == quality.drawings);
+  CHECK(quality.edges == quality.drawings);
+  CHECK(quality.whole_bends == quality.bends);
+  CHECK(quality.free_limbs > 30);
   CHECK(quality.turned > 0.98);
+  CHECK(quality.least_turned > 0.7);
 }

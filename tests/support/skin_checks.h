@@ -7,6 +7,7 @@
 #include <string>
 
 #include "libskel/deform/skin_vertices.h"
+#include "libskel/skin/methods.h"
 
 namespace skel {
 
@@ -143,9 +144,10 @@ inline double turnedShare(const Plane8& mask, const TriangleMesh& mesh, const Sk
   return count > 0 ? sum / count : 0;
 }
 
-// Whether nothing but the forearm (the shin) is drawn where it is: the figure is nowhere wider across it than
-// four fifths of its length.
-inline bool isFree(const Plane8& mask, const Skeleton& skeleton, const std::string& joint) {
+// Whether the forearm (the shin) and the hand (the foot) touch nothing but their own limb, and the figure is
+// nowhere wider across the bone than four fifths of its length.
+inline bool isFree(const Plane8& mask, const TriangleMesh& mesh, const Skeleton& skeleton,
+                   const std::string& joint) {
   const int j = skeleton.index(joint);
   const Eigen::Vector2d from = skeleton.joints[j].image, bone = skeleton.joints[j + 1].image - from;
   const Eigen::Vector2d across = Eigen::Vector2d(-bone.y(), bone.x()).normalized();
@@ -156,6 +158,27 @@ inline bool isFree(const Plane8& mask, const Skeleton& skeleton, const std::stri
       for (double way = 0; way < bone.norm() && inFigure(mask, p, p + side * way * across); ++way) ++width;
     }
     if (width > 0.8 * bone.norm()) return false;
+  }
+  const std::vector<int> limbs = jointLimbs(skeleton);
+  const JointWeights near =
+      geodesicWeights(mesh, skeletonBones(skeleton), static_cast<int>(skeleton.joints.size()));
+  const auto nearest = [&](int v) {
+    Eigen::Index result;
+    near.row(v).maxCoeff(&result);
+    return static_cast<int>(result);
+  };
+  const Eigen::Vector3f elbow = skeleton.joints[j].position.cast<float>();
+  const Eigen::Vector3f forearm = skeleton.joints[j + 1].position.cast<float>() - elbow;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int v = mesh.triangles(t, k), moved = nearest(v);
+      if (moved != j && moved != j + 1) continue;
+      // Where the limb begins it may hang on anything.
+      if ((mesh.vertices.row(v).transpose() - elbow).dot(forearm) < 0.1f * forearm.squaredNorm()) continue;
+      for (int other = 0; other < 3; ++other) {
+        if (limbs[nearest(mesh.triangles(t, other))] != limbs[j]) return false;
+      }
+    }
   }
   return true;
 }
