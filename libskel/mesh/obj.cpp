@@ -13,12 +13,14 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/image/read_image.h"
+#include "libskel/mesh/cut_polygon.h"
 
 namespace skel {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r";
-constexpr double kMaxWidth = 1e4;  // of a model, in its heights
+constexpr double kMaxWidth = 1e4;            // of a model, in its heights
+constexpr std::size_t kMostCorners = 10000;  // of a face
 
 // A text file line by line: without comments, with lines that end in a backslash joined.
 class Lines {
@@ -154,6 +156,9 @@ TriangleMesh readObj(const std::string& path) {
       materials.push_back(remainder(line, "usemtl"));
     } else if (word[0] == "f") {
       if (word.size() < 4) lines.fail("a face needs at least 3 corners");
+      if (word.size() > kMostCorners + 1)
+        lines.fail("a face has " + std::to_string(word.size() - 1) + " corners, at most " +
+                   std::to_string(kMostCorners) + " are read; export the model as triangles");
       polygon.clear();
       for (std::size_t k = 1; k < word.size(); ++k) {
         const std::size_t slash = word[k].find('/');
@@ -166,8 +171,10 @@ TriangleMesh readObj(const std::string& path) {
         textured = textured && corner[1] >= 0;
         polygon.push_back(corner);
       }
-      for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
-        const std::array<Corner, 3> triangle{polygon[0], polygon[k], polygon[k + 1]};
+      std::vector<Eigen::Vector3f> corners;
+      for (const Corner& corner : polygon) corners.push_back(positions[corner[0]]);
+      for (const auto& [a, b, c] : cutPolygon(corners)) {
+        const std::array<Corner, 3> triangle{polygon[a], polygon[b], polygon[c]};
         // A corner named twice has no area: nothing is lost.
         if (triangle[0][0] == triangle[1][0] || triangle[1][0] == triangle[2][0] ||
             triangle[2][0] == triangle[0][0]) {

@@ -11,7 +11,7 @@ namespace skel {
 // if there is one; without texture coordinates, or with none for some corner, there is no texture. Vertices
 // keep the file's coordinates, and are split where texture coordinates differ; model_from_image is the
 // identity. Throws InputError with the line: numbers that are none, indices that lead nowhere, a .mtl or
-// picture that cannot be read, no faces at all.
+// picture that cannot be read, no faces at all, a face of more than 10000 corners.
 TriangleMesh readObj(const std::string& path);
 
 }  // namespace skel

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace skel {
@@ -79,7 +80,7 @@ DrawingTexture drawingTexture(const Image& image, const Plane8& mask, const Pixe
     for (int x = 0; x < width; ++x) {
       const int left = box.x0 + static_cast<int>(x * shrink);
       const int right = std::max(left + 1, std::min(box.x1, box.x0 + static_cast<int>((x + 1) * shrink)));
-      int sum[4] = {0, 0, 0, 0}, count = 0;
+      std::int64_t sum[4] = {0, 0, 0, 0}, count = 0;
       for (int v = top; v < bottom; ++v) {
         for (int u = left; u < right; ++u) {
           if (mask(v, u) == 0) continue;

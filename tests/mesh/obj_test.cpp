@@ -1,5 +1,7 @@
 #include "libskel/mesh/obj.h"
 
+#include <Eigen/Geometry>
+
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/image/write_image.h"
@@ -43,6 +45,19 @@ TEST_CASE("all forms of faces are read") {
   }
   CHECK(read("v 1e-1 +2 .5 1.0\nv 1 0 0\nv 0 0 1\nf 1 2 3").vertices.row(0) ==
         Eigen::RowVector3f(0.1f, 2, 0.5f));
+}
+
+TEST_CASE("a concave face does not cover its notch") {
+  const TriangleMesh mesh = read("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\nf 2 3 4 5 6 1\n");
+  REQUIRE(mesh.triangles.rows() == 4);
+  double area = 0;
+  for (Eigen::Index t = 0; t < 4; ++t) {
+    const Eigen::Vector3f a = mesh.vertices.row(mesh.triangles(t, 0)),
+                          b = mesh.vertices.row(mesh.triangles(t, 1)),
+                          c = mesh.vertices.row(mesh.triangles(t, 2));
+    area += 0.5 * static_cast<double>((b - a).cross(c - a).norm());
+  }
+  CHECK(area == Approx(4));
 }
 
 TEST_CASE("the texture is found through the material that is used") {
@@ -89,5 +104,9 @@ TEST_CASE("bad models are refused with the line") {
         "line 5: there is no texture coordinate 1; 0 are defined so far");
   CHECK(complaint(kSquare + "f 1 2 x\n") == "line 5: 'x' is not the index of a vertex");
   CHECK(complaint(kSquare + "f 1 2 99999999999\n") == "line 5: '99999999999' is not the index of a vertex");
+  std::string face = kSquare + "f";
+  for (int k = 0; k < 10001; ++k) face += " " + std::to_string(k % 4 + 1);
+  CHECK(complaint(face) ==
+        "line 5: a face has 10001 corners, at most 10000 are read; export the model as triangles");
   CHECK_THROWS_AS(readObj("/nowhere/a.obj"), InputError);
 }
