@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libskel/core/segment.h"
+
 namespace skel {
 
 bool paintLine(Plane8& mask, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double radius_px,
                std::uint8_t value) {
   const double radius = std::max(radius_px, 0.5);
-  const Eigen::Vector2d along = to - from;
-  const double length2 = along.squaredNorm();
   const auto low = [&](int axis) {
     return static_cast<long>(std::ceil(std::max(std::min(from[axis], to[axis]) - radius, 0.0)));
   };
@@ -20,8 +20,8 @@ bool paintLine(Plane8& mask, const Eigen::Vector2d& from, const Eigen::Vector2d&
   for (long y = low(1); y <= high(1, mask.rows()); ++y)
     for (long x = low(0); x <= high(0, mask.cols()); ++x) {
       const Eigen::Vector2d p(static_cast<double>(x), static_cast<double>(y));
-      const double t = length2 > 0 ? std::clamp((p - from).dot(along) / length2, 0.0, 1.0) : 0.0;
-      if ((p - from - t * along).squaredNorm() > radius * radius || mask(y, x) == value) continue;
+      if ((nearestOnSegment(p, from, to) - p).squaredNorm() > radius * radius || mask(y, x) == value)
+        continue;
       mask(y, x) = value;
       changed = true;
     }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "libskel/animation/sample_pose.h"
+#include "libskel/core/segment.h"
 
 namespace skel {
 
@@ -66,13 +67,6 @@ std::vector<Vector3d> positions(const Skeleton& skeleton, const std::vector<Quat
   return result;
 }
 
-double distanceToSegment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
-  const Vector2d d = b - a;
-  const double length2 = d.squaredNorm();
-  const double t = length2 > 0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0;
-  return (a + t * d - p).norm();
-}
-
 // Seen from the front, the least turn of the forearm away from the trunk that keeps it and the hand beyond it
 // off the head at all `moments`.
 double clearingSwing(Retargeter retargeter, const std::vector<std::pair<Pose, double>>& moments, int elbow,
@@ -94,7 +88,8 @@ double clearingSwing(Retargeter retargeter, const std::vector<std::pair<Pose, do
       const std::vector<Vector3d> at = positions(skeleton, retargeter.globals(pose, share));
       const Vector2d from = at[elbow].head<2>();
       const Vector2d to = from + kHandReach * (at[hand].head<2>() - from);
-      clearance = std::min(clearance, distanceToSegment(at[head].head<2>(), from, to) - 1.1 * radius);
+      clearance =
+          std::min(clearance, distanceToSegment<Vector2d>(at[head].head<2>(), from, to) - 1.1 * radius);
     }
     if (clearance > best_clearance) best_clearance = clearance, best_swing = retargeter.swing[elbow];
     if (clearance >= 0) break;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libskel/core/check.h"
+#include "libskel/core/segment.h"
 
 namespace skel {
 
@@ -34,13 +35,6 @@ struct PixelBox {
   }
   bool empty() const { return x1 <= x0 || y1 <= y0; }
 };
-
-double distanceToSegment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
-  const Vector2d d = b - a;
-  const double length2 = d.squaredNorm();
-  const double t = length2 > 0 ? std::clamp((p - a).dot(d) / length2, 0.0, 1.0) : 0;
-  return (a + t * d - p).norm();
-}
 
 }  // namespace
 
@@ -74,7 +68,7 @@ void drawPolyline(Image& image, const Points& points, double width_px, Color col
     const PixelBox part(image, a.cwiseMin(b) - reach, a.cwiseMax(b) + reach);
     for (int y = part.y0; y < part.y1; ++y)
       for (int x = part.x0; x < part.x1; ++x) {
-        const double inside = radius + 0.5 - distanceToSegment({double(x), double(y)}, a, b);
+        const double inside = radius + 0.5 - distanceToSegment(Vector2d(x, y), a, b);
         float& cell = coverage(x - box.x0, y - box.y0);
         cell = std::max(cell, float(std::clamp(inside, 0.0, 1.0)));
       }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libskel/core/segment.h"
 #include "libskel/skin/methods.h"
 
 namespace skel {
@@ -15,7 +16,8 @@ JointWeights euclideanWeights(const TriangleMesh& mesh, const std::vector<Bone>&
   for (int v = 0; v < vertices; ++v) {
     int nearest = 0;
     for (int b = 0; b < count; ++b) {
-      const float distance = distanceToSegment<3>(mesh.vertices.row(v), bones[b].from, bones[b].to);
+      const float distance =
+          distanceToSegment<Eigen::Vector3f>(mesh.vertices.row(v), bones[b].from, bones[b].to);
       reaches(v, b).distance_m2 = reaches(v, b).power_m2 = distance * distance;
       if (reaches(v, b).power_m2 < reaches(v, nearest).power_m2) nearest = b;
     }

@@ -16,6 +16,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "libskel/core/segment.h"
+
 namespace skel {
 namespace {
 
@@ -276,7 +278,9 @@ JointWeights geodesicWeights(const TriangleMesh& mesh, const std::vector<Bone>& 
         if (wall.triangle < 0) continue;
         for (int corner = 0; corner < 3; ++corner) {
           const int v = mesh.triangles(wall.triangle, corner);
-          reach(v, b, distanceToSegment<2>(inPlane(v), bones[b].from.head<2>(), bones[b].to.head<2>()));
+          reach(
+              v, b,
+              distanceToSegment<Eigen::Vector2f>(inPlane(v), bones[b].from.head<2>(), bones[b].to.head<2>()));
           seeded = true;
         }
       }

@@ -4,6 +4,7 @@
 
 #include "libskel/animation/builtin_clips.h"
 #include "libskel/animation/sample_pose.h"
+#include "libskel/core/segment.h"
 #include "tests/support/catch.h"
 #include "tests/support/figure.h"
 
@@ -34,11 +35,6 @@ std::vector<Vector3f> positions(const Clip& clip, const Skeleton& skeleton, floa
 
 Vector3f bone(const std::vector<Vector3f>& at, const Skeleton& skeleton, const char* from, const char* to) {
   return (at[skeleton.index(to)] - at[skeleton.index(from)]).normalized();
-}
-
-double distanceToSegment(const Vector3f& p, const Vector3f& a, const Vector3f& b) {
-  const float t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0f, 1.0f);
-  return (a + t * (b - a) - p).norm();
 }
 
 // Arms down, out, up, up past the vertical, on the hips, across the belly, forearm up.
