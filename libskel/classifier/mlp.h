@@ -6,11 +6,10 @@
 #include <array>
 #include <vector>
 
+#include "libskel/skeleton/joint_class.h"
+
 namespace skel {
 
-enum class JointClass { kHead = 0, kBody = 1, kHand = 2, kLeg = 3 };
-inline constexpr int kJointClassCount = 4;
-inline constexpr std::array<const char*, kJointClassCount> kJointClassNames = {"head", "body", "hand", "leg"};
 // The two bits that the outputs are trained to give.
 inline constexpr std::array<std::array<int, 2>, kJointClassCount> kJointClassCodes = {
     {{0, 0}, {0, 1}, {1, 0}, {1, 1}}};

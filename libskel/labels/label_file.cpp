@@ -52,8 +52,7 @@ LabelFile::Source readSource(const JsonValue& value) {
 std::optional<JointClass> readLabel(const JsonValue& value) {
   if (value.isNull()) return std::nullopt;
   const std::string name = value.asString();
-  for (int c = 0; c < kJointClassCount; ++c)
-    if (name == kJointClassNames[static_cast<std::size_t>(c)]) return static_cast<JointClass>(c);
+  if (const std::optional<JointClass> joint_class = jointClassNamed(name)) return joint_class;
   value.fail("is \"" + name + "\", must be head, body, hand, leg or null");
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "libskel/core/error.h"
+#include "libskel/core/segment.h"
 
 namespace skel {
 namespace {
@@ -15,14 +15,6 @@ struct Bone {
   Eigen::Vector2d from, to;  // grid px
   JointClass joint_class;
 };
-
-JointClass classNamed(const std::string& name, const SkeletonTemplate& body_plan) {
-  const auto found = std::find(kJointClassNames.begin(), kJointClassNames.end(), name);
-  if (found == kJointClassNames.end())
-    throw InputError(body_plan.name,
-                     "has a joint of class \"" + name + "\", must be head, body, hand or leg");
-  return static_cast<JointClass>(found - kJointClassNames.begin());
-}
 
 // The last place of the figure on the way from `from` through `through`.
 Eigen::Vector2d tipBeyond(const DistanceField& distance, const Eigen::Vector2d& from,
@@ -62,24 +54,16 @@ std::vector<Bone> bonesOf(const std::vector<Place>& places, const SkeletonTempla
   std::vector<Bone> bones;
   for (std::size_t j = 0; j < places.size(); ++j) {
     const TemplateJoint& joint = body_plan.joints[j];
-    if (joint.parent < 0 || joint.bone_class.empty()) continue;
+    if (joint.parent < 0 || !joint.bone_class) continue;
     const auto parent = static_cast<std::size_t>(joint.parent);
     if (!places[j] || !places[parent]) continue;
     const Eigen::Vector2d from = *places[parent], to = *places[j];
     const Eigen::Vector2d middle = from + joint.class_from * (to - from);
-    bones.push_back({middle, to, classNamed(joint.bone_class, body_plan)});
-    const std::string& before = body_plan.joints[parent].bone_class;
-    if (joint.class_from > 0 && !before.empty())
-      bones.push_back({from, middle, classNamed(before, body_plan)});
+    bones.push_back({middle, to, *joint.bone_class});
+    const std::optional<JointClass> before = body_plan.joints[parent].bone_class;
+    if (joint.class_from > 0 && before) bones.push_back({from, middle, *before});
   }
   return bones;
-}
-
-double squaredDistance(const Eigen::Vector2d& point, const Bone& bone) {
-  const Eigen::Vector2d along = bone.to - bone.from;
-  const double length = along.squaredNorm();
-  const double t = length > 0 ? std::clamp((point - bone.from).dot(along) / length, 0., 1.) : 0;
-  return (bone.from + t * along - point).squaredNorm();
 }
 
 }  // namespace
@@ -94,7 +78,8 @@ std::vector<std::optional<JointClass>> labelFromJoints(const CandidateSet& candi
     double nearest = std::numeric_limits<double>::infinity();
     auto& label = labels.emplace_back();
     for (const Bone& bone : bones)
-      if (const double distance = squaredDistance(point, bone); distance < nearest) {
+      if (const double distance = (nearestOnSegment(point, bone.from, bone.to) - point).squaredNorm();
+          distance < nearest) {
         nearest = distance;
         label = bone.joint_class;
       }

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "libskel/core/check.h"
+#include "libskel/core/segment.h"
 #include "libskel/recognition/complete_skeleton.h"
 
 namespace skel {
@@ -86,12 +87,6 @@ Trunk findTrunk(const Silhouette& silhouette, const CandidateSet& candidates,
   return trunk;
 }
 
-double distanceToSegment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
-  const double length = (b - a).squaredNorm();
-  const double t = length > 0 ? std::clamp((p - a).dot(b - a) / length, 0.0, 1.0) : 0;
-  return (p - (a + t * (b - a))).norm();
-}
-
 // The line's two candidates that are farthest apart, the one nearer to the body first, and the one most in
 // the middle.
 std::array<int, 3> limbJoints(const CandidateSet& candidates, const CandidateLine& line,
@@ -166,14 +161,12 @@ std::vector<CandidateLine> candidateLines(const CandidateSet& candidates, const 
 }
 
 Recognition recognizeByRules(const Silhouette& silhouette, const CandidateSet& candidates,
-                             const ClassProbabilities& classes, const SkeletonTemplate& body_plan,
-                             PaperTrace* trace) {
+                             const ClassProbabilities& classes, const SkeletonTemplate& body_plan) {
   SKEL_CHECK(silhouette.found());
   SKEL_CHECK_EQ(classes.rows(), static_cast<Eigen::Index>(candidates.maxima.size()));
   const RecognitionRules& rules = body_plan.rules;
-  PaperTrace steps;
-  steps.trunk_lines = candidateLines(candidates, candidates.kept, classes, rules.line_reach);
-  const Trunk trunk = findTrunk(silhouette, candidates, classes, steps.trunk_lines);
+  const Trunk trunk = findTrunk(silhouette, candidates, classes,
+                                candidateLines(candidates, candidates.kept, classes, rules.line_reach));
 
   Recognition recognition;
   recognition.skeleton = presetSkeleton(body_plan, {0, 0}, {1, 1});
@@ -192,13 +185,11 @@ Recognition recognizeByRules(const Silhouette& silhouette, const CandidateSet& c
   for (const int i : candidates.kept)
     if (distanceToSegment(at(candidates, i), trunk.head, trunk.body) > radius(candidates, i))
       beside.push_back(i);
-  steps.limb_lines = candidateLines(candidates, beside, classes, rules.line_reach);
   const double mean_radius = meanRadius(candidates, candidates.kept);
-  for (const CandidateLine& line : steps.limb_lines) {
+  for (const CandidateLine& line : candidateLines(candidates, beside, classes, rules.line_reach)) {
     const double hand = share(line, JointClass::kHand), leg = share(line, JointClass::kLeg);
     if (hand + leg < rules.limb_probability || line.mean_radius > rules.limb_radius * mean_radius) continue;
-    const std::string limb_class =
-        kJointClassNames[static_cast<size_t>(hand >= leg ? JointClass::kHand : JointClass::kLeg)];
+    const JointClass limb_class = hand >= leg ? JointClass::kHand : JointClass::kLeg;
     const std::array<int, 3> ends = limbJoints(candidates, line, trunk.body);
     for (const TemplateLimb& limb : body_plan.limbs) {
       if (limb.limb_class != limb_class || found[static_cast<size_t>(limb.joints[0])] ||
@@ -208,7 +199,6 @@ Recognition recognizeByRules(const Silhouette& silhouette, const CandidateSet& c
       break;
     }
   }
-  if (trace) *trace = steps;
 
   double confidence = 0, recognized = 0;
   for (size_t i = 0; i < found.size(); ++i) {

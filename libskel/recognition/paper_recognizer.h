@@ -24,17 +24,10 @@ struct CandidateLine {
 std::vector<CandidateLine> candidateLines(const CandidateSet& candidates, const std::vector<int>& members,
                                           const ClassProbabilities& classes, double reach);
 
-// What the rules saw on their way, for pictures.
-struct PaperTrace {
-  std::vector<CandidateLine> trunk_lines;  // Algorithm 2 looks for head and body here
-  std::vector<CandidateLine> limb_lines;   // (3) looks for limbs here
-};
-
 // Lines (1), class shares (2), head and body (Algorithm 2), limbs (3), completion from the template's preset,
 // separation of joints that coincide. `silhouette` must be found; joints come in image px and lie on the
 // figure.
 Recognition recognizeByRules(const Silhouette& silhouette, const CandidateSet& candidates,
-                             const ClassProbabilities& classes, const SkeletonTemplate& body_plan,
-                             PaperTrace* trace = nullptr);
+                             const ClassProbabilities& classes, const SkeletonTemplate& body_plan);
 
 }  // namespace skel

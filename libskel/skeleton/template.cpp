@@ -32,7 +32,12 @@ int recognizedJointAt(const SkeletonTemplate& body_plan, const JsonValue& value)
   return index;
 }
 
-std::string classAt(const JsonValue& value) { return value.isNull() ? "" : value.asString(); }
+JointClass classAt(const JsonValue& value) {
+  const std::string name = value.asString();
+  const std::optional<JointClass> joint_class = jointClassNamed(name);
+  if (!joint_class) value.fail("is \"" + name + "\", must be head, body, hand or leg");
+  return *joint_class;
+}
 
 Derivation derivationAt(const SkeletonTemplate& body_plan, const JsonValue& value) {
   value.allowOnly({"rule", "from"});
@@ -67,7 +72,8 @@ void readJoints(SkeletonTemplate& body_plan, const JsonValue& list) {
     joint.preset = {preset[0], preset[1]};
     if ((joint.preset.array() < 0).any() || (joint.preset.array() > 1).any())
       item.at("preset").fail("must lie in the figure's box, from [0, 0] to [1, 1]");
-    joint.bone_class = classAt(item.at("class"));
+    if (const JsonValue bone_class = item.at("class"); !bone_class.isNull())
+      joint.bone_class = classAt(bone_class);
     if (const auto from = item.find("class_from")) joint.class_from = from->asNumber(0, 1);
     body_plan.joints.push_back(joint);
   }
@@ -102,7 +108,9 @@ SkeletonTemplate parseTemplate(std::string_view text, const std::string& file) {
   for (const JsonValue& item : root.at("limbs").items()) {
     item.allowOnly({"class", "joints"});
     TemplateLimb limb;
-    limb.limb_class = item.at("class").asString();
+    limb.limb_class = classAt(item.at("class"));
+    if (limb.limb_class != JointClass::kHand && limb.limb_class != JointClass::kLeg)
+      item.at("class").fail("must be hand or leg: the rules look for no other limbs");
     const auto joints = item.at("joints").items();
     if (joints.size() != 3) item.at("joints").fail("must name three joints");
     for (size_t i = 0; i < 3; ++i) limb.joints[i] = recognizedJointAt(body_plan, joints[i]);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "libskel/skeleton/joint_class.h"
 #include "libskel/skeleton/skeleton.h"
 
 namespace skel {
@@ -30,15 +31,15 @@ struct TemplateJoint {
   Eigen::Vector2d
       preset;  // in the figure's bounding box: (0, 0) top left, (1, 1) bottom right; facing the viewer
   // The class of candidates nearest to the bone from the parent, from the share `class_from` of its length
-  // on; before that they are of the parent's bone_class. Empty: such candidates belong to other bones.
-  std::string bone_class;
+  // on; before that they are of the parent's bone_class. Nothing: such candidates belong to other bones.
+  std::optional<JointClass> bone_class;
   double class_from = 0;
   std::optional<Derivation> derived;
 };
 
 // A chain of joints that one line of candidates gives: shoulder, elbow, hand or hip, knee, foot.
 struct TemplateLimb {
-  std::string limb_class;     // class of its candidates
+  JointClass limb_class;      // of its candidates
   std::array<int, 3> joints;  // from the trunk outwards
 };
 

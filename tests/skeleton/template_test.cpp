@@ -60,7 +60,7 @@ TEST_CASE("a template file that makes no sense is refused") {
       "t: joints[1].mirror: must name the joint that names this one");
 }
 
-TEST_CASE("a template that would place joints far outside the figure is refused") {
+TEST_CASE("a template with a value that makes no sense is refused") {
   const std::string biped = readFile(SKEL_SOURCE_DIR "/libskel/skeleton/templates/biped.json");
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = biped;
@@ -74,4 +74,16 @@ TEST_CASE("a template that would place joints far outside the figure is refused"
                     "t: joints[0].name: must not be empty");
   CHECK_THROWS_WITH(parseTemplate(changed("\"head\": \"head\"", "\"head\": \"neck\""), "t"),
                     "t: head: names the joint \"neck\", which is derived from others");
+  CHECK_THROWS_WITH(parseTemplate(changed("\"class\": \"body\"", "\"class\": \"torso\""), "t"),
+                    "t: joints[1].class: is \"torso\", must be head, body, hand or leg");
+  CHECK_THROWS_WITH(parseTemplate(changed("{\"class\": \"hand\"", "{\"class\": \"arm\""), "t"),
+                    "t: limbs[0].class: is \"arm\", must be head, body, hand or leg");
+  CHECK_THROWS_WITH(parseTemplate(changed("{\"class\": \"leg\"", "{\"class\": \"head\""), "t"),
+                    "t: limbs[2].class: must be hand or leg: the rules look for no other limbs");
+  CHECK_THROWS_WITH(
+      parseTemplate(changed("[\"right_shoulder\", \"right_elbow\"", "[\"right_shoulder\", \"right_elbo\""),
+                    "t"),
+      "t: limbs[0].joints[1]: names no joint of this template: \"right_elbo\"");
+  CHECK_THROWS_WITH(parseTemplate(changed("[\"left_hip\", \"right_hip\"]", "[\"left_hip\", \"hip\"]"), "t"),
+                    "t: joints[0].derived.from[1]: names no joint of this template: \"hip\"");
 }
