@@ -24,23 +24,65 @@ std::string show(double number) {
 // Objects keep the order of their keys and so search them one by one.
 constexpr std::size_t kMostKeys = 1000;
 
-struct KeyCheck {
+// Follows the parser: looks at the keys, and knows where it stands.
+struct Follower {
+  struct Open {
+    bool is_list;
+    std::size_t count = 0;  // of the list's items so far
+    std::string key;        // the object's last
+    std::set<std::string> keys;
+  };
   const std::string& file;
-  std::vector<std::set<std::string>> open;
+  std::vector<Open> open;
 
   bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::object_start) open.emplace_back();
-    if (event == Json::parse_event_t::object_end) open.pop_back();
-    if (event != Json::parse_event_t::key) return true;
-    // The parser keeps the last of several equal keys; a file written by hand deserves to be told.
-    const std::string key = parsed.get<std::string>();
-    if (!open.back().insert(key).second)
-      throw InputError(file, "has the key \"" + key + "\" twice in one object");
-    if (open.back().size() > kMostKeys)
-      throw InputError(file, "has an object with more than " + std::to_string(kMostKeys) + " keys");
+    switch (event) {
+      case Json::parse_event_t::object_start:
+      case Json::parse_event_t::array_start:
+        open.push_back({event == Json::parse_event_t::array_start, 0, {}, {}});
+        break;
+      case Json::parse_event_t::object_end:
+      case Json::parse_event_t::array_end:
+        open.pop_back();
+        [[fallthrough]];
+      case Json::parse_event_t::value:
+        if (!open.empty()) ++open.back().count;
+        break;
+      case Json::parse_event_t::key:
+        takeKey(parsed.get<std::string>());
+    }
     return true;
   }
+
+  void takeKey(std::string key) {
+    Open& object = open.back();
+    // The parser keeps the last of several equal keys; a file written by hand deserves to be told.
+    if (!object.keys.insert(key).second)
+      throw InputError(file, "has the key \"" + key + "\" twice in one object");
+    if (object.keys.size() > kMostKeys)
+      throw InputError(file, "has an object with more than " + std::to_string(kMostKeys) + " keys");
+    object.key = std::move(key);
+  }
+
+  // "joints[3].image[0]"
+  std::string path() const {
+    std::string text;
+    for (const Open& level : open)
+      text += level.is_list ? "[" + std::to_string(level.count) + "]" : (text.empty() ? "" : ".") + level.key;
+    return text;
+  }
 };
+
+// Other programs write numbers into JSON that it does not have.
+bool isNanOrInfinity(std::string_view text, std::size_t at) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  std::size_t begin = std::min(at, text.size()), end = begin;
+  while (begin > 0 && is_letter(text[begin - 1])) --begin;
+  while (end < text.size() && is_letter(text[end])) ++end;
+  std::string word(text.substr(begin, end - begin));
+  std::transform(word.begin(), word.end(), word.begin(), [](char c) { return c | 0x20; });
+  return word == "nan" || word == "inf" || word == "infinity";
+}
 
 }  // namespace
 
@@ -58,16 +100,20 @@ JsonDocument JsonDocument::readFile(const std::string& path) { return parse(skel
 JsonDocument JsonDocument::parse(std::string_view text, const std::string& file) {
   JsonDocument document;
   document.content_->file = file;
-  KeyCheck check{file, {}};
+  Follower follower{file, {}};
   try {
-    document.content_->json = Json::parse(text, std::ref(check));
+    document.content_->json = Json::parse(text, std::ref(follower));
   } catch (const nlohmann::json::parse_error& error) {
     const auto upto = text.substr(0, std::min(error.byte, text.size()));
     const auto line = std::count(upto.begin(), upto.end(), '\n') + 1;
-    throw InputError(file, text.empty() ? "is empty, not JSON"
-                                        : "is not JSON: line " + std::to_string(line) + " cannot be read");
+    if (text.empty()) throw InputError(file, "is empty, not JSON");
+    std::string problem = "is not JSON: line " + std::to_string(line) + " cannot be read";
+    if (!follower.open.empty() && isNanOrInfinity(text, error.byte))
+      problem += ": " + follower.path() + " is not a finite number";
+    throw InputError(file, problem);
   } catch (const nlohmann::json::out_of_range&) {
-    throw InputError(file, "holds a number that is too large");
+    const std::string path = follower.path();
+    throw InputError(file, (path.empty() ? "" : path + ": ") + "is a number that is too large");
   }
   return document;
 }

@@ -53,9 +53,14 @@ TEST_CASE("what is not JSON is refused with its line") {
   CHECK_THROWS_WITH(JsonDocument::parse("", "f.json"), "f.json: is empty, not JSON");
   CHECK_THROWS_WITH(JsonDocument::parse(R"({"a": {"b": 1, "b": 2}})", "f.json"),
                     "f.json: has the key \"b\" twice in one object");
-  CHECK_THROWS_AS(JsonDocument::parse("{\"a\": NaN}", "f.json"), InputError);
-  CHECK_THROWS_WITH(JsonDocument::parse("{\"a\": 1e999}", "f.json"),
-                    "f.json: holds a number that is too large");
+  for (const char* number : {"NaN", "nan", "-nan", "Infinity", "-Infinity", "inf", "-inf"})
+    CHECK_THROWS_WITH(JsonDocument::parse(
+                          std::string(R"({"a": [{"b": []}, {"b": [1, [], {}, )") + number + "]}]}", "f.json"),
+                      "f.json: is not JSON: line 1 cannot be read: a[1].b[3] is not a finite number");
+  CHECK_THROWS_WITH(JsonDocument::parse("NaN", "f.json"), "f.json: is not JSON: line 1 cannot be read");
+  CHECK_THROWS_WITH(JsonDocument::parse("1e999", "f.json"), "f.json: is a number that is too large");
+  CHECK_THROWS_WITH(JsonDocument::parse("{\"a\": {\"b\": 1, \"c\": 1e999}}", "f.json"),
+                    "f.json: a.c: is a number that is too large");
 }
 
 TEST_CASE("objects of endless length are refused before they cost time") {

@@ -169,10 +169,10 @@ TEST_CASE("bad data is refused with file, path and reason, and exit code 2") {
   };
   CHECK(holds(refusal("\"label\": \"leg\"", "\"label\": null"), "].label: is null; label every candidate"));
   CHECK(holds(refusal("\"label\": \"leg\"", "\"label\": \"tail\""), "must be head, body, hand, leg or null"));
-  CHECK(holds(refusal("\"radius\": ", "\"radius\": NaN, \"r\": "), "is not JSON"));
+  CHECK(holds(refusal("\"radius\": ", "\"radius\": NaN, \"r\": "), "].radius is not a finite number"));
   CHECK(holds(refusal("\"height\": 128", "\"height\": 256"), "it is 128 px; label one of them anew"));
   CHECK(holds(refusal(sha256("picture"), sha256("other")), "has changed since it was labelled"));
-  CHECK(holds(refusal("\"version\": 1", "\"version\": 2"), "use a newer skel"));
+  CHECK(holds(refusal("\"version\": 1", "\"version\": 3"), "use a newer skel"));
 
   const TempDir empty;
   const ToolRun none = run(empty.path() + " -o " + dir.file("w.json"));
