@@ -170,6 +170,7 @@ std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonT
     }
     const Eigen::Vector2d low = box.isEmpty() ? Eigen::Vector2d(0, 0) : box.min();
     const Eigen::Vector2d size = box.isEmpty() ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(box.sizes());
+    const auto area = (maskFromPolygons(picture.mask_polygons, picture.width, picture.height) != 0).count();
     annotations.push_back({{"id", i + 1},
                            {"image_id", i + 1},
                            {"category_id", 1},
@@ -177,7 +178,7 @@ std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonT
                            {"num_keypoints", known},
                            {"keypoints", std::move(points)},
                            {"bbox", {low.x(), low.y(), size.x(), size.y()}},
-                           {"area", size.prod()},
+                           {"area", area},
                            {"segmentation", std::move(segmentation)}});
   }
   const Json category = {{"id", 1}, {"name", body_plan.name}, {"keypoints", names}, {"skeleton", bones}};

@@ -6,6 +6,7 @@
 #include "labeler/mask_brush.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/json.h"
 #include "tests/labeler/drawing_folder.h"
 #include "tests/support/catch.h"
 #include "tests/support/locked_folder.h"
@@ -180,6 +181,9 @@ TEST_CASE("COCO that we write is COCO that we read: joints, and the mask to the 
   REQUIRE(drawings[0].joints.size() == 1);
   CHECK(place(drawings[0].joints, "head") == Eigen::Vector2d(12.25, 30));
   CHECK((maskFromPolygons(drawings[0].mask_polygons, 600, 600) == silhouette.mask).all());
+  const JsonDocument document = JsonDocument::readFile(dir.file("coco.json"));
+  CHECK(document.root().at("annotations").items()[0].at("area").asNumber() ==
+        static_cast<double>((silhouette.mask != 0).count()));
 }
 
 TEST_CASE("a brush is round, leaves no gaps, and may lie outside") {
