@@ -2,6 +2,8 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <chrono>
 #include <csignal>
 
 #include "labeler/label_report.h"
@@ -21,7 +23,8 @@ extern char** environ;
 
 namespace {
 
-// Starts save_loop at `first_step`, kills it after a random time, returns the last step that it has reported.
+// Starts save_loop at `first_step`, kills it anywhere in the time that some steps take, on a slow disk as on
+// a fast one; returns the last step that it has reported.
 int saveUntilKilled(const std::string& opened, int first_step, Rng& rng) {
   int ends[2];
   REQUIRE(pipe(ends) == 0);
@@ -40,7 +43,10 @@ int saveUntilKilled(const std::string& opened, int first_step, Rng& rng) {
   int last = first_step - 1;
   const auto readStep = [&] { return read(ends[0], &last, sizeof last) == sizeof last; };
   REQUIRE(readStep());  // it is at work
-  usleep(rng.below(40'000));
+  const auto start_of_step = std::chrono::steady_clock::now();
+  REQUIRE(readStep());
+  const std::chrono::duration<double, std::micro> step_us = std::chrono::steady_clock::now() - start_of_step;
+  usleep(static_cast<useconds_t>(rng.uniform(0, 5) * step_us.count()));
   kill(child, SIGKILL);
   while (readStep()) {
   }
@@ -75,7 +81,6 @@ TEST_CASE("a process that is killed again and again while it saves loses at most
     step = saved + 1;
   }
   CHECK(checkLabels(dir.path(), loadTemplate("biped")).empty());
-  CHECK(step > 40);
 }
 
 TEST_CASE("a process that is killed while it edits a motion loses at most the step in hand") {
@@ -103,7 +108,6 @@ TEST_CASE("a process that is killed while it edits a motion loses at most the st
     CHECK(last <= reported + 1);
     step = last + 1;
   }
-  CHECK(step > 15);
   int temporary = 0;
   for (const auto& entry : fs::directory_iterator(dir.path()))
     temporary += entry.path().string().ends_with(".skel-tmp");
