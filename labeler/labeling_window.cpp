@@ -24,11 +24,11 @@ constexpr const char* kToolHelp[kToolCount] = {
 constexpr struct {
   const char *keys, *what;
 } kHelp[] = {
-    {"1  2  3  4", "head, body, hand, leg: for what the mouse touches or N has chosen, or the brush"},
-    {"0  Delete", "take the label away"},
+    {"1  2  3  4", "head, body, hand, leg: what the mouse touches, N has chosen, brush or lasso take"},
+    {"0  Delete  Backspace", "take the label away"},
     {"V  B  L", "touch, brush, lasso"},
     {"N  Tab", "go to the disc that is least sure"},
-    {"Enter", "accept its suggestion and go on to the next, as 1 to 4 do"},
+    {"Enter  Space", "accept its suggestion and go on to the next, as 1 to 4 do"},
     {"A", "accept all suggestions that are left"},
     {"J", "drag joints"},
     {"D", "labels from the joints"},
@@ -38,13 +38,14 @@ constexpr struct {
     {"M", "mend the mask: left button adds, right button erases"},
     {"X", "swap adding and erasing"},
     {"[  ]", "smaller, larger brush"},
-    {"Ctrl Z  Ctrl Y", "undo, redo"},
-    {"Page Up  Page Down", "previous, next drawing (also arrow keys)"},
+    {"Ctrl Z", "undo"},
+    {"Ctrl Y  Ctrl Shift Z", "redo"},
+    {"Page Up  Page Down", "previous, next drawing; so do the arrow keys"},
     {"U", "next unfinished drawing"},
     {"Wheel  +  -", "zoom"},
     {"Right or middle drag", "move the drawing"},
     {"F", "fit the drawing into the view"},
-    {"H  ?  F1", "this help"},
+    {"H  ?  F1", "this help; Esc closes it"},
 };
 
 bool pressed(key::Code code, bool repeat = false) { return ImGui::IsKeyPressed(code, repeat); }
