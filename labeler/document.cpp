@@ -316,6 +316,9 @@ void Document::loadDrawing() {
     for (const auto& [name, place] : labels->joints)
       if (const int j = options_.body_plan.find(name); j >= 0 && place)
         state_.joints[static_cast<size_t>(j)] = PlacedJoint{*place, 1, JointOrigin::kEdited};
+    for (const std::string& name : labels->recognized)
+      if (const int j = options_.body_plan.find(name); j >= 0)
+        state_.joints[static_cast<size_t>(j)]->origin = JointOrigin::kRecognized;
     if (samePlaces(labels->candidates, figure_->candidates.maxima)) {
       state_.labels = labels->labels;
     } else if (figure_->silhouette.found()) {
@@ -599,6 +602,9 @@ void Document::writeFiles() {
   labels.candidates = figure_->candidates.maxima;
   labels.labels = state_.labels;
   labels.joints = namedJoints(state_.joints, options_.body_plan);
+  for (size_t j = 0; j < state_.joints.size(); ++j)
+    if (state_.joints[j] && state_.joints[j]->origin != JointOrigin::kEdited)
+      labels.recognized.push_back(options_.body_plan.joints[j].name);
   if (state_.mask) labels.mask = LabelFile::Source{state_.mask->file, state_.mask->sha256};
 
   const bool mended = state_.mask && state_.mask != saved_mask_ &&

@@ -20,7 +20,7 @@ namespace skel {
 namespace {
 
 constexpr const char* kFormat = "skel-labels";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;  // 1: without `recognized`
 constexpr int kMaxImageSide = 100'000;
 constexpr int kMaxGridSide = 4096;
 
@@ -98,11 +98,23 @@ NamedJoints readJoints(const JsonValue& value, const LabelFile& file) {
   return joints;
 }
 
+std::vector<std::string> readRecognized(const JsonValue& list, const NamedJoints& joints) {
+  std::set<std::string> placed;
+  for (const auto& [name, place] : joints)
+    if (place) placed.insert(name);
+  std::vector<std::string> names;
+  for (const JsonValue& item : list.items()) {
+    names.push_back(item.asString());
+    if (!placed.contains(names.back())) item.fail("\"" + names.back() + "\" has no place in joints");
+  }
+  return names;
+}
+
 LabelFile parse(const JsonValue& root, Problems& problems) {
   LabelFile file;
   root.checkFormat(kFormat, kVersion);
   problems.attempt([&] {
-    root.allowOnly({"format", "version", "image", "mask", "grid", "candidates", "joints"});
+    root.allowOnly({"format", "version", "image", "mask", "grid", "candidates", "joints", "recognized"});
   });
   problems.attempt([&] {
     const JsonValue image = root.at("image");
@@ -125,6 +137,8 @@ LabelFile parse(const JsonValue& root, Problems& problems) {
   problems.attempt([&] {
     const JsonValue joints = root.at("joints");
     if (!joints.isNull()) file.joints = readJoints(joints, file);
+    if (const auto recognized = root.find("recognized"))
+      file.recognized = readRecognized(*recognized, file.joints);
   });
   return file;
 }
@@ -186,7 +200,8 @@ std::string formatLabelFile(const LabelFile& labels) {
   };
   std::ostringstream out;
   out.imbue(std::locale::classic());
-  out << "{\n  \"format\": \"" << kFormat << "\",\n  \"version\": " << kVersion
+  out << "{\n  \"format\": \"" << kFormat
+      << "\",\n  \"version\": " << (labels.recognized.empty() ? 1 : kVersion)
       << ",\n  \"image\": {\"file\": " << quote(jsonFromFileName(labels.image.file))
       << ", \"width\": " << labels.image_width << ", \"height\": " << labels.image_height
       << ", \"sha256\": " << quote(labels.image.sha256) << "},\n  \"mask\": ";
@@ -214,7 +229,10 @@ std::string formatLabelFile(const LabelFile& labels) {
     else
       out << "null";
   }
-  out << (labels.joints.empty() ? "\n}\n" : "\n  }\n}\n");
+  if (!labels.joints.empty()) out << "\n  }";
+  for (std::size_t i = 0; i < labels.recognized.size(); ++i)
+    out << (i ? ", " : ",\n  \"recognized\": [") << quote(labels.recognized[i]);
+  out << (labels.recognized.empty() ? "\n}\n" : "]\n}\n");
   return out.str();
 }
 

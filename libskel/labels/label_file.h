@@ -29,6 +29,7 @@ struct LabelFile {
   std::vector<JointCandidate> candidates;  // all maxima, in the order of CandidateSet::maxima
   std::vector<std::optional<JointClass>> labels;  // one for each candidate; nullopt: not yet labelled
   NamedJoints joints;                             // empty: not known
+  std::vector<std::string> recognized;            // those of `joints` that no person has placed
 
   int gridSize() const { return std::max(grid_width, grid_height); }
 };

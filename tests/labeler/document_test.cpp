@@ -148,7 +148,27 @@ TEST_CASE("what was saved is what a new document finds") {
   for (size_t j = 0; j < last.joints.size(); ++j) {
     REQUIRE(document.state().joints[j].has_value() == last.joints[j].has_value());
     CHECK(document.state().joints[j]->image == last.joints[j]->image);
+    CHECK((document.state().joints[j]->origin == JointOrigin::kEdited) ==
+          (last.joints[j]->origin == JointOrigin::kEdited));
   }
+}
+
+TEST_CASE("joints that were found, not placed, are found anew after reopening") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const auto hand = static_cast<size_t>(loadTemplate("biped").find("left_hand"));
+  {
+    Document document(dir.path(), documentOptions());
+    document.rig();
+    document.moveJoint(document.bodyPlan().find("head"), {301.25, 150.5});
+  }
+  Document document(dir.path(), documentOptions());
+  const Eigen::Vector2d found = document.state().joints[hand]->image;
+  document.paintMask(found, found, 60, false);
+  document.rig();
+  CHECK((document.state().joints[hand]->image - found).norm() > 20);
+  CHECK(document.state().joints[static_cast<size_t>(document.bodyPlan().find("head"))]->image ==
+        Eigen::Vector2d(301.25, 150.5));
 }
 
 TEST_CASE("any sequence of steps is undone to its start and done again to its end") {

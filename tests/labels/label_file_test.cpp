@@ -21,6 +21,7 @@ LabelFile sample() {
   file.candidates = {{50, 30, 20.024984f}, {99, 127, 1}, {0, 0, 1.4142135f}};
   file.labels = {JointClass::kHead, JointClass::kLeg, std::nullopt};
   file.joints = {{"head", Eigen::Vector2d(300.25, 0.1)}, {"left_hand", std::nullopt}};
+  file.recognized = {"head"};
   return file;
 }
 
@@ -58,16 +59,20 @@ TEST_CASE("label files come back as they were") {
   CHECK(again.labels == sample().labels);
   CHECK(again.mask->file == "a.mask.png");
   CHECK(again.joints == sample().joints);
+  CHECK(again.recognized == sample().recognized);
 
   LabelFile bare = sample();
   bare.mask.reset();
   bare.joints.clear();
+  bare.recognized.clear();
   bare.candidates.clear();
   bare.labels.clear();
   writeLabelFile(path, bare);
+  CHECK(readFile(path).find("\"version\": 1,") != std::string::npos);
   const LabelFile bare_again = readLabelFile(path);
   CHECK_FALSE(bare_again.mask);
   CHECK(bare_again.joints.empty());
+  CHECK(bare_again.recognized.empty());
   CHECK(bare_again.candidates.empty());
 }
 
@@ -97,8 +102,8 @@ TEST_CASE("a good label file has no problems") { CHECK(problems("600", "600").em
 TEST_CASE("each problem of a label file is named with file, path and reason") {
   CHECK(problems("skel-labels", "skel-weights") ==
         Lines{"is a file of format \"skel-weights\", \"skel-labels\" was expected"});
-  CHECK(problems("\"version\": 1", "\"version\": 7") ==
-        Lines{"version: is 7, this program reads up to 1; use a newer skel"});
+  CHECK(problems("\"version\": 2", "\"version\": 7") ==
+        Lines{"version: is 7, this program reads up to 2; use a newer skel"});
   CHECK(problems("\"head\"", "\"tail\"") ==
         Lines{"candidates[0].label: is \"tail\", must be head, body, hand, leg or null"});
   CHECK(problems("\"x\": 99", "\"x\": 100") == Lines{"candidates[1].x: is 100, must be between 0 and 99"});
@@ -109,6 +114,8 @@ TEST_CASE("each problem of a label file is named with file, path and reason") {
         Lines{"candidates[2]: lies where an earlier candidate lies"});
   CHECK(problems("\"radius\"", "\"size\"") == Lines{"candidates[0]: has the unknown key \"size\""});
   CHECK(problems("300.25", "700") == Lines{"joints.head: lies outside the image"});
+  CHECK(problems("[\"head\"]", "[\"left_hand\"]") ==
+        Lines{"recognized[0]: \"left_hand\" has no place in joints"});
   CHECK(problems("\"a.png\"", "\"../a.png\"") ==
         Lines{"image.file: must be the name of a file in the same folder"});
   CHECK(problems("\"a.png\"", "\"b.png\"") == Lines{"image.file: \"b.png\" is missing"});
