@@ -135,13 +135,12 @@ template <typename Scalar>
 double jointLoss(const std::vector<Scalar>& heatmaps, const JointTarget& target, double scale,
                  std::vector<Scalar>* gradient) {
   constexpr int kSize = kHeatmapSize;
-  const auto at = [](int cell, int channel) {
-    return static_cast<std::size_t>(paddedIndex(kSize, cell / kSize, cell % kSize)) * kHeatmapChannels +
-           channel;
+  const int count = static_cast<int>(target.joints.size()), figure_channel = count;
+  const auto at = [channels = heatmapChannels(count)](int cell, int channel) {
+    return static_cast<std::size_t>(paddedIndex(kSize, cell / kSize, cell % kSize)) * channels + channel;
   };
   double loss = 0;
   std::array<Scalar, kSize * kSize> p;
-  const int count = static_cast<int>(target.joints.size()), figure_channel = count;
   for (int j = 0; j < count; ++j) {
     const JointTarget::Joint& joint = target.joints[j];
     if (joint.weight == 0) continue;

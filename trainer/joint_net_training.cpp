@@ -127,7 +127,7 @@ struct Report {
 
 Report validate(const JointNet& net, const NetJoints& joints, InstructionSet set,
                 const std::vector<Figure>& figures, int threads) {
-  const int count = joints.count();
+  const int count = joints.count(), channels = heatmapChannels(count);
   std::vector<Report> reports(figures.size());
   parallelFor(figures.size(), threads, [&](std::size_t i) {
     thread_local JointNetMaps maps(net);
@@ -144,7 +144,7 @@ Report validate(const JointNet& net, const NetJoints& joints, InstructionSet set
     const auto at = [&](int cell, int c) {
       return heatmaps[static_cast<std::size_t>(
                           paddedIndex(kHeatmapSize, cell / kHeatmapSize, cell % kHeatmapSize)) *
-                          kHeatmapChannels +
+                          channels +
                       c];
     };
     for (int cell = 0; cell < kHeatmapSize * kHeatmapSize; ++cell) {

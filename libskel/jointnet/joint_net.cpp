@@ -99,7 +99,7 @@ JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints, in
   const int u2 = b.upsampleAdd(b.convolution(a8, 32, 1, false), a2);
   const int a9 = b.convolution(u2, 32, 3, true, u2);
   const int a10 = b.convolution(a9, 32, 3, true, a9);
-  b.convolution(a10, kHeatmapChannels, 1, false);
+  b.convolution(a10, heatmapChannels(static_cast<int>(joints.size())), 1, false);
   JointNet net = b.take();
   net.body_plan = std::move(body_plan);
   net.joints = std::move(joints);

@@ -22,8 +22,9 @@ inline constexpr int kFrameSize = 144;
 inline constexpr int kNetInputSize = kFrameSize / 2;
 inline constexpr int kNetInputChannels = 16, kColourlessInputChannels = 8;
 inline constexpr int kHeatmapSize = kFrameSize / 4;
-inline constexpr int kHeatmapChannels = 16;  // one a joint, one for the figure, the others are idle
-inline constexpr int kMaxNetJoints = kHeatmapChannels - 1;
+inline constexpr int kMaxNetJoints = 63;
+// One a joint, one for the figure; the kernels want multiples of 16, so the others are idle.
+constexpr int heatmapChannels(int joints) { return (joints + 1 + 15) / 16 * 16; }
 
 struct JointNetLayer {
   enum class Kind {

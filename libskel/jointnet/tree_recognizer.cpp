@@ -52,7 +52,7 @@ struct Heatmaps {
 // Logits averaged over one or two passes, then softmax.
 Heatmaps evaluateNet(const Plane8& mask, const FigureLook& look, const JointNet& net, const NetJoints& joints,
                      InstructionSet set, bool mirror) {
-  const int count = joints.count(), figure_channel = net.figureChannel();
+  const int count = joints.count(), channels = heatmapChannels(count), figure_channel = net.figureChannel();
   Heatmaps out;
   out.joints.assign(static_cast<std::size_t>(count), Heatmap{});
   JointNetMaps maps(net);
@@ -65,7 +65,7 @@ Heatmaps evaluateNet(const Plane8& mask, const FigureLook& look, const JointNet&
     const float* map = maps.maps.back().data();
     for (int y = 0; y < kHeatmapSize; ++y) {
       for (int x = 0; x < kHeatmapSize; ++x) {
-        const float* a = map + static_cast<std::size_t>(paddedIndex(kHeatmapSize, y, x)) * kHeatmapChannels;
+        const float* a = map + static_cast<std::size_t>(paddedIndex(kHeatmapSize, y, x)) * channels;
         const int cell = y * kHeatmapSize + (mirrored ? kHeatmapSize - 1 - x : x);
         for (int j = 0; j < count; ++j)
           out.joints[mirrored ? joints.mirrored[j] : j][cell] += a[j] / static_cast<float>(passes);
@@ -160,9 +160,10 @@ double shareOutside(const Plane8& mask, const Vec& a, const Vec& b) {
 
 struct Candidate {
   int cell;
-  Vec position;                          // grid px
-  double score;                          // log probability, later with the best of the joints below it
-  std::array<int, kMaxNetJoints> below;  // of each child joint, the candidate that is best with this one
+  Vec position;  // grid px
+  double score;  // log probability, later with the best of the joints below it
+  std::array<std::uint8_t, kMaxNetJoints>
+      below;  // of each child joint, the candidate that is best with this one
 };
 
 // The cell of each joint in the tree of highest total score. frame px = grid px + offset.
@@ -199,7 +200,7 @@ std::vector<int> searchTree(const Plane8& mask, const Vec& offset, const Heatmap
         if (list[k].score <= best) break;
         const double s =
             list[k].score - kOutsidePenalty * shareOutside(mask, parent.position, list[k].position);
-        if (s > best) best = s, parent.below[j] = static_cast<int>(k);
+        if (s > best) best = s, parent.below[j] = static_cast<std::uint8_t>(k);
       }
       parent.score += best;
     }
