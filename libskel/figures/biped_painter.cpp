@@ -4,53 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "libskel/figures/limb_path.h"
+
 namespace skel {
 namespace {
 
 using Vec = Eigen::Vector2d;
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kLimbPoints = 9;
-constexpr double kThinnest = .0055;  // radius: a line of 1.4 px on a grid of 128
-
-using LimbPath = std::array<Vec, kLimbPoints>;
-using LimbRadii = std::array<double, kLimbPoints>;
-
-Vec normalised(const Vec& v) {
-  const double n = v.norm();
-  return n > 1e-9 ? Vec(v / n) : Vec(0, 1);
-}
-double angleOf(const Vec& v) { return std::atan2(v.y(), v.x()); }
-Vec leftOf(const Vec& v) { return {-v.y(), v.x()}; }
-
-// root → middle → end through all three, from sharp to round, with a sideways swing.
-LimbPath limbPath(const LimbPlan& limb) {
-  const Vec &a = limb.root, &b = limb.middle, &c = limb.end;
-  const Vec control = 2 * b - .5 * (a + c);
-  const Vec n = leftOf(normalised(c - a));
-  LimbPath path;
-  for (int i = 0; i < kLimbPoints; ++i) {
-    const double t = i / (kLimbPoints - 1.0);
-    const Vec sharp = t <= .5 ? Vec(a + (b - a) * 2 * t) : Vec(b + (c - b) * (2 * t - 1));
-    const Vec round = (1 - t) * (1 - t) * a + 2 * t * (1 - t) * control + t * t * c;
-    path[i] = sharp + (round - sharp) * limb.rubber + n * limb.wave * std::sin(2 * kPi * t);
-  }
-  return path;
-}
-
-// An arc a → b → c of a thing that flows: hair, tails, scarves.
-LimbPath flowing(const Vec& a, const Vec& b, const Vec& c) { return limbPath({a, b, c, 1, 0, true, false}); }
-
-LimbRadii radiiThrough(double start, double middle, double end) {
-  LimbRadii radii;
-  for (int i = 0; i < kLimbPoints; ++i) {
-    const double t = i / (kLimbPoints - 1.0);
-    radii[i] = std::max(kThinnest,
-                        t < .5 ? start + (middle - start) * 2 * t : middle + (end - middle) * (2 * t - 1));
-  }
-  return radii;
-}
-
 enum class Style {
   kFlat,     // plain colours
   kCartoon,  // colours with dark outlines

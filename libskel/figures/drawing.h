@@ -27,7 +27,7 @@ struct FigurePlan {
   struct Joint {
     std::string name;  // one that the template does not derive
     PartOwner owner;   // the part that it lies in
-    bool end;          // a hand, a foot: a figure that has lost it is not whole
+    bool end;          // a hand, a foot, a tail: a figure that has lost it is not whole
   };
   std::vector<Joint> joints;
   // Families of proportions, and how often each is drawn for training. One can be held back to measure on it.

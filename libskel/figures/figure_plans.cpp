@@ -4,6 +4,7 @@
 #include "libskel/figures/biped_painter.h"
 #include "libskel/figures/drawing.h"
 #include "libskel/figures/other_figures.h"
+#include "libskel/figures/quadruped_painter.h"
 
 namespace skel {
 namespace {
@@ -33,6 +34,38 @@ FigurePlan biped() {
   return plan;
 }
 
+Drawing drawQuadruped(Rng& rng, int kind) {
+  PaintedQuadruped painted = paintQuadruped(rng, sampleQuadrupedPlan(rng, static_cast<AnimalKind>(kind)));
+  // Near and far legs cannot be told apart: sides go by the picture, as in side views of a biped.
+  return {std::move(painted.scene),
+          true,
+          {painted.joints.begin(), painted.joints.end()},
+          FigureView::kSide,
+          kind};
+}
+
+FigurePlan quadruped() {
+  FigurePlan plan;
+  plan.body_plan = "quadruped";
+  plan.joints = {{"head", PartOwner::kHead, false},
+                 {"body", PartOwner::kTorso, false},
+                 {"tail_root", PartOwner::kTail, false},
+                 {"tail", PartOwner::kTail, true}};
+  for (const bool left : {true, false}) {
+    const std::string side = left ? "left_" : "right_";
+    const PartOwner front = left ? PartOwner::kLeftArm : PartOwner::kRightArm;
+    const PartOwner hind = left ? PartOwner::kLeftLeg : PartOwner::kRightLeg;
+    for (const std::string joint : {"shoulder", "elbow", "front_foot"})
+      plan.joints.push_back({side + joint, front, joint == "front_foot"});
+    for (const std::string joint : {"hip", "knee", "hind_foot"})
+      plan.joints.push_back({side + joint, hind, joint == "hind_foot"});
+  }
+  plan.kinds = {.12, .10, .08, .08, .08, .06, .05, .04, .05, .05, .06, .03, .06, .10, .04};  // as AnimalKind
+  plan.draw = drawQuadruped;
+  plan.drawOther = paintNoAnimal;
+  return plan;
+}
+
 }  // namespace
 
 std::vector<std::string> jointNames(const FigurePlan& plan) {
@@ -42,7 +75,7 @@ std::vector<std::string> jointNames(const FigurePlan& plan) {
 }
 
 std::span<const FigurePlan> figurePlans() {
-  static const std::vector<FigurePlan> plans = {biped()};
+  static const std::vector<FigurePlan> plans = {biped(), quadruped()};
   return plans;
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "libskel/figures/biped_plan.h"
+#include "libskel/figures/biped_painter.h"
 
 namespace skel {
 namespace {
@@ -165,6 +165,24 @@ Scene paintOther(Rng& rng) {
   } else if (r < .72) {
     paintHeadAlone(rng, scene, rim);
   } else if (r < .9) {
+    paintThing(rng, scene, rim);
+  } else {
+    paintBlob(rng, scene, rim);
+  }
+  return scene;
+}
+
+Scene paintNoAnimal(Rng& rng) {
+  if (rng.chance(.45))
+    return paintBiped(rng, sampleBipedPlan(rng, static_cast<BodyKind>(rng.below(kBodyKinds)))).scene;
+  Scene scene;
+  const double rim = rng.chance(.5) ? 0 : rng.uniform(.004, .014);
+  const double r = rng.uniform();
+  if (r < .3) {
+    paintPudding(rng, scene, rim);
+  } else if (r < .55) {
+    paintHeadAlone(rng, scene, rim);
+  } else if (r < .85) {
     paintThing(rng, scene, rim);
   } else {
     paintBlob(rng, scene, rim);

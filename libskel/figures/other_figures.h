@@ -8,5 +8,7 @@ namespace skel {
 
 // An animal, a plant, a thing, a face, or a mere shape.
 Scene paintOther(Rng& rng);
+// A human, a being without legs, a plant, a thing, a face, or a mere shape: what is no animal on four legs.
+Scene paintNoAnimal(Rng& rng);
 
 }  // namespace skel

@@ -24,7 +24,7 @@ struct Ink {
 };
 
 // What a part belongs to, to tell whether a joint is covered by something else.
-enum class PartOwner : std::uint8_t { kNone, kHead, kTorso, kLeftArm, kRightArm, kLeftLeg, kRightLeg };
+enum class PartOwner : std::uint8_t { kNone, kHead, kTorso, kLeftArm, kRightArm, kLeftLeg, kRightLeg, kTail };
 
 struct Raster;
 

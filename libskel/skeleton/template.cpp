@@ -4,6 +4,7 @@
 #include <map>
 
 #include "embedded/biped_template.h"
+#include "embedded/quadruped_template.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
@@ -12,7 +13,8 @@ namespace skel {
 namespace {
 
 const std::map<std::string, std::string_view>& builtins() {
-  static const std::map<std::string, std::string_view> all = {{"biped", embedded::biped_template}};
+  static const std::map<std::string, std::string_view> all = {{"biped", embedded::biped_template},
+                                                              {"quadruped", embedded::quadruped_template}};
   return all;
 }
 

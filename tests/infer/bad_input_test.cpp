@@ -129,7 +129,7 @@ TEST_CASE("masks, weights, templates and models that do not fit are refused") {
   expect(infer(dir, "a.png --mask small.png"), 2, "small.png: is a mask of 30x20 px, the image has 600x600");
   writeFile(dir.file("blank.png"), plainPng(600, 600, 0));
   expect(infer(dir, "a.png --mask blank.png"), 2, "a.png: ");
-  expect(infer(dir, "a.png --template centaur"), 2, "centaur: is no template; use one of: biped");
+  expect(infer(dir, "a.png --template centaur"), 2, "centaur: is no template; use one of: biped, quadruped");
   std::string weights = readFile(SKEL_SOURCE_DIR "/weights/default.json");
   const size_t at = weights.find("\"layers\"");
   REQUIRE(at != std::string::npos);

@@ -23,7 +23,7 @@ JointTarget someTarget(Rng& rng, bool whole) {
 
 TEST_CASE("The loss has the derivative that its differences show") {
   Rng rng(1);
-  std::vector<double> map(MapShape{kHeatmapSize, kHeatmapSize, kHeatmapChannels}.paddedSize(), 0.);
+  std::vector<double> map(MapShape{kHeatmapSize, kHeatmapSize, heatmapChannels(kJoints)}.paddedSize(), 0.);
   for (double& v : map) v = rng.normal();
   const JointTarget target = someTarget(rng, rng.chance(.5));
   std::vector<double> gradient(map.size(), 0.);
@@ -31,7 +31,7 @@ TEST_CASE("The loss has the derivative that its differences show") {
   for (int k = 0; k < 200; ++k) {
     const int pixel =
         paddedIndex(kHeatmapSize, static_cast<int>(rng.below(36)), static_cast<int>(rng.below(36)));
-    const std::size_t i = static_cast<std::size_t>(pixel) * kHeatmapChannels + rng.below(15);
+    const std::size_t i = static_cast<std::size_t>(pixel) * heatmapChannels(kJoints) + rng.below(15);
     const double before = map[i], h = 1e-5;
     map[i] = before + h;
     const double above = jointLoss<double>(map, target, 1, nullptr);
@@ -46,14 +46,15 @@ TEST_CASE("The loss has the derivative that its differences show") {
 TEST_CASE("Perfect heatmaps cost no more than the target's own entropy") {
   Rng rng(2);
   const JointTarget target = someTarget(rng, true);
-  std::vector<double> map(MapShape{kHeatmapSize, kHeatmapSize, kHeatmapChannels}.paddedSize(), 0.);
+  std::vector<double> map(MapShape{kHeatmapSize, kHeatmapSize, heatmapChannels(kJoints)}.paddedSize(), 0.);
   double weight = 0;
   for (int j = 0; j < kJoints; ++j) {
     weight += target.joints[j].weight / kJoints;
     for (int y = 0; y < kHeatmapSize; ++y) {
       for (int x = 0; x < kHeatmapSize; ++x) {
         const double d = (Eigen::Vector2d(x, y) - target.joints[j].cell).squaredNorm();
-        const std::size_t i = static_cast<std::size_t>(paddedIndex(kHeatmapSize, y, x)) * kHeatmapChannels;
+        const std::size_t i =
+            static_cast<std::size_t>(paddedIndex(kHeatmapSize, y, x)) * heatmapChannels(kJoints);
         map[i + j] = -d / (2 * kTargetVariance);
         map[i + kJoints] = 20;
       }
@@ -64,12 +65,14 @@ TEST_CASE("Perfect heatmaps cost no more than the target's own entropy") {
 }
 
 TEST_CASE("In side views, mirrored or not, the limb at the left of the picture is called the right one") {
-  const FigurePlan& plan = figurePlan("biped");
-  const NetJoints joints = netJoints(jointNames(plan), loadTemplate("biped"));
+  FigureOptions options;
+  options.body_plan = GENERATE("biped", "quadruped");
+  const NetJoints joints =
+      netJoints(jointNames(figurePlan(options.body_plan)), loadTemplate(options.body_plan));
   Rng rng(4);
   int seen = 0;
   while (seen < 20) {
-    const Figure figure = generateFigure(rng);
+    const Figure figure = generateFigure(rng, options);
     if (figure.view != FigureView::kSide) continue;
     ++seen;
     for (const bool mirrored : {false, true}) {

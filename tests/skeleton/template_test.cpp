@@ -1,5 +1,7 @@
 #include "libskel/skeleton/template.h"
 
+#include <algorithm>
+
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "tests/support/catch.h"
@@ -16,8 +18,8 @@ TEST_CASE("every built-in template is a consistent tree") {
       CHECK((joint.preset.array() >= 0).all());
       CHECK((joint.preset.array() <= 1).all());
       const TemplateJoint& mirror = body_plan.joints[static_cast<size_t>(joint.mirror)];
-      CHECK(mirror.preset.x() == Approx(1 - joint.preset.x()));
       CHECK(mirror.preset.y() == Approx(joint.preset.y()));
+      CHECK((joint.name == mirror.name || joint.preset.x() != mirror.preset.x()));
     }
     CHECK(body_plan.head >= 0);
     CHECK(body_plan.body >= 0);
@@ -31,13 +33,23 @@ TEST_CASE("the biped has 17 joints, 14 of them recognised") {
   for (const TemplateJoint& joint : biped.joints) recognized += !joint.derived;
   CHECK(recognized == 14);
   CHECK(biped.limbs.size() == 4);
+  for (const TemplateJoint& joint : biped.joints)
+    CHECK(biped.joints[static_cast<size_t>(joint.mirror)].preset.x() == Approx(1 - joint.preset.x()));
   // Ours faces the viewer: its right hand is at the left.
   CHECK(biped.joints[static_cast<size_t>(biped.find("right_hand"))].preset.x() < 0.5);
 }
 
+TEST_CASE("the quadruped has 19 joints, 16 of them recognised") {
+  const SkeletonTemplate quadruped = loadTemplate("quadruped");
+  CHECK(quadruped.joints.size() == 19);
+  CHECK(std::count_if(quadruped.joints.begin(), quadruped.joints.end(),
+                      [](const TemplateJoint& joint) { return !joint.derived; }) == 16);
+  CHECK(quadruped.limbs.size() == 4);
+}
+
 TEST_CASE("a template file that makes no sense is refused") {
   CHECK_THROWS_WITH(loadTemplate("centaur"),
-                    "centaur: is no template; use one of: biped, or a template's .json file");
+                    "centaur: is no template; use one of: biped, quadruped, or a template's .json file");
   CHECK_THROWS_AS(loadTemplate("missing.json"), InputError);
   const std::string start =
       R"({"format": "skel-template", "version": 1, "name": "t", "head": "a", "body": "a",
