@@ -1,7 +1,6 @@
 #include "infer/annotation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -15,12 +14,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr std::array<const char*, 14> kScoredJoints = {
-    "head",      "body",           "left_shoulder", "left_elbow", "left_hand", "left_hip",   "left_knee",
-    "left_foot", "right_shoulder", "right_elbow",   "right_hand", "right_hip", "right_knee", "right_foot"};
-
-bool isEnd(const std::string& joint) { return joint.ends_with("hand") || joint.ends_with("foot"); }
 
 double longSide(const Plane8& mask) {
   int x0 = static_cast<int>(mask.cols()), x1 = -1, y0 = static_cast<int>(mask.rows()), y1 = -1;
@@ -47,17 +40,18 @@ struct Guess {
 };
 
 // In side views which limb of a pair is the far one is a guess: the pair counts as it fits better.
-void swapPairsThatFitBetter(const AnnotatedDrawing& truth, std::map<std::string, Guess>& guesses) {
-  constexpr std::array<std::array<const char*, 3>, 2> kChains = {
-      {{"shoulder", "elbow", "hand"}, {"hip", "knee", "foot"}}};
-  for (const auto& chain : kChains) {
+void swapPairsThatFitBetter(const AnnotatedDrawing& truth, const SkeletonTemplate& body_plan,
+                            std::map<std::string, Guess>& guesses) {
+  const auto& joints = body_plan.joints;
+  for (const TemplateLimb& limb : body_plan.limbs) {
+    const auto mirrored = [&](int joint) { return joints[static_cast<size_t>(joint)].mirror; };
+    if (mirrored(limb.joints[0]) <= limb.joints[0]) continue;  // each pair once
     const auto cost = [&](bool swapped) {
       double sum = 0;
-      for (const std::string side : {"left_", "right_"}) {
-        const std::string other = side == "left_" ? "right_" : "left_";
-        for (const char* part : chain) {
-          const auto t = truth.joints.find(side + part);
-          const auto g = guesses.find((swapped ? other : side) + part);
+      for (const int joint : limb.joints) {
+        for (const int at : {joint, mirrored(joint)}) {
+          const auto t = truth.joints.find(joints[static_cast<size_t>(at)].name);
+          const auto g = guesses.find(joints[static_cast<size_t>(swapped ? mirrored(at) : at)].name);
           if (t != truth.joints.end() && t->second && g != guesses.end())
             sum += (g->second.point - *t->second).norm();
         }
@@ -65,38 +59,46 @@ void swapPairsThatFitBetter(const AnnotatedDrawing& truth, std::map<std::string,
       return sum;
     };
     if (cost(true) >= cost(false)) continue;
-    for (const char* part : chain) {
-      const auto left = guesses.find(std::string("left_") + part),
-                 right = guesses.find(std::string("right_") + part);
-      if (left != guesses.end() && right != guesses.end()) std::swap(left->second, right->second);
+    for (const int joint : limb.joints) {
+      const auto one = guesses.find(joints[static_cast<size_t>(joint)].name),
+                 other = guesses.find(joints[static_cast<size_t>(mirrored(joint))].name);
+      if (one != guesses.end() && other != guesses.end()) std::swap(one->second, other->second);
     }
   }
 }
 
 }  // namespace
 
-std::vector<std::string> drawingFolders(const std::string& root) {
+std::vector<std::string> findDrawings(const std::string& root) {
+  constexpr std::string_view kJoints = ".joints.json";
   std::vector<std::string> ids;
-  for (const fs::path file : filesBelow(root))
-    if (file.filename() == "image.png") ids.push_back(fs::relative(file.parent_path(), root).string());
-  if (ids.empty()) throw InputError(root, "holds no folder with an image.png");
+  for (const fs::path file : filesBelow(root)) {
+    const fs::path below = file.lexically_relative(root);
+    if (below.filename() == "image.png") ids.push_back(below.parent_path().string());
+    if (const std::string name = below.string(); name.ends_with(kJoints))
+      ids.push_back(name.substr(0, name.size() - kJoints.size()));
+  }
+  if (ids.empty()) throw InputError(root, "holds no folder with an image.png and no <name>.joints.json");
   std::sort(ids.begin(), ids.end());
   return ids;
 }
 
 AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string& id) {
-  const std::string folder = root + "/" + id + "/";
+  const bool own_folder = fs::is_directory(root + "/" + id);
+  const std::string stem = root + "/" + id + (own_folder ? "/" : ".");
+  const std::string image = own_folder ? stem + "image.png" : stem + "png";
+  const std::string mask = stem + "mask.png", annotation = stem + "joints.json";
   AnnotatedDrawing drawing;
   drawing.id = id;
-  drawing.image = readImage(folder + "image.png");
-  if (fs::exists(folder + "mask.png")) {
-    drawing.mask = readMask(folder + "mask.png");
+  drawing.image = readImage(image);
+  if (fs::exists(mask)) {
+    drawing.mask = readMask(mask);
     if (drawing.mask->cols() != drawing.image.width || drawing.mask->rows() != drawing.image.height)
-      throw InputError(folder + "mask.png", "has another size than the image.png beside it");
+      throw InputError(mask, "has another size than the picture beside it");
   }
-  if (!fs::exists(folder + "joints.json")) return drawing;
-  if (!drawing.mask) throw InputError(folder + "joints.json", "needs a mask.png beside it");
-  const JsonDocument document = JsonDocument::readFile(folder + "joints.json");
+  if (!fs::exists(annotation)) return drawing;
+  if (!drawing.mask) throw InputError(annotation, "needs a mask.png beside it");
+  const JsonDocument document = JsonDocument::readFile(annotation);
   if (const auto view = document.root().find("view")) drawing.side_view = view->asString() == "side";
   const JsonValue joints = document.root().at("joints");
   for (const std::string& name : joints.keys()) {
@@ -129,9 +131,18 @@ void turnClockwise(AnnotatedDrawing& drawing, int quarters) {
 
 bool isTransparent(const Image& image) { return (image.rgba.col(3) < 128).any(); }
 
-Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const Plane8& silhouette_mask) {
+Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const Plane8& silhouette_mask,
+            const SkeletonTemplate& body_plan) {
   Score result;
-  for (const char* name : kScoredJoints) {
+  std::vector<std::string> scored;
+  for (const TemplateJoint& joint : body_plan.joints)
+    if (!joint.derived) scored.push_back(joint.name);
+  const auto isEnd = [&](const std::string& name) {
+    return std::any_of(body_plan.limbs.begin(), body_plan.limbs.end(), [&](const TemplateLimb& limb) {
+      return body_plan.joints[static_cast<size_t>(limb.joints[2])].name == name;
+    });
+  };
+  for (const std::string& name : scored) {
     const auto t = truth.joints.find(name);
     result.annotated += t != truth.joints.end() && t->second;
   }
@@ -141,11 +152,11 @@ Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const
   std::map<std::string, Guess> guesses;
   for (const Joint& joint : recognition->skeleton.joints)
     guesses[joint.name] = {joint.image, joint.confidence};
-  if (truth.side_view) swapPairsThatFitBetter(truth, guesses);
+  if (truth.side_view) swapPairsThatFitBetter(truth, body_plan, guesses);
 
   double sum = 0, worst = -1;
   int within05 = 0, within10 = 0, within15 = 0, ends = 0, right_ends = 0, guessed = 0, inside = 0;
-  for (const std::string name : kScoredJoints) {
+  for (const std::string& name : scored) {
     const auto guess = guesses.find(name);
     if (guess != guesses.end()) ++guessed, inside += near(*truth.mask, guess->second.point);
     const auto t = truth.joints.find(name);

@@ -9,12 +9,14 @@
 
 #include "libskel/image/image.h"
 #include "libskel/recognition/recognition.h"
+#include "libskel/skeleton/template.h"
 
 namespace skel {
 
-// image.png, and beside it mask.png and joints.json where the figure is annotated.
+// image.png, and beside it mask.png and joints.json where the figure is annotated; or <name>.png,
+// <name>.mask.png and <name>.joints.json.
 struct AnnotatedDrawing {
-  std::string id;  // folder relative to the set's
+  std::string id;  // folder or name relative to the set's
   Image image;
   std::optional<Plane8> mask;
   bool side_view = false;
@@ -22,8 +24,8 @@ struct AnnotatedDrawing {
       joints;  // image px; empty: not annotated; null: not visible
 };
 
-// Folders below `root` that hold an image.png, sorted. Throws InputError if there are none.
-std::vector<std::string> drawingFolders(const std::string& root);
+// All below `root`, sorted. Throws InputError if there are none.
+std::vector<std::string> findDrawings(const std::string& root);
 AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string& id);
 // A quarter turn clockwise, `quarters` times.
 void turnClockwise(AnnotatedDrawing& drawing, int quarters);
@@ -35,7 +37,7 @@ struct Score {
   double pck05 = 0, pck10 = 0;                  // share of annotated joints within 0.05 L, 0.10 L
   double error = 1;                             // mean
   double usable = 0;                            // 1: every annotated joint within 0.15 L
-  double limbs = 0;                             // share of hands and feet within 0.15 L
+  double limbs = 0;                             // share of the limbs' ends within 0.15 L
   double inside = 0;                            // share of found joints on the true mask, 2 px of slack
   double iou = 0;                               // of the silhouette
   int annotated = 0, sure = 0, sure_right = 0;  // joints; of confidence >= 0.8; of those within 0.10 L
@@ -43,7 +45,8 @@ struct Score {
   std::string worst_joint;
 };
 
-// `recognition` null: nothing was found.
-Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const Plane8& silhouette_mask);
+// Of the joints that `body_plan` does not derive. `recognition` null: nothing was found.
+Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const Plane8& silhouette_mask,
+            const SkeletonTemplate& body_plan);
 
 }  // namespace skel

@@ -40,7 +40,8 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
   row.found = drawing.found();
   row.reason = drawing.silhouette.reason;
   if (row.annotated)
-    row.score = score(truth, drawing.found() ? &drawing.recognition : nullptr, drawing.silhouette.mask);
+    row.score = score(truth, drawing.found() ? &drawing.recognition : nullptr, drawing.silhouette.mask,
+                      rig.body_plan);
   else
     row.score.confidence = drawing.recognition.confidence;
   return row;
@@ -71,7 +72,9 @@ std::string interval(const std::vector<Row>& rows, const std::function<double(co
 
 void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
   app.option_defaults()->always_capture_default();
-  app.add_option("DIR", options.dir, "Folders of image.png, mask.png and joints.json, at any depth")
+  app.add_option("DIR", options.dir,
+                 "Folders of image.png, mask.png and joints.json, or files <name>.png, <name>.mask.png and\n"
+                 "<name>.joints.json, at any depth")
       ->required();
   app.add_option("--json", options.json_file, "Write the figures to this file, too")
       ->always_capture_default(false);
@@ -86,7 +89,7 @@ void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
 ExitCode runEvaluate(const EvaluateOptions& options) {
   const RigOptions rig = rigOptions(options.infer);
   noteUnusedWeights(options.infer);
-  const std::vector<std::string> ids = drawingFolders(options.dir);
+  const std::vector<std::string> ids = findDrawings(options.dir);
   std::vector<Row> all(ids.size());
   {
     ProgressBar progress("evaluating", ids.size());

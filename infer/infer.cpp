@@ -194,7 +194,10 @@ Outcome rigDrawing(const InferOptions& options, const RigOptions& rig, const Job
 void bindRecognitionOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--weights", options.weights_file, "Weights of the candidates' net (default: built in)")
       ->always_capture_default(false);
-  app.add_option("--template", options.body_plan, "Body plan: a built-in name or a .json file");
+  app.add_option("--template", options.body_plan, "Body plan: biped, quadruped, or a .json file");
+  app.add_option("--joint-net", options.joint_net_file,
+                 "Weights of the net that finds the joints (default: built in)")
+      ->always_capture_default(false);
   app.add_option("--recognizer", options.recognizer, "How joints are found")
       ->check(namesOf(kRecognizerNames));
   app.add_option("--candidates", options.candidates, "Which points may be joints")
@@ -218,7 +221,10 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--skin", options.skin, "How the skin follows the bones")->check(namesOf(kSkinNames));
   app.add_option("--max-influences", options.max_influences, "Joints that carry one vertex at most")
       ->check(CLI::Range(1, 4));
-  app.add_option("--clips", options.clips, "Motions to put into the .glb, or none")->delimiter(',');
+  app.add_option("--clips", options.clips,
+                 "Motions to put into the .glb, or none (default: the built-in ones that fit the body plan)")
+      ->delimiter(',')
+      ->always_capture_default(false);
   app.add_option("--rest-pose", options.rest_pose, "How the character stands when nothing moves it")
       ->check(namesOf(kRestPoseNames));
   app.add_option("--names", options.naming, "What exported joints are called")->check(namesOf(kNamingNames));

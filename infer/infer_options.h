@@ -13,14 +13,14 @@ namespace skel {
 struct InferOptions {
   std::vector<std::string> images;
   std::string out_dir = "out";
-  std::string weights_file;  // empty: the built-in ones
+  std::string weights_file, joint_net_file;  // empty: the built-in ones
   std::string mask_file, model_file, skeleton_file;
   std::string body_plan = "biped";
   std::string recognizer = "tree";
   std::string candidates = "maxima";
   std::string skin = "geodesic";
   int max_influences = 4;
-  std::vector<std::string> clips = {"wave"};
+  std::vector<std::string> clips;  // empty: the built-in ones that fit the body plan
   std::string rest_pose = "drawn";
   std::string naming = "skel";
   std::string figure = "1";  // a number, or "all"

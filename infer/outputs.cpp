@@ -116,7 +116,8 @@ std::vector<std::string> writeOutputs(const InferOptions& options, const std::st
     for (OutputFile& made : format->make(request)) files.push_back(std::move(made));
   }
   std::vector<std::string> inputs = options.images;
-  for (const std::string& other : {options.mask_file, options.model_file, options.weights_file})
+  for (const std::string& other :
+       {options.mask_file, options.model_file, options.weights_file, options.joint_net_file})
     inputs.push_back(other);
   for (const OutputFile& made : files)
     for (const std::string& input : inputs)

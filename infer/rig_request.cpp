@@ -5,6 +5,7 @@
 
 #include "libskel/animation/builtin_clips.h"
 #include "libskel/classifier/weights_file.h"
+#include "libskel/core/files.h"
 
 namespace skel {
 
@@ -20,7 +21,12 @@ RigOptions rigOptions(const InferOptions& options) {
   rig.skin.max_influences = options.max_influences;
   rig.inflate.spacing_px = options.mesh_spacing_px;
   rig.rest_pose = kRestPoseNames.at(options.rest_pose);
-  if (options.clips != std::vector<std::string>{"none"})
+  if (!options.joint_net_file.empty())
+    rig.joint_net = std::make_shared<const JointNet>(
+        parseJointNet(readFile(options.joint_net_file), options.joint_net_file));
+  if (options.clips.empty())
+    rig.clips = builtinClipsFor(rig.body_plan);
+  else if (options.clips != std::vector<std::string>{"none"})
     for (const std::string& name : options.clips) rig.clips.push_back(builtinClip(name));
   return rig;
 }

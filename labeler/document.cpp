@@ -511,7 +511,7 @@ void Document::rigOrThrow() {
   options.mlp = options_.mlp;
   options.body_plan = options_.body_plan;
   options.recognizer = options_.recognizer;
-  options.clips = {builtinClips().front()};
+  options.clips = builtinClipsFor(options_.body_plan);
   auto rigged = std::make_unique<RiggedDrawing>(rigCharacter(input, options));
   if (!rigged->found()) {
     message_ = rigged->silhouette.reason;

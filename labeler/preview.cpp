@@ -19,8 +19,9 @@ bool Preview::draw(const RiggedDrawing& rigged, float width, float height) {
   }
   const float time_s = static_cast<float>(ImGui::GetTime() - start_s_);
   const RiggedCharacter& character = rigged.character;
-  const Clip& clip = rigged.clips.front();
-  const float duration_s = clip.duration_s();
+  // Where no clip was made for the body plan, the character only turns.
+  const Clip clip = rigged.clips.empty() ? Clip{} : rigged.clips.front();
+  const float duration_s = std::max(clip.duration_s(), 2.5f);
   if (!resting_) {
     const float share = std::min(time_s / duration_s, 1.f);
     const Pose pose = samplePose(clip, character.skeleton, share * duration_s);

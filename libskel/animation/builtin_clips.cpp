@@ -1,5 +1,6 @@
 #include "libskel/animation/builtin_clips.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -96,11 +97,64 @@ Clip makeWave() {
   return clip;
 }
 
+// An animal nods twice and wags its tail, whose tip trails behind.
+Clip makeWag() {
+  std::vector<Key> root = {{0, 0}}, tip = {{0, 0}, {0.1, 0}};
+  for (int i = 0; i < 8; ++i) {
+    const double side = i % 2 == 0 ? 1 : -1;
+    root.push_back({0.2 + 0.3 * i, 20 * side});
+    tip.push_back({0.3 + 0.3 * i, 25 * side});
+  }
+  root.push_back({2.6, 0});
+  tip.push_back({2.7, 0});
+  Clip clip;
+  clip.name = "wag";
+  clip.tracks = {
+      frontalTrack("tail_root", root), frontalTrack("tail", tip),
+      frontalTrack("head", {{0, 0}, {0.4, 10}, {0.8, -10}, {1.2, 8}, {1.6, -8}, {2.2, 3}, {2.7, 0}})};
+  return clip;
+}
+
+// Six steps on the spot, a front leg with the hind leg of the other side. Legs swing as far to one side as to
+// the other, so that it does not matter where the animal looks.
+Clip makeTrot() {
+  constexpr double kStep_s = 0.35;
+  const auto swing = [](double delay_s, double degrees) {
+    std::vector<Key> keys = {{0, 0}};
+    for (int i = 0; i < 6; ++i)
+      keys.push_back({delay_s + (i + 0.5) * kStep_s, i % 2 == 0 ? degrees : -degrees});
+    keys.push_back({delay_s + 6.5 * kStep_s, 0});
+    return keys;
+  };
+  Clip clip;
+  clip.name = "trot";
+  for (const std::string side : {"left_", "right_"}) {
+    const double sign = side == "left_" ? 1 : -1;
+    clip.tracks.push_back(frontalTrack(side + "shoulder", swing(0, 18 * sign)));
+    clip.tracks.push_back(frontalTrack(side + "hip", swing(0, -18 * sign)));
+    // The lower halves trail behind.
+    clip.tracks.push_back(frontalTrack(side + "elbow", swing(0.1, -14 * sign)));
+    clip.tracks.push_back(frontalTrack(side + "knee", swing(0.1, 14 * sign)));
+  }
+  clip.tracks.push_back(frontalTrack("head", swing(0.05, 3)));
+  clip.tracks.push_back(frontalTrack("tail_root", swing(0.1, 8)));
+  return clip;
+}
+
 }  // namespace
 
 const std::vector<Clip>& builtinClips() {
-  static const std::vector<Clip> clips = {makeWave()};
+  static const std::vector<Clip> clips = {makeWave(), makeWag(), makeTrot()};
   return clips;
+}
+
+std::vector<Clip> builtinClipsFor(const SkeletonTemplate& body_plan) {
+  std::vector<Clip> fitting;
+  for (const Clip& clip : builtinClips())
+    if (std::all_of(clip.tracks.begin(), clip.tracks.end(),
+                    [&](const JointTrack& track) { return body_plan.find(track.joint) >= 0; }))
+      fitting.push_back(clip);
+  return fitting;
 }
 
 const Clip& builtinClip(std::string_view name) {

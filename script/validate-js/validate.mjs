@@ -8,7 +8,7 @@ globalThis.ProgressEvent ??= class ProgressEvent {};
 globalThis.createImageBitmap ??= async () => ({ width: 1, height: 1, close() {} });
 const { GLTFLoader } = await import('three/examples/jsm/loaders/GLTFLoader.js');
 
-const kBones = 17;
+const kBipedBones = 17;
 const kMessages = 10;
 
 const separator = process.argv.indexOf('--');
@@ -25,14 +25,23 @@ async function khronos(bytes) {
   return problems;
 }
 
-async function three(bytes) {
+async function expectedBones(file) {
+  try {
+    return JSON.parse(await readFile(file.replace(/\.glb$/, '.skeleton.json'))).joints.length;
+  } catch (error) {
+    if (error.code === 'ENOENT') return kBipedBones;
+    throw error;
+  }
+}
+
+async function three(bytes, expected) {
   const gltf = await new GLTFLoader().parseAsync(new Uint8Array(bytes).buffer, '');
   const problems = [];
   const skinned = [];
   gltf.scene.traverse((object) => object.isSkinnedMesh && skinned.push(object));
   if (skinned.length !== 1) return [`three.js: ${skinned.length} skinned meshes, 1 expected`];
   const { bones } = skinned[0].skeleton;
-  if (bones.length !== kBones) problems.push(`three.js: ${bones.length} bones, ${kBones} expected`);
+  if (bones.length !== expected) problems.push(`three.js: ${bones.length} bones, ${expected} expected`);
   const found = gltf.animations.map((animation) => animation.name).sort();
   if (clips ? found.join() !== clips.join() : found.length === 0)
     problems.push(`three.js: clips [${found.join(', ')}], ${clips ? `[${clips.join(', ')}]` : 'at least one'} expected`);
@@ -54,7 +63,7 @@ for (const file of files) {
   try {
     const bytes = await readFile(file);
     problems = await khronos(bytes);
-    if (problems.length === 0) problems = await three(bytes);
+    if (problems.length === 0) problems = await three(bytes, await expectedBones(file));
   } catch (error) {
     problems = [error.message];
   }

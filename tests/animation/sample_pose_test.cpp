@@ -31,11 +31,21 @@ TEST_CASE("a pose is between its keys, and holds before the first and after the 
       CHECK(samplePose(clip, skeleton, 1).rotations[j].isApprox(Eigen::Quaternionf::Identity()));
 }
 
+TEST_CASE("each body plan has clips of its own") {
+  const auto names = [](const std::string& body_plan) {
+    std::vector<std::string> list;
+    for (const Clip& clip : builtinClipsFor(loadTemplate(body_plan))) list.push_back(clip.name);
+    return list;
+  };
+  CHECK(names("biped") == std::vector<std::string>{"wave"});
+  CHECK(names("quadruped") == std::vector<std::string>{"wag", "trot"});
+}
+
 TEST_CASE("a clip for another body plan is refused by name") {
   Skeleton skeleton = figureSkeleton();
   skeleton.joints[skeleton.index("right_elbow")].name = "fin";
   CHECK_THROWS_WITH(samplePose(builtinClip("wave"), skeleton, 0),
                     "the clip \"wave\" moves \"right_elbow\", which this skeleton lacks; use a clip for the "
                     "template \"biped\"");
-  CHECK_THROWS_WITH(builtinClip("fly"), "there is no clip \"fly\"; there are: wave");
+  CHECK_THROWS_WITH(builtinClip("fly"), "there is no clip \"fly\"; there are: wave, wag, trot");
 }

@@ -12,6 +12,8 @@ using Eigen::Vector2d;
 
 namespace {
 
+const SkeletonTemplate kBiped = loadTemplate("biped");
+
 // A block 100 px high with a joint at each scored name's preset.
 AnnotatedDrawing block(Recognition& perfect) {
   AnnotatedDrawing drawing;
@@ -19,7 +21,7 @@ AnnotatedDrawing block(Recognition& perfect) {
   drawing.image.rgba.setConstant(255);
   drawing.mask = Plane8::Zero(120, 60);
   drawing.mask->block(10, 5, 100, 50).setConstant(255);
-  perfect.skeleton = presetSkeleton(loadTemplate("biped"), {5, 10}, {54, 109});
+  perfect.skeleton = presetSkeleton(kBiped, {5, 10}, {54, 109});
   perfect.confidence = 0.7;
   for (Joint& joint : perfect.skeleton.joints) {
     joint.confidence = 0.9;
@@ -33,7 +35,7 @@ AnnotatedDrawing block(Recognition& perfect) {
 TEST_CASE("a perfect result scores full marks") {
   Recognition perfect;
   const AnnotatedDrawing truth = block(perfect);
-  const Score s = score(truth, &perfect, *truth.mask);
+  const Score s = score(truth, &perfect, *truth.mask, kBiped);
   CHECK(s.pck05 == 1);
   CHECK(s.pck10 == 1);
   CHECK(s.error == 0);
@@ -50,7 +52,7 @@ TEST_CASE("one joint off by a tenth and more is counted as such") {
   Recognition guess;
   const AnnotatedDrawing truth = block(guess);
   guess.skeleton.joints[guess.skeleton.index("left_hand")].image.y() += 12;
-  const Score s = score(truth, &guess, Plane8::Zero(120, 60));
+  const Score s = score(truth, &guess, Plane8::Zero(120, 60), kBiped);
   CHECK(s.pck10 == Approx(13.0 / 14));
   CHECK(s.usable == 1);
   CHECK(s.error == Approx(0.12 / 14));
@@ -58,13 +60,13 @@ TEST_CASE("one joint off by a tenth and more is counted as such") {
   CHECK(s.sure_right == 13);
   CHECK(s.iou == 0);
   guess.skeleton.joints[guess.skeleton.index("left_hand")].image.y() += 12;
-  CHECK(score(truth, &guess, *truth.mask).usable == 0);
+  CHECK(score(truth, &guess, *truth.mask, kBiped).usable == 0);
 }
 
 TEST_CASE("nothing found scores nothing") {
   Recognition perfect;
   const AnnotatedDrawing truth = block(perfect);
-  const Score s = score(truth, nullptr, *truth.mask);
+  const Score s = score(truth, nullptr, *truth.mask, kBiped);
   CHECK(s.pck10 == 0);
   CHECK(s.error == 1);
   CHECK(s.annotated == 14);
@@ -76,9 +78,9 @@ TEST_CASE("in side views a pair of limbs may be swapped") {
   for (const char* part : {"shoulder", "elbow", "hand"})
     std::swap(guess.skeleton.joints[guess.skeleton.index(std::string("left_") + part)].image,
               guess.skeleton.joints[guess.skeleton.index(std::string("right_") + part)].image);
-  CHECK(score(truth, &guess, *truth.mask).pck10 < 1);
+  CHECK(score(truth, &guess, *truth.mask, kBiped).pck10 < 1);
   truth.side_view = true;
-  CHECK(score(truth, &guess, *truth.mask).pck10 == 1);
+  CHECK(score(truth, &guess, *truth.mask, kBiped).pck10 == 1);
 }
 
 TEST_CASE("four quarter turns bring a drawing back") {
