@@ -6,6 +6,7 @@
 #include "libskel/core/files.h"
 #include "libskel/figures/figure.h"
 #include "libskel/image/write_image.h"
+#include "trainer/posable_drawing.h"
 
 namespace skel {
 
@@ -19,6 +20,8 @@ void bindFigureSheetOptions(CLI::App& command, FigureSheetOptions& options) {
   command.add_option("--others", options.other_share, "Share of figures that are not whole")
       ->check(CLI::Range(0., 1.))
       ->capture_default_str();
+  command.add_option("--drawings", options.drawings, "Instead: warped ones of these annotated drawings")
+      ->type_name("DIR");
   command.add_flag("--plain", options.plain, "Without joints");
 }
 
@@ -34,6 +37,15 @@ ExitCode runFigureSheet(const FigureSheetOptions& options) {
   FigureOptions figure_options;
   figure_options.body_plan = options.body_plan;
   figure_options.other_share = options.other_share;
+  if (!options.drawings.empty()) {
+    Rng poses(options.seed, 1);
+    for (const PosableDrawing& drawing :
+         readPosableDrawings(options.drawings, names, loadTemplate(options.body_plan), 0)) {
+      figure_options.drawings.push_back(asDrawn(drawing));
+      for (int k = 0; k < 2; ++k) figure_options.drawings.push_back(posed(poses, drawing));
+    }
+    figure_options.drawn_share = 1;
+  }
   for (int cell = 0; cell < options.columns * options.rows; ++cell) {
     const Figure figure = generateFigure(rng, figure_options);
     const int left = cell % options.columns * kCell + 6, top = cell / options.columns * kCell + 6;

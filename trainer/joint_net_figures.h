@@ -15,7 +15,8 @@ struct FigureSheetOptions {
   std::uint64_t seed = 1;
   int columns = 16, rows = 9;
   double other_share = 0;
-  bool plain = false;  // without joints
+  std::string drawings;  // folder of annotated drawings to warp; "": none
+  bool plain = false;    // without joints
 };
 
 void bindFigureSheetOptions(CLI::App& command, FigureSheetOptions& options);

@@ -14,6 +14,7 @@
 #include "libskel/core/progress.h"
 #include "libskel/figures/figure.h"
 #include "trainer/joint_net_backward.h"
+#include "trainer/posable_drawing.h"
 
 namespace skel {
 namespace {
@@ -24,13 +25,15 @@ constexpr int kLanes = 4;
 constexpr double kGradientNorm = 1;  // longer ones are shortened
 constexpr double kWarmUp = .03;      // share of the steps
 constexpr int kValidationFigures = 1000;
+constexpr int kPoses = 2;  // of each drawing in a round, besides its own
 
 // Streams of random numbers of one seed. Figures and batches have a stream each by number.
 enum Stream : std::uint64_t {
   kInitialStream = 1,
   kValidationStream = 2,
   kFigureStream = 1u << 20,
-  kStepStream = 1ull << 40
+  kStepStream = 1ull << 40,
+  kPoseStream = 1ull << 48
 };
 
 // The kinds that are held back, or all others.
@@ -213,6 +216,11 @@ class Training {
     if (!options.held_back.empty()) figure_options_.kinds = kindsOf(plan_, options.held_back, false);
     figure_options_.other_share = options.other_share;
     FigureOptions validation = figure_options_;
+    if (!options.drawings.empty()) {
+      drawings_ =
+          readPosableDrawings(options.drawings, net_.joints, loadTemplate(net_.body_plan), options.threads);
+      figure_options_.drawn_share = options.drawn_share;
+    }
     if (!options.held_back.empty()) validation.kinds = kindsOf(plan_, options.held_back, true);
     validation_ = drawFigures(options.seed ^ 0x5eed, kValidationStream, kValidationFigures, validation,
                               options.threads);
@@ -231,6 +239,7 @@ class Training {
     while (state_.step < options_.steps) {
       if (state_.step / steps_per_round != round) {
         round = state_.step / steps_per_round;
+        figure_options_.drawings = poseDrawings(round);
         figures_ = drawFigures(options_.seed,
                                kFigureStream + static_cast<std::uint64_t>(round * options_.figures_per_round),
                                options_.figures_per_round, figure_options_, options_.threads);
@@ -249,6 +258,17 @@ class Training {
   }
 
  private:
+  // Each drawing as it is and in some other poses.
+  std::vector<AnnotatedDrawing> poseDrawings(std::int64_t round) const {
+    std::vector<AnnotatedDrawing> drawn(drawings_.size() * (1 + kPoses));
+    parallelFor(drawn.size(), options_.threads, [&](std::size_t i) {
+      const PosableDrawing& drawing = drawings_[i / (1 + kPoses)];
+      Rng rng(options_.seed, kPoseStream + static_cast<std::uint64_t>(round) * drawn.size() + i);
+      drawn[i] = i % (1 + kPoses) == 0 ? asDrawn(drawing) : posed(rng, drawing);
+    });
+    return drawn;
+  }
+
   // The order of a round: each pass sees every figure once.
   void shuffle(std::int64_t round) {
     Rng rng(options_.seed, kStepStream - 1 - static_cast<std::uint64_t>(round));
@@ -330,8 +350,10 @@ class Training {
     const Report r = validate(quantized(net), joints_, set_, validation_, options_.threads);
     std::ostringstream provenance;
     provenance << "skel-train joints: seed " << options_.seed << ", step " << state_.step << " of "
-               << options_.steps << ", batch " << options_.batch << ", validation loss " << r.loss
-               << ", within 10 % " << r.within_10;
+               << options_.steps << ", batch " << options_.batch;
+    if (!drawings_.empty())
+      provenance << ", " << drawings_.size() << " drawings for " << options_.drawn_share << " of the figures";
+    provenance << ", validation loss " << r.loss << ", within 10 % " << r.within_10;
     net.provenance = provenance.str();
     bar.clear();
     std::printf("step %lld  loss %.4f  validation: loss %.4f  within 10 %% %.4f  5 %% %.4f  whole %.4f\n",
@@ -348,6 +370,7 @@ class Training {
   NetJoints joints_;
   State state_;
   FigureOptions figure_options_;
+  std::vector<PosableDrawing> drawings_;
   std::vector<Figure> validation_, figures_;
   std::vector<int> order_;
   std::vector<JointNetMaps> maps_;
@@ -385,6 +408,13 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
       ->capture_default_str();
   command
       .add_option("--no-colours", options.no_colours_share, "Share of the others that show only their lines")
+      ->check(CLI::Range(0., 1.))
+      ->capture_default_str();
+  command
+      .add_option("--drawings", options.drawings,
+                  "Drawings with *.joints.json and *.mask.png: trained on besides, each time warped anew")
+      ->type_name("DIR");
+  command.add_option("--drawn", options.drawn_share, "Share of figures that come from them")
       ->check(CLI::Range(0., 1.))
       ->capture_default_str();
   command

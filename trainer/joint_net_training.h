@@ -1,4 +1,4 @@
-// skel-train joints: trains the joint net on generated figures.
+// skel-train joints: trains the joint net on generated figures, and on drawings in other poses.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -24,6 +24,8 @@ struct JointTrainingOptions {
   double other_share = .16;      // of figures that are not whole
   double no_look_share = .25;    // of figures of which only the silhouette is shown
   double no_colours_share = .2;  // of the others: those that show only their lines
+  std::string drawings;          // folder of drawings with joints.json and mask.png; "": none
+  double drawn_share = .15;      // of figures that come from them
   std::vector<int> held_back;    // body kinds not trained on
   int threads = 0;               // 0: one a core. The result does not depend on it.
   int report_every = 500;        // steps

@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
   CLI::App* figures = app.add_subcommand("figures", "Draws a sheet of generated figures");
   skel::bindFigureSheetOptions(*figures, sheet);
   skel::JointTrainingOptions joint_training;
-  CLI::App* joints = app.add_subcommand("joints", "Trains the net that finds joints, on generated figures");
+  CLI::App* joints =
+      app.add_subcommand("joints", "Trains the net that finds joints, on generated figures and on drawings");
   skel::bindJointTrainingOptions(*joints, joint_training);
   return skel::runTool(app, argc, argv, [&] {
     if (*evaluation) return skel::runEvaluateWeights(evaluate);

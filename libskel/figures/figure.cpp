@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "libskel/figures/biped_plan.h"
+#include "libskel/figures/warped_drawing.h"
 #include "libskel/jointnet/figure_look.h"
 #include "libskel/jointnet/net_joints.h"
 
@@ -287,18 +288,21 @@ bool isReadable(const Figure& figure, const FigurePlan& plan) {
          kLeastVisible * static_cast<double>(plan.joints.size());
 }
 
-std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& drawing, Cut cut) {
-  const Scene::Box box = drawing.scene.box();
-  const Vec size = box.high - box.low;
-  const double scale = kOversampling * kLongSide / size.maxCoeff();
-  const int width = static_cast<int>(std::ceil(size.x() * scale)) + 2 * kMargin;
-  const int height = static_cast<int>(std::ceil(size.y() * scale)) + 2 * kMargin;
-  const Vec low = box.low - Vec::Constant(kMargin / scale);
-  const Raster raster = rasterize(drawing.scene, low, scale, width, height);
+// A figure in raster px (corner of the first at 0), before what pen, paper and scanner do to it.
+struct Canvas {
+  int width, height;
+  Bits solid;
+  std::function<Colour(int x, int y)> colour;
+  std::vector<Vec> joints;
+  std::vector<bool> visible;
+  FigureView view;
+  int kind;
+  bool whole;
+};
 
-  Bits solid(raster.part.size());
-  for (std::size_t i = 0; i < solid.size(); ++i) solid[i] = raster.part[i] != 0;
-
+std::optional<Figure> finished(Rng& rng, const FigurePlan& plan, Canvas canvas, Cut cut) {
+  const auto [width, height] = std::pair(canvas.width, canvas.height);
+  Bits& solid = canvas.solid;
   const double finish = rng.uniform();
   if (finish < .28) {
     roughen(rng, solid, width, height, 1 + rng.below(3), rng.uniform(.05, .4));
@@ -322,7 +326,7 @@ std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& dr
     }
   }
   const double kept = keepLargestPart(solid, width, height);
-  if (kept < (drawing.whole ? .85 : .5)) return std::nullopt;
+  if (kept < (canvas.whole ? .85 : .5)) return std::nullopt;
   if (rng.chance(.5)) fillHoles(solid, width, height);
 
   // The box of what is left, in raster px.
@@ -354,7 +358,7 @@ std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& dr
           ++all;
           if (!solid[b * width + a]) continue;
           ++inside;
-          const Colour c = raster.colour(a, b);
+          const Colour c = canvas.colour(a, b);
           sum += Eigen::Array3f(c[0], c[1], c[2]);
         }
       }
@@ -367,9 +371,9 @@ std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& dr
   if (keepLargestPart(grid, columns, rows) < .8) return std::nullopt;
 
   Figure figure;
-  figure.whole = drawing.whole && cut != Cut::kHeavy;
-  figure.view = drawing.view;
-  figure.kind = drawing.kind;
+  figure.whole = canvas.whole && cut != Cut::kHeavy;
+  figure.view = canvas.view;
+  figure.kind = canvas.kind;
   figure.mask.resize(rows, columns);
   for (int i = 0; i < rows * columns; ++i) figure.mask.data()[i] = grid[i] ? 255 : 0;
   if (rng.chance(.3)) {  // light from one side
@@ -387,19 +391,46 @@ std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& dr
     for (float& c : colours.reshaped()) c += grain * static_cast<float>(rng.normal());
   }
   figure.look = figureLook(colours, figure.mask);
-  figure.joints.resize(plan.joints.size());
-  figure.visible.resize(plan.joints.size());
-  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
-    const Vec p = (drawing.joints[j] - low) * scale;  // raster px, corner at 0
-    const int x = std::clamp(static_cast<int>(p.x()), 0, width - 1),
-              y = std::clamp(static_cast<int>(p.y()), 0, height - 1);
-    // Inside a limb that is drawn as an outline there is nothing.
-    figure.visible[j] = !raster.solid(x, y) || raster.owner(x, y) == plan.joints[j].owner;
-    figure.joints[j] = (p - Vec(x0, y0)) / step - Vec::Constant(.5);
-  }
+  figure.visible = std::move(canvas.visible);
+  for (const Vec& p : canvas.joints) figure.joints.push_back((p - Vec(x0, y0)) / step - Vec::Constant(.5));
   if (figure.whole && !isReadable(figure, plan)) return std::nullopt;
   if (figure.view == FigureView::kSide) sortSides(figure, jointsOf(plan));
   return figure;
+}
+
+std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& drawing, Cut cut) {
+  const Scene::Box box = drawing.scene.box();
+  const Vec size = box.high - box.low;
+  const double scale = kOversampling * kLongSide / size.maxCoeff();
+  const int width = static_cast<int>(std::ceil(size.x() * scale)) + 2 * kMargin;
+  const int height = static_cast<int>(std::ceil(size.y() * scale)) + 2 * kMargin;
+  const Vec low = box.low - Vec::Constant(kMargin / scale);
+  const Raster raster = rasterize(drawing.scene, low, scale, width, height);
+
+  Canvas canvas{width,        height,       Bits(raster.part.size()), {}, {}, {}, drawing.view,
+                drawing.kind, drawing.whole};
+  for (std::size_t i = 0; i < canvas.solid.size(); ++i) canvas.solid[i] = raster.part[i] != 0;
+  canvas.colour = [&](int x, int y) { return raster.colour(x, y); };
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    const Vec p = (drawing.joints[j] - low) * scale;
+    const int x = std::clamp(static_cast<int>(p.x()), 0, width - 1),
+              y = std::clamp(static_cast<int>(p.y()), 0, height - 1);
+    canvas.joints.push_back(p);
+    // Inside a limb that is drawn as an outline there is nothing.
+    canvas.visible.push_back(!raster.solid(x, y) || raster.owner(x, y) == plan.joints[j].owner);
+  }
+  return finished(rng, plan, std::move(canvas), cut);
+}
+
+// One of the drawings, in other proportions. `turn`: radians, from +x towards +y.
+std::optional<Figure> renderDrawn(Rng& rng, const FigurePlan& plan, const AnnotatedDrawing& drawing,
+                                  double turn, Cut cut) {
+  const WarpedDrawing warped = warpedDrawing(rng, drawing, turn, kOversampling * kLongSide, kMargin);
+  const int width = warped.width, height = warped.height;
+  Canvas canvas{width, height, warped.solid, {}, warped.joints, {}, drawing.view, 0, turn == 0};
+  canvas.colour = [&](int x, int y) { return warped.colours[static_cast<std::size_t>(y) * width + x]; };
+  canvas.visible.assign(plan.joints.size(), true);
+  return finished(rng, plan, std::move(canvas), cut);
 }
 
 }  // namespace
@@ -407,6 +438,15 @@ std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& dr
 Figure generateFigure(Rng& rng, const FigureOptions& options) {
   const FigurePlan& plan = figurePlan(options.body_plan);
   while (true) {
+    if (options.drawn_share > 0 && rng.chance(options.drawn_share)) {
+      const AnnotatedDrawing& drawing =
+          options.drawings[rng.below(static_cast<std::uint32_t>(options.drawings.size()))];
+      const bool other = rng.chance(options.other_share), cut = other && rng.chance(.5);
+      const double turn = other && !cut ? rng.uniform(1.2, 2 * std::numbers::pi - 1.2) : 0;
+      if (auto figure = renderDrawn(rng, plan, drawing, turn, cut ? Cut::kHeavy : Cut::kNone))
+        return *std::move(figure);
+      continue;
+    }
     Drawing drawing;
     Cut cut = Cut::kNone;
     if (rng.chance(options.other_share)) {

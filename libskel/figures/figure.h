@@ -1,5 +1,4 @@
-// Random figures with exact joints: what the joint net is trained on, and synthetic truth for tests. Nothing
-// here is taken from a drawing.
+// Random figures with exact joints: what the joint net is trained on, and synthetic truth for tests.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,11 +23,29 @@ struct Figure {
   int kind = 0;
 };
 
+// A drawing with known joints, small enough for many of them to be kept.
+struct AnnotatedDrawing {
+  Image image;                          // the figure's box, its long side kAnnotatedLongSide px
+  Plane8 mask;                          // not 0 on the figure
+  std::vector<Eigen::Vector2d> joints;  // as FigurePlan::joints; px of the image, corner of the first px at 0
+  FigureView view = FigureView::kFront;
+};
+inline constexpr int kAnnotatedLongSide = 320;
+
+// `mask` (as large as the image) is not 0 on the figure, at least one px; `joints` in px of the image, the
+// origin at the first px's centre.
+AnnotatedDrawing annotatedDrawing(const Image& image, const Plane8& mask,
+                                  const std::vector<Eigen::Vector2d>& joints, FigureView view);
+
 struct FigureOptions {
   std::string body_plan = "biped";  // one of figurePlans()
   std::vector<int> kinds;           // empty: all, as often as is useful for training
   double other_share = 0;  // share of figures that are not whole: other beings, things, pairs, cut-offs, and
                            // some that lie or stand on their heads
+  // Of the figures `drawn_share` is one of these drawings each, in other proportions, bent, with another
+  // outline; some of them cut or turned, as many as `other_share` says.
+  std::vector<AnnotatedDrawing> drawings;
+  double drawn_share = 0;
 };
 
 // The same figure for the same state of rng and the same build. In a side view the limb at the left of the

@@ -1,7 +1,7 @@
 // A small convolutional net that sees a whole silhouette and says where the joints are: one heatmap a joint.
 // An encoder of three scales and a decoder with skips, after Newell, Yang, Deng, "Stacked hourglass networks
-// for human pose estimation" (2016), much narrower. Trained on nothing but generated figures (skel-train
-// joints).
+// for human pose estimation" (2016), much narrower. Trained on
+// generated figures and on our own drawings in other poses (skel-train joints).
 #pragma once
 
 #include <cstdint>

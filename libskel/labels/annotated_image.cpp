@@ -71,6 +71,12 @@ NamedJoints readJointsFile(const std::string& path) {
   return joints;
 }
 
+std::string readView(const std::string& joints_file) {
+  const JsonDocument document = JsonDocument::readFile(joints_file);
+  const std::optional<JsonValue> view = document.root().find("view");
+  return view ? view->asString() : "";
+}
+
 Plane8 readMaskOf(const Image& image, const std::string& mask) {
   Plane8 pixels = readMask(mask);
   if (pixels.cols() != image.width || pixels.rows() != image.height)

@@ -28,6 +28,9 @@ std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir);
 // Throws InputError that names file, JSON path and reason.
 NamedJoints readJointsFile(const std::string& path);
 
+// What such a file says of the view: "front", "three-quarter" or "side"; "" if nothing. Throws InputError.
+std::string readView(const std::string& joints_file);
+
 // Throws InputError also where its size is not that of the image.
 Plane8 readMaskOf(const Image& image, const std::string& mask);
 

@@ -1,0 +1,98 @@
+#include "trainer/posable_drawing.h"
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/figures/drawing.h"
+#include "libskel/image/write_image.h"
+#include "tests/support/catch.h"
+#include "tests/support/marked_figure.h"
+#include "tests/support/temp_dir.h"
+
+namespace skel {
+namespace {
+
+const std::vector<std::string> kNames = jointNames(figurePlan("biped"));
+
+void write(const TempDir& dir, const std::string& left_out = "") {
+  const MarkedFigure figure = markedFigure(kNames);
+  Image mask(figure.image.width, figure.image.height);
+  mask.rgba.leftCols(3) = figure.mask.reshaped<Eigen::RowMajor>().replicate(1, 3);
+  mask.rgba.col(3) = 255;
+  writeFile(dir.file("a.png"), encodePng(figure.image));
+  writeFile(dir.file("a.mask.png"), encodePng(mask));
+  std::string joints;
+  for (std::size_t j = 0; j < kNames.size(); ++j) {
+    if (kNames[j] == left_out) continue;
+    joints += (joints.empty() ? "\"" : ", \"") + kNames[j] + "\": [" + std::to_string(figure.joints[j].x()) +
+              ", " + std::to_string(figure.joints[j].y()) + "]";
+  }
+  writeFile(dir.file("a.joints.json"), "{\"view\": \"front\", \"joints\": {" + joints + "}}");
+}
+
+std::vector<PosableDrawing> read(const TempDir& dir) {
+  return readPosableDrawings(dir.path(), kNames, loadTemplate("biped"), 1);
+}
+
+std::string complaint(const TempDir& dir) {
+  try {
+    read(dir);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+int marksShown(const AnnotatedDrawing& drawing) {
+  int count = 0;
+  for (std::size_t j = 0; j < drawing.joints.size(); ++j) {
+    const int x = static_cast<int>(drawing.joints[j].x()), y = static_cast<int>(drawing.joints[j].y());
+    if (x < 0 || y < 0 || x >= drawing.image.width || y >= drawing.image.height) continue;
+    count += drawing.mask(y, x) != 0 && showsMark(drawing.image.pixel(x, y), j);
+  }
+  return count;
+}
+
+TEST_CASE("joints stay on their marks when a drawing is posed anew") {
+  const TempDir dir;
+  write(dir);
+  const std::vector<PosableDrawing> drawings = read(dir);
+  REQUIRE(drawings.size() == 1);
+  const AnnotatedDrawing still = asDrawn(drawings[0]);
+  CHECK(marksShown(still) == static_cast<int>(kNames.size()));
+  Rng rng(3);
+  int shown = 0, moved = 0;
+  constexpr int kPoses = 30;
+  for (int i = 0; i < kPoses; ++i) {
+    const AnnotatedDrawing other = posed(rng, drawings[0]);
+    shown += marksShown(other);
+    const auto hand = static_cast<std::size_t>(
+        std::find(kNames.begin(), kNames.end(), "right_hand") - kNames.begin());
+    moved += (other.joints[hand] - still.joints[hand]).norm() > .1 * kAnnotatedLongSide;
+  }
+  // An arm may cover another's mark.
+  CHECK(shown >= .97 * kPoses * static_cast<double>(kNames.size()));
+  CHECK(moved >= kPoses / 4);
+}
+
+TEST_CASE("the same random numbers give the same pose") {
+  const TempDir dir;
+  write(dir);
+  const std::vector<PosableDrawing> drawings = read(dir);
+  Rng one(8), other(8);
+  const AnnotatedDrawing a = posed(one, drawings[0]), b = posed(other, drawings[0]);
+  CHECK((a.image.rgba == b.image.rgba).all());
+  CHECK(a.joints == b.joints);
+}
+
+TEST_CASE("drawings to be posed need a mask and all joints") {
+  const TempDir dir;
+  CHECK(complaint(dir).find("has no drawing with joints.json and mask.png") != std::string::npos);
+  write(dir, "left_knee");
+  CHECK(complaint(dir) == dir.file("a.joints.json") + ": joints: has no \"left_knee\"; training needs all");
+  write(dir);
+  std::filesystem::remove(dir.file("a.mask.png"));
+  CHECK(complaint(dir) == dir.file("a.png") + ": has no mask beside it; training needs one");
+}
+
+}  // namespace
+}  // namespace skel

@@ -1,0 +1,32 @@
+// A drawing as a puppet: rigged by the pipeline itself, so that it can be drawn again in other poses.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libskel/export/write_character.h"
+#include "libskel/figures/figure.h"
+#include "libskel/skeleton/template.h"
+
+namespace skel {
+
+struct PosableDrawing {
+  RiggedCharacter character;
+  std::vector<int> joints;           // in the character's skeleton, of each joint of the net
+  std::vector<double> deviations;    // rad, of each joint of the skeleton: by how much it is turned
+  std::vector<int> limbs;            // of each joint of the skeleton: 1 + its limb in the template, 0: the trunk
+  FigureView view = FigureView::kFront;
+};
+
+// All annotated drawings below `dir` (see findAnnotatedImages), with the joints called `names` in that order.
+// Throws InputError: none there, one without a mask or without one of the joints, files that cannot be read.
+std::vector<PosableDrawing> readPosableDrawings(const std::string& dir,
+                                                const std::vector<std::string>& names,
+                                                const SkeletonTemplate& body_plan, int threads);
+
+// As it was drawn.
+AnnotatedDrawing asDrawn(const PosableDrawing& drawing);
+// With its limbs turned at random, arms before the body or behind it.
+AnnotatedDrawing posed(Rng& rng, const PosableDrawing& drawing);
+
+}  // namespace skel
