@@ -14,8 +14,8 @@ struct JointTrainingOptions {
   std::string output = "weights/joint_net.bin";
   std::string checkpoint;  // "": none
   std::uint64_t seed = 1;
-  int steps = 11000;
-  int batch = 32;
+  int steps = 22000;
+  int batch = 16;
   double peak_rate = 2e-3;
   double weight_decay = 1e-4;
   double averaging = .999;       // of the weights over steps
@@ -25,7 +25,7 @@ struct JointTrainingOptions {
   double no_look_share = .25;    // of figures of which only the silhouette is shown
   double no_colours_share = .2;  // of the others: those that show only their lines
   std::string drawings;          // folder of drawings with joints.json and mask.png; "": none
-  double drawn_share = .15;      // of figures that come from them
+  double drawn_share = .2;       // of figures that come from them
   std::vector<int> held_back;    // body kinds not trained on
   int threads = 0;               // 0: one a core. The result does not depend on it.
   int report_every = 500;        // steps
