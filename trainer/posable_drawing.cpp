@@ -57,7 +57,7 @@ PosableDrawing posable(const AnnotatedImage& files, const std::vector<std::strin
   for (std::size_t k = 0; k < body_plan.limbs.size(); ++k) {
     for (const int j : body_plan.limbs[k].joints) {
       out.limbs[static_cast<std::size_t>(j)] = static_cast<int>(k) + 1;
-      out.deviations[static_cast<std::size_t>(j)] = body_plan.limbs[k].limb_class == "hand" ? kArmTurn : kLegTurn;
+      out.deviations[static_cast<std::size_t>(j)] = body_plan.limbs[k].limb_class == JointClass::kHand ? kArmTurn : kLegTurn;
     }
   }
   return out;
