@@ -9,9 +9,7 @@ namespace {
 
 // The derivative of the layer's output is complete: turn it into that of the sum before max(0, ·).
 void undoRelu(const std::vector<float>& out, std::vector<float>& gradient) {
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    if (out[i] <= 0) gradient[i] = 0;
-  }
+  for (std::size_t i = 0; i < out.size(); ++i) gradient[i] = out[i] > 0 ? gradient[i] : 0.f;
 }
 
 void undoConvolution(const JointNet& net, const JointNetLayer& layer, InstructionSet set,
@@ -43,11 +41,17 @@ void undoPool(const MapShape& to, const std::vector<float>& in, const std::vecto
     for (int x = 0; x < to.width; ++x) {
       const std::size_t a = static_cast<std::size_t>(paddedIndex(width_in, 2 * y, 2 * x)) * channels;
       const std::size_t o = static_cast<std::size_t>(paddedIndex(to.width, y, x)) * channels;
+      const float* __restrict value = in.data() + a;
+      const float* __restrict largest = out.data() + o;
+      const float* __restrict from = out_gradient.data() + o;
+      float* __restrict into = in_gradient.data() + a;
+      // Without branches, so that it becomes vector code.
       for (int c = 0; c < channels; ++c) {
+        float left = from[c];
         for (const int step : {0, channels, stride, stride + channels}) {
-          if (in[a + step + c] != out[o + c]) continue;
-          in_gradient[a + step + c] += out_gradient[o + c];
-          break;
+          const float given = value[step + c] == largest[c] ? left : 0.f;
+          into[step + c] += given;
+          left -= given;
         }
       }
     }
