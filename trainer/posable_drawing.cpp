@@ -57,7 +57,8 @@ PosableDrawing posable(const AnnotatedImage& files, const std::vector<std::strin
   for (std::size_t k = 0; k < body_plan.limbs.size(); ++k) {
     for (const int j : body_plan.limbs[k].joints) {
       out.limbs[static_cast<std::size_t>(j)] = static_cast<int>(k) + 1;
-      out.deviations[static_cast<std::size_t>(j)] = body_plan.limbs[k].limb_class == JointClass::kHand ? kArmTurn : kLegTurn;
+      out.deviations[static_cast<std::size_t>(j)] =
+          body_plan.limbs[k].limb_class == JointClass::kHand ? kArmTurn : kLegTurn;
     }
   }
   return out;
@@ -97,8 +98,7 @@ AnnotatedDrawing drawn(const PosableDrawing& drawing, const JointTransforms& pos
 
 }  // namespace
 
-std::vector<PosableDrawing> readPosableDrawings(const std::string& dir,
-                                                const std::vector<std::string>& names,
+std::vector<PosableDrawing> readPosableDrawings(const std::string& dir, const std::vector<std::string>& names,
                                                 const SkeletonTemplate& body_plan, int threads) {
   const std::vector<AnnotatedImage> files = findAnnotatedImages(dir);
   if (files.empty()) throw InputError(dir, "has no drawing with joints.json and mask.png");

@@ -12,16 +12,15 @@ namespace skel {
 
 struct PosableDrawing {
   RiggedCharacter character;
-  std::vector<int> joints;           // in the character's skeleton, of each joint of the net
-  std::vector<double> deviations;    // rad, of each joint of the skeleton: by how much it is turned
-  std::vector<int> limbs;            // of each joint of the skeleton: 1 + its limb in the template, 0: the trunk
+  std::vector<int> joints;         // in the character's skeleton, of each joint of the net
+  std::vector<double> deviations;  // rad, of each joint of the skeleton: by how much it is turned
+  std::vector<int> limbs;  // of each joint of the skeleton: 1 + its limb in the template, 0: the trunk
   FigureView view = FigureView::kFront;
 };
 
 // All annotated drawings below `dir` (see findAnnotatedImages), with the joints called `names` in that order.
 // Throws InputError: none there, one without a mask or without one of the joints, files that cannot be read.
-std::vector<PosableDrawing> readPosableDrawings(const std::string& dir,
-                                                const std::vector<std::string>& names,
+std::vector<PosableDrawing> readPosableDrawings(const std::string& dir, const std::vector<std::string>& names,
                                                 const SkeletonTemplate& body_plan, int threads);
 
 // As it was drawn.

@@ -12,8 +12,8 @@ namespace skel {
 
 struct WarpedDrawing {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> solid;  // 1 on the figure, row by row
-  std::vector<Colour> colours;      // over white, row by row
+  std::vector<std::uint8_t> solid;      // 1 on the figure, row by row
+  std::vector<Colour> colours;          // over white, row by row
   std::vector<Eigen::Vector2d> joints;  // px, corner of the first px at 0
 };
 

@@ -38,8 +38,7 @@ inline MarkedFigure markedFigure(const std::vector<std::string>& names, const Ca
       std::uint8_t* p = out.image.pixel(x, y);
       std::fill_n(p, 4, std::uint8_t{255});
       for (std::size_t j = 0; j < out.joints.size(); ++j) {
-        if ((out.joints[j] - Eigen::Vector2d(x, y)).norm() <= kDot_px)
-          std::copy_n(markOf(j).begin(), 3, p);
+        if ((out.joints[j] - Eigen::Vector2d(x, y)).norm() <= kDot_px) std::copy_n(markOf(j).begin(), 3, p);
       }
     }
   }

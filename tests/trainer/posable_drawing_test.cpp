@@ -65,8 +65,8 @@ TEST_CASE("joints stay on their marks when a drawing is posed anew") {
   for (int i = 0; i < kPoses; ++i) {
     const AnnotatedDrawing other = posed(rng, drawings[0]);
     shown += marksShown(other);
-    const auto hand = static_cast<std::size_t>(
-        std::find(kNames.begin(), kNames.end(), "right_hand") - kNames.begin());
+    const auto hand =
+        static_cast<std::size_t>(std::find(kNames.begin(), kNames.end(), "right_hand") - kNames.begin());
     moved += (other.joints[hand] - still.joints[hand]).norm() > .1 * kAnnotatedLongSide;
   }
   // An arm may cover another's mark.
