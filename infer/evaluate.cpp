@@ -123,9 +123,9 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
                 s.error, s.usable, s.limbs, s.inside, s.iou,
                 row.found ? s.worst_joint.c_str() : ("no skeleton: " + row.reason).c_str());
     json["characters"][jsonFromFileName(row.id)] = {
-        {"pck05", s.pck05}, {"pck10", s.pck10},   {"error", s.error}, {"usable", s.usable},
-        {"limbs", s.limbs}, {"inside", s.inside}, {"iou", s.iou},     {"confidence", s.confidence},
-        {"worst_joint", s.worst_joint}};
+        {"pck05", s.pck05},   {"pck10", s.pck10},           {"error", s.error},
+        {"usable", s.usable}, {"limbs", s.limbs},           {"inside", s.inside},
+        {"iou", s.iou},       {"confidence", s.confidence}, {"worst_joint", s.worst_joint}};
   }
   for (const Row& row : hard)
     std::printf(

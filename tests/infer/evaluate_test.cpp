@@ -43,7 +43,8 @@ TEST_CASE("evaluate draws what it found and writes the figures") {
   const std::string folder = dir.path() + "/set";
   std::filesystem::create_directories(folder);
   for (const char* end : {".png", ".mask.png", ".joints.json"})
-    std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/cap_boy") + end, folder + "/cap_boy" + end);
+    std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/cap_boy") + end,
+                               folder + "/cap_boy" + end);
   const auto done = skel::runTool("'" SKEL_INFER "' evaluate '" + folder + "' --given-mask --overlays '" +
                                   dir.path() + "/pictures' --json '" + dir.path() + "/figures.json'");
   CAPTURE(done.out);
