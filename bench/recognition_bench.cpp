@@ -31,8 +31,7 @@ TreeRecognition recognize(const Case& drawing, InstructionSet set) {
   static const NetJoints joints = netJoints(net.joints, loadTemplate("biped"));
   const WorkingGrid& grid = drawing.silhouette.grid;
   const Plane8& mask = drawing.silhouette.grid_mask;
-  const GridColours colours =
-      gridColours(drawing.image, grid.corner_px, grid.scale, grid.width, grid.height);
+  const GridColours colours = gridColours(drawing.image, grid.corner_px, grid.scale, grid.width, grid.height);
   TreeRecognizerOptions options;
   options.instructions = set;
   return recognizeByJointNet(mask, figureLook(colours, mask), net, joints, options);
@@ -56,7 +55,8 @@ void recognition(benchmark::State& state, InstructionSet set) {
   double sum_ms = 0;
   for (std::size_t i = 0; i < cases().size(); ++i) {
     sum_ms += fastest_ms[i];
-    const TreeRecognition plain = recognize(cases()[i], InstructionSet::kBaseline), other = recognize(cases()[i], set);
+    const TreeRecognition plain = recognize(cases()[i], InstructionSet::kBaseline),
+                          other = recognize(cases()[i], set);
     for (std::size_t j = 0; j < plain.joints.size(); ++j)
       apart_px = std::max(apart_px, (plain.joints[j].position - other.joints[j].position).norm());
   }
@@ -68,7 +68,9 @@ void recognition(benchmark::State& state, InstructionSet set) {
 }
 BENCHMARK_CAPTURE(recognition, sse2, InstructionSet::kBaseline)->Iterations(5)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(recognition, avx2, InstructionSet::kAvx2)->Iterations(10)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(recognition, avx512, InstructionSet::kAvx512)->Iterations(10)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(recognition, avx512, InstructionSet::kAvx512)
+    ->Iterations(10)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace skel
