@@ -115,28 +115,27 @@ Clip makeWag() {
   return clip;
 }
 
-// Six steps on the spot, a front leg with the hind leg of the other side. Legs swing as far to one side as to
-// the other, so that it does not matter where the animal looks.
-Clip makeTrot() {
-  constexpr double kStep_s = 0.35;
+// Three leaps on the spot. The legs of a pair swing together, since in a drawing from the side they often
+// touch, and as far forwards as back, so that it does not matter where the animal looks.
+Clip makeGallop() {
+  constexpr double kHalfLeap_s = 0.35;
   const auto swing = [](double delay_s, double degrees) {
     std::vector<Key> keys = {{0, 0}};
     for (int i = 0; i < 6; ++i)
-      keys.push_back({delay_s + (i + 0.5) * kStep_s, i % 2 == 0 ? degrees : -degrees});
-    keys.push_back({delay_s + 6.5 * kStep_s, 0});
+      keys.push_back({delay_s + (i + 0.5) * kHalfLeap_s, i % 2 == 0 ? degrees : -degrees});
+    keys.push_back({delay_s + 6.5 * kHalfLeap_s, 0});
     return keys;
   };
   Clip clip;
-  clip.name = "trot";
+  clip.name = "gallop";
   for (const std::string side : {"left_", "right_"}) {
-    const double sign = side == "left_" ? 1 : -1;
-    clip.tracks.push_back(frontalTrack(side + "shoulder", swing(0, 18 * sign)));
-    clip.tracks.push_back(frontalTrack(side + "hip", swing(0, -18 * sign)));
+    clip.tracks.push_back(frontalTrack(side + "shoulder", swing(0, 18)));
+    clip.tracks.push_back(frontalTrack(side + "hip", swing(0, -18)));
     // The lower halves trail behind.
-    clip.tracks.push_back(frontalTrack(side + "elbow", swing(0.1, -14 * sign)));
-    clip.tracks.push_back(frontalTrack(side + "knee", swing(0.1, 14 * sign)));
+    clip.tracks.push_back(frontalTrack(side + "elbow", swing(0.1, 14)));
+    clip.tracks.push_back(frontalTrack(side + "knee", swing(0.1, -14)));
   }
-  clip.tracks.push_back(frontalTrack("head", swing(0.05, 3)));
+  clip.tracks.push_back(frontalTrack("neck", swing(0.05, -4)));
   clip.tracks.push_back(frontalTrack("tail_root", swing(0.1, 8)));
   return clip;
 }
@@ -144,7 +143,7 @@ Clip makeTrot() {
 }  // namespace
 
 const std::vector<Clip>& builtinClips() {
-  static const std::vector<Clip> clips = {makeWave(), makeWag(), makeTrot()};
+  static const std::vector<Clip> clips = {makeWave(), makeWag(), makeGallop()};
   return clips;
 }
 
