@@ -1,11 +1,14 @@
 // Weights files of the joint net.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "embedded/joint_net_weights.h"
+#include "embedded/quadruped_joint_net_weights.h"
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
@@ -164,15 +167,29 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file) {
   return net;
 }
 
-std::span<const std::string_view> builtInJointNets() {
-  static constexpr std::string_view kNames[] = {"biped"};
-  return kNames;
-}
+namespace {
+
+// What is compiled in, of each body plan.
+constexpr std::string_view kBodyPlans[] = {"biped", "quadruped"};
+const std::string_view* const kWeights[] = {&embedded::joint_net_weights,
+                                            &embedded::quadruped_joint_net_weights};
+static_assert(std::size(kBodyPlans) == std::size(kWeights));
+
+}  // namespace
+
+std::span<const std::string_view> builtInJointNets() { return kBodyPlans; }
 
 const JointNet& builtInJointNet(std::string_view body_plan) {
-  SKEL_CHECK(body_plan == "biped");
-  static const JointNet biped = parseJointNet(embedded::joint_net_weights, "built-in joint net");
-  return biped;
+  const auto at = static_cast<std::size_t>(
+      std::find(std::begin(kBodyPlans), std::end(kBodyPlans), body_plan) - kBodyPlans);
+  SKEL_CHECK(at < std::size(kBodyPlans));
+  // Each is read when it is first asked for, since that takes time.
+  static std::array<std::once_flag, std::size(kBodyPlans)> once;
+  static std::array<JointNet, std::size(kBodyPlans)> nets;
+  std::call_once(once[at], [at] {
+    nets[at] = parseJointNet(*kWeights[at], "built-in joint net of the " + std::string(kBodyPlans[at]));
+  });
+  return nets[at];
 }
 
 }  // namespace skel

@@ -48,6 +48,18 @@ const JointNet& jointNetOf(const RigOptions& options) {
   return *net;
 }
 
+// Another built-in body plan that the figure fits where the one in use leaves doubt.
+std::optional<std::string> betterBodyPlan(const Image& image, const Silhouette& silhouette,
+                                          const std::string& in_use) {
+  for (const std::string_view name : builtInJointNets()) {
+    if (name == in_use) continue;
+    const Recognition other =
+        recognizeByTree(image, silhouette, loadTemplate(std::string(name)), builtInJointNet(name));
+    if (other.confidence >= 0.5) return std::string(name);
+  }
+  return std::nullopt;
+}
+
 Image picture(const Plane8& mask) {
   Image image(static_cast<int>(mask.cols()), static_cast<int>(mask.rows()));
   for (int y = 0; y < image.height; ++y)
@@ -86,13 +98,18 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   drawing.classes = timed("classes", [&] { return classify(options.mlp, drawing.features); });
 
   drawing.recognition = timed("recognition", [&] {
-    if (!input.skeleton)
-      return options.recognizer == Recognizer::kPaper
-                 ? recognizeByRules(silhouette, drawing.candidates, drawing.classes, options.body_plan)
-                 : recognizeByTree(drawing.image, silhouette, options.body_plan, jointNetOf(options));
-    Recognition given;
-    given.skeleton = *input.skeleton;
-    return given;
+    Recognition found;
+    if (input.skeleton) {
+      found.skeleton = *input.skeleton;
+    } else if (options.recognizer == Recognizer::kPaper) {
+      found = recognizeByRules(silhouette, drawing.candidates, drawing.classes, options.body_plan);
+    } else {
+      found = recognizeByTree(drawing.image, silhouette, options.body_plan, jointNetOf(options));
+      if (found.confidence < 0.5)
+        if (const auto better = betterBodyPlan(drawing.image, silhouette, options.body_plan.name))
+          found.warnings.push_back("it looks like a " + *better + ": try --template " + *better);
+    }
+    return found;
   });
   roundToFile(drawing.recognition.skeleton);
 

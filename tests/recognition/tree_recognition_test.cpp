@@ -8,6 +8,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/rng.h"
+#include "libskel/figures/figure.h"
 #include "libskel/jointnet/net_joints.h"
 #include "tests/support/catch.h"
 #include "tests/support/synthetic_figure.h"
@@ -200,4 +201,79 @@ TEST_CASE("a body plan that the net does not know is refused") {
   const Plane8 mask = capsuleMask();
   CHECK_THROWS_WITH(recognizeByTree(inkOn(mask), silhouetteFromMask(mask), other, kNet),
                     "the template \"cat\" has no joint \"left_hand\" that could be found in a drawing");
+}
+
+// A generated animal as a drawing: its mask enlarged, in a picture with some room around it.
+namespace {
+
+struct DrawnAnimal {
+  Plane8 mask;
+  std::vector<Vector2d> joints;  // image px
+};
+
+DrawnAnimal drawn(const Figure& figure, int scale, int left, int top) {
+  const Eigen::Index rows = figure.mask.rows(), cols = figure.mask.cols();
+  DrawnAnimal animal;
+  animal.mask = Plane8::Zero(rows * scale + top + 20, cols * scale + left + 20);
+  for (Eigen::Index y = 0; y < rows; ++y)
+    for (Eigen::Index x = 0; x < cols; ++x)
+      animal.mask.block(top + y * scale, left + x * scale, scale, scale).setConstant(figure.mask(y, x));
+  for (const Vector2d& p : figure.joints)
+    animal.joints.push_back(p * scale + Vector2d::Constant((scale - 1) / 2.0) + Vector2d(left, top));
+  return animal;
+}
+
+Recognition recognizeAnimal(const Plane8& mask) {
+  return recognizeByTree(inkOn(mask), silhouetteFromMask(mask), loadTemplate("quadruped"),
+                         builtInJointNet("quadruped"));
+}
+
+std::vector<Figure> someAnimals(int count) {
+  Rng rng(77);
+  FigureOptions options;
+  options.body_plan = "quadruped";
+  std::vector<Figure> animals;
+  while (static_cast<int>(animals.size()) < count) animals.push_back(generateFigure(rng, options));
+  return animals;
+}
+
+}  // namespace
+
+TEST_CASE("animals are found, of any size and anywhere in the picture, mirrored ones mirrored") {
+  const std::vector<std::string>& names = builtInJointNet("quadruped").joints;
+  const std::vector<int> mirrored = netJoints(names, loadTemplate("quadruped")).mirrored;
+  int right = 0, all = 0, sure_right = 0, sure = 0;  // joints; of figures of confidence >= 0.5
+  const std::vector<Figure> animals = someAnimals(30);
+  for (const Figure& figure : animals) {
+    const DrawnAnimal animal = drawn(figure, 3, 20, 20), large = drawn(figure, 7, 130, 55);
+    const Recognition here = recognizeAnimal(animal.mask), there = recognizeAnimal(large.mask),
+                      back = recognizeAnimal(animal.mask.rowwise().reverse());
+    CHECK(liesOn(animal.mask, here));
+    const double last = static_cast<double>(animal.mask.cols()) - 1;
+    for (size_t j = 0; j < names.size(); ++j) {
+      ++all;
+      const bool found = (at(here, names[j]) - animal.joints[j]).norm() <= 0.1 * 3 * 128;
+      right += found;
+      if (here.confidence >= 0.5) ++sure, sure_right += found;
+      const Vector2d moved = (at(there, names[j]) - Vector2d(133, 58)) / 7 * 3 + Vector2d(21, 21);
+      CHECK((moved - at(here, names[j])).norm() < 6);
+      const Vector2d mirror = at(back, names[static_cast<size_t>(mirrored[j])]);
+      if (here.confidence >= 0.5)
+        CHECK((Vector2d(last - mirror.x(), mirror.y()) - at(here, names[j])).norm() < 12);
+    }
+  }
+  CHECK(right >= 0.85 * all);
+  CHECK(sure >= 0.3 * all);
+  CHECK(sure_right >= 0.97 * sure);
+}
+
+TEST_CASE("a human is no sure animal, nor an animal a sure human") {
+  int sure_animals = 0, sure_humans = 0;
+  for (const CapsuleFigure& figure : poses())
+    sure_animals += recognizeAnimal(capsuleMask(figure)).confidence >= 0.5;
+  CHECK(sure_animals == 0);
+  const std::vector<Figure> animals = someAnimals(30);
+  for (const Figure& figure : animals)
+    sure_humans += recognize(drawn(figure, 3, 20, 20).mask).confidence >= 0.5;
+  CHECK(sure_humans <= 3);
 }

@@ -1,0 +1,74 @@
+// skel-infer --template quadruped as a user runs it.
+#include <algorithm>
+
+#include "infer/annotation.h"
+#include "libskel/core/files.h"
+#include "libskel/core/json.h"
+#include "libskel/skeleton/skeleton_file.h"
+#include "tests/support/catch.h"
+#include "tests/support/run_tool.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+
+namespace {
+
+const std::string kAnimals = SKEL_SOURCE_DIR "/datasets/animals";
+
+ToolRun infer(const std::string& arguments) { return runTool("'" SKEL_INFER "' " + arguments); }
+
+}  // namespace
+
+TEST_CASE("a child's pig is rigged as a quadruped, with a motion of its own") {
+  const TempDir dir;
+  const ToolRun run = infer("'" + kAnimals + "/crayon_pig.png' --template quadruped -o '" + dir.path() + "'");
+  CAPTURE(run.err);
+  REQUIRE(run.exit_code == 0);
+  const SkeletonTemplate body_plan = loadTemplate("quadruped");
+  const SkeletonFile file = readSkeletonFile(dir.file("crayon_pig.skeleton.json"), body_plan);
+  CHECK(file.confidence >= 0.5);
+  const AnnotatedDrawing truth = readAnnotatedDrawing(kAnimals, "crayon_pig");
+  Recognition recognition;
+  recognition.skeleton = file.skeleton;
+  CHECK(score(truth, &recognition, *truth.mask, body_plan).pck10 >= 0.9);
+  CHECK(readFile(dir.file("crayon_pig.glb")).find("\"wag\"") != std::string::npos);
+}
+
+TEST_CASE("an animal that is taken for a biped comes with the hint which template fits") {
+  const TempDir dir;
+  const ToolRun run = infer("'" + kAnimals + "/walking_dog.png' -o '" + dir.path() + "'");
+  CHECK(run.exit_code == 0);
+  CHECK(run.err.find("it looks like a quadruped: try --template quadruped") != std::string::npos);
+}
+
+TEST_CASE("a joint net can be given as a file") {
+  const TempDir dir;
+  const std::string base = "'" + kAnimals + "/crayon_pig.png' --template quadruped --formats json -o '" +
+                           dir.path() + "' --joint-net '" SKEL_SOURCE_DIR "/weights/";
+  CHECK(infer(base + "quadruped_joint_net.bin'").exit_code == 0);
+  const ToolRun other = infer(base + "joint_net.bin'");
+  CHECK(other.exit_code == 1);
+  CHECK(other.err.find("the template \"quadruped\" has no joint \"left_hand\"") != std::string::npos);
+}
+
+// Also: drawings side by side in a folder are evaluated like those in folders of their own.
+TEST_CASE("the drawn animals are found, from the picture alone") {
+  const TempDir dir;
+  const ToolRun run =
+      infer("evaluate '" + kAnimals + "' --template quadruped --json '" + dir.file("a.json") + "'");
+  REQUIRE(run.exit_code == 0);
+  CHECK(run.out.find("mean over 14 characters") != std::string::npos);
+  const JsonDocument document = JsonDocument::readFile(dir.file("a.json"));
+  const JsonValue characters = document.root().at("characters");
+  CHECK(characters.keys().size() == 14);
+  for (const std::string& name : characters.keys()) {
+    const JsonValue animal = characters.at(name);
+    CAPTURE(name);
+    // Who is sure is right.
+    if (animal.at("confidence").asNumber() >= 0.5) CHECK(animal.at("pck10").asNumber() >= 0.85);
+  }
+  const JsonValue mean = document.root().at("mean");
+  CHECK(mean.at("pck05").asNumber() >= 0.82);
+  CHECK(mean.at("pck10").asNumber() >= 0.94);
+  CHECK(mean.at("usable").asNumber() >= 0.78);
+}
