@@ -12,6 +12,8 @@
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
 #include "libskel/core/rng.h"
+#include "libskel/draw/draw_skeleton.h"
+#include "libskel/image/write_image.h"
 
 namespace skel {
 namespace {
@@ -44,6 +46,13 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
                       rig.body_plan);
   else
     row.score.confidence = drawing.recognition.confidence;
+  if (!options.overlays.empty() && row.found) {
+    Image picture = drawing.image;
+    drawSkeleton(picture, drawing.character.skeleton);
+    std::string name = id;
+    std::replace(name.begin(), name.end(), '/', '-');
+    writeFile(options.overlays + "/" + name + ".png", encodePng(picture));
+  }
   return row;
 }
 
@@ -78,6 +87,8 @@ void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
       ->required();
   app.add_option("--json", options.json_file, "Write the figures to this file, too")
       ->always_capture_default(false);
+  app.add_option("--overlays", options.overlays, "Folder for a picture of each drawing with its skeleton")
+      ->always_capture_default(false);
   app.add_flag("--given-mask", options.given_mask,
                "Hand the true mask over: judges everything after the silhouette");
   app.add_flag("--opaque", options.opaque, "Only annotated drawings whose silhouette has to be found");
@@ -89,6 +100,7 @@ void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
 ExitCode runEvaluate(const EvaluateOptions& options) {
   const RigOptions rig = rigOptions(options.infer);
   noteUnusedWeights(options.infer);
+  if (!options.overlays.empty()) ensureWritableFolder(options.overlays);
   const std::vector<std::string> ids = findDrawings(options.dir);
   std::vector<Row> all(ids.size());
   {
@@ -111,8 +123,9 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
                 s.error, s.usable, s.limbs, s.inside, s.iou,
                 row.found ? s.worst_joint.c_str() : ("no skeleton: " + row.reason).c_str());
     json["characters"][jsonFromFileName(row.id)] = {
-        {"pck05", s.pck05}, {"pck10", s.pck10},   {"error", s.error}, {"usable", s.usable},
-        {"limbs", s.limbs}, {"inside", s.inside}, {"iou", s.iou},     {"confidence", s.confidence}};
+        {"pck05", s.pck05},   {"pck10", s.pck10},           {"error", s.error},
+        {"usable", s.usable}, {"limbs", s.limbs},           {"inside", s.inside},
+        {"iou", s.iou},       {"confidence", s.confidence}, {"worst_joint", s.worst_joint}};
   }
   for (const Row& row : hard)
     std::printf(

@@ -11,6 +11,7 @@ namespace skel {
 struct EvaluateOptions {
   std::string dir;
   std::string json_file;
+  std::string overlays;  // folder for pictures of the skeletons found; "": none
   bool given_mask = false, opaque = false;
   int turn_deg = 0;    // clockwise
   InferOptions infer;  // weights, template, recognizer, candidates, jobs

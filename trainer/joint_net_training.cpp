@@ -24,8 +24,7 @@ namespace {
 constexpr int kLanes = 4;
 constexpr double kGradientNorm = 1;  // longer ones are shortened
 constexpr double kWarmUp = .03;      // share of the steps
-constexpr int kValidationFigures = 1000;
-constexpr int kPoses = 2;  // of each drawing in a round, besides its own
+constexpr int kPoses = 2;            // of each drawing in a round, besides its own
 
 // Streams of random numbers of one seed. Figures and batches have a stream each by number.
 enum Stream : std::uint64_t {
@@ -222,8 +221,8 @@ class Training {
       figure_options_.drawn_share = options.drawn_share;
     }
     if (!options.held_back.empty()) validation.kinds = kindsOf(plan_, options.held_back, true);
-    validation_ = drawFigures(options.seed ^ 0x5eed, kValidationStream, kValidationFigures, validation,
-                              options.threads);
+    validation_ = drawFigures(options.seed ^ 0x5eed, kValidationStream, options.validation_figures,
+                              validation, options.threads);
   }
 
   void run() {
@@ -422,6 +421,10 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
       ->check(CLI::NonNegativeNumber);
   command.add_option("--threads", options.threads, "0: one a core")
       ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command
+      .add_option("--validation", options.validation_figures, "Generated figures that a report measures on")
+      ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   command.add_option("--report-every", options.report_every, "Steps")
       ->check(CLI::Range(1, 1'000'000))

@@ -29,6 +29,7 @@ struct JointTrainingOptions {
   std::vector<int> held_back;    // body kinds not trained on
   int threads = 0;               // 0: one a core. The result does not depend on it.
   int report_every = 500;        // steps
+  int validation_figures = 1000;
 };
 
 void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options);

@@ -32,7 +32,7 @@ constexpr float kAlong = 1.5f;           // how much of it, straight away from t
 constexpr float kTighter = 0.7f;         // by how much the weights change less where a triangle did turn
 constexpr float kClear = 0.01f;          // of a triangle's area: thinner than that, it counts as inside out
 constexpr int kRounds = 16;              // of all limits in turn
-constexpr int kTries = 12, kSweeps = 60;  // of smoothing and cutting, of smoothing
+constexpr int kTries = 40, kSweeps = 60;  // of smoothing and cutting, of smoothing
 
 struct Edges {
   std::vector<int> first, to;  // of vertex v: to[first[v]] … to[first[v + 1] - 1], ascending

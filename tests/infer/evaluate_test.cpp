@@ -1,7 +1,9 @@
 // skel-infer evaluate against the scorer that comes with the real drawings. Both need those drawings.
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 
+#include "libskel/core/json.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 
@@ -34,4 +36,21 @@ TEST_CASE("evaluate gives the figures of the scorer in Python") {
   CAPTURE(python.out, ours.out);
   CHECK(summary(ours.out) == summary(python.out));
   CHECK(python.out.find("CRASH") == std::string::npos);
+}
+
+TEST_CASE("evaluate draws what it found and writes the figures") {
+  const skel::TempDir dir;
+  const std::string folder = dir.path() + "/set";
+  std::filesystem::create_directories(folder);
+  for (const char* end : {".png", ".mask.png", ".joints.json"})
+    std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/cap_boy") + end,
+                               folder + "/cap_boy" + end);
+  const auto done = skel::runTool("'" SKEL_INFER "' evaluate '" + folder + "' --given-mask --overlays '" +
+                                  dir.path() + "/pictures' --json '" + dir.path() + "/figures.json'");
+  CAPTURE(done.out);
+  REQUIRE(done.exit_code == 0);
+  CHECK(std::filesystem::exists(dir.path() + "/pictures/cap_boy.png"));
+  const skel::JsonDocument figures = skel::JsonDocument::readFile(dir.path() + "/figures.json");
+  CHECK(figures.root().at("characters").at("cap_boy").at("pck10").asNumber() == 1);
+  CHECK_FALSE(figures.root().at("characters").at("cap_boy").at("worst_joint").asString().empty());
 }
