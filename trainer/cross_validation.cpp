@@ -18,13 +18,13 @@ struct Split {
 };
 
 // The splits run side by side, so that each of them trains on one thread.
-std::vector<Evaluation> evaluateSplits(const std::vector<Split>& splits, const TrainingOptions& options,
-                                       const TrainingProgress& progress) {
+std::vector<Evaluation> evaluateSplits(const std::vector<Split>& splits, const Characters& generated,
+                                       const TrainingOptions& options, const TrainingProgress& progress) {
   TrainingOptions single = options;
   single.threads = 1;
   std::vector<Evaluation> evaluations(splits.size());
   parallelFor(splits.size(), options.threads, [&](std::size_t i) {
-    evaluations[i] = evaluateOn(train(splits[i].training, single, progress).mlp, splits[i].test);
+    evaluations[i] = evaluateOn(train(splits[i].training, generated, single, progress).mlp, splits[i].test);
   });
   return evaluations;
 }
@@ -33,8 +33,8 @@ constexpr std::uint64_t kFoldStream = 1'000'000, kDrawStream = 2'000'000;
 
 }  // namespace
 
-Evaluation crossValidate(const Characters& characters, int folds, const TrainingOptions& options,
-                         const TrainingProgress& progress) {
+Evaluation crossValidate(const Characters& characters, const Characters& generated, int folds,
+                         const TrainingOptions& options, const TrainingProgress& progress) {
   SKEL_CHECK(folds >= 2 && static_cast<std::size_t>(folds) <= characters.size());
   const Characters order = shuffled(characters, options, kFoldStream);
   std::vector<Split> splits(static_cast<std::size_t>(folds));
@@ -42,12 +42,14 @@ Evaluation crossValidate(const Characters& characters, int folds, const Training
     for (std::size_t f = 0; f < splits.size(); ++f)
       (i % splits.size() == f ? splits[f].test : splits[f].training).push_back(order[i]);
   Evaluation all;
-  for (const Evaluation& evaluation : evaluateSplits(splits, options, progress)) all.add(evaluation);
+  for (const Evaluation& evaluation : evaluateSplits(splits, generated, options, progress))
+    all.add(evaluation);
   return all;
 }
 
-std::vector<Evaluation> drawAndTest(const Characters& characters, int draws, int drawn,
-                                    const TrainingOptions& options, const TrainingProgress& progress) {
+std::vector<Evaluation> drawAndTest(const Characters& characters, const Characters& generated, int draws,
+                                    int drawn, const TrainingOptions& options,
+                                    const TrainingProgress& progress) {
   SKEL_CHECK(drawn >= 1 && static_cast<std::size_t>(drawn) < characters.size());
   std::vector<Split> splits;
   for (int d = 0; d < draws; ++d) {
@@ -55,7 +57,7 @@ std::vector<Evaluation> drawAndTest(const Characters& characters, int draws, int
     const auto border = order.begin() + drawn;
     splits.push_back({Characters(order.begin(), border), Characters(border, order.end())});
   }
-  return evaluateSplits(splits, options, progress);
+  return evaluateSplits(splits, generated, options, progress);
 }
 
 }  // namespace skel

@@ -92,4 +92,13 @@ Samples samplesOf(const Characters& characters, const SampleOptions& options) {
   return samples;
 }
 
+Samples joined(const Samples& first, const Samples& second) {
+  const Eigen::Index count = first.count() + second.count();
+  Samples samples{Eigen::MatrixXf(count, 3), Eigen::MatrixXf(count, 2), Eigen::VectorXf(count)};
+  samples.inputs << first.inputs, second.inputs;
+  samples.targets << first.targets, second.targets;
+  samples.weights << first.weights, second.weights;
+  return samples;
+}
+
 }  // namespace skel

@@ -37,12 +37,15 @@ struct SampleOptions {
   bool mirror = true;  // add each character's mirror image
   // Add so many copies of each character with other proportions: x, y and radius each bent by up to `warp`.
   int warps = 2;
-  double warp = 0.3;             // [0, 0.7]
+  double warp = 0.5;             // [0, 0.7]
   std::uint64_t seed = 1;        // of the bends
   bool balance_classes = false;  // let each class count the same in sum
 };
 
 // Rows of all characters, the targets by kJointClassCodes.
 Samples samplesOf(const Characters& characters, const SampleOptions& options);
+
+// The rows of both.
+Samples joined(const Samples& first, const Samples& second);
 
 }  // namespace skel

@@ -12,6 +12,7 @@
 #include "libskel/labels/annotated_image.h"
 #include "trainer/cross_validation.h"
 #include "trainer/evaluation.h"
+#include "trainer/generated_characters.h"
 #include "trainer/report.h"
 
 namespace skel {
@@ -98,6 +99,7 @@ std::string spell(const TrainOptions& options) {
   if (options.no_mirror) add("--no-mirror");
   if (ours.samples.warps != theirs.samples.warps) add("--warps " + std::to_string(ours.samples.warps));
   if (ours.samples.warp != theirs.samples.warp) add("--warp " + trim(ours.samples.warp));
+  if (options.generated != preset.generated) add("--generated " + std::to_string(options.generated));
   if (options.candidates == CandidateMethod::kStrict) add("--candidates strict");
   if (options.candidates == CandidateMethod::kDiscs) add("--candidates discs");
   return text;
@@ -179,6 +181,10 @@ void bindTrainOptions(CLI::App& app, TrainOptions& options) {
   app.add_option("--warp", training.samples.warp, "How far proportions are bent")
       ->check(numberBetween(0, 0.7))
       ->capture_default_str();
+  app.add_option("--generated", options.generated,
+                 "Also train on so many figures that the program draws itself (skel-train figures)")
+      ->check(CLI::Range(0, 100'000))
+      ->capture_default_str();
   addChoice(app, "--candidates", options.candidates, kCandidateMethods,
             "strict, discs: not those of the label files, but found anew and labelled from *.joints.json");
   app.add_option("--seed", training.seed, "Same data, seed and options: same bytes")
@@ -216,16 +222,19 @@ ExitCode runTrain(const TrainOptions& given) {
   const LabelledSet set = readSet(options.dir, options.candidates);
   const Characters characters = pointersTo(set.characters);
   checkCounts(options, characters.size());
+  const std::vector<LabelledCharacter> drawn_by_program = generateCharacters(
+      options.generated, static_cast<std::uint64_t>(training.seed), training.threads, {options.candidates});
+  const Characters generated = pointersTo(drawn_by_program);
   const int folds = options.leave_one_out ? static_cast<int>(characters.size()) : options.folds;
 
   const Training result = withProgress("training", 1, training, [&](const TrainingProgress& progress) {
-    return train(characters, training, progress);
+    return train(characters, generated, training, progress);
   });
   Evaluation evaluation;
   if (folds > 1) {
     evaluation = withProgress("cross-validation", static_cast<std::size_t>(folds), training,
                               [&](const TrainingProgress& progress) {
-                                return crossValidate(characters, folds, training, progress);
+                                return crossValidate(characters, generated, folds, training, progress);
                               });
     std::printf("on characters left out of training (%d folds):\n", folds);
   } else {
@@ -236,8 +245,8 @@ ExitCode runTrain(const TrainOptions& given) {
   if (options.draws > 0)
     printDraws(withProgress("draws", static_cast<std::size_t>(options.draws), training,
                             [&](const TrainingProgress& progress) {
-                              return drawAndTest(characters, options.draws, options.drawn, training,
-                                                 progress);
+                              return drawAndTest(characters, generated, options.draws, options.drawn,
+                                                 training, progress);
                             }),
                options.drawn);
 

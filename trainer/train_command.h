@@ -21,7 +21,8 @@ struct TrainOptions {
   TrainingOptions training;
   int folds = 10;  // 0: no cross-validation
   bool leave_one_out = false, no_mirror = false;
-  int draws = 0;  // of the paper's protocol
+  int generated = 1000;  // figures
+  int draws = 0;         // of the paper's protocol
   int drawn = 17;
 };
 void bindTrainOptions(CLI::App& app, TrainOptions& options);

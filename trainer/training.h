@@ -16,10 +16,10 @@ struct TrainingOptions {
   TrainingMethod method = TrainingMethod::kRprop;
   OptimizerOptions optimizer;  // its seed is set by `seed`
   SampleOptions samples;
-  int epochs = 400;         // at most
-  int restarts = 4;         // trainings from different first weights; the best is kept
-  double validation = 0.2;  // share of the characters held out to stop early; 0: none
-  int patience = 100;       // epochs without a better loss on the held-out characters before a training stops
+  int epochs = 400;       // at most
+  int restarts = 4;       // trainings from different first weights; the best is kept
+  double validation = 0;  // share of the characters held out to stop early; 0: none
+  int patience = 100;     // epochs without a better loss on the held-out characters before a training stops
   int seed = 1;
   int threads = 0;  // 0: one a core; does not change the result
 };
@@ -36,8 +36,11 @@ struct Training {
 using TrainingProgress = std::function<void(double loss)>;
 
 // Deterministic in characters and options. At least one character; with `validation` one at least is held out
-// and one at least is trained on where there are two.
-Training train(const Characters& characters, const TrainingOptions& options,
+// and one at least is trained on where there are two. `generated` are trained on as they are, without mirror
+// images and bent copies, and never held out; may be empty.
+// The inputs are brought to mean 0 and deviation 1 for the training (LeCun et al. 1998, "Efficient
+// backprop"), and the first layer of the result undoes that.
+Training train(const Characters& characters, const Characters& generated, const TrainingOptions& options,
                const TrainingProgress& progress);
 
 // The same on bare samples: nothing held out, one start.

@@ -36,7 +36,7 @@ void fill(const TempDir& dir) {
 
 ToolRun run(const std::string& arguments) { return runTool(kTool + " " + arguments); }
 
-constexpr const char* kQuick = " --epochs 80 --restarts 2 --folds 3";
+constexpr const char* kQuick = " --epochs 80 --restarts 2 --folds 3 --generated 0";
 
 }  // namespace
 
@@ -58,7 +58,7 @@ TEST_CASE("skel-train writes weights, report and figures, the same bytes for eve
 
   const WeightsFile weights = readWeights(dir.file("a.json"));
   CHECK(weights.mlp.sizes() == std::vector<int>{3, 4, 4, 2});
-  CHECK(weights.provenance.options == "--epochs 80 --restarts 2");
+  CHECK(weights.provenance.options == "--epochs 80 --restarts 2 --generated 0");
   CHECK(weights.provenance.samples == 600);
   CHECK(weights.provenance.characters == 6);
   CHECK(readWeights(dir.file("c.json")).provenance.seed == 9);
@@ -90,10 +90,10 @@ TEST_CASE("every way of training works from the command line") {
         "--folds 2 --method gradient --batch 0 --momentum 0.9 --learning-rate 5",
         "--folds 3 --method gradient --batch 16 --class-weights balanced",
         "--folds 3 --no-mirror --weight-decay 1e-5", "--layers 3-6-2 --leave-one-out",
-        "--folds 3 --validation 0 --warps 2 --warp 0.5", "--folds 0", "--folds 3 --draws 2 --drawn 4"}) {
+        "--folds 3 --validation 0.3 --warps 2 --warp 0.5", "--folds 0", "--folds 3 --draws 2 --drawn 4"}) {
     INFO(options);
     const ToolRun done =
-        run(dir.path() + " -o " + dir.file("w.json") + " --epochs 60 --restarts 2 " + options);
+        run(dir.path() + " -o " + dir.file("w.json") + " --epochs 60 --restarts 2 --generated 5 " + options);
     CHECK(done.err == "");
     CHECK(done.exit_code == 0);
     CHECK(readWeights(dir.file("w.json")).mlp.sizes().front() == 3);
@@ -134,6 +134,7 @@ TEST_CASE("wrong arguments are refused in one line, with exit code 1") {
            {good + "--weight-decay 2", "--weight-decay"},
            {good + "--weight-decay nan", "--weight-decay"},
            {good + "--validation 1", "--validation"},
+           {good + "--generated -1", "--generated"},
            {good + "--class-weights some", "--class-weights"},
            {good + "--folds 1", "--folds 1: must be 0 or at least 2"},
            {good + "--folds 9", "--folds 9: there are only 6 characters"},

@@ -42,19 +42,20 @@ TEST_CASE("training gives the same bytes with any number of threads, and others 
   const auto all = characters(12);
   TrainingOptions options = quick();
   options.threads = 1;
-  const std::string one = bytes(train(pointersTo(all), options, {}));
+  const std::string one = bytes(train(pointersTo(all), {}, options, {}));
   options.threads = 4;
-  CHECK(bytes(train(pointersTo(all), options, {})) == one);
+  CHECK(bytes(train(pointersTo(all), {}, options, {})) == one);
   options.seed = 2;
-  CHECK(bytes(train(pointersTo(all), options, {})) != one);
+  CHECK(bytes(train(pointersTo(all), {}, options, {})) != one);
 }
 
 TEST_CASE("training stops early on held-out characters and keeps the best weights") {
   const auto all = characters(10);
   TrainingOptions options = quick();
   options.epochs = 2000;
+  options.validation = 0.2;
   options.patience = 20;
-  const Training training = train(pointersTo(all), options, {});
+  const Training training = train(pointersTo(all), {}, options, {});
   REQUIRE_FALSE(training.validation_curve.empty());
   CHECK(training.validation_curve.size() < 2000);
   CHECK(static_cast<float>(training.loss) ==
@@ -62,12 +63,39 @@ TEST_CASE("training stops early on held-out characters and keeps the best weight
   CHECK(training.validation_curve[static_cast<std::size_t>(training.epochs)] ==
         static_cast<float>(training.loss));
   options.validation = 0;
-  CHECK(train(pointersTo(all), options, {}).validation_curve.empty());
+  CHECK(train(pointersTo(all), {}, options, {}).validation_curve.empty());
+}
+
+TEST_CASE("generated characters are trained on in every fold, and never judged") {
+  const auto all = characters(6);
+  auto wrong = all;  // more of them than of the others in each fold
+  for (LabelledCharacter& character : wrong)
+    for (JointClass& label : character.labels)
+      label = static_cast<JointClass>((static_cast<int>(label) + 1) % 4);
+  TrainingOptions options = quick();
+  options.samples.mirror = false;
+  options.samples.warps = 0;
+  const Evaluation evaluation = crossValidate(pointersTo(all), pointersTo(wrong), 3, options, {});
+  CHECK(evaluation.characters.size() == 6);
+  CHECK(evaluation.accuracy() < 0.5);
+}
+
+TEST_CASE("scaling the inputs does not change what they mean") {
+  // The same answers for numbers of another size, since the net learns on mean 0 and deviation 1.
+  auto all = characters(6), far = all;
+  for (LabelledCharacter& character : far)
+    character.features = (character.features.array() / 16 + 2).matrix();
+  TrainingOptions options = quick();
+  options.samples.mirror = false;
+  options.samples.warps = 0;
+  CHECK(evaluateOn(train(pointersTo(far), {}, options, {}).mlp, pointersTo(far)).accuracy() ==
+        Approx(evaluateOn(train(pointersTo(all), {}, options, {}).mlp, pointersTo(all)).accuracy())
+            .margin(0.01));
 }
 
 TEST_CASE("one character alone can be trained on") {
   const auto all = characters(1);
-  CHECK(evaluateOn(train(pointersTo(all), quick(), {}).mlp, pointersTo(all)).accuracy() > 0.9);
+  CHECK(evaluateOn(train(pointersTo(all), {}, quick(), {}).mlp, pointersTo(all)).accuracy() > 0.9);
 }
 
 TEST_CASE("mirror images, bent copies and class weights make the samples they should") {
@@ -105,7 +133,7 @@ TEST_CASE("mirror images, bent copies and class weights make the samples they sh
 TEST_CASE("cross-validation leaves each character out once") {
   const auto all = characters(7);
   for (const int folds : {2, 7}) {
-    const Evaluation evaluation = crossValidate(pointersTo(all), folds, quick(), {});
+    const Evaluation evaluation = crossValidate(pointersTo(all), {}, folds, quick(), {});
     CHECK(evaluation.characters.size() == 7);
     CHECK(evaluation.accuracy() > 0.93);
     CHECK(evaluation.balancedAccuracy() > 0.93);
@@ -114,7 +142,7 @@ TEST_CASE("cross-validation leaves each character out once") {
       for (const int cell : row) sum += cell;
     CHECK(sum == evaluation.samples());
   }
-  const auto draws = drawAndTest(pointersTo(all), 3, 5, quick(), {});
+  const auto draws = drawAndTest(pointersTo(all), {}, 3, 5, quick(), {});
   REQUIRE(draws.size() == 3);
   for (const Evaluation& draw : draws) CHECK(draw.characters.size() == 2);
 }
@@ -122,9 +150,7 @@ TEST_CASE("cross-validation leaves each character out once") {
 TEST_CASE("a character that is unlike the others is judged by nets that have not seen it") {
   auto all = characters(6);
   for (JointClass& label : all[2].labels) label = static_cast<JointClass>((static_cast<int>(label) + 1) % 4);
-  TrainingOptions options = quick();
-  options.validation = 0;  // else the odd one may be held out alone, and decide over when to stop
-  for (const CharacterScore& score : crossValidate(pointersTo(all), 6, options, {}).characters)
+  for (const CharacterScore& score : crossValidate(pointersTo(all), {}, 6, quick(), {}).characters)
     CHECK((score.right < score.samples / 2) == (score.name == "character 2"));
 }
 

@@ -1,0 +1,18 @@
+// Figures that the program draws itself, with the class of each candidate from their joints: more poses and
+// builds than anyone will draw by hand.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "libskel/candidates/candidates.h"
+#include "libskel/labels/label_folder.h"
+
+namespace skel {
+
+// The same for the same seed, with any number of threads (0: one a core). The first ones do not depend on how
+// many follow.
+std::vector<LabelledCharacter> generateCharacters(int count, std::uint64_t seed, int threads = 0,
+                                                  const CandidateOptions& options = {});
+
+}  // namespace skel
