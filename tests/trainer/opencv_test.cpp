@@ -1,5 +1,5 @@
 // Our training beside OpenCV's: the same net on the same samples, judged on the same characters. The aim is
-// to be at least as accurate; what is reached is 0.858 against 0.865, so this holds the distance below 0.01.
+// to be at least as accurate; what is reached is 0.855 against 0.857, so this holds the distance below 0.01.
 #include <iostream>
 #include <opencv2/core.hpp>
 #include <opencv2/ml.hpp>
