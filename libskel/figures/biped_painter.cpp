@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "libskel/figures/limb_path.h"
+#include "libskel/figures/painting.h"
 
 namespace skel {
 namespace {
@@ -12,13 +13,6 @@ namespace {
 using Vec = Eigen::Vector2d;
 
 constexpr double kPi = std::numbers::pi;
-enum class Style {
-  kFlat,     // plain colours
-  kCartoon,  // colours with dark outlines
-  kPaper,    // outlines on paper
-  kHollow,   // nothing but the outlines is figure
-};
-
 enum class Hand { kNone, kBall, kMitten, kFingers, kRays, kClaw, kPointing };
 enum class Foot { kNone, kOutwards, kSideways, kDown, kToes };
 
@@ -69,27 +63,8 @@ class Painter {
   double sign() { return chance(.5) ? 1 : -1; }
   bool is(BodyKind kind) const { return p_.kind == kind; }
 
-  Colour randomColour(double low = 40, double high = 245) {
-    const double base = in(low, high);
-    Colour c;
-    for (auto& v : c) v = static_cast<std::uint8_t>(std::clamp(base + gauss(0, 35), 15.0, 250.0));
-    return c;
-  }
-
-  Ink ink(const Colour& fill) const {
-    Ink i;
-    i.fill = fill;
-    i.rim = rim_colour_;
-    i.rim_width = rim_width_;
-    i.hollow = style_ == Style::kHollow;
-    return i;
-  }
-  static Ink detail(const Colour& fill) {
-    Ink i;
-    i.fill = fill;
-    i.inside_only = true;
-    return i;
-  }
+  Colour randomColour(double low = 40, double high = 245) { return skel::randomColour(rng_, low, high); }
+  Ink ink(const Colour& fill) const { return partInk(style_, fill, rim_colour_, rim_width_); }
 
   void sampleStyle() {
     const double r = rng_.uniform();

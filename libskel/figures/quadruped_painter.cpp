@@ -6,19 +6,13 @@
 #include <vector>
 
 #include "libskel/figures/limb_path.h"
+#include "libskel/figures/painting.h"
 
 namespace skel {
 namespace {
 
 using Vec = Eigen::Vector2d;
 constexpr double kPi = std::numbers::pi;
-
-enum class Style {
-  kFlat,     // plain colours
-  kCartoon,  // colours with dark outlines
-  kPaper,    // outlines on paper
-  kHollow,   // nothing but the outlines is figure
-};
 
 class Painter {
  public:
@@ -73,26 +67,8 @@ class Painter {
   double gauss(double mean, double deviation) { return rng_.normal(mean, deviation); }
   bool is(AnimalKind kind) const { return p_.kind == kind; }
 
-  Colour randomColour(double low = 40, double high = 245) {
-    const double base = in(low, high);
-    Colour c;
-    for (auto& v : c) v = static_cast<std::uint8_t>(std::clamp(base + gauss(0, 35), 15.0, 250.0));
-    return c;
-  }
-  Ink ink(const Colour& fill) const {
-    Ink i;
-    i.fill = fill;
-    i.rim = rim_colour_;
-    i.rim_width = rim_width_;
-    i.hollow = style_ == Style::kHollow;
-    return i;
-  }
-  static Ink detail(const Colour& fill) {
-    Ink i;
-    i.fill = fill;
-    i.inside_only = true;
-    return i;
-  }
+  Colour randomColour(double low = 40, double high = 245) { return skel::randomColour(rng_, low, high); }
+  Ink ink(const Colour& fill) const { return partInk(style_, fill, rim_colour_, rim_width_); }
 
   void sampleStyle() {
     const double r = rng_.uniform();
