@@ -117,7 +117,13 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
   mesh.model_from_image.scale.setConstant(kModelHeight_m / (high.y() - low.y()));
   mesh.model_from_image.origin_px = {0.5 * (low.x() + high.x()), high.y()};
 
-  const DrawingTexture texture = drawingTexture(image, silhouette.mask, box, options.max_texture_px);
+  // Bridges show the paper: they take the colours of what they join.
+  const Plane8 drawn = silhouette.bridges.size() == 0
+                           ? silhouette.mask
+                           : Plane8((silhouette.bridges != 0)
+                                        .select(Plane8::Zero(silhouette.mask.rows(), silhouette.mask.cols()),
+                                                silhouette.mask));
+  const DrawingTexture texture = drawingTexture(image, drawn, box, options.max_texture_px);
   mesh.texture = texture.image;
   const Eigen::VectorXd z = inflatedHeights(planar) * (options.thickness * mesh.model_from_image.scale.y());
 

@@ -1,13 +1,13 @@
 #include "libskel/silhouette/silhouette.h"
 
 #include <algorithm>
-#include <numeric>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "libskel/core/check.h"
 #include "libskel/silhouette/outline.h"
 #include "libskel/silhouette/paper.h"
+#include "libskel/silhouette/pieces.h"
 #include "libskel/silhouette/segment.h"
 #include "libskel/silhouette/working_grid.h"
 
@@ -26,17 +26,6 @@ Silhouette noFigure(const std::string& reason) {
 
 constexpr int kMinLongSide = 8;  // of a figure, px
 
-struct Part {
-  int label, area, left, top, width, height;
-};
-
-// A speck is no figure; what is one stands `min_long_side` px high or wide.
-bool largeEnough(const Part& part, int min_long_side) {
-  constexpr int kMinShortSide = 3, kMinArea = 16;
-  return std::max(part.width, part.height) >= min_long_side &&
-         std::min(part.width, part.height) >= kMinShortSide && part.area >= kMinArea;
-}
-
 void fillHoles(Plane8& mask) {
   cv::Mat framed;
   cv::copyMakeBorder(viewOf(mask), framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
@@ -50,10 +39,12 @@ void fillHoles(Plane8& mask) {
 }
 
 // Names the sides of the picture along which a good part of the figure ends.
-std::string cutSides(const Plane8& mask, const Part& part) {
+std::string cutSides(const Plane8& mask) {
+  const cv::Rect box = cv::boundingRect(cv::Mat(static_cast<int>(mask.rows()), static_cast<int>(mask.cols()),
+                                                CV_8U, const_cast<std::uint8_t*>(mask.data())));
   const auto cut = [&](auto side) {
     const Eigen::Index touching = (side > 0).count();
-    return touching >= 3 && touching * 20 >= std::max(part.width, part.height);
+    return touching >= 3 && touching * 20 >= std::max(box.width, box.height);
   };
   std::string sides;
   const auto add = [&](bool is_cut, const char* name) {
@@ -67,49 +58,31 @@ std::string cutSides(const Plane8& mask, const Part& part) {
 }
 
 // From any foreground to one clean figure and all that is made of it.
-Silhouette finish(Plane8 foreground, const SilhouetteOptions& options, int min_long_side) {
+Silhouette finish(const Plane8& foreground, const SilhouetteOptions& options, int min_long_side,
+                  const PieceOptions& piece_options = {}) {
   SKEL_CHECK(options.figure >= 1);
-  cv::Mat labels, stats, centroids;
-  const int count = cv::connectedComponentsWithStats(viewOf(foreground), labels, stats, centroids, 4, CV_32S);
-  std::vector<Part> parts;
-  for (int label = 1; label < count; ++label) {
-    const int* s = stats.ptr<int>(label);
-    const Part part{label,
-                    s[cv::CC_STAT_AREA],
-                    s[cv::CC_STAT_LEFT],
-                    s[cv::CC_STAT_TOP],
-                    s[cv::CC_STAT_WIDTH],
-                    s[cv::CC_STAT_HEIGHT]};
-    if (largeEnough(part, min_long_side)) parts.push_back(part);
+  std::vector<JoinedFigure> figures = joinPieces(foreground, min_long_side, piece_options);
+  if (figures.empty()) {
+    return noFigure((foreground != 0).any() ? "what is drawn is too small to be a figure"
+                                            : "the picture is blank");
   }
-  if (parts.empty()) {
-    return noFigure(count > 1 ? "what is drawn is too small to be a figure" : "the picture is blank");
-  }
-  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.area > b.area; });
-  // What is much smaller than the largest figure belongs to it (a ball, a motion line) or to nothing.
-  constexpr int kSmallestShare = 5;
-  while (parts.back().area * kSmallestShare < parts.front().area) parts.pop_back();
-
   Silhouette out;
-  out.figure_count = static_cast<int>(parts.size());
+  out.figure_count = static_cast<int>(figures.size());
   if (options.figure > out.figure_count) {
     out.reason =
         "there is no figure " + std::to_string(options.figure) + ", only " + std::to_string(out.figure_count);
     return out;
   }
-  const Part& part = parts[static_cast<std::size_t>(options.figure - 1)];
+  JoinedFigure& figure = figures[static_cast<std::size_t>(options.figure - 1)];
   out.status = SilhouetteStatus::kFound;
-  out.mask = Plane8::Zero(foreground.rows(), foreground.cols());
-  for (int y = part.top; y < part.top + part.height; ++y) {
-    const int* row = labels.ptr<int>(y);
-    for (int x = part.left; x < part.left + part.width; ++x) out.mask(y, x) = row[x] == part.label ? 255 : 0;
-  }
+  out.mask = std::move(figure.mask);
+  out.bridges = std::move(figure.bridges);
   if (options.fill_holes) fillHoles(out.mask);
   if (out.figure_count > 1 && options.figure == 1) {
     out.warnings.push_back("the picture shows " + std::to_string(out.figure_count) +
                            " figures; the largest is taken (choose another with --figure)");
   }
-  if (const std::string sides = cutSides(out.mask, part); !sides.empty()) {
+  if (const std::string sides = cutSides(out.mask); !sides.empty()) {
     out.warnings.push_back("the figure is cut by the border of the picture (" + sides + ")");
   }
   out.outline = traceOutline(out.mask);
@@ -163,18 +136,21 @@ Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& option
   AlphaMask alpha = alphaMask(image);
   if (alpha.meaningful) {
     if ((alpha.opaque == 0).all()) return noFigure("the picture is fully transparent");
-    return finish(std::move(alpha.opaque), options, kMinLongSide);
+    return finish(alpha.opaque, options, kMinLongSide);
   }
   Segmentation segmentation = segment(image);
   if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
-  return finish(std::move(segmentation.foreground), options, min_long_side);
+  return finish(segmentation.foreground, options, min_long_side);
 }
 
 Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options) {
   if (mask.size() == 0) return noFigure("the mask is empty");
   const Eigen::Index w = mask.cols(), h = mask.rows();
   Plane8 figures = (mask >= 128).select(Plane8::Constant(h, w, 255), Plane8::Zero(h, w));
-  Silhouette out = finish(std::move(figures), options, kMinLongSide);
+  PieceOptions pieces;
+  pieces.leave_ground = false;
+  pieces.widest_gap = 0.16;
+  Silhouette out = finish(figures, options, kMinLongSide, pieces);
   if (!out.found() && out.reason == "the picture is blank") out.reason = "the mask is blank";
   return out;
 }

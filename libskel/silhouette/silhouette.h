@@ -39,7 +39,8 @@ struct Silhouette {
   std::string reason;                 // why there is none, one clause
   std::vector<std::string> warnings;  // e.g. other figures in the picture, the figure cut by the border
 
-  Plane8 mask;  // size of the image; one 4-connected figure
+  Plane8 mask;     // size of the image; one 4-connected figure
+  Plane8 bridges;  // where the mask joins pieces of the figure across gaps (pieces.h); empty if it joins none
   // Pixel boundary of mask, corners only: the outer contour first, then the holes. The figure lies at the
   // right of the way round, as seen on the screen.
   std::vector<Polygon> outline;
@@ -65,7 +66,7 @@ struct SilhouetteOptions {
 Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& options = {});
 
 // From a mask given by hand (255 on the figure): cleaned, the chosen figure taken, scaled to the grid.
-// A figure in several parts keeps the largest part. `options.method` does not matter.
+// `options.method` does not matter.
 Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options = {});
 
 }  // namespace skel

@@ -1,0 +1,209 @@
+#include "libskel/silhouette/pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace skel {
+namespace {
+
+constexpr int kMostPieces = 40;            // of a picture that are looked at, the largest first
+constexpr double kBridgeHalfWidth = .016;  // of the figure's long side
+constexpr double kAsTall = .55;   // height against the other's that makes a neighbour a person of its own
+constexpr double kAsLarge = .12;  // and its area
+constexpr double kBeside = .35;   // the most that neighbours share of the narrower one's width
+
+struct Piece {
+  int label, area;
+  cv::Rect box;
+};
+
+// A speck is nothing.
+bool largeEnough(const Piece& piece) {
+  constexpr int kMinShortSide = 2, kMinArea = 9;
+  return std::min(piece.box.width, piece.box.height) >= kMinShortSide && piece.area >= kMinArea;
+}
+
+double shared(int low_a, int high_a, int low_b, int high_b) {
+  return std::max(0, std::min(high_a, high_b) - std::max(low_a, low_b)) /
+         static_cast<double>(std::max(1, std::min(high_a - low_a, high_b - low_b)));
+}
+
+// Whether `b`, the smaller one, is another figure beside `a` rather than a piece of it.
+bool standsBeside(const Piece& a, const Piece& b) {
+  const double overlap = shared(a.box.x, a.box.br().x, b.box.x, b.box.br().x);
+  return overlap < kBeside && b.box.height >= kAsTall * a.box.height && b.area >= kAsLarge * a.area;
+}
+
+bool isGround(const Piece& figure, const Piece& b) {
+  const double middle = b.box.y + b.box.height / 2.;
+  return b.box.width >= 2.5 * b.box.height && middle > figure.box.y + .88 * figure.box.height;
+}
+
+class Joiner {
+ public:
+  Joiner(const cv::Mat& labels, std::vector<Piece> pieces, const PieceOptions& options)
+      : labels_(labels), pieces_(std::move(pieces)), options_(options), taken_(pieces_.size(), false) {}
+
+  // The largest piece that is left, with all that belongs to it.
+  JoinedFigure next() {
+    const std::size_t first =
+        static_cast<std::size_t>(std::find(taken_.begin(), taken_.end(), false) - taken_.begin());
+    Piece figure = pieces_[first];
+    taken_[first] = true;
+    JoinedFigure out;
+    out.mask = Plane8::Zero(labels_.rows, labels_.cols);
+    paint(out.mask, pieces_[first].label);
+    while (join(figure, out)) {
+    }
+    return out;
+  }
+  bool done() const { return std::find(taken_.begin(), taken_.end(), false) == taken_.end(); }
+
+ private:
+  void paint(Plane8& mask, int label) const {
+    for (int y = 0; y < labels_.rows; ++y) {
+      const int* row = labels_.ptr<int>(y);
+      for (int x = 0; x < labels_.cols; ++x)
+        if (row[x] == label) mask(y, x) = 255;
+    }
+  }
+
+  // Takes in the nearest piece that belongs to the figure. False if there is none.
+  bool join(Piece& figure, JoinedFigure& out) {
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const Piece& p = pieces_[i];
+      if (taken_[i] || p.area < options_.smallest_share * figure.area || standsBeside(figure, p) ||
+          (options_.leave_ground && isGround(figure, p)) || boxGap(figure, p) > reach(figure, p))
+        continue;
+      open.push_back(i);
+    }
+    if (open.empty()) return false;
+    // Of each pixel the distance to the figure, and which of its pixels is the nearest.
+    cv::Mat away(labels_.size(), CV_8U), distance, nearest;
+    const cv::Mat mask(labels_.size(), CV_8U, out.mask.data());
+    cv::bitwise_not(mask, away);
+    cv::distanceTransform(away, distance, nearest, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
+    double least = 0;
+    cv::Point at(-1, -1);
+    std::size_t best = 0;
+    for (const std::size_t i : open) {
+      const Piece& p = pieces_[i];
+      for (int y = p.box.y; y < p.box.br().y; ++y) {
+        const int* label = labels_.ptr<int>(y);
+        const float* d = distance.ptr<float>(y);
+        for (int x = p.box.x; x < p.box.br().x; ++x) {
+          if (label[x] != p.label || d[x] > reach(figure, p) || (at.x >= 0 && d[x] >= least)) continue;
+          least = d[x];
+          at = {x, y};
+          best = i;
+        }
+      }
+    }
+    if (at.x < 0) return false;
+    const Piece& piece = pieces_[best];
+    bridge(out, at, nearestPixel(out.mask, nearest.at<int>(at), nearest), longSide(figure, piece));
+    paint(out.mask, piece.label);
+    taken_[best] = true;
+    ++out.pieces;
+    figure.box |= piece.box;
+    figure.area += piece.area;
+    return true;
+  }
+
+  static double longSide(const Piece& a, const Piece& b) {
+    const cv::Rect both = a.box | b.box;
+    return std::max(both.width, both.height);
+  }
+  double reach(const Piece& a, const Piece& b) const {
+    return std::max(2., options_.widest_gap * longSide(a, b));
+  }
+  static double boxGap(const Piece& a, const Piece& b) {
+    const int dx = std::max({a.box.x - b.box.br().x, b.box.x - a.box.br().x, 0});
+    const int dy = std::max({a.box.y - b.box.br().y, b.box.y - a.box.br().y, 0});
+    return std::hypot(dx, dy);
+  }
+
+  static cv::Point nearestPixel(const Plane8& mask, int label, const cv::Mat& nearest) {
+    for (int y = 0; y < nearest.rows; ++y) {
+      const int* row = nearest.ptr<int>(y);
+      for (int x = 0; x < nearest.cols; ++x)
+        if (row[x] == label && mask(y, x) != 0) return {x, y};
+    }
+    return {0, 0};
+  }
+
+  static void bridge(JoinedFigure& out, cv::Point a, cv::Point b, double long_side) {
+    const double radius = std::max(1., kBridgeHalfWidth * long_side);
+    if (out.bridges.size() == 0) out.bridges = Plane8::Zero(out.mask.rows(), out.mask.cols());
+    // It reaches into both pieces, so that no notch is left where they are round.
+    const Eigen::Vector2d from(a.x, a.y), to(b.x, b.y);
+    const Eigen::Vector2d along = (to - from).normalized() * std::min(radius, (to - from).norm());
+    const Eigen::Vector2d p = from - along, q = to + along, d = q - p;
+    const int x0 = static_cast<int>(std::floor(std::min(p.x(), q.x()) - radius)),
+              x1 = static_cast<int>(std::ceil(std::max(p.x(), q.x()) + radius));
+    const int y0 = static_cast<int>(std::floor(std::min(p.y(), q.y()) - radius)),
+              y1 = static_cast<int>(std::ceil(std::max(p.y(), q.y()) + radius));
+    for (int y = std::max(0, y0); y <= std::min<int>(static_cast<int>(out.mask.rows()) - 1, y1); ++y) {
+      for (int x = std::max(0, x0); x <= std::min<int>(static_cast<int>(out.mask.cols()) - 1, x1); ++x) {
+        const Eigen::Vector2d r = Eigen::Vector2d(x, y) - p;
+        const double along_share = d.squaredNorm() > 0 ? r.dot(d) / d.squaredNorm() : 0;
+        const double t = std::clamp(along_share, 0., 1.);
+        if ((r - t * d).norm() > radius || out.mask(y, x) != 0) continue;
+        out.mask(y, x) = out.bridges(y, x) = 255;
+      }
+    }
+  }
+
+  const cv::Mat& labels_;
+  std::vector<Piece> pieces_;
+  PieceOptions options_;
+  std::vector<bool> taken_;
+};
+
+}  // namespace
+
+std::vector<JoinedFigure> joinPieces(const Plane8& foreground, int min_long_side_px,
+                                     const PieceOptions& options) {
+  cv::Mat labels, stats, centroids;
+  const cv::Mat view(static_cast<int>(foreground.rows()), static_cast<int>(foreground.cols()), CV_8U,
+                     const_cast<std::uint8_t*>(foreground.data()));
+  const int count = cv::connectedComponentsWithStats(view, labels, stats, centroids, 4, CV_32S);
+  std::vector<Piece> pieces;
+  for (int label = 1; label < count; ++label) {
+    const int* s = stats.ptr<int>(label);
+    const Piece piece{label,
+                      s[cv::CC_STAT_AREA],
+                      {s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH], s[cv::CC_STAT_HEIGHT]}};
+    if (largeEnough(piece)) pieces.push_back(piece);
+  }
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Piece& a, const Piece& b) { return a.area > b.area; });
+  if (pieces.size() > kMostPieces) pieces.resize(kMostPieces);
+  Joiner joiner(labels, pieces, options);
+  std::vector<std::pair<int, JoinedFigure>> figures;  // by area
+  while (!joiner.done()) {
+    JoinedFigure figure = joiner.next();
+    cv::Mat mask(labels.size(), CV_8U, figure.mask.data());
+    const cv::Rect box = cv::boundingRect(mask);
+    constexpr int kMinShortSide = 3, kMinArea = 16;
+    if (std::max(box.width, box.height) < min_long_side_px ||
+        std::min(box.width, box.height) < kMinShortSide || cv::countNonZero(mask) < kMinArea)
+      continue;
+    figures.emplace_back(cv::countNonZero(mask), std::move(figure));
+  }
+  std::stable_sort(figures.begin(), figures.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  // What is much smaller than the largest figure belongs to nothing: a ball, a motion line.
+  constexpr int kSmallestShare = 5;
+  while (!figures.empty() && figures.back().first * kSmallestShare < figures.front().first)
+    figures.pop_back();
+  std::vector<JoinedFigure> out;
+  for (auto& [area, figure] : figures) out.push_back(std::move(figure));
+  return out;
+}
+
+}  // namespace skel

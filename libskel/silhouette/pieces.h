@@ -1,0 +1,35 @@
+// Figures that are drawn in several pieces: a head that does not touch the neck, balls for hands, gaps in a
+// pencil line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libskel/image/image.h"
+
+namespace skel {
+
+struct PieceOptions {
+  // A piece belongs to the figure across a gap of at most this share of the long side of both together.
+  double widest_gap = 0.08;
+  // Share of the figure's area that a piece needs, else it is a speck and left out.
+  double smallest_share = 0.002;
+  // Flat things under the feet (a shadow, a line of ground) are no pieces of the figure. Off for a mask that
+  // was painted by hand: what it holds belongs to it.
+  bool leave_ground = true;
+};
+
+// One figure of a picture: its pieces joined by bridges across the gaps.
+struct JoinedFigure {
+  Plane8 mask;     // 255 on the figure and on the bridges; 4-connected; size of the picture
+  Plane8 bridges;  // 255 on bridges alone; empty if there are none
+  int pieces = 1;
+};
+
+// The figures of a picture, the largest first. `foreground`: not 0 on anything that is drawn. Pieces become
+// one figure where they are near each other; people side by side, each as tall as the other, stay apart.
+// Parts less than `min_long_side_px` high and wide are left out.
+std::vector<JoinedFigure> joinPieces(const Plane8& foreground, int min_long_side_px,
+                                     const PieceOptions& options = {});
+
+}  // namespace skel
