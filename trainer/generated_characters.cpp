@@ -2,7 +2,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/parallel.h"
-#include "libskel/figures/figure.h"
+#include "trainer/figures/figure.h"
 #include "libskel/labels/label_from_joints.h"
 #include "libskel/skeleton/template.h"
 

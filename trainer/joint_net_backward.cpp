@@ -123,14 +123,17 @@ void backward(const JointNet& net, InstructionSet set, const std::vector<float>&
 
 JointTarget jointTarget(const Figure& figure, const FramePlacement& placement, const NetJoints& joints) {
   constexpr double kHiddenWeight = .6;  // of a covered joint
+  constexpr double kAbsentWeight = .3;
   JointTarget target;
   target.whole = figure.whole;
   for (int j = 0; j < joints.count(); ++j) {
     const int from = placement.mirrored ? joints.mirrored[j] : j;
     target.joints.push_back({cellFromFrame(placement.frameFromGrid(figure.joints[from])),
                              !figure.whole          ? 0
+                             : figure.absent[from]  ? kAbsentWeight
                              : figure.visible[from] ? 1
-                                                    : kHiddenWeight});
+                                                    : kHiddenWeight,
+                             static_cast<bool>(figure.absent[from])});
   }
   return target;
 }
@@ -161,10 +164,11 @@ double jointLoss(const std::vector<Scalar>& heatmaps, const JointTarget& target,
       sum_y += gy[k] = std::exp(-dy * dy / (2 * kTargetVariance));
     }
     // A joint outside the frame has no cell to point at.
-    if (sum_x * sum_y < .5) continue;
+    if (!joint.absent && sum_x * sum_y < .5) continue;
     const double weight = joint.weight / count;
     for (int i = 0; i < kSize * kSize; ++i) {
-      const double wanted = gx[i % kSize] * gy[i / kSize] / (sum_x * sum_y);
+      const double wanted =
+          joint.absent ? 1. / (kSize * kSize) : gx[i % kSize] * gy[i / kSize] / (sum_x * sum_y);
       if (wanted > 1e-9) loss -= weight * wanted * (heatmaps[at(i, j)] - highest - std::log(sum));
       if (gradient) (*gradient)[at(i, j)] += static_cast<Scalar>(scale * weight * (p[i] / sum - wanted));
     }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "libskel/figures/figure.h"
+#include "trainer/figures/figure.h"
 #include "libskel/jointnet/joint_net.h"
 #include "libskel/jointnet/net_joints.h"
 
@@ -29,6 +29,7 @@ struct JointTarget {
   struct Joint {
     Eigen::Vector2d cell;  // heatmap cells
     double weight;         // 0: does not count
+    bool absent = false;   // the figure has none: the heatmap should say nothing
   };
   std::vector<Joint> joints;
   bool whole;
@@ -40,7 +41,8 @@ JointTarget jointTarget(const Figure& figure, const FramePlacement& placement, c
 inline constexpr double kTargetVariance = 0.8;  // cells², of the Gaussian around a joint
 inline constexpr double kFigureWeight = 0.3;    // of the figure's own loss against a joint's
 
-// Cross-entropy of each heatmap's softmax against a Gaussian, averaged over the joints, plus that of "is one
+// Cross-entropy of each heatmap's softmax against a Gaussian (an even spread for an absent joint, so that its
+// confidence comes out low), averaged over the joints, plus that of "is one
 // whole figure". Adds `scale` times its derivative to `gradient` (the last map, padded). Returns the loss.
 template <typename Scalar>
 double jointLoss(const std::vector<Scalar>& heatmaps, const JointTarget& target, double scale,

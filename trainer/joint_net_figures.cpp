@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "libskel/core/files.h"
-#include "libskel/figures/figure.h"
+#include "trainer/figures/figure.h"
 #include "libskel/image/write_image.h"
 #include "trainer/posable_drawing.h"
 
@@ -40,7 +40,7 @@ ExitCode runFigureSheet(const FigureSheetOptions& options) {
   if (!options.drawings.empty()) {
     Rng poses(options.seed, 1);
     for (const PosableDrawing& drawing :
-         readPosableDrawings(options.drawings, names, loadTemplate(options.body_plan), 0)) {
+         posableDrawings(findJointedDrawings(options.drawings), names, loadTemplate(options.body_plan), 0)) {
       figure_options.drawings.push_back(asDrawn(drawing));
       for (int k = 0; k < 2; ++k) figure_options.drawings.push_back(posed(poses, drawing));
     }

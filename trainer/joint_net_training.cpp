@@ -12,8 +12,10 @@
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
-#include "libskel/figures/figure.h"
+#include "trainer/figures/figure.h"
+#include "trainer/joint_accuracy.h"
 #include "trainer/joint_net_backward.h"
+#include "trainer/jointed_drawing.h"
 #include "trainer/posable_drawing.h"
 
 namespace skel {
@@ -25,6 +27,22 @@ constexpr int kLanes = 4;
 constexpr double kGradientNorm = 1;  // longer ones are shortened
 constexpr double kWarmUp = .03;      // share of the steps
 constexpr int kPoses = 2;            // of each drawing in a round, besides its own
+
+// What the options leave open.
+struct Schedule {
+  int steps;
+  double peak_rate, averaging, drawn_share, left_out;
+};
+constexpr Schedule kFromNothing = {22000, 2e-3, .999, .4, 0};
+// Little by little, so that nothing is forgotten.
+constexpr Schedule kGoingOn = {1200, 3e-4, .99, .5, .2};
+
+Schedule scheduleOf(const JointTrainingOptions& o) {
+  const Schedule& preset = o.start.empty() ? kFromNothing : kGoingOn;
+  return {o.steps.value_or(preset.steps), o.peak_rate.value_or(preset.peak_rate),
+          o.averaging.value_or(preset.averaging), o.drawn_share.value_or(preset.drawn_share),
+          o.left_out.value_or(preset.left_out)};
+}
 
 // Streams of random numbers of one seed. Figures and batches have a stream each by number.
 enum Stream : std::uint64_t {
@@ -135,7 +153,7 @@ Report validate(const JointNet& net, const NetJoints& joints, InstructionSet set
     thread_local JointNetMaps maps(net);
     const Figure& figure = figures[i];
     const FramePlacement placement = FramePlacement::centred(figure.mask);
-    encodeJointNetInput(figure.mask, figure.look, placement, kNetInputChannels, maps.maps[0]);
+    encodeJointNetInput(figure.mask, figure.look, placement, net.maps[0].channels, maps.maps[0]);
     forward(net, set, maps);
     const std::vector<float>& heatmaps = maps.maps.back();
     const JointTarget target = jointTarget(figure, placement, joints);
@@ -188,16 +206,33 @@ std::vector<Figure> drawFigures(std::uint64_t seed, std::uint64_t first, int cou
   return figures;
 }
 
+// The net that the first step changes.
+JointNet firstNet(const JointTrainingOptions& options, const FigurePlan& plan) {
+  JointNet net = makeJointNet(std::string(plan.body_plan), jointNames(plan));
+  if (options.start.empty()) {
+    Rng rng(options.seed, kInitialStream);
+    initialise(net, rng);
+    return net;
+  }
+  JointNet start = parseJointNet(readFile(options.start), options.start);
+  if (start.body_plan != net.body_plan || start.joints != net.joints)
+    throw InputError(options.start, "finds the joints of a " + start.body_plan + ", not of a " +
+                                        net.body_plan + " (see --template)");
+  if (start.parameters.size() != net.parameters.size())
+    throw InputError(options.start,
+                     "comes from a former version of skel-train; it can be used, but not trained on");
+  return start;
+}
+
 class Training {
  public:
   explicit Training(const JointTrainingOptions& options)
       : options_(options),
+        schedule_(scheduleOf(options)),
         set_(bestInstructionSet()),
         plan_(figurePlan(options.body_plan)),
-        net_(makeJointNet(std::string(plan_.body_plan), jointNames(plan_))),
+        net_(firstNet(options, plan_)),
         joints_(netJoints(net_.joints, loadTemplate(net_.body_plan))) {
-    Rng rng(options.seed, kInitialStream);
-    initialise(net_, rng);
     const std::size_t n = net_.parameters.size();
     state_.parameters = net_.parameters;
     state_.average = net_.parameters;
@@ -216,9 +251,10 @@ class Training {
     figure_options_.other_share = options.other_share;
     FigureOptions validation = figure_options_;
     if (!options.drawings.empty()) {
-      drawings_ =
-          readPosableDrawings(options.drawings, net_.joints, loadTemplate(net_.body_plan), options.threads);
-      figure_options_.drawn_share = options.drawn_share;
+      std::vector<JointedDrawing> drawings = findJointedDrawings(options.drawings);
+      splitOff(drawings);
+      drawings_ = posableDrawings(drawings, net_.joints, loadTemplate(net_.body_plan), options.threads);
+      figure_options_.drawn_share = schedule_.drawn_share;
     }
     if (!options.held_back.empty()) validation.kinds = kindsOf(plan_, options.held_back, true);
     validation_ = drawFigures(options.seed ^ 0x5eed, kValidationStream, options.validation_figures,
@@ -230,12 +266,13 @@ class Training {
       state_.restore(readFile(options_.checkpoint), options_.checkpoint);
     }
     const int steps_per_round = options_.figures_per_round * options_.passes / options_.batch;
-    ProgressBar bar("training", static_cast<std::size_t>(options_.steps));
+    reportLeftOut("before", net_);
+    ProgressBar bar("training", static_cast<std::size_t>(schedule_.steps));
     bar.advance(static_cast<std::size_t>(state_.step));
     std::int64_t round = -1;
     double loss = 0;
     int counted = 0;
-    while (state_.step < options_.steps) {
+    while (state_.step < schedule_.steps) {
       if (state_.step / steps_per_round != round) {
         round = state_.step / steps_per_round;
         figure_options_.drawings = poseDrawings(round);
@@ -248,15 +285,39 @@ class Training {
       ++counted;
       ++state_.step;
       bar.advance();
-      if (state_.step % options_.report_every == 0 || state_.step == options_.steps) {
+      if (state_.step % options_.report_every == 0 || state_.step == schedule_.steps) {
         report(bar, loss / counted);
         loss = 0;
         counted = 0;
       }
     }
+    JointNet net = net_;
+    net.parameters = state_.average;
+    reportLeftOut("after", quantized(net));
   }
 
  private:
+  // Every so many drawings one that only measures, if there are enough.
+  void splitOff(std::vector<JointedDrawing>& drawings) {
+    const auto count =
+        static_cast<std::size_t>(std::lround(schedule_.left_out * static_cast<double>(drawings.size())));
+    if (count == 0 || count >= drawings.size()) return;
+    std::vector<JointedDrawing> rest;
+    for (std::size_t i = 0; i < drawings.size(); ++i) {
+      const bool out = (i + 1) * count / drawings.size() > i * count / drawings.size();
+      (out ? left_out_ : rest).push_back(drawings[i]);
+    }
+    drawings = std::move(rest);
+  }
+
+  void reportLeftOut(const char* when, const JointNet& net) const {
+    if (left_out_.empty()) return;
+    const JointAccuracy a = jointAccuracy(left_out_, net, loadTemplate(net.body_plan), options_.threads);
+    std::printf("%s: %zu drawings left out: joints within 5 %% %.3f, within 10 %% %.3f, usable %.2f\n", when,
+                left_out_.size(), a.within_5, a.within_10, a.usable);
+    std::fflush(stdout);
+  }
+
   // Each drawing as it is and in some other poses.
   std::vector<AnnotatedDrawing> poseDrawings(std::int64_t round) const {
     std::vector<AnnotatedDrawing> drawn(drawings_.size() * (1 + kPoses));
@@ -294,7 +355,7 @@ class Training {
         Rng rng(options_.seed, kStepStream + static_cast<std::uint64_t>(state_.step * options_.batch + b));
         const Figure& figure = figures_[order_[first + b]];
         const Sample sample = augmented(rng, figure, options_);
-        encodeJointNetInput(figure.mask, sample.look, sample.placement, kNetInputChannels, maps.maps[0]);
+        encodeJointNetInput(figure.mask, sample.look, sample.placement, net_.maps[0].channels, maps.maps[0]);
         forward(net_, set_, maps);
         for (auto& map : gradient.maps) std::fill(map.begin(), map.end(), 0.f);
         losses[lane] += jointLoss<float>(maps.maps.back(), jointTarget(figure, sample.placement, joints_),
@@ -309,9 +370,10 @@ class Training {
   }
 
   double rate() const {
-    const double t = static_cast<double>(state_.step) / options_.steps;
-    if (t < kWarmUp) return options_.peak_rate * (t / kWarmUp + 1e-3);
-    return options_.peak_rate * (.5 + .5 * std::cos(std::numbers::pi * (t - kWarmUp) / (1 - kWarmUp)) + 1e-3);
+    const double t = static_cast<double>(state_.step) / schedule_.steps;
+    if (t < kWarmUp) return schedule_.peak_rate * (t / kWarmUp + 1e-3);
+    return schedule_.peak_rate *
+           (.5 + .5 * std::cos(std::numbers::pi * (t - kWarmUp) / (1 - kWarmUp)) + 1e-3);
   }
 
   // Kingma & Ba, "Adam" (2015), with decoupled weight decay; and a running mean of the weights.
@@ -330,7 +392,7 @@ class Training {
     const auto unbias2 = static_cast<float>(1 / (1 - std::pow(kBeta2, t)));
     const auto r = static_cast<float>(rate()), decay = static_cast<float>(options_.weight_decay);
     // A young mean follows closely.
-    const auto keep = static_cast<float>(std::min(options_.averaging, (1 + t) / (10 + t)));
+    const auto keep = static_cast<float>(std::min(schedule_.averaging, (1 + t) / (10 + t)));
     for (std::size_t i = 0; i < sum.size(); ++i) {
       const float g = sum[i] * shorten;
       float& w = state_.parameters[i];
@@ -349,9 +411,10 @@ class Training {
     const Report r = validate(quantized(net), joints_, set_, validation_, options_.threads);
     std::ostringstream provenance;
     provenance << "skel-train joints: seed " << options_.seed << ", step " << state_.step << " of "
-               << options_.steps << ", batch " << options_.batch;
+               << schedule_.steps << ", batch " << options_.batch;
     if (!drawings_.empty())
-      provenance << ", " << drawings_.size() << " drawings for " << options_.drawn_share << " of the figures";
+      provenance << ", " << drawings_.size() << " drawings for " << schedule_.drawn_share
+                 << " of the figures";
     provenance << ", validation loss " << r.loss << ", within 10 % " << r.within_10;
     net.provenance = provenance.str();
     bar.clear();
@@ -363,6 +426,7 @@ class Training {
   }
 
   JointTrainingOptions options_;
+  Schedule schedule_;
   InstructionSet set_;
   const FigurePlan& plan_;
   JointNet net_;
@@ -370,6 +434,7 @@ class Training {
   State state_;
   FigureOptions figure_options_;
   std::vector<PosableDrawing> drawings_;
+  std::vector<JointedDrawing> left_out_;
   std::vector<Figure> validation_, figures_;
   std::vector<int> order_;
   std::vector<JointNetMaps> maps_;
@@ -382,15 +447,29 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
   command.add_option("--template", options.body_plan, "Body plan, by the name of its template")
       ->capture_default_str();
   command.add_option("-o,--output", options.output, "Weights file to write")->capture_default_str();
+  command
+      .add_option(
+          "--start", options.start,
+          "Net to go on from, with drawings of your own: few steps, a low rate, every fifth drawing measures")
+      ->type_name("FILE");
   command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report");
   command.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
-  command.add_option("--steps", options.steps)->check(CLI::Range(1, 10'000'000))->capture_default_str();
+  const auto preset = [](double plain, double going_on) {
+    std::ostringstream text;
+    text << plain << ", with --start " << going_on;
+    return text.str();
+  };
+  command.add_option("--steps", options.steps)
+      ->check(CLI::Range(1, 10'000'000))
+      ->default_str(preset(kFromNothing.steps, kGoingOn.steps));
   command.add_option("--batch", options.batch, "Figures a step")
       ->check(CLI::Range(4, 1024))
       ->capture_default_str();
-  command.add_option("--rate", options.peak_rate, "Highest learning rate")->capture_default_str();
+  command.add_option("--rate", options.peak_rate, "Highest learning rate")
+      ->default_str(preset(kFromNothing.peak_rate, kGoingOn.peak_rate));
   command.add_option("--weight-decay", options.weight_decay)->capture_default_str();
-  command.add_option("--averaging", options.averaging, "Of the weights over steps")->capture_default_str();
+  command.add_option("--averaging", options.averaging, "Of the weights over steps")
+      ->default_str(preset(kFromNothing.averaging, kGoingOn.averaging));
   command.add_option("--figures", options.figures_per_round, "Figures drawn anew each round")
       ->check(CLI::Range(64, 1'000'000))
       ->capture_default_str();
@@ -411,11 +490,16 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
       ->capture_default_str();
   command
       .add_option("--drawings", options.drawings,
-                  "Drawings with *.joints.json and *.mask.png: trained on besides, each time warped anew")
+                  "Drawings with known joints: trained on besides, each time posed and warped anew. Either\n"
+                  "*.joints.json and *.mask.png, or what skel-label saves: *.skeleton.json, *.labels.json")
       ->type_name("DIR");
   command.add_option("--drawn", options.drawn_share, "Share of figures that come from them")
       ->check(CLI::Range(0., 1.))
-      ->capture_default_str();
+      ->default_str(preset(kFromNothing.drawn_share, kGoingOn.drawn_share));
+  command
+      .add_option("--left-out", options.left_out, "Share of the drawings that only measure, before and after")
+      ->check(CLI::Range(0., .9))
+      ->default_str(preset(kFromNothing.left_out, kGoingOn.left_out));
   command
       .add_option("--hold-back", options.held_back, "Body kinds to validate on instead of training on them")
       ->check(CLI::NonNegativeNumber);

@@ -8,7 +8,6 @@
 #include "libskel/deform/skin_vertices.h"
 #include "libskel/draw/render_mesh.h"
 #include "libskel/image/read_image.h"
-#include "libskel/labels/annotated_image.h"
 #include "libskel/mesh/inflate.h"
 #include "libskel/recognition/complete_skeleton.h"
 #include "libskel/skeleton/lift.h"
@@ -21,22 +20,18 @@ constexpr double kTrunkTurn = 6 * kDegree, kArmTurn = 35 * kDegree, kLegTurn = 1
 constexpr double kLayer_m = 0.25;  // arms and legs before the body or behind it
 constexpr int kPictureSize = 400;  // px of the rendered drawing, before its box is cut out
 
-PosableDrawing posable(const AnnotatedImage& files, const std::vector<std::string>& names,
+PosableDrawing posable(const JointedDrawing& drawing, const std::vector<std::string>& names,
                        const SkeletonTemplate& body_plan) {
-  if (!files.mask) throw InputError(files.image, "has no mask beside it; training needs one");
-  const NamedJoints given = readJointsFile(files.joints);
-  const Image image = readImage(files.image);
-  const Silhouette silhouette = silhouetteFromMask(readMaskOf(image, *files.mask));
-  if (!silhouette.found()) throw InputError(*files.mask, silhouette.reason);
-
+  const Image image = readImage(drawing.image);
+  const Silhouette silhouette = silhouetteOf(image, drawing);
   Skeleton skeleton = presetSkeleton(body_plan, {0, 0}, {1, 1});
   std::vector<bool> placed(skeleton.joints.size(), false);
   PosableDrawing out;
   for (const std::string& name : names) {
-    const auto found =
-        std::find_if(given.begin(), given.end(), [&](const auto& joint) { return joint.first == name; });
-    if (found == given.end() || !found->second)
-      throw InputError(files.joints, "joints: has no \"" + name + "\"; training needs all");
+    const auto found = std::find_if(drawing.joints.begin(), drawing.joints.end(),
+                                    [&](const auto& joint) { return joint.first == name; });
+    if (found == drawing.joints.end() || !found->second)
+      throw InputError(drawing.joints_file, "joints: has no \"" + name + "\"; training needs all");
     out.joints.push_back(skeleton.index(name));
     skeleton.joints[static_cast<std::size_t>(out.joints.back())].image = *found->second;
     placed[static_cast<std::size_t>(out.joints.back())] = true;
@@ -50,7 +45,7 @@ PosableDrawing posable(const AnnotatedImage& files, const std::vector<std::strin
   liftToModel(skeleton, out.character.mesh);
   out.character.weights = computeSkinWeights(out.character.mesh, skeleton, SkinMethod::kGeodesic);
   out.character.skeleton = std::move(skeleton);
-  out.view = readView(files.joints) == "side" ? FigureView::kSide : FigureView::kFront;
+  out.view = drawing.side_view ? FigureView::kSide : FigureView::kFront;
   const std::size_t count = out.character.skeleton.joints.size();
   out.deviations.assign(count, kTrunkTurn);
   out.limbs.assign(count, 0);
@@ -98,14 +93,13 @@ AnnotatedDrawing drawn(const PosableDrawing& drawing, const JointTransforms& pos
 
 }  // namespace
 
-std::vector<PosableDrawing> readPosableDrawings(const std::string& dir, const std::vector<std::string>& names,
-                                                const SkeletonTemplate& body_plan, int threads) {
-  const std::vector<AnnotatedImage> files = findAnnotatedImages(dir);
-  if (files.empty()) throw InputError(dir, "has no drawing with joints.json and mask.png");
-  std::vector<PosableDrawing> drawings(files.size());
-  parallelFor(files.size(), threads,
-              [&](std::size_t i) { drawings[i] = posable(files[i], names, body_plan); });
-  return drawings;
+std::vector<PosableDrawing> posableDrawings(const std::vector<JointedDrawing>& drawings,
+                                            const std::vector<std::string>& names,
+                                            const SkeletonTemplate& body_plan, int threads) {
+  std::vector<PosableDrawing> out(drawings.size());
+  parallelFor(drawings.size(), threads,
+              [&](std::size_t i) { out[i] = posable(drawings[i], names, body_plan); });
+  return out;
 }
 
 AnnotatedDrawing asDrawn(const PosableDrawing& drawing) {

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "libskel/export/write_character.h"
-#include "libskel/figures/figure.h"
+#include "trainer/figures/figure.h"
 #include "libskel/skeleton/template.h"
+#include "trainer/jointed_drawing.h"
 
 namespace skel {
 
@@ -18,10 +19,10 @@ struct PosableDrawing {
   FigureView view = FigureView::kFront;
 };
 
-// All annotated drawings below `dir` (see findAnnotatedImages), with the joints called `names` in that order.
-// Throws InputError: none there, one without a mask or without one of the joints, files that cannot be read.
-std::vector<PosableDrawing> readPosableDrawings(const std::string& dir, const std::vector<std::string>& names,
-                                                const SkeletonTemplate& body_plan, int threads);
+// Throws InputError: a drawing without one of the joints called `names`, files that cannot be read.
+std::vector<PosableDrawing> posableDrawings(const std::vector<JointedDrawing>& drawings,
+                                            const std::vector<std::string>& names,
+                                            const SkeletonTemplate& body_plan, int threads);
 
 // As it was drawn.
 AnnotatedDrawing asDrawn(const PosableDrawing& drawing);

@@ -32,6 +32,11 @@ class Builder {
     SKEL_CHECK_EQ(net_.maps[input].channels, to.channels);
     return add({JointNetLayer::Kind::kUpsampleAdd, input, skip, to.channels}, to);
   }
+  // `count` convolutions that each add to their input.
+  int residuals(int map, int count) {
+    for (int i = 0; i < count; ++i) map = convolution(map, net_.maps[map].channels, 3, true, map);
+    return map;
+  }
   JointNet take() { return std::move(net_); }
 
  private:
@@ -42,6 +47,16 @@ class Builder {
   }
   JointNet net_;
 };
+
+// Channels at full, half, quarter and eighth resolution, and how many residual convolutions there are at the
+// three lower ones on the way down, and at quarter and half on the way up.
+struct NetSize {
+  std::array<int, 4> widths;
+  std::array<int, 3> down;
+  std::array<int, 2> up;
+};
+constexpr NetSize kSize = {{32, 64, 96, 160}, {1, 2, 3}, {2, 2}};
+constexpr NetSize kFormerSize = {{16, 32, 64, 96}, {1, 1, 2}, {1, 2}};
 
 void runConvolution(const JointNet& net, const JointNetLayer& layer, InstructionSet set, JointNetMaps& maps,
                     std::vector<float>& out) {
@@ -85,21 +100,16 @@ ConvShape convShape(const JointNet& net, const JointNetLayer& layer) {
 
 JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints, int input_channels) {
   SKEL_CHECK(!joints.empty() && joints.size() <= kMaxNetJoints);
+  const NetSize& size = input_channels == kNetInputChannels ? kSize : kFormerSize;
   Builder b(input_channels);
-  const int a0 = b.convolution(0, 16, 3, true);
-  const int a1 = b.convolution(b.pool(a0), 32, 3, true);
-  const int a2 = b.convolution(a1, 32, 3, true, a1);
-  const int a3 = b.convolution(b.pool(a2), 64, 3, true);
-  const int a4 = b.convolution(a3, 64, 3, true, a3);
-  const int a5 = b.convolution(b.pool(a4), 96, 3, true);
-  const int a6 = b.convolution(a5, 96, 3, true, a5);
-  const int a7 = b.convolution(a6, 96, 3, true, a6);
-  const int u1 = b.upsampleAdd(b.convolution(a7, 64, 1, false), a4);
-  const int a8 = b.convolution(u1, 64, 3, true, u1);
-  const int u2 = b.upsampleAdd(b.convolution(a8, 32, 1, false), a2);
-  const int a9 = b.convolution(u2, 32, 3, true, u2);
-  const int a10 = b.convolution(a9, 32, 3, true, a9);
-  b.convolution(a10, heatmapChannels(static_cast<int>(joints.size())), 1, false);
+  const int full = b.convolution(0, size.widths[0], 3, true);
+  const int half = b.residuals(b.convolution(b.pool(full), size.widths[1], 3, true), size.down[0]);
+  const int quarter = b.residuals(b.convolution(b.pool(half), size.widths[2], 3, true), size.down[1]);
+  const int eighth = b.residuals(b.convolution(b.pool(quarter), size.widths[3], 3, true), size.down[2]);
+  const int up =
+      b.residuals(b.upsampleAdd(b.convolution(eighth, size.widths[2], 1, false), quarter), size.up[0]);
+  const int out = b.residuals(b.upsampleAdd(b.convolution(up, size.widths[1], 1, false), half), size.up[1]);
+  b.convolution(out, heatmapChannels(static_cast<int>(joints.size())), 1, false);
   JointNet net = b.take();
   net.body_plan = std::move(body_plan);
   net.joints = std::move(joints);
@@ -136,7 +146,8 @@ FramePlacement FramePlacement::centred(const Plane8& mask, bool mirrored) {
 
 void encodeJointNetInput(const Plane8& mask, const FigureLook& look, const FramePlacement& placement,
                          int channels, std::vector<float>& input) {
-  SKEL_CHECK(channels == kNetInputChannels || channels == kColourlessInputChannels);
+  SKEL_CHECK(channels == kNetInputChannels || channels == kCoarseInputChannels ||
+             channels == kColourlessInputChannels);
   const int width = static_cast<int>(mask.cols()), height = static_cast<int>(mask.rows());
   SKEL_CHECK(width <= kFrameSize && height <= kFrameSize);
   SKEL_CHECK(!look.known() || (look.lines.cols() == width && look.lines.rows() == height));
@@ -145,8 +156,9 @@ void encodeJointNetInput(const Plane8& mask, const FigureLook& look, const Frame
   // Mask and look at half the resolution.
   struct Cell {
     int inside = 0, lines = 0, strongest = 0;
-    std::array<int, 3> tones{};    // sums of differences to the mean
-    std::array<bool, 4> pixels{};  // by row
+    std::array<int, 3> tones{};                // sums of differences to the mean
+    std::array<bool, 4> pixels{};              // by row
+    std::array<std::array<int, 4>, 4> fine{};  // of each px, lines and the three tones
   };
   std::array<Cell, kSize * kSize> cells{};
   for (int y = 0; y < height; ++y) {
@@ -159,11 +171,17 @@ void encodeJointNetInput(const Plane8& mask, const FigureLook& look, const Frame
       if (frame_x < 0 || frame_x >= kFrameSize) continue;
       Cell& cell = cells[frame_y / 2 * kSize + frame_x / 2];
       ++cell.inside;
-      cell.pixels[frame_y % 2 * 2 + frame_x % 2] = true;
+      const int pixel = frame_y % 2 * 2 + frame_x % 2;
+      cell.pixels[pixel] = true;
       if (!look.known()) continue;
       cell.lines += look.lines(y, x);
       cell.strongest = std::max<int>(cell.strongest, look.lines(y, x));
-      for (int k = 0; k < 3; ++k) cell.tones[k] += look.tones[k](y, x) - kMeanTone;
+      cell.fine[pixel][0] = look.lines(y, x);
+      for (int k = 0; k < 3; ++k) {
+        const int tone = look.tones[k](y, x) - kMeanTone;
+        cell.tones[k] += tone;
+        cell.fine[pixel][k + 1] = tone;
+      }
     }
   }
 
@@ -229,6 +247,12 @@ void encodeJointNetInput(const Plane8& mask, const FigureLook& look, const Frame
       for (int k = 0; k < 3; ++k) o[8 + k] = static_cast<float>(cell.tones[k]) / (4 * 64);
       o[11] = look.known() && cell.inside > 0 ? 1.f : 0.f;
       for (int k = 0; k < 4; ++k) o[12 + k] = cell.pixels[k] ? 1.f : 0.f;
+      if (channels == kCoarseInputChannels) continue;
+      for (int k = 0; k < 4; ++k) {
+        o[16 + k] = static_cast<float>(cell.fine[k][0]) / 255;
+        for (int tone = 1; tone < 4; ++tone)
+          o[16 + 4 * tone + k] = static_cast<float>(cell.fine[k][tone]) / 64;
+      }
     }
   }
 }

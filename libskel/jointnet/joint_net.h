@@ -20,7 +20,9 @@ namespace skel {
 // half the resolution; its heatmaps have a quarter of it.
 inline constexpr int kFrameSize = 144;
 inline constexpr int kNetInputSize = kFrameSize / 2;
-inline constexpr int kNetInputChannels = 16, kColourlessInputChannels = 8;
+inline constexpr int kNetInputChannels = 32;
+// Nets of former versions of the program, which are still read, have these and are narrower.
+inline constexpr int kCoarseInputChannels = 16, kColourlessInputChannels = 8;
 inline constexpr int kHeatmapSize = kFrameSize / 4;
 inline constexpr int kMaxNetJoints = 63;
 // One a joint, one for the figure; the kernels want multiples of 16, so the others are idle.
@@ -62,8 +64,8 @@ struct JointNet {
 
 ConvShape convShape(const JointNet& net, const JointNetLayer& layer);
 
-// The architecture with all parameters zero, for at most kMaxNetJoints joints.
-// A net of kColourlessInputChannels, as before colours were shown to it, sees silhouette and lines alone.
+// The architecture with all parameters zero, for at most kMaxNetJoints joints. A net of kCoarseInputChannels
+// sees lines and colours at half the resolution, one of kColourlessInputChannels silhouette and lines alone.
 JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints,
                       int input_channels = kNetInputChannels);
 

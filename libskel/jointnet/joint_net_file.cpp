@@ -118,10 +118,11 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file) {
     root.allowOnly({"format", "version", "provenance", "joints", "convolutions", "sha256"});
 
   const std::vector<JsonValue> given = root.at("convolutions").items();
-  const bool colourless = !given.empty() && given[0].asNumbers(3)[0] == kColourlessInputChannels;
-  JointNet net =
-      makeJointNet(names_plan ? root.at("body_plan").asString() : "biped", jointsAt(root.at("joints")),
-                   colourless ? kColourlessInputChannels : kNetInputChannels);
+  int inputs = kNetInputChannels;
+  for (const int former : {kCoarseInputChannels, kColourlessInputChannels})
+    if (!given.empty() && given[0].asNumbers(3)[0] == former) inputs = former;
+  JointNet net = makeJointNet(names_plan ? root.at("body_plan").asString() : "biped",
+                              jointsAt(root.at("joints")), inputs);
   net.provenance = root.at("provenance").asString();
   const auto expected = convolutions(net);
   bool same = given.size() == expected.size();

@@ -1,4 +1,4 @@
-#include "libskel/figures/figure.h"
+#include "trainer/figures/figure.h"
 
 #include <set>
 

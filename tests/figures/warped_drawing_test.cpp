@@ -1,8 +1,8 @@
-#include "libskel/figures/warped_drawing.h"
+#include "trainer/figures/warped_drawing.h"
 
-#include "libskel/figures/drawing.h"
 #include "tests/support/catch.h"
 #include "tests/support/marked_figure.h"
+#include "trainer/figures/drawing.h"
 
 namespace skel {
 namespace {

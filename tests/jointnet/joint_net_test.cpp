@@ -6,9 +6,9 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/rng.h"
-#include "libskel/figures/drawing.h"
 #include "libskel/jointnet/net_joints.h"
 #include "tests/support/catch.h"
+#include "trainer/figures/drawing.h"
 
 namespace skel {
 namespace {

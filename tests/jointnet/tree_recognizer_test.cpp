@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "libskel/figures/figure.h"
 #include "tests/support/catch.h"
+#include "trainer/figures/figure.h"
 
 namespace skel {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/rng.h"
-#include "libskel/figures/figure.h"
 #include "libskel/jointnet/net_joints.h"
 #include "tests/support/catch.h"
 #include "tests/support/synthetic_figure.h"
+#include "trainer/figures/figure.h"
 
 using namespace skel;
 using Eigen::Vector2d;

@@ -2,11 +2,11 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
-#include "libskel/figures/drawing.h"
 #include "libskel/image/write_image.h"
 #include "tests/support/catch.h"
 #include "tests/support/marked_figure.h"
 #include "tests/support/temp_dir.h"
+#include "trainer/figures/drawing.h"
 
 namespace skel {
 namespace {
@@ -30,7 +30,7 @@ void write(const TempDir& dir, const std::string& left_out = "") {
 }
 
 std::vector<PosableDrawing> read(const TempDir& dir) {
-  return readPosableDrawings(dir.path(), kNames, loadTemplate("biped"), 1);
+  return posableDrawings(findJointedDrawings(dir.path()), kNames, loadTemplate("biped"), 1);
 }
 
 std::string complaint(const TempDir& dir) {

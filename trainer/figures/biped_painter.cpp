@@ -1,11 +1,11 @@
-#include "libskel/figures/biped_painter.h"
+#include "trainer/figures/biped_painter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "libskel/figures/limb_path.h"
-#include "libskel/figures/painting.h"
+#include "trainer/figures/limb_path.h"
+#include "trainer/figures/painting.h"
 
 namespace skel {
 namespace {
@@ -152,7 +152,8 @@ class Painter {
     if (chance(.025)) paintBoard();
     if (chance(.08)) {  // cape
       const Vec hem = p_.pelvis - p_.up * L * in(-.2, 1);
-      const double w = p_.top * in(1.1, 2.6), skew = gauss(0, .4) * w;
+      const bool wind = chance(.35);
+      const double w = p_.top * in(1.1, 2.6), skew = wind ? sign() * in(.6, 1.8) * w : gauss(0, .4) * w;
       scene_.begin(ink(accent_));
       scene_.polygon({p_.neck + p_.chest_right * p_.top * .8, p_.neck - p_.chest_right * p_.top * .8,
                       hem + p_.right * (skew - w), hem - p_.up * in(-.05, .05) + p_.right * skew,
@@ -160,11 +161,12 @@ class Painter {
     }
     if (chance(is(BodyKind::kPlush) ? .35 : .07)) paintTail();
     if (chance(.1)) paintWings();
-    if (chance(.05)) {  // backpack, shell, tank
+    if (chance(.07)) {  // backpack, shell, tank
       const double off = p_.view == FigureView::kFront ? gauss(0, .15) : -p_.face * in(.4, 1.2);
       scene_.begin(ink(accent_));
       scene_.ellipse(p_.middle + p_.chest_up * T * in(-.1, .25) + p_.chest_right * p_.top * off,
-                     {p_.top * in(.5, 1.3), T * in(.25, .6)}, angleOf(p_.chest_right), in(2, 5));
+                     Vec(p_.top * in(.5, 1.3), T * in(.25, .6)) * (chance(.3) ? in(1.1, 1.7) : 1),
+                     angleOf(p_.chest_right), in(2, 5));
     }
     if (chance(.03)) {  // spikes from the back
       const int n = 2 + rng_.below(5);
@@ -430,9 +432,10 @@ class Painter {
       case 1:  // ball
         scene_.disc(hand + d * w * in(0, 1.5), w * in(.6, 2.5));
         break;
-      case 2: {  // box, bag, phone, book
-        const double half = w * in(.4, 2);
-        scene_.ellipse(hand + d * w * in(0, 1), {half, half * in(.5, 1.8)}, angleOf(v), 6);
+      case 2: {                                                            // box, bag, phone, book
+        const double half = chance(.3) ? A * in(.25, .8) : w * in(.4, 2);  // or a crate, a map, a board
+        scene_.ellipse(hand + d * (chance(.5) ? half * in(0, 1) : w * in(0, 1)), {half, half * in(.5, 1.8)},
+                       angleOf(v), chance(.7) ? 6 : 2);
         break;
       }
       case 3: {  // shield
@@ -465,10 +468,10 @@ class Painter {
         break;
       }
       case 6: {  // umbrella, balloon
-        const double l = A * in(.8, 1.6);
+        const double l = A * in(.8, 1.6), large = chance(.3) ? in(1.2, 2) : 1;
         const Vec up = rotated(p_.chest_up, gauss(0, .3));
         scene_.line(hand, hand + up * l, kThinnest, kThinnest);
-        scene_.ellipse(hand + up * l, {A * in(.2, .5), A * in(.15, .4)}, angleOf(p_.chest_right));
+        scene_.ellipse(hand + up * l, Vec(A * in(.2, .5), A * in(.15, .4)) * large, angleOf(p_.chest_right));
         break;
       }
       case 7: {  // tool: a handle with a head
@@ -482,12 +485,18 @@ class Painter {
   }
 
   void paintHeldByBoth() {
-    if (!chance(.04)) return;
+    if (!chance(.06)) return;
     const Vec a = joints_.arm[kRight][2], b = joints_.arm[kLeft][2];
     const Vec v = normalised(b - a);
     const double w = std::max(p_.limb_width, .04);
     scene_.begin(ink(accent_));
-    if (chance(.5)) {  // bar with weights
+    const double kind = rng_.uniform();
+    if (kind < .25) {  // guitar, broom, saw, rope: beyond both hands
+      const double over = p_.torso * in(.1, .8), r = w * in(.1, .4);
+      scene_.line(a - v * over, b + v * over * in(0, 1), r, r);
+      if (chance(.6))
+        scene_.ellipse(a, {p_.torso * in(.15, .4), p_.torso * in(.1, .3)}, angleOf(v), in(2, 5));
+    } else if (kind < .55) {  // bar with weights
       const double over = w * in(.5, 2.5), half = w * in(.8, 2);
       scene_.line(a - v * over, b + v * over, w * .2, w * .2);
       for (const Vec& q : {Vec(a - v * over), Vec(b + v * over)}) {
@@ -495,7 +504,9 @@ class Painter {
       }
     } else {  // box
       const double half = (b - a).norm() * .5;
-      scene_.ellipse((a + b) / 2, {std::max(half, w), std::max(half * in(.4, 1), w)}, angleOf(v), in(2, 6));
+      const double large = chance(.3) ? in(1.2, 2) : 1;
+      scene_.ellipse((a + b) / 2, Vec(std::max(half, w), std::max(half * in(.4, 1), w)) * large, angleOf(v),
+                     in(2, 6));
     }
   }
 

@@ -1,8 +1,8 @@
 // Draws a planned biped: body, hair, clothes, things held, in one of several drawing styles.
 #pragma once
 
-#include "libskel/figures/biped_plan.h"
-#include "libskel/figures/scene.h"
+#include "trainer/figures/biped_plan.h"
+#include "trainer/figures/scene.h"
 
 namespace skel {
 

@@ -1,4 +1,4 @@
-#include "libskel/figures/biped_plan.h"
+#include "trainer/figures/biped_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +30,7 @@ constexpr Proportions kProportions[kBodyKinds] = {
     {{.32, .52}, {.85, 1.3}, {.28, .44}, {.75, 1.25}, {.12, .30}, {.08, .17}, {.6, 1.1}},      // plush
     {{.10, .24}, {.65, 1.0}, {.28, .42}, {.7, 1.2}, {.26, .48}, {.06, .15}, {.9, 1.4}},        // hero
     {{.18, .38}, {.85, 1.25}, {.24, .42}, {.4, 1.1}, {.18, .42}, {.015, .06}, {.6, 1.6}},      // child
+    {{.40, .66}, {.65, 1.35}, {.16, .34}, {.9, 1.7}, {.10, .42}, {.015, .09}, {.8, 2.2}},      // face
 };
 
 enum class ArmPose {
@@ -172,7 +173,13 @@ class Sampler {
     p.bottom = width / 2 * bottom_share * body;
     p.waist = std::min(p.top, p.bottom) * (chance(.4) ? in(.62, 1) : in(.95, 1.3));
 
+    if (is(BodyKind::kFace)) {  // the torso is the lower part of the head
+      p.bottom = p.head_width * in(.28, .46) * body;
+      p.top = p.head_width * in(.4, .5) * body;
+      p.waist = std::max(p.top, p.bottom) * in(.9, 1.05);
+    }
     double inset = in(.6, 1.0);
+    if (is(BodyKind::kFace)) inset = in(.85, 1.1);
     if ((is(BodyKind::kBlock) || is(BodyKind::kBlob)) && chance(.6)) inset = in(.75, 1.2);
     shoulder_offset_ = p.top * inset * std::min(1.0, spread / body);
     hip_offset_ = p.bottom * in(.35, .72) * std::min(1.0, spread / body);
@@ -197,6 +204,9 @@ class Sampler {
       case BodyKind::kHero:
         p.neck_gap = in(-.05, .35);
         break;
+      case BodyKind::kFace:
+        p.neck_gap = in(-.4, -.12);
+        break;
       default:
         p.neck_gap = in(-.08, .32);
     }
@@ -209,8 +219,8 @@ class Sampler {
   }
 
   ArmPose sampleArmPose() {
-    double w[static_cast<int>(ArmPose::kCount)] = {.24, .13, .07, .07,  .06,  .09, .10,  .07, .07,
-                                                   .05, .08, .05, .045, .035, .06, .025, .03, .02};
+    double w[static_cast<int>(ArmPose::kCount)] = {.24, .13, .07, .07, .06,  .10, .10, .07,  .07,
+                                                   .06, .08, .05, .05, .045, .08, .03, .035, .02};
     if (plan_.view != FigureView::kFront) w[static_cast<int>(ArmPose::kReach)] = .09;
     if (is(BodyKind::kChibi) || is(BodyKind::kBlock)) w[static_cast<int>(ArmPose::kCheer)] += .08;
     return pick<ArmPose>(rng_, w);

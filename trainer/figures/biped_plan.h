@@ -5,7 +5,7 @@
 #include <array>
 
 #include "libskel/core/rng.h"
-#include "libskel/figures/drawing.h"
+#include "trainer/figures/drawing.h"
 
 namespace skel {
 
@@ -22,8 +22,9 @@ enum class BodyKind {
   kPlush,   // round animal with stub limbs
   kHero,    // broad shoulders, narrow hips
   kChild,   // as children draw: a triangle or a box for a torso, thin limbs
+  kFace,    // the face is the body: limbs grow out of the head
 };
-inline constexpr int kBodyKinds = 11;
+inline constexpr int kBodyKinds = 12;
 
 // Sides as indices: the character's right limb is at the left of a figure that faces us.
 inline constexpr int kRight = 0, kLeft = 1;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libskel/core/rng.h"
-#include "libskel/figures/scene.h"
+#include "trainer/figures/scene.h"
 
 namespace skel {
 
@@ -19,7 +19,8 @@ struct Drawing {
   bool whole = true;                    // one whole figure of the body plan; if not, the joints mean nothing
   std::vector<Eigen::Vector2d> joints;  // in the scene, as FigurePlan::joints
   FigureView view = FigureView::kFront;
-  int kind = 0;  // family of proportions, see FigurePlan::kinds
+  int kind = 0;             // family of proportions, see FigurePlan::kinds
+  std::vector<int> absent;  // joints that this figure has none of
 };
 
 struct FigurePlan {

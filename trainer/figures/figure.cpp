@@ -1,4 +1,4 @@
-#include "libskel/figures/figure.h"
+#include "trainer/figures/figure.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,10 +7,11 @@
 #include <numbers>
 #include <optional>
 
-#include "libskel/figures/biped_plan.h"
-#include "libskel/figures/warped_drawing.h"
 #include "libskel/jointnet/figure_look.h"
 #include "libskel/jointnet/net_joints.h"
+#include "libskel/silhouette/pieces.h"
+#include "trainer/figures/biped_plan.h"
+#include "trainer/figures/warped_drawing.h"
 
 namespace skel {
 namespace {
@@ -186,6 +187,92 @@ double keepLargestPart(Bits& solid, int width, int height) {
   return static_cast<double>(size[best]) / all;
 }
 
+// Joins the pieces of a figure as the silhouette stage does; returns the figure's share of all that was
+// there.
+double joinFigure(Bits& solid, int width, int height) {
+  const Eigen::Map<const Plane8> before(solid.data(), height, width);
+  PieceOptions options;
+  options.widest_gap = .16;
+  options.leave_ground = false;
+  const std::vector<JoinedFigure> figures = joinPieces(before, 8, options);
+  if (figures.empty()) return 0;
+  const Plane8& mask = figures.front().mask;
+  double all = 0, kept = 0;
+  for (std::size_t i = 0; i < solid.size(); ++i) {
+    all += solid[i] != 0;
+    kept += solid[i] != 0 && mask.data()[i] != 0;
+    solid[i] = mask.data()[i] != 0;
+  }
+  return kept / all;
+}
+
+// Gaps across limbs and neck, as in pictograms, jointed dolls and careless lines.
+void cutGaps(Rng& rng, Bits& solid, int width, int height, const std::vector<Vec>& joints,
+             const NetJoints& tree) {
+  const bool everywhere = rng.chance(.25);
+  for (int j = 0; j < tree.count(); ++j) {
+    if (tree.parent[j] < 0 || !rng.chance(everywhere ? .6 : .12)) continue;
+    const Vec &a = joints[tree.parent[j]], &b = joints[j];
+    if ((b - a).norm() < 4) continue;
+    const Vec n = (b - a).normalized(), at = a + (b - a) * rng.uniform(.1, .9);
+    const double half = rng.uniform(.7, 4.5), reach = rng.uniform(12, 40);
+    const int x0 = std::max(0, static_cast<int>(at.x() - reach)),
+              x1 = std::min(width - 1, static_cast<int>(at.x() + reach));
+    const int y0 = std::max(0, static_cast<int>(at.y() - reach)),
+              y1 = std::min(height - 1, static_cast<int>(at.y() + reach));
+    for (int y = y0; y <= y1; ++y) {
+      for (int x = x0; x <= x1; ++x) {
+        const Vec d = Vec(x, y) - at;
+        if (std::abs(d.dot(n)) <= half && d.norm() <= reach) solid[y * width + x] = 0;
+      }
+    }
+  }
+}
+
+// What lies under or behind a figure and is taken for a part of it: a shadow, a line of ground, a sun,
+// letters.
+Scene sampleJunk(Rng& rng, const Scene& figure) {
+  const Scene::Box box = figure.box();
+  const Vec size = box.high - box.low, middle = (box.low + box.high) / 2;
+  const double unit = size.maxCoeff();
+  const auto grey = static_cast<std::uint8_t>(rng.uniform(30, 220));
+  Ink ink;
+  ink.fill = rng.chance(.6) ? Colour{grey, grey, grey}
+                            : Colour{static_cast<std::uint8_t>(rng.uniform(60, 250)),
+                                     static_cast<std::uint8_t>(rng.uniform(60, 250)),
+                                     static_cast<std::uint8_t>(rng.uniform(60, 250))};
+  Scene junk;
+  junk.begin(ink);
+  const double kind = rng.uniform();
+  if (kind < .5) {  // shadow
+    const double half = size.x() * rng.uniform(.25, .75);
+    junk.ellipse({middle.x() + rng.normal(0, .25) * size.x(), box.high.y() - unit * rng.uniform(-.01, .04)},
+                 {half, half * rng.uniform(.08, .3)}, rng.chance(.8) ? 0 : rng.normal(0, .3));
+  } else if (kind < .68) {  // ground
+    const double half = size.x() * rng.uniform(.4, 1.1), r = unit * rng.uniform(.004, .02);
+    const Vec at(middle.x() + rng.normal(0, .2) * size.x(), box.high.y() - r);
+    junk.line(at - Vec(half, 0), at + Vec(half, rng.normal(0, .02) * unit), r, r);
+  } else if (kind < .82) {  // sun, cloud, smear
+    const int discs = 1 + static_cast<int>(rng.below(3));
+    Vec at = middle + Vec(rng.normal(0, .35) * size.x(), rng.normal(0, .25) * size.y());
+    for (int i = 0; i < discs; ++i) {
+      junk.ellipse(at, Vec(rng.uniform(.1, .32), rng.uniform(.1, .32)) * unit, 0);
+      at += Vec(rng.normal(0, .15), rng.normal(0, .1)) * unit;
+    }
+  } else {  // letters
+    const int letters = 2 + static_cast<int>(rng.below(5));
+    const double tall = unit * rng.uniform(.05, .16), side = rng.chance(.5) ? 1 : -1;
+    Vec at(side > 0 ? box.high.x() : box.low.x(), box.low.y() + size.y() * rng.uniform(.05, .9));
+    at.x() -= side * size.x() * rng.uniform(.05, .3);
+    for (int i = 0; i < letters; ++i) {
+      const double wide = tall * rng.uniform(.5, 1);
+      junk.ellipse(at, {wide * .55, tall * .5}, rng.normal(0, .1), rng.uniform(2, 8));
+      at.x() += side * wide;
+    }
+  }
+  return junk;
+}
+
 Drawing drawFigure(Rng& rng, const FigurePlan& plan, const FigureOptions& options) {
   Drawing drawing = plan.draw(rng, sampleKind(rng, options.kinds, plan.kinds));
   const auto warp = sampleWarp(rng);
@@ -266,6 +353,7 @@ void sortSides(Figure& figure, const NetJoints& joints) {
       const int other = joints.mirrored[k];
       std::swap(figure.joints[k], figure.joints[other]);
       std::vector<bool>::swap(figure.visible[k], figure.visible[other]);
+      std::vector<bool>::swap(figure.absent[k], figure.absent[other]);
     }
   }
 }
@@ -275,7 +363,7 @@ bool isReadable(const Figure& figure, const FigurePlan& plan) {
   constexpr double kLeastVisible = .42;
   constexpr int kReach = 6;
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
-    if (!plan.joints[j].end) continue;
+    if (!plan.joints[j].end || figure.absent[j]) continue;
     const int x = static_cast<int>(std::lround(figure.joints[j].x())),
               y = static_cast<int>(std::lround(figure.joints[j].y()));
     const int x0 = std::max(0, x - kReach),
@@ -294,11 +382,34 @@ struct Canvas {
   Bits solid;
   std::function<Colour(int x, int y)> colour;
   std::vector<Vec> joints;
-  std::vector<bool> visible;
+  std::vector<bool> visible, absent;
   FigureView view;
   int kind;
   bool whole;
 };
+
+// Darker towards the outline and away from the light, as if the figure was round.
+void shadeRound(Rng& rng, GridColours& colours, const Bits& grid, int columns, int rows) {
+  const int depth = 3 + static_cast<int>(rng.below(8));
+  std::vector<float> inner(grid.begin(), grid.end());
+  blur(inner, columns, rows, depth);
+  const double angle = rng.uniform(0, 2 * std::numbers::pi);
+  const auto strength = static_cast<float>(rng.uniform(.3, .8)),
+             slant = static_cast<float>(rng.uniform(0, 3));
+  const int dx = static_cast<int>(std::lround(2 * std::cos(angle))),
+            dy = static_cast<int>(std::lround(2 * std::sin(angle)));
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      const auto at = [&](int v, int u) {
+        return inner[std::clamp(v, 0, rows - 1) * columns + std::clamp(u, 0, columns - 1)];
+      };
+      const float shade =
+          1 - strength * (1 - at(y, x)) + slant * strength * (at(y + dy, x + dx) - at(y - dy, x - dx));
+      auto colour = colours.row(y * columns + x);
+      colour = (colour * std::clamp(shade, .2f, 1.6f)).min(255.f);
+    }
+  }
+}
 
 std::optional<Figure> finished(Rng& rng, const FigurePlan& plan, Canvas canvas, Cut cut) {
   const auto [width, height] = std::pair(canvas.width, canvas.height);
@@ -325,7 +436,8 @@ std::optional<Figure> finished(Rng& rng, const FigurePlan& plan, Canvas canvas, 
       if (x < window.x0 || x >= window.x1 || y < window.y0 || y >= window.y1) solid[y * width + x] = 0;
     }
   }
-  const double kept = keepLargestPart(solid, width, height);
+  if (canvas.whole && rng.chance(.1)) cutGaps(rng, solid, width, height, canvas.joints, jointsOf(plan));
+  const double kept = canvas.whole ? joinFigure(solid, width, height) : keepLargestPart(solid, width, height);
   if (kept < (canvas.whole ? .85 : .5)) return std::nullopt;
   if (rng.chance(.5)) fillHoles(solid, width, height);
 
@@ -368,7 +480,8 @@ std::optional<Figure> finished(Rng& rng, const FigurePlan& plan, Canvas canvas, 
       }
     }
   }
-  if (keepLargestPart(grid, columns, rows) < .8) return std::nullopt;
+  if ((canvas.whole ? joinFigure(grid, columns, rows) : keepLargestPart(grid, columns, rows)) < .8)
+    return std::nullopt;
 
   Figure figure;
   figure.whole = canvas.whole && cut != Cut::kHeavy;
@@ -376,6 +489,14 @@ std::optional<Figure> finished(Rng& rng, const FigurePlan& plan, Canvas canvas, 
   figure.kind = canvas.kind;
   figure.mask.resize(rows, columns);
   for (int i = 0; i < rows * columns; ++i) figure.mask.data()[i] = grid[i] ? 255 : 0;
+  if (rng.chance(.07)) {  // cut out of black or coloured paper
+    colours.rowwise() =
+        Eigen::Array3f(static_cast<float>(rng.uniform(0, 120)), static_cast<float>(rng.uniform(0, 120)),
+                       static_cast<float>(rng.uniform(0, 120)))
+            .transpose();
+  } else if (rng.chance(.15)) {
+    shadeRound(rng, colours, grid, columns, rows);
+  }
   if (rng.chance(.3)) {  // light from one side
     const double angle = rng.uniform(0, 2 * std::numbers::pi), depth = rng.uniform(.1, .5);
     for (int y = 0; y < rows; ++y) {
@@ -392,6 +513,7 @@ std::optional<Figure> finished(Rng& rng, const FigurePlan& plan, Canvas canvas, 
   }
   figure.look = figureLook(colours, figure.mask);
   figure.visible = std::move(canvas.visible);
+  figure.absent = std::move(canvas.absent);
   for (const Vec& p : canvas.joints) figure.joints.push_back((p - Vec(x0, y0)) / step - Vec::Constant(.5));
   if (figure.whole && !isReadable(figure, plan)) return std::nullopt;
   if (figure.view == FigureView::kSide) sortSides(figure, jointsOf(plan));
@@ -407,8 +529,10 @@ std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& dr
   const Vec low = box.low - Vec::Constant(kMargin / scale);
   const Raster raster = rasterize(drawing.scene, low, scale, width, height);
 
-  Canvas canvas{width,        height,       Bits(raster.part.size()), {}, {}, {}, drawing.view,
+  Canvas canvas{width,        height,       Bits(raster.part.size()), {}, {}, {}, {}, drawing.view,
                 drawing.kind, drawing.whole};
+  canvas.absent.assign(plan.joints.size(), false);
+  for (const int j : drawing.absent) canvas.absent[static_cast<std::size_t>(j)] = true;
   for (std::size_t i = 0; i < canvas.solid.size(); ++i) canvas.solid[i] = raster.part[i] != 0;
   canvas.colour = [&](int x, int y) { return raster.colour(x, y); };
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
@@ -427,7 +551,8 @@ std::optional<Figure> renderDrawn(Rng& rng, const FigurePlan& plan, const Annota
                                   double turn, Cut cut) {
   const WarpedDrawing warped = warpedDrawing(rng, drawing, turn, kOversampling * kLongSide, kMargin);
   const int width = warped.width, height = warped.height;
-  Canvas canvas{width, height, warped.solid, {}, warped.joints, {}, drawing.view, 0, turn == 0};
+  Canvas canvas{width, height, warped.solid, {}, warped.joints, {}, {}, drawing.view, 0, turn == 0};
+  canvas.absent.assign(plan.joints.size(), false);
   canvas.colour = [&](int x, int y) { return warped.colours[static_cast<std::size_t>(y) * width + x]; };
   canvas.visible.assign(plan.joints.size(), true);
   return finished(rng, plan, std::move(canvas), cut);
@@ -451,15 +576,15 @@ Figure generateFigure(Rng& rng, const FigureOptions& options) {
     Cut cut = Cut::kNone;
     if (rng.chance(options.other_share)) {
       const double r = rng.uniform();
-      if (r < .36) {
+      if (r < .32) {
         drawing.scene = plan.drawOther(rng);
         drawing.scene.transform(sampleWarp(rng));
         drawing.joints.assign(plan.joints.size(), Vec::Zero());
         drawing.whole = false;
-      } else if (r < .6) {
+      } else if (r < .52) {
         drawing = drawFigure(rng, plan, options);
         cut = Cut::kHeavy;
-      } else if (r < .85) {  // lying or upside down: to be told from upright, so that it can be turned
+      } else if (r < .86) {  // lying or upside down: to be told from upright, so that it can be turned
         drawing = drawFigure(rng, plan, options);
         const double angle = rng.uniform(1.2, 2 * std::numbers::pi - 1.2);
         drawing.scene.transform([&](const Vec& p) { return rotated(p, angle); });
@@ -470,6 +595,11 @@ Figure generateFigure(Rng& rng, const FigureOptions& options) {
     } else {
       drawing = drawFigure(rng, plan, options);
       if (rng.chance(.05)) cut = Cut::kSlight;
+      if (rng.chance(.08)) {
+        Scene junk = sampleJunk(rng, drawing.scene);
+        junk.append(drawing.scene);
+        drawing.scene = std::move(junk);
+      }
     }
     if (std::optional<Figure> figure = render(rng, plan, drawing, cut)) return *std::move(figure);
   }

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "libskel/core/rng.h"
-#include "libskel/figures/drawing.h"
 #include "libskel/image/image.h"
 #include "libskel/jointnet/figure_look.h"
+#include "trainer/figures/drawing.h"
 
 namespace skel {
 
@@ -19,6 +19,7 @@ struct Figure {
   std::vector<Eigen::Vector2d>
       joints;                 // as FigurePlan::joints; px of the mask, the origin at the first px's centre
   std::vector<bool> visible;  // of each joint: not covered by another part
+  std::vector<bool> absent;   // of each joint: the figure has none (an animal without a tail)
   FigureView view = FigureView::kFront;
   int kind = 0;
 };

@@ -1,10 +1,10 @@
 #include <algorithm>
 
 #include "libskel/core/error.h"
-#include "libskel/figures/biped_painter.h"
-#include "libskel/figures/drawing.h"
-#include "libskel/figures/other_figures.h"
-#include "libskel/figures/quadruped_painter.h"
+#include "trainer/figures/biped_painter.h"
+#include "trainer/figures/drawing.h"
+#include "trainer/figures/other_figures.h"
+#include "trainer/figures/quadruped_painter.h"
 
 namespace skel {
 namespace {
@@ -12,7 +12,8 @@ namespace {
 Drawing drawBiped(Rng& rng, int kind) {
   const BipedPlan plan = sampleBipedPlan(rng, static_cast<BodyKind>(kind));
   PaintedBiped painted = paintBiped(rng, plan);
-  return {std::move(painted.scene), true, {painted.joints.begin(), painted.joints.end()}, plan.view, kind};
+  return {
+      std::move(painted.scene), true, {painted.joints.begin(), painted.joints.end()}, plan.view, kind, {}};
 }
 
 FigurePlan biped() {
@@ -28,20 +29,18 @@ FigurePlan biped() {
     for (const char* joint : {"hip", "knee", "foot"})
       plan.joints.push_back({side + joint, leg, joint == std::string_view("foot")});
   }
-  plan.kinds = {.13, .13, .13, .15, .12, .05, .05, .10, .05, .06, .05};  // as BodyKind
+  plan.kinds = {.12, .12, .12, .15, .11, .05, .06, .10, .05, .06, .04, .05};  // as BodyKind
   plan.draw = drawBiped;
   plan.drawOther = paintOther;
   return plan;
 }
 
 Drawing drawQuadruped(Rng& rng, int kind) {
-  PaintedQuadruped painted = paintQuadruped(rng, sampleQuadrupedPlan(rng, static_cast<AnimalKind>(kind)));
+  const QuadrupedPlan animal = sampleQuadrupedPlan(rng, static_cast<AnimalKind>(kind));
+  PaintedQuadruped painted = paintQuadruped(rng, animal);
   // Near and far legs cannot be told apart: sides go by the picture, as in side views of a biped.
-  return {std::move(painted.scene),
-          true,
-          {painted.joints.begin(), painted.joints.end()},
-          FigureView::kSide,
-          kind};
+  return {std::move(painted.scene), true, {painted.joints.begin(), painted.joints.end()},
+          FigureView::kSide,        kind, animal.has_tail ? std::vector<int>{} : std::vector<int>{3}};
 }
 
 FigurePlan quadruped() {

@@ -1,4 +1,4 @@
-#include "libskel/figures/limb_path.h"
+#include "trainer/figures/limb_path.h"
 
 #include <algorithm>
 #include <numbers>

@@ -1,9 +1,9 @@
-#include "libskel/figures/other_figures.h"
+#include "trainer/figures/other_figures.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "libskel/figures/biped_painter.h"
+#include "trainer/figures/biped_painter.h"
 
 namespace skel {
 namespace {

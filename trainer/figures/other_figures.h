@@ -2,7 +2,7 @@
 #pragma once
 
 #include "libskel/core/rng.h"
-#include "libskel/figures/scene.h"
+#include "trainer/figures/scene.h"
 
 namespace skel {
 

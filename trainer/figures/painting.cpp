@@ -1,4 +1,4 @@
-#include "libskel/figures/painting.h"
+#include "trainer/figures/painting.h"
 
 #include <algorithm>
 

@@ -1,12 +1,12 @@
-#include "libskel/figures/quadruped_painter.h"
+#include "trainer/figures/quadruped_painter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "libskel/figures/limb_path.h"
-#include "libskel/figures/painting.h"
+#include "trainer/figures/limb_path.h"
+#include "trainer/figures/painting.h"
 
 namespace skel {
 namespace {
@@ -22,7 +22,7 @@ class Painter {
     sampleStyle();
     const bool tail_behind = chance(.7), legs_behind = chance(.3);
     if (tail_behind) paintTail();
-    if (chance(.05)) paintWing();
+    if (chance(.07)) paintWing();
     for (auto* pair : {&p_.hind, &p_.front})
       for (const LimbPlan& leg : *pair)
         if (!leg.in_front || legs_behind) paintLeg(leg);
@@ -276,8 +276,8 @@ class Painter {
   }
 
   void paintWing() {
-    const double l = p_.height * in(.6, 1.6);
-    const Vec base = p_.middle + p_.up * p_.height * .3, d = rotated(p_.up, gauss(-.4, .4));
+    const double l = p_.height * in(.6, 2.4);
+    const Vec base = p_.middle + p_.up * p_.height * .3, d = rotated(p_.up, gauss(-.4, .6));
     scene_.begin(ink(accent_));
     scene_.ellipse(base + d * l * .5, {l * .5, l * in(.15, .35)}, angleOf(d));
   }
@@ -318,8 +318,9 @@ class Painter {
   }
 
   void paintHorns() {
-    const double H = p_.head_height, l = H * in(.2, .8), r = std::max(kThinnest, H * in(.03, .09));
-    const bool antlers = chance(.15), knobs = is(AnimalKind::kGiraffe);
+    const double H = p_.head_height, l = H * (chance(.3) ? in(.8, 1.6) : in(.2, .8)),
+                 r = std::max(kThinnest, H * in(.03, .09));
+    const bool antlers = chance(.3), knobs = is(AnimalKind::kGiraffe);
     scene_.begin(ink(accent_), PartOwner::kHead);
     for (const double s : {-1., 1.}) {
       const double across = p_.frontal_head ? s * .2 : -.12 + .1 * s;
@@ -391,6 +392,16 @@ class Painter {
         scene_.begin(ink({245, 245, 235}), PartOwner::kHead);
         const Vec tusk = root - up * H * .15;
         scene_.line(tusk, tusk + forward * H * in(.2, .4) - up * H * in(-.1, .15), w * .35, kThinnest);
+      }
+    }
+    if (!p_.frontal_head && chance(.05)) {  // horns on the nose, tusks
+      scene_.begin(ink({235, 230, 210}), PartOwner::kHead);
+      const int horns = 1 + static_cast<int>(rng_.below(2));
+      const double side = chance(.7) ? 1 : -1;
+      for (int k = 0; k < horns; ++k) {
+        const Vec at = head_ + forward * L * (in(.3, .6) - .3 * k) + up * side * H * .3;
+        const Vec tip = at + rotated(up * side, -side * in(-.3, 1)) * H * in(.3, 1.1) * (k ? .6 : 1);
+        scene_.polygon({at - forward * H * .12, tip, at + forward * H * .12});
       }
     }
     if (is(AnimalKind::kPig) || (p_.frontal_head && chance(.3))) {  // snout

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "libskel/figures/quadruped_plan.h"
-#include "libskel/figures/scene.h"
+#include "trainer/figures/quadruped_plan.h"
+#include "trainer/figures/scene.h"
 
 namespace skel {
 

@@ -1,4 +1,4 @@
-#include "libskel/figures/quadruped_plan.h"
+#include "trainer/figures/quadruped_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ constexpr Proportions kProportions[kAnimalKinds] = {
     {{.32, .55}, {.70, 1.3}, {.06, .14}, {.9, 2.0}, {.8, 1.45}, {.26, .42}, {.45, .7}, {.2, .6}, {.2, .6}},
     {{.24, .45}, {.25, .65}, {.06, .14}, {.10, .35}, {.1, 1.0}, {.32, .55}, {.6, .9}, {.3, .8}, {.5, 1.1}},
     {{.50, 1.0}, {.05, .25}, {.06, .16}, {.0, .2}, {-.2, .5}, {.35, .7}, {.7, 1.0}, {.1, .6}, {.4, 1.3}},
-    {{.22, .60}, {.12, .50}, {.08, .22}, {.05, 1.2}, {-.2, 1.1}, {.28, .55}, {.4, .75}, {.2, .9}, {.6, 1.8}},
+    {{.22, .70}, {.12, .50}, {.08, .22}, {.05, 1.5}, {-.4, 1.3}, {.20, .55}, {.4, .75}, {.2, .9}, {.6, 1.9}},
     {{.40, .75}, {.12, .35}, {.12, .24}, {.15, .50}, {0, .8}, {.24, .42}, {.6, 1.0}, {0, .4}, {.08, .35}},
     {{.45, .85}, {.15, .45}, {.14, .30}, {.0, .2}, {.3, 1.3}, {.70, 1.2}, {.8, 1.15}, {0, .2}, {.1, .7}},
     {{.30, .70}, {.25, .80}, {.03, .14}, {.0, .45}, {-.1, 1.2}, {.25, .65}, {.7, 1.1}, {0, .4}, {.15, .9}},
@@ -71,7 +71,7 @@ class Sampler {
     const auto takes = [&](double share) { return (r -= share) < 0; };
     pose_ = takes(lively ? .20 : .08)   ? Pose::kWalk
             : takes(lively ? .07 : .02) ? Pose::kTrot
-            : takes(lively ? .06 : .01) ? Pose::kGallop
+            : takes(lively ? .09 : .01) ? Pose::kGallop
             : takes(lively ? .03 : .01) ? Pose::kLeap
             : takes(sits ? .12 : .02)   ? Pose::kSit
             : takes(lively ? .04 : .01) ? Pose::kLie
@@ -224,7 +224,8 @@ class Sampler {
   }
 
   void sampleTail() {
-    p_.has_tail = chance(is(AnimalKind::kSheep) || is(AnimalKind::kToy) ? .6 : .93);
+    p_.has_tail =
+        chance(is(AnimalKind::kSheep) || is(AnimalKind::kToy) || is(AnimalKind::kElephant) ? .6 : .9);
     const double length = in(q_.tail);
     p_.tail[0] = p_.rump - p_.forward * p_.height * in(.3, .5) + p_.up * p_.height * in(-.05, .4);
     if (!p_.has_tail) {
@@ -235,11 +236,12 @@ class Sampler {
                                    : is(AnimalKind::kFox)   ? in(.08, .3)
                                    : is(AnimalKind::kHorse) ? in(.05, .18)
                                                             : in(.015, .1));
-    const double rise = is(AnimalKind::kLizard)                          ? gauss(0, .3)
+    const double rise = chance(.08)                                      ? in(1.2, 2.4)  // over the back
+                        : is(AnimalKind::kLizard)                        ? gauss(0, .3)
                         : is(AnimalKind::kHorse) || is(AnimalKind::kCow) ? gauss(-.8, .6)
                                                                          : gauss(.3, .8);
     const double turn = gauss(0, .7);
-    const Vec first = rotated(-p_.forward, std::clamp(rise, -1.5, 1.6));
+    const Vec first = rotated(-p_.forward, std::clamp(rise, -1.5, 2.4));
     p_.tail[1] = p_.tail[0] + first * length * .5;
     p_.tail[2] = p_.tail[1] + rotated(first, turn) * length * .5;
     for (Vec& t : p_.tail) t.y() = std::min(t.y(), ground_ + .02);

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "libskel/core/rng.h"
-#include "libskel/figures/biped_plan.h"
+#include "trainer/figures/biped_plan.h"
 
 namespace skel {
 

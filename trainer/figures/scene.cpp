@@ -1,4 +1,4 @@
-#include "libskel/figures/scene.h"
+#include "trainer/figures/scene.h"
 
 #include <algorithm>
 #include <cmath>

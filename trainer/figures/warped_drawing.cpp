@@ -1,4 +1,4 @@
-#include "libskel/figures/warped_drawing.h"
+#include "trainer/figures/warped_drawing.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

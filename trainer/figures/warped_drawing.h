@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "libskel/core/rng.h"
-#include "libskel/figures/figure.h"
-#include "libskel/figures/scene.h"
+#include "trainer/figures/figure.h"
+#include "trainer/figures/scene.h"
 
 namespace skel {
 

@@ -1,0 +1,78 @@
+#include "trainer/jointed_drawing.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/json.h"
+#include "libskel/image/read_image.h"
+#include "libskel/labels/annotated_image.h"
+#include "libskel/skeleton/skeleton_file.h"
+
+namespace skel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSkeletonFileEnding = ".skeleton.json";
+
+std::string beside(const std::string& file, const std::string& relative) {
+  return (fs::path(file).parent_path() / relative).lexically_normal().string();
+}
+
+JointedDrawing fromSkeleton(const std::string& path) {
+  const std::string body_plan = JsonDocument::readFile(path).root().at("template").asString();
+  const SkeletonFile file = readSkeletonFile(path, loadTemplate(body_plan));
+  JointedDrawing drawing{beside(path, file.image_file), std::nullopt, path, {}, false};
+  if (file.mask) drawing.mask = beside(path, file.mask->file);
+  for (const Joint& joint : file.skeleton.joints) drawing.joints.emplace_back(joint.name, joint.image);
+  return drawing;
+}
+
+JointedDrawing fromLabels(const std::string& path) {
+  const LabelFile file = readLabelFile(path);
+  JointedDrawing drawing{besideLabelFile(path, file.image.file), std::nullopt, path, file.joints, false};
+  if (file.mask) drawing.mask = besideLabelFile(path, file.mask->file);
+  return drawing;
+}
+
+}  // namespace
+
+std::vector<JointedDrawing> findJointedDrawings(const std::string& dir) {
+  std::map<std::string, JointedDrawing> by_image;
+  for (const AnnotatedImage& files : findAnnotatedImages(dir)) {
+    by_image[fs::path(files.image).lexically_normal().string()] = {files.image, files.mask, files.joints,
+                                                                   readJointsFile(files.joints),
+                                                                   readView(files.joints) == "side"};
+  }
+  const std::vector<std::string> all = filesBelow(dir);
+  for (const std::string& path : all) {
+    if (!path.ends_with(kLabelFileEnding)) continue;
+    JointedDrawing drawing = fromLabels(path);
+    if (!drawing.joints.empty())
+      by_image.try_emplace(fs::path(drawing.image).lexically_normal().string(), drawing);
+  }
+  for (const std::string& path : all) {
+    if (!path.ends_with(kSkeletonFileEnding) || !hasEditedJoint(path)) continue;
+    JointedDrawing drawing = fromSkeleton(path);
+    by_image.try_emplace(drawing.image, drawing);
+  }
+  if (by_image.empty())
+    throw InputError(dir,
+                     "has no drawing with known joints: *.joints.json, *.labels.json or *.skeleton.json of "
+                     "which a person has placed a joint");
+  std::vector<JointedDrawing> drawings;
+  for (auto& [image, drawing] : by_image) drawings.push_back(std::move(drawing));
+  return drawings;
+}
+
+Silhouette silhouetteOf(const Image& image, const JointedDrawing& drawing) {
+  Silhouette silhouette =
+      drawing.mask ? silhouetteFromMask(readMaskOf(image, *drawing.mask)) : extractSilhouette(image);
+  if (!silhouette.found()) throw InputError(drawing.mask.value_or(drawing.image), silhouette.reason);
+  return silhouette;
+}
+
+}  // namespace skel

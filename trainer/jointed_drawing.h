@@ -1,0 +1,30 @@
+// Drawings whose joints somebody has placed, whichever file says so.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libskel/image/image.h"
+#include "libskel/labels/label_file.h"
+#include "libskel/silhouette/silhouette.h"
+
+namespace skel {
+
+struct JointedDrawing {
+  std::string image;                // path
+  std::optional<std::string> mask;  // path; none: the figure is found in the image
+  std::string joints_file;          // where the joints stand
+  NamedJoints joints;
+  bool side_view = false;
+};
+
+// All below `dir`, at any depth, sorted by the image's path: annotated ones (see findAnnotatedImages), label
+// files with joints, and skeleton files in which a person has placed a joint. Of several files that speak of
+// one image the first of these kinds counts. Throws InputError if there are none, or one cannot be read.
+std::vector<JointedDrawing> findJointedDrawings(const std::string& dir);
+
+// By the drawing's mask, or as found in the image. Throws InputError with the reason if there is none.
+Silhouette silhouetteOf(const Image& image, const JointedDrawing& drawing);
+
+}  // namespace skel
