@@ -2,9 +2,9 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/parallel.h"
-#include "trainer/figures/figure.h"
 #include "libskel/labels/label_from_joints.h"
 #include "libskel/skeleton/template.h"
+#include "trainer/figures/figure.h"
 
 namespace skel {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "libskel/core/files.h"
-#include "trainer/figures/figure.h"
 #include "libskel/image/write_image.h"
+#include "trainer/figures/figure.h"
 #include "trainer/posable_drawing.h"
 
 namespace skel {
