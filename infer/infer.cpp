@@ -198,6 +198,7 @@ void bindRecognitionOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--joint-net", options.joint_net_file,
                  "Weights of the net that finds the joints (default: built in)")
       ->always_capture_default(false);
+  app.add_flag("--upright", options.upright, "The figure is not turned: try no other orientations");
   app.add_option("--recognizer", options.recognizer, "How joints are found")
       ->check(namesOf(kRecognizerNames));
   app.add_option("--candidates", options.candidates, "Which points may be joints")

@@ -17,6 +17,7 @@ struct InferOptions {
   std::string mask_file, model_file, skeleton_file;
   std::string body_plan = "biped";
   std::string recognizer = "tree";
+  bool upright = false;
   std::string candidates = "maxima";
   std::string skin = "geodesic";
   int max_influences = 4;

@@ -33,7 +33,7 @@ struct Schedule {
   int steps;
   double peak_rate, averaging, drawn_share, left_out;
 };
-constexpr Schedule kFromNothing = {18000, 2e-3, .999, .4, 0};
+constexpr Schedule kFromNothing = {12000, 2e-3, .999, .4, 0};
 // Little by little, so that nothing is forgotten.
 constexpr Schedule kGoingOn = {1200, 3e-4, .99, .5, .2};
 

@@ -23,23 +23,21 @@ constexpr float kLeastShare = 1e-4f;          // of the highest probability: wha
 constexpr double kOutsidePenalty = 4;         // nats for a bone that lies wholly outside the figure
 constexpr double kBoneSample = 2;             // grid px between samples along a bone
 constexpr double kNear = .1 * kLongSide / 4;  // cells: what counts as found
-// How doubtful the net is about an orientation: mean entropy of the heatmaps (nats) less kFigureShare times
-// the log-odds of a whole upright figure. Above kDoubtful other orientations are tried. Drawings mostly stand
-// upright, some lie or are scanned sideways, few lean by an eighth of a turn: so much less doubtful must the
-// net be about those. On 112 drawings none is turned that stands upright; of quarter and half turns 98 % are
-// found.
-constexpr double kFigureShare = .05, kLargestLogit = 4;
-constexpr double kDoubtful = 3.4;
-constexpr double kQuarterTurn = .2, kEighthTurn = .8;
+// Drawings stand upright but for few, which lie, stand on their heads or are scanned sideways. The net has
+// learned to tell upright figures from turned ones: above kSurelyUpright (log-odds) nothing else is looked
+// at; a turn needs log-odds of at least kTurnLogit, and has to be ahead of the picture as it is by
+// kTurnMargin, by kEighthTurn more if it is no quarter turn. Log-odds count within ±kLargestLogit, and each
+// nat of the heatmaps' mean entropy counts against a view.
+constexpr double kSurelyUpright = 1.5, kTurnLogit = 0, kTurnMargin = 4, kEighthTurn = 2;
+constexpr double kEntropyShare = 1, kLargestLogit = 6;
 constexpr int kOrientations = 8;
 
-// The figure's confidence: logistic in the net's log-odds of a whole figure (within ±kSureLogit) and in the
-// joints' mean confidence. The weights separate generated figures and others. The constant lets some 85 % of
-// hand-drawn characters exceed 0.5 that the net has not been trained on: they are less clear than generated
-// ones, and than those that it has seen.
-constexpr double kFigureLogit = .9, kSureLogit = 6, kFigureJoints = 8, kFigureConstant = -10.6;
-// Off the log-odds of a figure that was turned: drawings seldom lie or stand on their heads, and of eight
-// views of an animal one may look human.
+// The figure's confidence: logistic in the net's log-odds of a whole figure (within ±kLargestLogit) and in
+// the joints' mean confidence. One constant for each net that is built in: it lets most hand-drawn figures
+// exceed 0.5 that the net has not been trained on, which are less clear than generated ones.
+constexpr double kFigureLogit = .9, kFigureJoints = 8;
+double figureConstant(std::string_view body_plan) { return body_plan == "quadruped" ? -9.0 : -9.8; }
+// Off the log-odds of a figure that was turned: of eight views of an animal one may look human.
 constexpr double kTurnedOdds = 1.5;
 
 using Heatmap = std::array<float, kCells>;
@@ -89,9 +87,12 @@ Heatmaps evaluateNet(const Plane8& mask, const FigureLook& look, const JointNet&
   return out;
 }
 
-double doubt(const Heatmaps& maps) {
-  return maps.entropy - kFigureShare * std::clamp(maps.figure_logit, -kLargestLogit, kLargestLogit);
+double figureLogit(const Heatmaps& maps) {
+  return std::clamp(maps.figure_logit, -kLargestLogit, kLargestLogit);
 }
+
+// How much speaks for a view.
+double evidence(const Heatmaps& maps) { return figureLogit(maps) - kEntropyShare * maps.entropy; }
 
 // The figure turned by `angle` about its middle and scaled so that it fits the grid again.
 struct Turned {
@@ -278,14 +279,15 @@ TreeRecognition recognizeByJointNet(const Plane8& mask, const FigureLook& look, 
   Turned figure{mask, look, Eigen::Matrix2d::Identity(), Vec::Zero()};
   Heatmaps maps = evaluate(figure, options.mirror);
   TreeRecognition result;
-  if (options.try_orientations && doubt(maps) > kDoubtful) {
-    double least = doubt(maps);
+  if (options.try_orientations && maps.figure_logit < kSurelyUpright) {
+    double most = evidence(maps) + kTurnMargin;
     for (int k = 1; k < kOrientations; ++k) {
       const double angle = 2 * std::numbers::pi * k / kOrientations;
       Turned turned = turnedBy(mask, look, -angle);
-      const double d = doubt(evaluate(turned, false)) + (k % 2 == 0 ? kQuarterTurn : kEighthTurn);
-      if (d >= least) continue;
-      least = d;
+      const Heatmaps view = evaluate(turned, false);
+      const double speaks = evidence(view) - (k % 2 == 0 ? 0 : kEighthTurn);
+      if (view.figure_logit < kTurnLogit || speaks <= most) continue;
+      most = speaks;
       result.turned = angle;
       figure = std::move(turned);
     }
@@ -306,9 +308,8 @@ TreeRecognition recognizeByJointNet(const Plane8& mask, const FigureLook& look, 
     mean_confidence += result.joints[j].confidence / joints.count();
   }
   result.entropy = maps.entropy;
-  const double logit = kFigureLogit * std::clamp(maps.figure_logit, -kSureLogit, kSureLogit) +
-                       kFigureJoints * mean_confidence + kFigureConstant -
-                       (result.turned != 0 ? kTurnedOdds : 0);
+  const double logit = kFigureLogit * figureLogit(maps) + kFigureJoints * mean_confidence +
+                       figureConstant(net.body_plan) - (result.turned != 0 ? kTurnedOdds : 0);
   result.figure_confidence = 1 / (1 + std::exp(-logit));
   return result;
 }

@@ -23,7 +23,7 @@ struct TreeRecognition {
 struct TreeRecognizerOptions {
   InstructionSet instructions = bestInstructionSet();
   bool mirror = true;            // average with the mirrored figure
-  bool try_orientations = true;  // if the figure as it is leaves the net in doubt
+  bool try_orientations = true;  // if the net doubts that the figure stands upright
 };
 
 // `mask` is the working grid (not 0 on the figure, at least one such px, long side at most 128 px), `look`

@@ -104,7 +104,9 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     } else if (options.recognizer == Recognizer::kPaper) {
       found = recognizeByRules(silhouette, drawing.candidates, drawing.classes, options.body_plan);
     } else {
-      found = recognizeByTree(drawing.image, silhouette, options.body_plan, jointNetOf(options));
+      TreeRecognizerOptions recognizer;
+      recognizer.try_orientations = !options.upright;
+      found = recognizeByTree(drawing.image, silhouette, options.body_plan, jointNetOf(options), recognizer);
       if (found.confidence < 0.5)
         if (const auto better = betterBodyPlan(drawing.image, silhouette, options.body_plan.name))
           found.warnings.push_back("it looks like a " + *better + ": try --template " + *better);

@@ -41,6 +41,7 @@ struct RigOptions {
   Mlp mlp;  // tells the classes of candidates apart
   SkeletonTemplate body_plan;
   Recognizer recognizer = Recognizer::kTree;
+  bool upright = false;                       // the figure is not turned: try no other orientations
   std::shared_ptr<const JointNet> joint_net;  // null: the built-in one that knows the body plan
   InflateOptions inflate;
   SkinMethod skin_method = SkinMethod::kGeodesic;

@@ -6,7 +6,6 @@
 
 #include "libskel/core/check.h"
 #include "libskel/jointnet/figure_look.h"
-#include "libskel/jointnet/tree_recognizer.h"
 #include "libskel/recognition/complete_skeleton.h"
 
 namespace skel {
@@ -28,13 +27,14 @@ constexpr double kCutConfidence = 0.4;  // the most that such a figure can have
 }  // namespace
 
 Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
-                            const SkeletonTemplate& body_plan, const JointNet& net) {
+                            const SkeletonTemplate& body_plan, const JointNet& net,
+                            const TreeRecognizerOptions& options) {
   SKEL_CHECK(silhouette.found());
   const NetJoints joints = netJoints(net.joints, body_plan);
   const WorkingGrid& grid = silhouette.grid;
   const FigureLook look = figureLook(gridColours(image, grid.corner_px, grid.scale, grid.width, grid.height),
                                      silhouette.grid_mask);
-  const TreeRecognition tree = recognizeByJointNet(silhouette.grid_mask, look, net, joints);
+  const TreeRecognition tree = recognizeByJointNet(silhouette.grid_mask, look, net, joints, options);
 
   Recognition recognition;
   recognition.skeleton = presetSkeleton(body_plan, {0, 0}, {1, 1});
@@ -59,7 +59,8 @@ Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
     recognition.warnings.push_back(warning);
   }
   if (const long degrees = std::lround(tree.turned * 180 / std::numbers::pi); degrees != 0)
-    recognition.warnings.push_back("the figure is turned by " + std::to_string(degrees) + " degrees");
+    recognition.warnings.push_back("the figure is turned by " + std::to_string(degrees) +
+                                   " degrees (if it is not, use --upright)");
   completeSkeleton(recognition.skeleton, placed, body_plan, silhouette);
   return recognition;
 }

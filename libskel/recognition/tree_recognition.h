@@ -3,6 +3,7 @@
 
 #include "libskel/image/image.h"
 #include "libskel/jointnet/joint_net.h"
+#include "libskel/jointnet/tree_recognizer.h"
 #include "libskel/recognition/recognition.h"
 #include "libskel/silhouette/silhouette.h"
 #include "libskel/skeleton/template.h"
@@ -17,6 +18,7 @@ inline constexpr double kFoundConfidence = 0.4;
 // `silhouette` must be found and belong to `image`, whose inner lines show limbs before the body. `body_plan`
 // must have the joints that the net knows; throws UsageError otherwise.
 Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
-                            const SkeletonTemplate& body_plan, const JointNet& net);
+                            const SkeletonTemplate& body_plan, const JointNet& net,
+                            const TreeRecognizerOptions& options = {});
 
 }  // namespace skel

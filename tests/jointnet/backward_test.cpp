@@ -64,6 +64,22 @@ TEST_CASE("Perfect heatmaps cost no more than the target's own entropy") {
   CHECK(jointLoss<double>(map, target, 1, nullptr) == Approx(weight * entropy).epsilon(.02));
 }
 
+TEST_CASE("The best heatmap of a joint that the figure has none of is an even one") {
+  JointTarget target;
+  target.joints.assign(kJoints, {Eigen::Vector2d(10, 10), 0});
+  target.joints[2] = {Eigen::Vector2d(10, 10), 1, true};
+  target.whole = true;
+  std::vector<double> even(
+      static_cast<std::size_t>(paddedPixels(kHeatmapSize, kHeatmapSize)) * heatmapChannels(kJoints), 0.);
+  std::vector<double> sharp = even, gradient(even.size(), 0.);
+  sharp[static_cast<std::size_t>(paddedIndex(kHeatmapSize, 10, 10)) * heatmapChannels(kJoints) + 2] = 3;
+  CHECK(jointLoss<double>(even, target, 1, &gradient) < jointLoss<double>(sharp, target, 1, nullptr));
+  for (int y = 0; y < kHeatmapSize; ++y)
+    CHECK(std::abs(
+              gradient[static_cast<std::size_t>(paddedIndex(kHeatmapSize, y, y)) * heatmapChannels(kJoints) +
+                       2]) < 1e-12);
+}
+
 TEST_CASE("In side views, mirrored or not, the limb at the left of the picture is called the right one") {
   FigureOptions options;
   options.body_plan = GENERATE("biped", "quadruped");

@@ -133,6 +133,12 @@ TEST_CASE("figures on their side and on their head are turned back, and it is sa
       CHECK(shareRight(figure, recognition, turned) >= 12.0 / 14);
       CHECK(std::any_of(recognition.warnings.begin(), recognition.warnings.end(),
                         [](const std::string& w) { return w.starts_with("the figure is turned by "); }));
+      TreeRecognizerOptions upright;
+      upright.try_orientations = false;
+      const Recognition kept =
+          recognizeByTree(inkOn(mask), silhouetteFromMask(mask), loadTemplate("biped"), kNet, upright);
+      CHECK(std::none_of(kept.warnings.begin(), kept.warnings.end(),
+                         [](const std::string& w) { return w.starts_with("the figure is turned by "); }));
     }
   }
 }

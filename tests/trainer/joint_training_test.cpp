@@ -48,6 +48,33 @@ TEST_CASE("joint training that was killed goes on from its checkpoint to the sam
   CHECK(resumed.out.find("step 1 ") == std::string::npos);
 }
 
+TEST_CASE(
+    "joint training goes on from a net with a folder of mended drawings, and measures on one left out") {
+  const TempDir dir;
+  const std::string from = drawings(dir);
+  // What people save: joints placed in the window, a skeleton that was mended.
+  for (const char* name : {"ninja", "pirate"})
+    for (const char* end : {".png", ".mask.png", ".labels.json"})
+      std::filesystem::copy_file(SKEL_DATASETS "/characters/" + std::string(name) + end,
+                                 dir.file("drawings/") + name + end);
+  REQUIRE(runTool(command(dir, "first.bin", "")).exit_code == 0);
+  const auto result =
+      runTool(command(dir, "mine.bin", "--left-out .34 --start '" + dir.file("first.bin") + "'" + from));
+  CHECK(result.exit_code == 0);
+  CHECK(result.out.find("before: 1 drawings left out: joints within 5 % ") != std::string::npos);
+  CHECK(result.out.find("after: 1 drawings left out: joints within 5 % ") != std::string::npos);
+  CHECK(readFile(dir.file("mine.bin")) != readFile(dir.file("first.bin")));
+
+  const auto animal =
+      runTool(command(dir, "n.bin", "--template quadruped --start '" + dir.file("first.bin") + "'"));
+  CHECK(animal.exit_code == 2);
+  CHECK(animal.err.find("finds the joints of a biped, not of a quadruped") != std::string::npos);
+  const auto old = runTool(
+      command(dir, "n.bin", "--start '" SKEL_DATASETS "/../weights/archive/joint-net-version-2.bin'"));
+  CHECK(old.exit_code == 2);
+  CHECK(old.err.find("comes from a former version of skel-train") != std::string::npos);
+}
+
 TEST_CASE("joint training refuses what it cannot go on from or learn from") {
   const TempDir dir;
   writeFile(dir.file("state"), "short");
@@ -57,7 +84,7 @@ TEST_CASE("joint training refuses what it cannot go on from or learn from") {
   CHECK(runTool(command(dir, "n.bin", "--hold-back 99")).exit_code == 1);
   const auto empty = runTool(command(dir, "n.bin", "--drawings '" + dir.path() + "'"));
   CHECK(empty.exit_code == 2);
-  CHECK(empty.err.find("has no drawing with joints.json and mask.png") != std::string::npos);
+  CHECK(empty.err.find("has no drawing with known joints") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(dir.file("n.bin")));
 }
 

@@ -2,7 +2,9 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
+#include "libskel/skeleton/skeleton_file.h"
 #include "tests/support/catch.h"
 #include "tests/support/marked_figure.h"
 #include "tests/support/temp_dir.h"
@@ -84,14 +86,34 @@ TEST_CASE("the same random numbers give the same pose") {
   CHECK(a.joints == b.joints);
 }
 
-TEST_CASE("drawings to be posed need a mask and all joints") {
+TEST_CASE("drawings to be posed need all joints") {
   const TempDir dir;
-  CHECK(complaint(dir).find("has no drawing with joints.json and mask.png") != std::string::npos);
+  CHECK(complaint(dir).find("has no drawing with known joints") != std::string::npos);
   write(dir, "left_knee");
   CHECK(complaint(dir) == dir.file("a.joints.json") + ": joints: has no \"left_knee\"; training needs all");
+}
+
+TEST_CASE("a skeleton counts once a person has placed a joint of it, labels before skeletons") {
+  const TempDir dir;
   write(dir);
-  std::filesystem::remove(dir.file("a.mask.png"));
-  CHECK(complaint(dir) == dir.file("a.png") + ": has no mask beside it; training needs one");
+  std::vector<JointedDrawing> found = findJointedDrawings(dir.path());
+  REQUIRE(found.size() == 1);
+  SkeletonFile file;
+  file.image_file = "a.png";
+  const Image image = readImage(dir.file("a.png"));
+  file.image_width = image.width;
+  file.image_height = image.height;
+  file.skeleton = presetSkeleton(loadTemplate("biped"), {0, 0}, {image.width - 1., image.height - 1.});
+  for (const auto& [name, place] : found[0].joints)
+    file.skeleton.joints[static_cast<std::size_t>(file.skeleton.index(name))].image = *place;
+  std::filesystem::remove(dir.file("a.joints.json"));
+
+  writeFile(dir.file("a.skeleton.json"), formatSkeletonFile(file));
+  CHECK(complaint(dir).find("has no drawing with known joints") != std::string::npos);
+  file.skeleton.joints[3].origin = JointOrigin::kEdited;
+  writeFile(dir.file("a.skeleton.json"), formatSkeletonFile(file));
+  CHECK(read(dir).size() == 1);
+  CHECK(findJointedDrawings(dir.path())[0].joints_file == dir.file("a.skeleton.json"));
 }
 
 }  // namespace
