@@ -24,12 +24,12 @@ constexpr double kOutsidePenalty = 4;         // nats for a bone that lies wholl
 constexpr double kBoneSample = 2;             // grid px between samples along a bone
 constexpr double kNear = .1 * kLongSide / 4;  // cells: what counts as found
 // Drawings stand upright but for few, which lie, stand on their heads or are scanned sideways. The net has
-// learned to tell upright figures from turned ones: above kSurelyUpright (log-odds) nothing else is looked
-// at; a turn needs log-odds of at least kTurnLogit, and has to be ahead of the picture as it is by
-// kTurnMargin, by kEighthTurn more if it is no quarter turn. Log-odds count within ±kLargestLogit, and each
-// nat of the heatmaps' mean entropy counts against a view.
-constexpr double kSurelyUpright = 1.5, kTurnLogit = 0, kTurnMargin = 4, kEighthTurn = 2;
-constexpr double kEntropyShare = 1, kLargestLogit = 6;
+// learned to tell upright figures from turned ones: above kSurelyUpright (log-odds) nothing else is looked at;
+// a turn needs log-odds of at least kTurnLogit, and has to be ahead of the picture as it is by kTurnMargin, by
+// kEighthTurn more if it is no quarter turn. Log-odds count within ±kLargestLogit, and each nat of the
+// heatmaps' mean entropy counts as much as kEntropyShare of them against a view.
+constexpr double kSurelyUpright = 3.5, kTurnLogit = 0, kTurnMargin = 1.5, kEighthTurn = 3;
+constexpr double kEntropyShare = 2, kLargestLogit = 6;
 constexpr int kOrientations = 8;
 
 // The figure's confidence: logistic in the net's log-odds of a whole figure (within ±kLargestLogit) and in
@@ -282,6 +282,7 @@ TreeRecognition recognizeByJointNet(const Plane8& mask, const FigureLook& look, 
   if (options.try_orientations && maps.figure_logit < kSurelyUpright) {
     double most = evidence(maps) + kTurnMargin;
     for (int k = 1; k < kOrientations; ++k) {
+      if (k % 2 == 1 && maps.figure_logit > kTurnLogit) continue;
       const double angle = 2 * std::numbers::pi * k / kOrientations;
       Turned turned = turnedBy(mask, look, -angle);
       const Heatmaps view = evaluate(turned, false);
