@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -129,7 +130,8 @@ int addTextureCoordinates(GlbBuilder& glb, const TriangleMesh& mesh) {
   return glb.addAccessor(values, 2, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER, true);
 }
 
-// In units of 1/65535, with the sum that glTF asks for; the rounding falls on the heaviest.
+// In units of 1/65535, with the sum that glTF asks for; the rounding falls on the heaviest, which stays the
+// first.
 std::vector<std::uint16_t> quantizedWeights(const SkinWeights& weights) {
   std::vector<std::uint16_t> values;
   for (Eigen::Index i = 0; i < weights.weights.rows(); ++i) {
@@ -140,6 +142,7 @@ std::vector<std::uint16_t> quantizedWeights(const SkinWeights& weights) {
       left -= parts[k];
     }
     parts[0] = left;
+    std::sort(parts, parts + 4, std::greater<>());
     for (const int part : parts) values.push_back(std::uint16_t(part));
   }
   return values;
