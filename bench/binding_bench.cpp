@@ -34,7 +34,7 @@ const Model& figure() {
   static const Model model = [] {
     const CapsuleFigure capsules;
     Model result{
-        inflate(capsuleImage(capsules), silhouetteFromMask(capsuleMask(capsules)), {.spacing_px = 1.2}),
+        inflate(capsuleImage(capsules), silhouetteFromMask(capsuleMask(capsules)), {.spacing_px = 1.5}),
         capsuleSkeleton(capsules)};
     for (Joint& joint : result.skeleton.joints) {
       const Eigen::Vector2d p = result.mesh.model_from_image(joint.image);

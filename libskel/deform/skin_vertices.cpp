@@ -1,6 +1,7 @@
 #include "libskel/deform/skin_vertices.h"
 
 #include "libskel/core/check.h"
+#include "libskel/deform/dual_quaternions.h"
 
 namespace skel {
 
@@ -52,16 +53,17 @@ std::vector<Eigen::Vector3f> posedJoints(const Skeleton& skeleton, const JointTr
 }
 
 Eigen::MatrixX3f skinVertices(const Eigen::MatrixX3f& vertices, const SkinWeights& weights,
-                              const JointTransforms& posed_from_rest) {
+                              const JointTransforms& posed_from_rest, Blending blending) {
   SKEL_CHECK_EQ(weights.joints.rows(), vertices.rows());
+  if (blending == Blending::kDualQuaternions) return blendDualQuaternions(vertices, weights, posed_from_rest);
   Eigen::MatrixX3f result(vertices.rows(), 3);
   const Eigen::Index count = vertices.rows();
   for (Eigen::Index v = 0; v < count; ++v) {
-    // Whole columns of 4×4 matrices, which fit a vector register each; heaviest first, so the rest is 0.
+    // Whole columns of 4×4 matrices, which fit a vector register each.
     Eigen::Vector4f columns[4];
     for (int k = 0; k < 4; ++k) {
       const float weight = weights.weights(v, k);
-      if (k > 0 && weight <= 0) break;
+      if (k > 0 && weight <= 0) continue;
       const Eigen::Matrix4f& matrix = posed_from_rest[weights.joints(v, k)].matrix();
       for (int c = 0; c < 4; ++c) {
         if (k == 0) {
