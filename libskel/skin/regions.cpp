@@ -59,7 +59,7 @@ SkinRegions parseRegions(std::string_view text, const std::string& file) {
         item.at("name").fail("\"" + region.name + "\" is the name of two regions");
     for (const JsonValue& word : item.at("words").items()) {
       region.words.push_back(word.asString());
-      if (wordsOf(region.words.back()) != std::vector{region.words.back()})
+      if (region.words.back().empty() || wordsOf(region.words.back()) != std::vector{region.words.back()})
         word.fail("must be one word of small letters");
     }
     others += region.words.empty();
