@@ -170,14 +170,18 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
 
   Clip result = clip;
   result.lead_s = 0;
+  result.interpolation = RotationInterpolation::kSlerp;
   for (JointTrack& track : result.tracks) {
+    const bool turns = !track.times_s.empty() || !track.bone.isZero();
     track.bone.setZero();
-    track.times_s = times;
+    track.times_s = turns ? times : std::vector<float>{};
     track.rotations.clear();
+    track.angles_rad.clear();
   }
   for (const auto& [pose, share] : moments) {
     const std::vector<Quaterniond> globals = retargeter.globals(pose, share);
     for (JointTrack& track : result.tracks) {
+      if (track.times_s.empty()) continue;
       const int joint = skeleton.index(track.joint), parent = skeleton.joints[joint].parent;
       Quaterniond local =
           parent < 0 ? globals[joint] : (globals[parent].conjugate() * globals[joint]).normalized();

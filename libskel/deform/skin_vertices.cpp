@@ -20,6 +20,28 @@ JointTransforms posedFromRest(const Skeleton& skeleton, const std::vector<Eigen:
   return transforms;
 }
 
+JointTransforms posedFromRest(const Skeleton& skeleton, const Pose& pose, float height_m) {
+  const Eigen::Vector3f root_translation_m = height_m * pose.root_translation;
+  if (pose.translations_m.empty() && pose.scales.empty())
+    return posedFromRest(skeleton, pose.rotations, root_translation_m);
+  const std::size_t count = skeleton.joints.size();
+  SKEL_CHECK_EQ(pose.rotations.size(), count);
+  JointTransforms transforms;
+  transforms.reserve(count);
+  for (std::size_t j = 0; j < count; ++j) {
+    const Joint& joint = skeleton.joints[j];
+    const Eigen::Vector3f rest = joint.position.cast<float>();
+    Eigen::Vector3f at = rest;
+    if (joint.parent < 0) at += root_translation_m;
+    if (!pose.translations_m.empty()) at += pose.translations_m[j];
+    Eigen::Affine3f local = Eigen::Affine3f(Eigen::Translation3f(at) * pose.rotations[j]);
+    if (!pose.scales.empty()) local.scale(pose.scales[j]);
+    local.translate(-rest);
+    transforms.push_back(joint.parent < 0 ? local : transforms[joint.parent] * local);
+  }
+  return transforms;
+}
+
 std::vector<Eigen::Vector3f> posedJoints(const Skeleton& skeleton, const JointTransforms& posed_from_rest) {
   SKEL_CHECK_EQ(posed_from_rest.size(), skeleton.joints.size());
   std::vector<Eigen::Vector3f> positions;

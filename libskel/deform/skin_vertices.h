@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "libskel/animation/sample_pose.h"
 #include "libskel/skeleton/skeleton.h"
 #include "libskel/skin/skin_weights.h"
 
@@ -19,6 +20,9 @@ using JointTransforms = std::vector<Eigen::Affine3f, Eigen::aligned_allocator<Ei
 // identity: the rest pose. `root_translation_m` is added to the root's rest position.
 JointTransforms posedFromRest(const Skeleton& skeleton, const std::vector<Eigen::Quaternionf>& rotations,
                               const Eigen::Vector3f& root_translation_m = Eigen::Vector3f::Zero());
+
+// The same with all that a pose holds. `height_m`: the model's, in units of which the root moves.
+JointTransforms posedFromRest(const Skeleton& skeleton, const Pose& pose, float height_m);
 
 // Where the joints themselves come to lie, model frame, m.
 std::vector<Eigen::Vector3f> posedJoints(const Skeleton& skeleton, const JointTransforms& posed_from_rest);

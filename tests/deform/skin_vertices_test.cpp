@@ -61,3 +61,23 @@ TEST_CASE("a joint turns what lies below it about itself, on top of its parent's
   CHECK((result.row(1) - Eigen::RowVector3f(1, 2, 5)).norm() < 1e-5f);
   CHECK((result.row(2) - Eigen::RowVector3f(1.5f, 1.5f, 5)).norm() < 1e-5f);
 }
+
+TEST_CASE("a pose moves, turns and scales, in this order as seen from the parent") {
+  Pose pose;
+  pose.rotations.assign(3, Eigen::Quaternionf::Identity());
+  pose.root_translation = {0, 0, 1};
+  const auto with = [](const Pose& of) { return posedFromRest(chain(), of, 5); };
+  CHECK(with(pose)[2].isApprox(posedFromRest(chain(), pose.rotations, {0, 0, 5})[2]));
+
+  pose.rotations[1] =
+      Eigen::Quaternionf(Eigen::AngleAxisf(0.5f * std::numbers::pi_v<float>, Eigen::Vector3f::UnitZ()));
+  pose.translations_m.assign(3, Eigen::Vector3f::Zero());
+  pose.translations_m[1] = {0, 3, 0};
+  pose.scales.assign(3, Eigen::Vector3f::Ones());
+  pose.scales[1] = {2, 1, 1};
+  const std::vector<Eigen::Vector3f> joints = posedJoints(chain(), with(pose));
+  CHECK((joints[0] - Eigen::Vector3f(0, 1, 5)).norm() < 1e-6f);
+  CHECK((joints[1] - Eigen::Vector3f(1, 4, 5)).norm() < 1e-6f);
+  // The bone, twice as long, points up.
+  CHECK((joints[2] - Eigen::Vector3f(1, 6, 5)).norm() < 1e-6f);
+}
