@@ -1,4 +1,5 @@
 #include "animator/info_command.h"
+#include "animator/render_command.h"
 #include "libskel/cli/tool.h"
 
 namespace {
@@ -21,5 +22,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   std::function<skel::ExitCode()> chosen;
   add(app, chosen, "info", "Says what a model holds", skel::bindInfoOptions, skel::runInfo);
+  add(app, chosen, "render", "Makes a film of a character, or of a drawing, that moves by a clip",
+      skel::bindRenderOptions, skel::runRender);
   return skel::runTool(app, argc, argv, [&] { return chosen(); });
 }

@@ -17,7 +17,8 @@ namespace {
 constexpr double kTicks = 100;  // a second
 
 int append(GifFileType* gif, const GifByteType* data, int size) {
-  static_cast<std::string*>(gif->UserData)->append(reinterpret_cast<const char*>(data), static_cast<size_t>(size));
+  static_cast<std::string*>(gif->UserData)
+      ->append(reinterpret_cast<const char*>(data), static_cast<size_t>(size));
   return size;
 }
 
@@ -78,8 +79,9 @@ class Gif : public VideoWriter {
       colors[i] = {palette.colors[i][0], palette.colors[i][1], palette.colors[i][2]};
     ColorMapObject* map = GifMakeMapObject(size, colors.data());
     if (!map) throw std::bad_alloc();
-    const int described = EGifPutImageDesc(gif_, std::min(change.x0, options_.width - 1),
-                                           std::min(change.y0, options_.height - 1), width, height, false, map);
+    const int described =
+        EGifPutImageDesc(gif_, std::min(change.x0, options_.width - 1),
+                         std::min(change.y0, options_.height - 1), width, height, false, map);
     GifFreeMapObject(map);
     require(described);
     std::vector<GifPixelType> row(static_cast<size_t>(width), static_cast<GifPixelType>(clear));
@@ -107,15 +109,19 @@ class Gif : public VideoWriter {
   void require(int result) const {
     if (result != GIF_OK) throw OutputError(path_, "cannot be encoded as GIF");
   }
-  size_t place(int x, int y) const { return static_cast<size_t>(y) * static_cast<size_t>(options_.width) + static_cast<size_t>(x); }
+  size_t place(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(options_.width) + static_cast<size_t>(x);
+  }
 
   Change changeOf(const Image& frame) const {
-    Change change{std::vector<bool>(static_cast<size_t>(options_.width) * static_cast<size_t>(options_.height)),
-                  options_.width, options_.height, -1, -1};
+    Change change{
+        std::vector<bool>(static_cast<size_t>(options_.width) * static_cast<size_t>(options_.height)),
+        options_.width, options_.height, -1, -1};
     for (int y = 0; y < options_.height; ++y)
       for (int x = 0; x < options_.width; ++x) {
         const std::uint8_t* p = frame.pixel(x, y);
-        if (options_.transparent ? p[3] < 128 : count_ > 0 && std::equal(p, p + 3, before_.pixel(x, y))) continue;
+        if (options_.transparent ? p[3] < 128 : count_ > 0 && std::equal(p, p + 3, before_.pixel(x, y)))
+          continue;
         change.paints[place(x, y)] = true;
         change.x0 = std::min(change.x0, x), change.x1 = std::max(change.x1, x);
         change.y0 = std::min(change.y0, y), change.y1 = std::max(change.y1, y);
@@ -136,7 +142,8 @@ class Gif : public VideoWriter {
 std::unique_ptr<VideoWriter> openGif(const std::string& path, const VideoOptions& options) {
   // Viewers play shorter frames slowly.
   if (options.frame_rate > kTicks / 2)
-    throw UsageError(path + ": a GIF has at most 50 frames a second; take a lower rate, or write .webp or .mp4");
+    throw UsageError(path +
+                     ": a GIF has at most 50 frames a second; take a lower rate, or write .webp or .mp4");
   return std::make_unique<Gif>(path, options);
 }
 

@@ -26,25 +26,24 @@ struct Memory {
 
 // The last argument of the callback became const with libavformat 61.
 #if LIBAVFORMAT_VERSION_MAJOR >= 61
-  static int write(void* opaque, const std::uint8_t* data, int size) {
+  static int write(void* opaque, const std::uint8_t* data, int size){
 #else
   static int write(void* opaque, std::uint8_t* data, int size) {
 #endif
-    auto& self = *static_cast<Memory*>(opaque);
-    const auto at = static_cast<std::size_t>(self.at), count = static_cast<std::size_t>(size);
-    if (self.bytes.size() < at + count) self.bytes.resize(at + count);
-    std::memcpy(self.bytes.data() + at, data, count);
-    self.at += size;
-    return size;
-  }
-  static std::int64_t seek(void* opaque, std::int64_t offset, int whence) {
-    auto& self = *static_cast<Memory*>(opaque);
-    const auto size = static_cast<std::int64_t>(self.bytes.size());
-    if (whence & AVSEEK_SIZE) return size;
-    const std::int64_t to = offset + (whence == SEEK_CUR ? self.at : whence == SEEK_END ? size : 0);
-    return to < 0 || to > size ? -EINVAL : self.at = to;
-  }
-};
+      auto& self = *static_cast<Memory*>(opaque);
+  const auto at = static_cast<std::size_t>(self.at), count = static_cast<std::size_t>(size);
+  if (self.bytes.size() < at + count) self.bytes.resize(at + count);
+  std::memcpy(self.bytes.data() + at, data, count);
+  self.at += size;
+  return size;
+} static std::int64_t seek(void* opaque, std::int64_t offset, int whence) {
+  auto& self = *static_cast<Memory*>(opaque);
+  const auto size = static_cast<std::int64_t>(self.bytes.size());
+  if (whence & AVSEEK_SIZE) return size;
+  const std::int64_t to = offset + (whence == SEEK_CUR ? self.at : whence == SEEK_END ? size : 0);
+  return to < 0 || to > size ? -EINVAL : self.at = to;
+}
+};  // namespace
 
 class Mp4 : public VideoWriter {
  public:
@@ -60,9 +59,9 @@ class Mp4 : public VideoWriter {
       throw UnavailableError(path_ + ": FFmpeg has no encoder for it here (tried " + tried +
                              "); install libavcodec-extra, or write .gif or .webp");
     openFile();
-    scaler_ = sws_getContext(options_.width, options_.height, AV_PIX_FMT_RGBA, options_.width,
-                             options_.height, AV_PIX_FMT_YUV420P, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr,
-                             nullptr, nullptr);
+    scaler_ =
+        sws_getContext(options_.width, options_.height, AV_PIX_FMT_RGBA, options_.width, options_.height,
+                       AV_PIX_FMT_YUV420P, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr, nullptr, nullptr);
     packet_ = av_packet_alloc();
     if (!scaler_ || !packet_) throw std::bad_alloc();
   }
@@ -154,8 +153,9 @@ class Mp4 : public VideoWriter {
     require(avformat_alloc_output_context2(&file_, nullptr, "mp4", nullptr));
     constexpr int kBufferBytes = 1 << 16;
     auto* buffer = static_cast<unsigned char*>(av_malloc(kBufferBytes));
-    file_->pb = buffer ? avio_alloc_context(buffer, kBufferBytes, 1, &memory_, nullptr, Memory::write, Memory::seek)
-                       : nullptr;
+    file_->pb =
+        buffer ? avio_alloc_context(buffer, kBufferBytes, 1, &memory_, nullptr, Memory::write, Memory::seek)
+               : nullptr;
     if (!file_->pb) throw std::bad_alloc();
     file_->flags |= AVFMT_FLAG_BITEXACT;
     stream_ = avformat_new_stream(file_, nullptr);
@@ -189,7 +189,7 @@ class Mp4 : public VideoWriter {
   int count_ = 0;
 };
 
-}  // namespace
+}  // namespace skel
 
 std::unique_ptr<VideoWriter> openMp4(const std::string& path, const VideoOptions& options,
                                      const std::vector<std::string>& encoders) {

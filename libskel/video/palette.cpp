@@ -125,8 +125,7 @@ Palette choosePalette(const std::vector<Rgb>& pixels, int max_colors) {
     for (size_t i = box.first; i < box.last; ++i)
       index[static_cast<size_t>(cells[i].cell)] = static_cast<std::uint8_t>(palette.colors.size());
     Rgb color;
-    for (size_t k = 0; k < 3; ++k)
-      color[k] = static_cast<std::uint8_t>(moments.sum[k] / moments.count + 0.5);
+    for (size_t k = 0; k < 3; ++k) color[k] = static_cast<std::uint8_t>(moments.sum[k] / moments.count + 0.5);
     palette.colors.push_back(color);
   }
   palette.indices.reserve(pixels.size());

@@ -80,7 +80,8 @@ std::unique_ptr<VideoWriter> openVideo(const std::string& path, const VideoOptio
     lacking(path, "libwebp-dev");
 #endif
   }
-  throw UsageError(path + ": films are written as .mp4, .gif, .webp, or into a folder (a name that ends with /)");
+  throw UsageError(path +
+                   ": films are written as .mp4, .gif, .webp, or into a folder (a name that ends with /)");
 }
 
 }  // namespace skel

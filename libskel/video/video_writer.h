@@ -32,8 +32,8 @@ class VideoWriter {
 //   .webp  animated, plays for ever, transparency
 //   none, or a slash at the end: a folder of frame-0001.png …
 // The same frames give the same bytes. Throws UsageError (another ending, a size or a rate that the format
-// does not have), UnavailableError (a library or an encoder that is not there), OutputError (the folder cannot
-// be written to, or holds frames of a longer film).
+// does not have), UnavailableError (a library or an encoder that is not there), OutputError (the folder
+// cannot be written to, or holds frames of a longer film).
 std::unique_ptr<VideoWriter> openVideo(const std::string& path, const VideoOptions& options);
 
 // The formats that this build can write, for --help: ".mp4, .gif, a folder".

@@ -17,7 +17,8 @@ class Webp : public VideoWriter {
   Webp(std::string path, const VideoOptions& options) : path_(std::move(path)), options_(options) {
     WebPAnimEncoderOptions settings;
     if (!WebPAnimEncoderOptionsInit(&settings) || !WebPConfigInit(&config_))
-      throw UnavailableError(path_ + ": the libwebp that is installed is not the one that skel was built with");
+      throw UnavailableError(path_ +
+                             ": the libwebp that is installed is not the one that skel was built with");
     settings.anim_params.loop_count = 0;  // for ever
     config_.quality = 85;
     config_.method = 2;  // twice as fast as the default, files a tenth larger
@@ -35,9 +36,10 @@ class Webp : public VideoWriter {
     picture.height = frame.height;
     picture.use_argb = 1;
     const int row_bytes = 4 * frame.width;
-    const bool added = (options_.transparent ? WebPPictureImportRGBA(&picture, frame.rgba.data(), row_bytes)
-                                             : WebPPictureImportRGBX(&picture, frame.rgba.data(), row_bytes)) &&
-                       WebPAnimEncoderAdd(encoder_, &picture, start_ms(count_), &config_);
+    const bool added =
+        (options_.transparent ? WebPPictureImportRGBA(&picture, frame.rgba.data(), row_bytes)
+                              : WebPPictureImportRGBX(&picture, frame.rgba.data(), row_bytes)) &&
+        WebPAnimEncoderAdd(encoder_, &picture, start_ms(count_), &config_);
     WebPPictureFree(&picture);
     require(added);
     ++count_;
@@ -58,7 +60,8 @@ class Webp : public VideoWriter {
   int start_ms(int frame) const { return static_cast<int>(std::lround(frame * 1000 / options_.frame_rate)); }
   void require(bool done) const {
     if (!done)
-      throw OutputError(path_, std::string("cannot be encoded as WebP: ") + WebPAnimEncoderGetError(encoder_));
+      throw OutputError(path_,
+                        std::string("cannot be encoded as WebP: ") + WebPAnimEncoderGetError(encoder_));
   }
 
   std::string path_;

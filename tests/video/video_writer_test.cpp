@@ -86,12 +86,13 @@ TEST_CASE("a folder of frames holds the frames") {
   const VideoOptions options{.width = 33, .height = 21, .frame_rate = 24, .frames = 3, .transparent = true};
   write(dir.file("frames"), options, 3);
   CHECK(filesBelow(dir.file("frames")).size() == 3);
-  CHECK((readImage(dir.file("frames/frame-0002.png")).rgba.col(3) == frame(1, options, kClear).rgba.col(3)).all());
+  CHECK((readImage(dir.file("frames/frame-0002.png")).rgba.col(3) == frame(1, options, kClear).rgba.col(3))
+            .all());
 
   VideoOptions shorter = options;
   shorter.frames = 2;
   CHECK_THROWS_WITH(openVideo(dir.file("frames"), shorter),
-                    Catch::Contains("frame-0003.png: belongs to a longer film; remove it"));
+                    Catch::Matchers::Contains("frame-0003.png: belongs to a longer film; remove it"));
 }
 
 #ifdef SKEL_VIDEO_MP4
@@ -111,9 +112,9 @@ TEST_CASE("an MP4 holds every frame, at its size and rate") {
 TEST_CASE("an MP4 of an odd size is refused, not cut") {
   const TempDir dir;
   CHECK_THROWS_WITH(openVideo(dir.file("film.mp4"), {.width = 481, .height = 361}),
-                    Catch::Contains("481x361 is not; take 482x362"));
+                    Catch::Matchers::Contains("481x361 is not; take 482x362"));
   CHECK_THROWS_WITH(openVideo(dir.file("film.mp4"), {.width = 48, .height = 36, .transparent = true}),
-                    Catch::Contains("MP4 has no transparency"));
+                    Catch::Matchers::Contains("MP4 has no transparency"));
 }
 
 TEST_CASE("without H.264 there is MPEG-4, without both one line says so") {
@@ -201,7 +202,7 @@ TEST_CASE("a GIF shows every frame as it was, and takes as long") {
 TEST_CASE("a GIF that viewers would play slowly is refused") {
   const TempDir dir;
   CHECK_THROWS_WITH(openVideo(dir.file("film.gif"), {.width = 8, .height = 8, .frame_rate = 60}),
-                    Catch::Contains("at most 50 frames a second"));
+                    Catch::Matchers::Contains("at most 50 frames a second"));
 }
 #endif
 
@@ -229,10 +230,12 @@ TEST_CASE("a WebP takes as long as it should and plays for ever") {
 
 TEST_CASE("a film that cannot be is refused before anything is drawn") {
   const TempDir dir;
-  CHECK_THROWS_WITH(openVideo(dir.file("film.avi"), {}), Catch::Contains("film.avi: films are written as .mp4"));
-  CHECK_THROWS_WITH(openVideo("", {}), Catch::Contains("name the film"));
-  CHECK_THROWS_WITH(openVideo(dir.file("f/"), {.width = 0}), Catch::Contains("a film of 0x512 px"));
-  CHECK_THROWS_WITH(openVideo(dir.file("f/"), {.frame_rate = 0}), Catch::Contains("frames a second"));
+  CHECK_THROWS_WITH(openVideo(dir.file("film.avi"), {}),
+                    Catch::Matchers::Contains("film.avi: films are written as .mp4"));
+  CHECK_THROWS_WITH(openVideo("", {}), Catch::Matchers::Contains("name the film"));
+  CHECK_THROWS_WITH(openVideo(dir.file("f/"), {.width = 0}), Catch::Matchers::Contains("a film of 0x512 px"));
+  CHECK_THROWS_WITH(openVideo(dir.file("f/"), {.frame_rate = 0}),
+                    Catch::Matchers::Contains("frames a second"));
   writeFile(dir.file("file"), "x");
   for (const std::string& name : formats())
     CHECK_THROWS_AS(openVideo(dir.file("file/below/" + name), {}), OutputError);
