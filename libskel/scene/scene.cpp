@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "libskel/draw/canvas.h"
 #include "libskel/draw/draw_skeleton.h"
@@ -15,17 +14,14 @@ using Eigen::Vector3d;
 
 constexpr float kTranslucency = 0.35f;
 
-// Rings of a soft disc on the ground below the body; smaller and paler the higher the body is.
-void drawShadow(Image& image, const Eigen::MatrixX3f& vertices, float ground_y, const Projection& project) {
+// A soft disc on the ground below the body; smaller and paler the higher the body is.
+void drawShadow(Image& image, const Eigen::MatrixX3f& vertices, float ground_y, const Camera& camera) {
   if (vertices.rows() == 0) return;
-  const Eigen::RowVector3f low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
-  const float height = std::max(high.y() - low.y(), 1e-6f);
-  const float lift = std::clamp((low.y() - ground_y) / height, 0.f, 1.f);
-  // Arms that reach out throw no shadow of note: the middle half of the body's mass says where it stands.
-  std::vector<float> x(vertices.rows()), z(vertices.rows());
-  for (Eigen::Index i = 0; i < vertices.rows(); ++i)
-    x[std::size_t(i)] = vertices(i, 0), z[std::size_t(i)] = vertices(i, 2);
-  const auto range = [](std::vector<float>& values) {
+  const float low = vertices.col(1).minCoeff(), high = vertices.col(1).maxCoeff();
+  const double lift = std::clamp(double((low - ground_y) / std::max(high - low, 1e-6f)), 0.0, 1.0);
+  // Arms that reach out throw no shadow of note.
+  const auto middleOf = [&](int axis) {
+    std::vector<float> values(vertices.col(axis).begin(), vertices.col(axis).end());
     const auto share = [&](double s) {
       const auto at = values.begin() + std::ptrdiff_t(s * double(values.size() - 1));
       std::nth_element(values.begin(), at, values.end());
@@ -33,24 +29,43 @@ void drawShadow(Image& image, const Eigen::MatrixX3f& vertices, float ground_y, 
     };
     return std::pair(share(0.08), share(0.92));
   };
-  const auto [x0, x1] = range(x);
-  const auto [z0, z1] = range(z);
-  const double spread = 1 - 0.5 * double(lift);
-  const double rx = 0.62 * (x1 - x0) * spread, rz = std::max(0.75 * (z1 - z0), 0.3 * (x1 - x0)) * spread;
-  constexpr int kRings = 9, kCorners = 40;
-  const auto alpha = std::uint8_t(std::lround(13 * (1 - 0.7 * double(lift))));
-  for (int ring = 0; ring < kRings; ++ring) {
-    const double size = 1 - double(ring) / kRings;
-    Points outline;
-    for (int k = 0; k < kCorners; ++k) {
-      const double angle = 2 * std::numbers::pi * k / kCorners;
-      const auto p = project({(x0 + x1) / 2 + rx * size * std::cos(angle), double(ground_y),
-                              (z0 + z1) / 2 + rz * size * std::sin(angle)});
+  const auto [x0, x1] = middleOf(0);
+  const auto [z0, z1] = middleOf(2);
+  const double spread = 1 - 0.5 * lift, dark = 120 * (1 - 0.7 * lift);
+  const double rx = std::max(0.66 * (x1 - x0) * spread, 1e-6);
+  const double rz = std::max({0.8 * (z1 - z0) * spread, 0.45 * rx});
+  const Vector3d center((x0 + x1) / 2, double(ground_y), (z0 + z1) / 2);
+
+  // The box of the disc's corners on the screen, then for each pixel the point of the ground behind it.
+  const Projection project(camera, image.width, image.height);
+  Vector2d corner = Vector2d::Constant(1e9), opposite = -corner;
+  for (const double sx : {-1.0, 1.0})
+    for (const double sz : {-1.0, 1.0}) {
+      const auto p = project(center + Vector3d(sx * rx, 0, sz * rz));
       if (!p) return;
-      outline.push_back(*p);
+      corner = corner.cwiseMin(*p), opposite = opposite.cwiseMax(*p);
     }
-    fillPolygons(image, {outline}, Color{20, 24, 40, alpha});
-  }
+  const int left = std::max(0, int(std::floor(std::max(corner.x(), 0.0))));
+  const int right = std::min(image.width - 1, int(std::ceil(std::min(opposite.x(), 1e6))));
+  const int top = std::max(0, int(std::floor(std::max(corner.y(), 0.0))));
+  const int bottom = std::min(image.height - 1, int(std::ceil(std::min(opposite.y(), 1e6))));
+  const Eigen::Matrix3d model_from_eye = eyeFromModel(camera).transpose();
+  const Vector3d eye = camera.target + camera.distance_m * model_from_eye.col(2);
+  const double px = image.height / camera.view_height_m * camera.distance_m;
+  Image shade = blankImage(right - left + 1, std::max(0, bottom - top + 1), kClear);
+  for (int y = top; y <= bottom; ++y)
+    for (int x = left; x <= right; ++x) {
+      const Vector3d ray = model_from_eye * Vector3d((x - image.width / 2.0 + 0.5) / px,
+                                                     (image.height / 2.0 - 0.5 - y) / px, -1);
+      const double way = (center.y() - eye.y()) / ray.y();
+      if (!(way > 0)) continue;
+      const Vector3d p = eye + way * ray - center;
+      const double r2 = p.x() * p.x() / (rx * rx) + p.z() * p.z() / (rz * rz);
+      if (r2 >= 1) continue;
+      std::uint8_t* pixel = shade.pixel(x - left, y - top);
+      pixel[0] = 20, pixel[1] = 24, pixel[2] = 40, pixel[3] = std::uint8_t(dark * (1 - r2) * (1 - r2));
+    }
+  if (!shade.empty()) blit(image, shade, left, top);
 }
 
 // One picture over another of the same size, alpha kept. What blit() does, for every pixel of a film.
@@ -115,7 +130,7 @@ Image Scene::paint(const JointTransforms& posed_from_rest, const Camera& camera,
   const Projection project(camera, width, height);
   Image image = blankImage(width, height, look.background);
   if (!look.picture.empty()) putOver(image, covering(look.picture, width, height));
-  if (look.shadow && (look.solid || look.translucent)) drawShadow(image, vertices, ground_y_, project);
+  if (look.shadow && (look.solid || look.translucent)) drawShadow(image, vertices, ground_y_, camera);
 
   Surface surface;
   surface.fill = look.solid || look.translucent;

@@ -3,10 +3,11 @@
 // J. Pineda, "A parallel algorithm for polygon rasterization" (1988): edge functions. K. Akeley,
 // "RealityEngine graphics" (1993): several samples of coverage and depth that share one colour. L. Williams,
 // "Pyramidal parametrics" (1983): textures at halved sizes.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <numeric>
 
 #include "libskel/core/check.h"
 #include "libskel/draw/canvas.h"
@@ -26,22 +27,44 @@ constexpr int kSamples = 4;
 constexpr std::array<std::array<float, 2>, kSamples> kSamplePlaces = {
     {{-0.125f, -0.375f}, {0.375f, -0.125f}, {-0.375f, 0.125f}, {0.125f, 0.375f}}};
 
-using Pixel = std::array<std::uint8_t, 4>;
+// One value a sample.
+using Lanes = float __attribute__((vector_size(4 * kSamples)));
+using LaneMask = std::int32_t __attribute__((vector_size(4 * kSamples)));
+constexpr Lanes kSampleX = {kSamplePlaces[0][0], kSamplePlaces[1][0], kSamplePlaces[2][0],
+                            kSamplePlaces[3][0]};
+constexpr Lanes kSampleY = {kSamplePlaces[0][1], kSamplePlaces[1][1], kSamplePlaces[2][1],
+                            kSamplePlaces[3][1]};
+constexpr float kReach = 0.375f;  // of the samples from the pixel's centre, along each axis
+
+// Bit i: lane i.
+unsigned bits(const LaneMask& mask) {
+#ifdef __SSE__
+  return unsigned(__builtin_ia32_movmskps(Lanes(mask)));
+#else
+  return unsigned((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
+#endif
+}
+constexpr unsigned kAll = (1u << kSamples) - 1;
+
+using Pixel = std::uint32_t;  // r, g, b and straight alpha, from the lowest byte up
+
+Pixel packed(unsigned r, unsigned g, unsigned b, unsigned a) { return r | g << 8 | b << 16 | a << 24; }
+unsigned channel(Pixel pixel, int k) { return pixel >> (8 * k) & 255; }
 
 // What a thread paints into; kept from frame to frame.
 struct Samples {
-  int x0 = 0, y0 = 0, width = 0, height = 0;  // the part of the picture
-  std::vector<float> nearest;                 // 1 / distance
-  std::vector<Pixel> colors;                  // straight alpha
+  int x0 = 0, y0 = 0, width = 0, height = 0;        // the part of the picture
+  std::vector<Lanes> nearest;                       // 1 / distance; 0: nothing there yet
+  std::vector<std::array<Pixel, kSamples>> colors;  // where there is something
 
   void clear(int left, int top, int right, int bottom) {
     x0 = left, y0 = top, width = right - left, height = bottom - top;
-    const std::size_t count = std::size_t(width) * std::size_t(height) * kSamples;
-    nearest.assign(count, 0);
-    colors.assign(count, Pixel{});
+    const std::size_t count = std::size_t(width) * std::size_t(height);
+    nearest.assign(count, Lanes{});
+    if (colors.size() < count) colors.resize(count);
   }
   std::size_t at(int x, int y) const {
-    return (std::size_t(y - y0) * std::size_t(width) + std::size_t(x - x0)) * kSamples;
+    return std::size_t(y - y0) * std::size_t(width) + std::size_t(x - x0);
   }
 };
 
@@ -53,28 +76,60 @@ struct Corner {
   Vector3f rgb;
 };
 
-std::uint8_t byte(float value) { return std::uint8_t(std::clamp(value, 0.f, 255.f) + 0.5f); }
+unsigned byte(float value) { return unsigned(std::clamp(value, 0.f, 255.f) + 0.5f); }
 
-// Bilinear; x and y in texels, whole numbers at their centres.
-Vector3f texel(const Image& texture, float x, float y) {
+// Bilinear, in steps of 1/256; x and y in texels, whole numbers at their centres; `lit` at most 1.
+Pixel texel(const Image& texture, float x, float y, float lit, unsigned alpha) {
   x = std::clamp(x, 0.f, float(texture.width - 1));
   y = std::clamp(y, 0.f, float(texture.height - 1));
   const int x0 = int(x), y0 = int(y);
   const int right = x0 + 1 < texture.width ? 4 : 0, below = y0 + 1 < texture.height ? 4 * texture.width : 0;
-  const float fx = x - float(x0), fy = y - float(y0);
-  const std::uint8_t* p = texture.pixel(x0, y0);
-  const float a = (1 - fx) * (1 - fy), b = fx * (1 - fy), c = (1 - fx) * fy, d = fx * fy;
-  Vector3f color;
-  for (int k = 0; k < 3; ++k)
-    color[k] =
-        a * float(p[k]) + b * float(p[k + right]) + c * float(p[k + below]) + d * float(p[k + right + below]);
-  return color;
+  const auto fx = unsigned((x - float(x0)) * 256), fy = unsigned((y - float(y0)) * 256);
+  const std::uint8_t *p = texture.pixel(x0, y0), *q = p + below;
+  const unsigned a = (256 - fx) * (256 - fy), b = fx * (256 - fy), c = (256 - fx) * fy, d = fx * fy;
+  const auto light = unsigned(lit * 256 + 0.5f);
+  const auto mixed = [&](int k) {
+    return (((a * p[k] + b * p[k + right] + c * q[k] + d * q[k + right]) >> 16) * light + 128) >> 8;
+  };
+  return packed(mixed(0), mixed(1), mixed(2), alpha);
+}
+
+// Whether each part of the mesh is closed and its triangles look outwards: then those that look away are
+// never seen.
+bool isSolid(const TriangleMesh& mesh) {
+  std::vector<std::pair<int, int>> edges;
+  edges.reserve(3 * std::size_t(mesh.triangles.rows()));
+  std::vector<int> part(std::size_t(mesh.vertices.rows()));
+  std::iota(part.begin(), part.end(), 0);
+  const auto partOf = [&](int v) {
+    while (part[std::size_t(v)] != v) v = part[std::size_t(v)] = part[std::size_t(part[std::size_t(v)])];
+    return v;
+  };
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int from = mesh.triangles(t, k), to = mesh.triangles(t, (k + 1) % 3);
+      edges.emplace_back(from, to);
+      part[std::size_t(partOf(from))] = partOf(to);
+    }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i > 0 && edges[i] == edges[i - 1]) return false;
+    if (!std::binary_search(edges.begin(), edges.end(), std::pair(edges[i].second, edges[i].first)))
+      return false;
+  }
+  std::vector<double> volume(part.size(), 0);
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    const Eigen::RowVector3i v = mesh.triangles.row(t);
+    const Vector3f a = mesh.vertices.row(v[0]), b = mesh.vertices.row(v[1]), c = mesh.vertices.row(v[2]);
+    volume[std::size_t(partOf(v[0]))] += double(a.dot(b.cross(c)));
+  }
+  return std::all_of(volume.begin(), volume.end(), [](double one) { return one >= 0; });
 }
 
 class SoftwarePainter : public MeshPainter {
  public:
   explicit SoftwarePainter(const TriangleMesh& mesh)
-      : triangles_(mesh.triangles), vertex_count_(mesh.vertices.rows()) {
+      : triangles_(mesh.triangles), vertex_count_(mesh.vertices.rows()), solid_(isSolid(mesh)) {
     if (mesh.texture.empty() || mesh.uv.rows() != mesh.vertices.rows() || mesh.uv.rows() == 0) return;
     uv_ = mesh.uv;
     repeat_ = uv_.minCoeff() < 0 || uv_.maxCoeff() > 1;
@@ -107,9 +162,14 @@ class SoftwarePainter : public MeshPainter {
 
     thread_local Samples samples;
     samples.clear(left, top, right, bottom);
-    for (Eigen::Index t = 0; t < triangles_.rows(); ++t)
-      drawTriangle(samples, corners[std::size_t(triangles_(t, 0))], corners[std::size_t(triangles_(t, 1))],
-                   corners[std::size_t(triangles_(t, 2))], surface, texture);
+    for (Eigen::Index t = 0; t < triangles_.rows(); ++t) {
+      const Corner &a = corners[std::size_t(triangles_(t, 0))], &b = corners[std::size_t(triangles_(t, 1))],
+                   &c = corners[std::size_t(triangles_(t, 2))];
+      if (surface.wires)
+        drawTriangle<true>(samples, a, b, c, surface, texture);
+      else
+        drawTriangle<false>(samples, a, b, c, surface, texture);
+    }
     resolve(samples, image);
     return image;
   }
@@ -172,6 +232,7 @@ class SoftwarePainter : public MeshPainter {
     }
   }
 
+  template <bool kWires>
   void drawTriangle(Samples& samples, const Corner& first, const Corner& second, const Corner& third,
                     const Surface& surface, const Image* texture) const {
     if (first.near <= 0 || second.near <= 0 || third.near <= 0) return;
@@ -180,119 +241,147 @@ class SoftwarePainter : public MeshPainter {
     std::array<Vector2f, 3> p;
     for (std::size_t k = 0; k < 3; ++k) p[k] = c[k]->at - origin;
     float area = p[1].x() * p[2].y() - p[1].y() * p[2].x();
-    if (area == 0 || !std::isfinite(area)) return;
+    // Outwards is counter-clockwise, which on the screen, y down, is a negative area.
+    if (area == 0 || !std::isfinite(area) || (area > 0 && solid_ && surface.fill)) return;
     const float sign = area > 0 ? 1.f : -1.f;
     area *= sign;
 
-    // Edge functions, 0 on the edge across from corner k and `area` at the corner: share k times the area.
-    std::array<float, 3> ax, ay, constant, reach, per_px;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector2f &from = p[(k + 1) % 3], &to = p[(k + 2) % 3];
-      ax[k] = -sign * (to.y() - from.y());
-      ay[k] = sign * (to.x() - from.x());
-      constant[k] = -(ax[k] * from.x() + ay[k] * from.y());
-      reach[k] = 0.375f * (std::abs(ax[k]) + std::abs(ay[k]));
-      per_px[k] = 1 / std::max(std::hypot(ax[k], ay[k]), 1e-12f);
-    }
-    const auto low = [&](int axis) { return std::min({c[0]->at[axis], c[1]->at[axis], c[2]->at[axis]}); };
-    const auto high = [&](int axis) { return std::max({c[0]->at[axis], c[1]->at[axis], c[2]->at[axis]}); };
-    const int x0 = std::max(samples.x0, int(std::ceil(low(0) - 0.375f))),
-              x1 = std::min(samples.x0 + samples.width - 1, int(std::floor(high(0) + 0.375f)));
-    const int y0 = std::max(samples.y0, int(std::ceil(low(1) - 0.375f))),
-              y1 = std::min(samples.y0 + samples.height - 1, int(std::floor(high(1) + 0.375f)));
+    const auto low = [&](int axis) { return std::min({p[0][axis], p[1][axis], p[2][axis]}) + origin[axis]; };
+    const auto high = [&](int axis) { return std::max({p[0][axis], p[1][axis], p[2][axis]}) + origin[axis]; };
+    const int x0 = std::max(samples.x0, int(std::ceil(low(0) - kReach)));
+    const int x1 = std::min(samples.x0 + samples.width - 1, int(std::floor(high(0) + kReach)));
+    const int y0 = std::max(samples.y0, int(std::ceil(low(1) - kReach)));
+    const int y1 = std::min(samples.y0 + samples.height - 1, int(std::floor(high(1) + kReach)));
+    if (x0 > x1 || y0 > y1) return;
 
-    const float inv_area = 1 / area;
-    const std::array<float, 3> near = {c[0]->near * inv_area, c[1]->near * inv_area, c[2]->near * inv_area};
-    for (int y = y0; y <= y1; ++y)
+    // Edge functions, 0 on the edge across from corner k and 1 at the corner: the corners' shares, one a
+    // lane.
+    Lanes ax = {}, ay = {}, constant = {};
+    const float scale = sign / area;
+    for (int k = 0; k < 3; ++k) {
+      const Vector2f &from = p[std::size_t((k + 1) % 3)], &to = p[std::size_t((k + 2) % 3)];
+      ax[k] = -scale * (to.y() - from.y());
+      ay[k] = scale * (to.x() - from.x());
+      constant[k] = -(ax[k] * from.x() + ay[k] * from.y());
+    }
+    const Lanes reach = kReach * ((ax < 0 ? -ax : ax) + (ay < 0 ? -ay : ay));
+    const Lanes offset0 = ax[0] * kSampleX + ay[0] * kSampleY, offset1 = ax[1] * kSampleX + ay[1] * kSampleY,
+                offset2 = ax[2] * kSampleX + ay[2] * kSampleY;
+    const float near0 = c[0]->near, near1 = c[1]->near, near2 = c[2]->near;
+    const Lanes near_offset = near0 * offset0 + near1 * offset1 + near2 * offset2;
+    Lanes px_of_share = {};
+    if (kWires)
+      for (int k = 0; k < 3; ++k) px_of_share[k] = 1 / std::max(std::hypot(ax[k], ay[k]), 1e-12f);
+    const float wire = surface.wire_px / 2;
+    const unsigned alpha = byte(255 * surface.opacity);
+
+    for (int y = y0; y <= y1; ++y) {
+      const Lanes row = ay * (float(y) - origin.y()) + constant;
       for (int x = x0; x <= x1; ++x) {
-        const float px = float(x) - origin.x(), py = float(y) - origin.y();
-        std::array<float, 3> edge;
-        bool outside = false;
-        for (std::size_t k = 0; k < 3; ++k) {
-          edge[k] = ax[k] * px + ay[k] * py + constant[k];
-          outside |= edge[k] < -reach[k];
-        }
-        if (outside) continue;
+        Lanes share = row + ax * (float(x) - origin.x());
+        if (bits(share < -reach)) continue;
         const std::size_t at = samples.at(x, y);
-        unsigned seen = 0, on_wire = 0;
-        float sx = 0, sy = 0;
-        int count = 0;
-        for (unsigned s = 0; s < kSamples; ++s) {
-          const float ox = kSamplePlaces[s][0], oy = kSamplePlaces[s][1];
-          const float e0 = edge[0] + ax[0] * ox + ay[0] * oy, e1 = edge[1] + ax[1] * ox + ay[1] * oy,
-                      e2 = edge[2] + ax[2] * ox + ay[2] * oy;
-          if (e0 < 0 || e1 < 0 || e2 < 0) continue;
-          if (surface.wires) {
-            const bool wire =
-                std::min({e0 * per_px[0], e1 * per_px[1], e2 * per_px[2]}) < surface.wire_px / 2;
-            if (wire) on_wire |= 1u << s;
-            if (!wire && !surface.fill) continue;
+        const Lanes z = near0 * share[0] + near1 * share[1] + near2 * share[2] + near_offset;
+        LaneMask seen = z > samples.nearest[at], on_wire = {};
+        const bool inside = bits(share >= reach) == kAll;
+        if (!inside || kWires) {
+          const Lanes e0 = share[0] + offset0, e1 = share[1] + offset1, e2 = share[2] + offset2;
+          seen &= (e0 >= 0) & (e1 >= 0) & (e2 >= 0);
+          if (kWires) {
+            on_wire =
+                (e0 * px_of_share[0] < wire) | (e1 * px_of_share[1] < wire) | (e2 * px_of_share[2] < wire);
+            if (!surface.fill) seen &= on_wire;
           }
-          const float z = e0 * near[0] + e1 * near[1] + e2 * near[2];
-          if (z <= samples.nearest[at + s]) continue;
-          samples.nearest[at + s] = z;
-          seen |= 1u << s;
-          sx += ox, sy += oy, ++count;
         }
-        if (count == 0) continue;
-        // The colour of the middle of the samples that are seen, which lies in the triangle.
-        if (count < kSamples)
-          for (std::size_t k = 0; k < 3; ++k) edge[k] += (ax[k] * sx + ay[k] * sy) / float(count);
-        std::array<float, 3> share;
-        for (std::size_t k = 0; k < 3; ++k) share[k] = std::max(0.f, edge[k]) * near[k];
-        const float all = 1 / (share[0] + share[1] + share[2]);
-        for (float& one : share) one *= all;
-        const Vector3f rgb = colorAt(c, share, texture);
-        const Pixel fill = {byte(rgb[0]), byte(rgb[1]), byte(rgb[2]), byte(255 * surface.opacity)};
-        const Pixel wire = on_wire ? wireColor(fill, surface) : fill;
-        for (unsigned s = 0; s < kSamples; ++s)
-          if (seen >> s & 1) samples.colors[at + s] = on_wire >> s & 1 ? wire : fill;
+        const unsigned seen_bits = bits(seen);
+        if (seen_bits == 0) continue;
+        samples.nearest[at] = seen ? z : samples.nearest[at];
+        if (!inside) share += towardsSeen(seen_bits, ax, ay);
+        const float s0 = std::max(0.f, share[0]) * near0, s1 = std::max(0.f, share[1]) * near1,
+                    s2 = std::max(0.f, share[2]) * near2;
+        const float all = 1 / (s0 + s1 + s2);
+        const Pixel fill = colorAt(c, s0 * all, s1 * all, s2 * all, texture, alpha);
+        std::array<Pixel, kSamples>& colors = samples.colors[at];
+        if (kWires) {
+          const Pixel ink = wireColor(fill, surface);
+          for (int s = 0; s < kSamples; ++s)
+            if (seen[s]) colors[std::size_t(s)] = on_wire[s] ? ink : fill;
+        } else if (seen_bits == kAll) {
+          colors = {fill, fill, fill, fill};
+        } else {
+          for (int s = 0; s < kSamples; ++s)
+            if (seen_bits >> s & 1) colors[std::size_t(s)] = fill;
+        }
       }
+    }
   }
 
-  Vector3f colorAt(const std::array<const Corner*, 3>& c, const std::array<float, 3>& share,
-                   const Image* texture) const {
-    const float lit = share[0] * c[0]->lit + share[1] * c[1]->lit + share[2] * c[2]->lit;
-    if (!texture) return lit * (share[0] * c[0]->rgb + share[1] * c[1]->rgb + share[2] * c[2]->rgb);
-    float u = share[0] * c[0]->u + share[1] * c[1]->u + share[2] * c[2]->u;
-    float v = share[0] * c[0]->v + share[1] * c[1]->v + share[2] * c[2]->v;
+  // From the shares at the pixel's centre to those at the middle of the samples that are seen: that lies in
+  // the triangle, the centre need not.
+  static Lanes towardsSeen(unsigned seen_bits, const Lanes& ax, const Lanes& ay) {
+    float x = 0, y = 0, count = 0;
+    for (std::size_t s = 0; s < kSamples; ++s)
+      if (seen_bits >> s & 1) x += kSamplePlaces[s][0], y += kSamplePlaces[s][1], ++count;
+    return ax * (x / count) + ay * (y / count);
+  }
+
+  Pixel colorAt(const std::array<const Corner*, 3>& c, float s0, float s1, float s2, const Image* texture,
+                unsigned alpha) const {
+    const float lit = s0 * c[0]->lit + s1 * c[1]->lit + s2 * c[2]->lit;
+    if (!texture) {
+      const Vector3f rgb = lit * (s0 * c[0]->rgb + s1 * c[1]->rgb + s2 * c[2]->rgb);
+      return packed(byte(rgb[0]), byte(rgb[1]), byte(rgb[2]), alpha);
+    }
+    float u = s0 * c[0]->u + s1 * c[1]->u + s2 * c[2]->u, v = s0 * c[0]->v + s1 * c[1]->v + s2 * c[2]->v;
     if (repeat_) {
       u -= std::floor(u / float(texture->width)) * float(texture->width);
       v -= std::floor(v / float(texture->height)) * float(texture->height);
     }
-    return lit * texel(*texture, u - 0.5f, v - 0.5f);
+    return texel(*texture, u - 0.5f, v - 0.5f, lit, alpha);
   }
 
   // Over the fill, if there is one.
-  static Pixel wireColor(const Pixel& fill, const Surface& surface) {
+  static Pixel wireColor(Pixel fill, const Surface& surface) {
     const Color& ink = surface.wire_color;
-    if (!surface.fill) return {ink.r, ink.g, ink.b, ink.a};
+    if (!surface.fill) return packed(ink.r, ink.g, ink.b, ink.a);
     const float over = float(ink.a) / 255, alpha = over + surface.opacity * (1 - over);
     const float share = alpha > 0 ? over / alpha : 1;
-    const auto mix = [&](std::uint8_t wire, std::uint8_t under) {
-      return byte(share * float(wire) + (1 - share) * float(under));
+    const auto mixed = [&](std::uint8_t wire, int k) {
+      return byte(share * float(wire) + (1 - share) * float(channel(fill, k)));
     };
-    return {mix(ink.r, fill[0]), mix(ink.g, fill[1]), mix(ink.b, fill[2]), byte(255 * alpha)};
+    return packed(mixed(ink.r, 0), mixed(ink.g, 1), mixed(ink.b, 2), byte(255 * alpha));
   }
 
   static void resolve(const Samples& samples, Image& image) {
     for (int y = samples.y0; y < samples.y0 + samples.height; ++y)
       for (int x = samples.x0; x < samples.x0 + samples.width; ++x) {
-        const Pixel* s = &samples.colors[samples.at(x, y)];
-        int alpha = 0, rgb[3] = {};
-        for (int i = 0; i < kSamples; ++i) {
-          alpha += s[i][3];
-          for (std::size_t k = 0; k < 3; ++k) rgb[k] += s[i][k] * s[i][3];
+        const std::size_t at = samples.at(x, y);
+        const unsigned seen = bits(samples.nearest[at] > 0);
+        if (seen == 0) continue;
+        const std::array<Pixel, kSamples>& s = samples.colors[at];
+        unsigned alpha = 0, r = 0, g = 0, b = 0;
+        if (seen == kAll && s[0] == s[1] && s[0] == s[2] && s[0] == s[3]) {
+          r = channel(s[0], 0), g = channel(s[0], 1), b = channel(s[0], 2), alpha = channel(s[0], 3);
+        } else {
+          for (std::size_t i = 0; i < kSamples; ++i) {
+            if (!(seen >> i & 1)) continue;
+            const unsigned a = channel(s[i], 3);
+            alpha += a;
+            r += a * channel(s[i], 0), g += a * channel(s[i], 1), b += a * channel(s[i], 2);
+          }
+          if (alpha == 0) continue;
+          const unsigned half = alpha / 2;
+          r = (r + half) / alpha, g = (g + half) / alpha, b = (b + half) / alpha;
+          alpha = (alpha + kSamples / 2) / kSamples;
         }
-        if (alpha == 0) continue;
         std::uint8_t* p = image.pixel(x, y);
-        for (int k = 0; k < 3; ++k) p[k] = std::uint8_t((rgb[k] + alpha / 2) / alpha);
-        p[3] = std::uint8_t((alpha + kSamples / 2) / kSamples);
+        p[0] = std::uint8_t(r), p[1] = std::uint8_t(g), p[2] = std::uint8_t(b), p[3] = std::uint8_t(alpha);
       }
   }
 
   Eigen::MatrixX3i triangles_;
   Eigen::Index vertex_count_;
+  bool solid_;
   Eigen::MatrixX2f uv_;
   bool repeat_ = false;
   std::vector<Image> levels_;  // the texture, each half as large as the one before
