@@ -221,6 +221,11 @@ void addJoints(GlbBuilder& glb, const Skeleton& skeleton, JointNaming naming, in
     Vector3d local = rounded(joint.position);
     if (joint.parent >= 0) local = rounded(local - rounded(skeleton.joints[joint.parent].position));
     node.translation = {local.x(), local.y(), local.z()};
+    if (joint.tail) {
+      tinygltf::Value::Array tail;
+      for (const double value : rounded(*joint.tail)) tail.emplace_back(value);
+      node.extras = tinygltf::Value(tinygltf::Value::Object{{"tail", tinygltf::Value(tail)}});
+    }
     glb.model.nodes.push_back(node);
     if (joint.parent >= 0)
       glb.model.nodes[first + joint.parent].children.push_back(int(glb.model.nodes.size()) - 1);

@@ -164,6 +164,9 @@ Joints readJoints(const Nodes& nodes, const JsonValue& skin) {
       value.fail("the joint \"" + joint.name +
                  "\" is turned or scaled in the rest pose; apply rotation and scale before export");
     joint.position = rest.translation();
+    if (const auto extras = value.find("extras"); extras && extras->isObject())
+      if (const auto tail = numbersAt(*extras, "tail", 3))
+        joint.tail = Vector3d((*tail)[0], (*tail)[1], (*tail)[2]);
     joint.confidence = 1;
     joint.origin = JointOrigin::kEdited;
     joints.of_node[node] = index;

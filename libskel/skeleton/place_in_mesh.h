@@ -1,0 +1,16 @@
+// Which way is up in a skeleton's file: as it lies in the mesh.
+#pragma once
+
+#include "libskel/mesh/triangle_mesh.h"
+#include "libskel/skeleton/skeleton.h"
+
+namespace skel {
+
+// (x, y, z) becomes (x, z, −y): from z up to y up, from facing −y to facing +z.
+Skeleton yUpFromZUp(Skeleton skeleton);
+
+// The share of the skeleton's joints and middles of bones that have the mesh on both sides of them, along at
+// least two of the axes. Holes and faces that look inwards do little harm.
+double shareInside(const Skeleton& skeleton, const TriangleMesh& mesh);
+
+}  // namespace skel
