@@ -67,7 +67,8 @@ Eigen::Quaternionf turnOf(const Pose& pose, std::size_t joint) { return pose.rot
 FilmExport::FilmExport(std::string path, std::shared_ptr<const RiggedCharacter> character, Clip clip,
                        Camera camera, FilmOptions options)
     : path_(std::move(path)), count_(frameCount(clip, options)) {
-  VideoOptions video_options{.width = options.width, .height = options.height, .frame_rate = options.frame_rate};
+  VideoOptions video_options{
+      .width = options.width, .height = options.height, .frame_rate = options.frame_rate};
   video_options.frames = count_;
   video_options.transparent = options.look.background.a < 255 && options.look.picture.empty();
   std::shared_ptr<VideoWriter> video = openVideo(path_, video_options);
@@ -157,7 +158,8 @@ void AnimationDocument::setTime(double time_s) {
   takePoseFromClip();
 }
 
-int AnimationDocument::jointAt(const Eigen::Vector2d& px, const Projection& projection, double radius_px) const {
+int AnimationDocument::jointAt(const Eigen::Vector2d& px, const Projection& projection,
+                               double radius_px) const {
   const std::vector<Eigen::Vector3f> joints = posedJoints(skeleton(), posed());
   int best = -1;
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -282,7 +284,8 @@ void AnimationDocument::removeKey() {
 void AnimationDocument::newClip(const std::string& name, double duration_s) {
   const StepScope step(*this);
   std::string unique = name;
-  for (int i = 2; std::any_of(clips().begin(), clips().end(), [&](const Clip& c) { return c.name == unique; }); ++i)
+  for (int i = 2;
+       std::any_of(clips().begin(), clips().end(), [&](const Clip& c) { return c.name == unique; }); ++i)
     unique = name + "-" + std::to_string(i);
   auto clips = std::make_shared<std::vector<Clip>>(*state_.clips);
   Clip clip;
@@ -384,7 +387,8 @@ bool AnimationDocument::loadClip(const std::string& path) {
     const StepScope step(*this);
     playing = false;
     auto clips = std::make_shared<std::vector<Clip>>(*state_.clips);
-    const auto same = std::find_if(clips->begin(), clips->end(), [&](const Clip& c) { return c.name == clip.name; });
+    const auto same =
+        std::find_if(clips->begin(), clips->end(), [&](const Clip& c) { return c.name == clip.name; });
     state_.clip = int(same - clips->begin());
     if (same == clips->end())
       clips->push_back(std::move(clip));
@@ -462,7 +466,8 @@ std::unique_ptr<FilmExport> AnimationDocument::exportFilm(const std::string& pat
       // The pose, as a clip that holds it.
       shown.name = "pose";
       for (int j = 0; j < jointCount(); ++j)
-        shown.tracks.push_back({skeleton().joints[std::size_t(j)].name, {0.f}, {turnOf(state_.pose, std::size_t(j))}});
+        shown.tracks.push_back(
+            {skeleton().joints[std::size_t(j)].name, {0.f}, {turnOf(state_.pose, std::size_t(j))}});
       shown.root_times_s = {0};
       shown.root_translations = {state_.pose.root_translation};
     }

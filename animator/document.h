@@ -1,5 +1,5 @@
-// What the window of skel-animate shows and does, without the window: a character, its clips, the pose that it
-// is in, playing, the steps that change any of these, and undo of every step.
+// What the window of skel-animate shows and does, without the window: a character, its clips, the pose that
+// it is in, playing, the steps that change any of these, and undo of every step.
 #pragma once
 
 #include <atomic>
@@ -112,7 +112,8 @@ class AnimationDocument {
   bool loadWeights(const std::string& path);
   bool saveWeights(const std::string& path);
   // The clip, or a single frame of the pose where there is none, as it is seen.
-  std::unique_ptr<FilmExport> exportFilm(const std::string& path, const Camera& camera, const FilmOptions& options);
+  std::unique_ptr<FilmExport> exportFilm(const std::string& path, const Camera& camera,
+                                         const FilmOptions& options);
 
   void beginStep();
   void endStep();

@@ -5,36 +5,25 @@
 #include <cctype>
 #include <filesystem>
 
+#include "libskel/animation/clip_file.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/classifier/weights_file.h"
 #include "libskel/core/error.h"
+#include "libskel/deform/figure_shape.h"
 #include "libskel/image/read_image.h"
 #include "libskel/pipeline/rig_character.h"
 
 namespace skel {
 namespace {
+namespace fs = std::filesystem;
 
 std::string endingOf(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
+  std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
   return ending;
 }
-
-CharacterFile rigDrawing(const std::string& path, const LoadOptions& options) {
-  RigInput input;
-  input.image = readImage(path);
-  RigOptions rig;
-  rig.mlp = defaultMlp();
-  rig.body_plan = loadTemplate(options.body_plan);
-  rig.clips = options.clips;
-  RiggedDrawing drawing = rigCharacter(std::move(input), rig);
-  if (!drawing.found()) throw InputError(path, drawing.silhouette.reason);
-  return {std::move(drawing.character), std::move(drawing.clips),
-          std::filesystem::path(path).stem().string()};
-}
-
-}  // namespace
 
 bool isDrawing(const std::string& path) {
   constexpr std::array<std::string_view, 8> kEndings = {".png", ".jpg", ".jpeg", ".webp",
@@ -42,13 +31,65 @@ bool isDrawing(const std::string& path) {
   return std::find(kEndings.begin(), kEndings.end(), endingOf(path)) != kEndings.end();
 }
 
-CharacterFile loadCharacter(const std::string& path, const LoadOptions& options) {
-  if (isDrawing(path)) return rigDrawing(path, options);
+CharacterFile rigDrawing(const std::string& path, const std::string& body_plan) {
+  RigInput input;
+  input.image = readImage(path);
+  RigOptions rig;
+  rig.mlp = defaultMlp();
+  rig.body_plan = loadTemplate(body_plan);
+  RiggedDrawing drawing = rigCharacter(std::move(input), rig);
+  if (!drawing.found()) throw InputError(path, drawing.silhouette.reason);
+  return {std::move(drawing.character), {}, fs::path(path).stem().string()};
+}
+
+bool hasClip(const std::vector<Clip>& clips, const std::string& name) {
+  return std::any_of(clips.begin(), clips.end(), [&](const Clip& clip) { return clip.name == name; });
+}
+
+}  // namespace
+
+CharacterFile loadCharacter(const std::string& path, const std::string& body_plan) {
+  if (isDrawing(path)) return rigDrawing(path, body_plan);
   if (endingOf(path) != ".glb")
     throw InputError(path, "is neither a rigged character (.glb) nor a drawing (.png, .jpg, ...)");
-  CharacterFile file = readGlb(path);
-  for (const Clip& clip : options.clips) file.clips.push_back(retargetToRest(clip, file.character.skeleton));
+  return readGlb(path);
+}
+
+CharacterFile loadCharacterWithClips(const std::string& path, const std::string& body_plan) {
+  CharacterFile file = loadCharacter(path, body_plan);
+  for (Clip& clip : libraryFor(file.character))
+    if (!hasClip(file.clips, clip.name)) file.clips.push_back(std::move(clip));
   return file;
+}
+
+std::vector<Clip> libraryFor(const RiggedCharacter& character) {
+  std::vector<Clip> clips = clipsFor(builtinClips(), character.skeleton);
+  for (Clip& clip : clips) clip = fitted(clip, character);
+  return clips;
+}
+
+Clip fitted(const Clip& clip, const RiggedCharacter& character) {
+  RetargetOptions options;
+  options.shape = measureFigure(character.mesh.vertices, character.weights, character.skeleton);
+  return retargetToRest(clip, character.skeleton, options);
+}
+
+Clip loadClipFor(const std::string& path, const RiggedCharacter& character) {
+  const Clip clip = readClipFile(path);
+  for (const JointTrack& track : clip.tracks)
+    if (character.skeleton.find(track.joint) < 0)
+      throw InputError(path, "moves \"" + track.joint + "\", which this character lacks");
+  return fitted(clip, character);
+}
+
+Clip clipFor(const std::string& name_or_path, const CharacterFile& file) {
+  for (const Clip& clip : file.clips)
+    if (clip.name == name_or_path) return clip;
+  std::vector<Clip> fitting = clipsFor(builtinClips(), file.character.skeleton);
+  if (hasClip(fitting, name_or_path)) return fitted(clipNamed(fitting, name_or_path), file.character);
+  if (name_or_path.find_first_of("./") != std::string::npos) return loadClipFor(name_or_path, file.character);
+  fitting.insert(fitting.begin(), file.clips.begin(), file.clips.end());
+  return clipNamed(fitting, name_or_path);  // names those that there are
 }
 
 }  // namespace skel

@@ -1,4 +1,4 @@
-// What the commands can be given as a character.
+// What the commands can be given as a character and as a motion.
 #pragma once
 
 #include <string>
@@ -8,16 +8,24 @@
 
 namespace skel {
 
-struct LoadOptions {
-  std::string body_plan = "biped";  // of a drawing
-  std::vector<Clip> clips;          // for the canonical pose: retargeted to the character
-};
+// A .glb, or a drawing, which is rigged first with the body plan of that name. Throws InputError: cannot be
+// read, no figure in the drawing, an ending that is no character's.
+CharacterFile loadCharacter(const std::string& path, const std::string& body_plan);
 
-// A .glb, or a drawing, which is rigged first. The clips of the options come behind those of the file. Throws
-// InputError: cannot be read, no figure in the drawing, an ending that is no character's.
-CharacterFile loadCharacter(const std::string& path, const LoadOptions& options);
+// The same with the motions of skel that fit it and whose names its own clips leave free.
+CharacterFile loadCharacterWithClips(const std::string& path, const std::string& body_plan);
 
-// Whether the file is a drawing, by its ending.
-bool isDrawing(const std::string& path);
+// For the character's rest pose: the motions of skel that fit.
+std::vector<Clip> libraryFor(const RiggedCharacter& character);
+
+// Made for the canonical pose; the result is for the character's rest pose.
+Clip fitted(const Clip& clip, const RiggedCharacter& character);
+
+// A clip file, fitted to the character. Throws InputError.
+Clip loadClipFor(const std::string& path, const RiggedCharacter& character);
+
+// A clip of the file, one that comes with skel, or a clip file, for the character's rest pose. Throws
+// UsageError that lists the names there are, InputError.
+Clip clipFor(const std::string& name_or_path, const CharacterFile& file);
 
 }  // namespace skel

@@ -9,8 +9,8 @@ namespace skel {
 
 inline constexpr const char* kPoseFileEnding = ".pose.json";
 
-// {"format": "skel-pose", "version": 1, "root_translation": [x, y, z], "joints": {name: {"rotation": [x, y, z,
-// w], "translation_m": [x, y, z], "scale": [x, y, z]}}}; what is as in the rest pose is left out.
+// {"format": "skel-pose", "version": 1, "root_translation": [x, y, z], "joints": {name: {"rotation": [x, y,
+// z, w], "translation_m": [x, y, z], "scale": [x, y, z]}}}; what is as in the rest pose is left out.
 std::string formatPose(const Pose& pose, const Skeleton& skeleton);
 
 // Throws InputError with the JSON path: a joint that the skeleton lacks, what is no rotation.

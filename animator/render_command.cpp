@@ -3,13 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdio>
-#include <filesystem>
 #include <numbers>
 
 #include "animator/film.h"
 #include "animator/load_character.h"
-#include "libskel/animation/builtin_clips.h"
-#include "libskel/animation/retarget.h"
 #include "libskel/core/progress.h"
 #include "libskel/image/read_image.h"
 
@@ -56,33 +53,14 @@ std::unique_ptr<MeshPainter> painterFor(const std::string& name, const TriangleM
   return name == "software" ? softwarePainter(mesh) : fastestPainter(mesh);
 }
 
-const Clip* findClip(const std::vector<Clip>& clips, const std::string& name) {
-  for (const Clip& clip : clips)
-    if (clip.name == name) return &clip;
-  return nullptr;
-}
-
-// The character with the clip, which is its own or one of ours.
-CharacterFile loadWithClip(const RenderCommandOptions& options, Clip& clip) {
-  LoadOptions load;
-  load.body_plan = options.body_plan;
-  if (isDrawing(options.what)) load.clips = {builtinClip(options.clip)};
-  CharacterFile file = loadCharacter(options.what, load);
-  if (const Clip* own = findClip(file.clips, options.clip)) {
-    clip = *own;
-  } else {
-    clip = retargetToRest(builtinClip(options.clip), file.character.skeleton);
-  }
-  return file;
-}
-
 }  // namespace
 
 void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
   app.add_option("what", options.what, "A rigged character (.glb), or a drawing, which is rigged first")
       ->required()
       ->type_name("FILE");
-  app.add_option("--clip", options.clip, "A clip of the file, or one that comes with skel")->required();
+  app.add_option("--clip", options.clip, "A clip of the file, one that comes with skel, or a clip file")
+      ->required();
   app.add_option("-o,--output", options.output,
                  "The film: " + videoFormatNames() + " (a name that ends with /) of PNG files")
       ->required();
@@ -133,8 +111,8 @@ ExitCode runRender(const RenderCommandOptions& options) {
   // What cannot be written is said before anything is rigged.
   openVideo(options.output, video_options);
 
-  Clip clip;
-  const CharacterFile file = loadWithClip(options, clip);
+  const CharacterFile file = loadCharacter(options.what, options.body_plan);
+  const Clip clip = clipFor(options.clip, file);
   if (!options.weights_of.empty()) {
     film.look.weights_of = file.character.skeleton.find(options.weights_of);
     if (film.look.weights_of < 0)

@@ -23,7 +23,8 @@ std::string formatRig(const Skeleton& skeleton) {
       tail /= children;
     } else {
       const double length =
-          joint.parent < 0 ? 1 : (joint.position - skeleton.joints[std::size_t(joint.parent)].position).norm();
+          joint.parent < 0 ? 1
+                           : (joint.position - skeleton.joints[std::size_t(joint.parent)].position).norm();
       tail = joint.position + kTip * length * restBone(skeleton, int(j));
     }
     nlohmann::ordered_json entry;

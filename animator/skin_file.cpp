@@ -19,8 +19,8 @@ SkinWeights readSkinFile(const std::string& path, const RiggedCharacter& charact
   const std::vector<JsonValue> vertices = root.at("vertices").items();
   const Eigen::Index count = character.mesh.vertices.rows();
   if (Eigen::Index(vertices.size()) != count)
-    root.at("vertices").fail("has " + std::to_string(vertices.size()) + " vertices, the model has " +
-                             std::to_string(count));
+    root.at("vertices")
+        .fail("has " + std::to_string(vertices.size()) + " vertices, the model has " + std::to_string(count));
   SkinWeights weights;
   weights.joints.setZero(count, 4);
   weights.weights.setZero(count, 4);
