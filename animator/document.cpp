@@ -60,8 +60,6 @@ bool sameTurn(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
   return std::abs(a.dot(b)) > 1 - 1e-7f;
 }
 
-Eigen::Quaternionf turnOf(const Pose& pose, std::size_t joint) { return pose.rotations[joint]; }
-
 }  // namespace
 
 FilmExport::FilmExport(std::string path, std::shared_ptr<const RiggedCharacter> character, Clip clip,
@@ -191,7 +189,7 @@ Eigen::Vector3d AnimationDocument::anglesOf(int joint) const {
   const Eigen::Matrix3d r = state_.pose.rotations[std::size_t(joint)].cast<double>().toRotationMatrix();
   const double y = std::asin(std::clamp(-r(2, 0), -1.0, 1.0));
   // Straight up or down, x and z turn about the same axis: all of it is x.
-  if (std::abs(r(2, 0)) > 1 - 1e-9) return {std::atan2(-r(1, 2), r(1, 1)), y, 0};
+  if (std::abs(r(2, 0)) > 1 - 1e-6) return {std::atan2(-r(1, 2), r(1, 1)), y, 0};
   return {std::atan2(r(2, 1), r(2, 2)), y, std::atan2(r(1, 0), r(0, 0))};
 }
 
@@ -230,14 +228,19 @@ void AnimationDocument::setKey() {
     message_ = "keys need a clip: choose one, or make a new one";
     return;
   }
-  const StepScope step(*this);
   playing = false;
   const Pose told = samplePose(*clip(), skeleton(), float(state_.time_s));
   Clip changed = clip()->interpolation == RotationInterpolation::kAngles ? withSlerp(*clip()) : *clip();
   std::vector<int> joints;
   for (int j = 0; j < jointCount(); ++j)
-    if (!sameTurn(turnOf(told, std::size_t(j)), turnOf(state_.pose, std::size_t(j)))) joints.push_back(j);
+    if (!sameTurn(told.rotations[std::size_t(j)], state_.pose.rotations[std::size_t(j)])) joints.push_back(j);
   if (joints.empty() && chosen_ >= 0) joints.push_back(chosen_);
+  const bool moved = !state_.pose.root_translation.isApprox(told.root_translation, 1e-6f);
+  if (joints.empty() && !moved) {
+    message_ = "nothing to key: turn a joint, or choose one";
+    return;
+  }
+  const StepScope step(*this);
   for (const int j : joints) {
     const std::string& name = skeleton().joints[std::size_t(j)].name;
     auto track = std::find_if(changed.tracks.begin(), changed.tracks.end(),
@@ -249,13 +252,11 @@ void AnimationDocument::setKey() {
     track->angles_rad.clear();
     putKey(track->times_s, track->rotations, state_.time_s, state_.pose.rotations[std::size_t(j)]);
   }
-  if (!state_.pose.root_translation.isApprox(told.root_translation, 1e-6f))
+  if (moved)
     putKey(changed.root_times_s, changed.root_translations, state_.time_s, state_.pose.root_translation);
   changed.lead_s = 0;  // the clip may no longer come from the rest pose
   replaceClip(std::move(changed));
-  message_ = joints.empty() ? "nothing to key: turn a joint, or choose one"
-                            : "key set for " + std::to_string(joints.size()) +
-                                  (joints.size() == 1 ? " joint" : " joints");
+  message_ = "key set for " + std::to_string(joints.size()) + (joints.size() == 1 ? " joint" : " joints");
 }
 
 void AnimationDocument::removeKey() {
@@ -467,7 +468,7 @@ std::unique_ptr<FilmExport> AnimationDocument::exportFilm(const std::string& pat
       shown.name = "pose";
       for (int j = 0; j < jointCount(); ++j)
         shown.tracks.push_back(
-            {skeleton().joints[std::size_t(j)].name, {0.f}, {turnOf(state_.pose, std::size_t(j))}});
+            {skeleton().joints[std::size_t(j)].name, {0.f}, {state_.pose.rotations[std::size_t(j)]}});
       shown.root_times_s = {0};
       shown.root_translations = {state_.pose.root_translation};
     }

@@ -1,5 +1,6 @@
 #include "animator/info_command.h"
 #include "animator/render_command.h"
+#include "animator/view_command.h"
 #include "libskel/cli/tool.h"
 
 namespace {
@@ -24,5 +25,7 @@ int main(int argc, char** argv) {
   add(app, chosen, "info", "Says what a model holds", skel::bindInfoOptions, skel::runInfo);
   add(app, chosen, "render", "Makes a film of a character, or of a drawing, that moves by a clip",
       skel::bindRenderOptions, skel::runRender);
+  add(app, chosen, "view", "Shows a character in a window: play, pose, set keys, write films",
+      skel::bindViewOptions, skel::runView);
   return skel::runTool(app, argc, argv, [&] { return chosen(); });
 }

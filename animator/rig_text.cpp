@@ -8,9 +8,8 @@ namespace skel {
 
 std::string formatRig(const Skeleton& skeleton) {
   constexpr double kTip = 0.5;  // of a leaf, as a share of the bone that leads to it
-  nlohmann::ordered_json document;
-  auto& joints = document["joints"] = nlohmann::ordered_json::array();
-  auto& hierarchy = document["hierarchy"] = nlohmann::ordered_json::object();
+  nlohmann::ordered_json joints = nlohmann::ordered_json::array();
+  nlohmann::ordered_json hierarchy = nlohmann::ordered_json::object();
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const Joint& joint = skeleton.joints[j];
     Eigen::Vector3d tail = Eigen::Vector3d::Zero();
@@ -41,6 +40,8 @@ std::string formatRig(const Skeleton& skeleton) {
     }
     joints.push_back(std::move(entry));
   }
+  const nlohmann::ordered_json document = {{"joints", std::move(joints)},
+                                           {"hierarchy", std::move(hierarchy)}};
   return document.dump(1) + "\n";
 }
 
