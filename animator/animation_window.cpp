@@ -618,9 +618,9 @@ class AnimationWindow {
 
 }  // namespace
 
-ExitCode runAnimationWindow(const std::string& path, const std::string& body_plan) {
-  AnimationDocument document(path, body_plan);
-  Window window({"skel-animate: " + path, 1320, 860});
+ExitCode runAnimationWindow(const CharacterSource& source) {
+  AnimationDocument document(source);
+  Window window({"skel-animate: " + source.path, 1320, 860});
   AnimationWindow content(document);
   window.run([&] { return content.frame(); });
   return ExitCode::kDone;

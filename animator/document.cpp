@@ -6,15 +6,14 @@
 
 #include "animator/load_character.h"
 #include "animator/pose_file.h"
+#include "animator/rig_source.h"
 #include "animator/rig_text.h"
-#include "animator/skin_file.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/export/formats.h"
-#include "libskel/skeleton/place_in_mesh.h"
-#include "libskel/skeleton/rig_file.h"
+#include "libskel/import/read_weights.h"
 
 namespace skel {
 namespace {
@@ -107,10 +106,8 @@ class AnimationDocument::StepScope {
   AnimationDocument& document_;
 };
 
-AnimationDocument::AnimationDocument(const std::string& path, const std::string& body_plan)
-    : body_plan_(body_plan) {
-  CharacterFile file = loadCharacterWithClips(path, body_plan);
-  path_ = path;
+AnimationDocument::AnimationDocument(const CharacterSource& source) : source_(source) {
+  CharacterFile file = loadCharacterWithClips(source);
   name_ = file.name;
   state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
   state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
@@ -337,10 +334,12 @@ bool AnimationDocument::attempt(const Action& action) {
 
 bool AnimationDocument::openModel(const std::string& path) {
   return attempt([&] {
-    CharacterFile file = loadCharacterWithClips(path, body_plan_);
+    CharacterSource source = source_;
+    source.path = path;
+    CharacterFile file = loadCharacterWithClips(source);
     const StepScope step(*this);
     playing = false;
-    path_ = path;
+    source_ = source;
     name_ = file.name;
     state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
     state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
@@ -412,10 +411,7 @@ bool AnimationDocument::saveClip(const std::string& path) {
 
 bool AnimationDocument::loadSkeleton(const std::string& path) {
   return attempt([&] {
-    Skeleton skeleton = readRigFile(path);
-    const TriangleMesh& mesh = character().mesh;
-    const Skeleton upright = yUpFromZUp(skeleton);
-    if (shareInside(upright, mesh) > shareInside(skeleton, mesh)) skeleton = upright;
+    Skeleton skeleton = readSkeletonFor(character().mesh, path, "auto", nullptr);
     RiggedCharacter changed = character();
     changed.weights = computeSkinWeights(changed.mesh, skeleton, SkinMethod::kGeodesic);
     changed.skeleton = std::move(skeleton);
@@ -442,7 +438,7 @@ bool AnimationDocument::saveSkeleton(const std::string& path) {
 bool AnimationDocument::loadWeights(const std::string& path) {
   return attempt([&] {
     RiggedCharacter changed = character();
-    changed.weights = readSkinFile(path, changed);
+    changed.weights = readWeights(path, changed);
     const StepScope step(*this);
     state_.character = std::make_shared<const RiggedCharacter>(std::move(changed));
     return "loaded " + path;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "animator/film.h"
+#include "animator/load_character.h"
 #include "libskel/animation/clip.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/export/write_character.h"
@@ -51,14 +52,14 @@ class FilmExport {
 class AnimationDocument {
  public:
   // See loadCharacter(). Throws InputError.
-  explicit AnimationDocument(const std::string& path, const std::string& body_plan = "biped");
+  explicit AnimationDocument(const CharacterSource& source);
 
   const AnimationState& state() const { return state_; }
   const RiggedCharacter& character() const { return *state_.character; }
   const Skeleton& skeleton() const { return state_.character->skeleton; }
   const std::vector<Clip>& clips() const { return *state_.clips; }
   const Clip* clip() const;  // null: none
-  const std::string& path() const { return path_; }
+  const std::string& path() const { return source_.path; }
   int jointCount() const { return int(skeleton().joints.size()); }
   int boneCount() const;  // joints that hang on another
   // One line about the last step, or why it was refused.
@@ -130,7 +131,8 @@ class AnimationDocument {
   void replaceClip(Clip clip);
   bool travel(std::deque<AnimationState>& from, std::deque<AnimationState>& to);
 
-  std::string path_, name_, body_plan_;
+  CharacterSource source_;
+  std::string name_;
   AnimationState state_;
   int chosen_ = -1;
   int open_steps_ = 0;

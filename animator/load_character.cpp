@@ -1,10 +1,12 @@
 #include "animator/load_character.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
 
+#include "animator/rig_source.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
@@ -48,15 +50,37 @@ bool hasClip(const std::vector<Clip>& clips, const std::string& name) {
 
 }  // namespace
 
-CharacterFile loadCharacter(const std::string& path, const std::string& body_plan) {
-  if (isDrawing(path)) return rigDrawing(path, body_plan);
-  if (endingOf(path) != ".glb")
-    throw InputError(path, "is neither a rigged character (.glb) nor a drawing (.png, .jpg, ...)");
-  return readGlb(path);
+void bindCharacterSource(CLI::App& app, CharacterSource& source) {
+  app.add_option(
+         "file", source.path,
+         "A rigged character (.glb), a drawing, which is rigged first, or a model (.obj) with --skeleton")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--template", source.body_plan, "Body plan of a drawing: a name or a file")
+      ->capture_default_str();
+  app.add_option("--skeleton", source.skeleton, "The skeleton of a model: see skel-animate bind")
+      ->type_name("FILE");
+  app.add_option("--up", source.up, "The axis that points up in the skeleton's file")
+      ->check(CLI::IsMember({"auto", "y", "z"}))
+      ->capture_default_str();
 }
 
-CharacterFile loadCharacterWithClips(const std::string& path, const std::string& body_plan) {
-  CharacterFile file = loadCharacter(path, body_plan);
+CharacterFile loadCharacter(const CharacterSource& source) {
+  if (isDrawing(source.path)) return rigDrawing(source.path, source.body_plan);
+  const bool rigged = endingOf(source.path) == ".glb";
+  if (rigged && source.skeleton.empty()) return readGlb(source.path);
+  if (!rigged && source.skeleton.empty())
+    throw InputError(source.path,
+                     "is neither a rigged character (.glb) nor a drawing (.png, .jpg, ...); a model needs "
+                     "--skeleton FILE");
+  CharacterFile file = readRigModel({source.path, source.skeleton, source.up}).file;
+  RiggedCharacter& character = file.character;
+  character.weights = computeSkinWeights(character.mesh, character.skeleton, SkinMethod::kGeodesic);
+  return file;
+}
+
+CharacterFile loadCharacterWithClips(const CharacterSource& source) {
+  CharacterFile file = loadCharacter(source);
   for (Clip& clip : libraryFor(file.character))
     if (!hasClip(file.clips, clip.name)) file.clips.push_back(std::move(clip));
   return file;

@@ -6,14 +6,27 @@
 
 #include "libskel/import/read_character.h"
 
+namespace CLI {
+class App;
+}
+
 namespace skel {
 
-// A .glb, or a drawing, which is rigged first with the body plan of that name. Throws InputError: cannot be
-// read, no figure in the drawing, an ending that is no character's.
-CharacterFile loadCharacter(const std::string& path, const std::string& body_plan);
+struct CharacterSource {
+  std::string path;                 // a .glb, a drawing, or a model with a skeleton of its own
+  std::string body_plan = "biped";  // of a drawing
+  std::string skeleton = {};        // of a model (.obj): see readRigModel()
+  std::string up = "auto";
+};
+// FILE, --template, --skeleton, --up.
+void bindCharacterSource(CLI::App& app, CharacterSource& source);
+
+// A drawing is rigged first, a model bound. Throws InputError: cannot be read, no figure in the drawing, a
+// model without a skeleton, an ending that is no character's.
+CharacterFile loadCharacter(const CharacterSource& source);
 
 // The same with the motions of skel that fit it and whose names its own clips leave free.
-CharacterFile loadCharacterWithClips(const std::string& path, const std::string& body_plan);
+CharacterFile loadCharacterWithClips(const CharacterSource& source);
 
 // For the character's rest pose: the motions of skel that fit.
 std::vector<Clip> libraryFor(const RiggedCharacter& character);

@@ -1,3 +1,4 @@
+#include "animator/bind_command.h"
 #include "animator/info_command.h"
 #include "animator/render_command.h"
 #include "animator/view_command.h"
@@ -19,10 +20,13 @@ void add(CLI::App& app, std::function<skel::ExitCode()>& chosen, const std::stri
 
 int main(int argc, char** argv) {
   CLI::App app("Brings rigged characters to life: bind, pose, play, export.", "skel-animate");
-  app.footer("Example: skel-animate info hero.glb");
+  app.footer("Example: skel-animate bind elk.obj --skeleton elk.rig.json -o elk.glb");
   app.require_subcommand(1);
   std::function<skel::ExitCode()> chosen;
   add(app, chosen, "info", "Says what a model holds", skel::bindInfoOptions, skel::runInfo);
+  add(app, chosen, "bind", "Binds a model to a skeleton", skel::bindBindOptions, skel::runBind);
+  add(app, chosen, "weights", "Computes which joints carry a vertex, and saves that",
+      skel::bindWeightsOptions, skel::runWeights);
   add(app, chosen, "render", "Makes a film of a character, or of a drawing, that moves by a clip",
       skel::bindRenderOptions, skel::runRender);
   add(app, chosen, "view", "Shows a character in a window: play, pose, set keys, write films",

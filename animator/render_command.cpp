@@ -56,16 +56,12 @@ std::unique_ptr<MeshPainter> painterFor(const std::string& name, const TriangleM
 }  // namespace
 
 void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
-  app.add_option("what", options.what, "A rigged character (.glb), or a drawing, which is rigged first")
-      ->required()
-      ->type_name("FILE");
+  bindCharacterSource(app, options.source);
   app.add_option("--clip", options.clip, "A clip of the file, one that comes with skel, or a clip file")
       ->required();
   app.add_option("-o,--output", options.output,
                  "The film: " + videoFormatNames() + " (a name that ends with /) of PNG files")
       ->required();
-  app.add_option("--template", options.body_plan, "Body plan of a drawing: a name or a file")
-      ->capture_default_str();
   app.add_option("--fps", options.frame_rate, "Frames a second")
       ->check(CLI::Range(0.1, 240.0))
       ->capture_default_str();
@@ -111,12 +107,13 @@ ExitCode runRender(const RenderCommandOptions& options) {
   // What cannot be written is said before anything is rigged.
   openVideo(options.output, video_options);
 
-  const CharacterFile file = loadCharacter(options.what, options.body_plan);
+  const CharacterFile file = loadCharacter(options.source);
   const Clip clip = clipFor(options.clip, file);
   if (!options.weights_of.empty()) {
     film.look.weights_of = file.character.skeleton.find(options.weights_of);
     if (film.look.weights_of < 0)
-      throw UsageError("--show-weights: there is no joint \"" + options.weights_of + "\" in " + options.what);
+      throw UsageError("--show-weights: there is no joint \"" + options.weights_of + "\" in " +
+                       options.source.path);
   }
   const int frames = frameCount(clip, film);
   video_options.frames = frames;

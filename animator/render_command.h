@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "animator/load_character.h"
 #include "libskel/core/error.h"
 
 namespace CLI {
@@ -12,10 +13,9 @@ class App;
 namespace skel {
 
 struct RenderCommandOptions {
-  std::string what;
+  CharacterSource source;
   std::string clip;
   std::string output;
-  std::string body_plan = "biped";
   double frame_rate = 30;
   double duration_s = 0;
   std::string size = "512x512";

@@ -6,14 +6,8 @@
 
 namespace skel {
 
-void bindViewOptions(CLI::App& app, ViewOptions& options) {
-  app.add_option("file", options.file, "A rigged character (.glb), or a drawing, which is rigged first")
-      ->required()
-      ->type_name("FILE");
-  app.add_option("--template", options.body_plan, "Body plan of a drawing: a name or a file")
-      ->capture_default_str();
-}
+void bindViewOptions(CLI::App& app, ViewOptions& options) { bindCharacterSource(app, options.source); }
 
-ExitCode runView(const ViewOptions& options) { return runAnimationWindow(options.file, options.body_plan); }
+ExitCode runView(const ViewOptions& options) { return runAnimationWindow(options.source); }
 
 }  // namespace skel

@@ -1,8 +1,7 @@
 // The command `skel-animate view FILE`.
 #pragma once
 
-#include <string>
-
+#include "animator/load_character.h"
 #include "libskel/core/error.h"
 
 namespace CLI {
@@ -12,8 +11,7 @@ class App;
 namespace skel {
 
 struct ViewOptions {
-  std::string file;
-  std::string body_plan = "biped";
+  CharacterSource source;
 };
 void bindViewOptions(CLI::App& app, ViewOptions& options);
 ExitCode runView(const ViewOptions& options);

@@ -2,7 +2,7 @@
 
 namespace skel {
 
-ExitCode runAnimationWindow(const std::string&, const std::string&) {
+ExitCode runAnimationWindow(const CharacterSource&) {
   throw UnavailableError(
       "skel was built without windows; install what script/bootstrap --all does and build again, or use "
       "skel-animate render");

@@ -304,52 +304,76 @@ std::vector<float> readTimes(const GlbContainer& glb, const JsonValue& index) {
   return times;
 }
 
+std::vector<Vector3f> vectors(const GlbContainer::Numbers& numbers, const Vector3f& less) {
+  std::vector<Vector3f> result;
+  for (std::size_t i = 0; i < numbers.count; ++i)
+    result.push_back(Eigen::Map<const Vector3f>(numbers.values.data() + 3 * i) - less);
+  return result;
+}
+
+std::vector<Eigen::Quaternionf> quaternions(const GlbContainer::Numbers& numbers, const JsonValue& output) {
+  std::vector<Eigen::Quaternionf> result;
+  for (std::size_t i = 0; i < numbers.count; ++i) {
+    const float* q = numbers.values.data() + 4 * i;
+    result.emplace_back(q[3], q[0], q[1], q[2]);
+    if (!(std::abs(result.back().norm() - 1) < 1e-2f))
+      output.fail("element " + std::to_string(i) + " is not a unit quaternion");
+  }
+  return result;
+}
+
 Clip readClip(const GlbContainer& glb, const JsonValue& animation, const RiggedCharacter& character,
               const Joints& joints, const std::string& otherwise) {
   Clip clip;
   const std::optional<JsonValue> name = animation.find("name");
   clip.name = name ? name->asString() : otherwise;
   const std::vector<JsonValue> samplers = animation.at("samplers").items();
+  if (samplers.empty()) animation.at("samplers").fail("is empty");
+  const std::vector<Joint>& all = character.skeleton.joints;
   const float height = character.mesh.vertices.col(1).maxCoeff() - character.mesh.vertices.col(1).minCoeff();
   std::set<std::pair<int, std::string>> moved;
+  std::vector<int> tracks(all.size(), -1);
   for (const JsonValue& channel : animation.at("channels").items()) {
-    const JsonValue target = channel.at("target");
-    const int node = target.at("node").asInt(0, static_cast<int>(joints.of_node.size()) - 1);
-    const int joint = joints.of_node[node];
+    const JsonValue target = channel.at("target"), path = target.at("path");
+    const int joint = joints.of_node[static_cast<std::size_t>(
+        target.at("node").asInt(0, static_cast<int>(joints.of_node.size()) - 1))];
     if (joint < 0) target.at("node").fail("is no joint of the skin");
-    const std::string path = target.at("path").asString();
-    if (!moved.emplace(joint, path).second) target.fail("is moved by two channels");
-    if (samplers.empty()) animation.at("samplers").fail("is empty");
+    const std::string kind = path.asString();
+    if (kind != "rotation" && kind != "translation" && kind != "scale")
+      path.fail("\"" + kind + "\" is not read");
+    if (!moved.emplace(joint, kind).second) target.fail("is moved by two channels");
     const JsonValue& sampler = samplers[static_cast<std::size_t>(
         channel.at("sampler").asInt(0, static_cast<int>(samplers.size()) - 1))];
-    if (const auto kind = sampler.find("interpolation"); kind && kind->asString() != "LINEAR")
-      kind->fail(kind->asString() + " is not read; export with LINEAR interpolation (baked)");
+    if (const auto way = sampler.find("interpolation"); way && way->asString() != "LINEAR")
+      way->fail(way->asString() + " is not read; export with LINEAR interpolation (baked)");
     const std::vector<float> times = readTimes(glb, sampler.at("input"));
     const JsonValue output = sampler.at("output");
-    const GlbContainer::Numbers values = glb.numbers(output, path == "rotation" ? 4 : 3);
+    const GlbContainer::Numbers values = glb.numbers(output, kind == "rotation" ? 4 : 3);
     if (values.count != times.size())
       output.fail("has " + std::to_string(values.count) + " elements for " + std::to_string(times.size()) +
                   " times");
-    if (path == "rotation") {
-      JointTrack track;
-      track.joint = character.skeleton.joints[joint].name;
-      track.times_s = times;
-      for (std::size_t i = 0; i < values.count; ++i) {
-        const float* q = values.values.data() + 4 * i;
-        track.rotations.emplace_back(q[3], q[0], q[1], q[2]);
-        if (!(std::abs(track.rotations.back().norm() - 1) < 1e-2f))
-          output.fail("element " + std::to_string(i) + " is not a unit quaternion");
-      }
-      clip.tracks.push_back(std::move(track));
-    } else if (path == "translation" && joint == 0 && height > 0) {
-      const Vector3f rest = character.skeleton.joints[0].position.cast<float>();
+    if (kind == "translation" && joint == 0) {
+      if (!(height > 0)) path.fail("cannot be measured by the height of a model that has none");
       clip.root_times_s = times;
-      for (std::size_t i = 0; i < values.count; ++i)
-        clip.root_translations.push_back((Eigen::Map<const Vector3f>(values.values.data() + 3 * i) - rest) /
-                                         height);
+      clip.root_translations = vectors(values, all[0].position.cast<float>());
+      for (Vector3f& translation : clip.root_translations) translation /= height;
+      continue;
+    }
+    if (tracks[joint] < 0) {
+      tracks[joint] = static_cast<int>(clip.tracks.size());
+      clip.tracks.emplace_back().joint = all[joint].name;
+    }
+    JointTrack& track = clip.tracks[static_cast<std::size_t>(tracks[joint])];
+    if (kind == "rotation") {
+      track.times_s = times;
+      track.rotations = quaternions(values, output);
+    } else if (kind == "translation") {
+      track.translation_times_s = times;
+      track.translations_m =
+          vectors(values, (all[joint].position - all[all[joint].parent].position).cast<float>());
     } else {
-      target.at("path").fail("\"" + path + "\" of the joint \"" + character.skeleton.joints[joint].name +
-                             "\" is not read");
+      track.scale_times_s = times;
+      track.scales = vectors(values, Vector3f::Zero());
     }
   }
   return clip;

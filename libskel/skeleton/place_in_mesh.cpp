@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <map>
 #include <vector>
 
 namespace skel {
 namespace {
 
-// Where the lines through p along the axes meet the triangle: before or behind p.
-void meet(const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::Vector3d& p,
-          std::array<std::array<bool, 2>, 3>& met) {
+// The sides of a point that lie behind a triangle, seen along the axes: bit 2·axis below it, 2·axis + 1
+// above.
+unsigned sidesMet(const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::Vector3d& p) {
+  unsigned sides = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     double weights[3], sum = 0, at = 0;
@@ -21,8 +22,13 @@ void meet(const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::Vector3d&
       at += weights[k] * triangle[k][axis];
     }
     if (sum == 0 || weights[0] * sum < 0 || weights[1] * sum < 0 || weights[2] * sum < 0) continue;
-    met[axis][at / sum >= p[axis] ? 1 : 0] = true;
+    sides |= 1u << (2 * axis + (at / sum >= p[axis] ? 1 : 0));
   }
+  return sides;
+}
+
+bool surrounded(unsigned sides) {
+  return ((sides & 3) == 3) + ((sides >> 2 & 3) == 3) + ((sides >> 4 & 3) == 3) >= 2;
 }
 
 }  // namespace
@@ -46,26 +52,35 @@ double shareInside(const Skeleton& skeleton, const TriangleMesh& mesh) {
     }
   }
   if (points.empty()) points.push_back(skeleton.joints[0].position);
-  std::vector<std::array<std::array<bool, 2>, 3>> met(points.size());
-  for (auto& of_point : met)
-    for (auto& of_axis : of_point) of_axis = {false, false};
+  const std::vector<int> one_group(static_cast<std::size_t>(mesh.vertices.rows()), 0);
+  double inside = 0;
+  for (const std::vector<int>& around : groupsAround(points, mesh, one_group)) inside += !around.empty();
+  return inside / static_cast<double>(points.size());
+}
+
+std::vector<std::vector<int>> groupsAround(const std::vector<Eigen::Vector3d>& points,
+                                           const TriangleMesh& mesh,
+                                           const std::vector<int>& group_of_vertex) {
+  std::vector<std::map<int, unsigned>> met(points.size());  // sides by group
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     std::array<Eigen::Vector3d, 3> triangle;
     for (int k = 0; k < 3; ++k) triangle[k] = mesh.vertices.row(mesh.triangles(t, k)).cast<double>();
     const Eigen::Array3d low = triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]),
                          high = triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2]);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto within = (points[i].array() >= low && points[i].array() <= high).cast<int>();
-      if (within.sum() >= 2) meet(triangle, points[i], met[i]);
+      const Eigen::Vector3d& p = points[i];
+      const int within = (p.x() >= low.x() && p.x() <= high.x()) + (p.y() >= low.y() && p.y() <= high.y()) +
+                         (p.z() >= low.z() && p.z() <= high.z());
+      if (within < 2) continue;
+      if (const unsigned sides = sidesMet(triangle, p); sides != 0)
+        met[i][group_of_vertex[static_cast<std::size_t>(mesh.triangles(t, 0))]] |= sides;
     }
   }
-  int inside = 0;
-  for (const auto& of_point : met) {
-    int axes = 0;
-    for (const auto& of_axis : of_point) axes += of_axis[0] && of_axis[1];
-    inside += axes >= 2;
-  }
-  return static_cast<double>(inside) / static_cast<double>(points.size());
+  std::vector<std::vector<int>> result(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (const auto& [group, sides] : met[i])
+      if (surrounded(sides)) result[i].push_back(group);
+  return result;
 }
 
 }  // namespace skel

@@ -39,7 +39,7 @@ bool atRest(const AnimationDocument& document) {
 
 TEST_CASE("a character opens in its rest pose, with its clips before those of skel") {
   const TempDir dir;
-  AnimationDocument document(figureFile(dir));
+  AnimationDocument document({.path = figureFile(dir)});
   CHECK(document.jointCount() == 17);
   CHECK(document.boneCount() == 16);
   CHECK(document.clip() == nullptr);
@@ -47,14 +47,14 @@ TEST_CASE("a character opens in its rest pose, with its clips before those of sk
   CHECK(clipIndex(document, "walk") > 0);
   CHECK(atRest(document));
   CHECK_FALSE(document.canUndo());
-  CHECK_THROWS_WITH(AnimationDocument(dir.file("none.glb")), Contains("none.glb: cannot be read"));
-  CHECK_THROWS_WITH(AnimationDocument(dir.file("model.stl")),
+  CHECK_THROWS_WITH(AnimationDocument({.path = dir.file("none.glb")}), Contains("none.glb: cannot be read"));
+  CHECK_THROWS_WITH(AnimationDocument({.path = dir.file("model.stl")}),
                     Contains("model.stl: is neither a rigged character (.glb) nor a drawing"));
 }
 
 TEST_CASE("playing goes round, or stops at the end") {
   const TempDir dir;
-  AnimationDocument document(figureFile(dir));
+  AnimationDocument document({.path = figureFile(dir)});
   document.playing = true;
   CHECK_FALSE(document.advance(0.1));  // there is nothing to play
   CHECK_FALSE(document.playing);
@@ -81,7 +81,7 @@ TEST_CASE("playing goes round, or stops at the end") {
 
 TEST_CASE("a joint turns about its own axes, and the numbers say so") {
   const TempDir dir;
-  AnimationDocument document(figureFile(dir));
+  AnimationDocument document({.path = figureFile(dir)});
   const int elbow = document.skeleton().index("left_elbow");
   const Eigen::Vector3f hand = at(document, "left_hand"), middle = at(document, "left_elbow");
   document.turnJoint(elbow, 2, kQuarter);
@@ -107,7 +107,7 @@ TEST_CASE("a joint turns about its own axes, and the numbers say so") {
 
 TEST_CASE("every step is undone and done again; a drag is one step") {
   const TempDir dir;
-  AnimationDocument document(figureFile(dir));
+  AnimationDocument document({.path = figureFile(dir)});
   const int knee = document.skeleton().index("right_knee");
   document.beginStep();
   for (int i = 0; i < 10; ++i) document.turnJoint(knee, 0, 0.1);
@@ -139,7 +139,7 @@ TEST_CASE("every step is undone and done again; a drag is one step") {
 
 TEST_CASE("keys hold what was turned, scrubbing shows what the keys say") {
   const TempDir dir;
-  AnimationDocument document(figureFile(dir));
+  AnimationDocument document({.path = figureFile(dir)});
   const int arm = document.skeleton().index("left_shoulder"), head = document.skeleton().index("head");
   document.setKey();
   CHECK_THAT(document.message(), Contains("keys need a clip"));
@@ -173,7 +173,7 @@ TEST_CASE("keys hold what was turned, scrubbing shows what the keys say") {
 
 TEST_CASE("poses, clips, weights, skeletons and characters come back from their files") {
   const TempDir dir;
-  AnimationDocument document(figureFile(dir));
+  AnimationDocument document({.path = figureFile(dir)});
   const int arm = document.skeleton().index("left_shoulder");
   document.turnJoint(arm, 2, 1.25);
   const Pose pose = document.state().pose;
@@ -191,7 +191,7 @@ TEST_CASE("poses, clips, weights, skeletons and characters come back from their 
   REQUIRE(document.saveModel(dir.file("posed.glb")));
   const CharacterFile saved = readGlb(dir.file("posed.glb"));
   CHECK(saved.clips.size() == document.clips().size());
-  AnimationDocument other(figureFile(dir, "other.glb"));
+  AnimationDocument other({.path = figureFile(dir, "other.glb")});
   REQUIRE(other.loadClip(dir.file("mine.clip.json")));
   CHECK(other.clip()->name == "mine");
   other.setTime(1);
@@ -217,7 +217,7 @@ TEST_CASE("poses, clips, weights, skeletons and characters come back from their 
 
 TEST_CASE("what cannot be loaded or saved is said in one line, and changes nothing") {
   const TempDir dir;
-  AnimationDocument document(figureFile(dir));
+  AnimationDocument document({.path = figureFile(dir)});
   const auto refused = [&](bool done, const std::string& reason) {
     CHECK_FALSE(done);
     CHECK_THAT(document.message(), Contains(reason));
@@ -244,7 +244,7 @@ TEST_CASE("what cannot be loaded or saved is said in one line, and changes nothi
 
 TEST_CASE("the joint under the mouse is the nearest one") {
   const TempDir dir;
-  AnimationDocument document(figureFile(dir));
+  AnimationDocument document({.path = figureFile(dir)});
   const Camera camera = framingCamera(document.character().mesh.vertices);
   const Projection projection(camera, 400, 400);
   for (const char* name : {"head", "left_hand", "right_knee"}) {
@@ -257,7 +257,7 @@ TEST_CASE("the joint under the mouse is the nearest one") {
 
 TEST_CASE("a film is written beside the work, and can be stopped") {
   const TempDir dir;
-  AnimationDocument document(figureFile(dir));
+  AnimationDocument document({.path = figureFile(dir)});
   const Camera camera = framingCamera(document.character().mesh.vertices);
   FilmOptions options;
   options.width = options.height = 64;

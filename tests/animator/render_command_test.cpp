@@ -65,7 +65,7 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
     int exit_code;
     std::string message;
   } cases[] = {
-      {"", 1, "what is required"},
+      {"", 1, "file is required"},
       {model + " -o " + film, 1, "--clip is required"},
       {model + " --clip fly -o " + film, 1, "there is no clip \"fly\""},
       {model + " --clip none.clip.json -o " + film, 2, "none.clip.json: cannot be read"},

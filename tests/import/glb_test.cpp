@@ -54,3 +54,33 @@ TEST_CASE("what is written as GLB is read back whole, and written again gives th
   const bool same_bytes = encodeGlb(file.character, file.clips, {.name = file.name}) == bytes;
   CHECK(same_bytes);
 }
+
+TEST_CASE("clips that move and scale joints and the root come back from GLB") {
+  const RiggedCharacter character = figure();
+  Clip clip;
+  clip.name = "all";
+  JointTrack track;
+  track.joint = "head";
+  track.times_s = {0, 1};
+  track.rotations = {Eigen::Quaternionf::Identity(), Eigen::Quaternionf(0.8f, 0, 0.6f, 0)};
+  track.translation_times_s = {0, 0.5f};
+  track.translations_m = {{0, 0, 0}, {0.1f, 0.2f, 0.3f}};
+  track.scale_times_s = {0.25f};
+  track.scales = {{1, 2, 1}};
+  clip.tracks = {track};
+  clip.root_times_s = {0, 1};
+  clip.root_translations = {{0, 0, 0}, {0, 0.25f, 0.125f}};
+  const CharacterFile file = decodeGlb(encodeGlb(character, {clip}), "a.glb");
+  REQUIRE(file.clips.size() == 1);
+  const Clip& back = file.clips[0];
+  REQUIRE(back.tracks.size() == 1);
+  CHECK(back.tracks[0].joint == "head");
+  CHECK(back.tracks[0].times_s == track.times_s);
+  CHECK(back.tracks[0].rotations[1].coeffs() == track.rotations[1].coeffs());
+  CHECK(back.tracks[0].translation_times_s == track.translation_times_s);
+  CHECK((back.tracks[0].translations_m[1] - track.translations_m[1]).norm() < 2e-6f);
+  CHECK(back.tracks[0].scale_times_s == track.scale_times_s);
+  CHECK(back.tracks[0].scales[0] == track.scales[0]);
+  CHECK(back.root_times_s == clip.root_times_s);
+  CHECK((back.root_translations[1] - clip.root_translations[1]).norm() < 2e-6f);
+}
