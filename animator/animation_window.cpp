@@ -102,7 +102,7 @@ class AnimationWindow {
 
   NextFrame frame() {
     const bool moves = document_.advance(double(ImGui::GetIO().DeltaTime));
-    if (!ImGui::GetIO().WantTextInput) keys();
+    if (!ImGui::GetIO().WantTextInput && !ImGui::IsPopupOpen("path")) keys();
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
     // Fields are seen on white, the menu bar belongs to the window.

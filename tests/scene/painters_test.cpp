@@ -120,11 +120,12 @@ TEST_CASE("every painter gives the same bytes twice, in wires, colours and trans
     CHECK(covered(images[3]) < 0.9 * covered(images[0]));
     CHECK(difference(images[4], images[0]) > 1);
   }
-  // And all of them show the same.
+  // And all of them show the same, but for wires without a body, whose smooth edges hide what lies behind
+  // them.
   for (const auto& [name, images] : all)
     for (std::size_t i = 0; i < looks.size(); ++i) {
       CAPTURE(name, i);
-      CHECK(difference(images[i], all.at("software")[i]) < (looks[i].wires ? 2.5 : 0.6));
+      CHECK(difference(images[i], all.at("software")[i]) < (!looks[i].fill ? 6 : looks[i].wires ? 2.5 : 0.6));
     }
 }
 
