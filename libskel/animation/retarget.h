@@ -19,6 +19,9 @@ struct FigureShape {
   std::vector<double> hang_rad;
   // One a joint, or empty. Of a foot: the height of its lowest point, m. 0 for the others.
   std::vector<double> sole_y_m;
+  // One a joint, or empty; 0…1. Of arms: the share of the forearm that hangs on the body. Of legs: how far down
+  // they are one piece, 0 for trousers, 1 for a gown. 0 for the others.
+  std::vector<double> joined;
 };
 // As much as the bones alone tell.
 FigureShape shapeOfBones(const Skeleton& skeleton);
