@@ -60,7 +60,8 @@ Eigen::Vector3d eased(const Keys& keys, double time_s, Ease ease) {
   while (next + 1 < keys.size() && keys[next].time_s < time_s) ++next;
   const Key &a = keys[next - 1], &b = keys[next];
   const double length = b.time_s - a.time_s, t = std::clamp((time_s - a.time_s) / length, 0.0, 1.0);
-  if (ease == Ease::kRest) return a.value + (b.value - a.value) * (0.5 - 0.5 * std::cos(t * std::numbers::pi));
+  if (ease == Ease::kRest)
+    return a.value + (b.value - a.value) * (0.5 - 0.5 * std::cos(t * std::numbers::pi));
   // Cubic Hermite.
   const double t2 = t * t, t3 = t2 * t;
   return (2 * t3 - 3 * t2 + 1) * a.value + (t3 - 2 * t2 + t) * length * slope(keys, next - 1, ease) +
@@ -190,8 +191,8 @@ void appendVectors(std::string& text, const std::vector<float>& times,
 float degrees(float angle_rad) { return float(std::round(double(angle_rad) / kDegree * 1000) / 1000); }
 
 void appendTrack(std::string& text, const JointTrack& track) {
-  text += "{\"joint\": " + nlohmann::json(track.joint).dump(-1, ' ', false,
-                                                             nlohmann::json::error_handler_t::replace);
+  text += "{\"joint\": " +
+          nlohmann::json(track.joint).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   if (!track.bone.isZero()) {
     text += ", \"bone\": [";
     for (int k = 0; k < 3; ++k) {
@@ -234,7 +235,8 @@ std::string formatClip(const Clip& clip) {
     return nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   };
   std::string text = "{\n  \"format\": \"" + std::string(kFormat) +
-                     "\",\n  \"version\": " + std::to_string(kVersion) + ",\n  \"name\": " + quoted(clip.name);
+                     "\",\n  \"version\": " + std::to_string(kVersion) +
+                     ",\n  \"name\": " + quoted(clip.name);
   if (!clip.template_name.empty()) text += ",\n  \"template\": " + quoted(clip.template_name);
   if (clip.frame == ClipFrame::kBody) text += ",\n  \"frame\": \"body\"";
   const auto number = [&](const char* key, float value) {

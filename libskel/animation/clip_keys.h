@@ -15,8 +15,7 @@ inline constexpr double kMaxPlace = 1e6;  // of translations and scales, each wa
 // Refuses a time that does not come after the ones before; `times` grows by it.
 inline void takeTime(const JsonValue& value, double time_s, std::vector<float>& times) {
   if (!(time_s >= 0 && time_s <= kMaxTime_s)) value.fail("must be a time of 0 to 100000 seconds");
-  if (!times.empty() && !(float(time_s) > times.back()))
-    value.fail("must be later than the key before");
+  if (!times.empty() && !(float(time_s) > times.back())) value.fail("must be later than the key before");
   times.push_back(float(time_s));
 }
 

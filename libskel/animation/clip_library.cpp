@@ -31,9 +31,7 @@ std::vector<Clip> fittingClips(const std::vector<Clip>& library, const Target& t
   return fitting;
 }
 
-bool sameName(const Clip& a, const Clip& b) {
-  return a.name == b.name && a.template_name == b.template_name;
-}
+bool sameName(const Clip& a, const Clip& b) { return a.name == b.name && a.template_name == b.template_name; }
 
 }  // namespace
 

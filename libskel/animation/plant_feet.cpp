@@ -124,10 +124,11 @@ std::vector<Vector3d> jointPositions(const Skeleton& skeleton, const ModelPose& 
   std::vector<Vector3d> result(skeleton.joints.size());
   for (std::size_t j = 0; j < result.size(); ++j) {
     const Joint& joint = skeleton.joints[j];
-    result[j] = joint.parent < 0 ? Vector3d(joint.position + pose.root_offset_m)
-                                 : Vector3d(result[joint.parent] +
-                                            pose.globals[joint.parent] *
-                                                (joint.position - skeleton.joints[joint.parent].position));
+    result[j] =
+        joint.parent < 0
+            ? Vector3d(joint.position + pose.root_offset_m)
+            : Vector3d(result[joint.parent] + pose.globals[joint.parent] *
+                                                  (joint.position - skeleton.joints[joint.parent].position));
   }
   return result;
 }
@@ -178,7 +179,8 @@ void plantFeet(const Skeleton& skeleton, const std::vector<FootContact>& contact
     for (const Stand& stand : stands) {
       if (weightAt(stand, poses[k].time_s, duration_s, planting.ramp_s) < 1) continue;
       const int hip = skeleton.joints[skeleton.joints[stand.foot].parent].parent;
-      lower[k] = std::max(lower[k], lowering(skeleton, stand.foot, goalOf(stand, poses[k].time_s), at[k][hip]));
+      lower[k] =
+          std::max(lower[k], lowering(skeleton, stand.foot, goalOf(stand, poses[k].time_s), at[k][hip]));
     }
   lower = smoothedUpper(lower);
 

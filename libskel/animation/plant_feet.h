@@ -30,10 +30,10 @@ struct FootPlanting {
   double ramp_s = 0.12;  // a foot comes down to its place and leaves it in so much time
 };
 
-// While a foot stands it keeps its place on the ground, or moves with a ground that runs evenly below a figure
-// that walks on the spot; what its leg needs for that, its knee gives (two bones and a wish where the end should
-// be: the law of cosines), and where the leg is too short the root comes down. `poses`: even moments of a motion
-// whose end is its beginning. Contacts name joints with two ancestors.
+// While a foot stands it keeps its place on the ground, or moves with a ground that runs evenly below a
+// figure that walks on the spot; what its leg needs for that, its knee gives (two bones and a wish where the
+// end should be: the law of cosines), and where the leg is too short the root comes down. `poses`: even
+// moments of a motion whose end is its beginning. Contacts name joints with two ancestors.
 void plantFeet(const Skeleton& skeleton, const std::vector<FootContact>& contacts,
                const FootPlanting& planting, std::vector<ModelPose>& poses);
 

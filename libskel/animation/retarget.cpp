@@ -93,7 +93,8 @@ bool isFolded(const Skeleton& skeleton, int elbow, int hand) {
 }
 
 // Lets the joints keep the share `kept` of how they were drawn, and move so much less.
-void hold(Retargeter& retargeter, std::initializer_list<int> joints, double kept, std::vector<double>& slack_rad) {
+void hold(Retargeter& retargeter, std::initializer_list<int> joints, double kept,
+          std::vector<double>& slack_rad) {
   for (const int joint : joints) {
     if (slack_rad[joint] <= 0) continue;
     slack_rad[joint] += kept * 2 * kPi;
@@ -106,7 +107,9 @@ double smoothStep(double from, double to, double x) {
   return t * t * (3 - 2 * t);
 }
 
-double joinedAt(const FigureShape& shape, int joint) { return shape.joined.empty() ? 0 : shape.joined[joint]; }
+double joinedAt(const FigureShape& shape, int joint) {
+  return shape.joined.empty() ? 0 : shape.joined[joint];
+}
 
 // Legs of one who was drawn sitting or squatting lie on the body: no way to stand him up.
 bool isSeated(const Skeleton& skeleton, const FigureShape& shape) {
@@ -129,9 +132,8 @@ void holdArms(Retargeter& retargeter, const FigureShape& shape, std::vector<doub
     const int shoulder = skeleton.find(side + "shoulder"), elbow = skeleton.find(side + "elbow"),
               hand = skeleton.find(side + "hand");
     if (shoulder < 0 || elbow < 0 || hand < 0) continue;
-    const double kept = isFolded(skeleton, elbow, hand)
-                            ? 1
-                            : std::max(least, smoothStep(0.45, 0.6, joinedAt(shape, elbow)));
+    const double kept =
+        isFolded(skeleton, elbow, hand) ? 1 : std::max(least, smoothStep(0.45, 0.6, joinedAt(shape, elbow)));
     if (kept > 0) hold(retargeter, {shoulder, elbow, hand}, kept, slack_rad);
   }
 }
@@ -316,11 +318,14 @@ FigureShape shapeOfBones(const Skeleton& skeleton) {
 Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOptions& options) {
   const std::size_t count = skeleton.joints.size();
   const FigureShape shape = options.shape ? *options.shape : shapeOfBones(skeleton);
+  Quaterniond figure_from_clip = Quaterniond::Identity();
+  if (clip.frame == ClipFrame::kBody && shape.yaw_rad != 0)
+    figure_from_clip = Quaterniond(Eigen::AngleAxisd(shape.yaw_rad, Vector3d::UnitY()));
   std::vector<Vector3d> canonical(count, Vector3d::Zero());
   std::vector<double> slack_rad(count, 0);
   for (const JointTrack& track : clip.tracks)
     if (const int joint = skeleton.find(track.joint); joint >= 0) {
-      canonical[joint] = track.bone.cast<double>();
+      canonical[joint] = figure_from_clip * track.bone.cast<double>();
       slack_rad[joint] = track.slack_rad;
     }
 
@@ -333,8 +338,6 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
   holdArms(retargeter, shape, slack_rad);
   const double steps = holdLegs(retargeter, shape, clip.contacts, slack_rad);
   giveSlack(skeleton, slack_rad, shape.hang_rad, retargeter.turns);
-  if (clip.frame == ClipFrame::kBody && shape.yaw_rad != 0)
-    retargeter.figure_from_clip = Quaterniond(Eigen::AngleAxisd(shape.yaw_rad, Vector3d::UnitY()));
 
   const float duration = clip.duration_s();
   const int keys = int(std::ceil(duration * options.rate_hz - 1e-3f)) + 1;
@@ -394,7 +397,8 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
         result.tracks.emplace_back().joint = skeleton.joints[joint].name;
         result.tracks.back().times_s = {0};
       }
-  const std::size_t every = strideWithin(skeleton, poses, kTolerance * shape.height_m);
+  const std::size_t every =
+      options.thin_keys ? strideWithin(skeleton, poses, kTolerance * shape.height_m) : 1;
   std::vector<float> times;
   for (std::size_t k = 0; k < poses.size(); k += every) times.push_back(poses[k].time_s);
   for (JointTrack& track : result.tracks) {

@@ -31,8 +31,8 @@ struct Flesh {
   }
 };
 
-// The angle at which a stick that turns about `pivot` lies beside the trunk, seen from the front. `side`: 1 for a
-// limb that hangs to the right of the picture.
+// The angle at which a stick that turns about `pivot` lies beside the trunk, seen from the front. `side`: 1
+// for a limb that hangs to the right of the picture.
 double hangBeside(const Flesh& flesh, std::initializer_list<int> trunk, const Vector3d& pivot, double length,
                   double half_width, double side) {
   double hang = 0;
@@ -58,8 +58,8 @@ double halfWidth(const Flesh& flesh, int joint, int child) {
   return seen ? sum / seen : 0;
 }
 
-// The share of the forearm, by its vertices, that hangs on the trunk or the legs: an arm that was drawn against
-// the body, a hand that holds a skirt.
+// The share of the forearm, by its vertices, that hangs on the trunk or the legs: an arm that was drawn
+// against the body, a hand that holds a skirt.
 double joinedArm(const Flesh& flesh, int elbow, int hand) {
   const Vector2d from = flesh.joint(elbow).head<2>(), along = flesh.joint(hand).head<2>() - from;
   int arm = 0, joined = 0;
@@ -142,15 +142,17 @@ void measureLegs(const Flesh& flesh, const LegPair& pair, FigureShape& shape) {
     if (joint >= 0) shape.joined[joint] = std::min(1.0, (top - lowest) / (top - bottom));
 }
 
-// How far to the right of the picture the middle joint of a limb lies from the straight line between the others.
+// How far to the right of the picture the middle joint of a limb lies from the straight line between the
+// others.
 double bend(const Flesh& flesh, int from, int middle, int to) {
   const Vector2d a = flesh.joint(from).head<2>(), b = flesh.joint(middle).head<2>(),
                  c = flesh.joint(to).head<2>();
   return b.x() - nearestOnSegment<Vector2d>(b, a, c).x();
 }
 
-// A figure in side view is narrow, its feet and knees point the way it looks, its elbows and the nape the other
-// way; in front view left and right cancel out. The limits separate the drawings of datasets/characters.
+// A figure in side view is narrow, its feet and knees point the way it looks, its elbows and the nape the
+// other way; in front view left and right cancel out. The limits separate the drawings of
+// datasets/characters.
 double bipedYaw(const Flesh& flesh, double height_m) {
   const Skeleton& skeleton = flesh.skeleton;
   const int pelvis = skeleton.find("pelvis"), neck = skeleton.find("neck"), head = skeleton.find("head");

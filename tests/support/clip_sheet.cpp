@@ -44,7 +44,8 @@ Image posed(const RiggedCharacter& character, const Clip& clip, float time_s, do
 }
 
 void run(int argc, char** argv) {
-  if (argc < 8) throw UsageError("usage: clip_sheet OUT.png TEMPLATE CLIP,... FRAMES YAW_DEG SIZE_PX DRAWING...");
+  if (argc < 8)
+    throw UsageError("usage: clip_sheet OUT.png TEMPLATE CLIP,... FRAMES YAW_DEG SIZE_PX DRAWING...");
   const std::vector<Clip> library = clipsFor(builtinClips(), loadTemplate(argv[2]));
   std::vector<Clip> clips;
   for (std::string names = std::string(argv[3]) + ","; !names.empty();) {
