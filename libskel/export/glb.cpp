@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -130,7 +131,8 @@ int addTextureCoordinates(GlbBuilder& glb, const TriangleMesh& mesh) {
   return glb.addAccessor(values, 2, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER, true);
 }
 
-// In units of 1/65535, with the sum that glTF asks for; the rounding falls on the heaviest.
+// In units of 1/65535, with the sum that glTF asks for; the rounding falls on the heaviest, which stays the
+// first.
 std::vector<std::uint16_t> quantizedWeights(const SkinWeights& weights) {
   std::vector<std::uint16_t> values;
   for (Eigen::Index i = 0; i < weights.weights.rows(); ++i) {
@@ -141,6 +143,7 @@ std::vector<std::uint16_t> quantizedWeights(const SkinWeights& weights) {
       left -= parts[k];
     }
     parts[0] = left;
+    std::sort(parts, parts + 4, std::greater<>());
     for (const int part : parts) values.push_back(std::uint16_t(part));
   }
   return values;
@@ -218,6 +221,11 @@ void addJoints(GlbBuilder& glb, const Skeleton& skeleton, JointNaming naming, in
     Vector3d local = rounded(joint.position);
     if (joint.parent >= 0) local = rounded(local - rounded(skeleton.joints[joint.parent].position));
     node.translation = {local.x(), local.y(), local.z()};
+    if (joint.tail) {
+      tinygltf::Value::Array tail;
+      for (const double value : rounded(*joint.tail)) tail.emplace_back(value);
+      node.extras = tinygltf::Value(tinygltf::Value::Object{{"tail", tinygltf::Value(tail)}});
+    }
     glb.model.nodes.push_back(node);
     if (joint.parent >= 0)
       glb.model.nodes[first + joint.parent].children.push_back(int(glb.model.nodes.size()) - 1);

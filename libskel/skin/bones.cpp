@@ -25,6 +25,13 @@ std::vector<int> jointLimbs(const Skeleton& skeleton) {
 std::vector<Bone> skeletonBones(const Skeleton& skeleton) {
   std::vector<Bone> bones;
   const std::vector<int> limbs = jointLimbs(skeleton);
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const Joint& joint = skeleton.joints[j];
+    if (joint.tail)
+      bones.push_back(
+          {static_cast<int>(j), limbs[j], joint.position.cast<float>(), joint.tail->cast<float>()});
+  }
+  if (!bones.empty()) return bones;
   const int head = skeleton.find("head");
   const auto position = [&](int joint) -> Eigen::Vector3f {
     return skeleton.joints[joint].position.cast<float>();

@@ -6,6 +6,8 @@
 #include "libskel/core/check.h"
 #include "libskel/skin/bones.h"
 #include "libskel/skin/methods.h"
+#include "libskel/skin/parts.h"
+#include "libskel/skin/smooth.h"
 #include "libskel/skin/soften.h"
 
 namespace skel {
@@ -15,10 +17,15 @@ struct Method {
   SkinMethod method;
   std::string_view name;
   SkinFunction* weights;
+  bool soft;          // made to bend without creases (soften.h)
+  bool parts_follow;  // parts of the mesh without a bone go with what they touch
 };
 constexpr Method kMethods[] = {
-    {SkinMethod::kGeodesic, "geodesic", geodesicWeights},
-    {SkinMethod::kEuclidean, "euclidean", euclideanWeights},
+    {SkinMethod::kGeodesic, "geodesic", geodesicWeights, true, true},
+    {SkinMethod::kHeat, "heat", heatWeights, false, true},
+    {SkinMethod::kEuclidean, "euclidean", euclideanWeights, true, false},
+    {SkinMethod::kIdw, "idw", idwWeights, false, false},
+    {SkinMethod::kIdwRegion, "idw-region", idwRegionWeights, false, false},
 };
 
 const Method& find(SkinMethod method) {
@@ -73,10 +80,27 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
   result.joints.setZero(mesh.vertices.rows(), 4);
   result.weights.setZero(mesh.vertices.rows(), 4);
   if (mesh.vertices.rows() == 0) return result;
+  SKEL_CHECK(mesh.vertices.allFinite());
 
-  JointWeights weights = find(method).weights(mesh, skeletonBones(skeleton), joint_count);
+  const Method& way = find(method);
+  const std::vector<Bone> bones = skeletonBones(skeleton);
+  JointWeights weights = way.weights({mesh, skeleton, bones, options});
+  MeshParts parts;
+  std::vector<char> with_bones;
+  if (way.parts_follow) {
+    parts = meshParts(mesh);
+    if (parts.count > 1) {
+      with_bones = partsWithBones(mesh, parts, bones);
+      // What these have got is not theirs to hand on.
+      for (Eigen::Index v = 0; v < weights.rows(); ++v)
+        if (!with_bones[parts.of_vertex[v]]) weights.row(v).setZero();
+    }
+  }
   fillFromNearest(mesh.vertices, weights);
-  softenWeights(mesh, skeleton, options.max_influences, weights);
+  if (way.soft) softenWeights(mesh, skeleton, options.max_influences, weights);
+  if (options.smoothing > 0) smoothWeights(mesh, options.smoothing, weights);
+  if (!way.soft || options.smoothing > 0) keepHeaviest(options.max_influences, weights);
+  if (parts.count > 1) followTouchedParts(mesh, parts, with_bones, weights);
   std::vector<int> order;
   for (Eigen::Index v = 0; v < weights.rows(); ++v) {
     order.clear();
