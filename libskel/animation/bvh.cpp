@@ -163,9 +163,9 @@ struct Reader {
   void key(std::size_t j, float time_s) {
     const Joint& self = motion.skeleton.joints[j];
     const Eigen::Vector3d rest =
-        self.parent < 0 ? self.position
-                        : Eigen::Vector3d(self.position -
-                                          motion.skeleton.joints[std::size_t(self.parent)].position);
+        self.parent < 0
+            ? self.position
+            : Eigen::Vector3d(self.position - motion.skeleton.joints[std::size_t(self.parent)].position);
     Eigen::Vector3d place = rest;
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     bool moves = false, turns = false;
@@ -176,8 +176,8 @@ struct Reader {
         moves = true;
       } else {
         // In the file's order, the first channel outermost.
-        rotation = rotation * Eigen::AngleAxisd(value * std::numbers::pi / 180,
-                                                Eigen::Vector3d::Unit(channel - 3));
+        rotation =
+            rotation * Eigen::AngleAxisd(value * std::numbers::pi / 180, Eigen::Vector3d::Unit(channel - 3));
         turns = true;
       }
     }

@@ -1,5 +1,7 @@
 #include "libskel/animation/joint_roles.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -56,12 +58,11 @@ PlainName plainName(std::string_view name) {
   return plain;
 }
 
-// In the order of trust: "shoulder" is the collar bone where there is an "arm" too, "leg" the shin where there
-// is an "upleg".
-const std::initializer_list<std::string_view> kArm[3] = {
-    {"upperarm", "uparm", "arm", "shldr", "shoulder"},
-    {"forearm", "lowerarm", "lowarm", "elbow"},
-    {"hand", "wrist"}};
+// In the order of trust: "shoulder" is the collar bone where there is an "arm" too, "leg" the shin where
+// there is an "upleg".
+const std::initializer_list<std::string_view> kArm[3] = {{"upperarm", "uparm", "arm", "shldr", "shoulder"},
+                                                         {"forearm", "lowerarm", "lowarm", "elbow"},
+                                                         {"hand", "wrist"}};
 const std::initializer_list<std::string_view> kLeg[3] = {
     {"upleg", "upperleg", "thigh", "hip", "leg"},
     {"lowerleg", "lowleg", "shin", "calf", "knee", "leg"},
@@ -111,7 +112,8 @@ struct Tree {
       double below = 0;
       std::vector<int> way = longest(child, &below);
       below += (at(child) - at(joint)).norm();
-      if (below > best_length || best.empty()) best = std::move(way), best_length = std::max(best_length, below);
+      if (below > best_length || best.empty())
+        best = std::move(way), best_length = std::max(best_length, below);
     }
     best.insert(best.begin(), joint);
     if (length) *length = best_length;
@@ -261,7 +263,9 @@ JointRoles findJointRoles(const Skeleton& skeleton, const std::vector<Vector3d>&
     roles.by_shape = true;
   }
   if (!limbs.complete()) return roles;
-  const auto set = [&](std::string_view role, int joint) { roles.joints[std::size_t(roleIndex(role))] = joint; };
+  const auto set = [&](std::string_view role, int joint) {
+    roles.joints[std::size_t(roleIndex(role))] = joint;
+  };
   const auto limb = [&](const std::vector<int>& joints, std::array<std::string_view, 3> names) {
     for (std::size_t k = 0; k < 3; ++k) set(names[k], joints[k]);
   };

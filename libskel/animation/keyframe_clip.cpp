@@ -1,6 +1,8 @@
 #include "libskel/animation/keyframe_clip.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "libskel/animation/clip_keys.h"
 #include "libskel/animation/sample_pose.h"
@@ -33,8 +35,8 @@ JointTrack trackAt(const std::string& joint, const JsonValue& list) {
     key.allowOnly({"time", "rotation", "translation", "scale"});
     const JsonValue time = key.at("time");
     takeTime(time, time.asNumber(), times);
-    const auto vector = [&](const char* name, double limit, std::vector<float>& own_times)
-        -> std::optional<Eigen::Vector3f> {
+    const auto vector = [&](const char* name, double limit,
+                            std::vector<float>& own_times) -> std::optional<Eigen::Vector3f> {
       const auto value = key.find(name);
       if (!value || value->isNull()) return std::nullopt;
       const std::vector<double> numbers = value->asNumbers(3);
@@ -75,6 +77,11 @@ Clip parseKeyframeClip(std::string_view text, const std::string& file, const Ske
   }
   if (options.z_up) turnUp(clip);
   return clip;
+}
+
+bool isKeyframeClip(std::string_view text) {
+  const auto json = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
+  return json.is_object() && json.contains("keyframes");
 }
 
 Clip readKeyframeClip(const std::string& path, const Skeleton& skeleton, const KeyframeClipOptions& options) {

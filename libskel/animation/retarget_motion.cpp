@@ -29,11 +29,13 @@ Mapping mapJoints(const BvhMotion& motion, const std::string& file, const Skelet
   if (mapping.same_names) return mapping;
   const JointRoles ours = findJointRoles(target), theirs = findJointRoles(motion.skeleton, motion.tips);
   if (ours.joint("left_hip") < 0)
-    throw UsageError("the character has no arms and legs that could be told by their names or their shape; "
-                     "only a motion with the names of its joints fits it");
+    throw UsageError(
+        "the character has no arms and legs that could be told by their names or their shape; "
+        "only a motion with the names of its joints fits it");
   if (theirs.joint("left_hip") < 0)
-    throw InputError(file, "has no joints that could be told to be arms and legs, by name or by the shape of "
-                           "the tree");
+    throw InputError(file,
+                     "has no joints that could be told to be arms and legs, by name or by the shape of "
+                     "the tree");
   std::fill(mapping.theirs.begin(), mapping.theirs.end(), -1);
   for (std::size_t role = 0; role < kJointRoles.size(); ++role)
     if (ours.joints[role] >= 0 && theirs.joints[role] >= 0)
@@ -69,7 +71,8 @@ struct SourcePose {
   std::vector<Vector3d> positions;
 };
 
-SourcePose sourcePose(const BvhMotion& motion, const std::vector<const JointTrack*>& tracks, std::size_t frame) {
+SourcePose sourcePose(const BvhMotion& motion, const std::vector<const JointTrack*>& tracks,
+                      std::size_t frame) {
   const std::vector<Joint>& joints = motion.skeleton.joints;
   SourcePose pose{std::vector<Quaterniond>(joints.size(), Quaterniond::Identity()),
                   std::vector<Vector3d>(joints.size())};
@@ -83,8 +86,9 @@ SourcePose sourcePose(const BvhMotion& motion, const std::vector<const JointTrac
       if (!track->translations_m.empty()) place += track->translations_m[frame].cast<double>();
     }
     pose.positions[j] =
-        parent < 0 ? place
-                   : Vector3d(pose.positions[std::size_t(parent)] + pose.globals[std::size_t(parent)] * place);
+        parent < 0
+            ? place
+            : Vector3d(pose.positions[std::size_t(parent)] + pose.globals[std::size_t(parent)] * place);
     pose.globals[j] = parent < 0 ? local : pose.globals[std::size_t(parent)] * local;
   }
   return pose;
@@ -123,8 +127,8 @@ std::vector<Vector3d> restPositions(const Skeleton& skeleton) {
   return at;
 }
 
-// Where their bone points in their rest pose: to the next joint that moves one of ours, as our bone does; else to
-// its first child or to its tip. Zero: nowhere.
+// Where their bone points in their rest pose: to the next joint that moves one of ours, as our bone does;
+// else to its first child or to its tip. Zero: nowhere.
 Vector3d theirBone(const BvhMotion& motion, const Mapping& mapping, const Skeleton& target, int ours) {
   const int theirs = mapping.theirs[std::size_t(ours)];
   const std::vector<Joint>& joints = motion.skeleton.joints;
@@ -204,11 +208,11 @@ RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file
     JointTrack track;
     track.joint = target.joints[j].name;
     track.times_s = times;
-    const bool points = mapping.same_names ? isLimb(track.joint)
-                                           : std::any_of(kJointRoles.begin() + 4, kJointRoles.end(),
-                                                         [&](std::string_view role) {
-                                                           return our_roles.joint(role) == int(j);
-                                                         });
+    const bool points =
+        mapping.same_names
+            ? isLimb(track.joint)
+            : std::any_of(kJointRoles.begin() + 4, kJointRoles.end(),
+                          [&](std::string_view role) { return our_roles.joint(role) == int(j); });
     if (points && !(isLeaf(target, int(j)) && !mapping.same_names)) {
       const Vector3d bone = theirBone(motion, mapping, target, int(j));
       if (bone.norm() > 1e-9) track.bone = (rest_frame.conjugate() * bone.normalized()).cast<float>();
@@ -223,7 +227,8 @@ RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file
       const int joint = target.index(track.joint);
       // The nearest above that is moved too.
       int above = target.joints[std::size_t(joint)].parent;
-      while (above >= 0 && mapping.theirs[std::size_t(above)] < 0) above = target.joints[std::size_t(above)].parent;
+      while (above >= 0 && mapping.theirs[std::size_t(above)] < 0)
+        above = target.joints[std::size_t(above)].parent;
       Quaterniond local = motionOf(pose, mapping.theirs[std::size_t(joint)]);
       if (above >= 0) local = motionOf(pose, mapping.theirs[std::size_t(above)]).conjugate() * local;
       track.rotations.push_back(local.normalized().cast<float>());
@@ -235,7 +240,8 @@ RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file
   const double scale = length > 1e-9 ? legLength(target, our_legs) / length : 1;
   clip.root_times_s = times;
   for (const SourcePose& pose : poses) {
-    const Vector3d way = pose.positions[std::size_t(their_root)] - poses[0].positions[std::size_t(their_root)];
+    const Vector3d way =
+        pose.positions[std::size_t(their_root)] - poses[0].positions[std::size_t(their_root)];
     clip.root_translations.push_back((first_frame.conjugate() * way * scale / shape.height_m).cast<float>());
   }
   // Sampled as densely as the tool plays, with the target's own rest pose.
@@ -252,7 +258,8 @@ RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file
     const double our_ground = lowestOf(our_legs, restPositions(target), Vector3d::UnitY());
     for (std::size_t k = 0; k < result.clip.root_times_s.size(); ++k) {
       const float time_s = result.clip.root_times_s[k];
-      const std::size_t after = std::size_t(std::lower_bound(times.begin(), times.end(), time_s) - times.begin());
+      const std::size_t after =
+          std::size_t(std::lower_bound(times.begin(), times.end(), time_s) - times.begin());
       const std::size_t next = std::min(after, times.size() - 1), before = next > 0 ? next - 1 : 0;
       const double step = double(times[next]) - double(times[before]);
       const double t = step > 0 ? std::clamp((double(time_s) - double(times[before])) / step, 0.0, 1.0) : 0;

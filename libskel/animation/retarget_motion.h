@@ -23,8 +23,8 @@ struct RetargetedMotion {
 
 // Bones of arms and legs point where theirs do, whatever either rest pose is; the trunk leans as theirs does
 // from upright. The figure starts where it stands, looking where it was drawn to look; ways are scaled by the
-// length of the legs, and its feet come as near to the ground as theirs. Joints are matched by equal names or by
-// findJointRoles(). Throws InputError (of `file`) if that finds no arms and legs on either side.
+// length of the legs, and its feet come as near to the ground as theirs. Joints are matched by equal names or
+// by findJointRoles(). Throws InputError (of `file`) if that finds no arms and legs on either side.
 RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file, const Skeleton& target,
                                 const FigureShape& shape);
 
