@@ -7,12 +7,9 @@
 #include <filesystem>
 
 #include "animator/rig_source.h"
-#include "libskel/animation/clip_file.h"
 #include "libskel/animation/clip_library.h"
-#include "libskel/animation/retarget.h"
 #include "libskel/classifier/weights_file.h"
 #include "libskel/core/error.h"
-#include "libskel/deform/figure_shape.h"
 #include "libskel/image/read_image.h"
 #include "libskel/pipeline/rig_character.h"
 
@@ -79,39 +76,26 @@ CharacterFile loadCharacter(const CharacterSource& source) {
   return file;
 }
 
-CharacterFile loadCharacterWithClips(const CharacterSource& source) {
+CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips) {
   CharacterFile file = loadCharacter(source);
-  for (Clip& clip : libraryFor(file.character))
+  for (Clip& clip : libraryFor(file.character, clips))
     if (!hasClip(file.clips, clip.name)) file.clips.push_back(std::move(clip));
   return file;
 }
 
-std::vector<Clip> libraryFor(const RiggedCharacter& character) {
-  std::vector<Clip> clips = clipsFor(builtinClips(), character.skeleton);
+std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource& source) {
+  std::vector<Clip> clips = clipsFor(clipLibrary(source), character.skeleton);
   for (Clip& clip : clips) clip = fitted(clip, character);
   return clips;
 }
 
-Clip fitted(const Clip& clip, const RiggedCharacter& character) {
-  RetargetOptions options;
-  options.shape = measureFigure(character.mesh.vertices, character.weights, character.skeleton);
-  return retargetToRest(clip, character.skeleton, options);
-}
-
-Clip loadClipFor(const std::string& path, const RiggedCharacter& character) {
-  const Clip clip = readClipFile(path);
-  for (const JointTrack& track : clip.tracks)
-    if (character.skeleton.find(track.joint) < 0)
-      throw InputError(path, "moves \"" + track.joint + "\", which this character lacks");
-  return fitted(clip, character);
-}
-
-Clip clipFor(const std::string& name_or_path, const CharacterFile& file) {
+Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source) {
   for (const Clip& clip : file.clips)
     if (clip.name == name_or_path) return clip;
-  std::vector<Clip> fitting = clipsFor(builtinClips(), file.character.skeleton);
+  std::vector<Clip> fitting = clipsFor(clipLibrary(source), file.character.skeleton);
   if (hasClip(fitting, name_or_path)) return fitted(clipNamed(fitting, name_or_path), file.character);
-  if (name_or_path.find_first_of("./") != std::string::npos) return loadClipFor(name_or_path, file.character);
+  if (name_or_path.find_first_of("./") != std::string::npos)
+    return loadClipFor(name_or_path, file.character, source);
   fitting.insert(fitting.begin(), file.clips.begin(), file.clips.end());
   return clipNamed(fitting, name_or_path);  // names those that there are
 }

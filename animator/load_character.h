@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "animator/clip_source.h"
 #include "libskel/import/read_character.h"
 
 namespace CLI {
@@ -26,19 +27,13 @@ void bindCharacterSource(CLI::App& app, CharacterSource& source);
 CharacterFile loadCharacter(const CharacterSource& source);
 
 // The same with the motions of skel that fit it and whose names its own clips leave free.
-CharacterFile loadCharacterWithClips(const CharacterSource& source);
+CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips = {});
 
 // For the character's rest pose: the motions of skel that fit.
-std::vector<Clip> libraryFor(const RiggedCharacter& character);
+std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource& source = {});
 
-// Made for the canonical pose; the result is for the character's rest pose.
-Clip fitted(const Clip& clip, const RiggedCharacter& character);
-
-// A clip file, fitted to the character. Throws InputError.
-Clip loadClipFor(const std::string& path, const RiggedCharacter& character);
-
-// A clip of the file, one that comes with skel, or a clip file, for the character's rest pose. Throws
-// UsageError that lists the names there are, InputError.
-Clip clipFor(const std::string& name_or_path, const CharacterFile& file);
+// A clip of the file, one that comes with skel, or a file that loadClipFor() reads, for the character's rest
+// pose. Throws UsageError that lists the names there are, InputError.
+Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source = {});
 
 }  // namespace skel

@@ -57,7 +57,8 @@ std::unique_ptr<MeshPainter> painterFor(const std::string& name, const TriangleM
 
 void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
   bindCharacterSource(app, options.source);
-  app.add_option("--clip", options.clip, "A clip of the file, one that comes with skel, or a clip file")
+  app.add_option("--clip", options.clip,
+                 "A clip of the file, one that comes with skel, or a file: .clip.json, .bvh, key frames")
       ->required();
   app.add_option("-o,--output", options.output,
                  "The film: " + videoFormatNames() + " (a name that ends with /) of PNG files")
@@ -65,6 +66,7 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
   app.add_option("--fps", options.frame_rate, "Frames a second")
       ->check(CLI::Range(0.1, 240.0))
       ->capture_default_str();
+  bindClipSource(app, options.clips);
   app.add_option("--duration", options.duration_s, "In seconds; the clip repeats (default: once)")
       ->check(CLI::Range(0.0, 3600.0));
   app.add_option("--size", options.size, "WIDTHxHEIGHT, px")->capture_default_str();
@@ -108,7 +110,7 @@ ExitCode runRender(const RenderCommandOptions& options) {
   openVideo(options.output, video_options);
 
   const CharacterFile file = loadCharacter(options.source);
-  const Clip clip = clipFor(options.clip, file);
+  const Clip clip = clipFor(options.clip, file, options.clips);
   if (!options.weights_of.empty()) {
     film.look.weights_of = file.character.skeleton.find(options.weights_of);
     if (film.look.weights_of < 0)

@@ -15,6 +15,7 @@ namespace skel {
 struct RenderCommandOptions {
   CharacterSource source;
   std::string clip;
+  ClipSource clips;
   std::string output;
   double frame_rate = 30;
   double duration_s = 0;

@@ -12,6 +12,7 @@ namespace skel {
 
 struct ViewOptions {
   CharacterSource source;
+  ClipSource clips;
 };
 void bindViewOptions(CLI::App& app, ViewOptions& options);
 ExitCode runView(const ViewOptions& options);

@@ -309,9 +309,4 @@ Clip parseClip(std::string_view text, const std::string& file) {
 
 Clip readClipFile(const std::string& path) { return parseClip(readFile(path), path); }
 
-bool isClipFile(std::string_view text) {
-  const auto json = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
-  return json.is_object() && json.value("format", nlohmann::json()) == kFormat;
-}
-
 }  // namespace skel

@@ -22,7 +22,4 @@ Clip readClipFile(const std::string& path);
 
 inline constexpr double kEasedRate_hz = 30;
 
-// Whether the text is JSON that says it is such a file.
-bool isClipFile(std::string_view text);
-
 }  // namespace skel

@@ -92,18 +92,68 @@ bool isFolded(const Skeleton& skeleton, int elbow, int hand) {
          skeleton.joints[hand].position.y() < skeleton.joints[elbow].position.y() + 0.7 * forearm.norm();
 }
 
-void keepFoldedArms(Retargeter& retargeter, std::vector<double>& slack_rad) {
+// Lets the joints keep the share `kept` of how they were drawn, and move so much less.
+void hold(Retargeter& retargeter, std::initializer_list<int> joints, double kept,
+          std::vector<double>& slack_rad) {
+  for (const int joint : joints) {
+    if (slack_rad[joint] <= 0) continue;
+    slack_rad[joint] += kept * 2 * kPi;
+    retargeter.share_of_motion[joint] = 1 - 0.8 * kept;
+  }
+}
+
+double smoothStep(double from, double to, double x) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+double joinedAt(const FigureShape& shape, int joint) {
+  return shape.joined.empty() ? 0 : shape.joined[joint];
+}
+
+// Legs of one who was drawn sitting or squatting lie on the body: no way to stand him up.
+bool isSeated(const Skeleton& skeleton, const FigureShape& shape) {
+  double straight = 0;
+  for (const std::string side : {"left_", "right_"}) {
+    const int hip = skeleton.find(side + "hip"), knee = skeleton.find(side + "knee"),
+              foot = skeleton.find(side + "foot");
+    if (hip < 0 || knee < 0 || foot < 0 || joinedAt(shape, foot) < 0.8) return false;
+    const Vector3d upper = skeleton.joints[knee].position - skeleton.joints[hip].position,
+                   lower = skeleton.joints[foot].position - skeleton.joints[knee].position;
+    straight += std::max(0.0, -(upper + lower).y()) / std::max(1e-9, upper.norm() + lower.norm()) / 2;
+  }
+  return straight < 0.75;
+}
+
+void holdArms(Retargeter& retargeter, const FigureShape& shape, std::vector<double>& slack_rad) {
   const Skeleton& skeleton = retargeter.skeleton;
+  const double least = isSeated(skeleton, shape) ? 0.8 : 0;  // on the knees, or to lean on
   for (const std::string side : {"left_", "right_"}) {
     const int shoulder = skeleton.find(side + "shoulder"), elbow = skeleton.find(side + "elbow"),
               hand = skeleton.find(side + "hand");
-    if (shoulder < 0 || elbow < 0 || hand < 0 || !isFolded(skeleton, elbow, hand)) continue;
-    for (const int joint : {shoulder, elbow, hand}) {
-      if (slack_rad[joint] <= 0) continue;
-      slack_rad[joint] = 2 * kPi;
-      retargeter.share_of_motion[joint] = 0.2;
-    }
+    if (shoulder < 0 || elbow < 0 || hand < 0) continue;
+    const double kept =
+        isFolded(skeleton, elbow, hand) ? 1 : std::max(least, smoothStep(0.45, 0.6, joinedAt(shape, elbow)));
+    if (kept > 0) hold(retargeter, {shoulder, elbow, hand}, kept, slack_rad);
   }
+}
+
+// Legs that are one piece, under a gown, take small steps, and those of one who sits none.
+double holdLegs(Retargeter& retargeter, const FigureShape& shape, const std::vector<FootContact>& contacts,
+                std::vector<double>& slack_rad) {
+  const Skeleton& skeleton = retargeter.skeleton;
+  const bool seated = isSeated(skeleton, shape);
+  double least = 1;
+  for (const FootContact& contact : contacts) {
+    const int foot = skeleton.index(contact.joint), knee = skeleton.joints[foot].parent,
+              hip = skeleton.joints[knee].parent;
+    if (retargeter.share_of_motion[foot] < 1) continue;
+    const double steps = seated ? 0.15 : 1 - 0.55 * smoothStep(0.6, 1, joinedAt(shape, foot));
+    if (seated) hold(retargeter, {hip, knee, foot}, 1, slack_rad);
+    for (const int joint : {hip, knee, foot}) retargeter.share_of_motion[joint] = steps;
+    least = std::min(least, steps);
+  }
+  return least;
 }
 
 // How the feet stand that the clip puts on the ground.
@@ -121,10 +171,10 @@ FootPlanting footPlanting(const Retargeter& retargeter, const Clip& clip, const 
   for (const FootContact& contact : clip.contacts) {
     const int foot = skeleton.index(contact.joint), knee = skeleton.joints[foot].parent;
     const double y = skeleton.joints[foot].position.y();
-    // One that was drawn in the air comes down.
+    // One that was drawn in the air comes down, if the clip has a say in how the leg is held.
     const double air = shape.sole_y_m.empty() ? y - lowest : shape.sole_y_m[foot];
-    planting.standing_y_m[foot] = air > 0.06 * shape.height_m ? y - air : y;
     const int turned = retargeter.pointed[foot] ? foot : knee;
+    planting.standing_y_m[foot] = retargeter.pointed[turned] && air > 0.06 * shape.height_m ? y - air : y;
     if (retargeter.pointed[turned])
       planting.standing_turn[foot] = retargeter.turns[turned].share(1).conjugate();
   }
@@ -268,21 +318,26 @@ FigureShape shapeOfBones(const Skeleton& skeleton) {
 Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOptions& options) {
   const std::size_t count = skeleton.joints.size();
   const FigureShape shape = options.shape ? *options.shape : shapeOfBones(skeleton);
+  Quaterniond figure_from_clip = Quaterniond::Identity();
+  if (clip.frame == ClipFrame::kBody && shape.yaw_rad != 0)
+    figure_from_clip = Quaterniond(Eigen::AngleAxisd(shape.yaw_rad, Vector3d::UnitY()));
   std::vector<Vector3d> canonical(count, Vector3d::Zero());
   std::vector<double> slack_rad(count, 0);
   for (const JointTrack& track : clip.tracks)
     if (const int joint = skeleton.find(track.joint); joint >= 0) {
-      canonical[joint] = track.bone.cast<double>();
+      canonical[joint] = figure_from_clip * track.bone.cast<double>();
       slack_rad[joint] = track.slack_rad;
     }
 
   Retargeter retargeter{skeleton, std::vector<bool>(count), turnsFromCanonical(skeleton, canonical),
                         std::vector<double>(count, 0), std::vector<double>(count, 1)};
   for (std::size_t j = 0; j < count; ++j) retargeter.pointed[j] = !canonical[j].isZero();
-  keepFoldedArms(retargeter, slack_rad);
+  // Seen from the side, limbs swing where they could else stay away.
+  if (clip.frame == ClipFrame::kBody)
+    for (double& slack : slack_rad) slack *= std::abs(std::cos(shape.yaw_rad));
+  holdArms(retargeter, shape, slack_rad);
+  const double steps = holdLegs(retargeter, shape, clip.contacts, slack_rad);
   giveSlack(skeleton, slack_rad, shape.hang_rad, retargeter.turns);
-  if (clip.frame == ClipFrame::kBody && shape.yaw_rad != 0)
-    retargeter.figure_from_clip = Quaterniond(Eigen::AngleAxisd(shape.yaw_rad, Vector3d::UnitY()));
 
   const float duration = clip.duration_s();
   const int keys = int(std::ceil(duration * options.rate_hz - 1e-3f)) + 1;
@@ -304,7 +359,7 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
   FootPlanting planting;
   if (!clip.contacts.empty()) {
     planting = footPlanting(retargeter, clip, shape);
-    stride = legShare(skeleton, clip.contacts, shape.height_m);
+    stride = steps * legShare(skeleton, clip.contacts, shape.height_m);
     // The root is as high as the shortest leg lets it.
     Pose still;
     still.rotations.assign(count, Eigen::Quaternionf::Identity());
@@ -342,7 +397,8 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
         result.tracks.emplace_back().joint = skeleton.joints[joint].name;
         result.tracks.back().times_s = {0};
       }
-  const std::size_t every = strideWithin(skeleton, poses, kTolerance * shape.height_m);
+  const std::size_t every =
+      options.thin_keys ? strideWithin(skeleton, poses, kTolerance * shape.height_m) : 1;
   std::vector<float> times;
   for (std::size_t k = 0; k < poses.size(); k += every) times.push_back(poses[k].time_s);
   for (JointTrack& track : result.tracks) {

@@ -6,9 +6,7 @@
 
 namespace skel {
 
-// From a mesh in its rest pose. A biped counts as seen from the side when both feet point the same way and
-// its shoulders and hips are narrow.
-FigureShape measureFigure(const Eigen::MatrixX3f& vertices, const SkinWeights& weights,
-                          const Skeleton& skeleton);
+// From the mesh in its rest pose.
+FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton);
 
 }  // namespace skel

@@ -135,7 +135,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     if (options.clips.empty()) return clips;
     const RiggedCharacter& character = drawing.character;
     RetargetOptions retarget;
-    retarget.shape = measureFigure(character.mesh.vertices, character.weights, character.skeleton);
+    retarget.shape = measureFigure(character.mesh, character.weights, character.skeleton);
     for (const Clip& clip : options.clips)
       clips.push_back(retargetToRest(clip, character.skeleton, retarget));
     return clips;
