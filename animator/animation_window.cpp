@@ -618,8 +618,8 @@ class AnimationWindow {
 
 }  // namespace
 
-ExitCode runAnimationWindow(const CharacterSource& source) {
-  AnimationDocument document(source);
+ExitCode runAnimationWindow(const CharacterSource& source, const ClipSource& clips) {
+  AnimationDocument document(source, clips);
   Window window({"skel-animate: " + source.path, 1320, 860});
   AnimationWindow content(document);
   window.run([&] { return content.frame(); });

@@ -8,6 +8,6 @@ namespace skel {
 
 // Opens a character in a window and returns when it is closed. Throws InputError, and
 // UnavailableError where there is no display or skel was built without windows.
-ExitCode runAnimationWindow(const CharacterSource& source);
+ExitCode runAnimationWindow(const CharacterSource& source, const ClipSource& clips);
 
 }  // namespace skel

@@ -106,8 +106,9 @@ class AnimationDocument::StepScope {
   AnimationDocument& document_;
 };
 
-AnimationDocument::AnimationDocument(const CharacterSource& source) : source_(source) {
-  CharacterFile file = loadCharacterWithClips(source);
+AnimationDocument::AnimationDocument(const CharacterSource& source, const ClipSource& library)
+    : source_(source), library_(library) {
+  CharacterFile file = loadCharacterWithClips(source, library);
   name_ = file.name;
   state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
   state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
@@ -336,7 +337,7 @@ bool AnimationDocument::openModel(const std::string& path) {
   return attempt([&] {
     CharacterSource source = source_;
     source.path = path;
-    CharacterFile file = loadCharacterWithClips(source);
+    CharacterFile file = loadCharacterWithClips(source, library_);
     const StepScope step(*this);
     playing = false;
     source_ = source;
@@ -383,7 +384,7 @@ bool AnimationDocument::savePose(const std::string& path) {
 
 bool AnimationDocument::loadClip(const std::string& path) {
   return attempt([&] {
-    Clip clip = loadClipFor(path, character());
+    Clip clip = loadClipFor(path, character(), library_);
     const StepScope step(*this);
     playing = false;
     auto clips = std::make_shared<std::vector<Clip>>(*state_.clips);
@@ -419,7 +420,7 @@ bool AnimationDocument::loadSkeleton(const std::string& path) {
     playing = false;
     state_.character = std::make_shared<const RiggedCharacter>(std::move(changed));
     // Clips that were made for other bones go, but for those that say what they need.
-    state_.clips = std::make_shared<const std::vector<Clip>>(libraryFor(character()));
+    state_.clips = std::make_shared<const std::vector<Clip>>(libraryFor(character(), library_));
     state_.clip = -1;
     state_.time_s = 0;
     state_.pose = restPose(this->skeleton());

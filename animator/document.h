@@ -52,7 +52,7 @@ class FilmExport {
 class AnimationDocument {
  public:
   // See loadCharacter(). Throws InputError.
-  explicit AnimationDocument(const CharacterSource& source);
+  explicit AnimationDocument(const CharacterSource& source, const ClipSource& library = {});
 
   const AnimationState& state() const { return state_; }
   const RiggedCharacter& character() const { return *state_.character; }
@@ -132,6 +132,7 @@ class AnimationDocument {
   bool travel(std::deque<AnimationState>& from, std::deque<AnimationState>& to);
 
   CharacterSource source_;
+  ClipSource library_;
   std::string name_;
   AnimationState state_;
   int chosen_ = -1;

@@ -6,8 +6,11 @@
 
 namespace skel {
 
-void bindViewOptions(CLI::App& app, ViewOptions& options) { bindCharacterSource(app, options.source); }
+void bindViewOptions(CLI::App& app, ViewOptions& options) {
+  bindCharacterSource(app, options.source);
+  bindClipSource(app, options.clips);
+}
 
-ExitCode runView(const ViewOptions& options) { return runAnimationWindow(options.source); }
+ExitCode runView(const ViewOptions& options) { return runAnimationWindow(options.source, options.clips); }
 
 }  // namespace skel

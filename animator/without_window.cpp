@@ -2,7 +2,7 @@
 
 namespace skel {
 
-ExitCode runAnimationWindow(const CharacterSource&) {
+ExitCode runAnimationWindow(const CharacterSource&, const ClipSource&) {
   throw UnavailableError(
       "skel was built without windows; install what script/bootstrap --all does and build again, or use "
       "skel-animate render");

@@ -1,6 +1,7 @@
 #include "libskel/deform/skin_vertices.h"
 
 #include "libskel/core/check.h"
+#include "libskel/deform/dual_quaternions.h"
 
 namespace skel {
 
@@ -52,16 +53,29 @@ std::vector<Eigen::Vector3f> posedJoints(const Skeleton& skeleton, const JointTr
 }
 
 Eigen::MatrixX3f skinVertices(const Eigen::MatrixX3f& vertices, const SkinWeights& weights,
-                              const JointTransforms& posed_from_rest) {
+                              const JointTransforms& posed_from_rest, Blending blending) {
   SKEL_CHECK_EQ(weights.joints.rows(), vertices.rows());
+  if (blending == Blending::kDualQuaternions) return blendDualQuaternions(vertices, weights, posed_from_rest);
   Eigen::MatrixX3f result(vertices.rows(), 3);
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    Eigen::Matrix<float, 3, 4> blended = Eigen::Matrix<float, 3, 4>::Zero();
+  const Eigen::Index count = vertices.rows();
+  for (Eigen::Index v = 0; v < count; ++v) {
+    // Whole columns of 4×4 matrices, which fit a vector register each.
+    Eigen::Vector4f columns[4];
     for (int k = 0; k < 4; ++k) {
       const float weight = weights.weights(v, k);
-      if (weight > 0) blended += weight * posed_from_rest[weights.joints(v, k)].affine();
+      if (k > 0 && weight <= 0) continue;
+      const Eigen::Matrix4f& matrix = posed_from_rest[weights.joints(v, k)].matrix();
+      for (int c = 0; c < 4; ++c) {
+        if (k == 0) {
+          columns[c] = weight * matrix.col(c);
+        } else {
+          columns[c] += weight * matrix.col(c);
+        }
+      }
     }
-    result.row(v) = blended * vertices.row(v).transpose().homogeneous();
+    const Eigen::Vector4f posed =
+        columns[0] * vertices(v, 0) + columns[1] * vertices(v, 1) + columns[2] * vertices(v, 2) + columns[3];
+    result(v, 0) = posed[0], result(v, 1) = posed[1], result(v, 2) = posed[2];
   }
   return result;
 }

@@ -1,4 +1,4 @@
-// A skinned mesh in a pose: linear blend skinning.
+// A skinned mesh in a pose: linear blend skinning, or dual quaternions.
 //
 // N. Magnenat-Thalmann, R. Laperrière, D. Thalmann, "Joint-dependent local deformations for hand animation
 // and object grasping" (1988).
@@ -27,8 +27,13 @@ JointTransforms posedFromRest(const Skeleton& skeleton, const Pose& pose, float 
 // Where the joints themselves come to lie, model frame, m.
 std::vector<Eigen::Vector3f> posedJoints(const Skeleton& skeleton, const JointTransforms& posed_from_rest);
 
+enum class Blending {
+  kLinear,           // of matrices: bent elbows lose thickness, twisted ones collapse
+  kDualQuaternions,  // of rigid motions: they keep it (dual_quaternions.h)
+};
+
 // #V×3.
 Eigen::MatrixX3f skinVertices(const Eigen::MatrixX3f& vertices, const SkinWeights& weights,
-                              const JointTransforms& posed_from_rest);
+                              const JointTransforms& posed_from_rest, Blending blending = Blending::kLinear);
 
 }  // namespace skel

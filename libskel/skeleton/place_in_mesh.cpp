@@ -61,19 +61,30 @@ double shareInside(const Skeleton& skeleton, const TriangleMesh& mesh) {
 std::vector<std::vector<int>> groupsAround(const std::vector<Eigen::Vector3d>& points,
                                            const TriangleMesh& mesh,
                                            const std::vector<int>& group_of_vertex) {
+  const auto count = static_cast<Eigen::Index>(points.size());
+  Eigen::ArrayX3f at(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) at.row(i) = points[static_cast<std::size_t>(i)].cast<float>();
   std::vector<std::map<int, unsigned>> met(points.size());  // sides by group
+  Eigen::ArrayXi within(count);
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
-    std::array<Eigen::Vector3d, 3> triangle;
-    for (int k = 0; k < 3; ++k) triangle[k] = mesh.vertices.row(mesh.triangles(t, k)).cast<double>();
-    const Eigen::Array3d low = triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]),
-                         high = triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2]);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Eigen::Vector3d& p = points[i];
-      const int within = (p.x() >= low.x() && p.x() <= high.x()) + (p.y() >= low.y() && p.y() <= high.y()) +
-                         (p.z() >= low.z() && p.z() <= high.z());
-      if (within < 2) continue;
-      if (const unsigned sides = sidesMet(triangle, p); sides != 0)
-        met[i][group_of_vertex[static_cast<std::size_t>(mesh.triangles(t, 0))]] |= sides;
+    const Eigen::RowVector3i corners = mesh.triangles.row(t);
+    const Eigen::RowVector3f a = mesh.vertices.row(corners[0]), b = mesh.vertices.row(corners[1]),
+                             c = mesh.vertices.row(corners[2]);
+    const Eigen::RowVector3f low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+    // A line along an axis meets the triangle only where the other two coordinates are between its corners'.
+    for (Eigen::Index i = 0; i < count; ++i) {
+      within[i] = ((at(i, 0) >= low[0]) & (at(i, 0) <= high[0])) +
+                  ((at(i, 1) >= low[1]) & (at(i, 1) <= high[1])) +
+                  ((at(i, 2) >= low[2]) & (at(i, 2) <= high[2]));
+    }
+    if (within.maxCoeff() < 2) continue;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      if (within[i] < 2) continue;
+      const unsigned sides =
+          sidesMet({a.transpose().cast<double>(), b.transpose().cast<double>(), c.transpose().cast<double>()},
+                   points[static_cast<std::size_t>(i)]);
+      if (sides != 0)
+        met[static_cast<std::size_t>(i)][group_of_vertex[static_cast<std::size_t>(corners[0])]] |= sides;
     }
   }
   std::vector<std::vector<int>> result(points.size());

@@ -59,4 +59,15 @@ std::vector<Bone> skeletonBones(const Skeleton& skeleton) {
   return bones;
 }
 
+bool nearlyFlat(const std::vector<Bone>& bones) {
+  constexpr float kDeep = 0.25f;  // of the skeleton's size
+  Eigen::Array3f low = bones[0].from, high = low;
+  for (const Bone& bone : bones) {
+    low = low.min(bone.from.array()).min(bone.to.array());
+    high = high.max(bone.from.array()).max(bone.to.array());
+  }
+  const Eigen::Array3f size = high - low;
+  return size.z() <= kDeep * size.maxCoeff();
+}
+
 }  // namespace skel

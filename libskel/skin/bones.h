@@ -22,4 +22,7 @@ std::vector<int> jointLimbs(const Skeleton& skeleton);
 // skin_weights.h).
 std::vector<Bone> skeletonBones(const Skeleton& skeleton);
 
+// Whether the bones lie about a plane that faces the viewer, as those of a drawing do.
+bool nearlyFlat(const std::vector<Bone>& bones);
+
 }  // namespace skel

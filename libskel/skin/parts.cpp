@@ -115,7 +115,7 @@ MeshParts meshParts(const TriangleMesh& mesh) {
 
 std::vector<char> partsWithBones(const TriangleMesh& mesh, const MeshParts& parts,
                                  const std::vector<Bone>& bones) {
-  constexpr int kSamples = 3;    // a bone
+  constexpr int kSamples = 2;    // a bone
   constexpr float kNear = 1.5f;  // times the nearest part's distance
   std::vector<Eigen::Vector3d> points;
   for (const Bone& bone : bones)
@@ -155,8 +155,19 @@ void followTouchedParts(const TriangleMesh& mesh, const MeshParts& parts, const 
     if (with_bones[parts.of_vertex[v]]) bins.add(v);
   }
   // The nearest first, so that a pupil follows its eye.
+  // A search is short where something near is known: it begins with the vertex that is nearest to some of
+  // them.
+  std::vector<int> some;
+  for (int v = 0; v < mesh.vertices.rows(); v += 1 + static_cast<int>(mesh.vertices.rows()) / 64)
+    if (with_bones[parts.of_vertex[v]]) some.push_back(v);
   const auto gap = [&](int part, float limit) {
     float least = limit;
+    for (const int v : members[part])
+      for (const int known : some)
+        least = std::min(least, (mesh.vertices.row(v) - mesh.vertices.row(known)).norm());
+    const int stride = 1 + static_cast<int>(members[part].size()) / 16;
+    for (std::size_t k = 0; k < members[part].size(); k += static_cast<std::size_t>(stride))
+      least = std::min(least, bins.nearest(mesh.vertices.row(members[part][k]), least, nullptr));
     for (const int v : members[part]) {
       const float distance = bins.nearest(mesh.vertices.row(v), least, nullptr);
       least = std::min(least, distance);

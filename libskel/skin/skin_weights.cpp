@@ -35,6 +35,8 @@ const Method& find(SkinMethod method) {
   return *found;
 }
 
+constexpr int kSmoothing = 6;  // rounds, of weights that come by distance alone
+
 // Rows of zeros become those of the nearest vertex that has weights.
 void fillFromNearest(const Eigen::MatrixX3f& vertices, JointWeights& weights) {
   std::vector<int> known, empty;
@@ -61,6 +63,49 @@ void fillFromNearest(const Eigen::MatrixX3f& vertices, JointWeights& weights) {
   }
 }
 
+// The parts of a mesh that have bones.
+struct Body {
+  TriangleMesh mesh;
+  std::vector<int> vertices;  // their rows in the whole mesh
+
+  Body(const TriangleMesh& whole, const MeshParts& parts, const std::vector<char>& with_bones) {
+    std::vector<int> row(parts.of_vertex.size(), -1);
+    for (std::size_t v = 0; v < row.size(); ++v) {
+      if (!with_bones[static_cast<std::size_t>(parts.of_vertex[v])]) continue;
+      row[v] = static_cast<int>(vertices.size());
+      vertices.push_back(static_cast<int>(v));
+    }
+    mesh.vertices = whole.vertices(vertices, Eigen::all);
+    mesh.triangles.resize(whole.triangles.rows(), 3);
+    Eigen::Index count = 0;
+    for (Eigen::Index t = 0; t < whole.triangles.rows(); ++t) {
+      if (row[static_cast<std::size_t>(whole.triangles(t, 0))] < 0) continue;
+      for (int k = 0; k < 3; ++k)
+        mesh.triangles(count, k) = row[static_cast<std::size_t>(whole.triangles(t, k))];
+      ++count;
+    }
+    mesh.triangles.conservativeResize(count, 3);
+  }
+};
+
+// Rows that sum to 1, with at most so many weights as the options allow.
+JointWeights bodyWeights(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<Bone>& bones,
+                         const Method& way, const SkinOptions& options) {
+  JointWeights weights = way.weights({mesh, skeleton, bones, options});
+  fillFromNearest(mesh.vertices, weights);
+  // What is known of bends is known of drawings, whose limbs bend in their plane or out of it.
+  const bool flat = nearlyFlat(bones);
+  if (way.soft && flat) {
+    softenWeights(mesh, skeleton, options.max_influences, weights);
+  } else if (way.soft) {
+    partLimbs(skeleton, jointLimbs(skeleton), weights);
+    smoothWeights(mesh, kSmoothing, weights);
+  }
+  if (options.smoothing > 0) smoothWeights(mesh, options.smoothing, weights);
+  if (!way.soft || !flat || options.smoothing > 0) keepHeaviest(options.max_influences, weights);
+  return weights;
+}
+
 }  // namespace
 
 std::vector<SkinMethod> skinMethods() {
@@ -84,23 +129,19 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
 
   const Method& way = find(method);
   const std::vector<Bone> bones = skeletonBones(skeleton);
-  JointWeights weights = way.weights({mesh, skeleton, bones, options});
-  MeshParts parts;
-  std::vector<char> with_bones;
-  if (way.parts_follow) {
-    parts = meshParts(mesh);
-    if (parts.count > 1) {
-      with_bones = partsWithBones(mesh, parts, bones);
-      // What these have got is not theirs to hand on.
-      for (Eigen::Index v = 0; v < weights.rows(); ++v)
-        if (!with_bones[parts.of_vertex[v]]) weights.row(v).setZero();
-    }
+  const MeshParts parts = way.parts_follow ? meshParts(mesh) : MeshParts();
+  JointWeights weights;
+  if (parts.count < 2) {
+    weights = bodyWeights(mesh, skeleton, bones, way, options);
+  } else {
+    const std::vector<char> with_bones = partsWithBones(mesh, parts, bones);
+    const Body body(mesh, parts, with_bones);
+    const JointWeights of_body = bodyWeights(body.mesh, skeleton, bones, way, options);
+    weights = JointWeights::Zero(mesh.vertices.rows(), joint_count);
+    for (Eigen::Index v = 0; v < of_body.rows(); ++v)
+      weights.row(body.vertices[static_cast<std::size_t>(v)]) = of_body.row(v);
+    followTouchedParts(mesh, parts, with_bones, weights);
   }
-  fillFromNearest(mesh.vertices, weights);
-  if (way.soft) softenWeights(mesh, skeleton, options.max_influences, weights);
-  if (options.smoothing > 0) smoothWeights(mesh, options.smoothing, weights);
-  if (!way.soft || options.smoothing > 0) keepHeaviest(options.max_influences, weights);
-  if (parts.count > 1) followTouchedParts(mesh, parts, with_bones, weights);
   std::vector<int> order;
   for (Eigen::Index v = 0; v < weights.rows(); ++v) {
     order.clear();

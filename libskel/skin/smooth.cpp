@@ -4,33 +4,29 @@
 #include <utility>
 #include <vector>
 
+#include "libskel/skin/edges.h"
 #include "libskel/skin/welding.h"
 
 namespace skel {
 
 void smoothWeights(const TriangleMesh& mesh, int rounds, JointWeights& weights) {
   const Welding welding(mesh.vertices);
-  std::vector<std::pair<int, int>> links;
-  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = welding.place(mesh.triangles(t, k)), b = welding.place(mesh.triangles(t, (k + 1) % 3));
-      if (a != b) links.insert(links.end(), {{a, b}, {b, a}});
-    }
+  Eigen::MatrixX3i triangles = mesh.triangles;
+  for (int& corner : triangles.reshaped()) corner = welding.place(corner);
+  const Edges edges = edgesOf(welding.count(), triangles);
+  JointWeights now(welding.count(), weights.cols()), next = now;
+  for (int i = 0; i < welding.count(); ++i) {
+    const auto row = weights.row(welding.vertex(i));
+    now.row(i) = row / row.sum();
   }
-  std::sort(links.begin(), links.end());
-  links.erase(std::unique(links.begin(), links.end()), links.end());
-  JointWeights now(welding.count(), weights.cols()), next;
-  for (int i = 0; i < welding.count(); ++i)
-    now.row(i) = weights.row(welding.vertex(i)) / weights.row(welding.vertex(i)).sum();
   for (int round = 0; round < rounds; ++round) {
-    next = now;
-    for (auto link = links.begin(); link != links.end();) {
-      const auto begin = link;
-      next.row(begin->first).setZero();
-      for (; link != links.end() && link->first == begin->first; ++link)
-        next.row(begin->first) += now.row(link->second);
-      next.row(begin->first) =
-          0.5f * now.row(begin->first) + next.row(begin->first) * (0.5f / static_cast<float>(link - begin));
+    for (int i = 0; i < welding.count(); ++i) {
+      const int begin = edges.first[i], end = edges.first[i + 1];
+      next.row(i) = now.row(i);
+      if (begin == end) continue;
+      next.row(i) *= static_cast<float>(end - begin);
+      for (int k = begin; k < end; ++k) next.row(i) += now.row(edges.to[k]);
+      next.row(i) *= 0.5f / static_cast<float>(end - begin);
     }
     now.swap(next);
   }

@@ -1,5 +1,5 @@
 // O. Dionne, M. de Lasa, "Geodesic voxel binding for production character meshes" (2013). Ways go from cube
-// to cube (Dijkstra 1959, from all bones at once) and are up to 13 % too long: where one is hardly longer
+// to cube (Dijkstra 1959) and are up to 13 % too long: where one is hardly longer
 // than the straight line, nothing lies between, and the straight line counts, as in geodesic.cpp.
 #include "libskel/skin/volumetric.h"
 
@@ -43,63 +43,95 @@ std::vector<float> boneRadii(const BoneReaches& reaches) {
   return radii;
 }
 
+// Where ways begin, and how long they are already.
+struct Seed {
+  int cube;
+  float length_m;
+};
+using Seeds = std::vector<Seed>;
+
+Seeds seedsOf(const Bone& bone, const Solid& solid) {
+  const Eigen::Vector3f along = bone.to - bone.from;
+  const int steps = std::clamp(static_cast<int>(2 * along.norm() / solid.cell_m()) + 1, 1, 1000);
+  Seeds seeds;
+  const auto add = [&](int cube) {
+    if (seeds.empty() || seeds.back().cube != cube)
+      seeds.push_back({cube, straight(solid.center(cube), bone)});
+  };
+  for (int k = 0; k <= steps; ++k) {
+    const int cube = solid.at(bone.from + along * (static_cast<float>(k) / static_cast<float>(steps)));
+    if (cube >= 0) add(cube);
+  }
+  // A bone beside the body belongs to what is nearest.
+  if (seeds.empty()) add(solid.nearest(0.5f * (bone.from + bone.to)));
+  return seeds;
+}
+
+// The shortest ways from some cubes to the others.
+class Ways {
+ public:
+  explicit Ways(const Solid& solid) : solid_(solid), lengths_(static_cast<std::size_t>(solid.size()), kFar) {}
+
+  // Only to where useful(cube, length).
+  template <class Useful>
+  void spread(const Seeds& seeds, const Useful& useful) {
+    for (const int cube : touched_) lengths_[static_cast<std::size_t>(cube)] = kFar;
+    touched_.clear();
+    Fronts fronts(0.5f * solid_.cell_m());
+    const auto reach = [&](int cube, float length) {
+      float& known = lengths_[static_cast<std::size_t>(cube)];
+      if (length >= known || !useful(cube, length)) return;
+      if (known == kFar) touched_.push_back(cube);
+      known = length;
+      fronts.push({length, cube, 0});
+    };
+    for (const Seed& seed : seeds) reach(seed.cube, seed.length_m);
+    for (Fronts::Front front; fronts.pop(front);) {
+      if (front.distance > lengths_[static_cast<std::size_t>(front.place)]) continue;
+      solid_.forNeighbours(front.place,
+                           [&](const Solid::Step& step) { reach(step.to, front.distance + step.length_m); });
+    }
+  }
+  const std::vector<float>& lengths() const { return lengths_; }
+
+ private:
+  const Solid& solid_;
+  std::vector<float> lengths_;
+  std::vector<int> touched_;
+};
+
 }  // namespace
 
 JointWeights volumetricWeights(const SkinInput& input) {
   const TriangleMesh& mesh = input.mesh;
   const std::vector<Bone>& bones = input.bones;
   const Solid solid(mesh);
-  const float cell_m = solid.cell_m();
   const int count = static_cast<int>(bones.size());
-  Fronts fronts(0.5f * cell_m);
-  using Lengths = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Lengths way = Lengths::Constant(solid.size(), count, kFar);
-  const auto reach = [&](int cube, int bone, float distance) {
-    if (distance >= way(cube, bone)) return;
-    way(cube, bone) = distance;
-    fronts.push({distance, cube, bone});
-  };
-  for (int b = 0; b < count; ++b) {
-    const Eigen::Vector3f along = bones[b].to - bones[b].from;
-    const int steps = std::clamp(static_cast<int>(2 * along.norm() / cell_m) + 1, 1, 1000);
-    bool seeded = false;
-    for (int k = 0; k <= steps; ++k) {
-      const int cube = solid.at(bones[b].from + along * (static_cast<float>(k) / static_cast<float>(steps)));
-      if (cube < 0) continue;
-      reach(cube, b, straight(solid.center(cube), bones[b]));
-      seeded = true;
-    }
-    if (seeded) continue;
-    // A bone beside the body belongs to what is nearest.
-    const int cube = solid.nearest(0.5f * (bones[b].from + bones[b].to));
-    reach(cube, b, straight(solid.center(cube), bones[b]));
+  std::vector<Seeds> seeds;
+  Seeds all;
+  for (const Bone& bone : bones) {
+    seeds.push_back(seedsOf(bone, solid));
+    all.insert(all.end(), seeds.back().begin(), seeds.back().end());
   }
-  // A way this much longer than the first that came brings no weight any more, nor does any that goes on from
-  // it.
-  std::vector<float> first(static_cast<std::size_t>(solid.size()), kFar);
-  const auto useless = [&](int cube, float distance) {
-    return distance > kDetour * (1.6f * first[cube] + 4 * cell_m);
-  };
-  for (Fronts::Front front; fronts.pop(front);) {
-    if (front.distance > way(front.place, front.bone)) continue;
-    first[front.place] = std::min(first[front.place], front.distance);
-    if (useless(front.place, front.distance)) continue;
-    solid.forNeighbours(front.place, [&](const Solid::Step& step) {
-      const float distance = front.distance + step.length_m;
-      if (distance < way(step.to, front.bone) && !useless(step.to, distance))
-        reach(step.to, front.bone, distance);
-    });
-  }
+  const float cell_m = solid.cell_m();
+  Ways ways(solid);
+  ways.spread(all, [](int, float) { return true; });
+  const std::vector<float> nearest = ways.lengths();
 
+  std::vector<int> cubes;
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) cubes.push_back(solid.at(mesh.vertices.row(v)));
   BoneReaches reaches(mesh.vertices.rows(), count);
-  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-    const Eigen::Vector3f p = mesh.vertices.row(v);
-    const int cube = solid.at(p);
-    if (cube < 0) continue;
-    for (int b = 0; b < count; ++b) {
-      if (way(cube, b) == kFar) continue;
-      const float direct = straight(p, bones[b]);
-      const float around = std::max(0.0f, way(cube, b) - kDetour * direct - 2 * cell_m);
+  for (int b = 0; b < count; ++b) {
+    // A way this much longer than the nearest bone's brings no weight, nor does any that goes on from it.
+    ways.spread(seeds[static_cast<std::size_t>(b)], [&](int cube, float length) {
+      return length <= kDetour * (1.6f * nearest[static_cast<std::size_t>(cube)] + 3 * cell_m);
+    });
+    for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+      const int cube = cubes[static_cast<std::size_t>(v)];
+      const float way = cube < 0 ? kFar : ways.lengths()[static_cast<std::size_t>(cube)];
+      if (way == kFar) continue;
+      const float direct = straight(mesh.vertices.row(v), bones[static_cast<std::size_t>(b)]);
+      const float around = std::max(0.0f, way - kDetour * direct - 2 * cell_m);
       const float distance = direct + kPenalty * around;
       reaches(v, b).distance_m2 = distance * distance;
     }
@@ -115,7 +147,7 @@ JointWeights volumetricWeights(const SkinInput& input) {
       here.reach_m = reach_m;
     }
   }
-  return weightsFromReaches(reaches, bones, input.jointCount());
+  return weightsFromReaches(reaches, bones, input.jointCount(), TrunkBones::kOneLimb);
 }
 
 }  // namespace skel
