@@ -1,5 +1,9 @@
 #include "animator/bind_command.h"
 #include "animator/info_command.h"
+#include "animator/list_command.h"
+#include "animator/render_command.h"
+#include "animator/retarget_command.h"
+#include "animator/view_command.h"
 #include "libskel/cli/tool.h"
 
 namespace {
@@ -22,8 +26,16 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   std::function<skel::ExitCode()> chosen;
   add(app, chosen, "info", "Says what a model holds", skel::bindInfoOptions, skel::runInfo);
+  add(app, chosen, "list", "Lists clips, and the joints of a character", skel::bindListOptions,
+      skel::runList);
   add(app, chosen, "bind", "Binds a model to a skeleton", skel::bindBindOptions, skel::runBind);
   add(app, chosen, "weights", "Computes which joints carry a vertex, and saves that",
       skel::bindWeightsOptions, skel::runWeights);
+  add(app, chosen, "retarget", "Makes a character move as a motion file says", skel::bindRetargetOptions,
+      skel::runRetarget);
+  add(app, chosen, "render", "Makes a film of a character, or of a drawing, that moves by a clip",
+      skel::bindRenderOptions, skel::runRender);
+  add(app, chosen, "view", "Shows a character in a window: play, pose, set keys, write films",
+      skel::bindViewOptions, skel::runView);
   return skel::runTool(app, argc, argv, [&] { return chosen(); });
 }

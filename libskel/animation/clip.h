@@ -26,6 +26,8 @@ struct JointTrack {
   // retargetToRest() makes the bone of another rest pose point where this one would. Zero: the rotations are
   // added to whatever the rest pose is.
   Eigen::Vector3f bone = Eigen::Vector3f::Zero();
+  // So far the bone may stay away from there, on the side where it was drawn.
+  float slack_rad = 0;
   // The rotations as angles (x, y, z) with R = Rz · Ry · Rx, one for each time, where the file gives them so;
   // else empty.
   std::vector<Eigen::Vector3f> angles_rad = {};
@@ -34,6 +36,22 @@ struct JointTrack {
   std::vector<Eigen::Vector3f> translations_m = {};
   std::vector<float> scale_times_s = {};
   std::vector<Eigen::Vector3f> scales = {};  // along the joint's own axes, before it is turned
+};
+
+// While a foot stands on the ground.
+struct FootContact {
+  std::string joint;
+  float from_s = 0, to_s = 0;
+
+  bool operator==(const FootContact&) const = default;
+};
+
+// The directions that a motion keeps to.
+enum class ClipFrame {
+  kPicture,  // those of the picture, whatever the figure looks at (a wave)
+  // The figure's own: made for a biped that faces the viewer and for a quadruped that looks to the left,
+  // turned about the vertical for others (a walk).
+  kBody,
 };
 
 // A motion for the canonical pose (arms at the sides, legs straight), or, after retargetToRest(), for a drawn
@@ -51,6 +69,8 @@ struct Clip {
   // The clip lasts at least so long; the last keys hold.
   float least_duration_s = 0;
   RotationInterpolation interpolation = RotationInterpolation::kSlerp;
+  ClipFrame frame = ClipFrame::kPicture;
+  std::vector<FootContact> contacts;  // retargetToRest() keeps these feet on the ground, and spends them
 
   float duration_s() const;
 };

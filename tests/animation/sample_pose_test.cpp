@@ -1,6 +1,6 @@
 #include "libskel/animation/sample_pose.h"
 
-#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/core/error.h"
 #include "tests/support/catch.h"
 #include "tests/support/figure.h"
@@ -81,7 +81,7 @@ TEST_CASE("angles turn beyond half a circle, and slerp of even keys is the same 
 TEST_CASE("each body plan has clips of its own") {
   const auto names = [](const std::string& body_plan) {
     std::vector<std::string> list;
-    for (const Clip& clip : builtinClipsFor(loadTemplate(body_plan))) list.push_back(clip.name);
+    for (const Clip& clip : clipsFor(builtinClips(), loadTemplate(body_plan))) list.push_back(clip.name);
     return list;
   };
   CHECK(names("biped") == std::vector<std::string>{"wave"});
@@ -91,8 +91,9 @@ TEST_CASE("each body plan has clips of its own") {
 TEST_CASE("a clip for another body plan is refused by name") {
   Skeleton skeleton = figureSkeleton();
   skeleton.joints[skeleton.index("right_elbow")].name = "fin";
-  CHECK_THROWS_WITH(samplePose(builtinClip("wave"), skeleton, 0),
+  CHECK_THROWS_WITH(samplePose(clipNamed(builtinClips(), "wave"), skeleton, 0),
                     "the clip \"wave\" moves \"right_elbow\", which this skeleton lacks; use a clip for the "
                     "template \"biped\"");
-  CHECK_THROWS_WITH(builtinClip("fly"), "there is no clip \"fly\"; there are: wave, wag, gallop");
+  CHECK_THROWS_WITH(clipNamed(builtinClips(), "fly"),
+                    "there is no clip \"fly\"; there are: wave, wag, gallop");
 }

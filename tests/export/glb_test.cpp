@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/export/joint_names.h"
 #include "libskel/export/write_character.h"
@@ -143,7 +143,7 @@ void checkStructure(const Glb& glb, const RiggedCharacter& character) {
 
 TEST_CASE("a GLB holds the mesh, its skin, its texture and its clips") {
   const RiggedCharacter character = figure();
-  const Clip wave = retargetToRest(builtinClip("wave"), character.skeleton);
+  const Clip wave = retargetToRest(clipNamed(builtinClips(), "wave"), character.skeleton);
   const std::string bytes = encodeGlb(character, {wave}, {"figure"});
   const Glb glb = parseGlb(bytes);
   checkStructure(glb, character);
