@@ -12,7 +12,7 @@
 #include "libskel/core/progress.h"
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
-#include "libskel/mesh/obj.h"
+#include "libskel/mesh/read_mesh.h"
 #include "libskel/pipeline/trace.h"
 
 namespace skel {
@@ -113,7 +113,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
 
   RigInput input;
   if (!options.images.empty()) input.image = readImage(job.source);
-  if (!options.model_file.empty()) input.model = readObj(options.model_file);
+  if (!options.model_file.empty()) input.model = readMesh(options.model_file);
   std::optional<SkeletonFile> given;
   if (!options.skeleton_file.empty()) {
     given = readSkeletonFile(options.skeleton_file, rig.body_plan);

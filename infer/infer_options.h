@@ -22,6 +22,7 @@ struct InferOptions {
   std::string skin = "geodesic";
   int max_influences = 4;
   std::vector<std::string> clips;  // empty: the built-in ones that fit the body plan
+  std::string clips_dir;           // more of them
   std::string rest_pose = "drawn";
   std::string naming = "skel";
   std::string figure = "1";  // a number, or "all"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/classifier/weights_file.h"
 #include "libskel/core/files.h"
 
@@ -25,10 +25,12 @@ RigOptions rigOptions(const InferOptions& options) {
   if (!options.joint_net_file.empty())
     rig.joint_net = std::make_shared<const JointNet>(
         parseJointNet(readFile(options.joint_net_file), options.joint_net_file));
+  const std::vector<Clip> clips = clipsFor(
+      options.clips_dir.empty() ? builtinClips() : clipsWithFolder(options.clips_dir), rig.body_plan);
   if (options.clips.empty())
-    rig.clips = builtinClipsFor(rig.body_plan);
+    rig.clips = clips;
   else if (options.clips != std::vector<std::string>{"none"})
-    for (const std::string& name : options.clips) rig.clips.push_back(builtinClip(name));
+    for (const std::string& name : options.clips) rig.clips.push_back(clipNamed(clips, name));
   return rig;
 }
 

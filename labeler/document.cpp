@@ -6,7 +6,7 @@
 
 #include "labeler/mask_brush.h"
 #include "labeler/save_drawing.h"
-#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/classifier/features.h"
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
@@ -511,7 +511,9 @@ void Document::rigOrThrow() {
   options.mlp = options_.mlp;
   options.body_plan = options_.body_plan;
   options.recognizer = options_.recognizer;
-  options.clips = builtinClipsFor(options_.body_plan);
+  // The one clip that the preview plays.
+  for (const Clip& clip : clipsFor(builtinClips(), options_.body_plan))
+    if (clip.name == "wave" || clip.name == "wag") options.clips = {clip};
   auto rigged = std::make_unique<RiggedDrawing>(rigCharacter(input, options));
   if (!rigged->found()) {
     message_ = rigged->silhouette.reason;

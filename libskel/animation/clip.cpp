@@ -5,9 +5,16 @@
 namespace skel {
 
 float Clip::duration_s() const {
-  float duration = root_times_s.empty() ? 0 : root_times_s.back();
-  for (const JointTrack& track : tracks)
-    if (!track.times_s.empty()) duration = std::max(duration, track.times_s.back());
+  float duration = least_duration_s;
+  const auto lastsUntil = [&](const std::vector<float>& times) {
+    if (!times.empty()) duration = std::max(duration, times.back());
+  };
+  lastsUntil(root_times_s);
+  for (const JointTrack& track : tracks) {
+    lastsUntil(track.times_s);
+    lastsUntil(track.translation_times_s);
+    lastsUntil(track.scale_times_s);
+  }
   return duration;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "libskel/animation/plant_feet.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/segment.h"
 
@@ -18,6 +19,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kTolerance = 0.001;  // of thinned keys, in heights
 
 Quaterniond aboutZ(double angle_rad) { return Quaterniond(Eigen::AngleAxisd(angle_rad, Vector3d::UnitZ())); }
 
@@ -32,9 +34,11 @@ double canonicalShare(const Clip& clip, double time_s) {
 // One moment of the clip on the drawn skeleton.
 struct Retargeter {
   const Skeleton& skeleton;
-  std::vector<bool> pointed;    // joints whose bone follows the canonical one
-  std::vector<BoneTurn> turns;  // canonical to drawn
-  std::vector<double> swing;    // extra turn about z of a pointed joint and those below it, radians
+  std::vector<bool> pointed;            // joints whose bone follows the canonical one
+  std::vector<BoneTurn> turns;          // canonical to drawn
+  std::vector<double> swing;            // extra turn about z of a pointed joint and those below it, radians
+  std::vector<double> share_of_motion;  // 1: as the clip says, 0: the joint does not turn
+  Quaterniond figure_from_clip = Quaterniond::Identity();  // about the vertical
 
   // Rotations to the model frame.
   std::vector<Quaterniond> globals(const Pose& canonical, double share) const {
@@ -43,7 +47,9 @@ struct Retargeter {
     std::vector<double> swung(count, 0);
     for (std::size_t j = 0; j < count; ++j) {
       const int parent = skeleton.joints[j].parent;
-      const Quaterniond local = canonical.rotations[j].cast<double>();
+      Quaterniond local = canonical.rotations[j].cast<double>();
+      if (share_of_motion[j] < 1) local = Quaterniond::Identity().slerp(share_of_motion[j], local);
+      if (figure_from_clip.w() != 1) local = figure_from_clip * local * figure_from_clip.conjugate();
       motion[j] = parent < 0 ? local : motion[parent] * local;
       swung[j] = swing[j] + (parent < 0 ? 0 : swung[parent]);
       if (pointed[j])
@@ -56,15 +62,173 @@ struct Retargeter {
 };
 
 std::vector<Vector3d> positions(const Skeleton& skeleton, const std::vector<Quaterniond>& globals) {
-  std::vector<Vector3d> result(skeleton.joints.size());
-  for (std::size_t j = 0; j < result.size(); ++j) {
-    const Joint& joint = skeleton.joints[j];
-    result[j] = joint.position;
-    if (joint.parent >= 0)
-      result[j] = result[joint.parent] +
-                  globals[joint.parent] * (joint.position - skeleton.joints[joint.parent].position);
+  return jointPositions(skeleton, {0, globals, Vector3d::Zero(), 1});
+}
+
+double outwards(const Skeleton& skeleton, int joint) {
+  return skeleton.joints[joint].position.x() < skeleton.joints[0].position.x() ? -1 : 1;
+}
+
+// Lets bones stay where they were drawn as far as `slack` and the trunk allow: the rest of the turn remains.
+void giveSlack(const Skeleton& skeleton, const std::vector<double>& slack_rad,
+               const std::vector<double>& hang_rad, std::vector<BoneTurn>& turns) {
+  for (std::size_t j = 0; j < turns.size(); ++j) {
+    if (slack_rad[j] <= 0) continue;
+    const double side = outwards(skeleton, int(j));
+    const double most = std::max(slack_rad[j], hang_rad.empty() ? 0 : hang_rad[j]);
+    const double drawn = side * turns[j].angle_rad, kept = std::clamp(drawn, -slack_rad[j], most);
+    turns[j].angle_rad = side * (drawn - kept);
+    if (drawn == kept) turns[j].out_of_plane.setIdentity();
   }
-  return result;
+}
+
+// Folded arms, hands on the hips or in pockets: they lie on the trunk and stay there. Found by a forearm that
+// points back to the middle.
+bool isFolded(const Skeleton& skeleton, int elbow, int hand) {
+  const Vector3d forearm = skeleton.joints[hand].position - skeleton.joints[elbow].position;
+  const double inwards = -outwards(skeleton, elbow) * forearm.x();
+  const double least = skeleton.joints[0].position.y() - 0.5 * forearm.norm();
+  return inwards > 0.5 * forearm.norm() && skeleton.joints[hand].position.y() > least &&
+         skeleton.joints[hand].position.y() < skeleton.joints[elbow].position.y() + 0.7 * forearm.norm();
+}
+
+// Lets the joints keep the share `kept` of how they were drawn, and move so much less.
+void hold(Retargeter& retargeter, std::initializer_list<int> joints, double kept,
+          std::vector<double>& slack_rad) {
+  for (const int joint : joints) {
+    if (slack_rad[joint] <= 0) continue;
+    slack_rad[joint] += kept * 2 * kPi;
+    retargeter.share_of_motion[joint] = 1 - 0.8 * kept;
+  }
+}
+
+double smoothStep(double from, double to, double x) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+double joinedAt(const FigureShape& shape, int joint) {
+  return shape.joined.empty() ? 0 : shape.joined[joint];
+}
+
+// Legs of one who was drawn sitting or squatting lie on the body: no way to stand him up.
+bool isSeated(const Skeleton& skeleton, const FigureShape& shape) {
+  double straight = 0;
+  for (const std::string side : {"left_", "right_"}) {
+    const int hip = skeleton.find(side + "hip"), knee = skeleton.find(side + "knee"),
+              foot = skeleton.find(side + "foot");
+    if (hip < 0 || knee < 0 || foot < 0 || joinedAt(shape, foot) < 0.8) return false;
+    const Vector3d upper = skeleton.joints[knee].position - skeleton.joints[hip].position,
+                   lower = skeleton.joints[foot].position - skeleton.joints[knee].position;
+    straight += std::max(0.0, -(upper + lower).y()) / std::max(1e-9, upper.norm() + lower.norm()) / 2;
+  }
+  return straight < 0.75;
+}
+
+void holdArms(Retargeter& retargeter, const FigureShape& shape, std::vector<double>& slack_rad) {
+  const Skeleton& skeleton = retargeter.skeleton;
+  const double least = isSeated(skeleton, shape) ? 0.8 : 0;  // on the knees, or to lean on
+  for (const std::string side : {"left_", "right_"}) {
+    const int shoulder = skeleton.find(side + "shoulder"), elbow = skeleton.find(side + "elbow"),
+              hand = skeleton.find(side + "hand");
+    if (shoulder < 0 || elbow < 0 || hand < 0) continue;
+    const double kept =
+        isFolded(skeleton, elbow, hand) ? 1 : std::max(least, smoothStep(0.45, 0.6, joinedAt(shape, elbow)));
+    if (kept > 0) hold(retargeter, {shoulder, elbow, hand}, kept, slack_rad);
+  }
+}
+
+// Legs that are one piece, under a gown, take small steps, and those of one who sits none.
+double holdLegs(Retargeter& retargeter, const FigureShape& shape, const std::vector<FootContact>& contacts,
+                std::vector<double>& slack_rad) {
+  const Skeleton& skeleton = retargeter.skeleton;
+  const bool seated = isSeated(skeleton, shape);
+  double least = 1;
+  for (const FootContact& contact : contacts) {
+    const int foot = skeleton.index(contact.joint), knee = skeleton.joints[foot].parent,
+              hip = skeleton.joints[knee].parent;
+    if (retargeter.share_of_motion[foot] < 1) continue;
+    const double steps = seated ? 0.15 : 1 - 0.55 * smoothStep(0.6, 1, joinedAt(shape, foot));
+    if (seated) hold(retargeter, {hip, knee, foot}, 1, slack_rad);
+    for (const int joint : {hip, knee, foot}) retargeter.share_of_motion[joint] = steps;
+    least = std::min(least, steps);
+  }
+  return least;
+}
+
+// How the feet stand that the clip puts on the ground.
+FootPlanting footPlanting(const Retargeter& retargeter, const Clip& clip, const FigureShape& shape) {
+  const Skeleton& skeleton = retargeter.skeleton;
+  const std::size_t count = skeleton.joints.size();
+  FootPlanting planting;
+  planting.standing_y_m.assign(count, 0);
+  planting.standing_turn.assign(count, Quaterniond::Identity());
+  planting.forwards = retargeter.figure_from_clip *
+                      (clip.template_name == "quadruped" ? Vector3d(-1, 0, 0) : Vector3d(0, 0, 1));
+  double lowest = 1e9;
+  for (const FootContact& contact : clip.contacts)
+    lowest = std::min(lowest, skeleton.joints[skeleton.index(contact.joint)].position.y());
+  for (const FootContact& contact : clip.contacts) {
+    const int foot = skeleton.index(contact.joint), knee = skeleton.joints[foot].parent;
+    const double y = skeleton.joints[foot].position.y();
+    // One that was drawn in the air comes down, if the clip has a say in how the leg is held.
+    const double air = shape.sole_y_m.empty() ? y - lowest : shape.sole_y_m[foot];
+    const int turned = retargeter.pointed[foot] ? foot : knee;
+    planting.standing_y_m[foot] = retargeter.pointed[turned] && air > 0.06 * shape.height_m ? y - air : y;
+    if (retargeter.pointed[turned])
+      planting.standing_turn[foot] = retargeter.turns[turned].share(1).conjugate();
+  }
+  return planting;
+}
+
+// How long the legs are, in those of the figure that the clips were made for.
+double legShare(const Skeleton& skeleton, const std::vector<FootContact>& contacts, double height_m) {
+  constexpr double kOfHeight = 0.45;
+  double sum = 0;
+  for (const FootContact& contact : contacts) {
+    const int foot = skeleton.index(contact.joint), knee = skeleton.joints[foot].parent,
+              hip = skeleton.joints[knee].parent;
+    const auto at = [&](int joint) -> const Vector3d& { return skeleton.joints[joint].position; };
+    sum += (at(foot) - at(knee)).norm() + (at(knee) - at(hip)).norm();
+  }
+  return std::min(1.3, sum / double(contacts.size()) / (kOfHeight * height_m));
+}
+
+// Keys at so much lower a rate that the joints stay within `tolerance_m`.
+std::size_t strideWithin(const Skeleton& skeleton, const std::vector<ModelPose>& poses, double tolerance_m) {
+  std::vector<std::vector<Vector3d>> at;
+  for (const ModelPose& pose : poses) at.push_back(jointPositions(skeleton, pose));
+  const auto locals = [&](const ModelPose& pose) {
+    std::vector<Quaterniond> result = pose.globals;
+    for (std::size_t j = 0; j < result.size(); ++j)
+      if (const int parent = skeleton.joints[j].parent; parent >= 0)
+        result[j] = pose.globals[parent].conjugate() * pose.globals[j];
+    return result;
+  };
+  const std::size_t last = poses.size() - 1;
+  for (std::size_t stride : {5, 4, 3, 2}) {
+    if (last % stride != 0) continue;
+    bool near = true;
+    for (std::size_t from = 0; from < last && near; from += stride) {
+      const std::vector<Quaterniond> a = locals(poses[from]), b = locals(poses[from + stride]);
+      for (std::size_t k = 1; k < stride && near; ++k) {
+        const double t = double(k) / double(stride);
+        ModelPose between;
+        between.root_offset_m = (1 - t) * poses[from].root_offset_m + t * poses[from + stride].root_offset_m;
+        between.globals.resize(a.size());
+        for (std::size_t j = 0; j < a.size(); ++j) {
+          const Quaterniond local = a[j].slerp(t, b[j]);
+          const int parent = skeleton.joints[j].parent;
+          between.globals[j] = parent < 0 ? local : between.globals[parent] * local;
+        }
+        const std::vector<Vector3d> places = jointPositions(skeleton, between);
+        for (std::size_t j = 0; j < places.size() && near; ++j)
+          near = (places[j] - at[from + k][j]).norm() <= tolerance_m;
+      }
+    }
+    if (near) return stride;
+  }
+  return 1;
 }
 
 // Seen from the front, the least turn of the forearm away from the trunk that keeps it and the hand beyond it
@@ -75,13 +239,13 @@ double clearingSwing(Retargeter retargeter, const std::vector<std::pair<Pose, do
   const int head = skeleton.find("head"), top = skeleton.find("head_top");
   if (head < 0 || top < 0) return 0;
   const double radius = (skeleton.joints[top].position - skeleton.joints[head].position).norm();
-  const double outwards = skeleton.joints[elbow].position.x() < skeleton.joints[head].position.x() ? 1 : -1;
+  const double away = skeleton.joints[elbow].position.x() < skeleton.joints[head].position.x() ? 1 : -1;
   constexpr double kHandReach = 1.35;  // the hand's tip, in lengths of the forearm
   constexpr double kStep = kPi / 36;
   constexpr int kSteps = 15;  // no further than 75°
   double best_swing = 0, best_clearance = -1e9;
   for (int step = 0; step <= kSteps; ++step) {
-    retargeter.swing[elbow] = outwards * step * kStep;
+    retargeter.swing[elbow] = away * step * kStep;
     double clearance = 1e9;
     for (const auto& [pose, share] : moments) {
       if (share < 1) continue;
@@ -136,30 +300,52 @@ std::vector<BoneTurn> turnsFromCanonical(const Skeleton& skeleton, const std::ve
     if (parent >= 0 && !canonical[parent].isZero())
       near = turns[parent].angle_rad;
     else
-      near = (skeleton.joints[j].position.x() < skeleton.joints[0].position.x() ? -1 : 1) * kPi / 2;
+      near = outwards(skeleton, int(j)) * kPi / 2;
     turns[j] = boneTurn(canonical[j], restBone(skeleton, int(j)), near);
   }
   return turns;
 }
 
+FigureShape shapeOfBones(const Skeleton& skeleton) {
+  FigureShape shape;
+  const int head = skeleton.find("head");
+  if (skeleton.find("left_front_foot") >= 0 && head >= 0 &&
+      skeleton.joints[head].position.x() > skeleton.joints[0].position.x())
+    shape.yaw_rad = kPi;
+  return shape;
+}
+
 Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOptions& options) {
   const std::size_t count = skeleton.joints.size();
+  const FigureShape shape = options.shape ? *options.shape : shapeOfBones(skeleton);
+  Quaterniond figure_from_clip = Quaterniond::Identity();
+  if (clip.frame == ClipFrame::kBody && shape.yaw_rad != 0)
+    figure_from_clip = Quaterniond(Eigen::AngleAxisd(shape.yaw_rad, Vector3d::UnitY()));
   std::vector<Vector3d> canonical(count, Vector3d::Zero());
+  std::vector<double> slack_rad(count, 0);
   for (const JointTrack& track : clip.tracks)
-    if (const int joint = skeleton.find(track.joint); joint >= 0)
-      canonical[joint] = track.bone.cast<double>();
+    if (const int joint = skeleton.find(track.joint); joint >= 0) {
+      canonical[joint] = figure_from_clip * track.bone.cast<double>();
+      slack_rad[joint] = track.slack_rad;
+    }
 
   Retargeter retargeter{skeleton, std::vector<bool>(count), turnsFromCanonical(skeleton, canonical),
-                        std::vector<double>(count, 0)};
+                        std::vector<double>(count, 0), std::vector<double>(count, 1)};
   for (std::size_t j = 0; j < count; ++j) retargeter.pointed[j] = !canonical[j].isZero();
+  // Seen from the side, limbs swing where they could else stay away.
+  if (clip.frame == ClipFrame::kBody)
+    for (double& slack : slack_rad) slack *= std::abs(std::cos(shape.yaw_rad));
+  holdArms(retargeter, shape, slack_rad);
+  const double steps = holdLegs(retargeter, shape, clip.contacts, slack_rad);
+  giveSlack(skeleton, slack_rad, shape.hang_rad, retargeter.turns);
 
   const float duration = clip.duration_s();
   const int keys = int(std::ceil(duration * options.rate_hz - 1e-3f)) + 1;
-  std::vector<float> times;
   std::vector<std::pair<Pose, double>> moments;
+  std::vector<ModelPose> poses(keys);
   for (int k = 0; k < keys; ++k) {
-    times.push_back(keys == 1 ? 0 : duration * float(k) / float(keys - 1));
-    moments.emplace_back(samplePose(clip, skeleton, times.back()), canonicalShare(clip, times.back()));
+    poses[k].time_s = keys == 1 ? 0 : duration * float(k) / float(keys - 1);
+    moments.emplace_back(samplePose(clip, skeleton, poses[k].time_s), canonicalShare(clip, poses[k].time_s));
   }
   if (options.clear_of_head)
     for (const std::string side : {"left_", "right_"}) {
@@ -168,16 +354,65 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
         retargeter.swing[elbow] = clearingSwing(retargeter, moments, elbow, hand);
     }
 
+  const bool moves_root = !clip.contacts.empty() || !clip.root_times_s.empty();
+  double stride = 1, stand = 0;
+  FootPlanting planting;
+  if (!clip.contacts.empty()) {
+    planting = footPlanting(retargeter, clip, shape);
+    stride = steps * legShare(skeleton, clip.contacts, shape.height_m);
+    // The root is as high as the shortest leg lets it.
+    Pose still;
+    still.rotations.assign(count, Eigen::Quaternionf::Identity());
+    const std::vector<Vector3d> at = positions(skeleton, retargeter.globals(still, 1));
+    stand = 1e9;
+    for (const FootContact& contact : clip.contacts) {
+      const int foot = skeleton.index(contact.joint);
+      stand = std::min(stand, planting.standing_y_m[foot] - at[foot].y());
+    }
+  }
+  for (int k = 0; k < keys; ++k) {
+    const auto& [pose, share] = moments[k];
+    poses[k].globals = retargeter.globals(pose, share);
+    poses[k].share = share;
+    if (!moves_root) continue;
+    Vector3d offset = shape.height_m * pose.root_translation.cast<double>();
+    // Steps are as long as the legs; what is jumped is not.
+    offset.x() *= stride;
+    offset.z() *= stride;
+    if (offset.y() < 0) offset.y() *= stride;
+    poses[k].root_offset_m = retargeter.figure_from_clip * offset + share * stand * Vector3d::UnitY();
+  }
+  plantFeet(skeleton, clip.contacts, planting, poses);
+
   Clip result = clip;
   result.lead_s = 0;
+  result.interpolation = RotationInterpolation::kSlerp;
+  result.frame = ClipFrame::kPicture;
+  result.contacts.clear();
+  for (const FootContact& contact : clip.contacts)
+    for (int joint = skeleton.index(contact.joint), bones = 0; bones < 3;
+         ++bones, joint = skeleton.joints[joint].parent)
+      if (std::none_of(result.tracks.begin(), result.tracks.end(),
+                       [&](const JointTrack& track) { return track.joint == skeleton.joints[joint].name; })) {
+        result.tracks.emplace_back().joint = skeleton.joints[joint].name;
+        result.tracks.back().times_s = {0};
+      }
+  const std::size_t every =
+      options.thin_keys ? strideWithin(skeleton, poses, kTolerance * shape.height_m) : 1;
+  std::vector<float> times;
+  for (std::size_t k = 0; k < poses.size(); k += every) times.push_back(poses[k].time_s);
   for (JointTrack& track : result.tracks) {
+    const bool turns = !track.times_s.empty() || !track.bone.isZero();
     track.bone.setZero();
-    track.times_s = times;
+    track.slack_rad = 0;
+    track.times_s = turns ? times : std::vector<float>{};
     track.rotations.clear();
+    track.angles_rad.clear();
   }
-  for (const auto& [pose, share] : moments) {
-    const std::vector<Quaterniond> globals = retargeter.globals(pose, share);
+  for (std::size_t k = 0; k < poses.size(); k += every) {
+    const std::vector<Quaterniond>& globals = poses[k].globals;
     for (JointTrack& track : result.tracks) {
+      if (track.times_s.empty()) continue;
       const int joint = skeleton.index(track.joint), parent = skeleton.joints[joint].parent;
       Quaterniond local =
           parent < 0 ? globals[joint] : (globals[parent].conjugate() * globals[joint]).normalized();
@@ -187,6 +422,12 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
         rotation.coeffs() = -rotation.coeffs();
       track.rotations.push_back(rotation);
     }
+  }
+  if (moves_root) {
+    result.root_times_s = times;
+    result.root_translations.clear();
+    for (std::size_t k = 0; k < poses.size(); k += every)
+      result.root_translations.push_back((poses[k].root_offset_m / shape.height_m).cast<float>());
   }
   return result;
 }

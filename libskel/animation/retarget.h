@@ -1,20 +1,44 @@
 // Clips made for the canonical pose, for a character that was drawn in any other.
 #pragma once
 
+#include <optional>
+
 #include "libskel/animation/clip.h"
+#include "libskel/mesh/triangle_mesh.h"
 
 namespace skel {
 
+// What there is around the bones (measureFigure() in libskel/deform), as far as motions must know.
+struct FigureShape {
+  double height_m = kModelHeight_m;
+  // About the vertical, from where a figure looks that clips of ClipFrame::kBody are made for to where this
+  // one does: 0 for a biped in front view and an animal that looks to the left.
+  double yaw_rad = 0;
+  // One a joint, or empty. Of an arm: the least angle from straight down outwards at which its bone keeps
+  // clear of the trunk. 0 for the others.
+  std::vector<double> hang_rad;
+  // One a joint, or empty. Of a foot: the height of its lowest point, m. 0 for the others.
+  std::vector<double> sole_y_m;
+  // One a joint, or empty; 0…1. Of arms: the share of the forearm that hangs on the body. Of legs: how far
+  // down they are one piece, 0 for trousers, 1 for a gown. 0 for the others.
+  std::vector<double> joined;
+};
+// As much as the bones alone tell.
+FigureShape shapeOfBones(const Skeleton& skeleton);
+
 struct RetargetOptions {
-  float rate_hz = 30;         // keys a second of the result
-  bool clear_of_head = true;  // forearms that would pass through the head swing out until they do not
+  float rate_hz = 30;                // most keys a second of the result; fewer where that shows nowhere
+  bool clear_of_head = true;         // forearms that would pass through the head swing out until they do not
+  bool thin_keys = true;             // where `rate_hz` is more than shows
+  std::optional<FigureShape> shape;  // nothing: shapeOfBones()
 };
 
 // The clip as rotations relative to the skeleton's rest pose (Skeleton::joints' positions). Tracks with a
 // bone make the drawn bone point where the canonical one would, relative to the trunk; tracks without one are
 // added to the drawn pose; joints without a track keep the drawn pose. Limbs are taken out of the drawn pose
-// by the way round the outside of the body, never through it. Throws UsageError if the clip moves a joint
-// that the skeleton lacks.
+// by the way round the outside of the body, never through it, and arms that are folded or on the hips stay
+// there. Feet that stand, stay (plant_feet.h). Throws UsageError if the clip moves a joint that the skeleton
+// lacks.
 Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOptions& options = {});
 
 // Where the joint's bone points in the rest pose: to its child, or to the middle of its children; that of its

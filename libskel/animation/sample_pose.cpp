@@ -1,6 +1,7 @@
 #include "libskel/animation/sample_pose.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
@@ -23,29 +24,83 @@ Moment momentOf(const std::vector<float>& times, float time_s) {
   return {key, key + 1, (time_s - times[key]) / (times[key + 1] - times[key])};
 }
 
+Eigen::Vector3f between(const std::vector<float>& times, const std::vector<Eigen::Vector3f>& values,
+                        float time_s) {
+  SKEL_CHECK_EQ(times.size(), values.size());
+  const Moment at = momentOf(times, time_s);
+  return (1 - at.t) * values[at.key] + at.t * values[at.next];
+}
+
+// Of a track that has rotations.
+Eigen::Quaternionf rotationAt(const JointTrack& track, RotationInterpolation interpolation, float time_s) {
+  SKEL_CHECK_EQ(track.times_s.size(), track.rotations.size());
+  if (interpolation == RotationInterpolation::kAngles && !track.angles_rad.empty())
+    return rotationOfAngles(between(track.times_s, track.angles_rad, time_s));
+  const Moment at = momentOf(track.times_s, time_s);
+  return track.rotations[at.key].slerp(at.t, track.rotations[at.next]);
+}
+
 }  // namespace
 
+Eigen::Quaternionf rotationOfAngles(const Eigen::Vector3f& angles_rad) {
+  using Eigen::AngleAxisf, Eigen::Vector3f;
+  return AngleAxisf(angles_rad.z(), Vector3f::UnitZ()) * AngleAxisf(angles_rad.y(), Vector3f::UnitY()) *
+         AngleAxisf(angles_rad.x(), Vector3f::UnitX());
+}
+
 Pose samplePose(const Clip& clip, const Skeleton& skeleton, float time_s) {
+  const std::size_t count = skeleton.joints.size();
   Pose pose;
-  pose.rotations.assign(skeleton.joints.size(), Eigen::Quaternionf::Identity());
+  pose.rotations.assign(count, Eigen::Quaternionf::Identity());
   for (const JointTrack& track : clip.tracks) {
-    SKEL_CHECK(!track.times_s.empty());
-    SKEL_CHECK_EQ(track.times_s.size(), track.rotations.size());
+    SKEL_CHECK(!track.times_s.empty() || !track.translation_times_s.empty() || !track.scale_times_s.empty());
     const int joint = skeleton.find(track.joint);
     if (joint < 0)
       throw UsageError("the clip \"" + clip.name + "\" moves \"" + track.joint +
                        "\", which this skeleton lacks; use a clip for the template \"" +
                        skeleton.template_name + "\"");
-    const Moment at = momentOf(track.times_s, time_s);
-    pose.rotations[joint] = track.rotations[at.key].slerp(at.t, track.rotations[at.next]);
+    if (!track.times_s.empty()) pose.rotations[joint] = rotationAt(track, clip.interpolation, time_s);
+    if (!track.translation_times_s.empty()) {
+      pose.translations_m.resize(count, Eigen::Vector3f::Zero());
+      pose.translations_m[joint] = between(track.translation_times_s, track.translations_m, time_s);
+    }
+    if (!track.scale_times_s.empty()) {
+      pose.scales.resize(count, Eigen::Vector3f::Ones());
+      pose.scales[joint] = between(track.scale_times_s, track.scales, time_s);
+    }
   }
-  if (!clip.root_times_s.empty()) {
-    SKEL_CHECK_EQ(clip.root_times_s.size(), clip.root_translations.size());
-    const Moment at = momentOf(clip.root_times_s, time_s);
-    pose.root_translation =
-        (1 - at.t) * clip.root_translations[at.key] + at.t * clip.root_translations[at.next];
-  }
+  if (!clip.root_times_s.empty())
+    pose.root_translation = between(clip.root_times_s, clip.root_translations, time_s);
   return pose;
+}
+
+Clip withSlerp(const Clip& clip, float rate_hz) {
+  Clip result = clip;
+  result.interpolation = RotationInterpolation::kSlerp;
+  if (clip.interpolation == RotationInterpolation::kSlerp) return result;
+  for (JointTrack& track : result.tracks) {
+    if (track.angles_rad.empty()) continue;
+    // The keys themselves, and as many even ones between each two as the rate asks for.
+    std::vector<float> times;
+    for (std::size_t k = 0; k < track.times_s.size(); ++k) {
+      if (k > 0) {
+        const float from = track.times_s[k - 1], step = track.times_s[k] - from;
+        const int parts = std::max(1, int(std::ceil(step * rate_hz - 1e-3f)));
+        for (int i = 1; i < parts; ++i) times.push_back(from + step * float(i) / float(parts));
+      }
+      times.push_back(track.times_s[k]);
+    }
+    std::vector<Eigen::Quaternionf> rotations;
+    for (const float time_s : times) {
+      Eigen::Quaternionf rotation = rotationAt(track, clip.interpolation, time_s);
+      if (!rotations.empty() && rotation.dot(rotations.back()) < 0) rotation.coeffs() = -rotation.coeffs();
+      rotations.push_back(rotation);
+    }
+    track.times_s = std::move(times);
+    track.rotations = std::move(rotations);
+    track.angles_rad.clear();
+  }
+  return result;
 }
 
 }  // namespace skel

@@ -1,4 +1,4 @@
-// A skinned mesh in a pose: linear blend skinning.
+// A skinned mesh in a pose: linear blend skinning, or dual quaternions.
 //
 // N. Magnenat-Thalmann, R. Laperrière, D. Thalmann, "Joint-dependent local deformations for hand animation
 // and object grasping" (1988).
@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "libskel/animation/sample_pose.h"
 #include "libskel/skeleton/skeleton.h"
 #include "libskel/skin/skin_weights.h"
 
@@ -20,11 +21,19 @@ using JointTransforms = std::vector<Eigen::Affine3f, Eigen::aligned_allocator<Ei
 JointTransforms posedFromRest(const Skeleton& skeleton, const std::vector<Eigen::Quaternionf>& rotations,
                               const Eigen::Vector3f& root_translation_m = Eigen::Vector3f::Zero());
 
+// The same with all that a pose holds. `height_m`: the model's, in units of which the root moves.
+JointTransforms posedFromRest(const Skeleton& skeleton, const Pose& pose, float height_m);
+
 // Where the joints themselves come to lie, model frame, m.
 std::vector<Eigen::Vector3f> posedJoints(const Skeleton& skeleton, const JointTransforms& posed_from_rest);
 
+enum class Blending {
+  kLinear,           // of matrices: bent elbows lose thickness, twisted ones collapse
+  kDualQuaternions,  // of rigid motions: they keep it (dual_quaternions.h)
+};
+
 // #V×3.
 Eigen::MatrixX3f skinVertices(const Eigen::MatrixX3f& vertices, const SkinWeights& weights,
-                              const JointTransforms& posed_from_rest);
+                              const JointTransforms& posed_from_rest, Blending blending = Blending::kLinear);
 
 }  // namespace skel

@@ -40,10 +40,11 @@ struct PixelBox {
 
 Image blankImage(int width, int height, Color color) {
   Image image(width, height);
-  image.rgba.col(0) = color.r;
-  image.rgba.col(1) = color.g;
-  image.rgba.col(2) = color.b;
-  image.rgba.col(3) = color.a;
+  if (color.r == color.g && color.r == color.b && color.r == color.a) {  // many times faster
+    image.rgba.setConstant(color.r);
+  } else {
+    image.rgba.rowwise() = Eigen::Array<std::uint8_t, 1, 4>(color.r, color.g, color.b, color.a);
+  }
   return image;
 }
 

@@ -20,13 +20,6 @@ using Eigen::RowVector3i;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-// Rotation to the eye's axes: x right, y up, z towards the eye.
-Matrix3d eyeFromModel(const Camera& camera) {
-  return (Eigen::AngleAxisd(camera.pitch_rad, Vector3d::UnitX()) *
-          Eigen::AngleAxisd(-camera.yaw_rad, Vector3d::UnitY()))
-      .toRotationMatrix();
-}
-
 // Bilinear, 0…255.
 RowVector3f texel(const Image& texture, const RowVector2f& uv, bool repeat) {
   const float u = repeat ? uv.x() - std::floor(uv.x()) : uv.x();
@@ -68,6 +61,12 @@ Image textureAsSeen(const TriangleMesh& mesh, const std::vector<Vector3f>& scree
 }
 
 }  // namespace
+
+Matrix3d eyeFromModel(const Camera& camera) {
+  return (Eigen::AngleAxisd(camera.pitch_rad, Vector3d::UnitX()) *
+          Eigen::AngleAxisd(-camera.yaw_rad, Vector3d::UnitY()))
+      .toRotationMatrix();
+}
 
 Camera framingCamera(const Eigen::MatrixX3f& vertices, double yaw_rad, double pitch_rad,
                      double width_over_height) {

@@ -21,6 +21,9 @@ struct RenderOptions {
   float shading = 0.45f;                        // 0: the texture's colours as they are; 1: black in the shade
 };
 
+// A rotation to the eye's axes: x right, y up, z towards the eye.
+Eigen::Matrix3d eyeFromModel(const Camera& camera);
+
 // Shows all of the points, whatever the size of the picture.
 Camera framingCamera(const Eigen::MatrixX3f& vertices, double yaw_rad = 0, double pitch_rad = 0,
                      double width_over_height = 1);

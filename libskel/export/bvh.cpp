@@ -27,8 +27,9 @@ void appendVector(std::string& text, const Vector3d& v) {
 }
 
 // Joints in the file's order: each before its children, branch by branch.
-void appendHierarchy(std::string& text, std::vector<int>& order, const ExportInput& input, int joint,
-                     int depth) {
+// `moved`: joints that the clip moves out of their places.
+void appendHierarchy(std::string& text, std::vector<int>& order, const ExportInput& input,
+                     const std::vector<bool>& moved, int joint, int depth) {
   const Skeleton& skeleton = input.character.skeleton;
   const Joint& self = skeleton.joints[joint];
   const std::string indent(std::size_t(depth) * 2, ' ');
@@ -40,14 +41,14 @@ void appendHierarchy(std::string& text, std::vector<int>& order, const ExportInp
       root ? Vector3d::Zero() : Vector3d(self.position - skeleton.joints[self.parent].position);
   appendVector(text, kCentimetres * offset);
   text += "\n" + indent +
-          (root ? "  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"
-                : "  CHANNELS 3 Zrotation Xrotation Yrotation\n");
+          (moved[joint] ? "  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"
+                        : "  CHANNELS 3 Zrotation Xrotation Yrotation\n");
   order.push_back(joint);
   bool leaf = true;
   for (std::size_t child = 0; child < skeleton.joints.size(); ++child)
     if (skeleton.joints[child].parent == joint) {
       leaf = false;
-      appendHierarchy(text, order, input, int(child), depth + 1);
+      appendHierarchy(text, order, input, moved, int(child), depth + 1);
     }
   if (leaf) {
     text += indent + "  End Site\n" + indent + "  {\n" + indent + "    OFFSET";
@@ -70,7 +71,11 @@ std::string encodeBvh(const ExportInput& input, const Clip& clip) {
   const Skeleton& skeleton = input.character.skeleton;
   std::string text = "HIERARCHY\n";
   std::vector<int> order;
-  appendHierarchy(text, order, input, 0, 0);
+  std::vector<bool> moved(skeleton.joints.size(), false);
+  moved[0] = true;
+  for (const JointTrack& track : clip.tracks)
+    if (!track.translation_times_s.empty()) moved[skeleton.index(track.joint)] = true;
+  appendHierarchy(text, order, input, moved, 0, 0);
   const int frames = int(std::lround(clip.duration_s() * kRate_hz)) + 1;
   text += "MOTION\nFrames: " + std::to_string(frames) + "\nFrame Time: ";
   appendNumber(text, 1 / kRate_hz, 7);
@@ -79,10 +84,20 @@ std::string encodeBvh(const ExportInput& input, const Clip& clip) {
   const double height = heights.size() > 0 ? heights.maxCoeff() - heights.minCoeff() : 0;
   for (int frame = 0; frame < frames; ++frame) {
     const Pose pose = samplePose(clip, skeleton, float(frame / kRate_hz));
-    const Vector3d root = skeleton.joints[0].position + height * pose.root_translation.cast<double>();
     const std::size_t line = text.size();
-    appendVector(text, kCentimetres * root);
-    for (const int joint : order) appendVector(text, zxyDegrees(pose.rotations[joint]));
+    for (const int joint : order) {
+      if (moved[joint]) {
+        const Joint& self = skeleton.joints[joint];
+        Vector3d at = self.position;
+        if (self.parent < 0)
+          at += height * pose.root_translation.cast<double>();
+        else
+          at -= skeleton.joints[self.parent].position;
+        if (!pose.translations_m.empty()) at += pose.translations_m[joint].cast<double>();
+        appendVector(text, kCentimetres * at);
+      }
+      appendVector(text, zxyDegrees(pose.rotations[joint]));
+    }
     text.erase(line, 1);  // the blank before the first number
     text += '\n';
   }

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
+#include "libskel/animation/sample_pose.h"
 #include "libskel/core/check.h"
 #include "libskel/export/joint_names.h"
 #include "libskel/export/write_character.h"
@@ -129,7 +131,8 @@ int addTextureCoordinates(GlbBuilder& glb, const TriangleMesh& mesh) {
   return glb.addAccessor(values, 2, TINYGLTF_TYPE_VEC2, TINYGLTF_TARGET_ARRAY_BUFFER, true);
 }
 
-// In units of 1/65535, with the sum that glTF asks for; the rounding falls on the heaviest.
+// In units of 1/65535, with the sum that glTF asks for; the rounding falls on the heaviest, which stays the
+// first.
 std::vector<std::uint16_t> quantizedWeights(const SkinWeights& weights) {
   std::vector<std::uint16_t> values;
   for (Eigen::Index i = 0; i < weights.weights.rows(); ++i) {
@@ -140,6 +143,7 @@ std::vector<std::uint16_t> quantizedWeights(const SkinWeights& weights) {
       left -= parts[k];
     }
     parts[0] = left;
+    std::sort(parts, parts + 4, std::greater<>());
     for (const int part : parts) values.push_back(std::uint16_t(part));
   }
   return values;
@@ -217,6 +221,11 @@ void addJoints(GlbBuilder& glb, const Skeleton& skeleton, JointNaming naming, in
     Vector3d local = rounded(joint.position);
     if (joint.parent >= 0) local = rounded(local - rounded(skeleton.joints[joint.parent].position));
     node.translation = {local.x(), local.y(), local.z()};
+    if (joint.tail) {
+      tinygltf::Value::Array tail;
+      for (const double value : rounded(*joint.tail)) tail.emplace_back(value);
+      node.extras = tinygltf::Value(tinygltf::Value::Object{{"tail", tinygltf::Value(tail)}});
+    }
     glb.model.nodes.push_back(node);
     if (joint.parent >= 0)
       glb.model.nodes[first + joint.parent].children.push_back(int(glb.model.nodes.size()) - 1);
@@ -251,7 +260,48 @@ void addChannel(tinygltf::Animation& animation, int node, const char* path, int 
   animation.channels.push_back(channel);
 }
 
-void addClip(GlbBuilder& glb, const Clip& clip, const RiggedCharacter& character, int first_joint) {
+// Where the root is over time, model frame, m: what the clip says in heights and what it says in metres.
+struct RootPath {
+  std::vector<float> times_s;
+  std::vector<Eigen::Vector3f> positions;
+};
+
+RootPath rootPath(const Clip& clip, const JointTrack* track, const Skeleton& skeleton, float height_m) {
+  RootPath path;
+  path.times_s = clip.root_times_s;
+  if (track) {
+    path.times_s.insert(path.times_s.end(), track->translation_times_s.begin(),
+                        track->translation_times_s.end());
+    std::sort(path.times_s.begin(), path.times_s.end());
+    path.times_s.erase(std::unique(path.times_s.begin(), path.times_s.end()), path.times_s.end());
+  }
+  const Eigen::Vector3f rest = rounded(skeleton.joints[0].position).cast<float>();
+  Clip root;
+  root.root_times_s = clip.root_times_s;
+  root.root_translations = clip.root_translations;
+  if (track) {
+    root.tracks = {*track};
+    root.tracks[0].times_s.clear();
+    root.tracks[0].rotations.clear();
+  }
+  for (const float time_s : path.times_s) {
+    const Pose pose = samplePose(root, skeleton, time_s);
+    Eigen::Vector3f at = rest + height_m * pose.root_translation;
+    if (!pose.translations_m.empty()) at += pose.translations_m[0];
+    path.positions.push_back(at);
+  }
+  return path;
+}
+
+std::vector<float> numbersOf(const std::vector<Eigen::Vector3f>& vectors) {
+  std::vector<float> values;
+  for (const Eigen::Vector3f& v : vectors) values.insert(values.end(), v.data(), v.data() + 3);
+  return values;
+}
+
+void addClip(GlbBuilder& glb, const Clip& any_clip, const RiggedCharacter& character, int first_joint) {
+  const Clip clip = withSlerp(any_clip);
+  const Skeleton& skeleton = character.skeleton;
   tinygltf::Animation animation;
   animation.name = clip.name;
   // Tracks that share their times share an accessor.
@@ -262,29 +312,51 @@ void addClip(GlbBuilder& glb, const Clip& clip, const RiggedCharacter& character
     time_accessors.emplace_back(times, glb.addBoundedAccessor(times, 1, TINYGLTF_TYPE_SCALAR, kNoTarget));
     return time_accessors.back().second;
   };
+  // An animation of glTF ends with its last key: the first channel holds its value until the clip's end.
+  bool first = true;
+  const auto channel = [&](int joint, const char* path, std::vector<float> times, std::vector<float> values,
+                           int width) {
+    if (first && times.back() < clip.duration_s() && clip.duration_s() == clip.least_duration_s) {
+      times.push_back(clip.duration_s());
+      const std::vector<float> last(values.end() - width, values.end());
+      values.insert(values.end(), last.begin(), last.end());
+    }
+    first = false;
+    const int input = timesAccessor(times);
+    const int type = width == 4 ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3;
+    addChannel(animation, first_joint + joint, path, input, glb.addAccessor(values, width, type, kNoTarget));
+  };
+  const JointTrack* root_track = nullptr;
   for (const JointTrack& track : clip.tracks) {
-    SKEL_CHECK_EQ(track.times_s.size(), track.rotations.size());
-    SKEL_CHECK(!track.times_s.empty());
-    std::vector<float> values;
-    for (const Eigen::Quaternionf& q : track.rotations)
-      values.insert(values.end(), {q.x(), q.y(), q.z(), q.w()});
-    const int times = timesAccessor(track.times_s);
-    addChannel(animation, first_joint + character.skeleton.index(track.joint), "rotation", times,
-               glb.addAccessor(values, 4, TINYGLTF_TYPE_VEC4, kNoTarget));
+    const int joint = skeleton.index(track.joint);
+    if (!track.times_s.empty()) {
+      SKEL_CHECK_EQ(track.times_s.size(), track.rotations.size());
+      std::vector<float> values;
+      for (const Eigen::Quaternionf& q : track.rotations)
+        values.insert(values.end(), {q.x(), q.y(), q.z(), q.w()});
+      channel(joint, "rotation", track.times_s, values, 4);
+    }
+    if (!track.translation_times_s.empty()) {
+      if (joint == 0) {
+        root_track = &track;
+      } else {
+        const Joint& self = skeleton.joints[joint];
+        const Eigen::Vector3f rest =
+            rounded(rounded(self.position) - rounded(skeleton.joints[self.parent].position)).cast<float>();
+        std::vector<Eigen::Vector3f> places = track.translations_m;
+        for (Eigen::Vector3f& place : places) place += rest;
+        channel(joint, "translation", track.translation_times_s, numbersOf(places), 3);
+      }
+    }
+    if (!track.scale_times_s.empty())
+      channel(joint, "scale", track.scale_times_s, numbersOf(track.scales), 3);
   }
-  if (!clip.root_times_s.empty()) {
+  if (root_track || !clip.root_times_s.empty()) {
     SKEL_CHECK_EQ(clip.root_times_s.size(), clip.root_translations.size());
     const float height =
         character.mesh.vertices.col(1).maxCoeff() - character.mesh.vertices.col(1).minCoeff();
-    const Eigen::Vector3f rest = rounded(character.skeleton.joints[0].position).cast<float>();
-    std::vector<float> values;
-    for (const Eigen::Vector3f& translation : clip.root_translations) {
-      const Eigen::Vector3f at = rest + height * translation;
-      values.insert(values.end(), at.data(), at.data() + 3);
-    }
-    const int times = timesAccessor(clip.root_times_s);
-    addChannel(animation, first_joint, "translation", times,
-               glb.addAccessor(values, 3, TINYGLTF_TYPE_VEC3, kNoTarget));
+    const RootPath path = rootPath(clip, root_track, skeleton, height);
+    channel(0, "translation", path.times_s, numbersOf(path.positions), 3);
   }
   if (!animation.channels.empty()) glb.model.animations.push_back(animation);
 }

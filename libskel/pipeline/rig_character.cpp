@@ -7,6 +7,7 @@
 #include "libskel/classifier/features.h"
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
+#include "libskel/deform/figure_shape.h"
 #include "libskel/jointnet/net_joints.h"
 #include "libskel/mesh/front_view.h"
 #include "libskel/recognition/paper_recognizer.h"
@@ -133,7 +134,12 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     drawing.character = timed("rest pose", [&] { return poseToRest(drawing.character, options.rest_pose); });
   drawing.clips = timed("clips", [&] {
     std::vector<Clip> clips;
-    for (const Clip& clip : options.clips) clips.push_back(retargetToRest(clip, drawing.character.skeleton));
+    if (options.clips.empty()) return clips;
+    const RiggedCharacter& character = drawing.character;
+    RetargetOptions retarget;
+    retarget.shape = measureFigure(character.mesh, character.weights, character.skeleton);
+    for (const Clip& clip : options.clips)
+      clips.push_back(retargetToRest(clip, character.skeleton, retarget));
     return clips;
   });
   return drawing;

@@ -120,8 +120,7 @@ Image views(const TriangleMesh& mesh) {
 Image posed(const RiggedDrawing& drawing, const Clip& clip, double share, int size) {
   const RiggedCharacter& character = drawing.character;
   const Pose pose = samplePose(clip, character.skeleton, static_cast<float>(share) * clip.duration_s());
-  const auto posed_from_rest = posedFromRest(character.skeleton, pose.rotations,
-                                             pose.root_translation * static_cast<float>(kModelHeight_m));
+  const auto posed_from_rest = posedFromRest(character.skeleton, pose, static_cast<float>(kModelHeight_m));
   const auto vertices = skinVertices(character.mesh.vertices, character.weights, posed_from_rest);
   return renderMesh(vertices, character.mesh, framingCamera(vertices, 0.4, 0.1),
                     {.width = size, .height = size});

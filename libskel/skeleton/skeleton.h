@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,9 @@ struct Joint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // model frame, m: y up, +z to the viewer
   double confidence = 0;                               // [0, 1]
   JointOrigin origin = JointOrigin::kCompleted;
+  // Where the bone that the joint moves ends, model frame, m, if a file says so: where one joint of a
+  // skeleton has a tail, those without move no bone of their own.
+  std::optional<Eigen::Vector3d> tail = std::nullopt;
 };
 
 // Left and right are the character's own: one that faces us has its right hand at the left of the image.

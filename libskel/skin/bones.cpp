@@ -25,6 +25,13 @@ std::vector<int> jointLimbs(const Skeleton& skeleton) {
 std::vector<Bone> skeletonBones(const Skeleton& skeleton) {
   std::vector<Bone> bones;
   const std::vector<int> limbs = jointLimbs(skeleton);
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const Joint& joint = skeleton.joints[j];
+    if (joint.tail)
+      bones.push_back(
+          {static_cast<int>(j), limbs[j], joint.position.cast<float>(), joint.tail->cast<float>()});
+  }
+  if (!bones.empty()) return bones;
   const int head = skeleton.find("head");
   const auto position = [&](int joint) -> Eigen::Vector3f {
     return skeleton.joints[joint].position.cast<float>();
@@ -50,6 +57,17 @@ std::vector<Bone> skeletonBones(const Skeleton& skeleton) {
     bones.push_back({joint, limbs[joint], here, tip});
   }
   return bones;
+}
+
+bool nearlyFlat(const std::vector<Bone>& bones) {
+  constexpr float kDeep = 0.25f;  // of the skeleton's size
+  Eigen::Array3f low = bones[0].from, high = low;
+  for (const Bone& bone : bones) {
+    low = low.min(bone.from.array()).min(bone.to.array());
+    high = high.max(bone.from.array()).max(bone.to.array());
+  }
+  const Eigen::Array3f size = high - low;
+  return size.z() <= kDeep * size.maxCoeff();
 }
 
 }  // namespace skel

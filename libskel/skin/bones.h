@@ -18,7 +18,11 @@ struct Bone {
 // -1: none.
 std::vector<int> jointLimbs(const Skeleton& skeleton);
 
-// In the order of the joints.
+// In the order of the joints: to their tails, or, where no joint has one, to their children (see
+// skin_weights.h).
 std::vector<Bone> skeletonBones(const Skeleton& skeleton);
+
+// Whether the bones lie about a plane that faces the viewer, as those of a drawing do.
+bool nearlyFlat(const std::vector<Bone>& bones);
 
 }  // namespace skel

@@ -8,7 +8,9 @@
 
 namespace skel {
 
-JointWeights euclideanWeights(const TriangleMesh& mesh, const std::vector<Bone>& bones, int joint_count) {
+JointWeights euclideanWeights(const SkinInput& input) {
+  const TriangleMesh& mesh = input.mesh;
+  const std::vector<Bone>& bones = input.bones;
   const int vertices = static_cast<int>(mesh.vertices.rows()), count = static_cast<int>(bones.size());
   BoneReaches reaches(vertices, count);
   // A bone's radius: that of most vertices that are nearest to it.
@@ -34,7 +36,7 @@ JointWeights euclideanWeights(const TriangleMesh& mesh, const std::vector<Bone>&
     const float reach = reachBeyondJoint(radius, edge_m);
     for (int v = 0; v < vertices; ++v) reaches(v, b).reach_m = reach;
   }
-  return weightsFromReaches(reaches, bones, joint_count);
+  return weightsFromReaches(reaches, bones, input.jointCount());
 }
 
 }  // namespace skel

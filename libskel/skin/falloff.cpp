@@ -19,12 +19,13 @@ float falloff(float beyond_m2, float reach_m) {
 
 }  // namespace
 
-JointWeights weightsFromReaches(const BoneReaches& reaches, const std::vector<Bone>& bones, int joint_count) {
+JointWeights weightsFromReaches(const BoneReaches& reaches, const std::vector<Bone>& bones, int joint_count,
+                                TrunkBones trunk) {
   struct Limb {
     const BoneReach *by_power, *by_distance;  // its nearest bones
   };
   const BoneReach no_way;
-  std::vector<Limb> limbs(joint_count);
+  std::vector<Limb> limbs(joint_count + 1);  // the last one: the trunk
   JointWeights weights = JointWeights::Zero(reaches.rows(), joint_count);
   for (Eigen::Index v = 0; v < reaches.rows(); ++v) {
     std::fill(limbs.begin(), limbs.end(), Limb{&no_way, &no_way});
@@ -33,8 +34,7 @@ JointWeights weightsFromReaches(const BoneReaches& reaches, const std::vector<Bo
     for (Eigen::Index b = 0; b < reaches.cols(); ++b) {
       const BoneReach& bone = reaches(v, b);
       if (bone.power_m2 < nearest->power_m2) nearest = &bone, nearest_limb = bones[b].limb;
-      if (bones[b].limb < 0) continue;
-      Limb& limb = limbs[bones[b].limb];
+      Limb& limb = limbs[bones[b].limb < 0 ? joint_count : bones[b].limb];
       if (bone.power_m2 < limb.by_power->power_m2) limb.by_power = &bone;
       if (bone.distance_m2 < limb.by_distance->distance_m2) limb.by_distance = &bone;
     }
@@ -42,7 +42,9 @@ JointWeights weightsFromReaches(const BoneReaches& reaches, const std::vector<Bo
       const BoneReach& bone = reaches(v, b);
       if (bone.distance_m2 == no_way.distance_m2) continue;
       const bool of_limb = bones[b].limb >= 0;
-      const Limb limb = of_limb ? limbs[bones[b].limb] : Limb{&bone, &bone};
+      const Limb limb = of_limb                         ? limbs[bones[b].limb]
+                        : trunk == TrunkBones::kOneLimb ? limbs[joint_count]
+                                                        : Limb{&bone, &bone};
       const bool foreign = of_limb && nearest_limb >= 0 && bones[b].limb != nearest_limb;
       // The thinner of two says how far: the trunk does not reach far down an arm.
       const float share =

@@ -22,12 +22,19 @@ using BoneReaches = Eigen::Array<BoneReach, Eigen::Dynamic, Eigen::Dynamic, Eige
 // #V×#joints, not negative, any sum. A row of zeros: no bone reaches the vertex.
 using JointWeights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+// How the bones of the trunk part among themselves.
+enum class TrunkBones {
+  kEach,     // like limbs from each other: the body of a drawing
+  kOneLimb,  // like the bones of one limb: a spine of many bones, which runs on into the neck
+};
+
 // The nearest bone and those hardly farther share a vertex. Where bones meet end to end, the difference of
 // the squared distances, d² − d_min², is the square of how far the vertex lies beyond the joint along the
 // limb, whatever its place around the limb: a weight that is a function of it bends limbs like a joint.
 // Powers part the limbs from the trunk and from each other, distances the bones of one limb: an upper arm,
 // the thicker, would take the elbow with it by its power.
-JointWeights weightsFromReaches(const BoneReaches& reaches, const std::vector<Bone>& bones, int joint_count);
+JointWeights weightsFromReaches(const BoneReaches& reaches, const std::vector<Bone>& bones, int joint_count,
+                                TrunkBones trunk = TrunkBones::kEach);
 
 // How far beyond a joint the weights reach in a body of this half thickness, on a mesh with edges of this
 // length.

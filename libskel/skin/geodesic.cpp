@@ -8,6 +8,8 @@
 //
 // A bone is a row of balls, each as large as the body is deep there, and its distance is a ball's power, d² −
 // r²: the flank of a fat body is the body's, however near the upper arm may be.
+//
+// Skeletons that reach far into the depth, those of models of a user's own, go by volumetric.h.
 #include "libskel/skin/methods.h"
 
 #include <algorithm>
@@ -17,6 +19,8 @@
 #include <limits>
 
 #include "libskel/core/segment.h"
+#include "libskel/skin/fronts.h"
+#include "libskel/skin/volumetric.h"
 
 namespace skel {
 namespace {
@@ -206,38 +210,12 @@ struct Profile {
   }
 };
 
-// The fronts of all ways, nearest first but for differences below `step`.
-class Fronts {
- public:
-  struct Front {
-    float distance;
-    int vertex, bone;
-  };
-  explicit Fronts(float step) : step_(step) {}
-  void push(const Front& front) {
-    const std::size_t bucket = std::max(current_, static_cast<std::size_t>(front.distance / step_));
-    if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
-    buckets_[bucket].push_back(front);
-  }
-  bool pop(Front& front) {
-    while (current_ < buckets_.size() && next_ == buckets_[current_].size()) {
-      buckets_[current_++].clear();
-      next_ = 0;
-    }
-    if (current_ == buckets_.size()) return false;
-    front = buckets_[current_][next_++];
-    return true;
-  }
-
- private:
-  float step_;
-  std::vector<std::vector<Front>> buckets_;
-  std::size_t current_ = 0, next_ = 0;
-};
-
 }  // namespace
 
-JointWeights geodesicWeights(const TriangleMesh& mesh, const std::vector<Bone>& bones, int joint_count) {
+JointWeights geodesicWeights(const SkinInput& input) {
+  const TriangleMesh& mesh = input.mesh;
+  const std::vector<Bone>& bones = input.bones;
+  if (!nearlyFlat(bones)) return volumetricWeights(input);
   const Graph graph = buildGraph(mesh);
   const float edge_m = meanEdge(mesh);
   const TriangleBins bins(mesh);
@@ -312,10 +290,10 @@ JointWeights geodesicWeights(const TriangleMesh& mesh, const std::vector<Bone>& 
     return beyond > 0 && beyond * beyond > kDetour * kDetour * (first2[vertex] + spare2[bone]);
   };
   for (Fronts::Front front; fronts.pop(front);) {
-    if (front.distance > way(front.vertex, front.bone)) continue;
-    first2[front.vertex] = std::min(first2[front.vertex], front.distance * front.distance);
-    if (useless(front.vertex, front.bone, front.distance)) continue;
-    for (int k = graph.first[front.vertex]; k < graph.first[front.vertex + 1]; ++k) {
+    if (front.distance > way(front.place, front.bone)) continue;
+    first2[front.place] = std::min(first2[front.place], front.distance * front.distance);
+    if (useless(front.place, front.bone, front.distance)) continue;
+    for (int k = graph.first[front.place]; k < graph.first[front.place + 1]; ++k) {
       const int to = graph.arcs[k].to;
       const float distance = front.distance + graph.arcs[k].length;
       if (distance < way(to, front.bone) && !useless(to, front.bone, distance))
@@ -334,7 +312,7 @@ JointWeights geodesicWeights(const TriangleMesh& mesh, const std::vector<Bone>& 
                        reachBeyondJoint(std::sqrt(ball.depth2), edge_m)};
     }
   }
-  return weightsFromReaches(reaches, bones, joint_count);
+  return weightsFromReaches(reaches, bones, input.jointCount());
 }
 
 }  // namespace skel

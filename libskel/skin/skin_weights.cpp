@@ -6,7 +6,10 @@
 #include "libskel/core/check.h"
 #include "libskel/skin/bones.h"
 #include "libskel/skin/methods.h"
+#include "libskel/skin/parts.h"
+#include "libskel/skin/smooth.h"
 #include "libskel/skin/soften.h"
+#include "libskel/skin/welding.h"
 
 namespace skel {
 namespace {
@@ -15,10 +18,15 @@ struct Method {
   SkinMethod method;
   std::string_view name;
   SkinFunction* weights;
+  bool soft;          // made to bend without creases (soften.h)
+  bool parts_follow;  // parts of the mesh without a bone go with what they touch
 };
 constexpr Method kMethods[] = {
-    {SkinMethod::kGeodesic, "geodesic", geodesicWeights},
-    {SkinMethod::kEuclidean, "euclidean", euclideanWeights},
+    {SkinMethod::kGeodesic, "geodesic", geodesicWeights, true, true},
+    {SkinMethod::kHeat, "heat", heatWeights, false, true},
+    {SkinMethod::kEuclidean, "euclidean", euclideanWeights, true, false},
+    {SkinMethod::kIdw, "idw", idwWeights, false, false},
+    {SkinMethod::kIdwRegion, "idw-region", idwRegionWeights, false, false},
 };
 
 const Method& find(SkinMethod method) {
@@ -27,6 +35,8 @@ const Method& find(SkinMethod method) {
   SKEL_CHECK(found != std::end(kMethods));
   return *found;
 }
+
+constexpr int kSmoothing = 6;  // rounds, of weights that come by distance alone
 
 // Rows of zeros become those of the nearest vertex that has weights.
 void fillFromNearest(const Eigen::MatrixX3f& vertices, JointWeights& weights) {
@@ -54,6 +64,54 @@ void fillFromNearest(const Eigen::MatrixX3f& vertices, JointWeights& weights) {
   }
 }
 
+// The parts of a mesh that have bones, with one vertex at each place.
+struct Body {
+  TriangleMesh mesh;
+  std::vector<int> rows;  // of the whole mesh's vertices, -1: of another part
+
+  Body(const TriangleMesh& whole, const Welding& welding, const MeshParts& parts,
+       const std::vector<char>& with_bones) {
+    std::vector<int> of_place(static_cast<std::size_t>(welding.count()), -1), vertices;
+    for (int place = 0; place < welding.count(); ++place) {
+      const int vertex = welding.vertex(place);
+      if (!with_bones[static_cast<std::size_t>(parts.of_vertex[static_cast<std::size_t>(vertex)])]) continue;
+      of_place[static_cast<std::size_t>(place)] = static_cast<int>(vertices.size());
+      vertices.push_back(vertex);
+    }
+    for (int v = 0; v < whole.vertices.rows(); ++v)
+      rows.push_back(of_place[static_cast<std::size_t>(welding.place(v))]);
+    mesh.vertices = whole.vertices(vertices, Eigen::all);
+    mesh.triangles.resize(whole.triangles.rows(), 3);
+    Eigen::Index count = 0;
+    for (Eigen::Index t = 0; t < whole.triangles.rows(); ++t) {
+      Eigen::RowVector3i corners = whole.triangles.row(t);
+      for (int& corner : corners) corner = rows[static_cast<std::size_t>(corner)];
+      if (corners[0] < 0 || corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+        continue;
+      mesh.triangles.row(count++) = corners;
+    }
+    mesh.triangles.conservativeResize(count, 3);
+  }
+};
+
+// Rows that sum to 1, with at most so many weights as the options allow.
+JointWeights bodyWeights(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<Bone>& bones,
+                         const Method& way, const SkinOptions& options) {
+  JointWeights weights = way.weights({mesh, skeleton, bones, options});
+  fillFromNearest(mesh.vertices, weights);
+  // What is known of bends is known of drawings, whose limbs bend in their plane or out of it.
+  const bool flat = nearlyFlat(bones);
+  if (way.soft && flat) {
+    softenWeights(mesh, skeleton, options.max_influences, weights);
+  } else if (way.soft) {
+    partLimbs(skeleton, jointLimbs(skeleton), weights);
+    smoothWeights(mesh, kSmoothing, weights);
+  }
+  if (options.smoothing > 0) smoothWeights(mesh, options.smoothing, weights);
+  if (!way.soft || !flat || options.smoothing > 0) keepHeaviest(options.max_influences, weights);
+  return weights;
+}
+
 }  // namespace
 
 std::vector<SkinMethod> skinMethods() {
@@ -73,10 +131,25 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
   result.joints.setZero(mesh.vertices.rows(), 4);
   result.weights.setZero(mesh.vertices.rows(), 4);
   if (mesh.vertices.rows() == 0) return result;
+  SKEL_CHECK(mesh.vertices.allFinite());
 
-  JointWeights weights = find(method).weights(mesh, skeletonBones(skeleton), joint_count);
-  fillFromNearest(mesh.vertices, weights);
-  softenWeights(mesh, skeleton, options.max_influences, weights);
+  const Method& way = find(method);
+  const std::vector<Bone> bones = skeletonBones(skeleton);
+  const Welding welding(mesh.vertices);
+  const MeshParts parts = meshParts(mesh, welding);
+  std::vector<char> with_bones(static_cast<std::size_t>(parts.count), 1);
+  if (way.parts_follow && parts.count > 1) with_bones = partsWithBones(mesh, parts, bones);
+  JointWeights weights;
+  if (parts.count == 1 && welding.count() == mesh.vertices.rows()) {
+    weights = bodyWeights(mesh, skeleton, bones, way, options);
+  } else {
+    const Body body(mesh, welding, parts, with_bones);
+    const JointWeights of_body = bodyWeights(body.mesh, skeleton, bones, way, options);
+    weights = JointWeights::Zero(mesh.vertices.rows(), joint_count);
+    for (Eigen::Index v = 0; v < weights.rows(); ++v)
+      if (const int row = body.rows[static_cast<std::size_t>(v)]; row >= 0) weights.row(v) = of_body.row(row);
+    followTouchedParts(mesh, parts, with_bones, weights);
+  }
   std::vector<int> order;
   for (Eigen::Index v = 0; v < weights.rows(); ++v) {
     order.clear();

@@ -3,11 +3,13 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <string_view>
 #include <vector>
 
 #include "libskel/mesh/triangle_mesh.h"
 #include "libskel/skeleton/skeleton.h"
+#include "libskel/skin/regions.h"
 
 namespace skel {
 
@@ -20,7 +22,10 @@ struct SkinWeights {
 
 enum class SkinMethod {
   kGeodesic,   // by distance from the bone measured inside the body
+  kHeat,       // bone heat, Baran & Popović (2007)
   kEuclidean,  // by distance through the air, for comparison
+  kIdw,        // inverse distance to the 4 nearest bones
+  kIdwRegion,  // the same, among regions of the body that may mix
 };
 
 // All of them, and their names on the command line.
@@ -29,11 +34,16 @@ std::string_view skinMethodName(SkinMethod method);
 
 struct SkinOptions {
   int max_influences = 4;  // 1…4
+  // How often each vertex moves half way to the mean of its neighbours, at last; 0…1000.
+  int smoothing = 0;
+  std::shared_ptr<const SkinRegions> regions;  // of kIdwRegion; null: defaultRegions()
 };
 
-// A joint moves the segment from itself to its child; a leaf owns a short tip segment beyond it; the head
-// also owns the upper half of the segment that leads to it. Any mesh will do: open, in several parts.
-// Vertices that no bone reaches take the weights of the nearest one that is reached.
+// A joint moves the segment from itself to its tail if it has one; else to its child, a leaf a short tip
+// segment beyond it, and the head also the upper half of the segment that leads to it. Any mesh will do:
+// open, in several parts, with several vertices at one place, its faces turned as they like. By kGeodesic and
+// kHeat, a part without a bone in it follows one joint of the part that it touches (parts.h). Vertices that
+// no bone reaches take the weights of the nearest one that is reached.
 SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleton, SkinMethod method,
                                const SkinOptions& options = {});
 

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "libskel/skin/bones.h"
+#include "libskel/skin/edges.h"
 
 namespace skel {
 namespace {
@@ -33,34 +34,6 @@ constexpr float kTighter = 0.7f;         // by how much the weights change less 
 constexpr float kClear = 0.01f;          // of a triangle's area: thinner than that, it counts as inside out
 constexpr int kRounds = 16;              // of all limits in turn
 constexpr int kTries = 40, kSweeps = 60;  // of smoothing and cutting, of smoothing
-
-struct Edges {
-  std::vector<int> first, to;  // of vertex v: to[first[v]] … to[first[v + 1] - 1], ascending
-};
-
-Edges edgesOf(const TriangleMesh& mesh) {
-  const int vertices = static_cast<int>(mesh.vertices.rows());
-  std::vector<int> start(vertices + 1, 0);
-  for (const int v : mesh.triangles.reshaped()) start[v + 1] += 2;
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<int> all(start.back()), next(start.begin(), start.end() - 1);
-  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = mesh.triangles(t, k), b = mesh.triangles(t, (k + 1) % 3);
-      all[next[a]++] = b, all[next[b]++] = a;
-    }
-  }
-  Edges edges;
-  edges.first.push_back(0);
-  edges.to.reserve(all.size() / 2);
-  for (int v = 0; v < vertices; ++v) {
-    const auto begin = all.begin() + start[v], end = all.begin() + start[v + 1];
-    std::sort(begin, end);
-    edges.to.insert(edges.to.end(), begin, std::unique(begin, end));
-    edges.first.push_back(static_cast<int>(edges.to.size()));
-  }
-  return edges;
-}
 
 // The joints each of which bends the middle of a limb.
 struct Hinge {
@@ -218,36 +191,6 @@ bool tighten(const TriangleMesh& mesh, const Skeleton& skeleton, const Edges& ed
   return true;
 }
 
-// Where two limbs share a vertex, what the weaker has goes, from both, to the trunk that they hang on.
-void partLimbs(const Skeleton& skeleton, const std::vector<int>& limbs, JointWeights& weights) {
-  const int joints = static_cast<int>(weights.cols());
-  std::vector<int> trunk(joints, -1);  // by limb
-  for (int joint = joints - 1; joint > 0; --joint) {
-    if (limbs[joint] >= 0) trunk[limbs[joint]] = skeleton.joints[joint].parent;
-  }
-  std::vector<float> sums(joints);
-  for (Eigen::Index v = 0; v < weights.rows(); ++v) {
-    std::fill(sums.begin(), sums.end(), 0.0f);
-    for (int joint = 0; joint < joints; ++joint) {
-      if (limbs[joint] >= 0) sums[limbs[joint]] += weights(v, joint);
-    }
-    const int first = static_cast<int>(std::max_element(sums.begin(), sums.end()) - sums.begin());
-    float second = 0;
-    for (int limb = 0; limb < joints; ++limb) {
-      if (limb != first) second = std::max(second, sums[limb]);
-    }
-    if (second == 0) continue;
-    for (int joint = 0; joint < joints; ++joint) {
-      const int limb = limbs[joint];
-      if (limb < 0) continue;
-      weights(v, joint) *= limb == first ? 1 - second / sums[first] : 0;
-    }
-    for (int limb = 0; limb < joints; ++limb) {
-      if (sums[limb] > 0) weights(v, trunk[limb]) += limb == first ? second : sums[limb];
-    }
-  }
-}
-
 // The rows at the ends of an edge come nearer to each other until no edge sees too large a change. `waiting`:
 // where to begin; becomes the vertices whose rows changed, ascending.
 void smoothEdges(const Edges& edges, std::vector<int>& waiting, JointWeights& weights) {
@@ -326,6 +269,35 @@ void cutInfluences(const Skeleton& skeleton, const std::vector<Hinge>& bends, in
 
 }  // namespace
 
+void partLimbs(const Skeleton& skeleton, const std::vector<int>& limbs, JointWeights& weights) {
+  const int joints = static_cast<int>(weights.cols());
+  std::vector<int> trunk(joints, -1);  // by limb
+  for (int joint = joints - 1; joint > 0; --joint) {
+    if (limbs[joint] >= 0) trunk[limbs[joint]] = skeleton.joints[joint].parent;
+  }
+  std::vector<float> sums(joints);
+  for (Eigen::Index v = 0; v < weights.rows(); ++v) {
+    std::fill(sums.begin(), sums.end(), 0.0f);
+    for (int joint = 0; joint < joints; ++joint) {
+      if (limbs[joint] >= 0) sums[limbs[joint]] += weights(v, joint);
+    }
+    const int first = static_cast<int>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+    float second = 0;
+    for (int limb = 0; limb < joints; ++limb) {
+      if (limb != first) second = std::max(second, sums[limb]);
+    }
+    if (second == 0) continue;
+    for (int joint = 0; joint < joints; ++joint) {
+      const int limb = limbs[joint];
+      if (limb < 0) continue;
+      weights(v, joint) *= limb == first ? 1 - second / sums[first] : 0;
+    }
+    for (int limb = 0; limb < joints; ++limb) {
+      if (sums[limb] > 0) weights(v, trunk[limb]) += limb == first ? second : sums[limb];
+    }
+  }
+}
+
 void softenWeights(const TriangleMesh& mesh, const Skeleton& skeleton, int max_influences,
                    JointWeights& weights) {
   const std::vector<int> limbs = jointLimbs(skeleton);
@@ -337,7 +309,7 @@ void softenWeights(const TriangleMesh& mesh, const Skeleton& skeleton, int max_i
     cutInfluences(skeleton, bends, max_influences, true, all, weights);
     return;
   }
-  const Edges edges = edgesOf(mesh);
+  const Edges edges = edgesOf(static_cast<int>(mesh.vertices.rows()), mesh.triangles);
   for (Hinge& hinge : bends) hinge.allowed.assign(edges.to.size(), -1);
   const float size = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).maxCoeff();
   const bool fine = meanEdge(mesh) < kFineMesh * size;

@@ -16,4 +16,7 @@ namespace skel {
 void softenWeights(const TriangleMesh& mesh, const Skeleton& skeleton, int max_influences,
                    JointWeights& weights);
 
+// Where two limbs share a vertex, what the weaker has goes, from both, to the trunk that they hang on.
+void partLimbs(const Skeleton& skeleton, const std::vector<int>& limbs, JointWeights& weights);
+
 }  // namespace skel

@@ -21,10 +21,11 @@ using Code = ImGuiKey;
 inline constexpr Code k0 = SKEL_KEY(0, 0), k1 = SKEL_KEY(1, 1), k2 = SKEL_KEY(2, 2), k3 = SKEL_KEY(3, 3),
                       k4 = SKEL_KEY(4, 4);
 inline constexpr Code kA = SKEL_KEY(A, A), kB = SKEL_KEY(B, B), kC = SKEL_KEY(C, C), kD = SKEL_KEY(D, D),
-                      kF = SKEL_KEY(F, F), kH = SKEL_KEY(H, H), kJ = SKEL_KEY(J, J), kL = SKEL_KEY(L, L),
-                      kM = SKEL_KEY(M, M), kN = SKEL_KEY(N, N), kP = SKEL_KEY(P, P), kR = SKEL_KEY(R, R),
+                      kE = SKEL_KEY(E, E), kF = SKEL_KEY(F, F), kG = SKEL_KEY(G, G), kH = SKEL_KEY(H, H),
+                      kJ = SKEL_KEY(J, J), kK = SKEL_KEY(K, K), kL = SKEL_KEY(L, L), kM = SKEL_KEY(M, M),
+                      kN = SKEL_KEY(N, N), kO = SKEL_KEY(O, O), kP = SKEL_KEY(P, P), kR = SKEL_KEY(R, R),
                       kS = SKEL_KEY(S, S), kT = SKEL_KEY(T, T), kU = SKEL_KEY(U, U), kV = SKEL_KEY(V, V),
-                      kX = SKEL_KEY(X, X), kY = SKEL_KEY(Y, Y), kZ = SKEL_KEY(Z, Z);
+                      kW = SKEL_KEY(W, W), kX = SKEL_KEY(X, X), kY = SKEL_KEY(Y, Y), kZ = SKEL_KEY(Z, Z);
 inline constexpr Code kLeft = SKEL_KEY(LeftArrow, LEFT), kRight = SKEL_KEY(RightArrow, RIGHT),
                       kUp = SKEL_KEY(UpArrow, UP), kDown = SKEL_KEY(DownArrow, DOWN),
                       kPageUp = SKEL_KEY(PageUp, PAGE_UP), kPageDown = SKEL_KEY(PageDown, PAGE_DOWN);

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/segment.h"
 #include "tests/support/catch.h"
@@ -52,7 +52,7 @@ const FigurePose kDrawnPoses[] = {
 
 TEST_CASE(
     "however the arms were drawn, the wave begins and ends in the drawn pose and looks the same between") {
-  const Clip& wave = builtinClip("wave");
+  const Clip& wave = clipNamed(builtinClips(), "wave");
   const Skeleton straight = figureSkeleton({.right_arm = 0, .right_forearm = 0, .leg = 0});
   const Clip reference = retargetToRest(wave, straight);
   for (const FigurePose& pose : kDrawnPoses) {
@@ -77,7 +77,7 @@ TEST_CASE(
 
 TEST_CASE("the waving hand is up beside the head and goes to and fro") {
   const Skeleton skeleton = figureSkeleton();
-  const Clip clip = retargetToRest(builtinClip("wave"), skeleton);
+  const Clip clip = retargetToRest(clipNamed(builtinClips(), "wave"), skeleton);
   double left = 1e9, right = -1e9;
   for (float time_s = 0.7f; time_s <= 2.1f; time_s += 0.05f) {
     const auto at = positions(clip, skeleton, time_s);
@@ -95,7 +95,7 @@ TEST_CASE("the waving forearm keeps off the head, however large it is") {
     for (FigurePose pose : kDrawnPoses) {
       pose.head_radius = radius;
       const Skeleton skeleton = figureSkeleton(pose);
-      const Clip& wave = builtinClip("wave");
+      const Clip& wave = clipNamed(builtinClips(), "wave");
       const Clip clip = retargetToRest(wave, skeleton);
       for (float time_s = wave.lead_s; time_s <= wave.duration_s() - wave.lead_s; time_s += 0.05f) {
         const auto at = positions(clip, skeleton, time_s);
@@ -109,7 +109,7 @@ TEST_CASE("the waving forearm keeps off the head, however large it is") {
 TEST_CASE("on the way up the arm never crosses the trunk") {
   for (const FigurePose& pose : kDrawnPoses) {
     const Skeleton skeleton = figureSkeleton(pose);
-    const Clip& wave = builtinClip("wave");
+    const Clip& wave = clipNamed(builtinClips(), "wave");
     const Clip clip = retargetToRest(wave, skeleton);
     const double drawn = skeleton.joints[skeleton.index("right_elbow")].position.x();
     for (float time_s = 0; time_s <= wave.duration_s(); time_s += 0.02f)
@@ -119,7 +119,7 @@ TEST_CASE("on the way up the arm never crosses the trunk") {
 }
 
 TEST_CASE("keys are dense enough that slerp between them is the motion") {
-  const Clip& wave = builtinClip("wave");
+  const Clip& wave = clipNamed(builtinClips(), "wave");
   for (const FigurePose& pose : kDrawnPoses) {
     const Skeleton skeleton = figureSkeleton(pose);
     const Clip clip = retargetToRest(wave, skeleton), fine = retargetToRest(wave, skeleton, {.rate_hz = 480});
@@ -132,7 +132,8 @@ TEST_CASE("keys are dense enough that slerp between them is the motion") {
 
 TEST_CASE("a clip that is retargeted already stays as it is") {
   const Skeleton skeleton = figureSkeleton(kDrawnPoses[2]);
-  const Clip once = retargetToRest(builtinClip("wave"), skeleton), twice = retargetToRest(once, skeleton);
+  const Clip once = retargetToRest(clipNamed(builtinClips(), "wave"), skeleton),
+             twice = retargetToRest(once, skeleton);
   for (std::size_t t = 0; t < once.tracks.size(); ++t)
     for (std::size_t k = 0; k < once.tracks[t].rotations.size(); ++k)
       CHECK(once.tracks[t].rotations[k].isApprox(twice.tracks[t].rotations[k], 1e-4f));
@@ -141,15 +142,15 @@ TEST_CASE("a clip that is retargeted already stays as it is") {
 TEST_CASE("bones out of the picture's plane are met as well, and coincident joints do no harm") {
   Skeleton skeleton = figureSkeleton({.right_arm = 60});
   skeleton.joints[skeleton.index("right_hand")].position.z() = 0.2;
-  const Clip clip = retargetToRest(builtinClip("wave"), skeleton, {.clear_of_head = false});
+  const Clip clip = retargetToRest(clipNamed(builtinClips(), "wave"), skeleton, {.clear_of_head = false});
   const Skeleton straight = figureSkeleton({.right_arm = 0, .right_forearm = 0});
-  const Clip expected = retargetToRest(builtinClip("wave"), straight, {.clear_of_head = false});
+  const Clip expected = retargetToRest(clipNamed(builtinClips(), "wave"), straight, {.clear_of_head = false});
   CHECK((bone(positions(clip, skeleton, 1.3f), skeleton, "right_elbow", "right_hand") -
          bone(positions(expected, straight, 1.3f), straight, "right_elbow", "right_hand"))
             .norm() < 0.02);
 
   for (Joint& joint : skeleton.joints) joint.position.setZero();
-  for (const JointTrack& track : retargetToRest(builtinClip("wave"), skeleton).tracks)
+  for (const JointTrack& track : retargetToRest(clipNamed(builtinClips(), "wave"), skeleton).tracks)
     for (const Eigen::Quaternionf& rotation : track.rotations) CHECK(rotation.norm() == Approx(1));
 }
 

@@ -1,6 +1,6 @@
 #include "libskel/animation/sample_pose.h"
 
-#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/core/error.h"
 #include "tests/support/catch.h"
 #include "tests/support/figure.h"
@@ -31,10 +31,57 @@ TEST_CASE("a pose is between its keys, and holds before the first and after the 
       CHECK(samplePose(clip, skeleton, 1).rotations[j].isApprox(Eigen::Quaternionf::Identity()));
 }
 
+TEST_CASE("joints move out of their places and change their size by keys of their own") {
+  Clip clip;
+  JointTrack track;
+  track.joint = "head";
+  track.translation_times_s = {1, 3};
+  track.translations_m = {{0, 0, 0}, {0, 4, 0}};
+  track.scale_times_s = {0, 1};
+  track.scales = {{1, 1, 1}, {3, 1, 1}};
+  clip.tracks = {track};
+  const Skeleton skeleton = figureSkeleton();
+  const std::size_t head = std::size_t(skeleton.index("head"));
+  CHECK(clip.duration_s() == 3);
+  const Pose pose = samplePose(clip, skeleton, 2);
+  CHECK(pose.translations_m[head] == Eigen::Vector3f(0, 2, 0));
+  CHECK(pose.scales[head] == Eigen::Vector3f(3, 1, 1));
+  CHECK(samplePose(clip, skeleton, 0.5f).scales[head].x() == Approx(2));
+  CHECK(pose.translations_m[0].isZero());
+  CHECK(pose.scales[0] == Eigen::Vector3f::Ones());
+  CHECK(pose.rotations[head].isApprox(Eigen::Quaternionf::Identity()));
+  clip.least_duration_s = 7;
+  CHECK(clip.duration_s() == 7);
+}
+
+TEST_CASE("angles turn beyond half a circle, and slerp of even keys is the same motion") {
+  Clip clip;
+  JointTrack track;
+  track.joint = "head";
+  track.times_s = {0, 2};
+  track.angles_rad = {{0, 0, 0}, {0, 0, 6}};
+  for (const Eigen::Vector3f& angles : track.angles_rad) track.rotations.push_back(rotationOfAngles(angles));
+  clip.tracks = {track};
+  const Skeleton skeleton = figureSkeleton();
+  const std::size_t head = std::size_t(skeleton.index("head"));
+  const auto up = [&](const Clip& of, float time_s) {
+    return Eigen::Vector3f(samplePose(of, skeleton, time_s).rotations[head] * Eigen::Vector3f::UnitY());
+  };
+  // The shorter way is backwards.
+  CHECK((up(clip, 1) - rotationOfAngles({0, 0, 3 - float(M_PI)}) * Eigen::Vector3f::UnitY()).norm() < 1e-5f);
+  clip.interpolation = RotationInterpolation::kAngles;
+  CHECK((up(clip, 1) - rotationOfAngles({0, 0, 3}) * Eigen::Vector3f::UnitY()).norm() < 1e-5f);
+  const Clip even = withSlerp(clip);
+  CHECK(even.interpolation == RotationInterpolation::kSlerp);
+  for (float time_s = 0; time_s <= 2; time_s += 0.07f)
+    CHECK((up(clip, time_s) - up(even, time_s)).norm() < 1e-3f);
+  CHECK(rotationOfAngles({0.3f, 0.2f, 0.1f}).toRotationMatrix()(2, 0) == Approx(-std::sin(0.2f)));
+}
+
 TEST_CASE("each body plan has clips of its own") {
   const auto names = [](const std::string& body_plan) {
     std::vector<std::string> list;
-    for (const Clip& clip : builtinClipsFor(loadTemplate(body_plan))) list.push_back(clip.name);
+    for (const Clip& clip : clipsFor(builtinClips(), loadTemplate(body_plan))) list.push_back(clip.name);
     return list;
   };
   CHECK(names("biped") == std::vector<std::string>{"wave"});
@@ -44,8 +91,9 @@ TEST_CASE("each body plan has clips of its own") {
 TEST_CASE("a clip for another body plan is refused by name") {
   Skeleton skeleton = figureSkeleton();
   skeleton.joints[skeleton.index("right_elbow")].name = "fin";
-  CHECK_THROWS_WITH(samplePose(builtinClip("wave"), skeleton, 0),
+  CHECK_THROWS_WITH(samplePose(clipNamed(builtinClips(), "wave"), skeleton, 0),
                     "the clip \"wave\" moves \"right_elbow\", which this skeleton lacks; use a clip for the "
                     "template \"biped\"");
-  CHECK_THROWS_WITH(builtinClip("fly"), "there is no clip \"fly\"; there are: wave, wag, gallop");
+  CHECK_THROWS_WITH(clipNamed(builtinClips(), "fly"),
+                    "there is no clip \"fly\"; there are: wave, wag, gallop");
 }

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/core/error.h"
 #include "libskel/image/read_image.h"
@@ -17,7 +17,7 @@ namespace {
 
 struct Fixture {
   RiggedCharacter character = figure();
-  std::vector<Clip> clips = {retargetToRest(builtinClip("wave"), character.skeleton)};
+  std::vector<Clip> clips = {retargetToRest(clipNamed(builtinClips(), "wave"), character.skeleton)};
   Image drawing{600, 560};
   Plane8 mask = Plane8::Zero(560, 600);
   ExportInput input{character, clips, {"bob"}, &drawing, &mask};

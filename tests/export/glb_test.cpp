@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/export/joint_names.h"
 #include "libskel/export/write_character.h"
@@ -143,7 +143,7 @@ void checkStructure(const Glb& glb, const RiggedCharacter& character) {
 
 TEST_CASE("a GLB holds the mesh, its skin, its texture and its clips") {
   const RiggedCharacter character = figure();
-  const Clip wave = retargetToRest(builtinClip("wave"), character.skeleton);
+  const Clip wave = retargetToRest(clipNamed(builtinClips(), "wave"), character.skeleton);
   const std::string bytes = encodeGlb(character, {wave}, {"figure"});
   const Glb glb = parseGlb(bytes);
   checkStructure(glb, character);
@@ -166,6 +166,53 @@ TEST_CASE("a GLB holds the mesh, its skin, its texture and its clips") {
     CHECK(numbers(glb, sampler["output"]).size() == 4 * times.size());
   }
   CHECK(bytes == encodeGlb(character, {wave}, {"figure"}));
+}
+
+TEST_CASE("a GLB says where joints go and how large they are, and lasts as long as the clip") {
+  const RiggedCharacter character = figure();
+  const int head = character.skeleton.index("head");
+  Clip clip;
+  clip.name = "grow";
+  clip.least_duration_s = 3;
+  clip.root_times_s = {0, 2};
+  clip.root_translations = {{0, 0, 0}, {0, 1, 0}};
+  JointTrack track;
+  track.joint = "pelvis";
+  track.translation_times_s = {0, 1, 2};
+  track.translations_m = {{0, 0, 0}, {0, 0, 1}, {0, 0, 0}};
+  clip.tracks.push_back(track);
+  track.joint = "head";
+  track.translation_times_s = {0, 1};
+  track.translations_m = {{0, 0, 0}, {0.5f, 0, 0}};
+  track.scale_times_s = {0};
+  track.scales = {{2, 2, 2}};
+  clip.tracks.push_back(track);
+  const Glb glb = parseGlb(encodeGlb(character, {clip}, {"figure"}));
+  const json& animation = glb.document["animations"][0];
+  std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> channels;
+  for (const json& channel : animation["channels"]) {
+    const json& sampler = animation["samplers"][channel["sampler"].get<int>()];
+    const json& target = channel["target"];
+    const std::string joint = glb.document["nodes"][target["node"].get<int>()]["name"];
+    channels[joint + "." + target["path"].get<std::string>()] = {numbers(glb, sampler["input"]),
+                                                                 numbers(glb, sampler["output"])};
+  }
+  CHECK(channels.size() == 3);
+  const auto& [head_times, places] = channels.at("head.translation");
+  CHECK(head_times == std::vector<double>{0, 1, 3});
+  const Eigen::Vector3d rest =
+      character.skeleton.joints[head].position - character.skeleton.joints[head - 1].position;
+  CHECK(places[3] == Approx(rest.x() + 0.5));
+  CHECK(places[7] == Approx(rest.y()));
+  CHECK(channels.at("head.scale").second == std::vector<double>{2, 2, 2});
+  // Heights and metres together.
+  const auto& [root_times, root] = channels.at("pelvis.translation");
+  const double height = character.mesh.vertices.col(1).maxCoeff() - character.mesh.vertices.col(1).minCoeff();
+  const Eigen::Vector3d pelvis = character.skeleton.joints[0].position;
+  CHECK(root_times == std::vector<double>{0, 1, 2});
+  CHECK(root[4] == Approx(pelvis.y() + 0.5 * height));
+  CHECK(root[5] == Approx(pelvis.z() + 1));
+  CHECK(root[7] == Approx(pelvis.y() + height));
 }
 
 TEST_CASE("meshes without texture, with repeating texture, with many vertices are written too") {

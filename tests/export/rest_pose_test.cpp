@@ -1,6 +1,6 @@
 #include "libskel/export/rest_pose.h"
 
-#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/core/error.h"
 #include "tests/support/catch.h"
@@ -36,7 +36,7 @@ TEST_CASE("in A and T the limbs are straight, as long as before, and stand on th
       // Twice changes nothing, and clips fit the new pose.
       const RiggedCharacter again = poseToRest(after, pose);
       CHECK((again.mesh.vertices - after.mesh.vertices).cwiseAbs().maxCoeff() < 1e-4f);
-      CHECK_FALSE(retargetToRest(builtinClip("wave"), after.skeleton).tracks.empty());
+      CHECK_FALSE(retargetToRest(clipNamed(builtinClips(), "wave"), after.skeleton).tracks.empty());
     }
 }
 

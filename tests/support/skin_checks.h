@@ -160,8 +160,9 @@ inline bool isFree(const Plane8& mask, const TriangleMesh& mesh, const Skeleton&
     if (width > 0.8 * bone.norm()) return false;
   }
   const std::vector<int> limbs = jointLimbs(skeleton);
-  const JointWeights near =
-      geodesicWeights(mesh, skeletonBones(skeleton), static_cast<int>(skeleton.joints.size()));
+  const std::vector<Bone> bones = skeletonBones(skeleton);
+  const SkinOptions options;
+  const JointWeights near = geodesicWeights({mesh, skeleton, bones, options});
   const auto nearest = [&](int v) {
     Eigen::Index result;
     near.row(v).maxCoeff(&result);

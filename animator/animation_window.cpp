@@ -1,0 +1,629 @@
+#include "animator/animation_window.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <numbers>
+
+#include "animator/document.h"
+#include "animator/pose_file.h"
+#include "animator/stage_view.h"
+#include "libskel/animation/clip_file.h"
+#include "libskel/draw/color.h"
+#include "libskel/window/keys.h"
+#include "libskel/window/window.h"
+
+namespace skel {
+namespace {
+
+constexpr float kListWidth = 236, kPanelWidth = 292, kTimeHeight = 96, kStatusHeight = 40, kButtonHeight = 38;
+
+constexpr struct {
+  const char *keys, *what;
+} kHelp[] = {
+    {"Left drag", "turn the view; on a ring: turn the joint (Shift: in steps of 15 degrees)"},
+    {"Right or middle drag", "move the view"},
+    {"Wheel  +  -", "zoom"},
+    {"Click", "choose a joint; beside the figure: none"},
+    {"Tab  Shift Tab", "next, previous joint"},
+    {"F  Arrow up", "the whole figure in view; from the front, the side, behind ..."},
+    {"Space", "play, pause"},
+    {"Left  Right", "a frame back, on"},
+    {"K  Delete", "set a key, remove it"},
+    {"R  Shift R", "reset the joint, the whole pose"},
+    {"1  2  3  4", "solid, translucent, wireframe, skeleton"},
+    {"W", "weights of the joint as colours"},
+    {"Ctrl Z  Ctrl Y", "undo, redo"},
+    {"Ctrl O  Ctrl S  Ctrl E", "open a character, save it, write a film"},
+    {"H  F1", "this help; Esc closes it"},
+};
+
+bool pressed(key::Code code, bool repeat = false) { return ImGui::IsKeyPressed(code, repeat); }
+
+void tip(const char* text) {
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
+}
+
+// A button that stays down.
+bool toggle(const char* label, const ImVec2& size, bool on, const char* hint) {
+  if (on) {
+    ImGui::PushStyleColor(ImGuiCol_Button, {0.17f, 0.36f, 0.71f, 1});
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, {0.21f, 0.42f, 0.80f, 1});
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, {0.15f, 0.32f, 0.64f, 1});
+    ImGui::PushStyleColor(ImGuiCol_Text, {1, 1, 1, 1});
+  }
+  const bool clicked = ImGui::Button(label, size);
+  if (on) ImGui::PopStyleColor(4);
+  tip(hint);
+  return clicked;
+}
+
+template <class Action>
+void enabledButton(const char* label, const ImVec2& size, bool enabled, const Action& action,
+                   const char* hint) {
+  ImGui::BeginDisabled(!enabled);
+  if (ImGui::Button(label, size)) action();
+  ImGui::EndDisabled();
+  tip(hint);
+}
+
+void heading(const char* text) {
+  ImGui::Spacing();
+  ImGui::TextDisabled("%s", text);
+}
+
+// Asks for a path, and does something with it.
+struct PathDialog {
+  std::string title, button;
+  std::function<bool(const std::string&)> action;
+  std::array<char, 1024> path{};
+  bool opens = false, tried = false;
+  bool film = false;
+
+  void ask(const std::string& for_what, const std::string& does, const std::string& suggestion,
+           std::function<bool(const std::string&)> then, bool is_film = false) {
+    title = for_what;
+    button = does;
+    action = std::move(then);
+    std::snprintf(path.data(), path.size(), "%s", suggestion.c_str());
+    opens = true;
+    tried = false;
+    film = is_film;
+  }
+};
+
+class AnimationWindow {
+ public:
+  explicit AnimationWindow(AnimationDocument& document) : document_(document), stage_(document) {}
+
+  NextFrame frame() {
+    const bool moves = document_.advance(double(ImGui::GetIO().DeltaTime));
+    if (!ImGui::GetIO().WantTextInput && !ImGui::IsPopupOpen("path")) keys();
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
+    // Fields are seen on white, the menu bar belongs to the window.
+    ImGui::PushStyleColor(ImGuiCol_FrameBg, {0.93f, 0.945f, 0.97f, 1});
+    ImGui::PushStyleColor(ImGuiCol_MenuBarBg, {0.957f, 0.961f, 0.973f, 1});
+    ImGui::PushStyleColor(ImGuiCol_Border, {0.86f, 0.88f, 0.92f, 1});
+    ImGui::Begin("skel-animate", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_MenuBar |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse |
+                     ImGuiWindowFlags_NoNavInputs);
+    drawMenu();
+    const float height = ImGui::GetContentRegionAvail().y - kStatusHeight;
+    drawLists(height);
+    ImGui::SameLine();
+    ImGui::BeginChild(
+        "middle", {ImGui::GetContentRegionAvail().x - kPanelWidth - 8, height}, false,
+        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoBackground);
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    stage_.draw({room.x, room.y - kTimeHeight - 8});
+    drawTime(room.x);
+    ImGui::EndChild();
+    ImGui::SameLine();
+    drawPanel(height);
+    drawStatus();
+    drawDialog();
+    ImGui::End();
+    ImGui::PopStyleColor(3);
+    if (help_) drawHelp();
+    return moves || film_ ? NextFrame::kAtOnce : NextFrame::kOnInput;
+  }
+
+ private:
+  void keys() {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.KeyCtrl) {
+      if (pressed(key::kZ, true)) io.KeyShift ? document_.redo() : document_.undo();
+      if (pressed(key::kY, true)) document_.redo();
+      if (pressed(key::kO)) askModel();
+      if (pressed(key::kS)) askSaveModel();
+      if (pressed(key::kE)) askFilm();
+      return;
+    }
+    if (pressed(key::kH) || pressed(key::kSlash) || pressed(key::kF1)) help_ = !help_;
+    if (pressed(key::kEscape)) help_ = false;
+    if (pressed(key::kSpace)) playOrPause();
+    if (pressed(key::kLeft, true)) stepFrames(-1);
+    if (pressed(key::kRight, true)) stepFrames(+1);
+    if (pressed(key::kUp)) stage_.lookFrom(quarter_++ % 4);
+    if (pressed(key::kK)) document_.setKey();
+    if (pressed(key::kDelete)) document_.removeKey();
+    if (pressed(key::kR)) {
+      if (io.KeyShift)
+        document_.resetPose();
+      else if (document_.chosen() >= 0)
+        document_.resetJoint(document_.chosen());
+    }
+    if (pressed(key::kTab, true)) {
+      const int count = document_.jointCount();
+      const int from = document_.chosen() < 0 ? (io.KeyShift ? count : -1) : document_.chosen();
+      document_.choose((from + (io.KeyShift ? -1 : 1) + count) % count);
+    }
+    if (pressed(key::k1)) setSolid(!stage_.look.solid);
+    if (pressed(key::k2)) setTranslucent(!stage_.look.translucent);
+    if (pressed(key::k3)) stage_.look.wireframe = !stage_.look.wireframe;
+    if (pressed(key::k4)) stage_.look.skeleton = !stage_.look.skeleton;
+    if (pressed(key::kW)) stage_.weights = !stage_.weights;
+    if (pressed(key::kF)) stage_.fit();
+    if (pressed(key::kPlus, true)) stage_.zoomBy(1.2);
+    if (pressed(key::kMinus, true)) stage_.zoomBy(1 / 1.2);
+  }
+
+  void setSolid(bool on) {
+    stage_.look.solid = on;
+    if (on) stage_.look.translucent = false;
+  }
+  void setTranslucent(bool on) {
+    stage_.look.translucent = on;
+    if (on) stage_.look.solid = false;
+  }
+
+  void playOrPause() {
+    if (!document_.clip() && !document_.clips().empty()) document_.chooseClip(0);
+    if (!document_.playing && !document_.loops && document_.state().time_s >= document_.duration_s())
+      document_.setTime(0);
+    document_.playing = !document_.playing;
+  }
+
+  void stepFrames(int frames) {
+    document_.playing = false;
+    document_.setTime(document_.state().time_s + frames / kFrameRate);
+  }
+
+  std::string suggestion(const std::string& ending) const {
+    return "out/" + std::filesystem::path(document_.path()).stem().string() + ending;
+  }
+
+  void askModel() {
+    dialog_.ask("Open a character", "Open", document_.path(),
+                [&](const std::string& p) { return document_.openModel(p); });
+  }
+  void askSaveModel() {
+    dialog_.ask("Save the character with its clips (.glb)", "Save", suggestion(".glb"),
+                [&](const std::string& p) { return document_.saveModel(p); });
+  }
+  void askFilm() {
+    film_size_ = {2 * std::max(8, stage_.width() * 256 / std::max(1, stage_.height())), 512};
+    const std::string name = document_.clip() ? "-" + document_.clip()->name : "";
+    dialog_.ask(
+        "Write a film of what is seen (" + videoFormatNames() + ")", "Write", suggestion(name + ".mp4"),
+        [&](const std::string& p) { return startFilm(p); }, true);
+  }
+  void askSaveClip() {
+    dialog_.ask("Save the clip", "Save",
+                "out/" + (document_.clip() ? document_.clip()->name : "clip") + kClipFileEnding,
+                [&](const std::string& p) { return document_.saveClip(p); });
+  }
+
+  bool startFilm(const std::string& path) {
+    FilmOptions options;
+    options.width = film_size_[0];
+    options.height = film_size_[1];
+    options.frame_rate = kFrameRate;
+    options.look = stage_.look;
+    options.look.weights_of = stage_.weights ? document_.chosen() : -1;
+    film_ = document_.exportFilm(path, stage_.camera(), options);
+    return film_ != nullptr;
+  }
+
+  void drawMenu() {
+    const bool has_clip = document_.clip() != nullptr;
+    if (!ImGui::BeginMenuBar()) return;
+    if (ImGui::BeginMenu("File")) {
+      if (ImGui::MenuItem("Open character ...", "Ctrl O")) askModel();
+      if (ImGui::MenuItem("Save character ...", "Ctrl S")) askSaveModel();
+      ImGui::Separator();
+      if (ImGui::MenuItem("Load pose ..."))
+        dialog_.ask("Load a pose", "Load", suggestion(kPoseFileEnding),
+                    [&](const std::string& p) { return document_.loadPose(p); });
+      if (ImGui::MenuItem("Save pose ..."))
+        dialog_.ask("Save the pose", "Save", suggestion(kPoseFileEnding),
+                    [&](const std::string& p) { return document_.savePose(p); });
+      ImGui::Separator();
+      if (ImGui::MenuItem("Load clip ..."))
+        dialog_.ask("Load a clip", "Load", "", [&](const std::string& p) { return document_.loadClip(p); });
+      if (ImGui::MenuItem("Save clip ...", nullptr, false, has_clip)) askSaveClip();
+      ImGui::Separator();
+      if (ImGui::MenuItem("Load skeleton ..."))
+        dialog_.ask("Load a skeleton; the weights are computed anew", "Load", suggestion(".rig.json"),
+                    [&](const std::string& p) { return document_.loadSkeleton(p); });
+      if (ImGui::MenuItem("Save skeleton ..."))
+        dialog_.ask("Save the skeleton", "Save", suggestion(".rig.json"),
+                    [&](const std::string& p) { return document_.saveSkeleton(p); });
+      if (ImGui::MenuItem("Load weights ..."))
+        dialog_.ask("Load weights", "Load", suggestion(".weights.json"),
+                    [&](const std::string& p) { return document_.loadWeights(p); });
+      if (ImGui::MenuItem("Save weights ..."))
+        dialog_.ask("Save the weights", "Save", suggestion(".weights.json"),
+                    [&](const std::string& p) { return document_.saveWeights(p); });
+      ImGui::Separator();
+      if (ImGui::MenuItem("Write film ...", "Ctrl E")) askFilm();
+      ImGui::EndMenu();
+    }
+    if (ImGui::BeginMenu("Edit")) {
+      if (ImGui::MenuItem("Undo", "Ctrl Z", false, document_.canUndo())) document_.undo();
+      if (ImGui::MenuItem("Redo", "Ctrl Y", false, document_.canRedo())) document_.redo();
+      ImGui::Separator();
+      if (ImGui::MenuItem("Set key", "K", false, has_clip)) document_.setKey();
+      if (ImGui::MenuItem("Remove key", "Delete", false, has_clip)) document_.removeKey();
+      if (ImGui::MenuItem("Reset pose", "Shift R")) document_.resetPose();
+      ImGui::EndMenu();
+    }
+    if (ImGui::BeginMenu("View")) {
+      if (ImGui::MenuItem("Fit", "F")) stage_.fit();
+      const char* const sides[] = {"Front", "Left side", "Back", "Right side"};
+      for (int quarter = 0; quarter < 4; ++quarter)
+        if (ImGui::MenuItem(sides[quarter])) stage_.lookFrom(quarter);
+      ImGui::Separator();
+      ImGui::MenuItem("Turning rings", nullptr, &stage_.handles);
+      ImGui::MenuItem("Shadow", nullptr, &stage_.look.shadow);
+      ImGui::EndMenu();
+    }
+    if (ImGui::MenuItem("Help")) help_ = !help_;
+    ImGui::EndMenuBar();
+  }
+
+  void drawLists(float height) {
+    ImGui::BeginChild("lists", {kListWidth, height}, false, ImGuiWindowFlags_NoBackground);
+    const float clips_height = std::min(height * 0.42f, 52 + 27 * float(document_.clips().size() + 1));
+    ImGui::BeginChild("clips", {0, clips_height}, true);
+    ImGui::TextDisabled("Clips");
+    ImGui::SameLine(ImGui::GetContentRegionAvail().x - 48);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(9, 2));
+    if (ImGui::Button("New")) document_.newClip("my-clip", 2);
+    ImGui::PopStyleVar();
+    tip("A clip of your own: pose, set keys, save");
+    if (ImGui::Selectable("(rest pose)", document_.state().clip < 0)) document_.chooseClip(-1);
+    for (int i = 0; i < int(document_.clips().size()); ++i) {
+      ImGui::PushID(i);
+      if (ImGui::Selectable(document_.clips()[std::size_t(i)].name.c_str(), document_.state().clip == i)) {
+        document_.chooseClip(i);
+        document_.playing = document_.duration_s() > 0 && !document_.clip()->tracks.empty();
+      }
+      ImGui::PopID();
+    }
+    ImGui::EndChild();
+    ImGui::BeginChild("joints", {0, 0}, true);
+    ImGui::TextDisabled("Joints");
+    ImGui::PushStyleVar(ImGuiStyleVar_IndentSpacing, 13);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(2, 2));
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(8, 3));
+    drawJoint(0);
+    ImGui::PopStyleVar(3);
+    ImGui::EndChild();
+    ImGui::EndChild();
+  }
+
+  void drawJoint(int joint) {
+    const auto& joints = document_.skeleton().joints;
+    bool is_leaf = true;
+    for (const Joint& other : joints) is_leaf &= other.parent != joint;
+    ImGuiTreeNodeFlags flags =
+        ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanAvailWidth;
+    if (is_leaf) flags |= ImGuiTreeNodeFlags_Leaf;
+    if (document_.chosen() == joint) flags |= ImGuiTreeNodeFlags_Selected;
+    const Color side = sideColor(joints[std::size_t(joint)].name);
+    ImGui::PushStyleColor(ImGuiCol_Text,
+                          ImVec4(float(side.r) / 320, float(side.g) / 320, float(side.b) / 320, 1));
+    const bool open = ImGui::TreeNodeEx(joints[std::size_t(joint)].name.c_str(), flags);
+    ImGui::PopStyleColor();
+    if (ImGui::IsItemClicked()) document_.choose(joint);
+    if (!open) return;
+    for (int child = joint + 1; child < int(joints.size()); ++child)
+      if (joints[std::size_t(child)].parent == joint) drawJoint(child);
+    ImGui::TreePop();
+  }
+
+  void drawTime(float width) {
+    ImGui::BeginChild("time", {width, kTimeHeight}, true, ImGuiWindowFlags_NoScrollbar);
+    const double duration = document_.duration_s();
+    ImGui::BeginDisabled(document_.clips().empty());
+    if (ImGui::Button(document_.playing ? "Pause" : "Play", {88, kButtonHeight})) playOrPause();
+    ImGui::EndDisabled();
+    tip("Space");
+    ImGui::SameLine();
+    drawTimeline(ImGui::GetContentRegionAvail().x, duration);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(8, 3));
+    ImGui::AlignTextToFramePadding();
+    ImGui::Text("%.2f s of %.2f s", document_.state().time_s, duration);
+    ImGui::SameLine(180);
+    ImGui::Checkbox("Loop", &document_.loops);
+    ImGui::SameLine(270);
+    auto speed = float(document_.speed);
+    ImGui::SetNextItemWidth(150);
+    if (ImGui::SliderFloat("##speed", &speed, 0.1f, 3, "speed %.2f")) document_.speed = double(speed);
+    ImGui::SameLine();
+    if (ImGui::Button("1x")) document_.speed = 1;
+    if (document_.clip()) {
+      ImGui::SameLine(0, 24);
+      auto length = float(duration);
+      ImGui::SetNextItemWidth(130);
+      if (ImGui::DragFloat("##length", &length, 0.02f, 0.1f, 60, "length %.2f s")) setLength(double(length));
+      groupStep();
+      tip("How long the clip is; never shorter than its last key");
+    }
+    ImGui::PopStyleVar();
+    ImGui::EndChild();
+  }
+
+  void setLength(double length_s) { document_.setDuration(length_s); }
+
+  // A drag of the widget before makes one step.
+  void groupStep() {
+    if (ImGui::IsItemActivated()) document_.beginStep(), ++open_steps_;
+    if (ImGui::IsItemDeactivated() && open_steps_ > 0) document_.endStep(), --open_steps_;
+  }
+
+  void drawTimeline(float width, double duration) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float height = kButtonHeight, margin = 10;
+    ImGui::InvisibleButton("timeline", {width, height});
+    const float x0 = corner.x + margin, x1 = corner.x + width - margin, y = corner.y + height / 2;
+    if (ImGui::IsItemActive() && duration > 0) {
+      document_.playing = false;
+      document_.setTime(double((ImGui::GetIO().MousePos.x - x0) / (x1 - x0)) * duration);
+    }
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->AddRectFilled({x0 - 4, y - 4}, {x1 + 4, y + 4}, IM_COL32(222, 227, 237, 255), 4);
+    if (duration <= 0) return;
+    const auto at = [&](double time_s) {
+      return x0 + (x1 - x0) * float(std::clamp(time_s / duration, 0.0, 1.0));
+    };
+    list->AddRectFilled({x0 - 4, y - 4}, {at(document_.state().time_s), y + 4}, IM_COL32(120, 160, 225, 255),
+                        4);
+    const std::vector<double> keys = document_.keyTimes();
+    // Of a clip with a key a frame, a picket fence would say nothing.
+    const bool dense = double(keys.size()) > double(x1 - x0) / 14;
+    for (std::size_t i = 0; i < keys.size() && !dense; ++i) {
+      const float x = at(keys[i]);
+      list->AddQuadFilled({x, y - 13}, {x + 4.5f, y - 8.5f}, {x, y - 4}, {x - 4.5f, y - 8.5f},
+                          IM_COL32(238, 150, 20, 255));
+    }
+    const float x = at(document_.state().time_s);
+    list->AddCircleFilled({x, y}, 9, IM_COL32_WHITE);
+    list->AddCircleFilled({x, y}, 7, IM_COL32(44, 92, 180, 255));
+  }
+
+  void drawPanel(float height) {
+    ImGui::BeginChild("panel", {kPanelWidth, height}, true);
+    const float width = ImGui::GetContentRegionAvail().x, half = (width - 8) / 2;
+    enabledButton(
+        "Undo", {half, kButtonHeight}, document_.canUndo(), [&] { document_.undo(); }, "Ctrl Z");
+    ImGui::SameLine();
+    enabledButton(
+        "Redo", {half, kButtonHeight}, document_.canRedo(), [&] { document_.redo(); }, "Ctrl Y");
+
+    heading("Show");
+    Look& look = stage_.look;
+    if (toggle("Solid", {half, kButtonHeight}, look.solid, "Key 1")) setSolid(!look.solid);
+    ImGui::SameLine();
+    if (toggle("Translucent", {half, kButtonHeight}, look.translucent, "Key 2"))
+      setTranslucent(!look.translucent);
+    if (toggle("Wireframe", {half, kButtonHeight}, look.wireframe, "Key 3")) look.wireframe = !look.wireframe;
+    ImGui::SameLine();
+    if (toggle("Skeleton", {half, kButtonHeight}, look.skeleton, "Key 4")) look.skeleton = !look.skeleton;
+
+    drawChosenJoint(width, half);
+
+    heading("Pose");
+    enabledButton(
+        "Load ...", {half, kButtonHeight}, true,
+        [&] {
+          dialog_.ask("Load a pose", "Load", suggestion(kPoseFileEnding),
+                      [&](const std::string& p) { return document_.loadPose(p); });
+        },
+        "A pose that was saved");
+    ImGui::SameLine();
+    enabledButton(
+        "Save ...", {half, kButtonHeight}, true,
+        [&] {
+          dialog_.ask("Save the pose", "Save", suggestion(kPoseFileEnding),
+                      [&](const std::string& p) { return document_.savePose(p); });
+        },
+        "The pose that is shown");
+    enabledButton(
+        "Reset all", {width, kButtonHeight}, true, [&] { document_.resetPose(); }, "Shift R");
+
+    heading("Keys");
+    const bool has_clip = document_.clip() != nullptr;
+    enabledButton(
+        "Set key", {half, kButtonHeight}, has_clip, [&] { document_.setKey(); },
+        "K: of every joint that was turned");
+    ImGui::SameLine();
+    enabledButton(
+        "Remove", {half, kButtonHeight}, has_clip, [&] { document_.removeKey(); }, "Delete");
+    enabledButton(
+        "Save clip ...", {width, kButtonHeight}, has_clip, [&] { askSaveClip(); }, "As a file");
+
+    ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), ImGui::GetWindowHeight() - 56));
+    const TriangleMesh& mesh = document_.character().mesh;
+    ImGui::TextDisabled("%d joints, %d bones", document_.jointCount(), document_.boneCount());
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6);
+    ImGui::TextDisabled("%d vertices, %d triangles", int(mesh.vertices.rows()), int(mesh.triangles.rows()));
+    ImGui::EndChild();
+  }
+
+  void drawChosenJoint(float width, float half) {
+    const int joint = document_.chosen();
+    heading("Joint");
+    if (joint < 0) {
+      ImGui::TextUnformatted("Click one, or press Tab.");
+      return;
+    }
+    const Color side = sideColor(document_.skeleton().joints[std::size_t(joint)].name);
+    ImGui::TextColored({float(side.r) / 300, float(side.g) / 300, float(side.b) / 300, 1}, "%s",
+                       document_.skeleton().joints[std::size_t(joint)].name.c_str());
+    // While a number is dragged, the angles are its own: those of the rotation may jump to others of the same
+    // meaning.
+    if (!angles_held_ || angles_joint_ != joint)
+      angles_deg_ = document_.anglesOf(joint) * 180 / std::numbers::pi;
+    angles_joint_ = joint;
+    angles_held_ = false;
+    bool changed = false;
+    constexpr const char* kNames[] = {"x", "y", "z"};
+    const ImVec4 colors[] = {{0.87f, 0.24f, 0.24f, 1}, {0.16f, 0.60f, 0.28f, 1}, {0.17f, 0.41f, 0.87f, 1}};
+    for (int axis = 0; axis < 3; ++axis) {
+      auto degrees = float(angles_deg_[axis]);
+      ImGui::PushID(axis);
+      ImGui::AlignTextToFramePadding();
+      ImGui::TextColored(colors[axis], "%s", kNames[axis]);
+      ImGui::SameLine(24);
+      ImGui::SetNextItemWidth(width - 24);
+      ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(8, 5));
+      if (ImGui::DragFloat("##angle", &degrees, 0.5f, -360, 360, "%.1f\xc2\xb0")) {
+        angles_deg_[axis] = double(degrees);
+        changed = true;
+      }
+      ImGui::PopStyleVar();
+      groupStep();
+      angles_held_ |= ImGui::IsItemActive();
+      tip("Drag, or double-click to type");
+      ImGui::PopID();
+    }
+    if (changed) document_.setAngles(joint, angles_deg_ * std::numbers::pi / 180);
+    enabledButton(
+        "Reset", {half, kButtonHeight}, true, [&] { document_.resetJoint(joint); }, "R");
+    ImGui::SameLine();
+    if (toggle("Weights", {half, kButtonHeight}, stage_.weights,
+               "Key W: how much the joint carries of the skin"))
+      stage_.weights = !stage_.weights;
+  }
+
+  void drawStatus() {
+    if (film_ && film_->isDone()) {
+      try {
+        film_->finish();
+        document_.say("written: " + film_->path());
+      } catch (const Error& error) {
+        document_.say(error.what());
+      }
+      film_.reset();
+    }
+    ImGui::AlignTextToFramePadding();
+    if (film_) {
+      ImGui::ProgressBar(film_->share(), {260, 24}, "");
+      ImGui::SameLine();
+      if (ImGui::SmallButton(" Stop ")) {
+        film_.reset();
+        document_.say("the film was not written");
+      }
+      ImGui::SameLine();
+    }
+    ImGui::TextUnformatted(document_.message().empty()
+                               ? "Space plays, a click chooses a joint, H shows all keys"
+                               : document_.message().c_str());
+  }
+
+  void drawDialog() {
+    if (dialog_.opens) {
+      ImGui::OpenPopup("path");
+      dialog_.opens = false;
+    }
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(24, 20));
+    ImGui::PushStyleVar(ImGuiStyleVar_PopupRounding, 12);
+    if (ImGui::BeginPopupModal("path", nullptr,
+                               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize)) {
+      ImGui::TextUnformatted(dialog_.title.c_str());
+      ImGui::SetNextItemWidth(620);
+      if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+      bool done = ImGui::InputText("##path", dialog_.path.data(), dialog_.path.size(),
+                                   ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+      if (dialog_.film) {
+        ImGui::SetNextItemWidth(220);
+        ImGui::InputInt2("width, height, px", film_size_.data());
+        for (int& side : film_size_) side = std::clamp(side, 2, 8192);
+      }
+      if (dialog_.tried) {
+        ImGui::PushTextWrapPos(640);
+        ImGui::TextColored({0.84f, 0.23f, 0.19f, 1}, "%s", document_.message().c_str());
+        ImGui::PopTextWrapPos();
+      }
+      done |= ImGui::Button(dialog_.button.c_str(), {120, kButtonHeight});
+      ImGui::SameLine();
+      if (ImGui::Button("Cancel", {120, kButtonHeight}) || pressed(key::kEscape)) ImGui::CloseCurrentPopup();
+      if (done) {
+        dialog_.tried = !dialog_.action(dialog_.path.data());
+        if (!dialog_.tried) ImGui::CloseCurrentPopup();
+      }
+      ImGui::EndPopup();
+    }
+    ImGui::PopStyleVar(2);
+  }
+
+  void drawHelp() {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowBgAlpha(0.96f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 14);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(28, 22));
+    ImGui::Begin("help", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings);
+    if (ImGui::BeginTable("keys", 2)) {
+      for (const auto& line : kHelp) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextColored({0.17f, 0.36f, 0.71f, 1}, "%s", line.keys);
+        ImGui::TableNextColumn();
+        ImGui::Text("   %s", line.what);
+      }
+      ImGui::EndTable();
+    }
+    ImGui::Spacing();
+    ImGui::TextDisabled("Keys hold what was turned; playing and scrubbing show what the keys say.");
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+  }
+
+  static constexpr double kFrameRate = 30;  // of films and of the arrow keys, 1/s
+
+  AnimationDocument& document_;
+  StageView stage_;
+  PathDialog dialog_;
+  std::unique_ptr<FilmExport> film_;
+  std::array<int, 2> film_size_ = {512, 512};
+  Eigen::Vector3d angles_deg_ = Eigen::Vector3d::Zero();
+  int angles_joint_ = -1;
+  bool angles_held_ = false;
+  int open_steps_ = 0, quarter_ = 0;
+  bool help_ = false;
+};
+
+}  // namespace
+
+ExitCode runAnimationWindow(const CharacterSource& source, const ClipSource& clips) {
+  AnimationDocument document(source, clips);
+  Window window({"skel-animate: " + source.path, 1320, 860});
+  AnimationWindow content(document);
+  window.run([&] { return content.frame(); });
+  return ExitCode::kDone;
+}
+
+}  // namespace skel

@@ -1,0 +1,81 @@
+#include "animator/bind_command.h"
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <map>
+
+#include "libskel/core/files.h"
+#include "libskel/export/formats.h"
+#include "libskel/import/read_weights.h"
+#include "libskel/skin/bones.h"
+
+namespace skel {
+namespace {
+
+const std::map<std::string, JointNaming> kNamings = {
+    {"skel", JointNaming::kSkel}, {"vrm", JointNaming::kVrm}, {"mixamo", JointNaming::kMixamo}};
+
+// Reads the model, computes its weights and says so.
+CharacterFile boundModel(const RigSource& source, const SkinRequest& skin) {
+  RigModel model = readRigModel(source);
+  if (!model.note.empty()) std::printf("%s\n", model.note.c_str());
+  RiggedCharacter& character = model.file.character;
+  const auto start = std::chrono::steady_clock::now();
+  character.weights = weightsFor(character, skin);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  std::printf("%d vertices bound to %d bones by %s in %.1f ms\n",
+              static_cast<int>(character.mesh.vertices.rows()),
+              static_cast<int>(skeletonBones(character.skeleton).size()), skin.method.c_str(), took.count());
+  return std::move(model.file);
+}
+
+}  // namespace
+
+void bindBindOptions(CLI::App& app, BindOptions& options) {
+  bindRigSource(app, options.source);
+  bindSkinRequest(app, options.skin);
+  app.add_option("--weights", options.weights, "Take these weights (.weights.json) instead of computing any")
+      ->type_name("FILE");
+  app.add_option("--names", options.naming, "Whose names the joints get")
+      ->check(CLI::IsMember({"skel", "vrm", "mixamo"}))
+      ->capture_default_str();
+  app.add_option("-o,--output", options.output, "The .glb to write; without: out/<model>.glb")
+      ->type_name("FILE");
+}
+
+ExitCode runBind(const BindOptions& options) {
+  CharacterFile file;
+  if (options.weights.empty()) {
+    file = boundModel(options.source, options.skin);
+  } else {
+    RigModel model = readRigModel(options.source);
+    if (!model.note.empty()) std::printf("%s\n", model.note.c_str());
+    file = std::move(model.file);
+    file.character.weights = readWeights(options.weights, file.character);
+  }
+  const std::string path =
+      options.output.empty() ? "out/" + stemOf(options.source.model) + ".glb" : options.output;
+  writeFile(path, encodeGlb(file.character, file.clips, {stemOf(path), kNamings.at(options.naming)}));
+  std::printf("wrote %s\n", path.c_str());
+  return ExitCode::kDone;
+}
+
+void bindWeightsOptions(CLI::App& app, WeightsOptions& options) {
+  bindRigSource(app, options.source);
+  bindSkinRequest(app, options.skin);
+  app.add_option("-o,--output", options.output,
+                 "The .weights.json to write; without: out/<model>.weights.json")
+      ->type_name("FILE");
+}
+
+ExitCode runWeights(const WeightsOptions& options) {
+  const CharacterFile file = boundModel(options.source, options.skin);
+  const std::string path =
+      options.output.empty() ? "out/" + stemOf(options.source.model) + ".weights.json" : options.output;
+  writeFile(path, exportWeights({file.character, file.clips, {stemOf(path)}})[0].bytes);
+  std::printf("wrote %s\n", path.c_str());
+  return ExitCode::kDone;
+}
+
+}  // namespace skel

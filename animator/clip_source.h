@@ -1,0 +1,32 @@
+// Motions, as the commands of skel-animate name them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libskel/import/read_character.h"
+
+namespace CLI {
+class App;
+}
+
+namespace skel {
+
+struct ClipSource {
+  std::string clips_dir;                // a folder of clip files beside those that come with skel
+  std::string interpolation = "slerp";  // of files of the elk system: slerp, or linear on the angles
+  std::string clip_up = "z";            // of files of the elk system: the axis that points up
+};
+// --clips-dir, --interpolation, --clip-up.
+void bindClipSource(CLI::App& app, ClipSource& source);
+
+// Those that come with skel, and those of the folder.
+std::vector<Clip> clipLibrary(const ClipSource& source);
+
+// Made for the canonical pose; the result is for the character's rest pose.
+Clip fitted(const Clip& clip, const RiggedCharacter& character);
+
+// A clip file, ours or of the elk system, or a .bvh, fitted to the character. Throws InputError.
+Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source = {});
+
+}  // namespace skel

@@ -1,0 +1,511 @@
+#include "animator/document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "animator/load_character.h"
+#include "animator/pose_file.h"
+#include "animator/rig_source.h"
+#include "animator/rig_text.h"
+#include "libskel/animation/clip_file.h"
+#include "libskel/animation/retarget.h"
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/export/formats.h"
+#include "libskel/import/read_weights.h"
+
+namespace skel {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostSteps = 200;
+// Keys nearer than this are one.
+constexpr double kSameTime_s = 1e-3;
+
+Pose restPose(const Skeleton& skeleton) {
+  Pose pose;
+  pose.rotations.assign(skeleton.joints.size(), Eigen::Quaternionf::Identity());
+  return pose;
+}
+
+// A value at a time among others that stand in their order.
+template <class Value>
+void putKey(std::vector<float>& times, std::vector<Value>& values, double time_s, const Value& value) {
+  const auto at = std::lower_bound(times.begin(), times.end(), float(time_s - kSameTime_s));
+  const auto i = at - times.begin();
+  if (at != times.end() && std::abs(double(*at) - time_s) <= kSameTime_s) {
+    values[std::size_t(i)] = value;
+  } else {
+    times.insert(at, float(time_s));
+    values.insert(values.begin() + i, value);
+  }
+}
+
+template <class Value>
+void dropKey(std::vector<float>& times, std::vector<Value>& values, double time_s) {
+  for (std::size_t i = times.size(); i-- > 0;)
+    if (std::abs(double(times[i]) - time_s) <= kSameTime_s) {
+      times.erase(times.begin() + std::ptrdiff_t(i));
+      values.erase(values.begin() + std::ptrdiff_t(i));
+    }
+}
+
+bool isEmpty(const JointTrack& track) {
+  return track.times_s.empty() && track.translation_times_s.empty() && track.scale_times_s.empty();
+}
+
+bool sameTurn(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
+  return std::abs(a.dot(b)) > 1 - 1e-7f;
+}
+
+}  // namespace
+
+FilmExport::FilmExport(std::string path, std::shared_ptr<const RiggedCharacter> character, Clip clip,
+                       Camera camera, FilmOptions options)
+    : path_(std::move(path)), count_(frameCount(clip, options)) {
+  VideoOptions video_options{
+      .width = options.width, .height = options.height, .frame_rate = options.frame_rate};
+  video_options.frames = count_;
+  video_options.transparent = options.look.background.a < 255 && options.look.picture.empty();
+  std::shared_ptr<VideoWriter> video = openVideo(path_, video_options);
+  work_ = std::async(std::launch::async, [this, video, character, clip = std::move(clip), camera, options] {
+    struct Stopped {};
+    try {
+      const Scene scene(*character, fastestPainter(character->mesh));
+      writeFilm(scene, clip, camera, options, *video, [this] {
+        ++done_;
+        if (stop_) throw Stopped();
+      });
+      video->finish();
+    } catch (const Stopped&) {
+    }
+  });
+}
+
+FilmExport::~FilmExport() {
+  stop_ = true;
+  if (work_.valid()) work_.wait();
+}
+
+bool FilmExport::isDone() const {
+  return !work_.valid() || work_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+void FilmExport::finish() {
+  if (work_.valid()) work_.get();
+}
+
+// A step from here to the end of the scope, unless a larger one is open.
+class AnimationDocument::StepScope {
+ public:
+  explicit StepScope(AnimationDocument& document) : document_(document) { document_.beginStep(); }
+  ~StepScope() { document_.endStep(); }
+
+ private:
+  AnimationDocument& document_;
+};
+
+AnimationDocument::AnimationDocument(const CharacterSource& source, const ClipSource& library)
+    : source_(source), library_(library) {
+  CharacterFile file = loadCharacterWithClips(source, library);
+  name_ = file.name;
+  state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
+  state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
+  state_.pose = restPose(skeleton());
+}
+
+const Clip* AnimationDocument::clip() const {
+  return state_.clip < 0 ? nullptr : &(*state_.clips)[std::size_t(state_.clip)];
+}
+
+int AnimationDocument::boneCount() const {
+  return int(std::count_if(skeleton().joints.begin(), skeleton().joints.end(),
+                           [](const Joint& joint) { return joint.parent >= 0; }));
+}
+
+JointTransforms AnimationDocument::posed() const {
+  return posedFromRest(skeleton(), state_.pose, heightOf(character()));
+}
+
+double AnimationDocument::duration_s() const { return clip() ? double(clip()->duration_s()) : 0; }
+
+void AnimationDocument::takePoseFromClip() {
+  state_.pose = clip() ? samplePose(*clip(), skeleton(), float(state_.time_s)) : restPose(skeleton());
+}
+
+bool AnimationDocument::advance(double seconds) {
+  const double duration = duration_s();
+  if (!playing || duration <= 0) return playing = false;
+  double time_s = state_.time_s + seconds * speed;
+  if (loops) {
+    time_s = std::fmod(time_s, duration);
+    if (time_s < 0) time_s += duration;
+  } else if (time_s >= duration || time_s < 0) {
+    time_s = std::clamp(time_s, 0.0, duration);
+    playing = false;
+  }
+  setTime(time_s);
+  return true;
+}
+
+void AnimationDocument::setTime(double time_s) {
+  state_.time_s = std::clamp(time_s, 0.0, duration_s());
+  takePoseFromClip();
+}
+
+int AnimationDocument::jointAt(const Eigen::Vector2d& px, const Projection& projection,
+                               double radius_px) const {
+  const std::vector<Eigen::Vector3f> joints = posedJoints(skeleton(), posed());
+  int best = -1;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto at = projection(joints[j].cast<double>());
+    if (!at || (*at - px).norm() > radius_px) continue;
+    radius_px = (*at - px).norm();
+    best = int(j);
+  }
+  return best;
+}
+
+void AnimationDocument::chooseClip(int clip) {
+  if (clip == state_.clip || clip < -1 || clip >= int(clips().size())) return;
+  const StepScope step(*this);
+  state_.clip = clip;
+  state_.time_s = 0;
+  takePoseFromClip();
+  message_ = clip < 0 ? "no clip: the character rests" : "clip \"" + clips()[std::size_t(clip)].name + "\"";
+}
+
+void AnimationDocument::turnJoint(int joint, int axis, double angle_rad) {
+  const StepScope step(*this);
+  playing = false;
+  Eigen::Quaternionf& turn = state_.pose.rotations[std::size_t(joint)];
+  turn = (turn * Eigen::AngleAxisf(float(angle_rad), Eigen::Vector3f::Unit(axis))).normalized();
+}
+
+Eigen::Vector3d AnimationDocument::anglesOf(int joint) const {
+  const Eigen::Matrix3d r = state_.pose.rotations[std::size_t(joint)].cast<double>().toRotationMatrix();
+  const double y = std::asin(std::clamp(-r(2, 0), -1.0, 1.0));
+  // Straight up or down, x and z turn about the same axis: all of it is x.
+  if (std::abs(r(2, 0)) > 1 - 1e-6) return {std::atan2(-r(1, 2), r(1, 1)), y, 0};
+  return {std::atan2(r(2, 1), r(2, 2)), y, std::atan2(r(1, 0), r(0, 0))};
+}
+
+void AnimationDocument::setAngles(int joint, const Eigen::Vector3d& angles_rad) {
+  const StepScope step(*this);
+  playing = false;
+  state_.pose.rotations[std::size_t(joint)] = rotationOfAngles(angles_rad.cast<float>());
+}
+
+void AnimationDocument::resetJoint(int joint) {
+  const StepScope step(*this);
+  playing = false;
+  const auto j = std::size_t(joint);
+  state_.pose.rotations[j] = Eigen::Quaternionf::Identity();
+  if (!state_.pose.translations_m.empty()) state_.pose.translations_m[j].setZero();
+  if (!state_.pose.scales.empty()) state_.pose.scales[j].setOnes();
+  if (skeleton().joints[j].parent < 0) state_.pose.root_translation.setZero();
+  message_ = "\"" + skeleton().joints[j].name + "\" as in the rest pose";
+}
+
+void AnimationDocument::resetPose() {
+  const StepScope step(*this);
+  playing = false;
+  state_.pose = restPose(skeleton());
+  message_ = "the rest pose";
+}
+
+void AnimationDocument::replaceClip(Clip clip) {
+  auto clips = std::make_shared<std::vector<Clip>>(*state_.clips);
+  (*clips)[std::size_t(state_.clip)] = std::move(clip);
+  state_.clips = std::move(clips);
+}
+
+void AnimationDocument::setKey() {
+  if (!clip()) {
+    message_ = "keys need a clip: choose one, or make a new one";
+    return;
+  }
+  playing = false;
+  const Pose told = samplePose(*clip(), skeleton(), float(state_.time_s));
+  Clip changed = clip()->interpolation == RotationInterpolation::kAngles ? withSlerp(*clip()) : *clip();
+  std::vector<int> joints;
+  for (int j = 0; j < jointCount(); ++j)
+    if (!sameTurn(told.rotations[std::size_t(j)], state_.pose.rotations[std::size_t(j)])) joints.push_back(j);
+  if (joints.empty() && chosen_ >= 0) joints.push_back(chosen_);
+  const bool moved = !state_.pose.root_translation.isApprox(told.root_translation, 1e-6f);
+  if (joints.empty() && !moved) {
+    message_ = "nothing to key: turn a joint, or choose one";
+    return;
+  }
+  const StepScope step(*this);
+  for (const int j : joints) {
+    const std::string& name = skeleton().joints[std::size_t(j)].name;
+    auto track = std::find_if(changed.tracks.begin(), changed.tracks.end(),
+                              [&](const JointTrack& t) { return t.joint == name; });
+    if (track == changed.tracks.end()) {
+      changed.tracks.push_back({name, {}, {}});
+      track = changed.tracks.end() - 1;
+    }
+    track->angles_rad.clear();
+    putKey(track->times_s, track->rotations, state_.time_s, state_.pose.rotations[std::size_t(j)]);
+  }
+  if (moved)
+    putKey(changed.root_times_s, changed.root_translations, state_.time_s, state_.pose.root_translation);
+  changed.lead_s = 0;  // the clip may no longer come from the rest pose
+  replaceClip(std::move(changed));
+  message_ = "key set for " + std::to_string(joints.size()) + (joints.size() == 1 ? " joint" : " joints");
+}
+
+void AnimationDocument::removeKey() {
+  if (!clip()) return;
+  const StepScope step(*this);
+  Clip changed = *clip();
+  for (JointTrack& track : changed.tracks) {
+    if (chosen_ >= 0 && track.joint != skeleton().joints[std::size_t(chosen_)].name) continue;
+    if (!track.angles_rad.empty()) {
+      std::vector<float> times = track.times_s;
+      dropKey(times, track.angles_rad, state_.time_s);
+    }
+    dropKey(track.times_s, track.rotations, state_.time_s);
+    dropKey(track.translation_times_s, track.translations_m, state_.time_s);
+    dropKey(track.scale_times_s, track.scales, state_.time_s);
+  }
+  if (chosen_ <= 0) dropKey(changed.root_times_s, changed.root_translations, state_.time_s);
+  std::erase_if(changed.tracks, isEmpty);
+  // It stays as long as it was.
+  changed.least_duration_s = std::max(changed.least_duration_s, clip()->duration_s());
+  replaceClip(std::move(changed));
+  takePoseFromClip();
+  message_ = "key removed";
+}
+
+void AnimationDocument::newClip(const std::string& name, double duration_s) {
+  const StepScope step(*this);
+  std::string unique = name;
+  for (int i = 2;
+       std::any_of(clips().begin(), clips().end(), [&](const Clip& c) { return c.name == unique; }); ++i)
+    unique = name + "-" + std::to_string(i);
+  auto clips = std::make_shared<std::vector<Clip>>(*state_.clips);
+  Clip clip;
+  clip.name = unique;
+  clip.least_duration_s = float(duration_s);
+  clips->push_back(std::move(clip));
+  state_.clip = int(clips->size()) - 1;
+  state_.clips = std::move(clips);
+  state_.time_s = 0;
+  playing = false;
+  message_ = "new clip \"" + unique + "\": pose the character and set keys";
+}
+
+void AnimationDocument::setDuration(double duration_s) {
+  if (!clip()) return;
+  const StepScope step(*this);
+  Clip changed = *clip();
+  changed.least_duration_s = float(std::max(duration_s, 0.0));
+  replaceClip(std::move(changed));
+  state_.time_s = std::min(state_.time_s, this->duration_s());
+}
+
+std::vector<double> AnimationDocument::keyTimes() const {
+  std::vector<double> times;
+  if (!clip()) return times;
+  for (const JointTrack& track : clip()->tracks)
+    if (chosen_ < 0 || track.joint == skeleton().joints[std::size_t(chosen_)].name)
+      for (const auto* kind : {&track.times_s, &track.translation_times_s, &track.scale_times_s})
+        times.insert(times.end(), kind->begin(), kind->end());
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end(), [](double a, double b) { return b - a < kSameTime_s; }),
+              times.end());
+  return times;
+}
+
+template <class Action>
+bool AnimationDocument::attempt(const Action& action) {
+  try {
+    message_ = action();
+    return true;
+  } catch (const Error& error) {
+    message_ = error.what();
+  } catch (const fs::filesystem_error& error) {
+    message_ = error.what();
+  }
+  return false;
+}
+
+bool AnimationDocument::openModel(const std::string& path) {
+  return attempt([&] {
+    CharacterSource source = source_;
+    source.path = path;
+    CharacterFile file = loadCharacterWithClips(source, library_);
+    const StepScope step(*this);
+    playing = false;
+    source_ = source;
+    name_ = file.name;
+    state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
+    state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
+    state_.clip = -1;
+    state_.time_s = 0;
+    state_.pose = restPose(skeleton());
+    chosen_ = -1;
+    return "opened " + path;
+  });
+}
+
+bool AnimationDocument::saveModel(const std::string& path) {
+  return attempt([&] {
+    // An animation without channels is none.
+    std::vector<Clip> clips;
+    std::copy_if(this->clips().begin(), this->clips().end(), std::back_inserter(clips),
+                 [](const Clip& clip) { return !clip.tracks.empty() || !clip.root_times_s.empty(); });
+    ExportOptions options;
+    options.name = name_;
+    writeFile(path, encodeGlb(character(), clips, options));
+    return "saved " + path;
+  });
+}
+
+bool AnimationDocument::loadPose(const std::string& path) {
+  return attempt([&] {
+    Pose pose = parsePose(readFile(path), path, skeleton());
+    const StepScope step(*this);
+    playing = false;
+    state_.pose = std::move(pose);
+    return "loaded " + path;
+  });
+}
+
+bool AnimationDocument::savePose(const std::string& path) {
+  return attempt([&] {
+    writeFile(path, formatPose(state_.pose, skeleton()));
+    return "saved " + path;
+  });
+}
+
+bool AnimationDocument::loadClip(const std::string& path) {
+  return attempt([&] {
+    Clip clip = loadClipFor(path, character(), library_);
+    const StepScope step(*this);
+    playing = false;
+    auto clips = std::make_shared<std::vector<Clip>>(*state_.clips);
+    const auto same =
+        std::find_if(clips->begin(), clips->end(), [&](const Clip& c) { return c.name == clip.name; });
+    state_.clip = int(same - clips->begin());
+    if (same == clips->end())
+      clips->push_back(std::move(clip));
+    else
+      *same = std::move(clip);
+    state_.clips = std::move(clips);
+    state_.time_s = 0;
+    takePoseFromClip();
+    return "loaded " + path;
+  });
+}
+
+bool AnimationDocument::saveClip(const std::string& path) {
+  return attempt([&] {
+    if (!clip()) throw UsageError("there is no clip to save: choose one, or make a new one");
+    writeFile(path, formatClip(*clip()));
+    return "saved " + path;
+  });
+}
+
+bool AnimationDocument::loadSkeleton(const std::string& path) {
+  return attempt([&] {
+    Skeleton skeleton = readSkeletonFor(character().mesh, path, "auto", nullptr);
+    RiggedCharacter changed = character();
+    changed.weights = computeSkinWeights(changed.mesh, skeleton, SkinMethod::kGeodesic);
+    changed.skeleton = std::move(skeleton);
+    const StepScope step(*this);
+    playing = false;
+    state_.character = std::make_shared<const RiggedCharacter>(std::move(changed));
+    // Clips that were made for other bones go, but for those that say what they need.
+    state_.clips = std::make_shared<const std::vector<Clip>>(libraryFor(character(), library_));
+    state_.clip = -1;
+    state_.time_s = 0;
+    state_.pose = restPose(this->skeleton());
+    chosen_ = -1;
+    return "loaded " + path + " and computed the weights anew";
+  });
+}
+
+bool AnimationDocument::saveSkeleton(const std::string& path) {
+  return attempt([&] {
+    writeFile(path, formatRig(skeleton()));
+    return "saved " + path;
+  });
+}
+
+bool AnimationDocument::loadWeights(const std::string& path) {
+  return attempt([&] {
+    RiggedCharacter changed = character();
+    changed.weights = readWeights(path, changed);
+    const StepScope step(*this);
+    state_.character = std::make_shared<const RiggedCharacter>(std::move(changed));
+    return "loaded " + path;
+  });
+}
+
+bool AnimationDocument::saveWeights(const std::string& path) {
+  return attempt([&] {
+    writeFile(path, exportWeights({character(), clips(), {}}).front().bytes);
+    return "saved " + path;
+  });
+}
+
+std::unique_ptr<FilmExport> AnimationDocument::exportFilm(const std::string& path, const Camera& camera,
+                                                          const FilmOptions& options) {
+  std::unique_ptr<FilmExport> film;
+  attempt([&] {
+    Clip shown;
+    if (clip() && duration_s() > 0) {
+      shown = *clip();
+    } else {
+      // The pose, as a clip that holds it.
+      shown.name = "pose";
+      for (int j = 0; j < jointCount(); ++j)
+        shown.tracks.push_back(
+            {skeleton().joints[std::size_t(j)].name, {0.f}, {state_.pose.rotations[std::size_t(j)]}});
+      shown.root_times_s = {0};
+      shown.root_translations = {state_.pose.root_translation};
+    }
+    film = std::make_unique<FilmExport>(path, state_.character, std::move(shown), camera, options);
+    return "writing " + path;
+  });
+  return film;
+}
+
+void AnimationDocument::beginStep() {
+  if (open_steps_++ == 0) before_ = state_;
+}
+
+void AnimationDocument::endStep() {
+  if (--open_steps_ > 0) return;
+  undo_.push_back(std::move(before_));
+  if (undo_.size() > kMostSteps) undo_.pop_front();
+  redo_.clear();
+}
+
+bool AnimationDocument::travel(std::deque<AnimationState>& from, std::deque<AnimationState>& to) {
+  if (from.empty()) return false;
+  playing = false;
+  to.push_back(std::move(state_));
+  state_ = std::move(from.back());
+  from.pop_back();
+  if (chosen_ >= jointCount()) chosen_ = -1;
+  return true;
+}
+
+bool AnimationDocument::undo() {
+  if (!travel(undo_, redo_)) return false;
+  message_ = "undone";
+  return true;
+}
+
+bool AnimationDocument::redo() {
+  if (!travel(redo_, undo_)) return false;
+  message_ = "done again";
+  return true;
+}
+
+}  // namespace skel

@@ -1,0 +1,145 @@
+// What the window of skel-animate shows and does, without the window: a character, its clips, the pose that
+// it is in, playing, the steps that change any of these, and undo of every step.
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <future>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "animator/film.h"
+#include "animator/load_character.h"
+#include "libskel/animation/clip.h"
+#include "libskel/animation/sample_pose.h"
+#include "libskel/export/write_character.h"
+#include "libskel/scene/scene.h"
+
+namespace skel {
+
+// What steps change and undo brings back. Whatever is large is shared and never changes, so that copies are
+// cheap.
+struct AnimationState {
+  std::shared_ptr<const RiggedCharacter> character;
+  std::shared_ptr<const std::vector<Clip>> clips;  // relative to the character's rest pose
+  int clip = -1;                                   // -1: none, the character rests
+  double time_s = 0;
+  Pose pose;
+};
+
+// A film that is being written on a thread of its own.
+class FilmExport {
+ public:
+  FilmExport(std::string path, std::shared_ptr<const RiggedCharacter> character, Clip clip, Camera camera,
+             FilmOptions options);
+  ~FilmExport();  // stops it
+
+  const std::string& path() const { return path_; }
+  float share() const { return float(done_) / float(count_); }
+  bool isDone() const;
+  // Waits; throws what went wrong.
+  void finish();
+
+ private:
+  std::string path_;
+  int count_;
+  std::atomic<int> done_ = 0;
+  std::atomic<bool> stop_ = false;
+  std::future<void> work_;
+};
+
+class AnimationDocument {
+ public:
+  // See loadCharacter(). Throws InputError.
+  explicit AnimationDocument(const CharacterSource& source, const ClipSource& library = {});
+
+  const AnimationState& state() const { return state_; }
+  const RiggedCharacter& character() const { return *state_.character; }
+  const Skeleton& skeleton() const { return state_.character->skeleton; }
+  const std::vector<Clip>& clips() const { return *state_.clips; }
+  const Clip* clip() const;  // null: none
+  const std::string& path() const { return source_.path; }
+  int jointCount() const { return int(skeleton().joints.size()); }
+  int boneCount() const;  // joints that hang on another
+  // One line about the last step, or why it was refused.
+  const std::string& message() const { return message_; }
+  void say(const std::string& message) { message_ = message; }
+  // In the pose that is shown.
+  JointTransforms posed() const;
+
+  // Time. These are no steps; they take the pose from the clip.
+  bool playing = false, loops = true;
+  double speed = 1;
+  double duration_s() const;
+  // Goes on by so much time of the watch; false if nothing moves.
+  bool advance(double seconds);
+  void setTime(double time_s);
+
+  // The joint that keys and numbers speak of; -1: none.
+  int chosen() const { return chosen_; }
+  void choose(int joint) { chosen_ = joint; }
+  // The nearest within `radius_px`; -1 if there is none.
+  int jointAt(const Eigen::Vector2d& px, const Projection& projection, double radius_px) const;
+
+  // Steps. Between beginStep() and endStep() several make one.
+  void chooseClip(int clip);
+  // By so much about an axis of the joint's own, as it stands (0, 1, 2: x, y, z).
+  void turnJoint(int joint, int axis, double angle_rad);
+  // As angles (x, y, z) with R = Rz · Ry · Rx.
+  Eigen::Vector3d anglesOf(int joint) const;
+  void setAngles(int joint, const Eigen::Vector3d& angles_rad);
+  void resetJoint(int joint);
+  void resetPose();
+  // A key at the current time for each joint whose pose is not what the clip says, or for the chosen one.
+  void setKey();
+  // Of the chosen joint, or of all, at the current time.
+  void removeKey();
+  // Without keys, and chosen; it is for this character alone.
+  void newClip(const std::string& name, double duration_s);
+  void setDuration(double duration_s);
+  // When there are keys: of the chosen joint, or of all.
+  std::vector<double> keyTimes() const;
+
+  // Files. What fails is said in message(); false then. Loading makes a step.
+  bool openModel(const std::string& path);
+  bool saveModel(const std::string& path);  // .glb with all clips
+  bool loadPose(const std::string& path);
+  bool savePose(const std::string& path);
+  bool loadClip(const std::string& path);
+  bool saveClip(const std::string& path);
+  bool loadSkeleton(const std::string& path);  // the weights are computed anew
+  bool saveSkeleton(const std::string& path);
+  bool loadWeights(const std::string& path);
+  bool saveWeights(const std::string& path);
+  // The clip, or a single frame of the pose where there is none, as it is seen.
+  std::unique_ptr<FilmExport> exportFilm(const std::string& path, const Camera& camera,
+                                         const FilmOptions& options);
+
+  void beginStep();
+  void endStep();
+  bool canUndo() const { return !undo_.empty(); }
+  bool canRedo() const { return !redo_.empty(); }
+  bool undo();
+  bool redo();
+
+ private:
+  class StepScope;
+  template <class Action>
+  bool attempt(const Action& action);
+  void takePoseFromClip();
+  void replaceClip(Clip clip);
+  bool travel(std::deque<AnimationState>& from, std::deque<AnimationState>& to);
+
+  CharacterSource source_;
+  ClipSource library_;
+  std::string name_;
+  AnimationState state_;
+  int chosen_ = -1;
+  int open_steps_ = 0;
+  AnimationState before_;
+  std::deque<AnimationState> undo_, redo_;
+  std::string message_;
+};
+
+}  // namespace skel

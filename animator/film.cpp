@@ -1,0 +1,71 @@
+#include "animator/film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+
+#include "libskel/core/parallel.h"
+
+namespace skel {
+namespace {
+
+// Frames that are painted together: enough for all cores, few enough to take little memory.
+constexpr int kBatch = 8;
+// Moments that decide what the camera shows.
+constexpr int kMoments = 32;
+
+}  // namespace
+
+int frameCount(const Clip& clip, const FilmOptions& options) {
+  const double duration_s = options.duration_s > 0 ? options.duration_s : double(clip.duration_s());
+  return std::max(1, int(std::lround(duration_s * options.frame_rate)));
+}
+
+float heightOf(const RiggedCharacter& character) {
+  const Eigen::MatrixX3f& v = character.mesh.vertices;
+  return v.rows() > 0 ? v.col(1).maxCoeff() - v.col(1).minCoeff() : float(kModelHeight_m);
+}
+
+JointTransforms posedAt(const RiggedCharacter& character, const Clip& clip, double time_s) {
+  const double duration_s = double(clip.duration_s());
+  if (duration_s > 0 && time_s > duration_s) time_s = std::fmod(time_s, duration_s);
+  return posedFromRest(character.skeleton, samplePose(clip, character.skeleton, float(time_s)),
+                       heightOf(character));
+}
+
+Camera filmCamera(const RiggedCharacter& character, const Clip& clip, double yaw_rad, double pitch_rad,
+                  double width_over_height) {
+  const Eigen::Index count = character.mesh.vertices.rows();
+  Eigen::MatrixX3f all((kMoments + 1) * count, 3);
+  all.topRows(count) = character.mesh.vertices;
+  parallelFor(kMoments, 0, [&](std::size_t i) {
+    all.middleRows((Eigen::Index(i) + 1) * count, count) =
+        skinVertices(character.mesh.vertices, character.weights,
+                     posedAt(character, clip, double(clip.duration_s()) * double(i) / kMoments));
+  });
+  return framingCamera(all, yaw_rad, pitch_rad, width_over_height);
+}
+
+void writeFilm(const Scene& scene, const Clip& clip, const Camera& camera, const FilmOptions& options,
+               VideoWriter& video, const std::function<void()>& on_frame) {
+  const int count = frameCount(clip, options);
+  std::future<void> encoded;
+  for (int first = 0; first < count; first += kBatch) {
+    std::vector<Image> frames(std::size_t(std::min(kBatch, count - first)));
+    parallelFor(frames.size(), scene.isConcurrent() ? 0 : 1, [&](std::size_t i) {
+      const double time_s = (first + int(i)) / options.frame_rate;
+      frames[i] = scene.paint(posedAt(scene.character(), clip, time_s), camera, options.width, options.height,
+                              options.look);
+    });
+    if (encoded.valid()) encoded.get();
+    encoded = std::async(std::launch::async, [&video, &on_frame, frames = std::move(frames)] {
+      for (const Image& frame : frames) {
+        video.add(frame);
+        on_frame();
+      }
+    });
+  }
+  encoded.get();
+}
+
+}  // namespace skel

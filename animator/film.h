@@ -1,0 +1,37 @@
+// A clip as a film.
+#pragma once
+
+#include <functional>
+
+#include "libskel/animation/clip.h"
+#include "libskel/scene/scene.h"
+#include "libskel/video/video_writer.h"
+
+namespace skel {
+
+struct FilmOptions {
+  int width = 512, height = 512;
+  double frame_rate = 30;  // 1/s
+  double duration_s = 0;   // longer than the clip: it plays again and again; 0: the clip's
+  Look look;
+};
+
+// Whole frames, at least one. The last one comes a frame before the end, so that films that loop do not stop.
+int frameCount(const Clip& clip, const FilmOptions& options);
+
+// Shows all of the clip, from one side: the eye does not move.
+Camera filmCamera(const RiggedCharacter& character, const Clip& clip, double yaw_rad, double pitch_rad,
+                  double width_over_height);
+
+// All frames into `video`, which is not finished: `clip` is relative to the character's rest pose. Frames are
+// painted on all cores while others are encoded. `on_frame` is called for each.
+void writeFilm(const Scene& scene, const Clip& clip, const Camera& camera, const FilmOptions& options,
+               VideoWriter& video, const std::function<void()>& on_frame);
+
+// The character's joints in the clip at that moment; past the end it plays again.
+JointTransforms posedAt(const RiggedCharacter& character, const Clip& clip, double time_s);
+
+// Of its mesh, which is the unit of Clip::root_translations.
+float heightOf(const RiggedCharacter& character);
+
+}  // namespace skel

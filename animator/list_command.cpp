@@ -1,0 +1,54 @@
+#include "animator/list_command.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "libskel/animation/clip_library.h"
+
+namespace skel {
+namespace {
+
+void printClip(const Clip& clip, const char* note) {
+  std::printf("  %-12s %5.2f s  %2d joints  %s\n", clip.name.c_str(), double(clip.duration_s()),
+              int(clip.tracks.size()), note);
+}
+
+void printJoints(const Skeleton& skeleton) {
+  std::printf("joints:\n");
+  std::vector<int> depth;
+  for (const Joint& joint : skeleton.joints) {
+    depth.push_back(joint.parent < 0 ? 0 : depth[std::size_t(joint.parent)] + 1);
+    std::printf("  %*s%s\n", 2 * depth.back(), "", joint.name.c_str());
+  }
+}
+
+}  // namespace
+
+void bindListOptions(CLI::App& app, ListOptions& options) {
+  app.add_option("FILE", options.file,
+                 "A rigged character (.glb): lists its clips, those that fit it, its joints");
+  bindClipSource(app, options.clips);
+}
+
+ExitCode runList(const ListOptions& options) {
+  const std::vector<Clip> library = clipLibrary(options.clips);
+  if (options.file.empty()) {
+    std::string body_plan;
+    for (const Clip& clip : library) {
+      if (&clip == &library.front() || clip.template_name != body_plan)
+        std::printf("%s:\n", clip.template_name.empty() ? "any" : clip.template_name.c_str());
+      body_plan = clip.template_name;
+      printClip(clip, "");
+    }
+    return ExitCode::kDone;
+  }
+  const CharacterFile file = readGlb(options.file);
+  std::printf("clips of %s:\n", options.file.c_str());
+  for (const Clip& clip : file.clips) printClip(clip, "");
+  std::printf("clips that fit:\n");
+  for (const Clip& clip : clipsFor(library, file.character.skeleton)) printClip(clip, "");
+  printJoints(file.character.skeleton);
+  return ExitCode::kDone;
+}
+
+}  // namespace skel

@@ -1,0 +1,103 @@
+#include "animator/load_character.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+
+#include "animator/rig_source.h"
+#include "libskel/animation/clip_library.h"
+#include "libskel/classifier/weights_file.h"
+#include "libskel/core/error.h"
+#include "libskel/image/read_image.h"
+#include "libskel/pipeline/rig_character.h"
+
+namespace skel {
+namespace {
+namespace fs = std::filesystem;
+
+std::string endingOf(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return ending;
+}
+
+bool isDrawing(const std::string& path) {
+  constexpr std::array<std::string_view, 8> kEndings = {".png", ".jpg", ".jpeg", ".webp",
+                                                        ".bmp", ".tif", ".tiff", ".gif"};
+  return std::find(kEndings.begin(), kEndings.end(), endingOf(path)) != kEndings.end();
+}
+
+CharacterFile rigDrawing(const std::string& path, const std::string& body_plan) {
+  RigInput input;
+  input.image = readImage(path);
+  RigOptions rig;
+  rig.mlp = defaultMlp();
+  rig.body_plan = loadTemplate(body_plan);
+  RiggedDrawing drawing = rigCharacter(std::move(input), rig);
+  if (!drawing.found()) throw InputError(path, drawing.silhouette.reason);
+  return {std::move(drawing.character), {}, fs::path(path).stem().string()};
+}
+
+bool hasClip(const std::vector<Clip>& clips, const std::string& name) {
+  return std::any_of(clips.begin(), clips.end(), [&](const Clip& clip) { return clip.name == name; });
+}
+
+}  // namespace
+
+void bindCharacterSource(CLI::App& app, CharacterSource& source) {
+  app.add_option(
+         "file", source.path,
+         "A rigged character (.glb), a drawing, which is rigged first, or a model (.obj) with --skeleton")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--template", source.body_plan, "Body plan of a drawing: a name or a file")
+      ->capture_default_str();
+  app.add_option("--skeleton", source.skeleton, "The skeleton of a model: see skel-animate bind")
+      ->type_name("FILE");
+  app.add_option("--up", source.up, "The axis that points up in the skeleton's file")
+      ->check(CLI::IsMember({"auto", "y", "z"}))
+      ->capture_default_str();
+}
+
+CharacterFile loadCharacter(const CharacterSource& source) {
+  if (isDrawing(source.path)) return rigDrawing(source.path, source.body_plan);
+  const bool rigged = endingOf(source.path) == ".glb";
+  if (rigged && source.skeleton.empty()) return readGlb(source.path);
+  if (!rigged && source.skeleton.empty())
+    throw InputError(source.path,
+                     "is neither a rigged character (.glb) nor a drawing (.png, .jpg, ...); a model needs "
+                     "--skeleton FILE");
+  CharacterFile file = readRigModel({source.path, source.skeleton, source.up}).file;
+  RiggedCharacter& character = file.character;
+  character.weights = computeSkinWeights(character.mesh, character.skeleton, SkinMethod::kGeodesic);
+  return file;
+}
+
+CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips) {
+  CharacterFile file = loadCharacter(source);
+  for (Clip& clip : libraryFor(file.character, clips))
+    if (!hasClip(file.clips, clip.name)) file.clips.push_back(std::move(clip));
+  return file;
+}
+
+std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource& source) {
+  std::vector<Clip> clips = clipsFor(clipLibrary(source), character.skeleton);
+  for (Clip& clip : clips) clip = fitted(clip, character);
+  return clips;
+}
+
+Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source) {
+  for (const Clip& clip : file.clips)
+    if (clip.name == name_or_path) return clip;
+  std::vector<Clip> fitting = clipsFor(clipLibrary(source), file.character.skeleton);
+  if (hasClip(fitting, name_or_path)) return fitted(clipNamed(fitting, name_or_path), file.character);
+  if (name_or_path.find_first_of("./") != std::string::npos)
+    return loadClipFor(name_or_path, file.character, source);
+  fitting.insert(fitting.begin(), file.clips.begin(), file.clips.end());
+  return clipNamed(fitting, name_or_path);  // names those that there are
+}
+
+}  // namespace skel

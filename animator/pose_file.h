@@ -1,0 +1,19 @@
+// `<name>.pose.json`: one pose of a character.
+#pragma once
+
+#include <string>
+
+#include "libskel/animation/sample_pose.h"
+
+namespace skel {
+
+inline constexpr const char* kPoseFileEnding = ".pose.json";
+
+// {"format": "skel-pose", "version": 1, "root_translation": [x, y, z], "joints": {name: {"rotation": [x, y,
+// z, w], "translation_m": [x, y, z], "scale": [x, y, z]}}}; what is as in the rest pose is left out.
+std::string formatPose(const Pose& pose, const Skeleton& skeleton);
+
+// Throws InputError with the JSON path: a joint that the skeleton lacks, what is no rotation.
+Pose parsePose(std::string_view text, const std::string& file, const Skeleton& skeleton);
+
+}  // namespace skel

@@ -1,0 +1,73 @@
+#include "animator/retarget_command.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "animator/rig_source.h"
+#include "libskel/animation/clip_file.h"
+#include "libskel/animation/retarget_motion.h"
+#include "libskel/core/files.h"
+#include "libskel/deform/figure_shape.h"
+#include "libskel/export/formats.h"
+#include "libskel/import/read_character.h"
+
+namespace skel {
+namespace {
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "none" : text;
+}
+
+void report(const JointMatch& match) {
+  std::printf("matched %s:\n", match.by_shape ? "by the shape of the tree" : "by name");
+  for (const auto& [ours, theirs] : match.joints) std::printf("  %-16s %s\n", ours.c_str(), theirs.c_str());
+  std::printf("not matched, of the character: %s\n", listed(match.ours_left).c_str());
+  std::printf("not matched, of the motion: %s\n", listed(match.theirs_left).c_str());
+}
+
+// What the output's name asks for.
+std::string encoded(const std::string& path, CharacterFile file, const Clip& clip) {
+  if (path.ends_with(kClipFileEnding)) return formatClip(clip);
+  if (path.ends_with(".bvh")) {
+    const std::vector<Clip> clips = {clip};
+    return exportBvh({file.character, clips, {stemOf(path)}})[0].bytes;
+  }
+  std::erase_if(file.clips, [&](const Clip& other) { return other.name == clip.name; });
+  file.clips.push_back(clip);
+  return encodeGlb(file.character, file.clips, {file.name});
+}
+
+}  // namespace
+
+void bindRetargetOptions(CLI::App& app, RetargetCommandOptions& options) {
+  app.add_option("MOTION", options.motion, "The motion (.bvh), of anybody's skeleton")->required();
+  app.add_option("--to", options.target, "The rigged character (.glb) that is to move so")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("-o,--output", options.output,
+                 "What to write: the character with the motion among its clips (.glb), or the motion alone "
+                 "(.clip.json, .bvh); without: out/<motion>.glb")
+      ->type_name("FILE");
+  app.add_option("--name", options.name, "Of the clip; without: that of the motion's file");
+}
+
+ExitCode runRetarget(const RetargetCommandOptions& options) {
+  const std::string path = options.output.empty() ? "out/" + stemOf(options.motion) + ".glb" : options.output;
+  if (!path.ends_with(".glb") && !path.ends_with(".bvh") && !path.ends_with(kClipFileEnding))
+    throw UsageError(path + ": must end in .glb, .clip.json or .bvh");
+  CharacterFile file = readGlb(options.target);
+  const RiggedCharacter& character = file.character;
+  RetargetedMotion result =
+      retargetMotion(readBvh(options.motion), options.motion, character.skeleton,
+                     measureFigure(character.mesh, character.weights, character.skeleton));
+  if (!options.name.empty()) result.clip.name = options.name;
+  report(result.match);
+  writeFile(path, encoded(path, std::move(file), result.clip));
+  std::printf("wrote %s\n", path.c_str());
+  return ExitCode::kDone;
+}
+
+}  // namespace skel

@@ -1,0 +1,75 @@
+#include "animator/rig_source.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+
+#include "libskel/core/error.h"
+#include "libskel/core/json.h"
+#include "libskel/mesh/read_mesh.h"
+#include "libskel/skeleton/place_in_mesh.h"
+#include "libskel/skeleton/rig_file.h"
+#include "libskel/skeleton/skeleton_file.h"
+
+namespace skel {
+namespace {
+
+std::string percent(double share) {
+  return std::to_string(static_cast<int>(std::lround(100 * share))) + " %";
+}
+
+bool isGlb(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  return ending == ".glb" || ending == ".GLB";
+}
+
+}  // namespace
+
+void bindRigSource(CLI::App& app, RigSource& source) {
+  app.add_option("model", source.model, "The model: .obj, or a rigged .glb")->required()->type_name("MODEL");
+  app.add_option("--skeleton", source.skeleton,
+                 "Its skeleton: JSON with head and tail of each bone, or a .skeleton.json")
+      ->type_name("FILE");
+  app.add_option("--up", source.up,
+                 "The axis that points up in the skeleton's file; auto: as it lies in the model")
+      ->check(CLI::IsMember({"auto", "y", "z"}))
+      ->capture_default_str();
+}
+
+std::string stemOf(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+Skeleton readSkeletonFor(const TriangleMesh& mesh, const std::string& path, const std::string& up,
+                         std::string* note) {
+  if (isSkelFile(path)) {
+    const JsonDocument document = JsonDocument::readFile(path);
+    return readSkeletonFile(path, loadTemplate(document.root().at("template").asString())).skeleton;
+  }
+  const Skeleton as_is = readRigFile(path), turned = yUpFromZUp(as_is);
+  const double y = shareInside(as_is, mesh), z = shareInside(turned, mesh);
+  const bool z_up = up == "z" || (up == "auto" && z > y);
+  if (note)
+    *note = path + ": " + (z_up ? "z" : "y") + " is up" + (up == "auto" ? "" : " (--up)") + "; " +
+            percent(z_up ? z : y) + " of its bones lie in the model, " + percent(z_up ? y : z) + " with " +
+            (z_up ? "y" : "z") + " up";
+  return z_up ? turned : as_is;
+}
+
+RigModel readRigModel(const RigSource& source) {
+  RigModel result;
+  if (isGlb(source.model)) {
+    result.file = readGlb(source.model);
+    if (source.skeleton.empty()) return result;
+    result.file.clips.clear();
+    result.file.character.weights = SkinWeights();
+  } else {
+    result.file.character.mesh = readMesh(source.model);
+    result.file.name = stemOf(source.model);
+    if (source.skeleton.empty())
+      throw UsageError(source.model + " has no skeleton of its own; name one by --skeleton FILE");
+  }
+  result.file.character.skeleton =
+      readSkeletonFor(result.file.character.mesh, source.skeleton, source.up, &result.note);
+  return result;
+}
+
+}  // namespace skel

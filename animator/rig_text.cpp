@@ -1,0 +1,48 @@
+#include "animator/rig_text.h"
+
+#include <nlohmann/json.hpp>
+
+#include "libskel/animation/retarget.h"
+
+namespace skel {
+
+std::string formatRig(const Skeleton& skeleton) {
+  constexpr double kTip = 0.5;  // of a leaf, as a share of the bone that leads to it
+  nlohmann::ordered_json joints = nlohmann::ordered_json::array();
+  nlohmann::ordered_json hierarchy = nlohmann::ordered_json::object();
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const Joint& joint = skeleton.joints[j];
+    Eigen::Vector3d tail = Eigen::Vector3d::Zero();
+    int children = 0;
+    for (const Joint& other : skeleton.joints)
+      if (other.parent == int(j)) tail += other.position, ++children;
+    if (joint.tail) {
+      tail = *joint.tail;
+    } else if (children > 0) {
+      tail /= children;
+    } else {
+      const double length =
+          joint.parent < 0 ? 1
+                           : (joint.position - skeleton.joints[std::size_t(joint.parent)].position).norm();
+      tail = joint.position + kTip * length * restBone(skeleton, int(j));
+    }
+    nlohmann::ordered_json entry;
+    entry["name"] = joint.name;
+    entry["index"] = j;
+    entry["head"] = {joint.position.x(), joint.position.y(), joint.position.z()};
+    entry["tail"] = {tail.x(), tail.y(), tail.z()};
+    if (joint.parent < 0) {
+      entry["parent"] = nullptr;
+    } else {
+      const std::string& parent = skeleton.joints[std::size_t(joint.parent)].name;
+      entry["parent"] = parent;
+      hierarchy[joint.name] = parent;
+    }
+    joints.push_back(std::move(entry));
+  }
+  const nlohmann::ordered_json document = {{"joints", std::move(joints)},
+                                           {"hierarchy", std::move(hierarchy)}};
+  return document.dump(1) + "\n";
+}
+
+}  // namespace skel

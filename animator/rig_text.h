@@ -1,0 +1,13 @@
+// A skeleton as a file that readRigFile() (libskel/skeleton/rig_file.h) and other programs read.
+#pragma once
+
+#include <string>
+
+#include "libskel/skeleton/skeleton.h"
+
+namespace skel {
+
+// Positions in the model frame, y up; each joint's tail is its child's head, or the middle of its children's.
+std::string formatRig(const Skeleton& skeleton);
+
+}  // namespace skel

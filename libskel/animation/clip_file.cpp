@@ -1,0 +1,312 @@
+#include "libskel/animation/clip_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+
+#include "libskel/animation/clip_keys.h"
+#include "libskel/animation/sample_pose.h"
+#include "libskel/core/check.h"
+#include "libskel/core/files.h"
+#include "libskel/core/json.h"
+
+namespace skel {
+namespace {
+
+constexpr const char* kFormat = "skel-clip";
+constexpr int kVersion = 1;
+constexpr double kDegree = std::numbers::pi / 180;
+
+// How values go from key to key.
+enum class Ease {
+  kNone,  // straight, as the clip plays them
+  kRest,  // they come to rest at each key: extremes of a motion
+  kFlow,  // smoothly through the keys
+  kLoop,  // the same, and from the last on as from the first, which is its equal
+};
+
+Ease easeAt(const std::optional<JsonValue>& value) {
+  if (!value) return Ease::kNone;
+  const std::string name = value->asString();
+  if (name == "none") return Ease::kNone;
+  if (name == "rest") return Ease::kRest;
+  if (name == "flow") return Ease::kFlow;
+  if (name == "loop") return Ease::kLoop;
+  value->fail("is \"" + name + "\", must be none, rest, flow or loop");
+}
+
+struct Key {
+  double time_s;
+  Eigen::Vector3d value;
+};
+using Keys = std::vector<Key>;
+
+// The key's slope: the straight line between its neighbours, or level at the ends.
+Eigen::Vector3d slope(const Keys& keys, std::size_t i, Ease ease) {
+  const std::size_t last = keys.size() - 1;
+  if (i > 0 && i < last)
+    return (keys[i + 1].value - keys[i - 1].value) / (keys[i + 1].time_s - keys[i - 1].time_s);
+  if (ease != Ease::kLoop) return Eigen::Vector3d::Zero();
+  const double across = keys[1].time_s - keys[0].time_s + keys[last].time_s - keys[last - 1].time_s;
+  return (keys[1].value - keys[0].value + keys[last].value - keys[last - 1].value) / across;
+}
+
+Eigen::Vector3d eased(const Keys& keys, double time_s, Ease ease) {
+  if (keys.size() == 1) return keys[0].value;
+  std::size_t next = 1;
+  while (next + 1 < keys.size() && keys[next].time_s < time_s) ++next;
+  const Key &a = keys[next - 1], &b = keys[next];
+  const double length = b.time_s - a.time_s, t = std::clamp((time_s - a.time_s) / length, 0.0, 1.0);
+  if (ease == Ease::kRest)
+    return a.value + (b.value - a.value) * (0.5 - 0.5 * std::cos(t * std::numbers::pi));
+  // Cubic Hermite.
+  const double t2 = t * t, t3 = t2 * t;
+  return (2 * t3 - 3 * t2 + 1) * a.value + (t3 - 2 * t2 + t) * length * slope(keys, next - 1, ease) +
+         (3 * t2 - 2 * t3) * b.value + (t3 - t2) * length * slope(keys, next, ease);
+}
+
+// Even keys in place of eased ones.
+Keys sampled(const Keys& keys, Ease ease) {
+  if (ease == Ease::kNone || keys.size() < 2) return keys;
+  Keys result;
+  const int last = int(std::lround(keys.back().time_s * kEasedRate_hz));
+  for (int i = 0; i <= last; ++i) {
+    const double time_s = i / kEasedRate_hz;
+    result.push_back({time_s, eased(keys, time_s, ease)});
+  }
+  return result;
+}
+
+// [[time_s, x, y, z], …]
+Keys keysAt(const JsonValue& list, double limit) {
+  Keys keys;
+  std::vector<float> times;
+  for (const JsonValue& item : list.items()) {
+    const std::vector<double> numbers = item.asNumbers(4);
+    takeTime(item, numbers[0], times);
+    vectorAt(item, &numbers[1], limit);
+    keys.push_back({numbers[0], {numbers[1], numbers[2], numbers[3]}});
+  }
+  if (keys.empty()) list.fail("is empty");
+  return keys;
+}
+
+void vectorKeys(const JsonValue& list, double limit, Ease ease, std::vector<float>& times,
+                std::vector<Eigen::Vector3f>& values) {
+  for (const Key& key : sampled(keysAt(list, limit), ease)) {
+    times.push_back(float(key.time_s));
+    values.push_back(key.value.cast<float>());
+  }
+}
+
+// [[time_s, x, y, z, w], …]
+void quaternionKeys(const JsonValue& list, JointTrack& track) {
+  for (const JsonValue& item : list.items()) {
+    const std::vector<double> n = item.asNumbers(5);
+    takeTime(item, n[0], track.times_s);
+    Eigen::Quaterniond rotation(n[4], n[1], n[2], n[3]);
+    const double norm = rotation.norm();
+    if (!(std::abs(norm - 1) <= 1e-2)) item.fail("is no rotation: its last four numbers must have length 1");
+    if (std::abs(norm - 1) > 1e-6) rotation.normalize();
+    track.rotations.push_back(rotation.cast<float>());
+  }
+  if (track.times_s.empty()) list.fail("is empty");
+}
+
+void angleKeys(const JsonValue& list, Ease ease, JointTrack& track) {
+  for (const Key& key : sampled(keysAt(list, kMaxAngle_deg), ease)) {
+    const Eigen::Vector3f angles = (key.value * kDegree).cast<float>();
+    track.times_s.push_back(float(key.time_s));
+    track.rotations.push_back(rotationOfAngles(angles));
+    if (ease == Ease::kNone) track.angles_rad.push_back(angles);
+  }
+}
+
+JointTrack trackAt(const JsonValue& value, Ease ease) {
+  value.allowOnly({"joint", "bone", "slack_deg", "rotations", "angles_deg", "translations_m", "scales"});
+  JointTrack track;
+  track.joint = value.at("joint").asString();
+  if (track.joint.empty()) value.at("joint").fail("must not be empty");
+  if (const auto bone = value.find("bone")) {
+    const std::vector<double> n = bone->asNumbers(3);
+    const Eigen::Vector3f direction = vectorAt(*bone, n.data(), kMaxPlace);
+    if (!(direction.norm() > 1e-3f)) bone->fail("must be a direction");
+    track.bone = std::abs(direction.norm() - 1) > 1e-6f ? direction.normalized() : direction;
+  }
+  if (const auto slack = value.find("slack_deg")) {
+    if (track.bone.isZero()) slack->fail("needs a bone");
+    track.slack_rad = float(slack->asNumber(0, 180) * kDegree);
+  }
+  const auto rotations = value.find("rotations"), angles = value.find("angles_deg");
+  if (rotations && angles) angles->fail("stands beside \"rotations\"; give one of them");
+  if (rotations) quaternionKeys(*rotations, track);
+  if (angles) angleKeys(*angles, ease, track);
+  if (const auto places = value.find("translations_m"))
+    vectorKeys(*places, kMaxPlace, ease, track.translation_times_s, track.translations_m);
+  if (const auto scales = value.find("scales"))
+    vectorKeys(*scales, kMaxPlace, ease, track.scale_times_s, track.scales);
+  if (track.times_s.empty() && track.translation_times_s.empty() && track.scale_times_s.empty())
+    value.fail("has no keys; give \"rotations\", \"angles_deg\", \"translations_m\" or \"scales\"");
+  return track;
+}
+
+FootContact contactAt(const JsonValue& value, const Clip& clip) {
+  value.allowOnly({"joint", "from_s", "to_s"});
+  FootContact contact;
+  contact.joint = value.at("joint").asString();
+  contact.from_s = float(value.at("from_s").asNumber(0, kMaxTime_s));
+  contact.to_s = float(value.at("to_s").asNumber(0, kMaxTime_s));
+  if (!(contact.to_s > contact.from_s)) value.at("to_s").fail("must be later than from_s");
+  if (!(contact.to_s <= clip.duration_s() + 1e-3f)) value.at("to_s").fail("lies beyond the clip's end");
+  return contact;
+}
+
+void appendNumber(std::string& text, float number) {
+  char buffer[32];
+  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr);
+}
+
+void appendRow(std::string& text, float time_s, const float* numbers, int count) {
+  text += text.ends_with('[') ? "[" : ", [";
+  appendNumber(text, time_s);
+  for (int k = 0; k < count; ++k) {
+    text += ", ";
+    appendNumber(text, numbers[k] == 0 ? 0.f : numbers[k]);  // no -0
+  }
+  text += ']';
+}
+
+void appendVectors(std::string& text, const std::vector<float>& times,
+                   const std::vector<Eigen::Vector3f>& values) {
+  SKEL_CHECK_EQ(times.size(), values.size());
+  text += '[';
+  for (std::size_t k = 0; k < times.size(); ++k) appendRow(text, times[k], values[k].data(), 3);
+  text += ']';
+}
+
+// To the thousandth: what a file's angle in radians is read as, and no more.
+float degrees(float angle_rad) { return float(std::round(double(angle_rad) / kDegree * 1000) / 1000); }
+
+void appendTrack(std::string& text, const JointTrack& track) {
+  text += "{\"joint\": " +
+          nlohmann::json(track.joint).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  if (!track.bone.isZero()) {
+    text += ", \"bone\": [";
+    for (int k = 0; k < 3; ++k) {
+      text += k ? ", " : "";
+      appendNumber(text, track.bone[k] == 0 ? 0.f : track.bone[k]);
+    }
+    text += ']';
+    if (track.slack_rad > 0) {
+      text += ", \"slack_deg\": ";
+      appendNumber(text, degrees(track.slack_rad));
+    }
+  }
+  SKEL_CHECK_EQ(track.times_s.size(), track.rotations.size());
+  if (!track.angles_rad.empty()) {
+    text += ",\n     \"angles_deg\": ";
+    std::vector<Eigen::Vector3f> angles = track.angles_rad;
+    for (Eigen::Vector3f& angle : angles) angle = angle.unaryExpr(&degrees);
+    appendVectors(text, track.times_s, angles);
+  } else if (!track.times_s.empty()) {
+    text += ",\n     \"rotations\": [";
+    for (std::size_t k = 0; k < track.times_s.size(); ++k)
+      appendRow(text, track.times_s[k], track.rotations[k].coeffs().data(), 4);
+    text += ']';
+  }
+  if (!track.translation_times_s.empty()) {
+    text += ",\n     \"translations_m\": ";
+    appendVectors(text, track.translation_times_s, track.translations_m);
+  }
+  if (!track.scale_times_s.empty()) {
+    text += ",\n     \"scales\": ";
+    appendVectors(text, track.scale_times_s, track.scales);
+  }
+  text += '}';
+}
+
+}  // namespace
+
+std::string formatClip(const Clip& clip) {
+  const auto quoted = [](const std::string& name) {
+    return nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  };
+  std::string text = "{\n  \"format\": \"" + std::string(kFormat) +
+                     "\",\n  \"version\": " + std::to_string(kVersion) +
+                     ",\n  \"name\": " + quoted(clip.name);
+  if (!clip.template_name.empty()) text += ",\n  \"template\": " + quoted(clip.template_name);
+  if (clip.frame == ClipFrame::kBody) text += ",\n  \"frame\": \"body\"";
+  const auto number = [&](const char* key, float value) {
+    if (!(value > 0)) return;
+    text += ",\n  \"" + std::string(key) + "\": ";
+    appendNumber(text, value);
+  };
+  number("duration_s", clip.least_duration_s);
+  number("lead_s", clip.lead_s);
+  if (!clip.root_times_s.empty()) {
+    text += ",\n  \"root\": ";
+    appendVectors(text, clip.root_times_s, clip.root_translations);
+  }
+  text += ",\n  \"tracks\": [";
+  for (const JointTrack& track : clip.tracks) {
+    text += text.ends_with('[') ? "\n    " : ",\n    ";
+    appendTrack(text, track);
+  }
+  text += clip.tracks.empty() ? "]" : "\n  ]";
+  if (!clip.contacts.empty()) {
+    text += ",\n  \"contacts\": [";
+    for (const FootContact& contact : clip.contacts) {
+      text += text.ends_with('[') ? "\n    " : ",\n    ";
+      text += "{\"joint\": " + quoted(contact.joint) + ", \"from_s\": ";
+      appendNumber(text, contact.from_s);
+      text += ", \"to_s\": ";
+      appendNumber(text, contact.to_s);
+      text += '}';
+    }
+    text += "\n  ]";
+  }
+  return text + "\n}\n";
+}
+
+Clip parseClip(std::string_view text, const std::string& file) {
+  const JsonDocument document = JsonDocument::parse(text, file);
+  const JsonValue root = document.root();
+  root.checkFormat(kFormat, kVersion);
+  root.allowOnly({"format", "version", "name", "template", "frame", "duration_s", "lead_s", "ease", "root",
+                  "tracks", "contacts"});
+  Clip clip;
+  clip.name = root.at("name").asString();
+  if (clip.name.empty()) root.at("name").fail("must not be empty");
+  if (const auto body_plan = root.find("template")) clip.template_name = body_plan->asString();
+  if (const auto frame = root.find("frame")) {
+    const std::string name = frame->asString();
+    if (name != "picture" && name != "body") frame->fail("is \"" + name + "\", must be picture or body");
+    if (name == "body") clip.frame = ClipFrame::kBody;
+  }
+  if (const auto duration = root.find("duration_s"))
+    clip.least_duration_s = float(duration->asNumber(0, kMaxTime_s));
+  const Ease ease = easeAt(root.find("ease"));
+  if (const auto path = root.find("root"))
+    vectorKeys(*path, kMaxPlace, ease, clip.root_times_s, clip.root_translations);
+  for (const JsonValue& item : root.at("tracks").items()) {
+    JointTrack track = trackAt(item, ease);
+    if (std::any_of(clip.tracks.begin(), clip.tracks.end(),
+                    [&](const JointTrack& other) { return other.joint == track.joint; }))
+      item.at("joint").fail("\"" + track.joint + "\" has a track already");
+    clip.tracks.push_back(std::move(track));
+  }
+  if (const auto lead = root.find("lead_s")) {
+    clip.lead_s = float(lead->asNumber(0, kMaxTime_s));
+    if (2 * clip.lead_s > clip.duration_s()) lead->fail("must be at most half of the clip");
+  }
+  if (const auto contacts = root.find("contacts"))
+    for (const JsonValue& item : contacts->items()) clip.contacts.push_back(contactAt(item, clip));
+  return clip;
+}
+
+Clip readClipFile(const std::string& path) { return parseClip(readFile(path), path); }
+
+}  // namespace skel

@@ -1,0 +1,101 @@
+#include "libskel/animation/clip_library.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "embedded/builtin_clip_files.h"
+#include "libskel/animation/clip_file.h"
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+
+namespace skel {
+namespace {
+
+template <class HasJoint>
+bool fitsJoints(const Clip& clip, const std::string& template_name, const HasJoint& has_joint) {
+  const bool moves_all = std::all_of(clip.tracks.begin(), clip.tracks.end(),
+                                     [&](const JointTrack& track) { return has_joint(track.joint); });
+  if (!moves_all || clip.template_name.empty() || clip.template_name == template_name) return moves_all;
+  const std::vector<std::string> known = builtinTemplates();
+  if (std::find(known.begin(), known.end(), clip.template_name) == known.end()) return false;
+  const SkeletonTemplate made_for = loadTemplate(clip.template_name);
+  return std::all_of(made_for.joints.begin(), made_for.joints.end(),
+                     [&](const TemplateJoint& joint) { return has_joint(joint.name); });
+}
+
+template <class Target>
+std::vector<Clip> fittingClips(const std::vector<Clip>& library, const Target& target) {
+  std::vector<Clip> fitting;
+  for (const Clip& clip : library)
+    if (fits(clip, target)) fitting.push_back(clip);
+  return fitting;
+}
+
+bool sameName(const Clip& a, const Clip& b) { return a.name == b.name && a.template_name == b.template_name; }
+
+}  // namespace
+
+const std::vector<Clip>& builtinClips() {
+  static const std::vector<Clip> clips = [] {
+    std::vector<Clip> all;
+    for (const auto& [name, text] : embedded::builtin_clip_files)
+      all.push_back(parseClip(text, std::string(name)));
+    return all;
+  }();
+  return clips;
+}
+
+std::vector<Clip> clipsWithFolder(const std::string& dir) {
+  std::vector<Clip> library = builtinClips();
+  std::vector<Clip> own;
+  for (const std::string& path : filesBelow(dir)) {
+    if (!path.ends_with(kClipFileEnding)) continue;
+    Clip clip = readClipFile(path);
+    for (const Clip& other : own)
+      if (sameName(clip, other))
+        throw InputError(path, "is the second clip \"" + clip.name + "\" for the template \"" +
+                                   clip.template_name + "\" in " + dir);
+    own.push_back(std::move(clip));
+  }
+  if (own.empty())
+    throw InputError(dir, "holds no clip; the files must end in " + std::string(kClipFileEnding));
+  for (Clip& clip : own) {
+    const auto known = std::find_if(library.begin(), library.end(),
+                                    [&](const Clip& other) { return sameName(clip, other); });
+    if (known == library.end())
+      library.push_back(std::move(clip));
+    else
+      *known = std::move(clip);
+  }
+  return library;
+}
+
+bool fits(const Clip& clip, const Skeleton& skeleton) {
+  return fitsJoints(clip, skeleton.template_name,
+                    [&](const std::string& joint) { return skeleton.find(joint) >= 0; });
+}
+
+bool fits(const Clip& clip, const SkeletonTemplate& body_plan) {
+  return fitsJoints(clip, body_plan.name,
+                    [&](const std::string& joint) { return body_plan.find(joint) >= 0; });
+}
+
+std::vector<Clip> clipsFor(const std::vector<Clip>& library, const Skeleton& skeleton) {
+  return fittingClips(library, skeleton);
+}
+
+std::vector<Clip> clipsFor(const std::vector<Clip>& library, const SkeletonTemplate& body_plan) {
+  return fittingClips(library, body_plan);
+}
+
+const Clip& clipNamed(const std::vector<Clip>& fitting, std::string_view name) {
+  std::string names;
+  for (const Clip& clip : fitting) {
+    if (clip.name == name) return clip;
+    names += (names.empty() ? "" : ", ") + clip.name;
+  }
+  throw UsageError("there is no clip \"" + std::string(name) + "\" for this body plan" +
+                   (names.empty() ? std::string() : "; there are: " + names));
+}
+
+}  // namespace skel

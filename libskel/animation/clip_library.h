@@ -1,0 +1,31 @@
+// The motions that come with skel, and a user's own.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libskel/animation/clip.h"
+#include "libskel/skeleton/template.h"
+
+namespace skel {
+
+// All that come with skel, for the canonical pose: the files of libskel/animation/clips.
+const std::vector<Clip>& builtinClips();
+
+// These, and the clip files (kClipFileEnding) of `dir`, at any depth; one of the same name and template takes
+// the place of a built-in one. Throws InputError: no folder, a file that is no clip, two of the same name.
+std::vector<Clip> clipsWithFolder(const std::string& dir);
+
+// Whether the joints are there that the clip moves, and all those of its template.
+bool fits(const Clip& clip, const Skeleton& skeleton);
+bool fits(const Clip& clip, const SkeletonTemplate& body_plan);
+
+// Those of `library` that fit.
+std::vector<Clip> clipsFor(const std::vector<Clip>& library, const Skeleton& skeleton);
+std::vector<Clip> clipsFor(const std::vector<Clip>& library, const SkeletonTemplate& body_plan);
+
+// The one of this name among `fitting`. Throws UsageError that lists the names there are.
+const Clip& clipNamed(const std::vector<Clip>& fitting, std::string_view name);
+
+}  // namespace skel

@@ -1,0 +1,288 @@
+#include "libskel/animation/joint_roles.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <initializer_list>
+#include <string>
+
+namespace skel {
+namespace {
+
+using Eigen::Vector3d;
+
+enum class Side { kNone, kLeft, kRight };
+
+// "mixamorig:LeftForeArm", "forearm.L", "J_Bip_L_LowerArm" …: the side, and the rest in lower case.
+struct PlainName {
+  Side side = Side::kNone;
+  std::string base;
+};
+
+// At what is no letter, and before capitals: "LHipJoint" is l, hip, joint.
+std::vector<std::string> wordsOf(std::string_view name) {
+  std::vector<std::string> words(1);
+  const auto upper = [&](std::size_t i) {
+    return i < name.size() && std::isupper(static_cast<unsigned char>(name[i]));
+  };
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const auto c = static_cast<unsigned char>(name[i]);
+    if (!std::isalpha(c)) {
+      words.emplace_back();
+      continue;
+    }
+    const bool after_lower = i > 0 && std::islower(static_cast<unsigned char>(name[i - 1]));
+    const bool before_lower = i + 1 < name.size() && std::islower(static_cast<unsigned char>(name[i + 1]));
+    if (upper(i) && (after_lower || (upper(i - 1) && i > 0 && before_lower))) words.emplace_back();
+    words.back() += char(std::tolower(c));
+  }
+  std::erase(words, "");
+  return words;
+}
+
+PlainName plainName(std::string_view name) {
+  // What stands before a colon is the rig's name.
+  name.remove_prefix(name.rfind(':') + 1);
+  PlainName plain;
+  for (const std::string& word : wordsOf(name)) {
+    if (word == "left" || word == "l")
+      plain.side = Side::kLeft;
+    else if (word == "right" || word == "r")
+      plain.side = Side::kRight;
+    else if (word != "mixamorig" && word != "def" && word != "org" && word != "j" && word != "bip" &&
+             word != "c" && word != "bone" && word != "joint" && word != "jnt")
+      plain.base += word;
+  }
+  return plain;
+}
+
+// In the order of trust: "shoulder" is the collar bone where there is an "arm" too, "leg" the shin where
+// there is an "upleg".
+const std::initializer_list<std::string_view> kArm[3] = {{"upperarm", "uparm", "arm", "shldr", "shoulder"},
+                                                         {"forearm", "lowerarm", "lowarm", "elbow"},
+                                                         {"hand", "wrist"}};
+const std::initializer_list<std::string_view> kLeg[3] = {
+    {"upleg", "upperleg", "thigh", "hip", "leg"},
+    {"lowerleg", "lowleg", "shin", "calf", "knee", "leg"},
+    {"foot", "ankle"}};
+
+struct Tree {
+  const Skeleton& skeleton;
+  const std::vector<Vector3d>& tips;
+  std::vector<std::vector<int>> children;
+
+  Tree(const Skeleton& of, const std::vector<Vector3d>& tips_of)
+      : skeleton(of), tips(tips_of), children(of.joints.size()) {
+    for (std::size_t j = 0; j < of.joints.size(); ++j)
+      if (of.joints[j].parent >= 0) children[std::size_t(of.joints[j].parent)].push_back(int(j));
+  }
+  const Vector3d& at(int joint) const { return skeleton.joints[std::size_t(joint)].position; }
+  int parent(int joint) const { return skeleton.joints[std::size_t(joint)].parent; }
+
+  bool isAbove(int ancestor, int joint) const {
+    while (joint >= 0 && joint != ancestor) joint = parent(joint);
+    return joint >= 0;
+  }
+  int commonAncestor(int a, int b) const {
+    while (a >= 0 && !isAbove(a, b)) a = parent(a);
+    return a;
+  }
+  // From the joint down to `joint`, both with it.
+  std::vector<int> path(int from, int to) const {
+    std::vector<int> joints;
+    for (; to >= 0; to = parent(to)) {
+      joints.push_back(to);
+      if (to == from) break;
+    }
+    std::reverse(joints.begin(), joints.end());
+    return joints;
+  }
+  int size(int joint) const {
+    int count = 1;
+    for (const int child : children[std::size_t(joint)]) count += size(child);
+    return count;
+  }
+  // The longest way down.
+  std::vector<int> longest(int joint, double* length = nullptr) const {
+    std::vector<int> best;
+    double best_length = std::size_t(joint) < tips.size() ? tips[std::size_t(joint)].norm() : 0;
+    for (const int child : children[std::size_t(joint)]) {
+      double below = 0;
+      std::vector<int> way = longest(child, &below);
+      below += (at(child) - at(joint)).norm();
+      if (below > best_length || best.empty())
+        best = std::move(way), best_length = std::max(best_length, below);
+    }
+    best.insert(best.begin(), joint);
+    if (length) *length = best_length;
+    return best;
+  }
+};
+
+int roleIndex(std::string_view role) {
+  return int(std::find(kJointRoles.begin(), kJointRoles.end(), role) - kJointRoles.begin());
+}
+
+// The limb's three joints, each above the next. Empty if the names do not tell.
+std::vector<int> limbByNames(const Tree& tree, const std::vector<PlainName>& names,
+                             const std::initializer_list<std::string_view> (&wanted)[3], Side side) {
+  std::vector<int> limb;
+  // From the end inwards: hand and foot are called so by everyone.
+  for (int part = 2; part >= 0; --part) {
+    int found = -1;
+    for (const std::string_view name : wanted[part]) {
+      for (std::size_t j = 0; j < names.size() && found < 0; ++j)
+        if (names[j].side == side && names[j].base == name && (limb.empty() || int(j) != limb.front()) &&
+            (limb.empty() || tree.isAbove(int(j), limb.front())))
+          found = int(j);
+      if (found >= 0) break;
+    }
+    if (found < 0) return {};
+    limb.insert(limb.begin(), found);
+  }
+  return limb;
+}
+
+// Two neighbouring bones of the way down, both as long as can be.
+std::vector<int> limbByShape(const std::vector<int>& way, const Tree& tree) {
+  std::vector<int> best;
+  double best_length = 0;
+  for (std::size_t i = 0; i + 2 < way.size(); ++i) {
+    const double length = std::min((tree.at(way[i + 1]) - tree.at(way[i])).norm(),
+                                   (tree.at(way[i + 2]) - tree.at(way[i + 1])).norm());
+    if (length > best_length) best = {way[i], way[i + 1], way[i + 2]}, best_length = length;
+  }
+  return best;
+}
+
+// The two of `branches` whose ways down are most equally long; {-1, -1}: there are not two.
+std::pair<int, int> mostEqual(const Tree& tree, const std::vector<int>& branches) {
+  std::pair<int, int> best(-1, -1);
+  double best_difference = 1e300;
+  for (std::size_t a = 0; a < branches.size(); ++a)
+    for (std::size_t b = a + 1; b < branches.size(); ++b) {
+      double la = 0, lb = 0;
+      tree.longest(branches[a], &la);
+      tree.longest(branches[b], &lb);
+      const double difference = std::abs(la - lb) / std::max(1e-9, la + lb);
+      if (difference < best_difference) best = {branches[a], branches[b]}, best_difference = difference;
+    }
+  return best;
+}
+
+// The first joint from `joint` on, going where most joints are, with so many children.
+int forkBelow(const Tree& tree, int joint, std::size_t branches) {
+  while (tree.children[std::size_t(joint)].size() < branches) {
+    const auto& below = tree.children[std::size_t(joint)];
+    if (below.empty()) return -1;
+    joint = *std::max_element(below.begin(), below.end(),
+                              [&](int a, int b) { return tree.size(a) < tree.size(b); });
+  }
+  return joint;
+}
+
+struct Limbs {
+  std::vector<int> left_arm, right_arm, left_leg, right_leg;
+  bool complete() const {
+    return !left_arm.empty() && !right_arm.empty() && !left_leg.empty() && !right_leg.empty();
+  }
+};
+
+Limbs limbsByNames(const Tree& tree) {
+  std::vector<PlainName> names;
+  for (const Joint& joint : tree.skeleton.joints) names.push_back(plainName(joint.name));
+  return {limbByNames(tree, names, kArm, Side::kLeft), limbByNames(tree, names, kArm, Side::kRight),
+          limbByNames(tree, names, kLeg, Side::kLeft), limbByNames(tree, names, kLeg, Side::kRight)};
+}
+
+Limbs limbsByShape(const Tree& tree) {
+  const int hips = forkBelow(tree, 0, 3);
+  if (hips < 0) return {};
+  std::vector<int> branches = tree.children[std::size_t(hips)];
+  const auto trunk = std::max_element(branches.begin(), branches.end(),
+                                      [&](int a, int b) { return tree.size(a) < tree.size(b); });
+  const int chest = forkBelow(tree, *trunk, 3);
+  branches.erase(trunk);
+  if (chest < 0) return {};
+  const auto [leg_a, leg_b] = mostEqual(tree, branches);
+  const auto [arm_a, arm_b] = mostEqual(tree, tree.children[std::size_t(chest)]);
+  if (leg_a < 0 || arm_a < 0) return {};
+  Limbs limbs{limbByShape(tree.longest(arm_a), tree), limbByShape(tree.longest(arm_b), tree),
+              limbByShape(tree.longest(leg_a), tree), limbByShape(tree.longest(leg_b), tree)};
+  if (!limbs.complete()) return {};
+  // Left is where it is for one who looks along his feet, and else along z, or against y where z is up.
+  const Vector3d up = tree.at(chest) - tree.at(hips);
+  Vector3d forwards = Vector3d::Zero();
+  for (const std::vector<int>* leg : {&limbs.left_leg, &limbs.right_leg}) {
+    const std::size_t foot = std::size_t(leg->back());
+    if (!tree.children[foot].empty())
+      forwards += tree.at(tree.children[foot].front()) - tree.at(int(foot));
+    else if (foot < tree.tips.size())
+      forwards += tree.tips[foot];
+  }
+  forwards -= forwards.dot(up) / std::max(1e-12, up.squaredNorm()) * up;
+  if (!(forwards.norm() > 0.02 * up.norm()))
+    forwards = std::abs(up.z()) > std::abs(up.y()) ? Vector3d(0, -1, 0) : Vector3d(0, 0, 1);
+  const Vector3d left = up.cross(forwards);
+  const auto order = [&](std::vector<int>& a, std::vector<int>& b) {
+    if ((tree.at(a[0]) - tree.at(b[0])).dot(left) < 0) std::swap(a, b);
+  };
+  order(limbs.left_arm, limbs.right_arm);
+  order(limbs.left_leg, limbs.right_leg);
+  return limbs;
+}
+
+// The joint called "head", or where the way up from the chest, past the arms, is half done.
+int headOf(const Tree& tree, int chest, const Limbs& limbs) {
+  for (std::size_t j = 0; j < tree.skeleton.joints.size(); ++j) {
+    const PlainName name = plainName(tree.skeleton.joints[j].name);
+    if (name.base == "head" && name.side == Side::kNone && tree.isAbove(chest, int(j))) return int(j);
+  }
+  for (const int child : tree.children[std::size_t(chest)]) {
+    if (tree.isAbove(child, limbs.left_arm[0]) || tree.isAbove(child, limbs.right_arm[0])) continue;
+    const std::vector<int> way = tree.longest(child);
+    return way[way.size() / 2];
+  }
+  return -1;
+}
+
+}  // namespace
+
+int JointRoles::joint(std::string_view role) const { return joints[std::size_t(roleIndex(role))]; }
+
+JointRoles findJointRoles(const Skeleton& skeleton, const std::vector<Vector3d>& tips) {
+  JointRoles roles;
+  roles.joints.fill(-1);
+  if (skeleton.joints.empty()) return roles;
+  const Tree tree(skeleton, tips);
+  Limbs limbs = limbsByNames(tree);
+  if (!limbs.complete()) {
+    limbs = limbsByShape(tree);
+    roles.by_shape = true;
+  }
+  if (!limbs.complete()) return roles;
+  const auto set = [&](std::string_view role, int joint) {
+    roles.joints[std::size_t(roleIndex(role))] = joint;
+  };
+  const auto limb = [&](const std::vector<int>& joints, std::array<std::string_view, 3> names) {
+    for (std::size_t k = 0; k < 3; ++k) set(names[k], joints[k]);
+  };
+  limb(limbs.left_arm, {"left_shoulder", "left_elbow", "left_hand"});
+  limb(limbs.right_arm, {"right_shoulder", "right_elbow", "right_hand"});
+  limb(limbs.left_leg, {"left_hip", "left_knee", "left_foot"});
+  limb(limbs.right_leg, {"right_hip", "right_knee", "right_foot"});
+
+  const int pelvis = tree.commonAncestor(limbs.left_leg[0], limbs.right_leg[0]);
+  const int chest = tree.commonAncestor(limbs.left_arm[0], limbs.right_arm[0]);
+  set("pelvis", pelvis);
+  if (pelvis < 0 || chest < 0 || chest == pelvis || !tree.isAbove(pelvis, chest)) return roles;
+  set("neck", chest);  // what carries the arms
+  const std::vector<int> spine = tree.path(pelvis, chest);
+  if (spine.size() > 2) set("body", spine[spine.size() / 2]);
+  set("head", headOf(tree, chest, limbs));
+  return roles;
+}
+
+}  // namespace skel

@@ -1,0 +1,31 @@
+// Somebody else's motion, with a skeleton of its own, for one of our characters. Nothing to configure.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "libskel/animation/bvh.h"
+#include "libskel/animation/retarget.h"
+
+namespace skel {
+
+struct JointMatch {
+  std::vector<std::pair<std::string, std::string>> joints;  // ours, theirs
+  std::vector<std::string> ours_left, theirs_left;          // joints without a counterpart
+  bool by_shape = false;  // their names said nothing, the shape of their tree did
+};
+
+struct RetargetedMotion {
+  Clip clip;  // relative to the target's rest pose
+  JointMatch match;
+};
+
+// Bones of arms and legs point where theirs do, whatever either rest pose is; the trunk leans as theirs does
+// from upright. The figure starts where it stands, looking where it was drawn to look; ways are scaled by the
+// length of the legs, and its feet come as near to the ground as theirs. Joints are matched by equal names or
+// by findJointRoles(). Throws InputError (of `file`) if that finds no arms and legs on either side.
+RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file, const Skeleton& target,
+                                const FigureShape& shape);
+
+}  // namespace skel

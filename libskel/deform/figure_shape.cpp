@@ -1,0 +1,199 @@
+#include "libskel/deform/figure_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "libskel/core/check.h"
+#include "libskel/core/segment.h"
+
+namespace skel {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+struct Flesh {
+  const TriangleMesh& mesh;
+  const SkinWeights& weights;
+  const Skeleton& skeleton;
+
+  Vector3d at(Eigen::Index v) const { return mesh.vertices.row(v).transpose().cast<double>(); }
+  const Vector3d& joint(int j) const { return skeleton.joints[j].position; }
+  // How much of the vertex belongs to these joints.
+  double share(Eigen::Index v, std::initializer_list<int> joints) const {
+    double sum = 0;
+    for (int k = 0; k < 4; ++k)
+      if (std::find(joints.begin(), joints.end(), weights.joints(v, k)) != joints.end())
+        sum += double(weights.weights(v, k));
+    return sum;
+  }
+};
+
+// The angle at which a stick that turns about `pivot` lies beside the trunk, seen from the front. `side`: 1
+// for a limb that hangs to the right of the picture.
+double hangBeside(const Flesh& flesh, std::initializer_list<int> trunk, const Vector3d& pivot, double length,
+                  double half_width, double side) {
+  double hang = 0;
+  for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v) {
+    const Vector3d from = flesh.at(v) - pivot;
+    const double out = side * from.x(), down = -from.y(), far = std::hypot(out, down);
+    if (out <= 0 || down <= 0 || far < 0.4 * length || far > length || flesh.share(v, trunk) < 0.8) continue;
+    hang = std::max(hang, std::atan2(out, down) + 0.7 * std::asin(std::min(1.0, half_width / far)));
+  }
+  return hang;
+}
+
+// Half of the limb's thickness: how far its vertices lie from the bone, in the mean.
+double halfWidth(const Flesh& flesh, int joint, int child) {
+  double sum = 0;
+  int seen = 0;
+  const Vector2d from = flesh.joint(joint).head<2>(), to = flesh.joint(child).head<2>();
+  for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v)
+    if (flesh.share(v, {joint}) > 0.8) {
+      sum += distanceToSegment<Vector2d>(flesh.at(v).head<2>(), from, to);
+      ++seen;
+    }
+  return seen ? sum / seen : 0;
+}
+
+// The share of the forearm, by its vertices, that hangs on the trunk or the legs: an arm that was drawn
+// against the body, a hand that holds a skirt.
+double joinedArm(const Flesh& flesh, int elbow, int hand) {
+  const Vector2d from = flesh.joint(elbow).head<2>(), along = flesh.joint(hand).head<2>() - from;
+  int arm = 0, joined = 0;
+  for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v) {
+    const double own = flesh.share(v, {elbow, hand});
+    if (own < 0.2) continue;
+    ++arm;
+    if (own < 0.8 && (flesh.at(v).head<2>() - from).dot(along) > 0.3 * along.squaredNorm()) ++joined;
+  }
+  return arm ? double(joined) / arm : 0;
+}
+
+void measureArms(const Flesh& flesh, FigureShape& shape) {
+  const Skeleton& skeleton = flesh.skeleton;
+  const int pelvis = skeleton.find("pelvis"), body = skeleton.find("body"), neck = skeleton.find("neck");
+  if (pelvis < 0 || body < 0 || neck < 0) return;
+  for (const std::string name : {"left_", "right_"}) {
+    const int shoulder = skeleton.find(name + "shoulder"), elbow = skeleton.find(name + "elbow"),
+              hand = skeleton.find(name + "hand");
+    if (shoulder < 0 || elbow < 0 || hand < 0) continue;
+    const double side = flesh.joint(shoulder).x() < flesh.joint(0).x() ? -1 : 1;
+    const double upper = (flesh.joint(elbow) - flesh.joint(shoulder)).norm(),
+                 lower = (flesh.joint(hand) - flesh.joint(elbow)).norm();
+    const double width = halfWidth(flesh, elbow, hand);
+    const double hang =
+        hangBeside(flesh, {pelvis, body, neck}, flesh.joint(shoulder), upper + 1.2 * lower, width, side);
+    const double joined = joinedArm(flesh, elbow, hand);
+    shape.joined[shoulder] = shape.joined[elbow] = shape.joined[hand] = joined;
+    shape.hang_rad[shoulder] = shape.hang_rad[elbow] = shape.hang_rad[hand] = hang;
+  }
+}
+
+void measureSoles(const Flesh& flesh, FigureShape& shape) {
+  for (std::size_t j = 0; j < flesh.skeleton.joints.size(); ++j) {
+    if (!flesh.skeleton.joints[j].name.ends_with("foot")) continue;
+    double lowest = flesh.joint(int(j)).y();
+    for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v)
+      if (flesh.share(v, {int(j)}) > 0.5) lowest = std::min(lowest, double(flesh.mesh.vertices(v, 1)));
+    shape.sole_y_m[j] = lowest;
+  }
+}
+
+// How much further the foot reaches to the right of the picture than to the left of its joint, in heights.
+double footReach(const Flesh& flesh, int foot, double height_m) {
+  double left = 0, right = 0;
+  for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v)
+    if (flesh.share(v, {foot}) > 0.5) {
+      const double x = double(flesh.mesh.vertices(v, 0)) - flesh.joint(foot).x();
+      left = std::max(left, -x);
+      right = std::max(right, x);
+    }
+  return (right - left) / height_m;
+}
+
+// A pair of legs: what names its joints, and what both hang on.
+struct LegPair {
+  const char *top, *middle, *end, *trunk;
+};
+constexpr LegPair kBipedLegs = {"hip", "knee", "foot", "pelvis"};
+constexpr LegPair kFrontLegs = {"shoulder", "elbow", "front_foot", "neck"};
+constexpr LegPair kHindLegs = {"hip", "knee", "hind_foot", "pelvis"};
+
+// How far down two legs are one piece: there, what lies between them goes with the trunk.
+void measureLegs(const Flesh& flesh, const LegPair& pair, FigureShape& shape) {
+  const Skeleton& skeleton = flesh.skeleton;
+  std::vector<int> joints;
+  double top = 0, bottom = 0;
+  for (const std::string side : {"left_", "right_"}) {
+    for (const char* joint : {pair.top, pair.middle, pair.end}) joints.push_back(skeleton.find(side + joint));
+    if (joints.back() < 0 || joints[joints.size() - 3] < 0) return;
+    top += flesh.joint(joints[joints.size() - 3]).y() / 2;
+    bottom += flesh.joint(joints.back()).y() / 2;
+  }
+  const int trunk = skeleton.find(pair.trunk);
+  if (trunk < 0 || !(top > bottom)) return;
+  double lowest = top;
+  for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v)
+    if (flesh.share(v, {trunk}) > 0.6) lowest = std::min(lowest, double(flesh.mesh.vertices(v, 1)));
+  for (const int joint : joints)
+    if (joint >= 0) shape.joined[joint] = std::min(1.0, (top - lowest) / (top - bottom));
+}
+
+// How far to the right of the picture the middle joint of a limb lies from the straight line between the
+// others.
+double bend(const Flesh& flesh, int from, int middle, int to) {
+  const Vector2d a = flesh.joint(from).head<2>(), b = flesh.joint(middle).head<2>(),
+                 c = flesh.joint(to).head<2>();
+  return b.x() - nearestOnSegment<Vector2d>(b, a, c).x();
+}
+
+// A figure in side view is narrow, its feet and knees point the way it looks, its elbows and the nape the
+// other way; in front view left and right cancel out. The limits separate the drawings of
+// datasets/characters.
+double bipedYaw(const Flesh& flesh, double height_m) {
+  const Skeleton& skeleton = flesh.skeleton;
+  const int pelvis = skeleton.find("pelvis"), neck = skeleton.find("neck"), head = skeleton.find("head");
+  if (pelvis < 0 || neck < 0 || head < 0) return 0;
+  double looks = (flesh.joint(head).x() - flesh.joint(neck).x()) / height_m;
+  double shoulders = 0;
+  for (const std::string side : {"left_", "right_"}) {
+    const int shoulder = skeleton.find(side + "shoulder"), elbow = skeleton.find(side + "elbow"),
+              hand = skeleton.find(side + "hand"), hip = skeleton.find(side + "hip"),
+              knee = skeleton.find(side + "knee"), foot = skeleton.find(side + "foot");
+    if (std::min({shoulder, elbow, hand, hip, knee, foot}) < 0) return 0;
+    looks += footReach(flesh, foot, height_m) +
+             (2 * bend(flesh, hip, knee, foot) - bend(flesh, shoulder, elbow, hand)) / height_m;
+    shoulders += (side == "left_" ? 1 : -1) * flesh.joint(shoulder).x();
+  }
+  const double width = std::abs(shoulders) / std::max(1e-6, (flesh.joint(neck) - flesh.joint(pelvis)).norm());
+  const double side = looks > 0 ? 1 : -1;
+  if (width < 0.55 && std::abs(looks) > 0.1) return side * std::numbers::pi / 2;
+  if (width < 1 && std::abs(looks) > 0.12) return side * std::numbers::pi / 4;
+  return 0;
+}
+
+}  // namespace
+
+FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton) {
+  const auto& vertices = mesh.vertices;
+  SKEL_CHECK_EQ(vertices.rows(), weights.joints.rows());
+  FigureShape shape = shapeOfBones(skeleton);
+  shape.hang_rad.assign(skeleton.joints.size(), 0);
+  shape.sole_y_m.assign(skeleton.joints.size(), 0);
+  shape.joined.assign(skeleton.joints.size(), 0);
+  if (vertices.rows() == 0) return shape;
+  shape.height_m = double(vertices.col(1).maxCoeff() - vertices.col(1).minCoeff());
+  const Flesh flesh{mesh, weights, skeleton};
+  measureSoles(flesh, shape);
+  if (skeleton.find("left_front_foot") < 0) {
+    measureArms(flesh, shape);
+    shape.yaw_rad = bipedYaw(flesh, shape.height_m);
+  }
+  for (const LegPair& pair : {kBipedLegs, kFrontLegs, kHindLegs}) measureLegs(flesh, pair, shape);
+  return shape;
+}
+
+}  // namespace skel

@@ -1,0 +1,12 @@
+// What motions must know of the flesh around the bones.
+#pragma once
+
+#include "libskel/animation/retarget.h"
+#include "libskel/skin/skin_weights.h"
+
+namespace skel {
+
+// From the mesh in its rest pose.
+FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton);
+
+}  // namespace skel

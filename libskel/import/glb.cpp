@@ -1,0 +1,416 @@
+// glTF 2.0 binary (Khronos Group; ISO/IEC 12113:2022), the way back from libskel/export/glb.cpp.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "libskel/core/files.h"
+#include "libskel/image/read_image.h"
+#include "libskel/import/glb_container.h"
+#include "libskel/import/read_character.h"
+#include "libskel/skeleton/template.h"
+
+namespace skel {
+namespace {
+
+using Eigen::Affine3d;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr double kUnturned = 1e-4;  // how far a rest transform may be from the identity
+
+std::optional<std::vector<double>> numbersAt(const JsonValue& object, std::string_view key,
+                                             std::size_t count) {
+  const std::optional<JsonValue> value = object.find(key);
+  if (!value) return std::nullopt;
+  return value->asNumbers(count);
+}
+
+Affine3d localTransform(const JsonValue& node) {
+  Affine3d transform = Affine3d::Identity();
+  if (const auto m = numbersAt(node, "matrix", 16)) {
+    transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(m->data());
+    return transform;
+  }
+  if (const auto t = numbersAt(node, "translation", 3))
+    transform.translate(Vector3d((*t)[0], (*t)[1], (*t)[2]));
+  if (const auto r = numbersAt(node, "rotation", 4)) {
+    const Eigen::Quaterniond rotation((*r)[3], (*r)[0], (*r)[1], (*r)[2]);
+    if (std::abs(rotation.norm() - 1) > 1e-3) node.at("rotation").fail("is not a unit quaternion");
+    transform.rotate(rotation);
+  }
+  if (const auto s = numbersAt(node, "scale", 3)) transform.scale(Vector3d((*s)[0], (*s)[1], (*s)[2]));
+  return transform;
+}
+
+// The nodes as a forest, each with its transform in the rest pose.
+struct Nodes {
+  std::vector<JsonValue> values;
+  std::vector<int> parents;
+  std::vector<int> order;  // parents before children, else as in the file
+  std::vector<Affine3d, Eigen::aligned_allocator<Affine3d>> model_from_node;
+
+  explicit Nodes(const GlbContainer& glb) : values(glb.root().at("nodes").items()) {
+    const int count = static_cast<int>(values.size());
+    parents.assign(values.size(), -1);
+    std::vector<std::vector<int>> children(values.size());
+    for (int i = 0; i < count; ++i) {
+      const std::optional<JsonValue> list = values[i].find("children");
+      if (!list) continue;
+      for (const JsonValue& item : list->items()) {
+        const int child = item.asInt(0, count - 1);
+        if (parents[child] >= 0) item.fail("node " + std::to_string(child) + " has two parents");
+        parents[child] = i;
+        children[i].push_back(child);
+      }
+    }
+    std::vector<int> open;
+    for (int i = count - 1; i >= 0; --i)
+      if (parents[i] < 0) open.push_back(i);
+    model_from_node.assign(values.size(), Affine3d::Identity());
+    while (!open.empty()) {
+      const int node = open.back();
+      open.pop_back();
+      order.push_back(node);
+      const Affine3d local = localTransform(values[node]);
+      model_from_node[node] = parents[node] < 0 ? local : model_from_node[parents[node]] * local;
+      open.insert(open.end(), children[node].rbegin(), children[node].rend());
+    }
+    if (static_cast<int>(order.size()) < count) glb.root().at("nodes").fail("are in a circle");
+  }
+};
+
+// The one node that wears a skin.
+int skinnedNode(const GlbContainer& glb, const Nodes& nodes) {
+  int found = -1;
+  for (std::size_t i = 0; i < nodes.values.size(); ++i) {
+    const std::optional<JsonValue> mesh = nodes.values[i].find("mesh");
+    if (!mesh) continue;
+    if (found >= 0) mesh->fail("is a second mesh; one is read: join them in the program that made the file");
+    if (!nodes.values[i].find("skin")) mesh->fail("has no skin; bind the model to a skeleton first");
+    found = static_cast<int>(i);
+  }
+  if (found < 0) glb.root().at("nodes").fail("hold no mesh");
+  return found;
+}
+
+struct Joints {
+  Skeleton skeleton;
+  std::vector<int> of_node;        // index into skeleton.joints, -1: none
+  std::vector<int> of_skin_joint;  // the same by the skin's own order
+};
+
+std::string templateOf(const Skeleton& skeleton) {
+  for (const std::string& name : builtinTemplates()) {
+    const SkeletonTemplate body_plan = loadTemplate(name);
+    if (body_plan.joints.size() != skeleton.joints.size()) continue;
+    const bool same = std::all_of(skeleton.joints.begin(), skeleton.joints.end(), [&](const Joint& joint) {
+      const int index = body_plan.find(joint.name);
+      if (index < 0) return false;
+      const int parent = body_plan.joints[index].parent;
+      return (parent < 0) == (joint.parent < 0) &&
+             (parent < 0 || body_plan.joints[parent].name == skeleton.joints[joint.parent].name);
+    });
+    if (same) return name;
+  }
+  return "";
+}
+
+Joints readJoints(const Nodes& nodes, const JsonValue& skin) {
+  const JsonValue list = skin.at("joints");
+  const std::vector<JsonValue> items = list.items();
+  if (items.empty()) list.fail("is empty");
+  if (items.size() > 65535) list.fail("has more than 65535 joints");
+  Joints joints;
+  std::vector<int> place(nodes.values.size(), -1);  // in the skin's list
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const int node = items[k].asInt(0, static_cast<int>(nodes.values.size()) - 1);
+    if (place[node] >= 0) items[k].fail("node " + std::to_string(node) + " stands here for the second time");
+    place[node] = static_cast<int>(k);
+  }
+  // In the skin's order, as far as that has parents first: then the file is written as it was.
+  std::vector<int> sorted;
+  for (const JsonValue& item : items) sorted.push_back(item.asInt(0, 1 << 30));
+  const bool parents_first = std::all_of(sorted.begin(), sorted.end(), [&](int node) {
+    const int parent = nodes.parents[node];
+    return parent < 0 || place[parent] < place[node];
+  });
+  if (!parents_first) {
+    sorted.clear();
+    for (const int node : nodes.order)
+      if (place[node] >= 0) sorted.push_back(node);
+  }
+
+  joints.of_node.assign(nodes.values.size(), -1);
+  joints.of_skin_joint.assign(items.size(), -1);
+  std::set<std::string> names;
+  for (const int node : sorted) {
+    const JsonValue& value = nodes.values[node];
+    const int index = static_cast<int>(joints.skeleton.joints.size()), above = nodes.parents[node];
+    Joint joint;
+    joint.name = value.at("name").asString();
+    if (!names.insert(joint.name).second)
+      value.at("name").fail("\"" + joint.name + "\" is the name of two joints");
+    joint.parent = above < 0 ? -1 : joints.of_node[above];
+    if (joint.parent < 0 && index > 0) {
+      if (above >= 0) value.fail("the joint \"" + joint.name + "\" hangs on a node that is no joint");
+      value.fail("the joint \"" + joint.name + "\" is a second root");
+    }
+    const Affine3d& rest = nodes.model_from_node[node];
+    if (!((rest.linear() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= kUnturned))
+      value.fail("the joint \"" + joint.name +
+                 "\" is turned or scaled in the rest pose; apply rotation and scale before export");
+    joint.position = rest.translation();
+    if (const auto extras = value.find("extras"); extras && extras->isObject())
+      if (const auto tail = numbersAt(*extras, "tail", 3))
+        joint.tail = Vector3d((*tail)[0], (*tail)[1], (*tail)[2]);
+    joint.confidence = 1;
+    joint.origin = JointOrigin::kEdited;
+    joints.of_node[node] = index;
+    joints.of_skin_joint[place[node]] = index;
+    joints.skeleton.joints.push_back(std::move(joint));
+  }
+  joints.skeleton.template_name = templateOf(joints.skeleton);
+  return joints;
+}
+
+// The skin must have been bound where the nodes stand.
+void checkInverseBind(const GlbContainer& glb, const JsonValue& skin, const Joints& joints) {
+  const std::optional<JsonValue> index = skin.find("inverseBindMatrices");
+  if (!index) skin.fail("has no inverse bind matrices");
+  const GlbContainer::Numbers matrices = glb.numbers(*index, 16);
+  if (matrices.count != joints.of_skin_joint.size())
+    index->fail("are " + std::to_string(matrices.count) + ", there are " +
+                std::to_string(joints.of_skin_joint.size()) + " joints");
+  for (std::size_t k = 0; k < matrices.count; ++k) {
+    const Joint& joint = joints.skeleton.joints[joints.of_skin_joint[k]];
+    Eigen::Matrix4d expected = Eigen::Matrix4d::Identity();
+    expected.col(3).head<3>() = -joint.position;
+    const Eigen::Matrix4d matrix =
+        Eigen::Map<const Eigen::Matrix4f>(matrices.values.data() + 16 * k).cast<double>();
+    if (!((matrix - expected).cwiseAbs().maxCoeff() <= kUnturned * (1 + joint.position.norm())))
+      index->fail("that of \"" + joint.name + "\" is not where its node stands; export in the rest pose");
+  }
+}
+
+void readTriangles(const GlbContainer& glb, const JsonValue& primitive, TriangleMesh& mesh) {
+  const JsonValue index = primitive.at("indices");
+  const std::vector<std::uint32_t> corners = glb.wholes(index, 1);
+  if (corners.size() % 3 != 0)
+    index.fail("has " + std::to_string(corners.size()) + " corners, no multiple of 3");
+  mesh.triangles.resize(static_cast<Eigen::Index>(corners.size() / 3), 3);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (corners[i] >= static_cast<std::uint32_t>(mesh.vertices.rows()))
+      index.fail("triangle " + std::to_string(i / 3) + " has vertex " + std::to_string(corners[i]) + " of " +
+                 std::to_string(mesh.vertices.rows()));
+    mesh.triangles(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3)) =
+        static_cast<int>(corners[i]);
+  }
+}
+
+void readTexture(const GlbContainer& glb, const JsonValue& primitive, const std::string& file,
+                 TriangleMesh& mesh) {
+  const std::optional<JsonValue> material_index = primitive.find("material");
+  if (!material_index) return;
+  const std::optional<JsonValue> pbr = glb.element("materials", *material_index).find("pbrMetallicRoughness");
+  if (!pbr) return;
+  if (const auto factor = numbersAt(*pbr, "baseColorFactor", 4))
+    if (*factor != std::vector<double>(4, 1))
+      pbr->at("baseColorFactor").fail("is not read; put the colour into a texture");
+  const std::optional<JsonValue> found = pbr->find("baseColorTexture");
+  if (!found) return;
+  const JsonValue image = glb.element("images", glb.element("textures", found->at("index")).at("source"));
+  if (image.find("uri")) image.at("uri").fail("lies outside of the file; export as one .glb");
+  if (const auto set = found->find("texCoord"); set && set->asInt(0, 1 << 20) != 0)
+    set->fail("is not read; use the first set of texture coordinates");
+  const std::optional<JsonValue> uv = primitive.at("attributes").find("TEXCOORD_0");
+  if (!uv) primitive.at("attributes").fail("lacks \"TEXCOORD_0\", which the texture needs");
+  const GlbContainer::Numbers coordinates = glb.numbers(*uv, 2);
+  if (coordinates.count != static_cast<std::size_t>(mesh.vertices.rows()))
+    uv->fail("has " + std::to_string(coordinates.count) + " elements, there are " +
+             std::to_string(mesh.vertices.rows()) + " vertices");
+  mesh.uv = Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor>>(
+      coordinates.values.data(), mesh.vertices.rows(), 2);
+  mesh.texture = decodeImage(glb.view(image.at("bufferView")), file + ": " + image.path());
+}
+
+TriangleMesh readMesh(const GlbContainer& glb, const JsonValue& primitive, const std::string& file) {
+  if (const auto mode = primitive.find("mode"); mode && mode->asInt(0, 6) != 4)
+    mode->fail("must be triangles (4)");
+  if (primitive.find("targets")) primitive.at("targets").fail("is not read; export without morph targets");
+  TriangleMesh mesh;
+  const GlbContainer::Numbers positions = glb.numbers(primitive.at("attributes").at("POSITION"), 3);
+  mesh.vertices = Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>>(
+      positions.values.data(), static_cast<Eigen::Index>(positions.count), 3);
+  readTriangles(glb, primitive, mesh);
+  readTexture(glb, primitive, file, mesh);
+  return mesh;
+}
+
+SkinWeights readWeights(const GlbContainer& glb, const JsonValue& primitive, const Joints& joints,
+                        std::size_t vertices) {
+  const JsonValue attributes = primitive.at("attributes");
+  if (const auto more = attributes.find("JOINTS_1"))
+    more->fail("is not read; export with at most 4 influences");
+  const JsonValue joints_index = attributes.at("JOINTS_0"), weights_index = attributes.at("WEIGHTS_0");
+  const std::vector<std::uint32_t> indices = glb.wholes(joints_index, 4);
+  const GlbContainer::Numbers weights = glb.numbers(weights_index, 4);
+  if (indices.size() != 4 * vertices || weights.count != vertices)
+    (indices.size() != 4 * vertices ? joints_index : weights_index)
+        .fail("must have an element for each of the " + std::to_string(vertices) + " vertices");
+  SkinWeights result;
+  result.joints.setZero(static_cast<Eigen::Index>(vertices), 4);
+  result.weights.setZero(static_cast<Eigen::Index>(vertices), 4);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    struct Share {
+      float weight;
+      std::uint16_t joint;
+    };
+    std::array<Share, 4> shares{};
+    float sum = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const float weight = weights.values[4 * v + k];
+      const std::uint32_t joint = indices[4 * v + k];
+      if (weight < 0) weights_index.fail("vertex " + std::to_string(v) + " has a negative weight");
+      if (weight == 0) continue;
+      if (joint >= joints.of_skin_joint.size())
+        joints_index.fail("vertex " + std::to_string(v) + " has joint " + std::to_string(joint) + " of " +
+                          std::to_string(joints.of_skin_joint.size()));
+      shares[k] = {weight, static_cast<std::uint16_t>(joints.of_skin_joint[joint])};
+      sum += weight;
+    }
+    if (!(sum > 1e-6f)) weights_index.fail("vertex " + std::to_string(v) + " has no weights");
+    if (!(std::abs(sum - 1) < 1e-5f))
+      for (Share& share : shares) share.weight /= sum;
+    std::stable_sort(shares.begin(), shares.end(),
+                     [](const Share& a, const Share& b) { return a.weight > b.weight; });
+    for (std::size_t k = 0; k < 4; ++k) {
+      result.joints(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(k)) = shares[k].joint;
+      result.weights(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(k)) = shares[k].weight;
+    }
+  }
+  return result;
+}
+
+std::vector<float> readTimes(const GlbContainer& glb, const JsonValue& index) {
+  const std::vector<float> times = glb.numbers(index, 1).values;
+  for (std::size_t i = 0; i < times.size(); ++i)
+    if (times[i] < 0 || (i > 0 && times[i] <= times[i - 1]))
+      index.fail("time " + std::to_string(i) +
+                 (times[i] < 0 ? " is negative" : " is not later than the one before"));
+  return times;
+}
+
+std::vector<Vector3f> vectors(const GlbContainer::Numbers& numbers, const Vector3f& less) {
+  std::vector<Vector3f> result;
+  for (std::size_t i = 0; i < numbers.count; ++i)
+    result.push_back(Eigen::Map<const Vector3f>(numbers.values.data() + 3 * i) - less);
+  return result;
+}
+
+std::vector<Eigen::Quaternionf> quaternions(const GlbContainer::Numbers& numbers, const JsonValue& output) {
+  std::vector<Eigen::Quaternionf> result;
+  for (std::size_t i = 0; i < numbers.count; ++i) {
+    const float* q = numbers.values.data() + 4 * i;
+    result.emplace_back(q[3], q[0], q[1], q[2]);
+    if (!(std::abs(result.back().norm() - 1) < 1e-2f))
+      output.fail("element " + std::to_string(i) + " is not a unit quaternion");
+  }
+  return result;
+}
+
+Clip readClip(const GlbContainer& glb, const JsonValue& animation, const RiggedCharacter& character,
+              const Joints& joints, const std::string& otherwise) {
+  Clip clip;
+  const std::optional<JsonValue> name = animation.find("name");
+  clip.name = name ? name->asString() : otherwise;
+  const std::vector<JsonValue> samplers = animation.at("samplers").items();
+  if (samplers.empty()) animation.at("samplers").fail("is empty");
+  const std::vector<Joint>& all = character.skeleton.joints;
+  const float height = character.mesh.vertices.col(1).maxCoeff() - character.mesh.vertices.col(1).minCoeff();
+  std::set<std::pair<int, std::string>> moved;
+  std::vector<int> tracks(all.size(), -1);
+  for (const JsonValue& channel : animation.at("channels").items()) {
+    const JsonValue target = channel.at("target"), path = target.at("path");
+    const int joint = joints.of_node[static_cast<std::size_t>(
+        target.at("node").asInt(0, static_cast<int>(joints.of_node.size()) - 1))];
+    if (joint < 0) target.at("node").fail("is no joint of the skin");
+    const std::string kind = path.asString();
+    if (kind != "rotation" && kind != "translation" && kind != "scale")
+      path.fail("\"" + kind + "\" is not read");
+    if (!moved.emplace(joint, kind).second) target.fail("is moved by two channels");
+    const JsonValue& sampler = samplers[static_cast<std::size_t>(
+        channel.at("sampler").asInt(0, static_cast<int>(samplers.size()) - 1))];
+    if (const auto way = sampler.find("interpolation"); way && way->asString() != "LINEAR")
+      way->fail(way->asString() + " is not read; export with LINEAR interpolation (baked)");
+    const std::vector<float> times = readTimes(glb, sampler.at("input"));
+    const JsonValue output = sampler.at("output");
+    const GlbContainer::Numbers values = glb.numbers(output, kind == "rotation" ? 4 : 3);
+    if (values.count != times.size())
+      output.fail("has " + std::to_string(values.count) + " elements for " + std::to_string(times.size()) +
+                  " times");
+    if (kind == "translation" && joint == 0) {
+      if (!(height > 0)) path.fail("cannot be measured by the height of a model that has none");
+      clip.root_times_s = times;
+      clip.root_translations = vectors(values, all[0].position.cast<float>());
+      for (Vector3f& translation : clip.root_translations) translation /= height;
+      continue;
+    }
+    if (tracks[joint] < 0) {
+      tracks[joint] = static_cast<int>(clip.tracks.size());
+      clip.tracks.emplace_back().joint = all[joint].name;
+    }
+    JointTrack& track = clip.tracks[static_cast<std::size_t>(tracks[joint])];
+    if (kind == "rotation") {
+      track.times_s = times;
+      track.rotations = quaternions(values, output);
+    } else if (kind == "translation") {
+      track.translation_times_s = times;
+      track.translations_m =
+          vectors(values, (all[joint].position - all[all[joint].parent].position).cast<float>());
+    } else {
+      track.scale_times_s = times;
+      track.scales = vectors(values, Vector3f::Zero());
+    }
+  }
+  return clip;
+}
+
+}  // namespace
+
+CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
+  const GlbContainer glb(bytes, file);
+  if (const auto needed = glb.root().find("extensionsRequired"); needed && !needed->items().empty())
+    needed->fail("names \"" + needed->items()[0].asString() + "\", which is not read");
+  const Nodes nodes(glb);
+  const JsonValue& node = nodes.values[static_cast<std::size_t>(skinnedNode(glb, nodes))];
+  const JsonValue mesh = glb.element("meshes", node.at("mesh"));
+  const std::vector<JsonValue> primitives = mesh.at("primitives").items();
+  if (primitives.size() != 1)
+    mesh.at("primitives")
+        .fail("has " + std::to_string(primitives.size()) + " elements, one is read: use one material");
+  const JsonValue skin = glb.element("skins", node.at("skin"));
+
+  CharacterFile result;
+  RiggedCharacter& character = result.character;
+  character.mesh = readMesh(glb, primitives[0], file);
+  const Joints joints = readJoints(nodes, skin);
+  checkInverseBind(glb, skin, joints);
+  character.skeleton = joints.skeleton;
+  character.weights =
+      readWeights(glb, primitives[0], joints, static_cast<std::size_t>(character.mesh.vertices.rows()));
+  if (const auto animations = glb.root().find("animations")) {
+    const std::vector<JsonValue> all = animations->items();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      result.clips.push_back(readClip(glb, all[i], character, joints, "clip " + std::to_string(i + 1)));
+  }
+  if (const auto name = mesh.find("name")) result.name = name->asString();
+  return result;
+}
+
+CharacterFile readGlb(const std::string& path) { return decodeGlb(readFile(path), path); }
+
+}  // namespace skel

@@ -1,0 +1,27 @@
+// Rigged characters, read back.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libskel/animation/clip.h"
+#include "libskel/export/write_character.h"
+
+namespace skel {
+
+struct CharacterFile {
+  RiggedCharacter character;  // Joint::image and mesh.model_from_image are not known: zeros, the identity
+  std::vector<Clip> clips;    // relative to the character's rest pose
+  std::string name;           // of the scene
+};
+
+// glTF 2.0 binary, as encodeGlb() writes it: one skinned mesh of one primitive with at most 4 influences a
+// vertex, joints that stand unturned and unscaled in the rest pose, everything inside the file, animations
+// with LINEAR samplers. encodeGlb() gives back the same bytes (the texture's if it was ours). Throws
+// InputError with the place in the glTF document.
+CharacterFile readGlb(const std::string& path);
+// `file` is the name that complaints use.
+CharacterFile decodeGlb(std::string_view bytes, const std::string& file);
+
+}  // namespace skel

@@ -1,0 +1,25 @@
+#include "libskel/mesh/read_mesh.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "libskel/core/error.h"
+#include "libskel/mesh/obj.h"
+
+namespace skel {
+
+TriangleMesh readMesh(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : static_cast<char>(c);
+  });
+  if (ending == ".obj") return readObj(path);
+  if (ending == ".stl")
+    throw InputError(
+        path,
+        "is an STL file: loose triangles without parts, colours or units; open it in Blender and "
+        "export it as OBJ");
+  throw InputError(path, "is no model that can be read; export it as OBJ");
+}
+
+}  // namespace skel

@@ -1,0 +1,65 @@
+// A character in a pose as it is seen: background, shadow, body, skeleton.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "libskel/deform/skin_vertices.h"
+#include "libskel/export/write_character.h"
+#include "libskel/scene/mesh_painter.h"
+
+namespace skel {
+
+struct Look {
+  bool solid = true;
+  bool translucent = false;  // the body is seen through
+  bool wireframe = false;
+  bool skeleton = false;
+  bool shadow = true;         // on the ground
+  int weights_of = -1;        // a joint: its weights instead of the texture, blue to yellow
+  int chosen = -1;            // a joint that is drawn larger
+  Color background = kWhite;  // kClear: none
+  Image picture;              // if not empty: over the background, covering all of it
+};
+
+// Where points of the model are seen, px; a point behind the eye gives nothing.
+class Projection {
+ public:
+  Projection(const Camera& camera, int width, int height);
+  std::optional<Eigen::Vector2d> operator()(const Eigen::Vector3d& model) const;
+  // How many px a metre is at that point.
+  double pxPerMetre(const Eigen::Vector3d& model) const;
+
+ private:
+  Eigen::Matrix3d eye_;
+  Camera camera_;
+  double scale_;
+  Eigen::Vector2d middle_;
+};
+
+// What stays the same from frame to frame: the ground, the painted background.
+class Scene {
+ public:
+  // The character outlives the scene.
+  Scene(const RiggedCharacter& character, std::unique_ptr<MeshPainter> painter);
+
+  const RiggedCharacter& character() const { return character_; }
+  // Whether several threads may paint at once.
+  bool isConcurrent() const { return painter_->isConcurrent(); }
+  Image paint(const JointTransforms& posed_from_rest, const Camera& camera, int width, int height,
+              const Look& look) const;
+  float groundY() const { return ground_y_; }
+
+ private:
+  const RiggedCharacter& character_;
+  std::unique_ptr<MeshPainter> painter_;
+  float ground_y_ = 0;
+};
+
+// The picture scaled and cut to cover the size.
+Image covering(const Image& picture, int width, int height);
+
+// The colour of a weight in [0, 1].
+Color weightColor(double weight);
+
+}  // namespace skel

@@ -1,0 +1,141 @@
+#include "libskel/skeleton/rig_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "libskel/core/error.h"
+#include "libskel/core/json.h"
+
+namespace skel {
+namespace {
+
+constexpr std::size_t kMostJoints = 4096;
+
+Eigen::Vector3d pointAt(const JsonValue& value) {
+  const std::vector<double> numbers = value.asNumbers(3);
+  for (const double number : numbers)
+    if (std::abs(number) > 1e6) value.fail("is farther than 1e6 from the origin");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+// A joint as it stands in the file.
+struct Listed {
+  JsonValue value;
+  Joint joint;
+  std::string parent;  // empty: none
+};
+
+// The joint's own word and that of the hierarchy.
+std::string parentOf(const JsonValue& item, const std::string& name,
+                     const std::optional<JsonValue>& hierarchy) {
+  std::string parent;
+  const std::optional<JsonValue> own = item.find("parent");
+  if (own && !own->isNull()) parent = own->asString();
+  const std::optional<JsonValue> above = hierarchy ? hierarchy->find(name) : std::nullopt;
+  if (!above || above->isNull()) return parent;
+  const std::string other = above->asString();
+  if (!parent.empty() && parent != other)
+    own->fail("is \"" + parent + "\", but " + above->path() + " is \"" + other + "\"");
+  return other;
+}
+
+std::vector<Listed> listedJoints(const JsonValue& root, const std::optional<JsonValue>& hierarchy) {
+  std::vector<Listed> listed;
+  std::map<std::string, std::string> names;
+  std::map<int, std::string> indices;
+  const JsonValue list = root.at("joints");
+  const std::vector<JsonValue> items = list.items();
+  if (items.empty()) list.fail("is empty");
+  if (items.size() > kMostJoints) list.fail("has more than " + std::to_string(kMostJoints) + " joints");
+  for (const JsonValue& item : items) {
+    item.allowOnly({"name", "index", "head", "tail", "parent"});
+    Joint joint;
+    joint.name = item.at("name").asString();
+    if (joint.name.empty()) item.at("name").fail("is empty");
+    if (const auto [first, added] = names.emplace(joint.name, item.path()); !added)
+      item.at("name").fail("\"" + joint.name + "\" is also the name of " + first->second);
+    if (const auto index = item.find("index"))
+      if (const auto [first, added] = indices.emplace(index->asInt(0, 1'000'000), item.path()); !added)
+        index->fail("is also that of " + first->second);
+    joint.position = pointAt(item.at("head"));
+    joint.tail = pointAt(item.at("tail"));
+    joint.confidence = 1;
+    joint.origin = JointOrigin::kEdited;
+    std::string parent = parentOf(item, joint.name, hierarchy);
+    listed.push_back({item, std::move(joint), std::move(parent)});
+  }
+  return listed;
+}
+
+// The one name that the hierarchy gives a child and `joints` does not list. Empty: none.
+std::string unlistedRoot(const std::vector<Listed>& listed, const std::optional<JsonValue>& hierarchy) {
+  std::string root;
+  if (!hierarchy) return root;
+  const auto known = [&](const std::string& name) {
+    return std::any_of(listed.begin(), listed.end(), [&](const Listed& l) { return l.joint.name == name; });
+  };
+  for (const std::string& child : hierarchy->keys()) {
+    const JsonValue parent = hierarchy->at(child);
+    if (!known(child) && !parent.isNull()) parent.fail("there is no joint \"" + child + "\"");
+    if (parent.isNull() || known(parent.asString())) continue;
+    if (!root.empty() && root != parent.asString())
+      parent.fail("there is no joint \"" + parent.asString() +
+                  "\"; only one may be missing, the root, and \"" + root + "\" is");
+    root = parent.asString();
+  }
+  return root;
+}
+
+}  // namespace
+
+Skeleton readRigFile(const std::string& path) {
+  const JsonDocument document = JsonDocument::readFile(path);
+  const JsonValue file = document.root();
+  file.allowOnly({"joints", "hierarchy"});
+  const std::optional<JsonValue> hierarchy = file.find("hierarchy");
+  const std::vector<Listed> listed = listedJoints(file, hierarchy);
+  const std::string root = unlistedRoot(listed, hierarchy);
+
+  Skeleton skeleton;
+  if (!root.empty()) {
+    Joint joint;
+    joint.name = root;
+    joint.confidence = 1;
+    skeleton.joints.push_back(joint);
+  }
+  for (const Listed& l : listed) {
+    if (l.parent.empty() || l.parent == root) continue;
+    if (std::none_of(listed.begin(), listed.end(), [&](const Listed& o) { return o.joint.name == l.parent; }))
+      l.value.at("parent").fail("there is no joint \"" + l.parent + "\"");
+  }
+  // Those whose parent is placed, in the file's order, until all are.
+  std::vector<char> placed(listed.size(), 0);
+  for (bool any = true; any;) {
+    any = false;
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+      const Listed& l = listed[i];
+      if (placed[i]) continue;
+      const int parent = l.parent.empty() ? -1 : skeleton.find(l.parent);
+      if (!l.parent.empty() && parent < 0) continue;
+      if (parent < 0 && !skeleton.joints.empty())
+        l.value.fail("\"" + l.joint.name + "\" has no parent, but \"" + skeleton.joints[0].name +
+                     "\" is the root; only one joint may have none");
+      placed[i] = any = true;
+      skeleton.joints.push_back(l.joint);
+      skeleton.joints.back().parent = parent;
+    }
+  }
+  for (std::size_t i = 0; i < listed.size(); ++i)
+    if (!placed[i])
+      listed[i].value.fail("\"" + listed[i].joint.name + "\" is its own ancestor, or below one that is");
+  return skeleton;
+}
+
+bool isSkelFile(const std::string& path) {
+  const JsonDocument document = JsonDocument::readFile(path);
+  return document.root().find("format").has_value();
+}
+
+}  // namespace skel

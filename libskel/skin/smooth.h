@@ -1,0 +1,16 @@
+// What is done to the weights of every method.
+#pragma once
+
+#include "libskel/mesh/triangle_mesh.h"
+#include "libskel/skin/falloff.h"
+
+namespace skel {
+
+// `rounds` times, all vertices at once move half way to the mean of their neighbours along edges. Vertices at
+// one place are one. Rows that sum to 1 still do.
+void smoothWeights(const TriangleMesh& mesh, int rounds, JointWeights& weights);
+
+// The `count` heaviest of each row, to the sum of 1; of equal ones the first joints.
+void keepHeaviest(int count, JointWeights& weights);
+
+}  // namespace skel

@@ -1,0 +1,27 @@
+// Inside the room: one writer a format.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "libskel/video/video_writer.h"
+
+namespace skel {
+
+std::unique_ptr<VideoWriter> openFrameFolder(const std::string& dir, const VideoOptions& options);
+
+#ifdef SKEL_VIDEO_MP4
+// Encoders by FFmpeg's names, the best first; the first that is there and can be opened is taken.
+std::unique_ptr<VideoWriter> openMp4(const std::string& path, const VideoOptions& options,
+                                     const std::vector<std::string>& encoders = {"libx264", "libopenh264",
+                                                                                 "mpeg4"});
+#endif
+#ifdef SKEL_VIDEO_GIF
+std::unique_ptr<VideoWriter> openGif(const std::string& path, const VideoOptions& options);
+#endif
+#ifdef SKEL_VIDEO_WEBP
+std::unique_ptr<VideoWriter> openWebp(const std::string& path, const VideoOptions& options);
+#endif
+
+}  // namespace skel

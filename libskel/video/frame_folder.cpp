@@ -1,0 +1,55 @@
+// A folder of PNG files, one a frame: for programs that cut films.
+#include <cstdio>
+#include <filesystem>
+
+#include "libskel/core/check.h"
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/image/write_image.h"
+#include "libskel/video/formats.h"
+
+namespace skel {
+namespace {
+namespace fs = std::filesystem;
+
+std::string frameName(int number) {
+  char name[32];
+  std::snprintf(name, sizeof name, "frame-%04d.png", number);
+  return name;
+}
+
+class FrameFolder : public VideoWriter {
+ public:
+  FrameFolder(std::string dir, const VideoOptions& options) : dir_(std::move(dir)), options_(options) {
+    ensureWritableFolder(dir_);
+    // What is left of a longer film would be taken for the end of this one.
+    const std::string next = dir_ / frameName(options.frames + 1);
+    if (options.frames > 0 && fs::exists(next))
+      throw OutputError(next, "belongs to a longer film; remove it, or name another folder with -o");
+  }
+
+  void add(const Image& frame) override {
+    SKEL_CHECK_EQ(frame.width, options_.width);
+    SKEL_CHECK_EQ(frame.height, options_.height);
+    const std::string path = dir_ / frameName(++count_);
+    if (options_.transparent) return writeFile(path, encodePng(frame));
+    Image opaque = frame;
+    opaque.rgba.col(3).setConstant(255);
+    writeFile(path, encodePng(opaque));
+  }
+
+  void finish() override { SKEL_CHECK(count_ > 0); }
+
+ private:
+  fs::path dir_;
+  VideoOptions options_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<VideoWriter> openFrameFolder(const std::string& dir, const VideoOptions& options) {
+  return std::make_unique<FrameFolder>(dir, options);
+}
+
+}  // namespace skel

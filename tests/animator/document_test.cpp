@@ -1,0 +1,281 @@
+#include "animator/document.h"
+
+#include <filesystem>
+#include <numbers>
+
+#include "libskel/animation/clip_file.h"
+#include "libskel/core/error.h"
+#include "libskel/export/formats.h"
+#include "libskel/import/read_character.h"
+#include "tests/animator/figure_file.h"
+#include "tests/support/catch.h"
+
+using namespace skel;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kQuarter = std::numbers::pi / 2;
+
+int clipIndex(const AnimationDocument& document, const std::string& name) {
+  for (std::size_t i = 0; i < document.clips().size(); ++i)
+    if (document.clips()[i].name == name) return int(i);
+  return -1;
+}
+
+// Where a joint is, in the pose that is shown.
+Eigen::Vector3f at(const AnimationDocument& document, const std::string& joint) {
+  return posedJoints(document.skeleton(), document.posed())[std::size_t(document.skeleton().index(joint))];
+}
+
+bool atRest(const AnimationDocument& document) {
+  for (const Eigen::Quaternionf& turn : document.state().pose.rotations)
+    if (!turn.isApprox(Eigen::Quaternionf::Identity())) return false;
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("a character opens in its rest pose, with its clips before those of skel") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  CHECK(document.jointCount() == 17);
+  CHECK(document.boneCount() == 16);
+  CHECK(document.clip() == nullptr);
+  CHECK(document.clips()[0].name == "nod");
+  CHECK(clipIndex(document, "walk") > 0);
+  CHECK(atRest(document));
+  CHECK_FALSE(document.canUndo());
+  CHECK_THROWS_WITH(AnimationDocument({.path = dir.file("none.glb")}), Contains("none.glb: cannot be read"));
+  CHECK_THROWS_WITH(AnimationDocument({.path = dir.file("model.stl")}),
+                    Contains("model.stl: is neither a rigged character (.glb) nor a drawing"));
+}
+
+TEST_CASE("playing goes round, or stops at the end") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  document.playing = true;
+  CHECK_FALSE(document.advance(0.1));  // there is nothing to play
+  CHECK_FALSE(document.playing);
+
+  document.chooseClip(0);
+  document.playing = true;
+  CHECK(document.advance(0.25));
+  CHECK(document.state().time_s == Approx(0.25));
+  CHECK(document.anglesOf(document.skeleton().index("head")).x() == Approx(0.3).margin(1e-5));
+  document.speed = 2;
+  CHECK(document.advance(0.5));
+  CHECK(document.state().time_s == Approx(0.25));  // once round
+  document.speed = -1;
+  CHECK(document.advance(0.5));
+  CHECK(document.state().time_s == Approx(0.75));
+  document.speed = 1;
+  document.loops = false;
+  CHECK(document.advance(10));
+  CHECK(document.state().time_s == 1);
+  CHECK_FALSE(document.playing);
+  document.setTime(-3);
+  CHECK(document.state().time_s == 0);
+}
+
+TEST_CASE("a joint turns about its own axes, and the numbers say so") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const int elbow = document.skeleton().index("left_elbow");
+  const Eigen::Vector3f hand = at(document, "left_hand"), middle = at(document, "left_elbow");
+  document.turnJoint(elbow, 2, kQuarter);
+  const Eigen::Vector3f expected = middle + Eigen::Vector3f(-(hand - middle).y(), (hand - middle).x(), 0);
+  CHECK((at(document, "left_hand") - expected).norm() < 1e-5f);
+  CHECK(document.anglesOf(elbow).isApprox(Eigen::Vector3d(0, 0, kQuarter), 1e-6));
+  // About the axis as it stands now: the second turn's x is the model's y.
+  document.turnJoint(elbow, 0, 0.3);
+  const Eigen::Vector3f axis = document.posed()[std::size_t(elbow)].linear().col(0);
+  CHECK((axis - Eigen::Vector3f::UnitY()).norm() < 1e-5f);
+
+  for (const Eigen::Vector3d& angles :
+       {Eigen::Vector3d(0.3, -0.7, 2.5), Eigen::Vector3d(-3, 1.2, -0.1), Eigen::Vector3d(0.4, kQuarter, 0)}) {
+    document.setAngles(elbow, angles);
+    const Eigen::Vector3d again = document.anglesOf(elbow);
+    const auto turn = document.state().pose.rotations[std::size_t(elbow)];
+    CHECK(turn.angularDistance(rotationOfAngles(again.cast<float>())) < 1e-3f);
+    if (angles.y() < 1.5) CHECK((again - angles).norm() < 1e-5);
+  }
+  document.resetJoint(elbow);
+  CHECK(atRest(document));
+}
+
+TEST_CASE("every step is undone and done again; a drag is one step") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const int knee = document.skeleton().index("right_knee");
+  document.beginStep();
+  for (int i = 0; i < 10; ++i) document.turnJoint(knee, 0, 0.1);
+  document.endStep();
+  CHECK(document.anglesOf(knee).x() == Approx(1).margin(1e-5));
+  document.chooseClip(0);
+  document.setTime(0.5);
+  document.turnJoint(knee, 0, 0.5);
+  document.setKey();
+  CHECK(document.clip()->tracks.size() == 2);
+
+  CHECK(document.undo());
+  CHECK(document.clip()->tracks.size() == 1);
+  CHECK(document.state().time_s == 0.5);
+  CHECK(document.undo());
+  CHECK(document.undo());
+  CHECK(document.clip() == nullptr);
+  CHECK(document.anglesOf(knee).x() == Approx(1).margin(1e-5));
+  CHECK(document.undo());
+  CHECK(atRest(document));
+  CHECK_FALSE(document.undo());
+  while (document.redo()) {
+  }
+  CHECK(document.clip()->tracks.size() == 2);
+  document.undo();
+  document.turnJoint(knee, 1, 0.1);
+  CHECK_FALSE(document.canRedo());
+}
+
+TEST_CASE("keys hold what was turned, scrubbing shows what the keys say") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const int arm = document.skeleton().index("left_shoulder"), head = document.skeleton().index("head");
+  document.setKey();
+  CHECK_THAT(document.message(), Contains("keys need a clip"));
+  document.newClip("nod", 2);
+  CHECK(document.clip()->name == "nod-2");  // the first is the file's own
+  CHECK(document.duration_s() == 2);
+  document.choose(arm);
+  document.setKey();  // as it rests
+  document.setTime(1);
+  document.turnJoint(arm, 2, 1);
+  document.turnJoint(head, 0, 0.4);
+  document.setKey();
+  CHECK(document.keyTimes() == std::vector<double>{0, 1});
+  document.choose(-1);
+  document.setTime(0.5);
+  CHECK(document.anglesOf(arm).z() == Approx(0.5).margin(1e-5));
+  document.turnJoint(arm, 2, 3);  // not keyed: gone with the next moment
+  document.setTime(1);
+  CHECK(document.anglesOf(arm).z() == Approx(1).margin(1e-5));
+  document.choose(arm);
+  document.removeKey();
+  CHECK(document.keyTimes() == std::vector<double>{0});
+  CHECK(document.anglesOf(arm).z() == 0);
+  CHECK(document.anglesOf(head).x() == Approx(0.4).margin(1e-5));
+  document.choose(-1);
+  document.removeKey();
+  CHECK(document.clip()->tracks.size() == 1);
+  document.setDuration(5);
+  CHECK(document.duration_s() == 5);
+}
+
+TEST_CASE("poses, clips, weights, skeletons and characters come back from their files") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const int arm = document.skeleton().index("left_shoulder");
+  document.turnJoint(arm, 2, 1.25);
+  const Pose pose = document.state().pose;
+  REQUIRE(document.savePose(dir.file("a.pose.json")));
+  document.resetPose();
+  REQUIRE(document.loadPose(dir.file("a.pose.json")));
+  for (std::size_t j = 0; j < pose.rotations.size(); ++j)
+    CHECK(document.state().pose.rotations[j].isApprox(pose.rotations[j], 1e-6f));
+
+  document.newClip("mine", 1);
+  document.setTime(1);
+  document.turnJoint(arm, 2, 0.75);
+  document.setKey();
+  REQUIRE(document.saveClip(dir.file("mine.clip.json")));
+  REQUIRE(document.saveModel(dir.file("posed.glb")));
+  const CharacterFile saved = readGlb(dir.file("posed.glb"));
+  CHECK(saved.clips.size() == document.clips().size());
+  AnimationDocument other({.path = figureFile(dir, "other.glb")});
+  REQUIRE(other.loadClip(dir.file("mine.clip.json")));
+  CHECK(other.clip()->name == "mine");
+  other.setTime(1);
+  CHECK(other.anglesOf(arm).z() == Approx(0.75).margin(1e-4));
+  CHECK(other.clips().size() == document.clips().size());
+
+  REQUIRE(document.saveWeights(dir.file("a.weights.json")));
+  const SkinWeights before = document.character().weights;
+  REQUIRE(document.loadWeights(dir.file("a.weights.json")));
+  CHECK((document.character().weights.weights - before.weights).cwiseAbs().maxCoeff() < 2e-6f);
+  CHECK(document.character().weights.joints == before.joints);
+
+  REQUIRE(document.saveSkeleton(dir.file("a.rig.json")));
+  REQUIRE(document.loadSkeleton(dir.file("a.rig.json")));
+  CHECK(document.jointCount() == 17);
+  for (const Joint& joint : figureSkeleton().joints)
+    CHECK((document.skeleton().joints[std::size_t(document.skeleton().index(joint.name))].position -
+           joint.position)
+              .norm() < 1e-6);
+  CHECK(document.undo());
+  CHECK(document.character().weights.joints == before.joints);
+}
+
+TEST_CASE("what cannot be loaded or saved is said in one line, and changes nothing") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const auto refused = [&](bool done, const std::string& reason) {
+    CHECK_FALSE(done);
+    CHECK_THAT(document.message(), Contains(reason));
+    CHECK(document.message().find('\n') == std::string::npos);
+    CHECK_FALSE(document.canUndo());
+  };
+  refused(document.openModel(dir.file("none.glb")), "none.glb: cannot be read");
+  writeFile(dir.file("a.json"), R"({"format": "skel-pose", "version": 1, "joints": {"wing": {}}})");
+  refused(document.loadPose(dir.file("a.json")), "a.json: joints.wing: is a joint that this character lacks");
+  writeFile(dir.file("a.json"),
+            R"({"format": "skel-pose", "version": 1, "joints": {"head": {"rotation": [1, 2, 3, 4]}}})");
+  refused(document.loadPose(dir.file("a.json")), "joints.head.rotation: is no rotation");
+  writeFile(dir.file("a.json"), R"({"format": "skel-pose", "version": 9, "joints": {}})");
+  refused(document.loadPose(dir.file("a.json")), "version");
+  writeFile(dir.file("a.json"),
+            R"({"format": "skel-skin", "version": 1, "joints": ["head"], "vertices": []})");
+  refused(document.loadWeights(dir.file("a.json")), "has 0 vertices, the model has");
+  refused(document.loadWeights(dir.file("none.json")), "cannot be read");
+  refused(document.saveClip(dir.file("a.clip.json")), "there is no clip to save");
+  writeFile(dir.file("file"), "");
+  refused(document.savePose(dir.file("file/a.pose.json")), "a.pose.json: cannot make its folder");
+  refused(document.exportFilm(dir.file("a.avi"), Camera(), {}) != nullptr, "films are written as .mp4");
+}
+
+TEST_CASE("the joint under the mouse is the nearest one") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const Camera camera = framingCamera(document.character().mesh.vertices);
+  const Projection projection(camera, 400, 400);
+  for (const char* name : {"head", "left_hand", "right_knee"}) {
+    const int joint = document.skeleton().index(name);
+    const Eigen::Vector2d px = *projection(document.skeleton().joints[std::size_t(joint)].position);
+    CHECK(document.jointAt(px + Eigen::Vector2d(2, -1), projection, 10) == joint);
+  }
+  CHECK(document.jointAt({5, 5}, projection, 10) == -1);
+}
+
+TEST_CASE("a film is written beside the work, and can be stopped") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const Camera camera = framingCamera(document.character().mesh.vertices);
+  FilmOptions options;
+  options.width = options.height = 64;
+  auto film = document.exportFilm(dir.file("pose/"), camera, options);
+  REQUIRE(film);
+  film->finish();
+  CHECK(film->isDone());
+  CHECK(filesBelow(dir.file("pose")).size() == 1);  // the rest pose
+  document.chooseClip(0);
+  film = document.exportFilm(dir.file("nod/"), camera, options);
+  REQUIRE(film);
+  film->finish();
+  CHECK(filesBelow(dir.file("nod")).size() == 30);
+  CHECK(film->share() == 1);
+
+  options.duration_s = 600;
+  film = document.exportFilm(dir.file("long.gif"), camera, options);
+  REQUIRE(film);
+  film.reset();
+  CHECK_FALSE(fs::exists(dir.file("long.gif")));
+}

@@ -1,0 +1,75 @@
+#include "animator/film.h"
+
+#include "tests/animator/figure_file.h"
+#include "tests/support/catch.h"
+
+using namespace skel;
+
+namespace {
+
+class Frames : public VideoWriter {
+ public:
+  void add(const Image& frame) override { frames.push_back(frame); }
+  void finish() override {}
+  std::vector<Image> frames;
+};
+
+FilmOptions small() {
+  FilmOptions options;
+  options.width = 80;
+  options.height = 96;
+  options.frame_rate = 20;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("a film has the clip's frames in their order, and repeats it") {
+  const RiggedCharacter character = figure();
+  const Scene scene(character, softwarePainter(character.mesh));
+  FilmOptions options = small();
+  CHECK(frameCount(nodClip(), options) == 20);
+  CHECK(frameCount(Clip(), options) == 1);
+  options.duration_s = 2.5;
+  const Camera camera = filmCamera(character, nodClip(), 0.4, 0.1, 80.0 / 96);
+  Frames film;
+  int told = 0;
+  writeFilm(scene, nodClip(), camera, options, film, [&] { ++told; });
+  REQUIRE(film.frames.size() == 50);
+  CHECK(told == 50);
+  for (int i = 0; i < 50; ++i) {
+    const Image alone =
+        scene.paint(posedAt(character, nodClip(), i % 20 / 20.0), camera, 80, 96, options.look);
+    CAPTURE(i);
+    CHECK((film.frames[std::size_t(i)].rgba == alone.rgba).all());
+  }
+}
+
+TEST_CASE("what goes wrong in a writer comes out of the film") {
+  class Full : public VideoWriter {
+    void add(const Image&) override { throw std::runtime_error("full"); }
+    void finish() override {}
+  } full;
+  const RiggedCharacter character = figure();
+  const Scene scene(character, softwarePainter(character.mesh));
+  CHECK_THROWS_WITH(writeFilm(scene, nodClip(), framingCamera(character.mesh.vertices), small(), full, [] {}),
+                    "full");
+}
+
+TEST_CASE("the film's camera sees every moment of the clip") {
+  const RiggedCharacter character = figure();
+  Clip jump = nodClip();
+  jump.root_times_s = {0, 0.5f, 1};
+  jump.root_translations = {{0, 0, 0}, {0.3f, 0.8f, 0}, {0, 0, 0}};
+  const Scene scene(character, softwarePainter(character.mesh));
+  FilmOptions options = small();
+  options.look.background = kClear;
+  options.look.shadow = false;
+  Frames film;
+  writeFilm(scene, jump, filmCamera(character, jump, 0, 0, 80.0 / 96), options, film, [] {});
+  for (const Image& frame : film.frames)
+    for (int y = 0; y < frame.height; ++y)
+      for (int x = 0; x < frame.width; ++x)
+        if (x == 0 || y == 0 || x == frame.width - 1 || y == frame.height - 1)
+          REQUIRE(frame.pixel(x, y)[3] == 0);
+}

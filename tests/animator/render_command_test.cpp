@@ -1,0 +1,111 @@
+#include <filesystem>
+
+#include "libskel/image/read_image.h"
+#include "tests/animator/figure_file.h"
+#include "tests/support/catch.h"
+#include "tests/support/run_tool.h"
+
+using namespace skel;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+ToolRun render(const std::string& arguments) {
+  return runTool(std::string(SKEL_ANIMATE) + " render " + arguments);
+}
+
+const std::string kDrawing = std::string(SKEL_SOURCE_DIR) + "/datasets/characters/cap_boy.png";
+
+}  // namespace
+
+TEST_CASE("a drawing becomes a film in one command, the same one every time") {
+  const TempDir dir;
+  const std::string arguments = kDrawing + " --clip dance --duration 0.5 --size 96x128 --fps 12 -o ";
+  for (const char* name : {"a.gif", "b.gif", "frames/"}) {
+    const ToolRun run = render(arguments + dir.file(name));
+    CHECK(run.err == "");
+    REQUIRE(run.exit_code == 0);
+    CHECK_THAT(run.out, Contains("6 frames of 96x128, 0.50 s of \"dance\""));
+  }
+  CHECK(readFile(dir.file("a.gif")) == readFile(dir.file("b.gif")));
+  CHECK(filesBelow(dir.file("frames")).size() == 6);
+}
+
+TEST_CASE("a model plays its own clips and those of skel, and looks as it is told") {
+  const TempDir dir;
+  const std::string model = figureFile(dir);
+  const auto frame = [&](const std::string& options) {
+    const std::string folder = dir.file("look");
+    fs::remove_all(folder);
+    const ToolRun run = render(model + " --clip nod --fps 1 --size 64x64 -o " + folder + "/ " + options);
+    CHECK(run.err == "");
+    REQUIRE(run.exit_code == 0);
+    return readImage(folder + "/frame-0001.png");
+  };
+  const Image plain = frame("");
+  CHECK(plain.pixel(0, 0)[0] == 255);
+  for (const char* option : {"--wireframe", "--translucent", "--show-skeleton", "--no-shadow", "--angle 40",
+                             "--show-weights head", "--background black", "--pitch 30"}) {
+    CAPTURE(option);
+    CHECK_FALSE((frame(option).rgba == plain.rgba).all());
+  }
+  CHECK(frame("--background none").pixel(0, 0)[3] == 0);
+  CHECK(int(frame("--background '#102030'").pixel(0, 0)[2]) == 0x30);
+  CHECK(frame("--background " + kDrawing).pixel(0, 0)[3] == 255);
+  CHECK(render(model + " --clip walk --fps 4 --size 64x64 -o " + dir.file("walk.webp")).exit_code == 0);
+}
+
+TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
+  const TempDir dir;
+  const std::string model = figureFile(dir), film = dir.file("film.gif");
+  writeFile(dir.file("text.glb"), "no model");
+  const struct {
+    std::string arguments;
+    int exit_code;
+    std::string message;
+  } cases[] = {
+      {"", 1, "file is required"},
+      {model + " -o " + film, 1, "--clip is required"},
+      {model + " --clip fly -o " + film, 1, "there is no clip \"fly\""},
+      {model + " --clip none.clip.json -o " + film, 2, "none.clip.json: cannot be read"},
+      {model + " --clip nod -o " + dir.file("film.avi"), 1, "films are written as .mp4, .gif, .webp"},
+      {model + " --clip nod --size 64 -o " + film, 1, "--size is \"64\", must be WIDTHxHEIGHT"},
+      {model + " --clip nod --size 0x64 -o " + film, 1, "must be WIDTHxHEIGHT"},
+      {model + " --clip nod --size 63x64 -o " + dir.file("film.mp4"), 1, "the sides of an MP4 are even"},
+      {model + " --clip nod --background none -o " + dir.file("film.mp4"), 1, "MP4 has no transparency"},
+      {model + " --clip nod --background '#12' -o " + film, 1, "a colour is written #rrggbb"},
+      {model + " --clip nod --background blue.png -o " + film, 2, "blue.png: cannot be read"},
+      {model + " --clip nod --show-weights wing -o " + film, 1, "there is no joint \"wing\""},
+      {model + " --clip nod --fps 0 -o " + film, 1, "--fps"},
+      {model + " --clip nod --fps 60 -o " + film, 1, "at most 50 frames a second"},
+      {dir.file("none.glb") + " --clip nod -o " + film, 2, "none.glb: cannot be read"},
+      {dir.file("text.glb") + " --clip nod -o " + film, 2, "text.glb"},
+      {dir.file("model.stl") + " --clip nod -o " + film, 2, "is neither a rigged character"},
+      {model + " --clip nod -o " + dir.file("text.glb") + "/film.gif", 4, "text.glb"},
+  };
+  for (const auto& one : cases) {
+    CAPTURE(one.arguments);
+    const ToolRun run = render(one.arguments);
+    CHECK(run.exit_code == one.exit_code);
+    CHECK_THAT(run.err, Contains(one.message));
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+    CHECK(run.out == "");
+  }
+  CHECK(filesBelow(dir.path()).size() == 2);
+}
+
+TEST_CASE("a disk that fills up leaves no broken film") {
+  const TempDir dir;
+  const std::string model = figureFile(dir);
+  for (const char* name : {"film.mp4", "film.gif", "film.webp"}) {
+    CAPTURE(name);
+    // The limit stands for the full disk; without the trap it would kill the tool.
+    const ToolRun run =
+        runTool("trap '' XFSZ; ulimit -f 2; exec " + std::string(SKEL_ANIMATE) + " render " + model +
+                " --clip nod --size 256x256 -o " + dir.file(name) + " --painter software");
+    CHECK(run.exit_code == 4);
+    CHECK_THAT(run.err, Contains(std::string(name) + ": cannot be written: File too large"));
+  }
+  CHECK(filesBelow(dir.path()).size() == 1);
+}

@@ -1,0 +1,86 @@
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/retarget.h"
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/import/read_character.h"
+#include "tests/support/catch.h"
+#include "tests/support/figure.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+using nlohmann::json;
+
+namespace {
+
+// Without printing thousands of numbers.
+template <class A, class B>
+bool same(const A& a, const B& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && (a.array() == b.array()).all();
+}
+
+}  // namespace
+
+TEST_CASE("what is written as GLB is read back whole, and written again gives the same bytes") {
+  RiggedCharacter character = figure();
+  const std::vector<Clip> clips = {retargetToRest(builtinClip("wave"), character.skeleton)};
+  const std::string bytes = encodeGlb(character, clips, {.name = "figure"});
+  const CharacterFile file = decodeGlb(bytes, "figure.glb");
+  CHECK(file.name == "figure");
+  CHECK(same(file.character.mesh.vertices, character.mesh.vertices));
+  CHECK(same(file.character.mesh.triangles, character.mesh.triangles));
+  CHECK((file.character.mesh.uv - character.mesh.uv).cwiseAbs().maxCoeff() < 1e-5f);
+  CHECK(same(file.character.mesh.texture.rgba, character.mesh.texture.rgba));
+  CHECK(file.character.skeleton.template_name == "biped");
+  REQUIRE(file.character.skeleton.joints.size() == character.skeleton.joints.size());
+  for (std::size_t j = 0; j < character.skeleton.joints.size(); ++j) {
+    CHECK(file.character.skeleton.joints[j].name == character.skeleton.joints[j].name);
+    CHECK(file.character.skeleton.joints[j].parent == character.skeleton.joints[j].parent);
+    CHECK((file.character.skeleton.joints[j].position - character.skeleton.joints[j].position).norm() < 2e-6);
+  }
+  CHECK(same(file.character.weights.joints, character.weights.joints));
+  CHECK((file.character.weights.weights - character.weights.weights).cwiseAbs().maxCoeff() < 2e-5f);
+  REQUIRE(file.clips.size() == 1);
+  CHECK(file.clips[0].name == "wave");
+  REQUIRE(file.clips[0].tracks.size() == clips[0].tracks.size());
+  for (std::size_t t = 0; t < clips[0].tracks.size(); ++t) {
+    CHECK(file.clips[0].tracks[t].joint == clips[0].tracks[t].joint);
+    CHECK(file.clips[0].tracks[t].times_s == clips[0].tracks[t].times_s);
+    for (std::size_t i = 0; i < clips[0].tracks[t].rotations.size(); ++i)
+      CHECK(file.clips[0].tracks[t].rotations[i].coeffs() == clips[0].tracks[t].rotations[i].coeffs());
+  }
+  const bool same_bytes = encodeGlb(file.character, file.clips, {.name = file.name}) == bytes;
+  CHECK(same_bytes);
+}
+
+TEST_CASE("clips that move and scale joints and the root come back from GLB") {
+  const RiggedCharacter character = figure();
+  Clip clip;
+  clip.name = "all";
+  JointTrack track;
+  track.joint = "head";
+  track.times_s = {0, 1};
+  track.rotations = {Eigen::Quaternionf::Identity(), Eigen::Quaternionf(0.8f, 0, 0.6f, 0)};
+  track.translation_times_s = {0, 0.5f};
+  track.translations_m = {{0, 0, 0}, {0.1f, 0.2f, 0.3f}};
+  track.scale_times_s = {0.25f};
+  track.scales = {{1, 2, 1}};
+  clip.tracks = {track};
+  clip.root_times_s = {0, 1};
+  clip.root_translations = {{0, 0, 0}, {0, 0.25f, 0.125f}};
+  const CharacterFile file = decodeGlb(encodeGlb(character, {clip}), "a.glb");
+  REQUIRE(file.clips.size() == 1);
+  const Clip& back = file.clips[0];
+  REQUIRE(back.tracks.size() == 1);
+  CHECK(back.tracks[0].joint == "head");
+  CHECK(back.tracks[0].times_s == track.times_s);
+  CHECK(back.tracks[0].rotations[1].coeffs() == track.rotations[1].coeffs());
+  CHECK(back.tracks[0].translation_times_s == track.translation_times_s);
+  CHECK((back.tracks[0].translations_m[1] - track.translations_m[1]).norm() < 2e-6f);
+  CHECK(back.tracks[0].scale_times_s == track.scale_times_s);
+  CHECK(back.tracks[0].scales[0] == track.scales[0]);
+  CHECK(back.root_times_s == clip.root_times_s);
+  CHECK((back.root_translations[1] - clip.root_translations[1]).norm() < 2e-6f);
+}
