@@ -1,22 +1,83 @@
 #include "animator/info_command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
-#include "libskel/import/read_character.h"
+#include "animator/rig_source.h"
+#include "libskel/mesh/read_mesh.h"
+#include "libskel/skin/bones.h"
+#include "libskel/skin/parts.h"
 
 namespace skel {
+namespace {
+
+void printMesh(const TriangleMesh& mesh) {
+  const MeshParts parts = meshParts(mesh, Welding(mesh.vertices));
+  const Eigen::RowVector3f low = mesh.vertices.colwise().minCoeff(),
+                           high = mesh.vertices.colwise().maxCoeff();
+  std::printf("mesh: %d vertices, %d triangles, %d part%s\n", static_cast<int>(mesh.vertices.rows()),
+              static_cast<int>(mesh.triangles.rows()), parts.count, parts.count == 1 ? "" : "s");
+  std::printf("size: %g m wide, %g m high, %g m deep, from y = %g\n", static_cast<double>(high[0] - low[0]),
+              static_cast<double>(high[1] - low[1]), static_cast<double>(high[2] - low[2]),
+              static_cast<double>(low[1]));
+  if (mesh.texture.empty()) {
+    std::printf("texture: none\n");
+  } else {
+    std::printf("texture: %d x %d px\n", mesh.texture.width, mesh.texture.height);
+  }
+}
+
+void printSkeleton(const Skeleton& skeleton) {
+  std::printf("skeleton: %d joints, %d bones%s%s\n", static_cast<int>(skeleton.joints.size()),
+              static_cast<int>(skeletonBones(skeleton).size()), skeleton.template_name.empty() ? "" : ", ",
+              skeleton.template_name.c_str());
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    int depth = 1;
+    for (int above = skeleton.joints[j].parent; above >= 0; above = skeleton.joints[above].parent) ++depth;
+    const Eigen::Vector3d& at = skeleton.joints[j].position;
+    std::printf("%*s%s (%.3f, %.3f, %.3f)\n", 2 * depth, "", skeleton.joints[j].name.c_str(), at.x(), at.y(),
+                at.z());
+  }
+}
+
+void printWeights(const SkinWeights& weights) {
+  int most = 0;
+  Eigen::Index whole = 0;
+  for (Eigen::Index v = 0; v < weights.weights.rows(); ++v) {
+    const int count = static_cast<int>((weights.weights.row(v).array() > 0).count());
+    most = std::max(most, count);
+    whole += count == 1;
+  }
+  std::printf("weights: up to %d joints a vertex, %d vertices with one joint alone\n", most,
+              static_cast<int>(whole));
+}
+
+}  // namespace
 
 void bindInfoOptions(CLI::App& app, InfoOptions& options) {
-  app.add_option("file", options.file, "A rigged character (.glb)")->required()->type_name("FILE");
+  app.add_option("file", options.file, "A rigged character (.glb), or a model (.obj)")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--skeleton", options.skeleton, "The skeleton of a model, to be told as well")
+      ->type_name("FILE");
 }
 
 ExitCode runInfo(const InfoOptions& options) {
-  const CharacterFile file = readGlb(options.file);
-  std::printf("%s: %d vertices, %d triangles, %d joints, %d clips\n", file.name.c_str(),
-              static_cast<int>(file.character.mesh.vertices.rows()),
-              static_cast<int>(file.character.mesh.triangles.rows()),
-              static_cast<int>(file.character.skeleton.joints.size()), static_cast<int>(file.clips.size()));
+  if (std::filesystem::path(options.file).extension() != ".glb" && options.skeleton.empty()) {
+    printMesh(readMesh(options.file));
+    return ExitCode::kDone;
+  }
+  const RigModel model = readRigModel({options.file, options.skeleton, "auto"});
+  const RiggedCharacter& character = model.file.character;
+  if (!model.note.empty()) std::printf("%s\n", model.note.c_str());
+  printMesh(character.mesh);
+  printSkeleton(character.skeleton);
+  if (character.weights.weights.rows() > 0) printWeights(character.weights);
+  for (const Clip& clip : model.file.clips)
+    std::printf("clip: %s, %.2f s, moves %d joints\n", clip.name.c_str(),
+                static_cast<double>(clip.duration_s()), static_cast<int>(clip.tracks.size()));
   return ExitCode::kDone;
 }
 

@@ -12,7 +12,7 @@ class App;
 namespace skel {
 
 struct InfoOptions {
-  std::string file;
+  std::string file, skeleton;
 };
 void bindInfoOptions(CLI::App& app, InfoOptions& options);
 ExitCode runInfo(const InfoOptions& options);

@@ -16,7 +16,10 @@ inline const std::map<std::string, CandidateMethod> kCandidateNames = {{"maxima"
                                                                        {"strict", CandidateMethod::kStrict},
                                                                        {"discs", CandidateMethod::kDiscs}};
 inline const std::map<std::string, SkinMethod> kSkinNames = {{"geodesic", SkinMethod::kGeodesic},
-                                                             {"euclidean", SkinMethod::kEuclidean}};
+                                                             {"heat", SkinMethod::kHeat},
+                                                             {"euclidean", SkinMethod::kEuclidean},
+                                                             {"idw", SkinMethod::kIdw},
+                                                             {"idw-region", SkinMethod::kIdwRegion}};
 inline const std::map<std::string, JointNaming> kNamingNames = {
     {"skel", JointNaming::kSkel}, {"vrm", JointNaming::kVrm}, {"mixamo", JointNaming::kMixamo}};
 

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "libskel/core/files.h"
 #include "libskel/image/read_image.h"
 #include "libskel/mesh/cut_polygon.h"
+#include "libskel/mesh/texture_atlas.h"
 
 namespace skel {
 namespace {
@@ -27,21 +29,19 @@ class Lines {
  public:
   explicit Lines(const std::string& path) : path_(path), text_(readFile(path)) {}
 
-  bool next(std::string& line) {
-    line.clear();
+  // `line` lasts until the next one.
+  bool next(std::string_view& line) {
     if (at_ >= text_.size()) return false;
     number_ = following_;
-    for (bool more = true; more && at_ < text_.size();) {
-      const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-      std::string_view part(text_.data() + at_, end - at_);
-      at_ = end + 1;
-      ++following_;
-      part = part.substr(0, part.find('#'));
-      part = part.substr(0, part.find_last_not_of(kBlank) + 1);
-      more = part.ends_with('\\');
-      if (more) part.remove_suffix(1);
-      line.append(part).append(more ? " " : "");
+    line = part();
+    if (!line.ends_with('\\')) return true;
+    joined_.clear();
+    for (std::string_view more = line;; more = part()) {
+      const bool last = !more.ends_with('\\');
+      joined_.append(more.substr(0, more.size() - (last ? 0 : 1))).append(last ? "" : " ");
+      if (last || at_ >= text_.size()) break;
     }
+    line = joined_;
     return true;
   }
 
@@ -50,16 +50,26 @@ class Lines {
   }
 
  private:
-  std::string path_, text_;
+  // What one line of the file says.
+  std::string_view part() {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    std::string_view part(text_.data() + at_, end - at_);
+    at_ = end + 1;
+    ++following_;
+    part = part.substr(0, part.find('#'));
+    return part.substr(0, part.find_last_not_of(kBlank) + 1);
+  }
+
+  std::string path_, text_, joined_;
   std::size_t at_ = 0;
   int number_ = 0, following_ = 1;
 };
 
-std::vector<std::string_view> words(std::string_view line) {
-  std::vector<std::string_view> result;
+void splitWords(std::string_view line, std::vector<std::string_view>& result) {
+  result.clear();
   for (;;) {
     const std::size_t begin = line.find_first_not_of(kBlank);
-    if (begin == std::string_view::npos) return result;
+    if (begin == std::string_view::npos) return;
     line.remove_prefix(begin);
     const std::size_t end = std::min(line.find_first_of(kBlank), line.size());
     result.push_back(line.substr(0, end));
@@ -101,9 +111,9 @@ int reference(const Lines& lines, std::string_view word, std::size_t count, cons
 }
 
 // What follows a keyword, blanks inside it included: names of files may have some.
-std::string remainder(const std::string& line, std::string_view keyword) {
+std::string remainder(std::string_view line, std::string_view keyword) {
   const std::size_t begin = line.find_first_not_of(kBlank, line.find(keyword) + keyword.size());
-  return begin == std::string::npos ? "" : line.substr(begin);
+  return begin == std::string_view::npos ? "" : std::string(line.substr(begin));
 }
 
 std::string besides(const std::string& path, std::string name) {
@@ -113,47 +123,85 @@ std::string besides(const std::string& path, std::string name) {
   return (std::filesystem::path(path).parent_path() / name).string();
 }
 
-// The first map_Kd of the materials that the mesh uses.
-std::optional<std::string> textureFile(const std::string& mtl, const std::vector<std::string>& used) {
+struct Material {
+  std::string name;
+  Eigen::Array3f color = Eigen::Array3f::Ones();  // Kd
+  std::string picture;                            // a path; empty: none
+};
+
+// Adds to `materials`; of two with one name the first counts.
+void readMaterials(const std::string& mtl, std::vector<Material>& materials) {
   Lines lines(mtl);
-  std::string material;
-  for (std::string line; lines.next(line);) {
-    const std::vector<std::string_view> word = words(line);
+  Material* material = nullptr;
+  Material ignored;
+  std::vector<std::string_view> word;
+  for (std::string_view line; lines.next(line);) {
+    splitWords(line, word);
     if (word.empty()) continue;
-    if (word[0] == "newmtl") material = remainder(line, "newmtl");
-    if (word[0] != "map_Kd") continue;
-    if (!used.empty() && std::find(used.begin(), used.end(), material) == used.end()) continue;
-    if (word.size() < 2) lines.fail("map_Kd names no picture");
-    // Options such as "-s 1 1 1" come before the name.
-    const bool options = word[1].starts_with('-');
-    return besides(mtl, options ? std::string(word.back()) : remainder(line, "map_Kd"));
+    if (word[0] == "newmtl") {
+      const std::string name = remainder(line, "newmtl");
+      const bool known =
+          std::any_of(materials.begin(), materials.end(), [&](const Material& m) { return m.name == name; });
+      if (known) {
+        material = &ignored;
+      } else {
+        material = &materials.emplace_back();
+        material->name = name;
+      }
+    } else if (material && word[0] == "Kd") {
+      material->color = numbers<3>(lines, word).array().max(0.0f).min(1.0f);
+    } else if (material && word[0] == "map_Kd" && material->picture.empty()) {
+      if (word.size() < 2) lines.fail("map_Kd names no picture");
+      // Options such as "-s 1 1 1" come before the name.
+      const bool options = word[1].starts_with('-');
+      material->picture = besides(mtl, options ? std::string(word.back()) : remainder(line, "map_Kd"));
+    }
   }
-  return std::nullopt;
 }
 
-}  // namespace
+using Corner = std::array<int, 2>;  // position, texture coordinate or -1
 
-TriangleMesh readObj(const std::string& path) {
-  Lines lines(path);
+struct Triangle {
+  std::array<Corner, 3> corners;
+  int material;  // index into Obj::used, -1: none
+};
+
+// What an OBJ file says.
+struct Obj {
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector2f> coordinates;
-  using Corner = std::array<int, 2>;  // position, texture coordinate or -1
-  std::vector<std::array<Corner, 3>> triangles;
-  std::vector<std::string> libraries, materials;
-  bool textured = true;
+  std::vector<Triangle> triangles;
+  std::vector<std::string> libraries, used;  // files of materials; names of materials
+};
+
+Obj parseObj(const std::string& path) {
+  Lines lines(path);
+  Obj obj;
+  int material = -1;
+  std::vector<std::string_view> word;
   std::vector<Corner> polygon;
-  for (std::string line; lines.next(line);) {
-    const std::vector<std::string_view> word = words(line);
+  std::vector<Eigen::Vector3f> places;
+  const auto addTriangle = [&](int a, int b, int c) {
+    const Triangle triangle{{polygon[a], polygon[b], polygon[c]}, material};
+    const auto& [p, q, r] = triangle.corners;
+    // A corner named twice has no area: nothing is lost.
+    if (p[0] != q[0] && q[0] != r[0] && r[0] != p[0]) obj.triangles.push_back(triangle);
+  };
+  for (std::string_view line; lines.next(line);) {
+    splitWords(line, word);
     if (word.empty()) continue;
     if (word[0] == "v") {
-      positions.push_back(numbers<3>(lines, word));
+      obj.positions.push_back(numbers<3>(lines, word));
     } else if (word[0] == "vt") {
       const Eigen::Vector2f uv = numbers<2>(lines, word);
-      coordinates.emplace_back(uv.x(), 1 - uv.y());  // OBJ's v goes up
+      obj.coordinates.emplace_back(uv.x(), 1 - uv.y());  // OBJ's v goes up
     } else if (word[0] == "mtllib") {
-      libraries.push_back(remainder(line, "mtllib"));
+      obj.libraries.push_back(remainder(line, "mtllib"));
     } else if (word[0] == "usemtl") {
-      materials.push_back(remainder(line, "usemtl"));
+      const std::string name = remainder(line, "usemtl");
+      const auto known = std::find(obj.used.begin(), obj.used.end(), name);
+      material = static_cast<int>(known - obj.used.begin());
+      if (known == obj.used.end()) obj.used.push_back(name);
     } else if (word[0] == "f") {
       if (word.size() < 4) lines.fail("a face needs at least 3 corners");
       if (word.size() > kMostCorners + 1)
@@ -162,62 +210,172 @@ TriangleMesh readObj(const std::string& path) {
       polygon.clear();
       for (std::size_t k = 1; k < word.size(); ++k) {
         const std::size_t slash = word[k].find('/');
-        Corner corner{reference(lines, word[k].substr(0, slash), positions.size(), "vertex"), -1};
+        Corner corner{reference(lines, word[k].substr(0, slash), obj.positions.size(), "vertex"), -1};
         if (slash != std::string_view::npos) {
           const std::string_view rest = word[k].substr(slash + 1);
           const std::string_view uv = rest.substr(0, rest.find('/'));
-          if (!uv.empty()) corner[1] = reference(lines, uv, coordinates.size(), "texture coordinate");
+          if (!uv.empty()) corner[1] = reference(lines, uv, obj.coordinates.size(), "texture coordinate");
         }
-        textured = textured && corner[1] >= 0;
         polygon.push_back(corner);
       }
-      std::vector<Eigen::Vector3f> corners;
-      for (const Corner& corner : polygon) corners.push_back(positions[corner[0]]);
-      for (const auto& [a, b, c] : cutPolygon(corners)) {
-        const std::array<Corner, 3> triangle{polygon[a], polygon[b], polygon[c]};
-        // A corner named twice has no area: nothing is lost.
-        if (triangle[0][0] == triangle[1][0] || triangle[1][0] == triangle[2][0] ||
-            triangle[2][0] == triangle[0][0]) {
-          continue;
+      if (polygon.size() == 3) {
+        addTriangle(0, 1, 2);
+        continue;
+      }
+      places.clear();
+      for (const Corner& corner : polygon) places.push_back(obj.positions[corner[0]]);
+      for (const auto& [a, b, c] : cutPolygon(places)) addTriangle(a, b, c);
+    }
+  }
+  if (obj.triangles.empty()) throw InputError(path, "holds no faces; export the model as a polygon mesh");
+  return obj;
+}
+
+// What a triangle looks like: a picture, or one colour.
+struct Looks {
+  std::vector<AtlasTile> tiles;  // several of them, or one picture; empty: all is plain
+  std::vector<int> of_triangle;
+  std::vector<bool> plain;  // tiles of one colour
+};
+
+bool hasCoordinates(const Triangle& triangle) {
+  return std::all_of(triangle.corners.begin(), triangle.corners.end(),
+                     [](const Corner& c) { return c[1] >= 0; });
+}
+
+Looks looksOf(const Obj& obj, const std::string& path) {
+  std::vector<Material> materials;
+  for (const std::string& library : obj.libraries) readMaterials(besides(path, library), materials);
+  const Material none;
+  const auto named = [&](int used) -> const Material& {
+    // A file that never says which is meant means the first picture.
+    if (obj.used.empty())
+      for (const Material& material : materials)
+        if (!material.picture.empty()) return material;
+    for (const Material& material : materials)
+      if (used >= 0 && material.name == obj.used[static_cast<std::size_t>(used)]) return material;
+    return none;
+  };
+  Looks looks;
+  std::map<std::string, int> by_look;
+  std::vector<std::array<int, 2>> of_material(obj.used.size() + 1,
+                                              {-1, -1});  // with coordinates, and without
+  for (const Triangle& triangle : obj.triangles) {
+    const bool coordinates = hasCoordinates(triangle);
+    int& look = of_material[static_cast<std::size_t>(triangle.material + 1)][coordinates ? 0 : 1];
+    if (look < 0) {
+      const Material& material = named(triangle.material);
+      const bool picture = coordinates && !material.picture.empty();
+      const Eigen::Array3i rgb = (255 * material.color + 0.5f).cast<int>();
+      const std::string key =
+          picture ? "picture " + material.picture
+                  : std::to_string(rgb[0]) + " " + std::to_string(rgb[1]) + " " + std::to_string(rgb[2]);
+      const auto [known, added] = by_look.emplace(key, static_cast<int>(looks.tiles.size()));
+      look = known->second;
+      if (added) {
+        AtlasTile tile;
+        if (picture) {
+          tile.image = readImage(material.picture);
+        } else {
+          tile.image = Image(4, 4);
+          for (Eigen::Index i = 0; i < 16; ++i)
+            tile.image.rgba.row(i) << static_cast<std::uint8_t>(rgb[0]), static_cast<std::uint8_t>(rgb[1]),
+                static_cast<std::uint8_t>(rgb[2]), 255;
         }
-        triangles.push_back(triangle);
+        looks.tiles.push_back(std::move(tile));
+        looks.plain.push_back(!picture);
       }
     }
+    looks.of_triangle.push_back(look);
   }
-  if (triangles.empty()) throw InputError(path, "holds no faces; export the model as a polygon mesh");
+  const bool white = looks.tiles.size() == 1 && looks.plain[0] && (looks.tiles[0].image.rgba == 255).all();
+  if (white) looks.tiles.clear();
+  return looks;
+}
 
+// Rows of the mesh by what they show.
+class Rows {
+ public:
+  explicit Rows(std::size_t triangles) : table_(std::bit_ceil(6 * triangles + 1), -1) {}
+
+  struct Row {
+    int position, coordinate, look;
+    bool operator==(const Row&) const = default;
+  };
+  int of(const Row& row) {
+    std::uint64_t hash = static_cast<std::uint32_t>(row.position);
+    for (const int part : {row.coordinate, row.look}) {
+      hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9e3779b97f4a7c15u;
+      hash ^= hash >> 32;
+    }
+    std::size_t slot = hash & (table_.size() - 1);
+    while (table_[slot] >= 0 && !(rows[static_cast<std::size_t>(table_[slot])] == row))
+      slot = (slot + 1) & (table_.size() - 1);
+    if (table_[slot] < 0) {
+      table_[slot] = static_cast<int>(rows.size());
+      rows.push_back(row);
+    }
+    return table_[slot];
+  }
+
+  std::vector<Row> rows;
+
+ private:
+  std::vector<int> table_;
+};
+
+}  // namespace
+
+TriangleMesh readObj(const std::string& path) {
+  const Obj obj = parseObj(path);
+  Looks looks = looksOf(obj, path);
   TriangleMesh mesh;
-  std::map<Corner, int> index;
-  std::vector<Corner> corners;
-  mesh.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
+  Rows rows(obj.triangles.size());
+  mesh.triangles.resize(static_cast<Eigen::Index>(obj.triangles.size()), 3);
+  for (std::size_t t = 0; t < obj.triangles.size(); ++t) {
+    const int look = looks.tiles.empty() ? -1 : looks.of_triangle[t];
     for (int k = 0; k < 3; ++k) {
-      Corner corner = triangles[t][k];
-      if (!textured) corner[1] = -1;
-      const auto [found, added] = index.try_emplace(corner, static_cast<int>(corners.size()));
-      if (added) corners.push_back(corner);
-      mesh.triangles(static_cast<Eigen::Index>(t), k) = found->second;
+      const Corner& corner = obj.triangles[t].corners[static_cast<std::size_t>(k)];
+      const bool placed = look >= 0 && !looks.plain[static_cast<std::size_t>(look)];
+      mesh.triangles(static_cast<Eigen::Index>(t), k) = rows.of({corner[0], placed ? corner[1] : -1, look});
     }
   }
-  mesh.vertices.resize(static_cast<Eigen::Index>(corners.size()), 3);
-  for (std::size_t v = 0; v < corners.size(); ++v) {
-    mesh.vertices.row(static_cast<Eigen::Index>(v)) = positions[corners[v][0]];
-  }
+  mesh.vertices.resize(static_cast<Eigen::Index>(rows.rows.size()), 3);
+  for (std::size_t v = 0; v < rows.rows.size(); ++v)
+    mesh.vertices.row(static_cast<Eigen::Index>(v)) =
+        obj.positions[static_cast<std::size_t>(rows.rows[v].position)];
   const Eigen::RowVector3d size =
       mesh.vertices.colwise().maxCoeff().cast<double>() - mesh.vertices.colwise().minCoeff().cast<double>();
   if (!(size.y() * kMaxWidth > size.maxCoeff()))
     throw InputError(path, "is flat: it has no height along y; turn it so that y points up");
-  if (!textured) return mesh;
-  for (const std::string& library : libraries) {
-    const std::optional<std::string> picture = textureFile(besides(path, library), materials);
-    if (!picture) continue;
-    mesh.texture = readImage(*picture);
-    mesh.uv.resize(static_cast<Eigen::Index>(corners.size()), 2);
-    for (std::size_t v = 0; v < corners.size(); ++v) {
-      mesh.uv.row(static_cast<Eigen::Index>(v)) = coordinates[corners[v][1]];
-    }
-    break;
+  if (looks.tiles.empty()) return mesh;
+
+  const Eigen::Array2f middle(0.5f, 0.5f);
+  mesh.uv.resize(mesh.vertices.rows(), 2);
+  for (std::size_t v = 0; v < rows.rows.size(); ++v) {
+    const Rows::Row& row = rows.rows[v];
+    const Eigen::Array2f uv = row.coordinate < 0
+                                  ? middle
+                                  : Eigen::Array2f(obj.coordinates[static_cast<std::size_t>(row.coordinate)]);
+    mesh.uv.row(static_cast<Eigen::Index>(v)) = uv.transpose();
+    AtlasTile& tile = looks.tiles[static_cast<std::size_t>(row.look)];
+    tile.low = tile.low.min(uv), tile.high = tile.high.max(uv);
   }
+  if (looks.tiles.size() == 1) {
+    mesh.texture = std::move(looks.tiles[0].image);
+    return mesh;
+  }
+  TextureAtlas atlas = packAtlas(looks.tiles);
+  if (atlas.image.empty())
+    throw InputError(path, "its textures do not fit into one of " + std::to_string(kMaxAtlas_px) +
+                               " px a side; make them smaller, or repeat less often");
+  for (std::size_t v = 0; v < rows.rows.size(); ++v) {
+    const auto look = static_cast<std::size_t>(rows.rows[v].look);
+    const auto row = static_cast<Eigen::Index>(v);
+    mesh.uv.row(row) =
+        (atlas.scale[look] * mesh.uv.row(row).transpose().array() + atlas.offset[look]).transpose();
+  }
+  mesh.texture = std::move(atlas.image);
   return mesh;
 }
 

@@ -15,6 +15,7 @@ struct Look {
   bool translucent = false;  // the body is seen through
   bool wireframe = false;
   bool skeleton = false;
+  Blending blending = Blending::kLinear;  // of the skin
   bool shadow = true;         // on the ground
   int weights_of = -1;        // a joint: its weights instead of the texture, blue to yellow
   int chosen = -1;            // a joint that is drawn larger

@@ -70,7 +70,7 @@ JointWeights heatWeights(const SkinInput& input) {
   Eigen::VectorXd heat = Eigen::VectorXd::Zero(places);                    // for each of the joints
   std::vector<std::vector<int>> heaters(static_cast<std::size_t>(places));
   // In a part of the mesh where nothing sees a bone, every vertex is heated by its nearest one.
-  const MeshParts parts = meshParts(mesh);
+  const MeshParts parts = meshParts(mesh, welding);
   std::vector<char> sighted(static_cast<std::size_t>(parts.count), 0);
   std::vector<std::vector<int>> unseen(static_cast<std::size_t>(places));
   std::vector<double> distances(input.bones.size());

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "libskel/skeleton/place_in_mesh.h"
-#include "libskel/skin/welding.h"
 
 namespace skel {
 namespace {
@@ -94,11 +93,10 @@ class VertexBins {
 
 }  // namespace
 
-MeshParts meshParts(const TriangleMesh& mesh) {
+MeshParts meshParts(const TriangleMesh& mesh, const Welding& welding) {
   const int count = static_cast<int>(mesh.vertices.rows());
   std::vector<int> above(static_cast<std::size_t>(count));
   std::iota(above.begin(), above.end(), 0);
-  const Welding welding(mesh.vertices);
   for (int v = 0; v < count; ++v) join(above, welding.vertex(welding.place(v)), v);
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     join(above, mesh.triangles(t, 0), mesh.triangles(t, 1));

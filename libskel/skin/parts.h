@@ -5,6 +5,7 @@
 
 #include "libskel/skin/bones.h"
 #include "libskel/skin/falloff.h"
+#include "libskel/skin/welding.h"
 
 namespace skel {
 
@@ -15,7 +16,7 @@ struct MeshParts {
 
 // What hangs together by triangles; vertices at the same place count as one. A vertex of no triangle is a
 // part.
-MeshParts meshParts(const TriangleMesh& mesh);
+MeshParts meshParts(const TriangleMesh& mesh, const Welding& welding);
 
 // For each part whether a bone lies in it: with the part on both sides of it along two of the axes. A bone in
 // no part lies in all that are nearly as near to it as the nearest. One part has a bone at least.

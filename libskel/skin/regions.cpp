@@ -8,20 +8,34 @@
 
 namespace skel {
 
+namespace {
+
+// "mixamorig:LeftForeArm" has the words mixamorig, left, fore, arm.
+std::vector<std::string> wordsOf(const std::string& name) {
+  std::vector<std::string> words(1);
+  char before = 0;
+  for (const char c : name) {
+    const bool capital = c >= 'A' && c <= 'Z', small = c >= 'a' && c <= 'z';
+    if ((!capital && !small) || (capital && before >= 'a' && before <= 'z')) words.emplace_back();
+    if (capital || small) words.back() += static_cast<char>(c | 0x20);
+    before = c;
+  }
+  return words;
+}
+
+}  // namespace
+
 std::vector<int> SkinRegions::ofJoints(const Skeleton& skeleton) const {
   std::vector<int> result;
   for (const Joint& joint : skeleton.joints) {
-    std::string name = joint.name;
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; });
-    const auto has = [&](const SkinRegion& region) {
-      return std::any_of(region.joints.begin(), region.joints.end(),
-                         [&](const std::string& part) { return name.find(part) != std::string::npos; });
-    };
-    auto found = std::find_if(regions.begin(), regions.end(), has);
+    const std::vector<std::string> words = wordsOf(joint.name);
+    auto found = std::find_if(regions.begin(), regions.end(), [&](const SkinRegion& region) {
+      return std::find_first_of(words.begin(), words.end(), region.words.begin(), region.words.end()) !=
+             words.end();
+    });
     if (found == regions.end())
       found =
-          std::find_if(regions.begin(), regions.end(), [](const SkinRegion& r) { return r.joints.empty(); });
+          std::find_if(regions.begin(), regions.end(), [](const SkinRegion& r) { return r.words.empty(); });
     result.push_back(static_cast<int>(found - regions.begin()));
   }
   return result;
@@ -37,24 +51,25 @@ SkinRegions parseRegions(std::string_view text, const std::string& file) {
   const std::vector<JsonValue> items = list.items();
   int others = 0;
   for (const JsonValue& item : items) {
-    item.allowOnly({"name", "joints", "mixes", "own_chain", "rigid", "power"});
+    item.allowOnly({"name", "words", "mixes", "own_chain", "rigid", "power"});
     SkinRegion region;
     region.name = item.at("name").asString();
     for (const SkinRegion& other : result.regions)
       if (other.name == region.name)
         item.at("name").fail("\"" + region.name + "\" is the name of two regions");
-    for (const JsonValue& part : item.at("joints").items()) {
-      region.joints.push_back(part.asString());
-      if (region.joints.back().empty()) part.fail("is empty: it would be part of every name");
+    for (const JsonValue& word : item.at("words").items()) {
+      region.words.push_back(word.asString());
+      if (region.words.back().empty() || wordsOf(region.words.back()) != std::vector{region.words.back()})
+        word.fail("must be one word of small letters");
     }
-    others += region.joints.empty();
+    others += region.words.empty();
     if (const auto own_chain = item.find("own_chain")) region.own_chain = own_chain->asBool();
     if (const auto rigid = item.find("rigid")) region.rigid = rigid->asBool();
     if (const auto power = item.find("power")) region.power = power->asNumber(0.1, 16);
     result.regions.push_back(std::move(region));
   }
   if (others != 1)
-    list.fail("one region must have no joints of its own (\"joints\": []), for all that the others lack; " +
+    list.fail("one region must have no words of its own (\"words\": []), for all that the others lack; " +
               std::to_string(others) + " have none");
   for (std::size_t i = 0; i < items.size(); ++i) {
     SkinRegion& region = result.regions[i];

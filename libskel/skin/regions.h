@@ -11,8 +11,10 @@ namespace skel {
 
 struct SkinRegion {
   std::string name;
-  std::vector<std::string> joints;  // parts of joints' names, lower case; empty: all that no other region has
-  std::vector<int> mixes;           // regions whose bones may share a vertex of this one, itself included
+  // One of them in a joint's name, between capitals, digits and signs: "arm" is in "L_ForeArm2", not in
+  // "forearm". Small letters; empty: all joints that no other region has.
+  std::vector<std::string> words;
+  std::vector<int> mixes;  // regions whose bones may share a vertex of this one, itself included
   bool own_chain = false;  // of regions that are on limbs too, only bones above or below the vertex's own
   bool rigid = false;      // a vertex goes with its nearest bone alone
   double power = 2;        // of the distances' falloff; less is softer

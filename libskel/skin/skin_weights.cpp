@@ -9,6 +9,7 @@
 #include "libskel/skin/parts.h"
 #include "libskel/skin/smooth.h"
 #include "libskel/skin/soften.h"
+#include "libskel/skin/welding.h"
 
 namespace skel {
 namespace {
@@ -63,26 +64,31 @@ void fillFromNearest(const Eigen::MatrixX3f& vertices, JointWeights& weights) {
   }
 }
 
-// The parts of a mesh that have bones.
+// The parts of a mesh that have bones, with one vertex at each place.
 struct Body {
   TriangleMesh mesh;
-  std::vector<int> vertices;  // their rows in the whole mesh
+  std::vector<int> rows;  // of the whole mesh's vertices, -1: of another part
 
-  Body(const TriangleMesh& whole, const MeshParts& parts, const std::vector<char>& with_bones) {
-    std::vector<int> row(parts.of_vertex.size(), -1);
-    for (std::size_t v = 0; v < row.size(); ++v) {
-      if (!with_bones[static_cast<std::size_t>(parts.of_vertex[v])]) continue;
-      row[v] = static_cast<int>(vertices.size());
-      vertices.push_back(static_cast<int>(v));
+  Body(const TriangleMesh& whole, const Welding& welding, const MeshParts& parts,
+       const std::vector<char>& with_bones) {
+    std::vector<int> of_place(static_cast<std::size_t>(welding.count()), -1), vertices;
+    for (int place = 0; place < welding.count(); ++place) {
+      const int vertex = welding.vertex(place);
+      if (!with_bones[static_cast<std::size_t>(parts.of_vertex[static_cast<std::size_t>(vertex)])]) continue;
+      of_place[static_cast<std::size_t>(place)] = static_cast<int>(vertices.size());
+      vertices.push_back(vertex);
     }
+    for (int v = 0; v < whole.vertices.rows(); ++v)
+      rows.push_back(of_place[static_cast<std::size_t>(welding.place(v))]);
     mesh.vertices = whole.vertices(vertices, Eigen::all);
     mesh.triangles.resize(whole.triangles.rows(), 3);
     Eigen::Index count = 0;
     for (Eigen::Index t = 0; t < whole.triangles.rows(); ++t) {
-      if (row[static_cast<std::size_t>(whole.triangles(t, 0))] < 0) continue;
-      for (int k = 0; k < 3; ++k)
-        mesh.triangles(count, k) = row[static_cast<std::size_t>(whole.triangles(t, k))];
-      ++count;
+      Eigen::RowVector3i corners = whole.triangles.row(t);
+      for (int& corner : corners) corner = rows[static_cast<std::size_t>(corner)];
+      if (corners[0] < 0 || corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
+        continue;
+      mesh.triangles.row(count++) = corners;
     }
     mesh.triangles.conservativeResize(count, 3);
   }
@@ -129,17 +135,19 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
 
   const Method& way = find(method);
   const std::vector<Bone> bones = skeletonBones(skeleton);
-  const MeshParts parts = way.parts_follow ? meshParts(mesh) : MeshParts();
+  const Welding welding(mesh.vertices);
+  const MeshParts parts = meshParts(mesh, welding);
+  std::vector<char> with_bones(static_cast<std::size_t>(parts.count), 1);
+  if (way.parts_follow && parts.count > 1) with_bones = partsWithBones(mesh, parts, bones);
   JointWeights weights;
-  if (parts.count < 2) {
+  if (parts.count == 1 && welding.count() == mesh.vertices.rows()) {
     weights = bodyWeights(mesh, skeleton, bones, way, options);
   } else {
-    const std::vector<char> with_bones = partsWithBones(mesh, parts, bones);
-    const Body body(mesh, parts, with_bones);
+    const Body body(mesh, welding, parts, with_bones);
     const JointWeights of_body = bodyWeights(body.mesh, skeleton, bones, way, options);
     weights = JointWeights::Zero(mesh.vertices.rows(), joint_count);
-    for (Eigen::Index v = 0; v < of_body.rows(); ++v)
-      weights.row(body.vertices[static_cast<std::size_t>(v)]) = of_body.row(v);
+    for (Eigen::Index v = 0; v < weights.rows(); ++v)
+      if (const int row = body.rows[static_cast<std::size_t>(v)]; row >= 0) weights.row(v) = of_body.row(row);
     followTouchedParts(mesh, parts, with_bones, weights);
   }
   std::vector<int> order;

@@ -22,8 +22,9 @@ float straight(const Eigen::Vector3f& p, const Bone& bone) {
   return distanceToSegment<Eigen::Vector3f>(p, bone.from, bone.to);
 }
 
-// Half the body's thickness about each bone: the distance of most vertices that are nearest to it.
-std::vector<float> boneRadii(const BoneReaches& reaches) {
+// Half the body's thickness about each bone: the distance of most vertices that are nearest to it. A spine
+// runs along the back, far from the belly: for the trunk, nearly all of them.
+std::vector<float> boneRadii(const BoneReaches& reaches, const std::vector<Bone>& bones) {
   std::vector<std::vector<float>> own(static_cast<std::size_t>(reaches.cols()));
   for (Eigen::Index v = 0; v < reaches.rows(); ++v) {
     Eigen::Index nearest = 0;
@@ -33,10 +34,12 @@ std::vector<float> boneRadii(const BoneReaches& reaches) {
       own[static_cast<std::size_t>(nearest)].push_back(std::sqrt(reaches(v, nearest).distance_m2));
   }
   std::vector<float> radii;
-  for (std::vector<float>& distances : own) {
+  for (std::size_t b = 0; b < own.size(); ++b) {
+    std::vector<float>& distances = own[b];
     radii.push_back(0);
     if (distances.empty()) continue;
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    const std::size_t most = bones[b].limb < 0 ? distances.size() * 9 / 10 : distances.size() / 2;
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(most);
     std::nth_element(distances.begin(), middle, distances.end());
     radii.back() = *middle;
   }
@@ -137,7 +140,7 @@ JointWeights volumetricWeights(const SkinInput& input) {
     }
   }
   const float edge_m = meanEdge(mesh);
-  const std::vector<float> radii = boneRadii(reaches);
+  const std::vector<float> radii = boneRadii(reaches, bones);
   for (int b = 0; b < count; ++b) {
     const float reach_m = reachBeyondJoint(radii[b], edge_m);
     for (Eigen::Index v = 0; v < reaches.rows(); ++v) {

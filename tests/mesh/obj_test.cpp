@@ -1,10 +1,14 @@
 #include "libskel/mesh/obj.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <ctime>
+#include <iostream>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/image/write_image.h"
+#include "libskel/mesh/read_mesh.h"
 #include "tests/support/catch.h"
 #include "tests/support/temp_dir.h"
 
@@ -25,6 +29,18 @@ std::string complaint(const std::string& text) {
     return error.problem();
   }
   return "none";
+}
+
+// Of the texture at a corner of a triangle, drawn a little to its middle.
+Eigen::Vector3i colorAt(const TriangleMesh& mesh, int triangle, int corner) {
+  Eigen::RowVector2f uv = Eigen::RowVector2f::Zero();
+  for (int k = 0; k < 3; ++k) uv += (k == corner ? 0.8f : 0.1f) * mesh.uv.row(mesh.triangles(triangle, k));
+  const std::uint8_t* pixel =
+      mesh.texture.pixel(std::clamp(static_cast<int>(uv.x() * static_cast<float>(mesh.texture.width)), 0,
+                                    mesh.texture.width - 1),
+                         std::clamp(static_cast<int>(uv.y() * static_cast<float>(mesh.texture.height)), 0,
+                                    mesh.texture.height - 1));
+  return {pixel[0], pixel[1], pixel[2]};
 }
 
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -77,9 +93,94 @@ TEST_CASE("the texture is found through the material that is used") {
   CHECK(mesh.uv.row(3) == Eigen::RowVector2f(0.5f, 0.5f));
 
   writeFile(dir.file("a.obj"), text + "f 1/1 2/2 3/3\nf 1 3 4\n");
-  CHECK(readObj(dir.file("a.obj")).uv.rows() == 0);
+  const TriangleMesh mixed =
+      readObj(dir.file("a.obj"));  // a face without coordinates has the material's colour
+  CHECK(colorAt(mixed, 0, 0) == Eigen::Array3i(255, 0, 0).matrix());
+  CHECK(colorAt(mixed, 1, 0) == Eigen::Array3i(255, 255, 255).matrix());
   writeFile(dir.file("b.obj"), "mtllib gone.mtl\n" + text.substr(13) + "f 1/1 2/2 3/3\n");
   CHECK_THROWS_AS(readObj(dir.file("b.obj")), InputError);
+}
+
+TEST_CASE("several materials, pictures and colours, become one texture") {
+  const TempDir dir;
+  Image picture(2, 2);  // red green / blue yellow
+  picture.rgba << 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 0, 255;
+  writeFile(dir.file("a.png"), encodePng(picture));
+  Image other(3, 1);
+  other.rgba << 10, 20, 30, 255, 10, 20, 30, 255, 10, 20, 30, 255;
+  writeFile(dir.file("b.png"), encodePng(other));
+  writeFile(dir.file("a.mtl"),
+            "newmtl a\nmap_Kd a.png\nnewmtl b\nmap_Kd b.png\nnewmtl c\nKd 0.2 0.4 0.6\nnewmtl unused\nmap_Kd "
+            "gone.png\n");
+  // In objects and groups, with indices that count backwards, normals or not; the first picture repeats.
+  writeFile(dir.file("a.obj"),
+            "mtllib a.mtl\no first\ng left arm\n" + kSquare +
+                "vt 0.05 0.95\nvt 2.75 0.95\nvt 0.05 0.3\nvn 0 0 1\n"
+                "usemtl a\nf 1/1/1 2/2/1 3/3/1\no second\ng\nusemtl b\nf -4/-3 -2/-2 -1/-1\n"
+                "usemtl c\nf 1 2 4\nusemtl unknown\nf 1/1 2/2 4/3\n");
+  const TriangleMesh mesh = readObj(dir.file("a.obj"));
+  REQUIRE(mesh.triangles.rows() == 4);
+  CHECK(mesh.uv.minCoeff() >= 0);
+  CHECK(mesh.uv.maxCoeff() <= 1);
+  CHECK(mesh.texture.width >= 6 + 2 * 2);
+  CHECK(colorAt(mesh, 1, 0) == Eigen::Vector3i(10, 20, 30));
+  CHECK(colorAt(mesh, 2, 1) == Eigen::Vector3i(51, 102, 153));
+  CHECK(colorAt(mesh, 3, 1) == Eigen::Vector3i(255, 255, 255));
+  // The corners themselves: u = 0.05 red, u = 2.75 green (two repeats further), v = 0.7 down blue.
+  const auto at = [&](int corner) {
+    const Eigen::RowVector2f uv = mesh.uv.row(mesh.triangles(0, corner));
+    const std::uint8_t* pixel =
+        mesh.texture.pixel(static_cast<int>(uv.x() * static_cast<float>(mesh.texture.width)),
+                           static_cast<int>(uv.y() * static_cast<float>(mesh.texture.height)));
+    return Eigen::Vector3i(pixel[0], pixel[1], pixel[2]);
+  };
+  CHECK(at(0) == Eigen::Vector3i(255, 0, 0));
+  CHECK(at(1) == Eigen::Vector3i(0, 255, 0));
+  CHECK(at(2) == Eigen::Vector3i(0, 0, 255));
+
+  writeFile(dir.file("a.obj"), "mtllib a.mtl\n" + kSquare +
+                                   "vt 0 0\nvt 9999 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\nusemtl c\nf 1 2 4\n");
+  CHECK_THROWS_WITH(readObj(dir.file("a.obj")),
+                    Catch::Contains("its textures do not fit into one of 8192 px a side"));
+}
+
+TEST_CASE("a file of 200,000 vertices is read well within a second") {
+  std::string text = "o grid\n";
+  constexpr int kSide = 448;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      text += "v " + std::to_string(0.01 * x) + " " + std::to_string(0.01 * y) + " 0.25\nvt 0.5 0.25\n";
+  for (int y = 0; y + 1 < kSide; ++y)
+    for (int x = 0; x + 1 < kSide; ++x) {
+      const int v = y * kSide + x + 1;
+      text += "f";
+      for (const int corner : {v, v + 1, v + kSide + 1, v + kSide})
+        text += " " + std::to_string(corner) + "/" + std::to_string(corner);
+      text += "\n";
+    }
+  const TempDir dir;
+  writeFile(dir.file("a.obj"), text);
+  const std::clock_t start = std::clock();
+  const TriangleMesh mesh = readObj(dir.file("a.obj"));
+  const double took_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  CHECK(mesh.vertices.rows() == kSide * kSide);
+  CHECK(mesh.triangles.rows() == 2 * (kSide - 1) * (kSide - 1));
+  std::cout << "200,000 vertices read in " << took_s << " s\n";
+#ifdef NDEBUG
+  CHECK(took_s < 1);
+#endif
+}
+
+TEST_CASE("models are told by the ending of their names") {
+  const TempDir dir;
+  writeFile(dir.file("a.OBJ"), kSquare + "f 1 2 3\n");
+  CHECK(readMesh(dir.file("a.OBJ")).triangles.rows() == 1);
+  CHECK_THROWS_WITH(
+      readMesh(dir.file("a.stl")),
+      Catch::EndsWith("a.stl: is an STL file: loose triangles without parts, colours or units; open it "
+                      "in Blender and export it as OBJ"));
+  CHECK_THROWS_WITH(readMesh(dir.file("a.fbx")),
+                    Catch::EndsWith("a.fbx: is no model that can be read; export it as OBJ"));
 }
 
 TEST_CASE("a model without height is refused") {

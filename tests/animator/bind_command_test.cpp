@@ -1,0 +1,197 @@
+// bind, weights and info: what they make of the elk, and what they say to bad input.
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "libskel/core/files.h"
+#include "libskel/import/read_character.h"
+#include "tests/support/catch.h"
+#include "tests/support/run_tool.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kElk = SKEL_SOURCE_DIR "/datasets/elk/elk.obj";
+const std::string kBones = SKEL_SOURCE_DIR "/datasets/elk/elk.rig.json";
+
+ToolRun animate(const TempDir& dir, const std::string& arguments) {
+  return runTool("cd '" + dir.path() + "' && '" SKEL_ANIMATE "' " + arguments);
+}
+
+void expect(const ToolRun& run, int exit_code, const std::string& message) {
+  CAPTURE(run.err, message);
+  CHECK(run.exit_code == exit_code);
+  CHECK(run.err.find(message) != std::string::npos);
+  CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+}
+
+int filesIn(const std::string& dir) {
+  int count = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(dir)) count += entry.is_regular_file();
+  return count;
+}
+
+const std::string kTetrahedron =
+    "v -1 0 -1\nv 1 0 -1\nv 0 0 1\nv 0 2 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
+
+std::string rig(const std::string& joints, const std::string& hierarchy = "{}") {
+  return "{\"joints\": [" + joints + "], \"hierarchy\": " + hierarchy + "}";
+}
+
+std::string bone(const std::string& name, const std::string& parent,
+                 const std::string& head = "[0, 0.2, 0]") {
+  return "{\"name\": \"" + name + "\", \"head\": " + head + ", \"tail\": [0, 1, 0], \"parent\": " + parent +
+         "}";
+}
+
+}  // namespace
+
+TEST_CASE("the elk is bound, and its weights are saved and taken again") {
+  const TempDir dir;
+  const ToolRun bound = animate(dir, "bind '" + kElk + "' --skeleton '" + kBones + "' -o elk.glb");
+  CHECK(bound.err == "");
+  REQUIRE(bound.exit_code == 0);
+  CHECK(bound.out.find("elk.rig.json: z is up; 100 % of its bones lie in the model") != std::string::npos);
+  CHECK(bound.out.find("vertices bound to 37 bones by geodesic") != std::string::npos);
+  const CharacterFile elk = readGlb(dir.file("elk.glb"));
+  CHECK(elk.character.skeleton.joints.size() == 38);
+  CHECK(elk.character.skeleton.joints[0].name == "root");
+  CHECK(elk.character.skeleton.joints[1].tail.has_value());
+
+  REQUIRE(animate(dir, "weights elk.glb -o elk.weights.json").exit_code == 0);
+  REQUIRE(animate(dir, "bind elk.glb --weights elk.weights.json -o again.glb").exit_code == 0);
+  const CharacterFile again = readGlb(dir.file("again.glb"));
+  CHECK((again.character.weights.joints.array() == elk.character.weights.joints.array()).all());
+  CHECK((again.character.weights.weights - elk.character.weights.weights).cwiseAbs().maxCoeff() < 5e-5f);
+  REQUIRE(animate(dir, "bind elk.glb --skin idw --max-influences 1 -o one.glb").exit_code == 0);
+  CHECK(readGlb(dir.file("one.glb")).character.weights.weights.col(0).minCoeff() == 1);
+
+  const ToolRun info = animate(dir, "info elk.glb");
+  CHECK(info.exit_code == 0);
+  for (const char* text :
+       {"5 parts", "38 joints, 37 bones", "neck_3 (0.000, 1.670, 0.780)", "weights: up to 4 joints"})
+    CHECK(info.out.find(text) != std::string::npos);
+  CHECK(animate(dir, "info '" + kElk + "'").out.find("5 parts") != std::string::npos);
+}
+
+TEST_CASE("the up axis of a skeleton is found by where it lies, or given") {
+  const TempDir dir;
+  writeFile(dir.file("m.obj"), kTetrahedron);
+  const auto bone_at = [](const std::string& head, const std::string& tail) {
+    return rig("{\"name\": \"a\", \"head\": " + head + ", \"tail\": " + tail + ", \"parent\": null}");
+  };
+  writeFile(dir.file("y.json"), bone_at("[0, 0.2, -0.3]", "[0, 1, -0.3]"));
+  writeFile(dir.file("z.json"), bone_at("[0, 0.45, 0.4]", "[0, 0.45, 1.6]"));
+  const auto says = [&](const std::string& arguments) {
+    return animate(dir, "bind m.obj -o m.glb --skeleton " + arguments).out;
+  };
+  CHECK(says("y.json").find("y.json: y is up; 100 % of its bones lie in the model, 0 % with z up") == 0);
+  CHECK(says("z.json").find("z.json: z is up; 100 % of its bones lie in the model, 0 % with y up") == 0);
+  CHECK(says("z.json --up y").find("z.json: y is up (--up); 0 % of its bones lie in the model") == 0);
+}
+
+TEST_CASE("bad skeletons are refused with the place in them, and nothing is written") {
+  const TempDir dir;
+  writeFile(dir.file("m.obj"), kTetrahedron);
+  struct Case {
+    std::string text, message;
+  };
+  const std::vector<Case> cases = {
+      {"", "s.json: is empty, not JSON"},
+      {"[]", "s.json: must be an object"},
+      {"{}", "s.json: lacks \"joints\""},
+      {rig(""), "s.json: joints: is empty"},
+      {rig(bone("a", "null") + "," + bone("a", "null")),
+       "s.json: joints[1].name: \"a\" is also the name of joints[0]"},
+      {rig(bone("a", "null") + "," + bone("b", "\"c\"")),
+       "s.json: joints[1].parent: there is no joint \"c\""},
+      {rig(bone("a", "null") + "," + bone("b", "null")),
+       "s.json: joints[1]: \"b\" has no parent, but \"a\" is the root; only one joint may have none"},
+      {rig(bone("a", "\"b\"") + "," + bone("b", "\"a\"")), "s.json: joints[0]: \"a\" is its own ancestor"},
+      {rig(bone("r", "null") + "," + bone("a", "\"b\"") + "," + bone("b", "\"a\"")),
+       "s.json: joints[1]: \"a\" is its own ancestor"},
+      {rig(bone("a", "null", "[0, 1]")), "s.json: joints[0].head: has 2 numbers, must have 3"},
+      {rig(bone("a", "null", "[0, NaN, 0]")), "joints[0].head[1] is not a finite number"},
+      {rig(bone("a", "null", "[0, 1e30, 0]")), "s.json: joints[0].head: is farther than 1e6 from the origin"},
+      {rig(bone("a", "null", "[0, \"x\", 0]")), "s.json: joints[0].head[1]: must be a number"},
+      {rig(bone("a", "\"b\"") + "," + bone("b", "null"), "{\"a\": \"c\"}"),
+       "s.json: joints[0].parent: is \"b\", but hierarchy.a is \"c\""},
+      {rig(bone("a", "null"), "{\"x\": \"a\"}"), "s.json: hierarchy.x: there is no joint \"x\""},
+      {rig(bone("a", "null") + "," + bone("b", "null"), "{\"a\": \"r\", \"b\": \"q\"}"),
+       "s.json: hierarchy.b: there is no joint \"q\"; only one may be missing, the root, and \"r\" is"},
+      {rig("{\"name\": \"a\", \"head\": [0,0,0], \"tail\": [0,1,0], \"parent\": null, \"roll\": 1}"),
+       "s.json: joints[0]: has the unknown key \"roll\""},
+      {"{\"format\": \"skel-skeleton\", \"version\": 9}", "s.json: "},
+  };
+  for (const Case& c : cases) {
+    writeFile(dir.file("s.json"), c.text);
+    expect(animate(dir, "bind m.obj --skeleton s.json -o m.glb"), 2, c.message);
+  }
+  CHECK(filesIn(dir.path()) == 2);
+}
+
+TEST_CASE("bad models, weights and tables are refused, and nothing is written") {
+  const TempDir dir;
+  writeFile(dir.file("m.obj"), kTetrahedron);
+  writeFile(dir.file("s.json"), rig(bone("a", "null") + "," + bone("b", "\"a\"")));
+  const auto bind = [&](const std::string& arguments) {
+    return animate(dir, "bind " + arguments + " -o out.glb");
+  };
+  expect(bind("m.obj"), 1, "m.obj has no skeleton of its own; name one by --skeleton FILE");
+  expect(bind("gone.obj --skeleton s.json"), 2, "gone.obj: cannot be read: No such file or directory");
+  expect(bind("gone.glb"), 2, "gone.glb: cannot be read: No such file or directory");
+  expect(bind("m.stl --skeleton s.json"), 2, "m.stl: is an STL file");
+  writeFile(dir.file("bad.obj"), kTetrahedron + "f 1 2 9\n");
+  expect(bind("bad.obj --skeleton s.json"), 2, "bad.obj: line 9: there is no vertex 9; 4 are defined so far");
+  writeFile(dir.file("bad.obj"), "v 0 0 0\n");
+  expect(bind("bad.obj --skeleton s.json"), 2, "bad.obj: holds no faces");
+  writeFile(dir.file("bad.glb"), "glTF and then nothing");
+  expect(bind("bad.glb"), 2, "bad.glb: is of glTF version");
+  expect(bind("m.obj --skeleton s.json --skin magic"), 1, "--skin: magic not in {");
+  expect(bind("m.obj --skeleton s.json --max-influences 5"), 1, "--max-influences: ");
+  expect(bind("m.obj --skeleton s.json --up x"), 1, "--up: x not in {");
+  expect(bind("m.obj --skeleton s.json --regions r.json"), 1, "--regions goes with --skin idw-region");
+  expect(bind("m.obj --skeleton s.json --skin idw-region --regions r.json"), 2, "r.json: cannot be read");
+
+  const auto weights = [](const std::string& vertices) {
+    return "{\"format\": \"skel-skin\", \"version\": 1, \"joints\": [\"a\", \"b\"], \"vertices\": [" +
+           vertices + "]}";
+  };
+  const std::string one = "{\"joints\": [0], \"weights\": [1]}";
+  const std::vector<std::pair<std::string, std::string>> bad = {
+      {weights(one), "w.json: vertices: are 1, the model has 4"},
+      {weights(one + "," + one + "," + one + ",{\"joints\": [2], \"weights\": [1]}"),
+       "w.json: vertices[3].joints[0]: is 2, must be a whole number between 0 and 1"},
+      {weights(one + "," + one + "," + one + ",{\"joints\": [0], \"weights\": [-1]}"),
+       "w.json: vertices[3].weights[0]: "},
+      {weights(one + "," + one + "," + one + ",{\"joints\": [0], \"weights\": [0]}"),
+       "w.json: vertices[3].weights: are all 0"},
+      {"{\"format\": \"skel-skin\", \"version\": 1, \"joints\": [\"z\"], \"vertices\": []}",
+       "w.json: joints[0]: the skeleton has no joint \"z\""},
+  };
+  for (const auto& [text, message] : bad) {
+    writeFile(dir.file("w.json"), text);
+    expect(bind("m.obj --skeleton s.json --weights w.json"), 2, message);
+  }
+  CHECK_FALSE(fs::exists(dir.file("out.glb")));
+  CHECK(fs::exists(dir.file("m.obj")));
+}
+
+TEST_CASE("what cannot be written leaves the old file whole") {
+  const TempDir dir;
+  writeFile(dir.file("m.obj"), kTetrahedron);
+  writeFile(dir.file("s.json"), rig(bone("a", "null")));
+  writeFile(dir.file("out.glb"), "the old one");
+  // A disk that is full: no file may grow beyond a few blocks.
+  const ToolRun full = runTool("cd '" + dir.path() +
+                               "' && trap '' XFSZ && ulimit -f 1 && '" SKEL_ANIMATE
+                               "' bind m.obj --skeleton s.json -o out.glb >/dev/null");
+  expect(full, 4, "out.glb: cannot be written: ");
+  CHECK(readFile(dir.file("out.glb")) == "the old one");
+  CHECK_FALSE(fs::exists(dir.file("out.glb.skel-tmp")));
+  expect(animate(dir, "bind m.obj --skeleton s.json -o m.obj/out.glb"), 4, "m.obj");
+}
