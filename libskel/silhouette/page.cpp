@@ -13,10 +13,10 @@
 namespace skel {
 namespace {
 
-constexpr int kSize = 320;         // long side of the picture in which sheets are looked for, px
-constexpr int kMostLines = 36;     // of which quadrilaterals are made
-constexpr double kReach_px = 4;    // beside a line, where the colours within and without are taken
-constexpr double kStep_px = 2;     // between the places along a line
+constexpr int kSize = 320;       // long side of the picture in which sheets are looked for, px
+constexpr int kMostLines = 36;   // of which quadrilaterals are made
+constexpr double kReach_px = 4;  // beside a line, where the colours within and without are taken
+constexpr double kStep_px = 2;   // between the places along a line
 
 // The paper's colour, which is the most frequent one of the lighter half in the middle of the picture.
 std::optional<cv::Vec3f> paperColor(const cv::Mat& lab) {
@@ -90,7 +90,8 @@ class Finder {
     double run = 0;
     for (double t = 0; t < 2 * length; t += kStep_px) {
       const Eigen::Vector2d p = side.base + t * side.direction;
-      const cv::Vec3f *within = color(p + kReach_px * side.normal), *without = color(p - kReach_px * side.normal);
+      const cv::Vec3f *within = color(p + kReach_px * side.normal),
+                      *without = color(p - kReach_px * side.normal);
       const bool seen = within != nullptr && without != nullptr;
       const bool paper = within != nullptr && isPaper(*within);
       const bool rim = seen && paper && isOther(*within, *without);
@@ -216,14 +217,15 @@ std::optional<PageCorners> findPage(const cv::Mat& lab) {
             const double from = side.at(corners[i]), to = side.at(corners[(i + 1) % 4]);
             const double a = std::min(from, to), b = std::max(from, to);
             const double share = shareOf(side.good, a, b);
-            whole = (b - a) * kStep_px > kLeastLong * std::min(small.cols, small.rows) && share > kLeastShare &&
-                    shareOf(side.inside, a, b) > kLeastPaper;
+            whole = (b - a) * kStep_px > kLeastLong * std::min(small.cols, small.rows) &&
+                    share > kLeastShare && shareOf(side.inside, a, b) > kLeastPaper;
             least = std::min(least, share);
             sum += share * (b - a);
             length += b - a;
           }
           if (!whole || sum < kLeastMean * length) continue;
-          const double score = sum / length + 0.5 * least + 0.3 * length * kStep_px / (small.cols + small.rows);
+          const double score =
+              sum / length + 0.5 * least + 0.3 * length * kStep_px / (small.cols + small.rows);
           if (score <= best) continue;
           best = score;
           found = corners;
@@ -237,7 +239,8 @@ cv::Mat pageFromPicture(const PageCorners& corners, std::array<int, 2>& size) {
   const auto mean = [&](int a, int b, int c, int d) {
     return ((corners[a] - corners[b]).norm() + (corners[c] - corners[d]).norm()) / 2;
   };
-  const double width = mean(0, 1, 3, 2), height = mean(0, 3, 1, 2), scale = kPageSize / std::max(width, height);
+  const double width = mean(0, 1, 3, 2), height = mean(0, 3, 1, 2),
+               scale = kPageSize / std::max(width, height);
   size = {std::max(1, cvRound(width * scale)), std::max(1, cvRound(height * scale))};
   constexpr float kRim = 0.012f * kPageSize;  // lies outside of what is looked at
   const float w = static_cast<float>(size[0]) - 0.5f + kRim, h = static_cast<float>(size[1]) - 0.5f + kRim;

@@ -18,8 +18,8 @@ using PageCorners = std::array<Eigen::Vector2d, 4>;
 // most of their length, whatever pattern that has. `lab`: 8-bit (working_colors.h). Nothing where the paper
 // fills the picture, or where less than half of the picture's width or height is paper.
 //
-// Lines come from the Hough transform of edges (Duda, Hart 1972), each with the side on which it has paper; of
-// all quadrilaterals of the strongest lines the one with the fullest sides is taken.
+// Lines come from the Hough transform of edges (Duda, Hart 1972), each with the side on which it has paper;
+// of all quadrilaterals of the strongest lines the one with the fullest sides is taken.
 std::optional<PageCorners> findPage(const cv::Mat& lab);
 
 // Long side of the sheet straightened, px.
