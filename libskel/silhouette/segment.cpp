@@ -11,6 +11,7 @@
 #include "libskel/silhouette/chambers.h"
 #include "libskel/silhouette/outlined.h"
 #include "libskel/silhouette/page.h"
+#include "libskel/silhouette/ruling.h"
 #include "libskel/silhouette/sheet.h"
 #include "libskel/silhouette/strokes.h"
 #include "libskel/silhouette/trim.h"
@@ -79,6 +80,11 @@ cv::Mat figuresIn(const cv::Mat& rgb, const cv::Mat& lab, std::string& reason, i
   }
 
   const cv::Mat drawn = barrier.clone();
+  // Pencil leaves out, and what was taken off with the ruling.
+  constexpr int kPencilGap = 5;  // px
+  if (textured)
+    cv::morphologyEx(barrier, barrier, cv::MORPH_CLOSE,
+                     cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(kPencilGap, kPencilGap)));
   fillChambers(barrier);
   if (textured) {
     dropOuterEdges(barrier, edges);
@@ -111,6 +117,7 @@ Segmentation segment(const Image& image) {
     page_from_image = straightened(image, rgb, *corners);
     lab = labOf(rgb);
   }
+  if (eraseRuling(rgb)) lab = labOf(rgb);
   Segmentation out;
   int margin = 0;
   const cv::Mat figures = figuresIn(rgb, lab, out.reason, margin);
