@@ -12,9 +12,9 @@ namespace skel {
 namespace {
 
 constexpr int kStrips = 12;
-constexpr double kSteepest = 0.2;      // slope of the lines
-constexpr double kSlopeStep = 0.02;    // about one pixel in a strip
-constexpr int kThickest = 9;           // px, of what closes over a line
+constexpr double kSteepest = 0.2;       // slope of the lines
+constexpr double kSlopeStep = 0.02;     // about one pixel in a strip
+constexpr int kThickest = 9;            // px, of what closes over a line
 constexpr float kLeastDarkness = 1.6f;  // of a line's mean, levels
 constexpr std::size_t kFewLines = 8;
 constexpr double kMostTimes = 1.7;  // the darkness of a line at its darkest, in terms of its mean
@@ -34,7 +34,8 @@ cv::Mat thinDarkness(const cv::Mat& rgb) {
   return dark;
 }
 
-// Mean darkness of the strip from x0 to x1 along each line of this slope, by its height at the strip's middle.
+// Mean darkness of the strip from x0 to x1 along each line of this slope, by its height at the strip's
+// middle.
 std::vector<float> profile(const cv::Mat& dark, int x0, int x1, double slope) {
   const int h = dark.rows, middle = (x0 + x1) / 2;
   std::vector<float> sum(static_cast<std::size_t>(h), 0);
@@ -74,8 +75,8 @@ std::vector<int> peaksOf(const std::vector<float>& sums) {
 
 struct Line {
   std::vector<double> heights = std::vector<double>(kStrips, -1);  // at the middle of each strip; -1 not seen
-  int seen = 0, first = -1, last = -1;  // strips
-  double height = 0, darkness = 0;      // mean
+  int seen = 0, first = -1, last = -1;                             // strips
+  double height = 0, darkness = 0;                                 // mean
 };
 
 // Whether there are many, most of them as far from the next as the others, or twice as far.
@@ -86,7 +87,8 @@ bool evenlySpaced(const std::vector<Line>& lines, int height) {
   std::sort(heights.begin(), heights.end());
   if (2 * (heights.back() - heights.front()) < height) return false;
   std::vector<float> gaps;
-  for (std::size_t i = 1; i < heights.size(); ++i) gaps.push_back(static_cast<float>(heights[i] - heights[i - 1]));
+  for (std::size_t i = 1; i < heights.size(); ++i)
+    gaps.push_back(static_cast<float>(heights[i] - heights[i - 1]));
   std::vector<float> sorted = gaps;
   const double period = median(sorted);
   const auto even = std::count_if(gaps.begin(), gaps.end(), [&](float gap) {
@@ -135,7 +137,8 @@ std::vector<Line> linesIn(const cv::Mat& dark) {
     for (std::size_t p = 0; p < peaks[static_cast<std::size_t>(start)].size(); ++p) {
       if (taken[static_cast<std::size_t>(start)][p]) continue;
       Line line;
-      double height = peaks[static_cast<std::size_t>(start)][p], slope = slopes[static_cast<std::size_t>(start)];
+      double height = peaks[static_cast<std::size_t>(start)][p],
+             slope = slopes[static_cast<std::size_t>(start)];
       int at = start;
       std::vector<std::pair<std::size_t, std::size_t>> own;
       for (int s = start; s < kStrips; ++s) {
@@ -150,7 +153,8 @@ std::vector<Line> linesIn(const cv::Mat& dark) {
         }
         if (chosen == peaks[i].size()) continue;
         height = peaks[i][chosen];
-        if (s > at && line.seen > 0) slope += 0.3 * ((height - line.heights[static_cast<std::size_t>(at)]) / (strip * (s - at)) - slope);
+        if (s > at && line.seen > 0)
+          slope += 0.3 * ((height - line.heights[static_cast<std::size_t>(at)]) / (strip * (s - at)) - slope);
         at = s;
         line.heights[i] = height;
         own.emplace_back(i, chosen);
@@ -168,9 +172,7 @@ std::vector<Line> linesIn(const cv::Mat& dark) {
     }
   }
   if (evenlySpaced(lines, dark.rows)) return lines;
-  std::erase_if(lines, [](const Line& line) {
-    return line.seen < kStrips - 1;
-  });
+  std::erase_if(lines, [](const Line& line) { return line.seen < kStrips - 1; });
   return lines;
 }
 

@@ -9,6 +9,7 @@
 
 #include "libskel/silhouette/background.h"
 #include "libskel/silhouette/chambers.h"
+#include "libskel/silhouette/ground.h"
 #include "libskel/silhouette/outlined.h"
 #include "libskel/silhouette/page.h"
 #include "libskel/silhouette/ruling.h"
@@ -85,7 +86,9 @@ cv::Mat figuresIn(const cv::Mat& rgb, const cv::Mat& lab, std::string& reason, i
   if (textured)
     cv::morphologyEx(barrier, barrier, cv::MORPH_CLOSE,
                      cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(kPencilGap, kPencilGap)));
+  const cv::Mat lines = barrier.clone();
   fillChambers(barrier);
+  dropGround(barrier, lines);
   if (textured) {
     dropOuterEdges(barrier, edges);
   } else {

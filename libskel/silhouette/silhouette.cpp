@@ -144,6 +144,7 @@ Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& option
   PieceOptions pieces;
   pieces.widest_gap = 0.06;
   pieces.smallest_share = 0.01;
+  pieces.limbs_first = true;
   return finish(segmentation.foreground, options, min_long_side, pieces);
 }
 
