@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "trainer/figures/figure.h"
 #include "libskel/jointnet/joint_net.h"
 #include "libskel/jointnet/net_joints.h"
+#include "trainer/figures/figure.h"
 
 namespace skel {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "libskel/export/write_character.h"
-#include "trainer/figures/figure.h"
 #include "libskel/skeleton/template.h"
+#include "trainer/figures/figure.h"
 #include "trainer/jointed_drawing.h"
 
 namespace skel {

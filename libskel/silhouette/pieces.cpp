@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -42,10 +43,24 @@ bool isGround(const Piece& figure, const Piece& b) {
   return b.box.width >= 2.5 * b.box.height && middle > figure.box.y + .88 * figure.box.height;
 }
 
+// Share of its convex hull that a figure does not fill: 0.3 and more where limbs stand out.
+double openShare(const cv::Mat& mask) {
+  std::vector<std::vector<cv::Point>> contours;
+  cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);
+  std::vector<cv::Point> points, hull;
+  for (const auto& contour : contours) points.insert(points.end(), contour.begin(), contour.end());
+  cv::convexHull(points, hull);
+  return 1 - std::min(1.0, cv::countNonZero(mask) / std::max(1.0, cv::contourArea(hull)));
+}
+
 class Joiner {
  public:
   Joiner(const cv::Mat& labels, std::vector<Piece> pieces, const PieceOptions& options)
-      : labels_(labels), pieces_(std::move(pieces)), options_(options), taken_(pieces_.size(), false) {}
+      : labels_(labels), pieces_(std::move(pieces)), options_(options), taken_(pieces_.size(), false) {
+    far_ =
+        static_cast<int>(std::ceil(std::max(2., options.widest_gap * std::max(labels.cols, labels.rows)))) +
+        1;
+  }
 
   // The largest piece that is left, with all that belongs to it.
   JoinedFigure next() {
@@ -55,7 +70,9 @@ class Joiner {
     taken_[first] = true;
     JoinedFigure out;
     out.mask = Plane8::Zero(labels_.rows, labels_.cols);
-    paint(out.mask, pieces_[first].label);
+    paint(out.mask, pieces_[first]);
+    distance_ = cv::Mat(labels_.size(), CV_32F, cv::Scalar(1e9));
+    measure(out.mask, figure.box);
     while (join(figure, out)) {
     }
     return out;
@@ -63,12 +80,24 @@ class Joiner {
   bool done() const { return std::find(taken_.begin(), taken_.end(), false) == taken_.end(); }
 
  private:
-  void paint(Plane8& mask, int label) const {
-    for (int y = 0; y < labels_.rows; ++y) {
+  void paint(Plane8& mask, const Piece& piece) const {
+    for (int y = piece.box.y; y < piece.box.br().y; ++y) {
       const int* row = labels_.ptr<int>(y);
-      for (int x = 0; x < labels_.cols; ++x)
-        if (row[x] == label) mask(y, x) = 255;
+      for (int x = piece.box.x; x < piece.box.br().x; ++x)
+        if (row[x] == piece.label) mask(y, x) = 255;
     }
+  }
+
+  // Brings the distances to the figure up to date around what was added to it in `box`, as far as pieces are
+  // looked for.
+  void measure(Plane8& figure, const cv::Rect& box) {
+    const cv::Rect around = (box + cv::Size(2 * far_, 2 * far_) - cv::Point(far_, far_)) &
+                            cv::Rect(0, 0, labels_.cols, labels_.rows);
+    cv::Mat away, distance;
+    cv::bitwise_not(cv::Mat(labels_.size(), CV_8U, figure.data())(around), away);
+    cv::distanceTransform(away, distance, cv::DIST_L2, cv::DIST_MASK_5);
+    cv::Mat known = distance_(around);
+    cv::min(known, distance, known);
   }
 
   // Takes in the nearest piece that belongs to the figure. False if there is none.
@@ -82,11 +111,6 @@ class Joiner {
       open.push_back(i);
     }
     if (open.empty()) return false;
-    // Of each pixel the distance to the figure, and which of its pixels is the nearest.
-    cv::Mat away(labels_.size(), CV_8U), distance, nearest;
-    const cv::Mat mask(labels_.size(), CV_8U, out.mask.data());
-    cv::bitwise_not(mask, away);
-    cv::distanceTransform(away, distance, nearest, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_PIXEL);
     double least = 0;
     cv::Point at(-1, -1);
     std::size_t best = 0;
@@ -94,7 +118,7 @@ class Joiner {
       const Piece& p = pieces_[i];
       for (int y = p.box.y; y < p.box.br().y; ++y) {
         const int* label = labels_.ptr<int>(y);
-        const float* d = distance.ptr<float>(y);
+        const float* d = distance_.ptr<float>(y);
         for (int x = p.box.x; x < p.box.br().x; ++x) {
           if (label[x] != p.label || d[x] > reach(figure, p) || (at.x >= 0 && d[x] >= least)) continue;
           least = d[x];
@@ -105,8 +129,9 @@ class Joiner {
     }
     if (at.x < 0) return false;
     const Piece& piece = pieces_[best];
-    bridge(out, at, nearestPixel(out.mask, nearest.at<int>(at), nearest), longSide(figure, piece));
-    paint(out.mask, piece.label);
+    const cv::Rect bridged = bridge(out, at, nearestPixel(out.mask, at, least), longSide(figure, piece));
+    paint(out.mask, piece);
+    measure(out.mask, bridged | piece.box);
     taken_[best] = true;
     ++out.pieces;
     figure.box |= piece.box;
@@ -127,16 +152,26 @@ class Joiner {
     return std::hypot(dx, dy);
   }
 
-  static cv::Point nearestPixel(const Plane8& mask, int label, const cv::Mat& nearest) {
-    for (int y = 0; y < nearest.rows; ++y) {
-      const int* row = nearest.ptr<int>(y);
-      for (int x = 0; x < nearest.cols; ++x)
-        if (row[x] == label && mask(y, x) != 0) return {x, y};
+  // The pixel of `mask` nearest to `at`, about `distance` away.
+  static cv::Point nearestPixel(const Plane8& mask, cv::Point at, double distance) {
+    const int reach = static_cast<int>(std::ceil(1.1 * distance)) + 1;
+    cv::Point nearest = at;
+    int least = std::numeric_limits<int>::max();
+    for (int y = std::max(0, at.y - reach); y < std::min(static_cast<int>(mask.rows()), at.y + reach + 1);
+         ++y) {
+      for (int x = std::max(0, at.x - reach); x < std::min(static_cast<int>(mask.cols()), at.x + reach + 1);
+           ++x) {
+        const int squared = (x - at.x) * (x - at.x) + (y - at.y) * (y - at.y);
+        if (mask(y, x) == 0 || squared >= least) continue;
+        least = squared;
+        nearest = {x, y};
+      }
     }
-    return {0, 0};
+    return nearest;
   }
 
-  static void bridge(JoinedFigure& out, cv::Point a, cv::Point b, double long_side) {
+  // Gives the box of what it painted.
+  static cv::Rect bridge(JoinedFigure& out, cv::Point a, cv::Point b, double long_side) {
     const double radius = std::max(1., kBridgeHalfWidth * long_side);
     if (out.bridges.size() == 0) out.bridges = Plane8::Zero(out.mask.rows(), out.mask.cols());
     // It reaches into both pieces, so that no notch is left where they are round.
@@ -156,12 +191,16 @@ class Joiner {
         out.mask(y, x) = out.bridges(y, x) = 255;
       }
     }
+    return cv::Rect(cv::Point(x0, y0), cv::Point(x1 + 1, y1 + 1)) &
+           cv::Rect(0, 0, static_cast<int>(out.mask.cols()), static_cast<int>(out.mask.rows()));
   }
 
   const cv::Mat& labels_;
   std::vector<Piece> pieces_;
   PieceOptions options_;
   std::vector<bool> taken_;
+  int far_;           // px, beyond which no piece is looked for
+  cv::Mat distance_;  // of each pixel to the figure
 };
 
 }  // namespace
@@ -201,6 +240,19 @@ std::vector<JoinedFigure> joinPieces(const Plane8& foreground, int min_long_side
   constexpr int kSmallestShare = 5;
   while (!figures.empty() && figures.back().first * kSmallestShare < figures.front().first)
     figures.pop_back();
+  if (options.limbs_first && figures.size() > 1) {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+      const cv::Mat mask(labels.size(), CV_8U, figures[i].second.mask.data());
+      constexpr double kNone = 0.05, kMost = 0.35;
+      order.emplace_back(figures[i].first * std::clamp(openShare(mask), kNone, kMost), i);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<JoinedFigure> out;
+    for (const auto& [weight, i] : order) out.push_back(std::move(figures[i].second));
+    return out;
+  }
   std::vector<JoinedFigure> out;
   for (auto& [area, figure] : figures) out.push_back(std::move(figure));
   return out;

@@ -17,6 +17,8 @@ struct PieceOptions {
   // Flat things under the feet (a shadow, a line of ground) are no pieces of the figure. Off for a mask that
   // was painted by hand: what it holds belongs to it.
   bool leave_ground = true;
+  // What has no limbs (a house, a sun, a heart) comes after figures that are not too much smaller.
+  bool limbs_first = false;
 };
 
 // One figure of a picture: its pieces joined by bridges across the gaps.
@@ -26,9 +28,9 @@ struct JoinedFigure {
   int pieces = 1;
 };
 
-// The figures of a picture, the largest first. `foreground`: not 0 on anything that is drawn. Pieces become
-// one figure where they are near each other; people side by side, each as tall as the other, stay apart.
-// Parts less than `min_long_side_px` high and wide are left out.
+// The figures of a picture, the largest first (but see `limbs_first`). `foreground`: not 0 on anything that
+// is drawn. Pieces become one figure where they are near each other; people side by side, each as tall as the
+// other, stay apart. Parts less than `min_long_side_px` high and wide are left out.
 std::vector<JoinedFigure> joinPieces(const Plane8& foreground, int min_long_side_px,
                                      const PieceOptions& options = {});
 

@@ -4,11 +4,15 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 #include "libskel/silhouette/background.h"
 #include "libskel/silhouette/chambers.h"
+#include "libskel/silhouette/ground.h"
 #include "libskel/silhouette/outlined.h"
+#include "libskel/silhouette/page.h"
+#include "libskel/silhouette/ruling.h"
 #include "libskel/silhouette/sheet.h"
 #include "libskel/silhouette/strokes.h"
 #include "libskel/silhouette/trim.h"
@@ -23,16 +27,27 @@ bool isColored(const Background& background) {
   return chroma > 12 || background.coefficients(0, 0) < 160;
 }
 
-}  // namespace
+// Makes `rgb`, the whole picture, the sheet alone.
+cv::Mat straightened(const Image& image, cv::Mat& rgb, PageCorners corners) {
+  for (Eigen::Vector2d& corner : corners)
+    corner = ((corner.array() + 0.5) * (static_cast<double>(image.width) / rgb.cols) - 0.5).matrix();
+  std::array<int, 2> size{};
+  const cv::Mat page_from_image = pageFromPicture(corners, size);
+  cv::Mat rgba(image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data())), page;
+  cv::warpPerspective(rgba, page, page_from_image, cv::Size(size[0], size[1]), cv::INTER_LINEAR,
+                      cv::BORDER_REPLICATE);
+  cv::cvtColor(page, rgb, cv::COLOR_RGBA2RGB);
+  return page_from_image;
+}
 
-Segmentation segment(const Image& image) {
-  const cv::Mat rgb = workingRgb(image);
-  const cv::Mat lab = labOf(rgb);
-
+// The mask of the figures in `rgb`, and in `reason` why there is none.
+cv::Mat figuresIn(const cv::Mat& rgb, const cv::Mat& lab, std::string& reason, int& margin) {
   double explained_border = 0;
   const std::vector<Background> backgrounds = fitBackgrounds(lab, explained_border);
-  if (explained_border < 0.4)
-    return {{}, "no background can be told: the picture's border has no colour in common"};
+  if (explained_border < 0.4) {
+    reason = "no background can be told: the picture's border has no colour in common";
+    return {};
+  }
   const cv::Mat difference = colorDifference(lab, backgrounds);
   double sigma = 0;
   for (const Background& b : backgrounds) sigma = std::max(sigma, b.sigma);
@@ -60,10 +75,20 @@ Segmentation segment(const Image& image) {
     // A gap between bright fills on a dark ground looks like a stroke, but in the background's colour.
     barrier = (strokes & (difference > low_color)) | far;
   }
-  if (cv::countNonZero(barrier) == 0) return {{}, "the picture is blank"};
+  if (cv::countNonZero(barrier) == 0) {
+    reason = "the picture is blank";
+    return {};
+  }
 
   const cv::Mat drawn = barrier.clone();
+  // Pencil leaves out, and what was taken off with the ruling.
+  constexpr int kPencilGap = 5;  // px
+  if (textured)
+    cv::morphologyEx(barrier, barrier, cv::MORPH_CLOSE,
+                     cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(kPencilGap, kPencilGap)));
+  const cv::Mat lines = barrier.clone();
   fillChambers(barrier);
+  dropGround(barrier, lines);
   if (textured) {
     dropOuterEdges(barrier, edges);
   } else {
@@ -76,18 +101,41 @@ Segmentation segment(const Image& image) {
     if (!scenery) trimSoftEdge(barrier, drawn, cv::max(difference, contrast));
   }
   dropBorderStrips(barrier);
-  if (cv::countNonZero(barrier) == 0) return {{}, "nothing stands out from the background"};
-
-  cv::Mat full;
-  if (barrier.cols == image.width && barrier.rows == image.height) {
-    full = barrier;
-  } else {
-    cv::resize(barrier, full, cv::Size(image.width, image.height), 0, 0, cv::INTER_LINEAR);
-    full = full >= 128;
+  if (cv::countNonZero(barrier) == 0) {
+    reason = "nothing stands out from the background";
+    return {};
   }
   // The edges of strokes on paper are soft: what is seen as a stroke is its core.
-  if (textured) cv::dilate(full, full, cv::Mat::ones(3, 3, CV_8U));
+  margin = textured ? 1 : 0;
+  return barrier;
+}
+
+}  // namespace
+
+Segmentation segment(const Image& image) {
+  const cv::Size full_size(image.width, image.height);
+  cv::Mat rgb = workingRgb(image), lab = labOf(rgb);
+  cv::Mat page_from_image;
+  if (const std::optional<PageCorners> corners = findPage(lab)) {
+    page_from_image = straightened(image, rgb, *corners);
+    lab = labOf(rgb);
+  }
+  if (eraseRuling(rgb)) lab = labOf(rgb);
   Segmentation out;
+  int margin = 0;
+  const cv::Mat figures = figuresIn(rgb, lab, out.reason, margin);
+  if (!out.reason.empty()) return out;
+  cv::Mat full;
+  if (!page_from_image.empty()) {
+    cv::warpPerspective(figures, full, page_from_image, full_size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
+    full = full >= 128;
+  } else if (figures.size() == full_size) {
+    full = figures;
+  } else {
+    cv::resize(figures, full, full_size, 0, 0, cv::INTER_LINEAR);
+    full = full >= 128;
+  }
+  if (margin > 0) cv::dilate(full, full, cv::Mat::ones(2 * margin + 1, 2 * margin + 1, CV_8U));
   out.foreground = Eigen::Map<Plane8>(full.data, full.rows, full.cols);
   return out;
 }

@@ -63,7 +63,12 @@ Differences differencesFrom(const cv::Mat& lab, const cv::Mat& expected) {
     const cv::Vec3f* base = expected.ptr<cv::Vec3f>(y);
     std::uint8_t *color = out.color.ptr(y), *chroma = out.chroma.ptr(y), *darkness = out.darkness.ptr(y);
     for (int x = 0; x < lab.cols; ++x) {
-      const cv::Vec3f d = cv::Vec3f(row[x]) - base[x];
+      // Less light takes from the chroma of paper what it takes from L + 16.
+      constexpr float kBlack = 16 * 2.55f;
+      const float light = std::min(1.0f, (static_cast<float>(row[x][0]) + kBlack) / (base[x][0] + kBlack));
+      const cv::Vec3f d(static_cast<float>(row[x][0]) - base[x][0],
+                        static_cast<float>(row[x][1]) - 128 - light * (base[x][1] - 128),
+                        static_cast<float>(row[x][2]) - 128 - light * (base[x][2] - 128));
       const float squared = d[1] * d[1] + d[2] * d[2];
       color[x] = toByte(std::sqrt(d[0] * d[0] + squared));
       chroma[x] = toByte(std::sqrt(squared));

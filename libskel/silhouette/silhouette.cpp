@@ -140,7 +140,12 @@ Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& option
   }
   Segmentation segmentation = segment(image);
   if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
-  return finish(segmentation.foreground, options, min_long_side);
+  // What the grain of paper left beside the figure is small and lies near it.
+  PieceOptions pieces;
+  pieces.widest_gap = 0.06;
+  pieces.smallest_share = 0.01;
+  pieces.limbs_first = true;
+  return finish(segmentation.foreground, options, min_long_side, pieces);
 }
 
 Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options) {

@@ -1,0 +1,125 @@
+#include "libskel/silhouette/ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "libskel/silhouette/chambers.h"
+
+namespace skel {
+namespace {
+
+constexpr double kThickest = 0.014;    // of a line of ground, share of the picture's long side
+constexpr double kFlattest = 0.12;     // its height against its length, at most
+constexpr double kLowest = 0.75;       // where it may begin, share of the figure's height from its top
+constexpr double kLongest = 0.12;      // the longest part that sticks out, share of the figure's height, at least
+constexpr double kTogether = 0.2;      // and all of them
+constexpr double kShoe = 0.1;          // height of what the line may close, share of the figure's
+
+struct Part {
+  int label, area;
+  cv::Rect box;
+};
+
+Part partOf(const cv::Mat& stats, int label) {
+  const int* s = stats.ptr<int>(label);
+  return {label, s[cv::CC_STAT_AREA], {s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH], s[cv::CC_STAT_HEIGHT]}};
+}
+
+// y = height + slope·x through the middle of the pixels of the parts (least squares).
+struct Level {
+  double height = 0, slope = 0;
+  double at(double x) const { return height + slope * x; }
+};
+
+Level levelThrough(const cv::Mat& labels, const std::vector<Part>& parts) {
+  double n = 0, x_sum = 0, y_sum = 0, xx = 0, xy = 0;
+  for (const Part& part : parts) {
+    for (int y = part.box.y; y < part.box.br().y; ++y) {
+      for (int x = part.box.x; x < part.box.br().x; ++x) {
+        if (labels.at<int>(y, x) != part.label) continue;
+        n += 1, x_sum += x, y_sum += y, xx += static_cast<double>(x) * x, xy += static_cast<double>(x) * y;
+      }
+    }
+  }
+  Level level;
+  level.slope = (n * xy - x_sum * y_sum) / std::max(1.0, n * xx - x_sum * x_sum);
+  level.height = (y_sum - level.slope * x_sum) / n;
+  return level;
+}
+
+}  // namespace
+
+bool dropGround(cv::Mat& figure, const cv::Mat& lines) {
+  cv::Mat labels, stats, centroids;
+  int count = cv::connectedComponentsWithStats(figure, labels, stats, centroids, 8, CV_32S);
+  if (count < 2) return false;
+  Part whole = partOf(stats, 1);
+  for (int label = 2; label < count; ++label) {
+    if (stats.at<int>(label, cv::CC_STAT_AREA) > whole.area) whole = partOf(stats, label);
+  }
+
+  const int thickest = std::max(3, cvRound(kThickest * std::max(figure.cols, figure.rows)));
+  cv::Mat bulk;
+  const cv::Size size(1, thickest + 2);  // what is higher than a line is none
+  cv::morphologyEx(figure, bulk, cv::MORPH_OPEN, cv::Mat::ones(size, CV_8U));
+  count = cv::connectedComponentsWithStats(figure & ~bulk, labels, stats, centroids, 8, CV_32S);
+  std::vector<Part> flat;
+  for (int label = 1; label < count; ++label) {
+    const Part part = partOf(stats, label);
+    if (part.box.width < 4 * thickest / 2 || part.box.height > thickest + kFlattest * part.box.width ||
+        part.box.y < whole.box.y + kLowest * whole.box.height || (part.box & whole.box).area() == 0)
+      continue;
+    flat.push_back(part);
+  }
+  if (flat.empty()) return false;
+  std::stable_sort(flat.begin(), flat.end(),
+                   [](const Part& a, const Part& b) { return a.box.width > b.box.width; });
+  if (flat.front().box.width < kLongest * whole.box.height) return false;
+  Level level = levelThrough(labels, {flat.front()});
+  std::vector<Part> ground;
+  int length = 0, left = figure.cols, right = 0;
+  for (const Part& part : flat) {
+    const double x = part.box.x + part.box.width / 2.0, y = part.box.y + part.box.height / 2.0;
+    if (std::abs(level.at(x) - y) > 1.5 * thickest) continue;
+    ground.push_back(part);
+    length += part.box.width;
+    left = std::min(left, part.box.x);
+    right = std::max(right, part.box.br().x);
+  }
+  if (length < kTogether * whole.box.height) return false;
+  level = levelThrough(labels, ground);
+
+  cv::Mat band = cv::Mat::zeros(figure.size(), CV_8U);
+  const int half = thickest / 2 + 2;
+  for (int x = left; x < right; ++x) {
+    const int middle = cvRound(level.at(x));
+    for (int y = std::max(0, middle - half); y <= std::min(figure.rows - 1, middle + half); ++y)
+      band.at<std::uint8_t>(y, x) = 255;
+  }
+  cv::Mat cut = lines & ~band;
+  fillChambers(cut);
+  for (const Part& part : ground) {
+    // A line that bends leaves the band.
+    cv::Mat own = cut(part.box);
+    own.setTo(0, labels(part.box) == part.label);
+  }
+  // Low regions that only the line closes are shoes; below them, it is their sole.
+  const cv::Mat closed = figure & ~cut & ~band;
+  count = cv::connectedComponentsWithStats(closed, labels, stats, centroids, 4, CV_32S);
+  cv::Mat shoes = cv::Mat::zeros(figure.size(), CV_8U);
+  for (int label = 1; label < count; ++label) {
+    const Part part = partOf(stats, label);
+    const bool at_line = std::abs(part.box.br().y - level.at(part.box.x + part.box.width / 2.0)) < 2 * half;
+    if (!at_line || part.box.height > kShoe * whole.box.height || part.box.width < thickest) continue;
+    shoes |= labels == label;
+  }
+  cv::Mat soles;
+  cv::dilate(shoes | (cut & ~lines), soles, cv::Mat::ones(4 * half + 1, 1, CV_8U));
+  figure = cut | shoes | (soles & figure & band & lines);
+  return true;
+}
+
+}  // namespace skel
