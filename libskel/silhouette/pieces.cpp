@@ -129,8 +129,9 @@ class Joiner {
     }
     if (at.x < 0) return false;
     const Piece& piece = pieces_[best];
-    const cv::Rect bridged = bridge(out, at, nearestPixel(out.mask, at, least), longSide(figure, piece));
+    const cv::Point to = nearestPixel(out.mask, at, least);
     paint(out.mask, piece);
+    const cv::Rect bridged = bridge(out, at, to, longSide(figure, piece));
     measure(out.mask, bridged | piece.box);
     taken_[best] = true;
     ++out.pieces;
