@@ -1,7 +1,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
@@ -25,7 +25,7 @@ bool same(const A& a, const B& b) {
 
 TEST_CASE("what is written as GLB is read back whole, and written again gives the same bytes") {
   RiggedCharacter character = figure();
-  const std::vector<Clip> clips = {retargetToRest(builtinClip("wave"), character.skeleton)};
+  const std::vector<Clip> clips = {retargetToRest(clipNamed(builtinClips(), "wave"), character.skeleton)};
   const std::string bytes = encodeGlb(character, clips, {.name = "figure"});
   const CharacterFile file = decodeGlb(bytes, "figure.glb");
   CHECK(file.name == "figure");
