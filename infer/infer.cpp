@@ -225,6 +225,10 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
                  "Motions to put into the .glb, or none (default: the built-in ones that fit the body plan)")
       ->delimiter(',')
       ->always_capture_default(false);
+  app.add_option("--clips-dir", options.clips_dir,
+                 "A folder of clip files (.clip.json) beside the built-in ones")
+      ->type_name("DIR")
+      ->always_capture_default(false);
   app.add_option("--rest-pose", options.rest_pose, "How the character stands when nothing moves it")
       ->check(namesOf(kRestPoseNames));
   app.add_option("--names", options.naming, "What exported joints are called")->check(namesOf(kNamingNames));

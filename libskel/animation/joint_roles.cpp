@@ -234,7 +234,7 @@ Limbs limbsByShape(const Tree& tree) {
   return limbs;
 }
 
-// The joint called "head", or where the way up from the chest, past the arms, is half done.
+// The joint called "head", or where the way up from the chest, past the arms, ends.
 int headOf(const Tree& tree, int chest, const Limbs& limbs) {
   for (std::size_t j = 0; j < tree.skeleton.joints.size(); ++j) {
     const PlainName name = plainName(tree.skeleton.joints[j].name);
@@ -243,7 +243,7 @@ int headOf(const Tree& tree, int chest, const Limbs& limbs) {
   for (const int child : tree.children[std::size_t(chest)]) {
     if (tree.isAbove(child, limbs.left_arm[0]) || tree.isAbove(child, limbs.right_arm[0])) continue;
     const std::vector<int> way = tree.longest(child);
-    return way[way.size() / 2];
+    return way.back();
   }
   return -1;
 }

@@ -19,7 +19,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kTolerance = 0.001;  // of thinned keys, in heights
+constexpr double kTolerance = 0.0015;  // of thinned keys, in heights
 
 Quaterniond aboutZ(double angle_rad) { return Quaterniond(Eigen::AngleAxisd(angle_rad, Vector3d::UnitZ())); }
 
@@ -194,41 +194,52 @@ double legShare(const Skeleton& skeleton, const std::vector<FootContact>& contac
   return std::min(1.3, sum / double(contacts.size()) / (kOfHeight * height_m));
 }
 
-// Keys at so much lower a rate that the joints stay within `tolerance_m`.
-std::size_t strideWithin(const Skeleton& skeleton, const std::vector<ModelPose>& poses, double tolerance_m) {
+// Which poses are keys enough for the joints to stay within `tolerance_m` of the others: from each key as far
+// as that holds.
+std::vector<std::size_t> keysWithin(const Skeleton& skeleton, const std::vector<ModelPose>& poses,
+                                    double tolerance_m) {
+  constexpr std::size_t kFarthest = 10;
+  const std::size_t count = skeleton.joints.size();
   std::vector<std::vector<Vector3d>> at;
-  for (const ModelPose& pose : poses) at.push_back(jointPositions(skeleton, pose));
-  const auto locals = [&](const ModelPose& pose) {
-    std::vector<Quaterniond> result = pose.globals;
-    for (std::size_t j = 0; j < result.size(); ++j)
+  std::vector<std::vector<Quaterniond>> locals;
+  for (const ModelPose& pose : poses) {
+    at.push_back(jointPositions(skeleton, pose));
+    locals.push_back(pose.globals);
+    for (std::size_t j = 0; j < count; ++j)
       if (const int parent = skeleton.joints[j].parent; parent >= 0)
-        result[j] = pose.globals[parent].conjugate() * pose.globals[j];
-    return result;
-  };
-  const std::size_t last = poses.size() - 1;
-  for (std::size_t stride : {5, 4, 3, 2}) {
-    if (last % stride != 0) continue;
-    bool near = true;
-    for (std::size_t from = 0; from < last && near; from += stride) {
-      const std::vector<Quaterniond> a = locals(poses[from]), b = locals(poses[from + stride]);
-      for (std::size_t k = 1; k < stride && near; ++k) {
-        const double t = double(k) / double(stride);
-        ModelPose between;
-        between.root_offset_m = (1 - t) * poses[from].root_offset_m + t * poses[from + stride].root_offset_m;
-        between.globals.resize(a.size());
-        for (std::size_t j = 0; j < a.size(); ++j) {
-          const Quaterniond local = a[j].slerp(t, b[j]);
-          const int parent = skeleton.joints[j].parent;
-          between.globals[j] = parent < 0 ? local : between.globals[parent] * local;
-        }
-        const std::vector<Vector3d> places = jointPositions(skeleton, between);
-        for (std::size_t j = 0; j < places.size() && near; ++j)
-          near = (places[j] - at[from + k][j]).norm() <= tolerance_m;
-      }
-    }
-    if (near) return stride;
+        locals.back()[j] = pose.globals[std::size_t(parent)].conjugate() * pose.globals[j];
   }
-  return 1;
+  // Leaves do not show in the joints' places: how far a hand would be off at its tip.
+  constexpr double kTip_m = 0.1;
+  const auto near = [&](std::size_t from, std::size_t to, std::size_t k) {
+    const double t = double(k - from) / double(to - from);
+    ModelPose between;
+    between.root_offset_m = (1 - t) * poses[from].root_offset_m + t * poses[to].root_offset_m;
+    between.globals.resize(count);
+    for (std::size_t j = 0; j < count; ++j) {
+      const Quaterniond local = locals[from][j].slerp(t, locals[to][j]);
+      if (kTip_m * local.angularDistance(locals[k][j]) > 2 * tolerance_m) return false;
+      const int parent = skeleton.joints[j].parent;
+      between.globals[j] = parent < 0 ? local : between.globals[std::size_t(parent)] * local;
+    }
+    const std::vector<Vector3d> places = jointPositions(skeleton, between);
+    for (std::size_t j = 0; j < count; ++j)
+      if (!((places[j] - at[k][j]).norm() <= tolerance_m)) return false;
+    return true;
+  };
+  std::vector<std::size_t> keys = {0};
+  while (keys.back() + 1 < poses.size()) {
+    const std::size_t from = keys.back();
+    std::size_t to = from + 1;
+    while (to + 1 < poses.size() && to + 1 <= from + kFarthest) {
+      bool all = true;
+      for (std::size_t k = from + 1; k <= to && all; ++k) all = near(from, to + 1, k);
+      if (!all) break;
+      ++to;
+    }
+    keys.push_back(to);
+  }
+  return keys;
 }
 
 // Seen from the front, the least turn of the forearm away from the trunk that keeps it and the hand beyond it
@@ -243,11 +254,13 @@ double clearingSwing(Retargeter retargeter, const std::vector<std::pair<Pose, do
   constexpr double kHandReach = 1.35;  // the hand's tip, in lengths of the forearm
   constexpr double kStep = kPi / 36;
   constexpr int kSteps = 15;  // no further than 75°
+  constexpr std::size_t kEvery = 3;
   double best_swing = 0, best_clearance = -1e9;
   for (int step = 0; step <= kSteps; ++step) {
     retargeter.swing[elbow] = away * step * kStep;
     double clearance = 1e9;
-    for (const auto& [pose, share] : moments) {
+    for (std::size_t k = 0; k < moments.size(); k += kEvery) {
+      const auto& [pose, share] = moments[k];
       if (share < 1) continue;
       const std::vector<Vector3d> at = positions(skeleton, retargeter.globals(pose, share));
       const Vector2d from = at[elbow].head<2>();
@@ -397,10 +410,14 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
         result.tracks.emplace_back().joint = skeleton.joints[joint].name;
         result.tracks.back().times_s = {0};
       }
-  const std::size_t every =
-      options.thin_keys ? strideWithin(skeleton, poses, kTolerance * shape.height_m) : 1;
+  if (options.thin_keys) {
+    std::vector<ModelPose> kept;
+    for (const std::size_t k : keysWithin(skeleton, poses, kTolerance * shape.height_m))
+      kept.push_back(std::move(poses[k]));
+    poses = std::move(kept);
+  }
   std::vector<float> times;
-  for (std::size_t k = 0; k < poses.size(); k += every) times.push_back(poses[k].time_s);
+  for (const ModelPose& pose : poses) times.push_back(pose.time_s);
   for (JointTrack& track : result.tracks) {
     const bool turns = !track.times_s.empty() || !track.bone.isZero();
     track.bone.setZero();
@@ -409,8 +426,8 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
     track.rotations.clear();
     track.angles_rad.clear();
   }
-  for (std::size_t k = 0; k < poses.size(); k += every) {
-    const std::vector<Quaterniond>& globals = poses[k].globals;
+  for (const ModelPose& pose : poses) {
+    const std::vector<Quaterniond>& globals = pose.globals;
     for (JointTrack& track : result.tracks) {
       if (track.times_s.empty()) continue;
       const int joint = skeleton.index(track.joint), parent = skeleton.joints[joint].parent;
@@ -426,9 +443,20 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
   if (moves_root) {
     result.root_times_s = times;
     result.root_translations.clear();
-    for (std::size_t k = 0; k < poses.size(); k += every)
-      result.root_translations.push_back((poses[k].root_offset_m / shape.height_m).cast<float>());
+    for (const ModelPose& pose : poses)
+      result.root_translations.push_back((pose.root_offset_m / shape.height_m).cast<float>());
   }
+  // What does not turn needs one key.
+  if (options.thin_keys)
+    for (JointTrack& track : result.tracks)
+      if (std::all_of(track.rotations.begin(), track.rotations.end(),
+                      [&](const Eigen::Quaternionf& rotation) {
+                        return std::abs(rotation.dot(track.rotations[0])) > 1 - 1e-7f;
+                      })) {
+        track.times_s.resize(std::min<std::size_t>(1, track.times_s.size()));
+        track.rotations.resize(track.times_s.size(), Eigen::Quaternionf::Identity());
+        result.least_duration_s = duration;
+      }
   return result;
 }
 

@@ -27,10 +27,10 @@ struct FigureShape {
 FigureShape shapeOfBones(const Skeleton& skeleton);
 
 struct RetargetOptions {
-  float rate_hz = 30;                // most keys a second of the result; fewer where that shows nowhere
-  bool clear_of_head = true;         // forearms that would pass through the head swing out until they do not
-  bool thin_keys = true;             // where `rate_hz` is more than shows
-  std::optional<FigureShape> shape;  // nothing: shapeOfBones()
+  float rate_hz = 30;         // most keys a second of the result; fewer where that shows nowhere
+  bool clear_of_head = true;  // forearms that would pass through the head swing out until they do not
+  bool thin_keys = true;      // where `rate_hz` is more than shows
+  std::optional<FigureShape> shape = std::nullopt;  // nothing: shapeOfBones()
 };
 
 // The clip as rotations relative to the skeleton's rest pose (Skeleton::joints' positions). Tracks with a

@@ -142,7 +142,7 @@ class Family:
                 # In the file's axes: axes · local · axes⁻¹.
                 local = mul(transposed(above), now)
                 if parent is None:
-                    row += scale(apply(world, (0.02 * t, 0.95 - 0.05 * t, 0.3 * t)), 1 / self.unit_m)
+                    row += scale(apply(world, (0.02 * t, 0.95, 0.3 * t)), 1 / self.unit_m)
                 row += angles(mul(mul(self.axes, local), transposed(self.axes)), self.order)
             text.append(numbers(row))
         with open(os.path.join(folder, self.name + ".bvh"), "w") as file:

@@ -1,0 +1,218 @@
+#include "libskel/animation/clip_file.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "libskel/animation/clip_library.h"
+#include "libskel/animation/keyframe_clip.h"
+#include "libskel/animation/sample_pose.h"
+#include "libskel/core/error.h"
+#include "tests/support/catch.h"
+#include "tests/support/figure.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+
+namespace {
+
+std::string fileWith(const std::string& members) {
+  return "{\"format\": \"skel-clip\", \"version\": 1, \"name\": \"nod\", " + members + "}";
+}
+
+Clip parsed(const std::string& members) { return parseClip(fileWith(members), "nod.clip.json"); }
+
+void checkRefused(const std::string& members, const std::string& problem) {
+  CAPTURE(members);
+  CHECK_THROWS_WITH(parsed(members), "nod.clip.json: " + problem);
+}
+
+float bow(const Clip& clip, float time_s) {
+  const Skeleton skeleton = figureSkeleton();
+  const Eigen::Quaternionf turn = samplePose(clip, skeleton, time_s).rotations[skeleton.index("head")];
+  return 2 * std::atan2(turn.x(), turn.w()) * 180 / float(M_PI);
+}
+
+}  // namespace
+
+TEST_CASE("what is written is read as it was") {
+  Clip clip;
+  clip.name = "bow \"deep\"";
+  clip.template_name = "biped";
+  clip.frame = ClipFrame::kBody;
+  clip.least_duration_s = 4;
+  clip.lead_s = 0.25f;
+  clip.root_times_s = {0, 1.5f};
+  clip.root_translations = {{0, 0, 0}, {0.1f, -0.2f, 0.3f}};
+  JointTrack track;
+  track.joint = "head";
+  track.bone = Eigen::Vector3f(1, 2, 3).normalized();
+  track.slack_rad = 0.5f;
+  track.times_s = {0, 0.1f, 3};
+  for (const float angle : {0.0f, 0.7f, -2.0f})
+    track.rotations.emplace_back(Eigen::AngleAxisf(angle, Eigen::Vector3f(1, 1, 0).normalized()));
+  track.translation_times_s = {1};
+  track.translations_m = {{1, 2, 3}};
+  track.scale_times_s = {0, 2};
+  track.scales = {{1, 1, 1}, {2, 1, 0.5f}};
+  clip.tracks = {track};
+  clip.contacts = {{"left_foot", 0, 2}, {"right_foot", 1, 3}};
+
+  const Clip again = parseClip(formatClip(clip), "again");
+  CHECK(again.name == clip.name);
+  CHECK(again.template_name == "biped");
+  CHECK(again.frame == ClipFrame::kBody);
+  CHECK(again.duration_s() == 4);
+  CHECK(again.lead_s == 0.25f);
+  CHECK(again.root_times_s == clip.root_times_s);
+  CHECK(again.root_translations == clip.root_translations);
+  CHECK(again.contacts == clip.contacts);
+  REQUIRE(again.tracks.size() == 1);
+  CHECK(again.tracks[0].times_s == track.times_s);
+  for (int k = 0; k < 3; ++k) CHECK(again.tracks[0].rotations[k].isApprox(track.rotations[k], 1e-6f));
+  CHECK(again.tracks[0].translations_m == track.translations_m);
+  CHECK(again.tracks[0].scales == track.scales);
+  CHECK(again.tracks[0].slack_rad == Approx(0.5).margin(1e-5));
+  CHECK(formatClip(again) == formatClip(parseClip(formatClip(again), "again")));
+}
+
+TEST_CASE("angles stay angles where nothing eases them") {
+  const Clip clip = parsed(R"("tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [1, 270, 0, 0]]}])");
+  REQUIRE(clip.tracks[0].angles_rad.size() == 2);
+  CHECK(bow(clip, 0.5f) == Approx(-45).margin(0.01));  // the shorter way
+  Clip linear = clip;
+  linear.interpolation = RotationInterpolation::kAngles;
+  CHECK(bow(linear, 0.5f) == Approx(135).margin(0.01));
+  CHECK(formatClip(clip).find("[1, 270, 0, 0]") != std::string::npos);
+}
+
+TEST_CASE("keys ease as the file asks") {
+  const std::string tracks =
+      R"("tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [1, 40, 0, 0], [2, 60, 0, 0], [3, 0, 0, 0]]}])";
+  const Clip none = parsed(tracks), rest = parsed(R"("ease": "rest", )" + tracks),
+             flow = parsed(R"("ease": "flow", )" + tracks), loop = parsed(R"("ease": "loop", )" + tracks);
+  for (const Clip* clip : {&none, &rest, &flow, &loop}) {
+    CHECK(clip->duration_s() == 3);
+    CHECK(bow(*clip, 1) == Approx(40).margin(0.01));
+    CHECK(bow(*clip, 2) == Approx(60).margin(0.01));
+  }
+  CHECK(bow(none, 0.25f) == Approx(10).margin(0.01));
+  // At a key: at rest, passing, passing; at the ends: at rest, at rest, as on the other side.
+  const auto speed = [](const Clip& clip, float time_s) {
+    return (bow(clip, time_s + 1 / 30.0f) - bow(clip, time_s)) * 30;
+  };
+  CHECK(std::abs(speed(rest, 1)) < 3);
+  CHECK(speed(flow, 1) > 20);
+  CHECK(std::abs(speed(flow, 0)) < 3);
+  CHECK(speed(loop, 0) == Approx(speed(loop, 3 - 1 / 30.0f)).margin(12));
+}
+
+TEST_CASE("a clip file that makes no sense is refused with the place in it") {
+  const auto head = [](const std::string& keys) { return "\"tracks\": [{\"joint\": \"head\", " + keys + "}]"; };
+  checkRefused(head(R"("rotations": [[0, 0, 0, 0, 1], [0, 0, 0, 0, 1]])"),
+               "tracks[0].rotations[1]: must be later than the key before");
+  checkRefused(head(R"("rotations": [[-1, 0, 0, 0, 1]])"),
+               "tracks[0].rotations[0]: must be a time of 0 to 100000 seconds");
+  checkRefused(head(R"("rotations": [[0, 0, 0, 0, 2]])"),
+               "tracks[0].rotations[0]: is no rotation: its last four numbers must have length 1");
+  checkRefused(head(R"("rotations": [[0, 0, 0, 1]])"), "tracks[0].rotations[0]: has 4 numbers, must have 5");
+  checkRefused(head(R"("rotations": [])"), "tracks[0].rotations: is empty");
+  checkRefused(head(R"("angles_deg": [[0, 0, 0, 4000]])"),
+               "tracks[0].angles_deg[0]: holds a number that is too large");
+  checkRefused(head(R"("angles_deg": [[0, 0, 0, 0]], "rotations": [[0, 0, 0, 0, 1]])"),
+               "tracks[0].angles_deg: stands beside \"rotations\"; give one of them");
+  checkRefused(head(R"("bone": [0, 0, 0], "angles_deg": [[0, 0, 0, 0]])"),
+               "tracks[0].bone: must be a direction");
+  checkRefused(head(R"("slack_deg": 3, "angles_deg": [[0, 0, 0, 0]])"), "tracks[0].slack_deg: needs a bone");
+  checkRefused(head(R"("bone": [0, 1, 0])"), "tracks[0]: has no keys; give \"rotations\", \"angles_deg\", "
+                                             "\"translations_m\" or \"scales\"");
+  const std::string one = R"({"joint": "head", "angles_deg": [[0, 0, 0, 0], [2, 0, 0, 0]]})";
+  checkRefused("\"tracks\": [" + one + ", " + one + "]", "tracks[1].joint: \"head\" has a track already");
+  checkRefused("\"tracks\": [" + one + R"(], "lead_s": 1.5)", "lead_s: must be at most half of the clip");
+  checkRefused("\"tracks\": [" + one + R"(], "ease": "bounce")",
+               "ease: is \"bounce\", must be none, rest, flow or loop");
+  checkRefused("\"tracks\": [" + one + R"(], "frame": "world")",
+               "frame: is \"world\", must be picture or body");
+  checkRefused("\"tracks\": [" + one + R"(], "contacts": [{"joint": "left_foot", "from_s": 1, "to_s": 1}])",
+               "contacts[0].to_s: must be later than from_s");
+  checkRefused("\"tracks\": [" + one + R"(], "contacts": [{"joint": "left_foot", "from_s": 1, "to_s": 3}])",
+               "contacts[0].to_s: lies beyond the clip's end");
+}
+
+TEST_CASE("each body plan has clips of its own") {
+  const auto names = [](const std::string& body_plan) {
+    std::vector<std::string> list;
+    for (const Clip& clip : clipsFor(builtinClips(), loadTemplate(body_plan))) list.push_back(clip.name);
+    return list;
+  };
+  CHECK(names("biped") ==
+        std::vector<std::string>{"idle", "walk", "run", "jump", "wave", "dance", "sit", "cheer"});
+  CHECK(names("quadruped") == std::vector<std::string>{"idle", "walk", "gallop", "graze", "nod", "wag"});
+  CHECK(clipsFor(builtinClips(), figureSkeleton()).size() == 8);
+  CHECK_THROWS_WITH(clipNamed(clipsFor(builtinClips(), loadTemplate("quadruped")), "fly"),
+                    "there is no clip \"fly\" for this body plan; there are: idle, walk, gallop, graze, nod, wag");
+}
+
+TEST_CASE("a folder of clips adds to those that come with skel and takes their place") {
+  const TempDir dir;
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(dir.file(name)) << text;
+  };
+  CHECK_THROWS_WITH(clipsWithFolder(dir.path()),
+                    dir.path() + ": holds no clip; the files must end in .clip.json");
+  const std::string bow = R"("template": "biped", "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [9, 0, 0, 0]]}])";
+  write("bow.clip.json", fileWith(bow));
+  write("notes.txt", "no clip");
+  Clip idle = parsed(bow);
+  idle.name = "idle";
+  write("idle.clip.json", formatClip(idle));
+  const std::vector<Clip> clips = clipsFor(clipsWithFolder(dir.path()), loadTemplate("biped"));
+  CHECK(clips.size() == 9);
+  CHECK(clipNamed(clips, "nod").duration_s() == 9);
+  CHECK(clipNamed(clips, "idle").duration_s() == 9);
+  write("second.clip.json", fileWith(bow));
+  CHECK_THROWS_WITH(clipsWithFolder(dir.path()), dir.file("second.clip.json") +
+                                                     ": is the second clip \"nod\" for the template \"biped\" in " +
+                                                     dir.path());
+}
+
+TEST_CASE("key-frame clips turn by angles, move and scale; what has no key rests") {
+  const std::string text = R"({"name": "trot", "duration": 3, "keyframes": {
+      "head": [{"time": 0, "rotation": [0, 0, 0]}, {"time": 2, "rotation": [0, 0, 6]}],
+      "neck": [{"time": 1, "translation": [1, 2, 3], "scale": [1, 2, 3]}],
+      "body": []}})";
+  const Skeleton skeleton = figureSkeleton();
+  const std::size_t head = std::size_t(skeleton.index("head")), neck = std::size_t(skeleton.index("neck"));
+  const auto up = [&](const KeyframeClipOptions& options) {
+    const Clip clip = parseKeyframeClip(text, "trot.json", skeleton, options);
+    CHECK(clip.name == "trot");
+    CHECK(clip.duration_s() == 3);
+    CHECK(clip.tracks.size() == 2);
+    return Eigen::Vector3f(samplePose(clip, skeleton, 1).rotations[head] * Eigen::Vector3f::UnitX());
+  };
+  const auto linear = RotationInterpolation::kAngles;
+  CHECK((up({}) - Eigen::Vector3f(std::cos(3 - float(M_PI)), std::sin(3 - float(M_PI)), 0)).norm() < 1e-4f);
+  CHECK((up({.z_up = false, .interpolation = linear}) - Eigen::Vector3f(std::cos(3.0f), std::sin(3.0f), 0)).norm() <
+        1e-4f);
+  // About the file's z, which points up.
+  CHECK((up({.z_up = true, .interpolation = linear}) - Eigen::Vector3f(std::cos(3.0f), 0, -std::sin(3.0f))).norm() <
+        2e-3f);
+  const Pose pose = samplePose(parseKeyframeClip(text, "trot.json", skeleton, {.z_up = true}), skeleton, 1);
+  CHECK(pose.translations_m[neck] == Eigen::Vector3f(1, 3, -2));
+  CHECK(pose.scales[neck] == Eigen::Vector3f(1, 3, 2));
+}
+
+TEST_CASE("a key-frame clip that makes no sense is refused with the place in it") {
+  const auto refused = [](const std::string& keyframes, const std::string& problem) {
+    CHECK_THROWS_WITH(parseKeyframeClip("{\"name\": \"trot\", \"keyframes\": " + keyframes + "}", "trot.json",
+                                        figureSkeleton()),
+                      "trot.json: " + problem);
+  };
+  refused(R"({"hoof": []})", "keyframes.hoof: \"hoof\" is no joint of the skeleton");
+  refused(R"({"head": [{"time": 1}, {"time": 0.5}]})",
+          "keyframes.head[1].time: must be later than the key before");
+  refused(R"({"head": [{"time": 1, "rotation": [0, 1]}]})",
+          "keyframes.head[0].rotation: has 2 numbers, must have 3");
+  refused(R"({"head": [{"time": 1, "rotation": [0, 1, NaN]}]})",
+          "is not JSON: line 1 cannot be read: keyframes.head[0].rotation[2] is not a finite number");
+  refused(R"({"head": [{"time": 1, "turn": [0, 1, 0]}]})", "keyframes.head[0]: has the unknown key \"turn\"");
+}

@@ -1,0 +1,146 @@
+#include "libskel/animation/retarget_motion.h"
+
+#include <map>
+
+#include "libskel/animation/joint_roles.h"
+#include "libskel/animation/sample_pose.h"
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "tests/support/catch.h"
+#include "tests/support/figure.h"
+
+using namespace skel;
+
+namespace {
+
+using Eigen::Vector3f;
+
+const std::string kMotions = SKEL_SOURCE_DIR "/tests/data/motions/";
+const std::vector<std::string> kFamilies = {"cmu",    "mixamo", "mixamo_prefixed",   "rokoko",
+                                            "rigify", "vrm",    "animated_drawings", "nameless"};
+
+RetargetedMotion retargeted(const std::string& family, const Skeleton& target) {
+  const std::string path = kMotions + family + ".bvh";
+  return retargetMotion(readBvh(path), path, target, shapeOfBones(target));
+}
+
+std::map<std::string, Vector3f> places(const Clip& clip, const Skeleton& skeleton, float time_s) {
+  const Pose pose = samplePose(clip, skeleton, time_s);
+  std::vector<Eigen::Quaternionf> globals;
+  std::vector<Vector3f> at;
+  std::map<std::string, Vector3f> result;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const Joint& joint = skeleton.joints[j];
+    const int parent = joint.parent;
+    const Vector3f rest = joint.position.cast<float>();
+    at.push_back(parent < 0 ? Vector3f(rest + 1.7f * pose.root_translation)
+                            : Vector3f(at[parent] + globals[parent] *
+                                                        (rest - skeleton.joints[parent].position.cast<float>())));
+    globals.push_back(parent < 0 ? pose.rotations[j] : globals[parent] * pose.rotations[j]);
+    result[joint.name] = at.back();
+  }
+  return result;
+}
+
+Vector3f bone(std::map<std::string, Vector3f>& at, const std::string& from, const std::string& to) {
+  return (at[to] - at[from]).normalized();
+}
+
+const char kTiny[] =
+    "HIERARCHY\nROOT hips\n{\n OFFSET 0 0 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation "
+    "Yrotation\n JOINT leg\n {\n  OFFSET 0 -1 0\n  CHANNELS 1 Xrotation\n  End Site\n  {\n   OFFSET 0 -1 0\n  }\n }\n}\n"
+    "MOTION\nFrames: 2\nFrame Time: 0.5\n0 1 0 0 0 0 0\n0 2 0 90 0 0 30\n";
+
+}  // namespace
+
+TEST_CASE("a BVH is its offsets, its channels in their order, its frames") {
+  const BvhMotion motion = parseBvh(kTiny, "tiny.bvh");
+  REQUIRE(motion.skeleton.joints.size() == 2);
+  CHECK(motion.skeleton.joints[1].position == Eigen::Vector3d(0, -1, 0));
+  CHECK(motion.tips[1] == Eigen::Vector3d(0, -1, 0));
+  CHECK(motion.clip.duration_s() == 0.5f);
+  const Pose pose = samplePose(motion.clip, motion.skeleton, 0.5f);
+  CHECK((pose.rotations[0] * Vector3f::UnitX() - Vector3f::UnitY()).norm() < 1e-6f);
+  CHECK(pose.translations_m[0] == Vector3f(0, 2, 0));
+}
+
+TEST_CASE("a BVH that makes no sense is refused with the line") {
+  const auto refused = [](const std::string& from, const std::string& to, const std::string& problem) {
+    std::string text = kTiny;
+    REQUIRE(text.find(from) != std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+    CHECK_THROWS_WITH(parseBvh(text, "bad.bvh"), "bad.bvh: " + problem);
+  };
+  refused("HIERARCHY", "HIRARCHY", "line 1: has \"HIRARCHY\" where \"HIERARCHY\" should be");
+  refused("JOINT leg", "JOINT hips", "line 6: is the second joint named \"hips\"");
+  refused("Yposition", "Wposition",
+          "line 5: has the channel \"Wposition\"; there are: Xposition … Zrotation");
+  refused("Yposition", "Xposition", "line 5: has the channel \"Xposition\" twice");
+  refused("OFFSET 0 -1 0", "OFFSET 0 nan 0", "line 8: has \"nan\" where a number should be");
+  refused("Frames: 2", "Frames: 3", "line 21: ends after 2 of 3 frames");
+  refused("Frames: 2", "Frames: 1", "line 20: goes on after its last frame");
+  refused("0 2 0 90 0 0 30", "0 2 0 90 0", "line 21: has its end where a number should be");
+  refused("Frame Time: 0.5", "Frame Time: 0", "line 18: has a frame time outside 0 to 100 s");
+  refused(" }\n}\nMOTION", " }\nMOTION",
+          "line 15: has \"MOTION\" where \"JOINT\", \"End Site\" or \"}\" should be");
+}
+
+TEST_CASE("every family's joints are found, and by shape where the names say nothing") {
+  for (const std::string& family : kFamilies) {
+    CAPTURE(family);
+    const RetargetedMotion result = retargeted(family, figureSkeleton());
+    CHECK(result.match.by_shape == (family == "nameless"));
+    std::vector<std::string> left = result.match.ours_left;
+    std::erase(left, "head_top");
+    std::erase(left, "body");  // one family has no joint between hips and chest
+    CHECK(left.empty());
+    for (const auto& [ours, theirs] : result.match.joints) {
+      CAPTURE(ours, theirs);
+      const bool is_left = theirs.find("eft") != std::string::npos || theirs.ends_with(".L");
+      const bool is_right = theirs.find("ight") != std::string::npos || theirs.ends_with(".R");
+      CHECK(is_left == ours.starts_with("left_"));
+      CHECK(is_right == ours.starts_with("right_"));
+    }
+  }
+}
+
+TEST_CASE("one motion looks the same from every family, on every rest pose") {
+  for (const FigurePose& drawn :
+       {FigurePose{}, FigurePose{.right_arm = 90, .right_forearm = 90, .left_arm = 150, .left_forearm = 200},
+        FigurePose{.right_arm = 0, .right_forearm = 0, .left_arm = 45, .left_forearm = -40, .leg = 25}}) {
+    const Skeleton target = figureSkeleton(drawn);
+    const Clip reference = retargeted("cmu", target).clip;
+    for (const std::string& family : kFamilies) {
+      CAPTURE(family, drawn.left_arm);
+      const Clip clip = retargeted(family, target).clip;
+      CHECK(clip.duration_s() == Approx(0.8).margin(1e-4));
+      for (const float time_s : {0.0f, 0.3f, 0.8f}) {
+        auto at = places(clip, target, time_s), expected = places(reference, target, time_s);
+        for (const auto& [from, to] : {std::pair("left_shoulder", "left_elbow"), {"left_elbow", "left_hand"},
+                                       {"right_shoulder", "right_elbow"}, {"right_elbow", "right_hand"},
+                                       {"left_hip", "left_knee"}, {"left_knee", "left_foot"},
+                                       {"right_hip", "right_knee"}, {"pelvis", "neck"}}) {
+          CAPTURE(from, to, time_s);
+          CHECK((bone(at, from, to) - bone(expected, from, to)).norm() < 0.02);
+        }
+        CHECK((at["pelvis"] - expected["pelvis"]).norm() < 0.02);
+      }
+      // The left arm up at its side, the right forearm forwards, the left thigh forwards, a way forwards.
+      auto start = places(clip, target, 0), end = places(clip, target, 0.8f);
+      CHECK(bone(end, "left_shoulder", "left_elbow").y() == Approx(std::sin(M_PI / 3)).margin(0.02));
+      CHECK(bone(end, "left_shoulder", "left_elbow").x() > 0.4);
+      CHECK(bone(end, "right_elbow", "right_hand").z() > 0.9);
+      CHECK(bone(end, "left_hip", "left_knee").z() == Approx(std::sin(50 * M_PI / 180)).margin(0.02));
+      CHECK(end["pelvis"].z() - start["pelvis"].z() == Approx(0.3 * 0.74 / 0.82).margin(0.01));
+      CHECK(bone(end, "pelvis", "neck").z() > 0.15);
+      // The standing foot stands.
+      CHECK(end["right_foot"].y() == Approx(start["right_foot"].y()).margin(0.02));
+    }
+  }
+}
+
+TEST_CASE("what is no figure is refused") {
+  CHECK_THROWS_WITH(retargetMotion(parseBvh(kTiny, "tiny.bvh"), "tiny.bvh", figureSkeleton(), {}),
+                    "tiny.bvh: has no joints that could be told to be arms and legs, by name or by the shape of "
+                    "the tree");
+}
