@@ -282,6 +282,9 @@ class AnimationWindow {
       ImGui::Separator();
       ImGui::MenuItem("Turning rings", nullptr, &stage_.handles);
       ImGui::MenuItem("Shadow", nullptr, &stage_.look.shadow);
+      const bool dual = stage_.look.blending == Blending::kDualQuaternions;
+      if (ImGui::MenuItem("Dual quaternions", nullptr, dual))
+        stage_.look.blending = dual ? Blending::kLinear : Blending::kDualQuaternions;
       ImGui::EndMenu();
     }
     if (ImGui::MenuItem("Help")) help_ = !help_;

@@ -86,6 +86,9 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
   app.add_option("--show-weights", options.weights_of, "The weights of this joint as colours")
       ->type_name("JOINT");
   app.add_flag("--no-shadow", options.no_shadow, "No shadow on the ground");
+  app.add_option("--blend", options.blend, "How joints move the skin: matrices, or dual quaternions")
+      ->check(CLI::IsMember({"linear", "dual"}))
+      ->capture_default_str();
   app.add_option("--painter", options.painter, "What draws: auto takes a graphics card if there is one")
       ->check(CLI::IsMember({"auto", "software", "gl"}))
       ->capture_default_str();
@@ -102,6 +105,7 @@ ExitCode runRender(const RenderCommandOptions& options) {
   film.look.translucent = options.translucent;
   film.look.skeleton = options.skeleton;
   film.look.shadow = !options.no_shadow;
+  if (options.blend == "dual") film.look.blending = Blending::kDualQuaternions;
   setBackground(film.look, options.background, size);
 
   VideoOptions video_options{.width = size.width, .height = size.height, .frame_rate = options.frame_rate};

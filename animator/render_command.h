@@ -23,6 +23,7 @@ struct RenderCommandOptions {
   double angle_deg = 0, pitch_deg = 5;
   std::string background = "white";
   std::string painter = "auto";
+  std::string blend = "linear";
   bool wireframe = false, translucent = false, skeleton = false, no_shadow = false;
   std::string weights_of;
 };

@@ -126,7 +126,7 @@ Image Scene::paint(const JointTransforms& posed_from_rest, const Camera& camera,
                    const Look& look) const {
   const Skeleton& skeleton = character_.skeleton;
   const Eigen::MatrixX3f vertices =
-      skinVertices(character_.mesh.vertices, character_.weights, posed_from_rest);
+      skinVertices(character_.mesh.vertices, character_.weights, posed_from_rest, look.blending);
   const Projection project(camera, width, height);
   Image image = blankImage(width, height, look.background);
   if (!look.picture.empty()) putOver(image, covering(look.picture, width, height));

@@ -15,11 +15,12 @@ struct Look {
   bool translucent = false;  // the body is seen through
   bool wireframe = false;
   bool skeleton = false;
-  bool shadow = true;         // on the ground
-  int weights_of = -1;        // a joint: its weights instead of the texture, blue to yellow
-  int chosen = -1;            // a joint that is drawn larger
-  Color background = kWhite;  // kClear: none
-  Image picture;              // if not empty: over the background, covering all of it
+  Blending blending = Blending::kLinear;  // of the skin
+  bool shadow = true;                     // on the ground
+  int weights_of = -1;                    // a joint: its weights instead of the texture, blue to yellow
+  int chosen = -1;                        // a joint that is drawn larger
+  Color background = kWhite;              // kClear: none
+  Image picture;                          // if not empty: over the background, covering all of it
 };
 
 // Where points of the model are seen, px; a point behind the eye gives nothing.
