@@ -1,17 +1,10 @@
-#include <cstring>
-#include <nlohmann/json.hpp>
-
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
-#include "libskel/core/error.h"
-#include "libskel/core/files.h"
 #include "libskel/import/read_character.h"
 #include "tests/support/catch.h"
 #include "tests/support/figure.h"
-#include "tests/support/temp_dir.h"
 
 using namespace skel;
-using nlohmann::json;
 
 namespace {
 
