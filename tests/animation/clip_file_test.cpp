@@ -107,7 +107,9 @@ TEST_CASE("keys ease as the file asks") {
 }
 
 TEST_CASE("a clip file that makes no sense is refused with the place in it") {
-  const auto head = [](const std::string& keys) { return "\"tracks\": [{\"joint\": \"head\", " + keys + "}]"; };
+  const auto head = [](const std::string& keys) {
+    return "\"tracks\": [{\"joint\": \"head\", " + keys + "}]";
+  };
   checkRefused(head(R"("rotations": [[0, 0, 0, 0, 1], [0, 0, 0, 0, 1]])"),
                "tracks[0].rotations[1]: must be later than the key before");
   checkRefused(head(R"("rotations": [[-1, 0, 0, 0, 1]])"),
@@ -123,8 +125,9 @@ TEST_CASE("a clip file that makes no sense is refused with the place in it") {
   checkRefused(head(R"("bone": [0, 0, 0], "angles_deg": [[0, 0, 0, 0]])"),
                "tracks[0].bone: must be a direction");
   checkRefused(head(R"("slack_deg": 3, "angles_deg": [[0, 0, 0, 0]])"), "tracks[0].slack_deg: needs a bone");
-  checkRefused(head(R"("bone": [0, 1, 0])"), "tracks[0]: has no keys; give \"rotations\", \"angles_deg\", "
-                                             "\"translations_m\" or \"scales\"");
+  checkRefused(head(R"("bone": [0, 1, 0])"),
+               "tracks[0]: has no keys; give \"rotations\", \"angles_deg\", "
+               "\"translations_m\" or \"scales\"");
   const std::string one = R"({"joint": "head", "angles_deg": [[0, 0, 0, 0], [2, 0, 0, 0]]})";
   checkRefused("\"tracks\": [" + one + ", " + one + "]", "tracks[1].joint: \"head\" has a track already");
   checkRefused("\"tracks\": [" + one + R"(], "lead_s": 1.5)", "lead_s: must be at most half of the clip");
@@ -148,8 +151,9 @@ TEST_CASE("each body plan has clips of its own") {
         std::vector<std::string>{"idle", "walk", "run", "jump", "wave", "dance", "sit", "cheer"});
   CHECK(names("quadruped") == std::vector<std::string>{"idle", "walk", "gallop", "graze", "nod", "wag"});
   CHECK(clipsFor(builtinClips(), figureSkeleton()).size() == 8);
-  CHECK_THROWS_WITH(clipNamed(clipsFor(builtinClips(), loadTemplate("quadruped")), "fly"),
-                    "there is no clip \"fly\" for this body plan; there are: idle, walk, gallop, graze, nod, wag");
+  CHECK_THROWS_WITH(
+      clipNamed(clipsFor(builtinClips(), loadTemplate("quadruped")), "fly"),
+      "there is no clip \"fly\" for this body plan; there are: idle, walk, gallop, graze, nod, wag");
 }
 
 TEST_CASE("a folder of clips adds to those that come with skel and takes their place") {
@@ -159,7 +163,8 @@ TEST_CASE("a folder of clips adds to those that come with skel and takes their p
   };
   CHECK_THROWS_WITH(clipsWithFolder(dir.path()),
                     dir.path() + ": holds no clip; the files must end in .clip.json");
-  const std::string bow = R"("template": "biped", "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [9, 0, 0, 0]]}])";
+  const std::string bow =
+      R"("template": "biped", "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [9, 0, 0, 0]]}])";
   write("bow.clip.json", fileWith(bow));
   write("notes.txt", "no clip");
   Clip idle = parsed(bow);
@@ -170,9 +175,9 @@ TEST_CASE("a folder of clips adds to those that come with skel and takes their p
   CHECK(clipNamed(clips, "nod").duration_s() == 9);
   CHECK(clipNamed(clips, "idle").duration_s() == 9);
   write("second.clip.json", fileWith(bow));
-  CHECK_THROWS_WITH(clipsWithFolder(dir.path()), dir.file("second.clip.json") +
-                                                     ": is the second clip \"nod\" for the template \"biped\" in " +
-                                                     dir.path());
+  CHECK_THROWS_WITH(clipsWithFolder(dir.path()),
+                    dir.file("second.clip.json") +
+                        ": is the second clip \"nod\" for the template \"biped\" in " + dir.path());
 }
 
 TEST_CASE("key-frame clips turn by angles, move and scale; what has no key rests") {
@@ -191,11 +196,11 @@ TEST_CASE("key-frame clips turn by angles, move and scale; what has no key rests
   };
   const auto linear = RotationInterpolation::kAngles;
   CHECK((up({}) - Eigen::Vector3f(std::cos(3 - float(M_PI)), std::sin(3 - float(M_PI)), 0)).norm() < 1e-4f);
-  CHECK((up({.z_up = false, .interpolation = linear}) - Eigen::Vector3f(std::cos(3.0f), std::sin(3.0f), 0)).norm() <
-        1e-4f);
+  CHECK((up({.z_up = false, .interpolation = linear}) - Eigen::Vector3f(std::cos(3.0f), std::sin(3.0f), 0))
+            .norm() < 1e-4f);
   // About the file's z, which points up.
-  CHECK((up({.z_up = true, .interpolation = linear}) - Eigen::Vector3f(std::cos(3.0f), 0, -std::sin(3.0f))).norm() <
-        2e-3f);
+  CHECK((up({.z_up = true, .interpolation = linear}) - Eigen::Vector3f(std::cos(3.0f), 0, -std::sin(3.0f)))
+            .norm() < 2e-3f);
   const Pose pose = samplePose(parseKeyframeClip(text, "trot.json", skeleton, {.z_up = true}), skeleton, 1);
   CHECK(pose.translations_m[neck] == Eigen::Vector3f(1, 3, -2));
   CHECK(pose.scales[neck] == Eigen::Vector3f(1, 3, 2));

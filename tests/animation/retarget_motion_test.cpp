@@ -33,9 +33,10 @@ std::map<std::string, Vector3f> places(const Clip& clip, const Skeleton& skeleto
     const Joint& joint = skeleton.joints[j];
     const int parent = joint.parent;
     const Vector3f rest = joint.position.cast<float>();
-    at.push_back(parent < 0 ? Vector3f(rest + 1.7f * pose.root_translation)
-                            : Vector3f(at[parent] + globals[parent] *
-                                                        (rest - skeleton.joints[parent].position.cast<float>())));
+    at.push_back(parent < 0
+                     ? Vector3f(rest + 1.7f * pose.root_translation)
+                     : Vector3f(at[parent] +
+                                globals[parent] * (rest - skeleton.joints[parent].position.cast<float>())));
     globals.push_back(parent < 0 ? pose.rotations[j] : globals[parent] * pose.rotations[j]);
     result[joint.name] = at.back();
   }
@@ -48,7 +49,8 @@ Vector3f bone(std::map<std::string, Vector3f>& at, const std::string& from, cons
 
 const char kTiny[] =
     "HIERARCHY\nROOT hips\n{\n OFFSET 0 0 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation "
-    "Yrotation\n JOINT leg\n {\n  OFFSET 0 -1 0\n  CHANNELS 1 Xrotation\n  End Site\n  {\n   OFFSET 0 -1 0\n  }\n }\n}\n"
+    "Yrotation\n JOINT leg\n {\n  OFFSET 0 -1 0\n  CHANNELS 1 Xrotation\n  End Site\n  {\n   OFFSET 0 -1 0\n "
+    " }\n }\n}\n"
     "MOTION\nFrames: 2\nFrame Time: 0.5\n0 1 0 0 0 0 0\n0 2 0 90 0 0 30\n";
 
 }  // namespace
@@ -116,10 +118,14 @@ TEST_CASE("one motion looks the same from every family, on every rest pose") {
       CHECK(clip.duration_s() == Approx(0.8).margin(1e-4));
       for (const float time_s : {0.0f, 0.3f, 0.8f}) {
         auto at = places(clip, target, time_s), expected = places(reference, target, time_s);
-        for (const auto& [from, to] : {std::pair("left_shoulder", "left_elbow"), {"left_elbow", "left_hand"},
-                                       {"right_shoulder", "right_elbow"}, {"right_elbow", "right_hand"},
-                                       {"left_hip", "left_knee"}, {"left_knee", "left_foot"},
-                                       {"right_hip", "right_knee"}, {"pelvis", "neck"}}) {
+        for (const auto& [from, to] : {std::pair("left_shoulder", "left_elbow"),
+                                       {"left_elbow", "left_hand"},
+                                       {"right_shoulder", "right_elbow"},
+                                       {"right_elbow", "right_hand"},
+                                       {"left_hip", "left_knee"},
+                                       {"left_knee", "left_foot"},
+                                       {"right_hip", "right_knee"},
+                                       {"pelvis", "neck"}}) {
           CAPTURE(from, to, time_s);
           CHECK((bone(at, from, to) - bone(expected, from, to)).norm() < 0.02);
         }
@@ -140,7 +146,8 @@ TEST_CASE("one motion looks the same from every family, on every rest pose") {
 }
 
 TEST_CASE("what is no figure is refused") {
-  CHECK_THROWS_WITH(retargetMotion(parseBvh(kTiny, "tiny.bvh"), "tiny.bvh", figureSkeleton(), {}),
-                    "tiny.bvh: has no joints that could be told to be arms and legs, by name or by the shape of "
-                    "the tree");
+  CHECK_THROWS_WITH(
+      retargetMotion(parseBvh(kTiny, "tiny.bvh"), "tiny.bvh", figureSkeleton(), {}),
+      "tiny.bvh: has no joints that could be told to be arms and legs, by name or by the shape of "
+      "the tree");
 }

@@ -31,6 +31,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       if (!contact.joint.ends_with("_foot") || skeleton.find(contact.joint) < 0) return;
     play(clip, skeleton);
   });
-  mayRefuse([&] { play(parseKeyframeClip(textOf(data, size), "fuzz.json", skeleton, {.z_up = true}), skeleton); });
+  mayRefuse(
+      [&] { play(parseKeyframeClip(textOf(data, size), "fuzz.json", skeleton, {.z_up = true}), skeleton); });
   return 0;
 }

@@ -19,10 +19,11 @@ using Eigen::Vector3f;
 
 constexpr float kHeight_m = float(kModelHeight_m);
 
-// Every third drawing: a sample of all views and styles that does not take long.
+// Every so many of them: a sample of all views and styles that does not take long.
 std::vector<std::string> drawings(const char* folder, std::size_t every) {
   std::vector<std::string> all, some;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(SKEL_SOURCE_DIR "/datasets/") + folder))
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(SKEL_SOURCE_DIR "/datasets/") + folder))
     if (const std::string path = entry.path().string(); path.ends_with(".joints.json"))
       all.push_back(path.substr(0, path.size() - 12) + ".png");
   std::sort(all.begin(), all.end());
@@ -63,7 +64,8 @@ float slide(const Skeleton& skeleton, const Clip& clip, const std::vector<FootCo
   for (const FootContact& contact : contacts) {
     const float length_s = contact.to_s - contact.from_s;
     Vector3f mean = Vector3f::Zero();
-    for (int i = 0; i <= 10; ++i) mean += (at(contact, float(i) / 10) - (float(i) / 10 - 0.5f) * length_s * run) / 11;
+    for (int i = 0; i <= 10; ++i)
+      mean += (at(contact, float(i) / 10) - (float(i) / 10 - 0.5f) * length_s * run) / 11;
     for (int i = 0; i <= 10; ++i) {
       const float share = float(i) / 10;
       worst = std::max(worst, (at(contact, share) - mean - (share - 0.5f) * length_s * run).norm());
@@ -97,7 +99,7 @@ void checkClips(const std::string& path, const std::string& body_plan, std::map<
     if (contacts.empty()) continue;
     const float slid = slide(skeleton, clip, contacts);
     worst[body_plan + " " + clip.name] = std::max(worst[body_plan + " " + clip.name], slid);
-    CHECK(slid < 0.02f);
+    CHECK(slid < (clip.name == "walk" ? 0.005f : 0.03f));
   }
 }
 
@@ -112,12 +114,13 @@ TEST_CASE("feet that stand do not slide, loops close, on drawings of all views")
   for (const std::string& path : drawings("characters", 3)) checkClips(path, "biped", worst);
   for (const std::string& path : drawings("animals", 2)) checkClips(path, "quadruped", worst);
   report(worst);
-  CHECK(worst.size() == 12);
+  CHECK(worst.size() == 11);
 }
 
 TEST_CASE("nothing is mirrored, and a figure in side view walks within the picture") {
   const auto swing = [](const char* name, const char* clip_name) {
-    const RiggedDrawing drawing = rigged(std::string(SKEL_SOURCE_DIR "/datasets/characters/") + name + ".png", "biped");
+    const RiggedDrawing drawing =
+        rigged(std::string(SKEL_SOURCE_DIR "/datasets/characters/") + name + ".png", "biped");
     const Skeleton& skeleton = drawing.character.skeleton;
     const Clip& clip = clipNamed(drawing.clips, clip_name);
     const int foot = skeleton.index("left_foot"), hip = skeleton.index("left_hip");
