@@ -22,7 +22,8 @@ const std::string kMotions = SKEL_SOURCE_DIR "/tests/data/motions/";
 std::string figureFile(const TempDir& dir) {
   const RiggedCharacter character = figure();
   const std::string path = dir.file("figure.glb");
-  writeFile(path, encodeGlb(character, {retargetToRest(clipNamed(builtinClips(), "wave"), character.skeleton)}));
+  writeFile(path,
+            encodeGlb(character, {retargetToRest(clipNamed(builtinClips(), "wave"), character.skeleton)}));
   return path;
 }
 
@@ -47,13 +48,14 @@ TEST_CASE("list names the clips there are, and those of a character with its joi
   CHECK(one.out.find("  cheer ") != std::string::npos);
   CHECK(one.out.find("graze") == std::string::npos);
   CHECK(one.out.find("          left_hand\n") != std::string::npos);
-  checkFails("list --clips-dir " + dir.file("none"), 2, dir.file("none") + ": cannot be read: No such file or directory");
+  checkFails("list --clips-dir " + dir.file("none"), 2, dir.file("none") + ": is not a folder");
 }
 
 TEST_CASE("retarget writes a character, a clip or a BVH, and says what it matched") {
   const TempDir dir;
   const std::string to = " --to " + figureFile(dir) + " -o ";
-  const ToolRun run = runTool(kTool + " retarget " + kMotions + "mixamo_prefixed.bvh" + to + dir.file("a.glb"));
+  const ToolRun run =
+      runTool(kTool + " retarget " + kMotions + "mixamo_prefixed.bvh" + to + dir.file("a.glb"));
   CHECK(run.exit_code == 0);
   CHECK(run.out.find("matched by name:\n  pelvis           mixamorig:Hips\n") == 0);
   CHECK(run.out.find("not matched, of the character: head_top\n") != std::string::npos);
@@ -62,8 +64,8 @@ TEST_CASE("retarget writes a character, a clip or a BVH, and says what it matche
   REQUIRE(made.clips.size() == 2);
   CHECK(made.clips[1].name == "mixamo_prefixed");
 
-  CHECK(runTool(kTool + " retarget " + kMotions + "nameless.bvh --name step" + to + dir.file("b.clip.json")).exit_code ==
-        0);
+  CHECK(runTool(kTool + " retarget " + kMotions + "nameless.bvh --name step" + to + dir.file("b.clip.json"))
+            .exit_code == 0);
   CHECK(readClipFile(dir.file("b.clip.json")).name == "step");
 
   checkFails("retarget " + kMotions + "cmu.bvh" + to + dir.file("c.fbx"), 1,
@@ -90,13 +92,13 @@ TEST_CASE("a BVH of ours comes back as it was") {
     std::string x, y;
     double worst = 0;
     while (a >> x) {
-      REQUIRE(b >> y);
+      REQUIRE(bool(b >> y));
       if (x.find_first_not_of("-.0123456789") == std::string::npos)
         worst = std::max(worst, std::abs(std::stod(x) - std::stod(y)));  // cm or degrees
       else
         REQUIRE(x == y);
     }
-    CHECK_FALSE(b >> y);
+    CHECK_FALSE(bool(b >> y));
     CAPTURE(name);
     CHECK(worst < 0.1);
   }
