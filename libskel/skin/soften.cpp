@@ -27,7 +27,7 @@ namespace skel {
 namespace {
 
 constexpr float kLargestChange = 0.33f;  // along an edge
-constexpr float kFineMesh = 0.03f;       // mean edge, of the mesh's size: coarse ones cannot but change much
+constexpr float kFineMesh = 0.04f;       // mean edge, of the mesh's size: coarse ones cannot but change much
 constexpr float kBend = 0.9f;            // of what would turn a triangle inside out
 constexpr float kAlong = 1.5f;           // how much of it, straight away from the joint, where less is needed
 constexpr float kTighter = 0.7f;         // by how much the weights change less where a triangle did turn

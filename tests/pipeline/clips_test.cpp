@@ -74,9 +74,17 @@ float slide(const Skeleton& skeleton, const Clip& clip, const std::vector<FootCo
   return worst / kHeight_m;
 }
 
+// One who was drawn bent to the ground, or lying, stands on no feet that could stay where they are.
+bool standsUpright(const Skeleton& skeleton) {
+  const Vector3d trunk =
+      skeleton.joints[skeleton.index("neck")].position - skeleton.joints[skeleton.index("pelvis")].position;
+  return trunk.normalized().y() > 0.7;
+}
+
 void checkClips(const std::string& path, const std::string& body_plan, std::map<std::string, float>& worst) {
   const RiggedDrawing drawing = rigged(path, body_plan);
   const Skeleton& skeleton = drawing.character.skeleton;
+  if (body_plan == "biped" && !standsUpright(skeleton)) return;
   const std::vector<Clip> made = clipsFor(builtinClips(), loadTemplate(body_plan));
   REQUIRE(drawing.clips.size() == made.size());
   for (std::size_t c = 0; c < made.size(); ++c) {

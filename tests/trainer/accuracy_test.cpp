@@ -22,8 +22,8 @@ TEST_CASE("the built-in weights come from the labelled set and are as good as th
   const WeightsProvenance& from = defaultWeights().provenance;
   CHECK(from.data_sha256 == set.sha256);
   CHECK(from.samples == set.sampleCount());
-  CHECK(from.accuracy > 0.855);
-  CHECK(evaluateOn(defaultMlp(), pointersTo(set.characters)).accuracy() > 0.86);
+  CHECK(from.accuracy > 0.845);
+  CHECK(evaluateOn(defaultMlp(), pointersTo(set.characters)).accuracy() > 0.845);
 }
 
 TEST_CASE("the built-in weights know the classes on real drawings") {
@@ -34,6 +34,6 @@ TEST_CASE("the built-in weights know the classes on real drawings") {
   }
   const LabelledSet set = labelAnnotatedImages(std::string(dir) + "/characters");
   const Evaluation evaluation = evaluateOn(defaultMlp(), pointersTo(set.characters));
-  CHECK(evaluation.accuracy() > 0.785);
-  CHECK(evaluation.balancedAccuracy() > 0.72);
+  CHECK(evaluation.accuracy() > 0.80);
+  CHECK(evaluation.balancedAccuracy() > 0.735);
 }

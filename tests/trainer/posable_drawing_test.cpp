@@ -2,6 +2,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "libskel/skeleton/skeleton_file.h"
@@ -106,6 +107,7 @@ TEST_CASE("a skeleton counts once a person has placed a joint of it, labels befo
   file.skeleton = presetSkeleton(loadTemplate("biped"), {0, 0}, {image.width - 1., image.height - 1.});
   for (const auto& [name, place] : found[0].joints)
     file.skeleton.joints[static_cast<std::size_t>(file.skeleton.index(name))].image = *place;
+  file.mask = SkeletonFile::Mask{"a.mask.png", sha256(readFile(dir.file("a.mask.png")))};
   std::filesystem::remove(dir.file("a.joints.json"));
 
   writeFile(dir.file("a.skeleton.json"), formatSkeletonFile(file));
