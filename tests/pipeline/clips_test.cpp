@@ -76,7 +76,7 @@ float slide(const Skeleton& skeleton, const Clip& clip, const std::vector<FootCo
 
 // One who was drawn bent to the ground, or lying, stands on no feet that could stay where they are.
 bool standsUpright(const Skeleton& skeleton) {
-  const Vector3d trunk =
+  const Eigen::Vector3d trunk =
       skeleton.joints[skeleton.index("neck")].position - skeleton.joints[skeleton.index("pelvis")].position;
   return trunk.normalized().y() > 0.7;
 }
