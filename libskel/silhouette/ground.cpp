@@ -11,12 +11,11 @@
 namespace skel {
 namespace {
 
-constexpr double kThickest = 0.014;    // of a line of ground, share of the picture's long side
-constexpr double kFlattest = 0.12;     // its height against its length, at most
-constexpr double kLowest = 0.75;       // where it may begin, share of the figure's height from its top
-constexpr double kLongest = 0.12;      // the longest part that sticks out, share of the figure's height, at least
-constexpr double kTogether = 0.2;      // and all of them
-constexpr double kShoe = 0.1;          // height of what the line may close, share of the figure's
+constexpr double kThickest = 0.014;  // of a line of ground, share of the picture's long side
+constexpr double kFlattest = 0.12;   // its height against its length, at most
+constexpr double kLowest = 0.75;     // where it may begin, share of the figure's height from its top
+constexpr double kLongest = 0.12;  // the longest part that sticks out, share of the figure's height, at least
+constexpr double kTogether = 0.2;  // and all of them
 
 struct Part {
   int label, area;
@@ -25,7 +24,9 @@ struct Part {
 
 Part partOf(const cv::Mat& stats, int label) {
   const int* s = stats.ptr<int>(label);
-  return {label, s[cv::CC_STAT_AREA], {s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH], s[cv::CC_STAT_HEIGHT]}};
+  return {label,
+          s[cv::CC_STAT_AREA],
+          {s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH], s[cv::CC_STAT_HEIGHT]}};
 }
 
 // y = height + slope·x through the middle of the pixels of the parts (least squares).
@@ -106,19 +107,28 @@ bool dropGround(cv::Mat& figure, const cv::Mat& lines) {
     cv::Mat own = cut(part.box);
     own.setTo(0, labels(part.box) == part.label);
   }
-  // Low regions that only the line closes are shoes; below them, it is their sole.
+  // What only the line closes is paper between legs where something of the figure stands on either side, else
+  // a part of the figure that has the line for a sole.
+  const cv::Mat inner = figure & ~lines & ~band;
   const cv::Mat closed = figure & ~cut & ~band;
   count = cv::connectedComponentsWithStats(closed, labels, stats, centroids, 4, CV_32S);
-  cv::Mat shoes = cv::Mat::zeros(figure.size(), CV_8U);
+  const auto standsIn = [&](int x0, int x1, int y0, int y1) {
+    const cv::Rect place = cv::Rect(cv::Point(x0, y0), cv::Point(x1, y1)) & cv::Rect({}, figure.size());
+    return place.area() > 0 && cv::countNonZero(inner(place)) >= 2 * thickest;
+  };
+  cv::Mat kept = cv::Mat::zeros(figure.size(), CV_8U);
   for (int label = 1; label < count; ++label) {
     const Part part = partOf(stats, label);
-    const bool at_line = std::abs(part.box.br().y - level.at(part.box.x + part.box.width / 2.0)) < 2 * half;
-    if (!at_line || part.box.height > kShoe * whole.box.height || part.box.width < thickest) continue;
-    shoes |= labels == label;
+    const int low = part.box.br().y, high = low - std::max(2 * thickest, part.box.height / 4);
+    const bool at_line = std::abs(low - level.at(part.box.x + part.box.width / 2.0)) < 2 * half;
+    if (!at_line || part.area < thickest * thickest) continue;
+    const bool between = standsIn(whole.box.x, part.box.x, high, low) &&
+                         standsIn(part.box.br().x, whole.box.br().x, high, low);
+    if (!between) kept |= labels == label;
   }
   cv::Mat soles;
-  cv::dilate(shoes | (cut & ~lines), soles, cv::Mat::ones(4 * half + 1, 1, CV_8U));
-  figure = cut | shoes | (soles & figure & band & lines);
+  cv::dilate(kept | (cut & ~lines), soles, cv::Mat::ones(4 * half + 1, 1, CV_8U));
+  figure = cut | kept | (soles & figure & band & lines);
   return true;
 }
 

@@ -129,6 +129,11 @@ Eigen::Vector2d crossing(const Side& a, const Side& b) {
   return m.inverse() * Eigen::Vector2d(a.normal.dot(a.base), b.normal.dot(b.base));
 }
 
+double areaOf(const PageCorners& corners) {
+  const Eigen::Vector2d a = corners[2] - corners[0], b = corners[3] - corners[1];
+  return std::abs(a.x() * b.y() - a.y() * b.x()) / 2;
+}
+
 double shareOf(const std::vector<int>& sums, double from, double to) {
   const auto clamped = [&](double t) {
     return static_cast<std::size_t>(std::clamp(t, 0.0, static_cast<double>(sums.size() - 1)));
@@ -193,7 +198,8 @@ std::optional<PageCorners> findPage(const cv::Mat& lab) {
   }
   double best = 0;
   std::optional<PageCorners> found;
-  constexpr double kLeastShare = 0.35, kLeastMean = 0.5, kLeastPaper = 0.8, kLeastLong = 0.35;
+  constexpr double kLeastShare = 0.35, kLeastMean = 0.5, kLeastPaper = 0.8, kLeastLong = 0.35,
+                   kLeastArea = 0.15;
   for (const Side* top : facing[0])
     for (const Side* right : facing[1])
       for (const Side* bottom : facing[2])
@@ -211,6 +217,10 @@ std::optional<PageCorners> findPage(const cv::Mat& lab) {
                     corners[i].x() < small.cols + kSlack && corners[i].y() < small.rows + kSlack;
           }
           if (!whole) continue;
+          // Sides that look away from the middle bound what is no sheet.
+          const Eigen::Vector2d middle = (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
+          for (const Side* side : quad) whole = whole && side->normal.dot(middle - side->base) > 0;
+          if (!whole || areaOf(corners) < kLeastArea * small.cols * small.rows) continue;
           double sum = 0, length = 0, least = 1;
           for (std::size_t i = 0; i < 4 && whole; ++i) {
             const Side& side = *quad[i];

@@ -43,16 +43,6 @@ bool isGround(const Piece& figure, const Piece& b) {
   return b.box.width >= 2.5 * b.box.height && middle > figure.box.y + .88 * figure.box.height;
 }
 
-// Share of its convex hull that a figure does not fill: 0.3 and more where limbs stand out.
-double openShare(const cv::Mat& mask) {
-  std::vector<std::vector<cv::Point>> contours;
-  cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);
-  std::vector<cv::Point> points, hull;
-  for (const auto& contour : contours) points.insert(points.end(), contour.begin(), contour.end());
-  cv::convexHull(points, hull);
-  return 1 - std::min(1.0, cv::countNonZero(mask) / std::max(1.0, cv::contourArea(hull)));
-}
-
 class Joiner {
  public:
   Joiner(const cv::Mat& labels, std::vector<Piece> pieces, const PieceOptions& options)
@@ -206,6 +196,17 @@ class Joiner {
 
 }  // namespace
 
+double openShare(const Plane8& figure) {
+  const cv::Mat mask(static_cast<int>(figure.rows()), static_cast<int>(figure.cols()), CV_8U,
+                     const_cast<std::uint8_t*>(figure.data()));
+  std::vector<std::vector<cv::Point>> contours;
+  cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);
+  std::vector<cv::Point> points, hull;
+  for (const auto& contour : contours) points.insert(points.end(), contour.begin(), contour.end());
+  cv::convexHull(points, hull);
+  return 1 - std::min(1.0, cv::countNonZero(mask) / std::max(1.0, cv::contourArea(hull)));
+}
+
 std::vector<JoinedFigure> joinPieces(const Plane8& foreground, int min_long_side_px,
                                      const PieceOptions& options) {
   cv::Mat labels, stats, centroids;
@@ -244,9 +245,8 @@ std::vector<JoinedFigure> joinPieces(const Plane8& foreground, int min_long_side
   if (options.limbs_first && figures.size() > 1) {
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < figures.size(); ++i) {
-      const cv::Mat mask(labels.size(), CV_8U, figures[i].second.mask.data());
       constexpr double kNone = 0.05, kMost = 0.35;
-      order.emplace_back(figures[i].first * std::clamp(openShare(mask), kNone, kMost), i);
+      order.emplace_back(figures[i].first * std::clamp(openShare(figures[i].second.mask), kNone, kMost), i);
     }
     std::stable_sort(order.begin(), order.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });

@@ -9,6 +9,10 @@
 
 namespace skel {
 
+// Share of its convex hull that a figure does not fill: 0.3 and more where limbs stand out. 255 on the
+// figure.
+double openShare(const Plane8& figure);
+
 struct PieceOptions {
   // A piece belongs to the figure across a gap of at most this share of the long side of both together.
   double widest_gap = 0.08;

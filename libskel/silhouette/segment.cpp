@@ -27,6 +27,31 @@ bool isColored(const Background& background) {
   return chroma > 12 || background.coefficients(0, 0) < 160;
 }
 
+// Pencil leaves gaps, and so does what was taken off with the ruling. `lines` becomes `drawn` with its gaps
+// closed, and wide ones, too, where little is enclosed without and much more with them.
+constexpr int kPencilGap = 5;  // px
+cv::Mat filledPencil(const cv::Mat& drawn, cv::Mat& lines) {
+  cv::Mat filled;
+  const int ink = cv::countNonZero(drawn);
+  int area = 0;
+  for (const int gap : {kPencilGap, 2 * kPencilGap - 1, 3 * kPencilGap}) {
+    cv::Mat closed, wider;
+    cv::morphologyEx(drawn, closed, cv::MORPH_CLOSE,
+                     cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(gap, gap)));
+    wider = closed.clone();
+    fillChambers(wider);
+    const int wider_area = cv::countNonZero(wider);
+    constexpr double kMuchMore = 1.3, kFilled = 2.5;
+    if (wider_area > kMuchMore * area) {
+      lines = closed;
+      filled = wider;
+      area = wider_area;
+    }
+    if (area > kFilled * ink) break;
+  }
+  return filled;
+}
+
 // Makes `rgb`, the whole picture, the sheet alone.
 cv::Mat straightened(const Image& image, cv::Mat& rgb, PageCorners corners) {
   for (Eigen::Vector2d& corner : corners)
@@ -81,16 +106,17 @@ cv::Mat figuresIn(const cv::Mat& rgb, const cv::Mat& lab, std::string& reason, i
   }
 
   const cv::Mat drawn = barrier.clone();
-  // Pencil leaves out, and what was taken off with the ruling.
-  constexpr int kPencilGap = 5;  // px
-  if (textured)
-    cv::morphologyEx(barrier, barrier, cv::MORPH_CLOSE,
-                     cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(kPencilGap, kPencilGap)));
-  const cv::Mat lines = barrier.clone();
-  fillChambers(barrier);
+  cv::Mat lines = barrier;
+  if (textured) {
+    barrier = filledPencil(drawn, lines);
+  } else {
+    barrier = lines.clone();
+    fillChambers(barrier);
+  }
   dropGround(barrier, lines);
   if (textured) {
     dropOuterEdges(barrier, edges);
+    for (int i = 0; i < kPencilGap / 2; ++i) dropOuterEdges(barrier, lines & ~drawn);
   } else {
     // Scenery shows at the border of the picture.
     cv::Mat outlined;

@@ -13,7 +13,9 @@ struct Segmentation {
 };
 
 // Works for drawings on paper (also photographed in uneven light), line art whose white fills open to the
-// background through small gaps, and flat art on plain, graded or patterned backgrounds.
+// background through small gaps, and flat art on plain, graded or patterned backgrounds. A sheet that lies on
+// something else is straightened first (page.h), the ruling of paper taken off (ruling.h), and a line of
+// ground cut (ground.h); the mask is that of the picture all the same.
 Segmentation segment(const Image& image);
 
 }  // namespace skel

@@ -145,7 +145,16 @@ Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& option
   pieces.widest_gap = 0.06;
   pieces.smallest_share = 0.01;
   pieces.limbs_first = true;
-  return finish(segmentation.foreground, options, min_long_side, pieces);
+  Silhouette out = finish(segmentation.foreground, options, min_long_side, pieces);
+  constexpr double kMuch = 0.45, kCompact = 0.1;  // of the picture; open share
+  if (out.found() &&
+      static_cast<double>((out.mask != 0).count()) > kMuch * static_cast<double>(out.mask.size()) &&
+      openShare(out.mask) < kCompact) {
+    out.warnings.push_back(
+        "the sheet itself was probably taken for the figure: crop the photo, or paint a mask (skel-label "
+        "FILE)");
+  }
+  return out;
 }
 
 Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options) {

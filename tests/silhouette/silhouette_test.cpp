@@ -410,6 +410,74 @@ TEST_CASE("blank paper, noise and a strip along the border are no figures") {
   CHECK(!extractSilhouette(paint(300, 400, table)).found());
 }
 
+namespace {
+
+// `page` at (x, y) of a picture of 600×700 px, where it lies turned and in perspective on wooden boards.
+Color onTable(const Paint& page, double x, double y) {
+  const double u = x - 300, v = y - 350, w = 1 + 0.0003 * v, c = std::cos(0.15), s = std::sin(0.15);
+  const double px = 150 + (c * u + s * v) / w * 0.75, py = 200 + (-s * u + c * v) / w * 0.75;
+  if (px >= 0 && py >= 0 && px < 300 && py < 400) return page(px, py);
+  const double grain = 14 * std::sin(0.21 * x + 3 * std::sin(0.01 * y)) + (std::fmod(x, 120) < 3 ? -40 : 0);
+  return {150 + grain, 105 + grain, 65 + grain};
+}
+
+Plane8 pencilMaskOnTable() {
+  Plane8 mask(700, 600);
+  for (int y = 0; y < 700; ++y)
+    for (int x = 0; x < 600; ++x) {
+      const auto inside = [](double px, double py) {
+        return distanceTo(kPerson, px, py) <= 2 ? kBlack : kWhite;
+      };
+      mask(y, x) = onTable(inside, x, y).r == 0 ? 255 : 0;
+    }
+  return mask;
+}
+
+// A pencil outline on paper.
+Paint pencilled(const Paint& paper) {
+  return [paper](double x, double y) {
+    return mix(paper(x, y), {70, 70, 80}, 2 - std::abs(distanceTo(kPerson, x, y)));
+  };
+}
+
+}  // namespace
+
+TEST_CASE("a sheet on a table is straightened, and its figure found in the picture's own pixels") {
+  const Paint page = pencilled(photographed(11, false));
+  const Silhouette s = foundIn(paint(600, 700, [&](double x, double y) { return onTable(page, x, y); }));
+  CHECK(s.mask.rows() == 700);
+  CHECK(iou(s.mask, pencilMaskOnTable()) > 0.9);
+}
+
+TEST_CASE("ruled paper, a margin: what is printed is not drawn") {
+  const bool margin = GENERATE(false, true);
+  const Paint grain = photographed(12, false);
+  const Paint paper = [&](double x, double y) {
+    const auto line = [](double p, double period) {
+      return 1 - std::abs(std::fmod(p + 1000 * period, period) - period / 2);
+    };
+    const double level = y + 0.03 * x, upright = x - 0.03 * y;
+    Color color = mix(grain(x, y), {110, 130, 190}, 0.6 * std::max(0.0, line(level, 18)));
+    if (margin) color = mix(color, {220, 60, 60}, 0.8 * std::max(0.0, 1 - std::abs(upright - 30)));
+    return color;
+  };
+  const Paint page = pencilled(paper);
+  const Silhouette s = foundIn(paint(600, 800, [&](double x, double y) { return page(x / 2, y / 2); }));
+  Plane8 truth(800, 600);
+  for (int y = 0; y < 800; ++y)
+    for (int x = 0; x < 600; ++x) truth(y, x) = distanceTo(kPerson, x / 2.0, y / 2.0) <= 2 ? 255 : 0;
+  CHECK(iou(s.mask, truth) > 0.9);
+}
+
+TEST_CASE("a line of ground is cut where it leaves the feet") {
+  const Paint drawn = pencilled(photographed(13, false));
+  const Silhouette s = foundIn(paint(300, 400, [&](double x, double y) {
+    return mix(drawn(x, y), {70, 70, 80}, x > 20 && x < 280 ? 2 - std::abs(y - 364 - std::sin(x / 25)) : 0);
+  }));
+  CHECK(iou(s.mask, maskOf(kPerson, 300, 400, 2)) > 0.87);
+  CHECK(s.mask(364, 40) == 0);
+}
+
 TEST_CASE("of several figures the one asked for is taken, the largest first") {
   const auto image = paint(400, 300, [](double x, double y) {
     const double big = distanceTo({{120, 150, 120, 150, 80}}, x, y);
