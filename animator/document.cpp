@@ -252,7 +252,8 @@ void AnimationDocument::setKey() {
   }
   if (moved)
     putKey(changed.root_times_s, changed.root_translations, state_.time_s, state_.pose.root_translation);
-  changed.lead_s = 0;  // the clip may no longer come from the rest pose
+  changed.lead_s = 0;  // the clip may no longer come from the rest pose, nor the feet stand
+  changed.contacts.clear();
   replaceClip(std::move(changed));
   message_ = "key set for " + std::to_string(joints.size()) + (joints.size() == 1 ? " joint" : " joints");
 }

@@ -234,7 +234,7 @@ TEST_CASE("what cannot be loaded or saved is said in one line, and changes nothi
   refused(document.loadPose(dir.file("a.json")), "version");
   writeFile(dir.file("a.json"),
             R"({"format": "skel-skin", "version": 1, "joints": ["head"], "vertices": []})");
-  refused(document.loadWeights(dir.file("a.json")), "has 0 vertices, the model has");
+  refused(document.loadWeights(dir.file("a.json")), "vertices: are 0, the model has");
   refused(document.loadWeights(dir.file("none.json")), "cannot be read");
   refused(document.saveClip(dir.file("a.clip.json")), "there is no clip to save");
   writeFile(dir.file("file"), "");
