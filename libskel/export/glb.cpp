@@ -210,8 +210,8 @@ int addMesh(GlbBuilder& glb, const RiggedCharacter& character, const std::string
   return 0;
 }
 
-// To the micrometre: shorter to write, and every reader sums up the same numbers.
-Vector3d rounded(const Vector3d& position) { return (position * 1e6).array().round() / 1e6; }
+// To the micrometre: shorter to write, and every reader sums up the same numbers. No −0.
+Vector3d rounded(const Vector3d& position) { return (position * 1e6).array().round() / 1e6 + 0.0; }
 
 // One node a joint, from `first` on.
 void addJoints(GlbBuilder& glb, const Skeleton& skeleton, JointNaming naming, int first) {
