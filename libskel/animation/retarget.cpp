@@ -232,9 +232,10 @@ std::vector<std::size_t> keysWithin(const Skeleton& skeleton, const std::vector<
     const std::size_t from = keys.back();
     std::size_t to = from + 1;
     while (to + 1 < poses.size() && to + 1 <= from + kFarthest) {
-      bool all = true;
-      for (std::size_t k = from + 1; k <= to && all; ++k) all = near(from, to + 1, k);
-      if (!all) break;
+      // The middle is farthest off as a rule, and a jerk is at an end.
+      if (!near(from, to + 1, (from + to + 1) / 2) || !near(from, to + 1, to) ||
+          !near(from, to + 1, from + 1))
+        break;
       ++to;
     }
     keys.push_back(to);

@@ -38,7 +38,7 @@ Image posed(const RiggedCharacter& character, const Clip& clip, float time_s, do
                    posedFromRest(character.skeleton, pose, float(kModelHeight_m)));
   // The same camera for all moments, so that steps and jumps show.
   Camera camera = framingCamera(character.mesh.vertices, yaw_rad, 0.08);
-  camera.view_height_m = std::max(camera.view_height_m, 1.15 * kModelHeight_m) * 1.15;
+  camera.view_height_m = std::max(camera.view_height_m, 1.15 * kModelHeight_m) * 1.2;
   camera.target.y() += 0.04 * kModelHeight_m;
   return renderMesh(vertices, character.mesh, camera, {.width = size, .height = size});
 }
