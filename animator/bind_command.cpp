@@ -56,7 +56,7 @@ ExitCode runBind(const BindOptions& options) {
   }
   const std::string path =
       options.output.empty() ? "out/" + stemOf(options.source.model) + ".glb" : options.output;
-  writeFile(path, encodeGlb(file.character, file.clips, {stemOf(path), kNamings.at(options.naming)}));
+  writeFile(path, encodeGlb(file.character, file.clips, {file.name, kNamings.at(options.naming)}));
   std::printf("wrote %s\n", path.c_str());
   return ExitCode::kDone;
 }

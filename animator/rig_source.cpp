@@ -1,6 +1,7 @@
 #include "animator/rig_source.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -21,6 +22,15 @@ std::string percent(double share) {
 bool isGlb(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   return ending == ".glb" || ending == ".GLB";
+}
+
+// Distances are squared in floats.
+void checkSize(const TriangleMesh& mesh, const std::string& path) {
+  const Eigen::RowVector3d size =
+      mesh.vertices.colwise().maxCoeff().cast<double>() - mesh.vertices.colwise().minCoeff().cast<double>();
+  const double most = std::max(size.maxCoeff(), mesh.vertices.cwiseAbs().cast<double>().maxCoeff());
+  if (!(most <= 1e6 && size.maxCoeff() >= 1e-6))
+    throw InputError(path, "is smaller than 1e-6 or reaches beyond 1e6; scale it to metres");
 }
 
 }  // namespace
@@ -67,6 +77,7 @@ RigModel readRigModel(const RigSource& source) {
     if (source.skeleton.empty())
       throw UsageError(source.model + " has no skeleton of its own; name one by --skeleton FILE");
   }
+  checkSize(result.file.character.mesh, source.model);
   result.file.character.skeleton =
       readSkeletonFor(result.file.character.mesh, source.skeleton, source.up, &result.note);
   return result;

@@ -342,8 +342,12 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
       slack_rad[joint] = track.slack_rad;
     }
 
-  Retargeter retargeter{skeleton, std::vector<bool>(count), turnsFromCanonical(skeleton, canonical),
-                        std::vector<double>(count, 0), std::vector<double>(count, 1)};
+  Retargeter retargeter{skeleton,
+                        std::vector<bool>(count),
+                        turnsFromCanonical(skeleton, canonical),
+                        std::vector<double>(count, 0),
+                        std::vector<double>(count, 1),
+                        figure_from_clip};
   for (std::size_t j = 0; j < count; ++j) retargeter.pointed[j] = !canonical[j].isZero();
   // Seen from the side, limbs swing where they could else stay away.
   if (clip.frame == ClipFrame::kBody)

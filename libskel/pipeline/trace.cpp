@@ -126,10 +126,13 @@ Image posed(const RiggedDrawing& drawing, const Clip& clip, double share, int si
                     {.width = size, .height = size});
 }
 
+// One moment of each clip; of a single one, four.
 Image clipsPicture(const RiggedDrawing& drawing) {
+  std::vector<double> shares = {0.45};
+  if (drawing.clips.size() == 1) shares = {0.2, 0.4, 0.6, 0.8};
   std::vector<Panel> panels;
   for (const Clip& clip : drawing.clips)
-    for (const double share : {0.2, 0.4, 0.6, 0.8}) {
+    for (const double share : shares) {
       char label[64];
       std::snprintf(label, sizeof label, "%s, %.1f s", clip.name.c_str(),
                     share * static_cast<double>(clip.duration_s()));
@@ -138,13 +141,20 @@ Image clipsPicture(const RiggedDrawing& drawing) {
   return panels.empty() ? views(drawing.character.mesh) : montage(panels, {.columns = 4});
 }
 
+// Two moments that show at a glance that it moves: of the walk, if there is one.
+const Clip& tellingClip(const std::vector<Clip>& clips) {
+  const auto walk =
+      std::find_if(clips.begin(), clips.end(), [](const Clip& clip) { return clip.name == "walk"; });
+  return walk == clips.end() ? clips.front() : *walk;
+}
+
 // From the drawing to the model that moves, in one row.
 Image summary(const RiggedDrawing& drawing, const Image& skeleton) {
   std::vector<Panel> panels = {{fitted(onPaper(drawing.image), 420, 420), "the drawing"},
                                {fitted(skeleton, 420, 420), "its skeleton"}};
   if (drawing.clips.empty()) return montage(panels);
-  for (const double share : {0.45, 0.6})
-    panels.push_back({posed(drawing, drawing.clips.front(), share, 420), "the model, moving"});
+  for (const double share : {0.1, 0.6})
+    panels.push_back({posed(drawing, tellingClip(drawing.clips), share, 420), "the model, moving"});
   return montage(panels);
 }
 

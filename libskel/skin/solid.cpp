@@ -128,7 +128,7 @@ int Solid::nearest(const Eigen::Vector3f& p) const {
 }
 
 bool Solid::sees(const Eigen::Vector3f& a, const Eigen::Vector3f& b) const {
-  const int steps = static_cast<int>(2 * (b - a).norm() / cell_m_) + 1;
+  const int steps = 1 + static_cast<int>(std::min(2 * (b - a).norm() / cell_m_, 1e6f));
   for (int k = 0; k <= steps; ++k)
     if (at(a + (b - a) * (static_cast<float>(k) / static_cast<float>(steps))) < 0) return false;
   return true;

@@ -1,6 +1,6 @@
 // O. Dionne, M. de Lasa, "Geodesic voxel binding for production character meshes" (2013). Ways go from cube
-// to cube (Dijkstra 1959) and are up to 13 % too long: where one is hardly longer
-// than the straight line, nothing lies between, and the straight line counts, as in geodesic.cpp.
+// to cube (Dijkstra 1959) and are up to 13 % too long: where one is hardly longer than the straight line,
+// nothing lies between, and the straight line counts, as in geodesic.cpp.
 #include "libskel/skin/volumetric.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ using Seeds = std::vector<Seed>;
 
 Seeds seedsOf(const Bone& bone, const Solid& solid) {
   const Eigen::Vector3f along = bone.to - bone.from;
-  const int steps = std::clamp(static_cast<int>(2 * along.norm() / solid.cell_m()) + 1, 1, 1000);
+  const int steps = 1 + static_cast<int>(std::min(2 * along.norm() / solid.cell_m(), 1000.0f));
   Seeds seeds;
   const auto add = [&](int cube) {
     if (seeds.empty() || seeds.back().cube != cube)
@@ -80,7 +80,10 @@ class Ways {
   void spread(const Seeds& seeds, const Useful& useful) {
     for (const int cube : touched_) lengths_[static_cast<std::size_t>(cube)] = kFar;
     touched_.clear();
-    Fronts fronts(0.5f * solid_.cell_m());
+    // Bones may lie far from the mesh.
+    float farthest = 0;
+    for (const Seed& seed : seeds) farthest = std::max(farthest, seed.length_m);
+    Fronts fronts(std::max(0.5f * solid_.cell_m(), 1e-4f * farthest));
     const auto reach = [&](int cube, float length) {
       float& known = lengths_[static_cast<std::size_t>(cube)];
       if (length >= known || !useful(cube, length)) return;

@@ -95,18 +95,15 @@ TEST_CASE("GLB files that mean something else are refused with their place") {
        "asset.version: is \"1.0\", 2.0 is read"},
       {[](json& d, std::string&) { d["extensionsRequired"] = {"KHR_draco"}; },
        "extensionsRequired: names \"KHR_draco\", which is not read"},
-      {[](json& d, std::string&) {
-         d["nodes"].erase(0);
-         d["nodes"][0].erase("mesh");
-       },
-       "hold no mesh"},
+      {[](json& d, std::string&) { d["nodes"][0].erase("mesh"); }, "nodes: hold no mesh"},
       {[](json& d, std::string&) { d["nodes"][0].erase("skin"); }, "nodes[0].mesh: has no skin"},
       {[](json& d, std::string&) { d["nodes"][3]["mesh"] = 0; }, "nodes[3].mesh: is a second mesh"},
       {[](json& d, std::string&) { d["nodes"][0]["mesh"] = 7; },
        "nodes[0].mesh: is 7, must be a whole number between 0 and 0"},
       {[](json& d, std::string&) { d["nodes"][2]["name"] = "pelvis"; },
        "nodes[2].name: \"pelvis\" is the name of two joints"},
-      {[](json& d, std::string&) { d["nodes"][5]["children"] = {1}; }, "has two parents"},
+      {[](json& d, std::string&) { d["nodes"][5]["children"] = {1}; }, "nodes: are in a circle"},
+      {[](json& d, std::string&) { d["nodes"][0]["children"] = {2}; }, "node 2 has two parents"},
       {[](json& d, std::string&) {
          d["nodes"][2]["rotation"] = {0, 0, 0.6, 0.8};
        },

@@ -1,17 +1,10 @@
-#include <cstring>
-#include <nlohmann/json.hpp>
-
-#include "libskel/animation/builtin_clips.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
-#include "libskel/core/error.h"
-#include "libskel/core/files.h"
 #include "libskel/import/read_character.h"
 #include "tests/support/catch.h"
 #include "tests/support/figure.h"
-#include "tests/support/temp_dir.h"
 
 using namespace skel;
-using nlohmann::json;
 
 namespace {
 
@@ -25,7 +18,7 @@ bool same(const A& a, const B& b) {
 
 TEST_CASE("what is written as GLB is read back whole, and written again gives the same bytes") {
   RiggedCharacter character = figure();
-  const std::vector<Clip> clips = {retargetToRest(builtinClip("wave"), character.skeleton)};
+  const std::vector<Clip> clips = {retargetToRest(clipNamed(builtinClips(), "wave"), character.skeleton)};
   const std::string bytes = encodeGlb(character, clips, {.name = "figure"});
   const CharacterFile file = decodeGlb(bytes, "figure.glb");
   CHECK(file.name == "figure");

@@ -1,0 +1,105 @@
+// list and retarget, as a user runs them.
+#include <cmath>
+#include <sstream>
+
+#include "libskel/animation/clip_file.h"
+#include "libskel/animation/clip_library.h"
+#include "libskel/animation/retarget.h"
+#include "libskel/core/files.h"
+#include "libskel/export/formats.h"
+#include "libskel/import/read_character.h"
+#include "tests/support/catch.h"
+#include "tests/support/figure.h"
+#include "tests/support/run_tool.h"
+
+using namespace skel;
+
+namespace {
+
+const std::string kTool = SKEL_ANIMATE;
+const std::string kMotions = SKEL_SOURCE_DIR "/tests/data/motions/";
+
+std::string figureFile(const TempDir& dir) {
+  const RiggedCharacter character = figure();
+  const std::string path = dir.file("figure.glb");
+  writeFile(path,
+            encodeGlb(character, {retargetToRest(clipNamed(builtinClips(), "wave"), character.skeleton)}));
+  return path;
+}
+
+void checkFails(const std::string& arguments, int exit_code, const std::string& message) {
+  const ToolRun run = runTool(kTool + " " + arguments);
+  CAPTURE(arguments);
+  CHECK(run.exit_code == exit_code);
+  CHECK(run.err == "skel-animate: " + message + "\n");
+}
+
+}  // namespace
+
+TEST_CASE("list names the clips there are, and those of a character with its joints") {
+  const TempDir dir;
+  const ToolRun all = runTool(kTool + " list");
+  CHECK(all.exit_code == 0);
+  CHECK(all.out.find("biped:\n  idle") == 0);
+  CHECK(all.out.find("quadruped:\n  idle") != std::string::npos);
+  const ToolRun one = runTool(kTool + " list " + figureFile(dir));
+  CHECK(one.exit_code == 0);
+  CHECK(one.out.find("clips of " + dir.file("figure.glb") + ":\n  wave ") == 0);
+  CHECK(one.out.find("  cheer ") != std::string::npos);
+  CHECK(one.out.find("graze") == std::string::npos);
+  CHECK(one.out.find("          left_hand\n") != std::string::npos);
+  checkFails("list --clips-dir " + dir.file("none"), 2, dir.file("none") + ": is not a folder");
+}
+
+TEST_CASE("retarget writes a character, a clip or a BVH, and says what it matched") {
+  const TempDir dir;
+  const std::string to = " --to " + figureFile(dir) + " -o ";
+  const ToolRun run =
+      runTool(kTool + " retarget " + kMotions + "mixamo_prefixed.bvh" + to + dir.file("a.glb"));
+  CHECK(run.exit_code == 0);
+  CHECK(run.out.find("matched by name:\n  pelvis           mixamorig:Hips\n") == 0);
+  CHECK(run.out.find("not matched, of the character: head_top\n") != std::string::npos);
+  CHECK(run.out.find("not matched, of the motion: mixamorig:Spine,") != std::string::npos);
+  const CharacterFile made = readGlb(dir.file("a.glb"));
+  REQUIRE(made.clips.size() == 2);
+  CHECK(made.clips[1].name == "mixamo_prefixed");
+
+  CHECK(runTool(kTool + " retarget " + kMotions + "nameless.bvh --name step" + to + dir.file("b.clip.json"))
+            .exit_code == 0);
+  CHECK(readClipFile(dir.file("b.clip.json")).name == "step");
+
+  checkFails("retarget " + kMotions + "cmu.bvh" + to + dir.file("c.fbx"), 1,
+             dir.file("c.fbx") + ": must end in .glb, .clip.json or .bvh");
+  checkFails("retarget " + dir.file("none.bvh") + to + dir.file("c.glb"), 2,
+             dir.file("none.bvh") + ": cannot be read: No such file or directory");
+  writeFile(dir.file("cut.bvh"), readFile(kMotions + "cmu.bvh").substr(0, 900));
+  const ToolRun cut = runTool(kTool + " retarget " + dir.file("cut.bvh") + to + dir.file("c.glb"));
+  CHECK(cut.exit_code == 2);
+  CHECK(cut.err.find("skel-animate: " + dir.file("cut.bvh") + ": line ") == 0);
+}
+
+TEST_CASE("a BVH of ours comes back as it was") {
+  const TempDir dir;
+  const RiggedCharacter character = figure();
+  const std::string glb = figureFile(dir);
+  for (const char* name : {"wave", "walk", "dance"}) {
+    const std::vector<Clip> clips = {retargetToRest(clipNamed(builtinClips(), name), character.skeleton)};
+    const std::string written = exportBvh({character, clips, {"figure"}})[0].bytes;
+    writeFile(dir.file("in.bvh"), written);
+    REQUIRE(runTool(kTool + " retarget " + dir.file("in.bvh") + " --to " + glb + " -o " + dir.file("out.bvh"))
+                .exit_code == 0);
+    std::istringstream a(written), b(readFile(dir.file("out.bvh")));
+    std::string x, y;
+    double worst = 0;
+    while (a >> x) {
+      REQUIRE(bool(b >> y));
+      if (x.find_first_not_of("-.0123456789") == std::string::npos)
+        worst = std::max(worst, std::abs(std::stod(x) - std::stod(y)));  // cm or degrees
+      else
+        REQUIRE(x == y);
+    }
+    CHECK_FALSE(bool(b >> y));
+    CAPTURE(name);
+    CHECK(worst < 0.1);
+  }
+}
