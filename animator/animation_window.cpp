@@ -492,6 +492,7 @@ class AnimationWindow {
     const ImVec4 colors[] = {{0.87f, 0.24f, 0.24f, 1}, {0.16f, 0.60f, 0.28f, 1}, {0.17f, 0.41f, 0.87f, 1}};
     for (int axis = 0; axis < 3; ++axis) {
       auto degrees = float(angles_deg_[axis]);
+      if (std::abs(degrees) < 0.05f) degrees = 0;  // no "-0.0"
       ImGui::PushID(axis);
       ImGui::AlignTextToFramePadding();
       ImGui::TextColored(colors[axis], "%s", kNames[axis]);

@@ -104,8 +104,13 @@ double Projection::pxPerMetre(const Vector3d& model) const {
 }
 
 Color weightColor(double weight) {
-  // The colours of heat, but for the darkest, on which no shading would show.
-  return weight <= 0 ? Color{196, 202, 214} : heatColor(0.25 + 0.75 * weight);
+  // The colours of heat, but for the darkest, on which no shading would show; from grey into them.
+  const Color none{196, 202, 214}, heat = heatColor(0.35 + 0.65 * std::clamp(weight, 0.0, 1.0));
+  const double share = std::clamp(weight / 0.3, 0.0, 1.0);
+  const auto mixed = [&](std::uint8_t a, std::uint8_t b) {
+    return std::uint8_t(std::lround((1 - share) * a + share * b));
+  };
+  return {mixed(none.r, heat.r), mixed(none.g, heat.g), mixed(none.b, heat.b)};
 }
 
 Image covering(const Image& picture, int width, int height) {
