@@ -24,10 +24,10 @@ constexpr double kOutsidePenalty = 4;         // nats for a bone that lies wholl
 constexpr double kBoneSample = 2;             // grid px between samples along a bone
 constexpr double kNear = .1 * kLongSide / 4;  // cells: what counts as found
 // Drawings stand upright but for few, which lie, stand on their heads or are scanned sideways. The net has
-// learned to tell upright figures from turned ones: above kSurelyUpright (log-odds) nothing else is looked at;
-// a turn needs log-odds of at least kTurnLogit, and has to be ahead of the picture as it is by kTurnMargin, by
-// kEighthTurn more if it is no quarter turn. Log-odds count within ±kLargestLogit, and each nat of the
-// heatmaps' mean entropy counts as much as kEntropyShare of them against a view.
+// learned to tell upright figures from turned ones: above kSurelyUpright (log-odds) nothing else is looked
+// at; a turn needs log-odds of at least kTurnLogit, and has to be ahead of the picture as it is by
+// kTurnMargin, by kEighthTurn more if it is no quarter turn. Log-odds count within ±kLargestLogit, and each
+// nat of the heatmaps' mean entropy counts as much as kEntropyShare of them against a view.
 constexpr double kSurelyUpright = 3.5, kTurnLogit = 0, kTurnMargin = 1.5, kEighthTurn = 3;
 constexpr double kEntropyShare = 2, kLargestLogit = 6;
 constexpr int kOrientations = 8;
