@@ -1,5 +1,4 @@
 #include "libskel/export/formats.h"
-#include "libskel/animation/sample_pose.h"
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -7,6 +6,7 @@
 
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
+#include "libskel/animation/sample_pose.h"
 #include "libskel/core/error.h"
 #include "libskel/image/read_image.h"
 #include "tests/support/catch.h"
@@ -171,9 +171,8 @@ TEST_CASE("a BVH holds the tree in centimetres and the clip in degrees") {
   const Eigen::Quaterniond q = Eigen::AngleAxisd(degrees(0), Eigen::Vector3d::UnitZ()) *
                                Eigen::AngleAxisd(degrees(1), Eigen::Vector3d::UnitX()) *
                                Eigen::AngleAxisd(degrees(2), Eigen::Vector3d::UnitY());
-  const Pose pose = samplePose(fixture.clips[0], skeleton, 1.0f);
-  const auto joint = static_cast<std::size_t>(skeleton.index("right_elbow"));
-  CHECK(q.angularDistance(pose.rotations[joint].cast<double>()) < 1e-3);
+  const Pose pose = samplePose(fixture.clips[0], skeleton, 1);
+  CHECK(q.angularDistance(pose.rotations[skeleton.index("right_elbow")].cast<double>()) < 1e-3);
 }
 
 TEST_CASE("a character folder for AnimatedDrawings holds sixteen joints in the crop's pixels") {
