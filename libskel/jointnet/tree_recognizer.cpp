@@ -28,7 +28,7 @@ constexpr double kNear = .1 * kLongSide / 4;  // cells: what counts as found
 // at; a turn needs log-odds of at least kTurnLogit, and has to be ahead of the picture as it is by
 // kTurnMargin, by kEighthTurn more if it is no quarter turn. Log-odds count within ±kLargestLogit, and each
 // nat of the heatmaps' mean entropy counts as much as kEntropyShare of them against a view.
-constexpr double kSurelyUpright = 3.5, kTurnLogit = 0, kTurnMargin = 1.5, kEighthTurn = 3;
+constexpr double kSurelyUpright = 4.5, kTurnLogit = 0, kTurnMargin = 1.5, kEighthTurn = 3;
 constexpr double kEntropyShare = 2, kLargestLogit = 6;
 constexpr int kOrientations = 8;
 
@@ -36,7 +36,7 @@ constexpr int kOrientations = 8;
 // the joints' mean confidence. One constant for each net that is built in: it lets most hand-drawn figures
 // exceed 0.5 that the net has not been trained on, which are less clear than generated ones.
 constexpr double kFigureLogit = .9, kFigureJoints = 8;
-double figureConstant(std::string_view body_plan) { return body_plan == "quadruped" ? -9.0 : -9.8; }
+double figureConstant(std::string_view body_plan) { return body_plan == "quadruped" ? -9.0 : -9.0; }
 // Off the log-odds of a figure that was turned: of eight views of an animal one may look human.
 constexpr double kTurnedOdds = 1.5;
 
