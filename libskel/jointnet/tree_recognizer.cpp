@@ -33,10 +33,9 @@ constexpr double kEntropyShare = 2, kLargestLogit = 6;
 constexpr int kOrientations = 8;
 
 // The figure's confidence: logistic in the net's log-odds of a whole figure (within ±kLargestLogit) and in
-// the joints' mean confidence. One constant for each net that is built in: it lets most hand-drawn figures
-// exceed 0.5 that the net has not been trained on, which are less clear than generated ones.
-constexpr double kFigureLogit = .9, kFigureJoints = 8;
-double figureConstant(std::string_view body_plan) { return body_plan == "quadruped" ? -9.0 : -9.0; }
+// the joints' mean confidence. The constant lets most hand-drawn figures exceed 0.5 that the nets have not
+// been trained on, which are less clear than generated ones; both built-in nets want the same.
+constexpr double kFigureLogit = .9, kFigureJoints = 8, kFigureConstant = -9;
 // Off the log-odds of a figure that was turned: of eight views of an animal one may look human.
 constexpr double kTurnedOdds = 1.5;
 
@@ -309,8 +308,8 @@ TreeRecognition recognizeByJointNet(const Plane8& mask, const FigureLook& look, 
     mean_confidence += result.joints[j].confidence / joints.count();
   }
   result.entropy = maps.entropy;
-  const double logit = kFigureLogit * figureLogit(maps) + kFigureJoints * mean_confidence +
-                       figureConstant(net.body_plan) - (result.turned != 0 ? kTurnedOdds : 0);
+  const double logit = kFigureLogit * figureLogit(maps) + kFigureJoints * mean_confidence + kFigureConstant -
+                       (result.turned != 0 ? kTurnedOdds : 0);
   result.figure_confidence = 1 / (1 + std::exp(-logit));
   return result;
 }
