@@ -7,11 +7,31 @@
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/keyframe_clip.h"
 #include "libskel/animation/retarget_motion.h"
+#include "libskel/animation/role_figure.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/deform/figure_shape.h"
 
 namespace skel {
+namespace {
+
+// The figure's own flesh, as it would be on the skeleton with our names.
+FigureShape measureByRoles(const RiggedCharacter& character, const RoleFigure& figure) {
+  TriangleMesh mesh = character.mesh;
+  mesh.vertices = (mesh.vertices * figure.to_ours.toRotationMatrix().transpose().cast<float>()).eval();
+  // A drawing stands on y = 0; a model stands where it was made.
+  const float ground = mesh.vertices.rows() > 0 ? mesh.vertices.col(1).minCoeff() : 0;
+  SkinWeights weights = character.weights;
+  for (Eigen::Index v = 0; v < weights.joints.rows(); ++v)
+    for (Eigen::Index k = 0; k < weights.joints.cols(); ++k)
+      weights.joints(v, k) = static_cast<std::uint16_t>(figure.carriers[std::size_t(weights.joints(v, k))]);
+  FigureShape shape = measureFigure(mesh, weights, figure.skeleton);
+  for (std::size_t j = 0; j < shape.sole_y_m.size(); ++j)
+    if (shape.sole_y_m[j] != 0) shape.sole_y_m[j] -= double(ground);
+  return shape;
+}
+
+}  // namespace
 
 void bindClipSource(CLI::App& app, ClipSource& source) {
   app.add_option("--clips-dir", source.clips_dir,
@@ -30,7 +50,19 @@ std::vector<Clip> clipLibrary(const ClipSource& source) {
   return source.clips_dir.empty() ? builtinClips() : clipsWithFolder(source.clips_dir);
 }
 
+std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharacter& character) {
+  std::vector<Clip> fitting = clipsFor(library, character.skeleton);
+  if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton))
+    for (const Clip& clip : library)
+      if (!fits(clip, character.skeleton) && fits(clip, *figure)) fitting.push_back(clip);
+  return fitting;
+}
+
 Clip fitted(const Clip& clip, const RiggedCharacter& character) {
+  if (!fits(clip, character.skeleton))
+    if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton);
+        figure && fits(clip, *figure))
+      return retargetByRoles(clip, *figure, character.skeleton, measureByRoles(character, *figure));
   RetargetOptions options;
   options.shape = measureFigure(character.mesh, character.weights, character.skeleton);
   return retargetToRest(clip, character.skeleton, options);

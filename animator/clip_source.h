@@ -23,6 +23,10 @@ void bindClipSource(CLI::App& app, ClipSource& source);
 // Those that come with skel, and those of the folder.
 std::vector<Clip> clipLibrary(const ClipSource& source);
 
+// Those of `library` that this character can do: by the names of its joints, or by their parts in it
+// (role_figure.h).
+std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharacter& character);
+
 // Made for the canonical pose; the result is for the character's rest pose.
 Clip fitted(const Clip& clip, const RiggedCharacter& character);
 

@@ -46,7 +46,7 @@ ExitCode runList(const ListOptions& options) {
   std::printf("clips of %s:\n", options.file.c_str());
   for (const Clip& clip : file.clips) printClip(clip, "");
   std::printf("clips that fit:\n");
-  for (const Clip& clip : clipsFor(library, file.character.skeleton)) printClip(clip, "");
+  for (const Clip& clip : clipsFor(library, file.character)) printClip(clip, "");
   printJoints(file.character.skeleton);
   return ExitCode::kDone;
 }

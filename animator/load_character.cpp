@@ -84,7 +84,7 @@ CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSo
 }
 
 std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource& source) {
-  std::vector<Clip> clips = clipsFor(clipLibrary(source), character.skeleton);
+  std::vector<Clip> clips = clipsFor(clipLibrary(source), character);
   for (Clip& clip : clips) clip = fitted(clip, character);
   return clips;
 }
@@ -92,7 +92,7 @@ std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource&
 Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source) {
   for (const Clip& clip : file.clips)
     if (clip.name == name_or_path) return clip;
-  std::vector<Clip> fitting = clipsFor(clipLibrary(source), file.character.skeleton);
+  std::vector<Clip> fitting = clipsFor(clipLibrary(source), file.character);
   if (hasClip(fitting, name_or_path)) return fitted(clipNamed(fitting, name_or_path), file.character);
   if (name_or_path.find_first_of("./") != std::string::npos)
     return loadClipFor(name_or_path, file.character, source);

@@ -248,6 +248,93 @@ int headOf(const Tree& tree, int chest, const Limbs& limbs) {
   return -1;
 }
 
+bool hasWord(const std::string& base, std::initializer_list<std::string_view> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return base.find(word) != std::string::npos; });
+}
+
+// Where the four legs end: left front, right front, left hind, right hind; -1: not found.
+using FourFeet = std::array<int, 4>;
+bool complete(const FourFeet& feet) { return std::count(feet.begin(), feet.end(), -1) == 0; }
+
+std::vector<int> endsNearGround(const Tree& tree) {
+  constexpr double kNear = 0.25;  // of the highest joint's height over the lowest
+  const auto below = [](const Joint& a, const Joint& b) { return a.position.y() < b.position.y(); };
+  const auto [low, high] =
+      std::minmax_element(tree.skeleton.joints.begin(), tree.skeleton.joints.end(), below);
+  const double limit = low->position.y() + kNear * (high->position.y() - low->position.y());
+  std::vector<int> ends;
+  for (std::size_t j = 0; j < tree.children.size(); ++j)
+    if (tree.children[j].empty() && tree.parent(int(j)) >= 0 && tree.at(int(j)).y() <= limit)
+      ends.push_back(int(j));
+  return ends;
+}
+
+// The first of the joints that say so: a tail on the ground is no leg.
+FourFeet feetByNames(const Tree& tree, const std::vector<PlainName>& names, const std::vector<int>& ends) {
+  FourFeet feet = {-1, -1, -1, -1};
+  for (const int end : ends) {
+    Side side = Side::kNone;
+    bool front = false, hind = false;
+    for (int joint = end; joint >= 0; joint = tree.parent(joint)) {
+      const PlainName& name = names[std::size_t(joint)];
+      if (name.side == Side::kNone) continue;
+      side = name.side;
+      front |= hasWord(name.base, {"front", "fore", "arm", "hand", "shoulder", "scapula", "wrist"});
+      hind |= hasWord(name.base, {"hind", "rear", "back", "thigh", "hip", "shin", "leg", "femur", "foot"});
+    }
+    if (side == Side::kNone || !(front || hind)) continue;
+    int& foot = feet[std::size_t((front ? 0 : 2) + (side == Side::kRight ? 1 : 0))];
+    if (foot < 0) foot = end;
+  }
+  return feet;
+}
+
+// The ends' own longer axis is that of the body; the head is higher than the tail.
+FourFeet feetByShape(const Tree& tree, const std::vector<int>& ends) {
+  FourFeet feet = {-1, -1, -1, -1};
+  if (ends.size() < 4) return feet;
+  Vector3d middle = Vector3d::Zero(), spread = Vector3d::Zero();
+  for (const int end : ends) middle += tree.at(end) / double(ends.size());
+  for (const int end : ends) spread += (tree.at(end) - middle).cwiseAbs();
+  int top = 0;
+  for (std::size_t j = 0; j < tree.children.size(); ++j)
+    if (tree.at(int(j)).y() > tree.at(top).y()) top = int(j);
+  Vector3d forwards = spread.x() > spread.z() ? Vector3d::UnitX() : Vector3d::UnitZ();
+  if ((tree.at(top) - middle).dot(forwards) < 0) forwards = -forwards;
+  const Vector3d left = Vector3d::UnitY().cross(forwards);
+  for (const int end : ends) {
+    const Vector3d from = tree.at(end) - middle;
+    int& foot = feet[std::size_t((from.dot(forwards) > 0 ? 0 : 2) + (from.dot(left) > 0 ? 0 : 1))];
+    if (foot < 0) foot = end;
+  }
+  return feet;
+}
+
+// Top, knee and foot of the way down from the trunk; empty if it has less than three joints.
+std::vector<int> legOf(const Tree& tree, const std::vector<PlainName>& names, std::vector<int> way,
+                       const Vector3d& forwards) {
+  const auto base = [&](int joint) -> const std::string& { return names[std::size_t(joint)].base; };
+  // What is beyond the foot does not carry.
+  while (way.size() > 3 && hasWord(base(way.back()), {"toe", "finger", "digit", "end", "tip", "nub"}))
+    way.pop_back();
+  // Shoulder blade and hip bone belong to the trunk.
+  if (way.size() > 4 || (way.size() == 4 && hasWord(base(way.front()), {"shoulder", "scapula", "clavicle",
+                                                                        "collar", "hip", "pelvis"})))
+    way.erase(way.begin());
+  if (way.size() < 3) return {};
+  const Vector3d &top = tree.at(way.front()), &foot = tree.at(way.back());
+  const Vector3d line = foot - top;
+  int knee = -1;
+  double most = -1e300;
+  for (std::size_t k = 1; k + 1 < way.size(); ++k) {
+    const Vector3d from = tree.at(way[k]) - top;
+    const double ahead = (from - from.dot(line) / std::max(1e-12, line.squaredNorm()) * line).dot(forwards);
+    if (ahead > most) most = ahead, knee = way[k];
+  }
+  return {way.front(), knee, way.back()};
+}
+
 }  // namespace
 
 int JointRoles::joint(std::string_view role) const { return joints[std::size_t(roleIndex(role))]; }
@@ -282,6 +369,83 @@ JointRoles findJointRoles(const Skeleton& skeleton, const std::vector<Vector3d>&
   const std::vector<int> spine = tree.path(pelvis, chest);
   if (spine.size() > 2) set("body", spine[spine.size() / 2]);
   set("head", headOf(tree, chest, limbs));
+  return roles;
+}
+
+QuadrupedRoles findQuadrupedRoles(const Skeleton& skeleton) {
+  QuadrupedRoles roles;
+  if (skeleton.joints.empty()) return roles;
+  const Tree tree(skeleton, {});
+  std::vector<PlainName> names;
+  for (const Joint& joint : skeleton.joints) names.push_back(plainName(joint.name));
+  const std::vector<int> ends = endsNearGround(tree);
+  FourFeet feet = feetByNames(tree, names, ends);
+  if (!complete(feet)) {
+    feet = feetByShape(tree, ends);
+    roles.by_shape = true;
+  }
+  if (!complete(feet)) return {};
+
+  const int chest = tree.commonAncestor(feet[0], feet[1]), pelvis = tree.commonAncestor(feet[2], feet[3]);
+  if (chest < 0 || pelvis < 0 || chest == pelvis || !tree.isAbove(pelvis, chest)) return {};
+  Vector3d forwards = tree.at(chest) - tree.at(pelvis);
+  const double rise = std::abs(forwards.y());
+  forwards.y() = 0;
+  if (!(forwards.norm() > rise)) return {};
+  forwards.normalize();
+
+  std::vector<RoleJoint> found = {{"pelvis", pelvis}};
+  const std::array<std::array<std::string, 3>, 4> leg_roles = {
+      {{"left_shoulder", "left_elbow", "left_front_foot"},
+       {"right_shoulder", "right_elbow", "right_front_foot"},
+       {"left_hip", "left_knee", "left_hind_foot"},
+       {"right_hip", "right_knee", "right_hind_foot"}}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    std::vector<int> way = tree.path(k < 2 ? chest : pelvis, feet[k]);
+    way.erase(way.begin());
+    const std::vector<int> leg = legOf(tree, names, way, forwards);
+    if (leg.empty()) return {};
+    for (std::size_t part = 0; part < 3; ++part) found.push_back({leg_roles[k][part], leg[part]});
+  }
+
+  const auto named = [&](std::string_view word) {
+    for (std::size_t j = 0; j < names.size(); ++j)
+      if (names[j].side == Side::kNone && names[j].base.starts_with(word)) return int(j);
+    return -1;
+  };
+  const auto onLegs = [&](int joint) {
+    return std::any_of(feet.begin(), feet.end(), [&](int foot) { return tree.isAbove(joint, foot); });
+  };
+  int head = named("head");
+  if (head < 0 || head == chest || !tree.isAbove(chest, head)) {
+    head = -1;
+    for (const int child : tree.children[std::size_t(chest)])
+      if (head < 0 && !onLegs(child)) head = tree.longest(child).back();
+  }
+  const std::vector<int> spine = tree.path(pelvis, chest);
+  int body = spine[spine.size() / 2];
+  if (head >= 0) {
+    const std::vector<int> way = tree.path(chest, head);
+    // What carries the head alone, if there is such a joint: the legs do not nod.
+    const int neck = way.size() > 2 ? way[1] : chest;
+    if (neck == body) body = -1;
+    found.push_back({"neck", neck});
+    found.push_back({"head", head});
+  }
+  if (body >= 0) found.push_back({"body", body});
+  int tail = named("tail");
+  if (tail < 0)
+    for (const int child : tree.children[std::size_t(pelvis)])
+      if (!onLegs(child) && (tree.at(tree.longest(child).back()) - tree.at(pelvis)).dot(forwards) < 0)
+        tail = child;
+  if (tail >= 0 && !onLegs(tail) && tree.isAbove(pelvis, tail)) {
+    found.push_back({"tail_root", tail});
+    if (const std::vector<int> way = tree.longest(tail); way.size() > 1) found.push_back({"tail", way[1]});
+  }
+  std::sort(found.begin(), found.end(),
+            [](const RoleJoint& a, const RoleJoint& b) { return a.joint < b.joint; });
+  roles.joints = std::move(found);
+  roles.forwards = forwards;
   return roles;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -27,5 +28,22 @@ struct JointRoles {
 // equal branches of the lowest fork, arms those of the next. `tips`: where the bones of leaves end, from the
 // joint, one a joint or empty. Roles that are not found are -1; without both legs or both arms, all are.
 JointRoles findJointRoles(const Skeleton& skeleton, const std::vector<Eigen::Vector3d>& tips = {});
+
+struct RoleJoint {
+  std::string role;  // a joint of our quadruped template
+  int joint;
+};
+struct QuadrupedRoles {
+  std::vector<RoleJoint> joints;  // parents before children; empty: no animal on four legs
+  bool by_shape = false;          // the names of its legs said nothing
+  Eigen::Vector3d forwards = Eigen::Vector3d::Zero();  // from the hips to the chest, level, a unit vector
+};
+
+// The same for an animal on four legs, y up. Its feet are the ends of the tree near the ground; which is
+// which, the words on the way to the trunk say (left, r, front, fore, arm; hind, rear, thigh ...), and
+// failing that, where they stand. Of a leg's joints the knee is the one that is farthest ahead: clips bend
+// legs there, backwards. Neck, head and tail go by name, or by where the tree ends. The trunk must lie more
+// than it stands. Tail, neck, body and head may be missing, legs not.
+QuadrupedRoles findQuadrupedRoles(const Skeleton& skeleton);
 
 }  // namespace skel

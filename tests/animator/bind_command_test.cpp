@@ -51,6 +51,19 @@ std::string bone(const std::string& name, const std::string& parent,
 
 }  // namespace
 
+TEST_CASE("the clips of animals fit the bound elk, and it walks") {
+  const TempDir dir;
+  REQUIRE(animate(dir, "bind '" + kElk + "' --skeleton '" + kBones + "' -o elk.glb").exit_code == 0);
+  const ToolRun list = animate(dir, "list elk.glb");
+  for (const char* name : {"idle", "walk", "gallop", "graze", "nod", "wag"})
+    CHECK(list.out.find(std::string("\n  ") + name + " ") != std::string::npos);
+  CHECK(list.out.find("cheer") == std::string::npos);
+  const ToolRun film = animate(dir, "render elk.glb --clip walk --fps 5 --size 64x64 -o walk/");
+  CHECK(film.err == "");
+  CHECK(film.exit_code == 0);
+  CHECK(filesIn(dir.file("walk")) == 6);
+}
+
 TEST_CASE("the elk is bound, and its weights are saved and taken again") {
   const TempDir dir;
   const ToolRun bound = animate(dir, "bind '" + kElk + "' --skeleton '" + kBones + "' -o elk.glb");
