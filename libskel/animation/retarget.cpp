@@ -23,6 +23,11 @@ constexpr double kTolerance = 0.0015;  // of thinned keys, in heights
 
 Quaterniond aboutZ(double angle_rad) { return Quaterniond(Eigen::AngleAxisd(angle_rad, Vector3d::UnitZ())); }
 
+double smoothStep(double from, double to, double x) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
 // How much of the drawn pose is taken back at `time_s`: 0 at the ends of a clip that starts from rest,
 // else 1.
 double canonicalShare(const Clip& clip, double time_s) {
@@ -37,6 +42,7 @@ struct Retargeter {
   std::vector<bool> pointed;            // joints whose bone follows the canonical one
   std::vector<BoneTurn> turns;          // canonical to drawn
   std::vector<double> swing;            // extra turn about z of a pointed joint and those below it, radians
+  std::vector<Vector3d> raised;         // a bone whose swing grows as it points up; zero: swings always
   std::vector<double> share_of_motion;  // 1: as the clip says, 0: the joint does not turn
   Quaterniond figure_from_clip = Quaterniond::Identity();  // about the vertical
 
@@ -51,7 +57,8 @@ struct Retargeter {
       if (share_of_motion[j] < 1) local = Quaterniond::Identity().slerp(share_of_motion[j], local);
       if (figure_from_clip.w() != 1) local = figure_from_clip * local * figure_from_clip.conjugate();
       motion[j] = parent < 0 ? local : motion[parent] * local;
-      swung[j] = swing[j] + (parent < 0 ? 0 : swung[parent]);
+      const double up = raised[j].isZero() ? 1 : smoothStep(-0.2, 0.6, (motion[j] * raised[j]).y());
+      swung[j] = up * swing[j] + (parent < 0 ? 0 : swung[parent]);
       if (pointed[j])
         result[j] = aboutZ(swung[j] * share) * motion[j] * turns[j].share(share).conjugate();
       else
@@ -100,11 +107,6 @@ void hold(Retargeter& retargeter, std::initializer_list<int> joints, double kept
     slack_rad[joint] += kept * 2 * kPi;
     retargeter.share_of_motion[joint] = 1 - 0.8 * kept;
   }
-}
-
-double smoothStep(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
 }
 
 double joinedAt(const FigureShape& shape, int joint) {
@@ -243,36 +245,60 @@ std::vector<std::size_t> keysWithin(const Skeleton& skeleton, const std::vector<
   return keys;
 }
 
-// Seen from the front, the least turn of the forearm away from the trunk that keeps it and the hand beyond it
-// off the head at all `moments`.
-double clearingSwing(Retargeter retargeter, const std::vector<std::pair<Pose, double>>& moments, int elbow,
-                     int hand) {
+// Seen from the front, the least turn of the joint's bone away from the trunk that keeps the part from `from`
+// to `to` of the bone between `begin` and `end`, in its lengths, off the head at all `moments`.
+struct Clearing {
+  int turned, begin, end;
+  double from, to;
+};
+double clearingSwing(Retargeter retargeter, const std::vector<std::pair<Pose, double>>& moments,
+                     const Clearing& part, double head_half_width_m) {
   const Skeleton& skeleton = retargeter.skeleton;
   const int head = skeleton.find("head"), top = skeleton.find("head_top");
   if (head < 0 || top < 0) return 0;
-  const double radius = (skeleton.joints[top].position - skeleton.joints[head].position).norm();
-  const double away = skeleton.joints[elbow].position.x() < skeleton.joints[head].position.x() ? 1 : -1;
-  constexpr double kHandReach = 1.35;  // the hand's tip, in lengths of the forearm
+  const double radius =
+      std::max(head_half_width_m, (skeleton.joints[top].position - skeleton.joints[head].position).norm());
+  const double away = skeleton.joints[part.turned].position.x() < skeleton.joints[head].position.x() ? 1 : -1;
   constexpr double kStep = kPi / 36;
   constexpr int kSteps = 15;  // no further than 75°
   constexpr std::size_t kEvery = 3;
   double best_swing = 0, best_clearance = -1e9;
   for (int step = 0; step <= kSteps; ++step) {
-    retargeter.swing[elbow] = away * step * kStep;
+    retargeter.swing[part.turned] = away * step * kStep;
     double clearance = 1e9;
     for (std::size_t k = 0; k < moments.size(); k += kEvery) {
       const auto& [pose, share] = moments[k];
       if (share < 1) continue;
       const std::vector<Vector3d> at = positions(skeleton, retargeter.globals(pose, share));
-      const Vector2d from = at[elbow].head<2>();
-      const Vector2d to = from + kHandReach * (at[hand].head<2>() - from);
+      const Vector2d begin = at[part.begin].head<2>(), along = at[part.end].head<2>() - begin;
       clearance =
-          std::min(clearance, distanceToSegment<Vector2d>(at[head].head<2>(), from, to) - 1.1 * radius);
+          std::min(clearance, distanceToSegment<Vector2d>(at[head].head<2>(), begin + part.from * along,
+                                                          begin + part.to * along) -
+                                  1.1 * radius);
     }
-    if (clearance > best_clearance) best_clearance = clearance, best_swing = retargeter.swing[elbow];
+    if (clearance > best_clearance) best_clearance = clearance, best_swing = retargeter.swing[part.turned];
     if (clearance >= 0) break;
   }
   return best_swing;
+}
+
+// Raised arms go past the head: first the elbow, then the forearm with the hand's tip.
+void swingClearOfHead(Retargeter& retargeter, const std::vector<std::pair<Pose, double>>& moments,
+                      const std::vector<Vector3d>& canonical, double head_half_width_m) {
+  const Skeleton& skeleton = retargeter.skeleton;
+  for (const std::string side : {"left_", "right_"}) {
+    const int shoulder = skeleton.find(side + "shoulder"), elbow = skeleton.find(side + "elbow"),
+              hand = skeleton.find(side + "hand");
+    if (shoulder < 0 || elbow < 0 || hand < 0) continue;
+    if (retargeter.pointed[shoulder]) {
+      retargeter.raised[shoulder] = canonical[shoulder];
+      retargeter.swing[shoulder] =
+          clearingSwing(retargeter, moments, {shoulder, shoulder, elbow, 1, 1}, head_half_width_m);
+    }
+    if (retargeter.pointed[elbow])
+      retargeter.swing[elbow] =
+          clearingSwing(retargeter, moments, {elbow, elbow, hand, 0, 1.35}, head_half_width_m);
+  }
 }
 
 }  // namespace
@@ -347,6 +373,7 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
                         std::vector<bool>(count),
                         turnsFromCanonical(skeleton, canonical),
                         std::vector<double>(count, 0),
+                        std::vector<Vector3d>(count, Vector3d::Zero()),
                         std::vector<double>(count, 1),
                         figure_from_clip};
   for (std::size_t j = 0; j < count; ++j) retargeter.pointed[j] = !canonical[j].isZero();
@@ -365,12 +392,7 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
     poses[k].time_s = keys == 1 ? 0 : duration * float(k) / float(keys - 1);
     moments.emplace_back(samplePose(clip, skeleton, poses[k].time_s), canonicalShare(clip, poses[k].time_s));
   }
-  if (options.clear_of_head)
-    for (const std::string side : {"left_", "right_"}) {
-      const int elbow = skeleton.find(side + "elbow"), hand = skeleton.find(side + "hand");
-      if (elbow >= 0 && hand >= 0 && retargeter.pointed[elbow])
-        retargeter.swing[elbow] = clearingSwing(retargeter, moments, elbow, hand);
-    }
+  if (options.clear_of_head) swingClearOfHead(retargeter, moments, canonical, shape.head_half_width_m);
 
   const bool moves_root = !clip.contacts.empty() || !clip.root_times_s.empty();
   double stride = 1, stand = 0;

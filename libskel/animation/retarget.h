@@ -17,6 +17,8 @@ struct FigureShape {
   // One a joint, or empty. Of an arm: the least angle from straight down outwards at which its bone keeps
   // clear of the trunk. 0 for the others.
   std::vector<double> hang_rad;
+  // Half of the head's width, as far as most of it goes, m; 0: by the bones.
+  double head_half_width_m = 0;
   // One a joint, or empty. Of a foot: the height of its lowest point, m. 0 for the others.
   std::vector<double> sole_y_m;
   // One a joint, or empty; 0…1. Of arms: the share of the forearm that hangs on the body. Of legs: how far
@@ -28,7 +30,7 @@ FigureShape shapeOfBones(const Skeleton& skeleton);
 
 struct RetargetOptions {
   float rate_hz = 30;         // most keys a second of the result; fewer where that shows nowhere
-  bool clear_of_head = true;  // forearms that would pass through the head swing out until they do not
+  bool clear_of_head = true;  // raised arms that would pass through the head swing out until they do not
   bool thin_keys = true;      // where `rate_hz` is more than shows
   std::optional<FigureShape> shape = std::nullopt;  // nothing: shapeOfBones()
 };

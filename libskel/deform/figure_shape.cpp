@@ -92,6 +92,19 @@ void measureArms(const Flesh& flesh, FigureShape& shape) {
   }
 }
 
+// Hair and brims may reach beyond it.
+double headHalfWidth(const Flesh& flesh) {
+  const int head = flesh.skeleton.find("head"), top = flesh.skeleton.find("head_top");
+  if (head < 0) return 0;
+  std::vector<double> away;
+  for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v)
+    if (flesh.share(v, {head, top}) > 0.8) away.push_back(std::abs(flesh.at(v).x() - flesh.joint(head).x()));
+  if (away.empty()) return 0;
+  const auto most = away.begin() + std::ptrdiff_t(0.85 * double(away.size()));
+  std::nth_element(away.begin(), most, away.end());
+  return *most;
+}
+
 void measureSoles(const Flesh& flesh, FigureShape& shape) {
   for (std::size_t j = 0; j < flesh.skeleton.joints.size(); ++j) {
     if (!flesh.skeleton.joints[j].name.ends_with("foot")) continue;
@@ -190,6 +203,7 @@ FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, 
   measureSoles(flesh, shape);
   if (skeleton.find("left_front_foot") < 0) {
     measureArms(flesh, shape);
+    shape.head_half_width_m = headHalfWidth(flesh);
     shape.yaw_rad = bipedYaw(flesh, shape.height_m);
   }
   for (const LegPair& pair : {kBipedLegs, kFrontLegs, kHindLegs}) measureLegs(flesh, pair, shape);

@@ -92,8 +92,7 @@ TEST_CASE("the joints of the elk have their parts by their names, and its legs b
 }
 
 TEST_CASE(
-    "the elk's walk moves every foot, closes its loop, stays on the ground and keeps the sides of its hind "
-    "legs") {
+    "the elk's walk lifts every foot in its turn, closes its loop, stays on the ground and keeps its sides") {
   const Skeleton& elk = elkSkeleton();
   const Clip walk = onElk("walk", elk);
   const float duration_s = walk.duration_s();
@@ -114,7 +113,7 @@ TEST_CASE(
   const std::vector<Vector3f> first = tips(walk, elk, 0), last = tips(walk, elk, duration_s);
   for (std::size_t j = 0; j < first.size(); ++j) CHECK((first[j] - last[j]).norm() < 1e-3f * kElkHeight_m);
 
-  // While a hind foot of the clip stands, its counterpart is in the air.
+  // While a foot of the clip stands, its counterpart is in the air.
   const auto higher = [&](float time_s, const std::string& up, const std::string& down) {
     const std::vector<Vector3f> at = tips(walk, elk, time_s);
     CAPTURE(time_s, up);
@@ -122,6 +121,8 @@ TEST_CASE(
   };
   higher(0.9f, "hind_hoof_l", "hind_hoof_r");
   higher(0.3f, "hind_hoof_r", "hind_hoof_l");
+  higher(1.1f, "front_hoof_l", "front_hoof_r");
+  higher(0.5f, "front_hoof_r", "front_hoof_l");
 }
 
 TEST_CASE("an elk that looks elsewhere walks there") {

@@ -1,0 +1,184 @@
+// Figures of the built-in clips on drawings: how far the skin is stretched, and how much of the limbs goes
+// into the rest of the body.
+//   clip_quality TEMPLATE DRAWING...
+// A line a clip, then the drawings that stretch most. Stretch: the largest singular value of the map from a
+// triangle at rest to the same one posed. Inside: the winding number of the skin just above a limb's surface
+// is 1 more than at rest.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "libskel/animation/clip_library.h"
+#include "libskel/animation/sample_pose.h"
+#include "libskel/classifier/weights_file.h"
+#include "libskel/core/error.h"
+#include "libskel/core/parallel.h"
+#include "libskel/deform/skin_vertices.h"
+#include "libskel/image/read_image.h"
+#include "libskel/pipeline/rig_character.h"
+
+namespace skel {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector3d;
+
+constexpr int kFrames = 8;
+constexpr int kLimbPoints = 150;
+constexpr double kTooFar = 3;
+constexpr double kAbove_m = 0.003 * kModelHeight_m;
+
+Vector3d corner(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, Eigen::Index t, int k) {
+  return vertices.row(mesh.triangles(t, k)).transpose().cast<double>();
+}
+
+// The triangle in its own plane: its edges from the first corner as columns.
+Matrix2d flat(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, Eigen::Index t) {
+  const Vector3d a = corner(vertices, mesh, t, 0), u = corner(vertices, mesh, t, 1) - a,
+                 v = corner(vertices, mesh, t, 2) - a;
+  const double length = std::max(1e-12, u.norm());
+  const double along = u.dot(v) / length;
+  Matrix2d edges;
+  edges << length, along, 0, std::sqrt(std::max(0., v.squaredNorm() - along * along));
+  return edges;
+}
+
+double stretch(const Matrix2d& rest, const Matrix2d& posed) {
+  if (!(std::abs(rest.determinant()) > 1e-12)) return 1;
+  const Matrix2d map = posed * rest.inverse();
+  const double sum = map.squaredNorm(), det = map.determinant();
+  return std::sqrt((sum + std::sqrt(std::max(0., sum * sum - 4 * det * det))) / 2);
+}
+
+// Van Oosterom & Strackee, "The solid angle of a plane triangle" (1983).
+double windingNumber(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, const Vector3d& point) {
+  double sum = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    const Vector3d a = corner(vertices, mesh, t, 0) - point, b = corner(vertices, mesh, t, 1) - point,
+                   c = corner(vertices, mesh, t, 2) - point;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum / (2 * std::numbers::pi);
+}
+
+// Triangles of the lower halves of arms and legs, evenly taken.
+std::vector<Eigen::Index> limbTriangles(const RiggedCharacter& character) {
+  std::vector<Eigen::Index> limbs, some;
+  const TriangleMesh& mesh = character.mesh;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    const std::string& joint =
+        character.skeleton.joints[character.weights.joints(mesh.triangles(t, 0), 0)].name;
+    if (joint.ends_with("elbow") || joint.ends_with("hand") || joint.ends_with("knee") ||
+        joint.ends_with("foot"))
+      limbs.push_back(t);
+  }
+  const std::size_t step = std::max<std::size_t>(1, limbs.size() / kLimbPoints);
+  for (std::size_t i = 0; i < limbs.size(); i += step) some.push_back(limbs[i]);
+  return some;
+}
+
+std::vector<bool> insideOthers(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh,
+                               const std::vector<Eigen::Index>& triangles) {
+  std::vector<bool> inside;
+  for (const Eigen::Index t : triangles) {
+    const Vector3d a = corner(vertices, mesh, t, 0), b = corner(vertices, mesh, t, 1),
+                   c = corner(vertices, mesh, t, 2);
+    const Vector3d above = (a + b + c) / 3 + kAbove_m * (b - a).cross(c - a).normalized();
+    inside.push_back(windingNumber(vertices, mesh, above) > 0.5);
+  }
+  return inside;
+}
+
+struct Quality {
+  double stretched = 0, inside = 0;  // shares, means over the frames
+};
+
+std::map<std::string, Quality> measure(const std::string& path, const std::string& body_plan) {
+  RigOptions options;
+  options.mlp = defaultMlp();
+  options.body_plan = loadTemplate(body_plan);
+  options.clips = clipsFor(builtinClips(), options.body_plan);
+  RigInput input;
+  input.image = readImage(path);
+  const RiggedDrawing drawing = rigCharacter(std::move(input), options);
+  if (!drawing.found()) throw InputError(path, drawing.silhouette.reason);
+  const RiggedCharacter& character = drawing.character;
+  const TriangleMesh& mesh = character.mesh;
+  std::vector<Matrix2d> rest;
+  double area = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    rest.push_back(flat(mesh.vertices, mesh, t));
+    area += rest.back().determinant() / 2;
+  }
+  const std::vector<Eigen::Index> limbs = limbTriangles(character);
+  const std::vector<bool> inside_at_rest = insideOthers(mesh.vertices, mesh, limbs);
+  std::map<std::string, Quality> result;
+  for (const Clip& clip : drawing.clips) {
+    Quality& quality = result[clip.name];
+    for (int frame = 0; frame < kFrames; ++frame) {
+      const Pose pose =
+          samplePose(clip, character.skeleton, clip.duration_s() * (float(frame) + 0.5f) / kFrames);
+      const Eigen::MatrixX3f posed = skinVertices(
+          mesh.vertices, character.weights, posedFromRest(character.skeleton, pose, float(kModelHeight_m)));
+      for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
+        if (stretch(rest[std::size_t(t)], flat(posed, mesh, t)) > kTooFar)
+          quality.stretched += rest[std::size_t(t)].determinant() / 2 / area / kFrames;
+      const std::vector<bool> inside = insideOthers(posed, mesh, limbs);
+      for (std::size_t i = 0; i < limbs.size(); ++i)
+        if (inside[i] && !inside_at_rest[i]) quality.inside += 1. / double(limbs.size()) / kFrames;
+    }
+  }
+  return result;
+}
+
+void run(int argc, char** argv) {
+  if (argc < 3) throw UsageError("usage: clip_quality TEMPLATE DRAWING...");
+  const std::vector<std::string> paths(argv + 2, argv + argc);
+  std::vector<std::map<std::string, Quality>> all(paths.size());
+  parallelFor(paths.size(), 0, [&](std::size_t i) { all[i] = measure(paths[i], argv[1]); });
+  std::map<std::string, std::vector<Quality>> by_clip;
+  std::vector<std::pair<double, std::string>> stretched, inside;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    for (const auto& [clip, quality] : all[i]) {
+      by_clip[clip].push_back(quality);
+      stretched.emplace_back(quality.stretched, paths[i] + " " + clip);
+      inside.emplace_back(quality.inside, paths[i] + " " + clip);
+    }
+  std::printf("clip       area stretched > 3: mean  worst     limbs inside others: mean  worst\n");
+  for (const auto& [clip, qualities] : by_clip) {
+    Quality mean, most;
+    for (const Quality& q : qualities) {
+      mean.stretched += q.stretched / double(qualities.size());
+      mean.inside += q.inside / double(qualities.size());
+      most.stretched = std::max(most.stretched, q.stretched);
+      most.inside = std::max(most.inside, q.inside);
+    }
+    std::printf("%-10s %24.2f %% %6.2f %% %24.2f %% %6.2f %%\n", clip.c_str(), 100 * mean.stretched,
+                100 * most.stretched, 100 * mean.inside, 100 * most.inside);
+  }
+  const auto worst = [](const char* what, std::vector<std::pair<double, std::string>>& list) {
+    std::printf("%s most:\n", what);
+    std::sort(list.rbegin(), list.rend());
+    for (std::size_t i = 0; i < std::min<std::size_t>(10, list.size()); ++i)
+      std::printf("%6.2f %% %s\n", 100 * list[i].first, list[i].second.c_str());
+  };
+  worst("stretched", stretched);
+  worst("inside", inside);
+}
+
+}  // namespace
+}  // namespace skel
+
+int main(int argc, char** argv) {
+  try {
+    skel::run(argc, argv);
+  } catch (const skel::Error& error) {
+    std::fprintf(stderr, "clip_quality: %s\n", error.what());
+    return int(error.exitCode());
+  }
+}
