@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "animator/load_character.h"
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/retarget_motion.h"
@@ -28,6 +29,16 @@ void report(const JointMatch& match) {
   std::printf("not matched, of the motion: %s\n", listed(match.theirs_left).c_str());
 }
 
+Clip motionFor(const RetargetCommandOptions& options, const CharacterFile& file) {
+  if (!options.motion.ends_with(".bvh")) return clipFor(options.motion, file, options.clips);
+  const RiggedCharacter& character = file.character;
+  RetargetedMotion result =
+      retargetMotion(readBvh(options.motion), options.motion, character.skeleton,
+                     measureFigure(character.mesh, character.weights, character.skeleton));
+  report(result.match);
+  return std::move(result.clip);
+}
+
 // What the output's name asks for.
 std::string encoded(const std::string& path, CharacterFile file, const Clip& clip) {
   if (path.ends_with(kClipFileEnding)) return formatClip(clip);
@@ -43,7 +54,9 @@ std::string encoded(const std::string& path, CharacterFile file, const Clip& cli
 }  // namespace
 
 void bindRetargetOptions(CLI::App& app, RetargetCommandOptions& options) {
-  app.add_option("MOTION", options.motion, "The motion (.bvh), of anybody's skeleton")->required();
+  app.add_option("MOTION", options.motion,
+                 "The motion: a .bvh of anybody's skeleton, a clip that comes with skel, or a clip file")
+      ->required();
   app.add_option("--to", options.target, "The rigged character (.glb) that is to move so")
       ->required()
       ->type_name("FILE");
@@ -51,7 +64,8 @@ void bindRetargetOptions(CLI::App& app, RetargetCommandOptions& options) {
                  "What to write: the character with the motion among its clips (.glb), or the motion alone "
                  "(.clip.json, .bvh); without: out/<motion>.glb")
       ->type_name("FILE");
-  app.add_option("--name", options.name, "Of the clip; without: that of the motion's file");
+  app.add_option("--name", options.name, "Of the clip; without: that of the motion");
+  bindClipSource(app, options.clips);
 }
 
 ExitCode runRetarget(const RetargetCommandOptions& options) {
@@ -59,13 +73,9 @@ ExitCode runRetarget(const RetargetCommandOptions& options) {
   if (!path.ends_with(".glb") && !path.ends_with(".bvh") && !path.ends_with(kClipFileEnding))
     throw UsageError(path + ": must end in .glb, .clip.json or .bvh");
   CharacterFile file = readGlb(options.target);
-  const RiggedCharacter& character = file.character;
-  RetargetedMotion result =
-      retargetMotion(readBvh(options.motion), options.motion, character.skeleton,
-                     measureFigure(character.mesh, character.weights, character.skeleton));
-  if (!options.name.empty()) result.clip.name = options.name;
-  report(result.match);
-  writeFile(path, encoded(path, std::move(file), result.clip));
+  Clip clip = motionFor(options, file);
+  if (!options.name.empty()) clip.name = options.name;
+  writeFile(path, encoded(path, std::move(file), clip));
   std::printf("wrote %s\n", path.c_str());
   return ExitCode::kDone;
 }

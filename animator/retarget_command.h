@@ -1,8 +1,9 @@
-// The command `skel-animate retarget MOTION.bvh --to FILE.glb -o OUT`.
+// The command `skel-animate retarget MOTION --to FILE.glb -o OUT`.
 #pragma once
 
 #include <string>
 
+#include "animator/clip_source.h"
 #include "libskel/core/error.h"
 
 namespace CLI {
@@ -13,7 +14,8 @@ namespace skel {
 
 struct RetargetCommandOptions {
   std::string motion, target, output;
-  std::string name;  // of the clip; empty: the motion's file
+  std::string name;  // of the clip; empty: the motion's
+  ClipSource clips;
 };
 void bindRetargetOptions(CLI::App& app, RetargetCommandOptions& options);
 ExitCode runRetarget(const RetargetCommandOptions& options);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <numbers>
 #include <sstream>
 
@@ -251,7 +252,11 @@ class Training {
     figure_options_.other_share = options.other_share;
     FigureOptions validation = figure_options_;
     if (!options.drawings.empty()) {
-      std::vector<JointedDrawing> drawings = findJointedDrawings(options.drawings);
+      std::vector<JointedDrawing> drawings;
+      for (const std::string& folder : options.drawings) {
+        std::vector<JointedDrawing> found = findJointedDrawings(folder);
+        std::move(found.begin(), found.end(), std::back_inserter(drawings));
+      }
       splitOff(drawings);
       drawings_ = posableDrawings(drawings, net_.joints, loadTemplate(net_.body_plan), options.threads);
       figure_options_.drawn_share = schedule_.drawn_share;
@@ -492,7 +497,8 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
       .add_option("--drawings", options.drawings,
                   "Drawings with known joints: trained on besides, each time posed and warped anew. Either\n"
                   "*.joints.json and *.mask.png, or what skel-label saves: *.skeleton.json, *.labels.json")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->take_all();
   command.add_option("--drawn", options.drawn_share, "Share of figures that come from them")
       ->check(CLI::Range(0., 1.))
       ->default_str(preset(kFromNothing.drawn_share, kGoingOn.drawn_share));

@@ -29,7 +29,7 @@ struct JointTrainingOptions {
   double other_share = .16;           // of figures that are not whole
   double no_look_share = .25;         // of figures of which only the silhouette is shown
   double no_colours_share = .2;       // of the others: those that show only their lines
-  std::string drawings;               // folder of drawings with joints.json and mask.png; "": none
+  std::vector<std::string> drawings;  // folders of drawings with joints, see findJointedDrawings()
   std::optional<double> drawn_share;  // of figures that come from them
   std::optional<double> left_out;     // share of the drawings that only measure, before and after
   std::vector<int> held_back;         // body kinds not trained on

@@ -1,5 +1,6 @@
 // list and retarget, as a user runs them.
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include "libskel/animation/clip_file.h"
@@ -67,6 +68,13 @@ TEST_CASE("retarget writes a character, a clip or a BVH, and says what it matche
   CHECK(runTool(kTool + " retarget " + kMotions + "nameless.bvh --name step" + to + dir.file("b.clip.json"))
             .exit_code == 0);
   CHECK(readClipFile(dir.file("b.clip.json")).name == "step");
+
+  CHECK(runTool(kTool + " retarget cheer" + to + dir.file("d.glb")).exit_code == 0);
+  const CharacterFile cheering = readGlb(dir.file("d.glb"));
+  REQUIRE(cheering.clips.size() == 2);
+  CHECK(cheering.clips[1].name == "cheer");
+  CHECK(runTool(kTool + " retarget graze" + to + dir.file("e.glb")).exit_code == 1);
+  CHECK_FALSE(std::filesystem::exists(dir.file("e.glb")));
 
   checkFails("retarget " + kMotions + "cmu.bvh" + to + dir.file("c.fbx"), 1,
              dir.file("c.fbx") + ": must end in .glb, .clip.json or .bvh");
