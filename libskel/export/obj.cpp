@@ -43,13 +43,11 @@ std::vector<ExportedFile> exportObj(const ExportInput& input) {
   }
 
   std::string mtl = "newmtl drawing\nKd 1 1 1\nKs 0 0 0\n";
+  if (textured) mtl += "map_Kd " + name + ".png\n";
   std::vector<ExportedFile> files;
-  if (textured) {
-    mtl += "map_Kd " + name + ".png\n";
-    files.push_back({".png", encodePng(mesh.texture)});
-  }
+  files.push_back({".obj", std::move(obj)});  // first: it is what was asked for
   files.push_back({".mtl", std::move(mtl)});
-  files.push_back({".obj", std::move(obj)});
+  if (textured) files.push_back({".png", encodePng(mesh.texture)});
   return files;
 }
 

@@ -121,11 +121,12 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     if (!own_view) input.model->model_from_image = bindByBoundingBox(silhouette.mask, *input.model);
     return std::move(*input.model);
   });
-  drawing.character.skeleton = timed("lift", [&] {
+  drawing.recognition.skeleton = timed("lift", [&] {
     Skeleton lifted = drawing.recognition.skeleton;
     liftToModel(lifted, drawing.character.mesh);
     return lifted;
   });
+  drawing.character.skeleton = drawing.recognition.skeleton;
   drawing.character.weights = timed("skin", [&] {
     return computeSkinWeights(drawing.character.mesh, drawing.character.skeleton, options.skin_method,
                               options.skin);

@@ -62,7 +62,7 @@ struct RiggedDrawing {
   CandidateSet candidates;
   Features features;
   ClassProbabilities classes;
-  Recognition recognition;
+  Recognition recognition;    // with positions in the model as it is drawn, whatever the rest pose
   RiggedCharacter character;  // empty if the silhouette has not been found
   std::vector<Clip> clips;    // retargeted to the rest pose
   std::vector<StageTime> times;
