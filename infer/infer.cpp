@@ -87,6 +87,9 @@ std::vector<Job> jobsOf(const InferOptions& options) {
   return jobs;
 }
 
+// What --back names, if it is a file.
+bool isPicture(const std::string& back) { return !back.empty() && back != "plain" && back != "same"; }
+
 void checkUsage(const InferOptions& options) {
   const auto single = [&](const std::string& file, const char* option) {
     if (!file.empty() && options.images.size() > 1)
@@ -96,6 +99,7 @@ void checkUsage(const InferOptions& options) {
   single(options.mask_file, "--mask");
   single(options.skeleton_file, "--skeleton");
   single(options.model_file, "--model");
+  if (isPicture(options.back)) single(options.back, "--back FILE");
   if (options.images.empty() && options.model_file.empty())
     throw UsageError("name an image, or --model; see --help");
   if (options.images.empty() && !options.mask_file.empty())
@@ -200,8 +204,10 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
                        "belongs to an image of " + sizeText(given->image_width, given->image_height) +
                            " px, " + job.source + " has " + sizeText(input.image.width, input.image.height));
     input.skeleton = given->skeleton;
+    input.turned_deg = given->figure.turned_deg;
   }
   const auto mask = useMask(options, given, input);
+  if (isPicture(options.back)) input.back = readImage(options.back);
 
   RigOptions figure_rig = rig;
   figure_rig.silhouette.figure = std::max(figure, 1);
@@ -315,6 +321,13 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--rest-pose", options.rest_pose, "How the character stands when nothing moves it")
       ->check(namesOf(kRestPoseNames));
   app.add_option("--names", options.naming, "What exported joints are called")->check(namesOf(kNamingNames));
+  app.add_option(
+         "--back", options.back,
+         "What the model wears behind: plain (its colours without the face), same (the drawing), or a\n"
+         "picture of it from behind (default: plain; same for an animal, which is seen from the side)")
+      ->always_capture_default(false);
+  app.add_option("--height", options.height_m, "Of the model, m; 0: 1.7, or 1.2 from end to end of an animal")
+      ->check(CLI::Range(0.0, 1000.0));
   app.add_option("--figure", options.figure, "Which figure of the drawing: 1 is the largest; or all");
   app.add_option("--mesh-spacing", options.mesh_spacing_px,
                  "Distance of mesh vertices where the figure is 128 px long; 0: chosen")

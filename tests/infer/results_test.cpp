@@ -170,3 +170,19 @@ TEST_CASE("script/build --help makes no folder") {
     CHECK_FALSE(fs::exists(SKEL_SOURCE_DIR "/build/" + argument));
   }
 }
+
+TEST_CASE("--back takes plain, same or a picture, and refuses what shows no figure") {
+  const TempDir dir;
+  for (const std::string back : {"plain", "same"})
+    CHECK(infer(dir, kDrawing + " --formats glb -o " + back + " --back " + back).exit_code == 0);
+  CHECK(readFile(dir.file("plain/cap_boy.glb")) != readFile(dir.file("same/cap_boy.glb")));
+  writeFile(dir.file("behind.png"), page({CapsuleFigure()}));
+  CHECK(infer(dir, kDrawing + " --formats glb -o own --back behind.png").exit_code == 0);
+  Image white(100, 100);
+  white.rgba.setConstant(255);
+  writeFile(dir.file("white.png"), encodePng(white));
+  const ToolRun none = infer(dir, kDrawing + " -o none --back white.png");
+  CHECK(none.exit_code == 1);
+  CHECK(contains(none.err, "the picture of the back shows no figure"));
+  CHECK(infer(dir, kDrawing + " --back nothing.png").exit_code == 2);
+}
