@@ -15,9 +15,10 @@
 namespace skel {
 namespace {
 
-constexpr int kWorkSize = 200;        // long side of the small picture that decides, px
-constexpr int kRim_px = 3;            // of it: how near to the outline an area comes that lies at the rim
-constexpr double kLine = 0.022;       // half the width of what counts as a line, as a share of that long side
+constexpr int kWorkSize = 200;   // long side of the small picture that decides, px
+constexpr int kRim_px = 3;       // of it: how near to the outline an area comes that lies at the rim
+constexpr double kAtRim = 0.75;  // the least length of it along the rim, as a share of the root of its size
+constexpr double kLine = 0.022;  // half the width of what counts as a line, as a share of that long side
 constexpr double kLeastCore = 0.3;    // of an area: the blurred edges of lines have less
 constexpr double kLeastArea = 0.003;  // as a share of the figure's
 constexpr int kLineContrast = 40;     // of 255
@@ -342,7 +343,7 @@ class BackPainter {
       if (area_[i] < 0) continue;
       const Area& area = areas_[area_[i]];
       kept_[i] = area.size >= kLeastArea * figure_area && area.core >= kLeastCore * area.size &&
-                 area.at_rim >= 0.5 * kRim_px * std::sqrt(double(area.size)) &&
+                 area.at_rim >= kAtRim * kRim_px * std::sqrt(double(area.size)) &&
                  fromHead(place(i)) > kInsideHead && !(area_[i] == face_area && nearHead(place(i)));
       any |= kept_[i];
     }
