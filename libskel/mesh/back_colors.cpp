@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <queue>
 #include <vector>
 
@@ -92,21 +93,22 @@ std::vector<float> distanceToRim(const Small& small) {
 
 // The greatest (`grow`) or least value within `radius` px each way, of the figure alone.
 std::vector<float> extreme(const Small& small, std::vector<float> values, int radius, bool grow) {
+  const float sign = grow ? 1 : -1;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = small.figure[i] ? sign * values[i] : std::numeric_limits<float>::lowest();
   for (const bool across : {true, false}) {
+    const int length = across ? small.width : small.height, stride = across ? 1 : small.width;
     std::vector<float> result = values;
-    for (int y = 0; y < small.height; ++y)
-      for (int x = 0; x < small.width; ++x) {
-        if (!small.holds(x, y)) continue;
-        float& best = result[small.index(x, y)];
-        for (int step = -radius; step <= radius; ++step) {
-          const int u = across ? x + step : x, v = across ? y : y + step;
-          if (!small.holds(u, v)) continue;
-          const float value = values[small.index(u, v)];
-          best = grow ? std::max(best, value) : std::min(best, value);
-        }
-      }
+    for (int i = 0; i < int(values.size()); ++i) {
+      if (!small.figure[i]) continue;
+      const int at = across ? i % small.width : i / small.width;
+      const int last = std::min(radius, length - 1 - at);
+      for (int step = -std::min(radius, at); step <= last; ++step)
+        result[i] = std::max(result[i], values[i + step * stride]);
+    }
     values = std::move(result);
   }
+  for (float& value : values) value *= sign;
   return values;
 }
 
@@ -271,16 +273,11 @@ class BackPainter {
     return fromHead(p) < kHeadReach && (p - head_->center).dot(head_->up) > -kBelowHead * head_->radius;
   }
 
-  bool isAtRim(int i) const {
-    const int x = i % small_.width, y = i / small_.width;
-    for (int v = y - kRim_px; v <= y + kRim_px; ++v)
-      for (int u = x - kRim_px; u <= x + kRim_px; ++u)
-        if (!small_.holds(u, v) || outline_[small_.index(u, v)]) return true;
-    return false;
-  }
-
   void findAreas() {
     area_.assign(small_.figure.size(), -1);
+    Small inside = small_;
+    for (std::size_t i = 0; i < outline_.size(); ++i) inside.figure[i] &= !outline_[i];
+    const std::vector<float> to_rim = distanceToRim(inside);
     std::vector<int> open;
     for (int start = 0; start < int(area_.size()); ++start) {
       if (!small_.figure[start] || lines_.line[start] || area_[start] >= 0) continue;
@@ -290,7 +287,7 @@ class BackPainter {
       area_[start] = id;
       for (std::size_t next = 0; next < open.size(); ++next) {
         const int i = open[next];
-        const bool at_rim = isAtRim(i);
+        const bool at_rim = to_rim[i] <= kRim_px;
         area.at_rim += at_rim;
         area.in_head += fromHead(place(i)) < kInsideHead;
         area.at_head_rim += at_rim && nearHead(place(i));

@@ -51,7 +51,7 @@ CapsuleFigure thinStickMan() {
 
 }  // namespace
 
-TEST_CASE("--figure all, then --skeleton page-2: the second skeleton stays on the second figure") {
+TEST_CASE("after --figure all, --skeleton page-2: the second skeleton stays on the second figure") {
   const TempDir dir;
   CapsuleFigure small;
   small.size = 300;
@@ -128,7 +128,7 @@ TEST_CASE("a rest pose is no edit") {
   CHECK(infer(dir, kDrawing + " --rest-pose T").exit_code == 0);
 }
 
-TEST_CASE("--formats obj reports the .obj, not a .png") {
+TEST_CASE("option --formats obj reports the .obj, not a .png") {
   const TempDir dir;
   CHECK(contains(infer(dir, kDrawing + " --formats obj").out, ": out/cap_boy.obj  confidence"));
 }
@@ -171,7 +171,7 @@ TEST_CASE("script/build --help makes no folder") {
   }
 }
 
-TEST_CASE("--back takes plain, same or a picture, and refuses what shows no figure") {
+TEST_CASE("option --back takes plain, same or a picture, and refuses what shows no figure") {
   const TempDir dir;
   for (const std::string back : {"plain", "same"})
     CHECK(infer(dir, kDrawing + " --formats glb -o " + back + " --back " + back).exit_code == 0);
