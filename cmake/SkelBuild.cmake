@@ -56,6 +56,7 @@ function(skel_tool name)
   add_executable(${name} ${ARG_SOURCES})
   list(TRANSFORM ARG_ROOMS PREPEND skel_)
   target_link_libraries(${name} PRIVATE skel_options ${ARG_ROOMS} ${ARG_PRIVATE})
+  target_compile_definitions(${name} PRIVATE SKEL_VERSION="${PROJECT_VERSION}")
 endfunction()
 
 # skel_test(NAME SOURCES file... [ROOMS room...] [PRIVATE lib...] [TIMEOUT s]): Catch2 tests of one room, test_NAME.

@@ -14,6 +14,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/mesh/read_mesh.h"
 #include "libskel/pipeline/trace.h"
+#include "libskel/skeleton/outside_figure.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -41,6 +42,37 @@ struct Outcome {
 
 std::string stemOf(const std::string& path) { return fs::path(path).stem().string(); }
 
+// Whether `image`, one of several, is what skel-infer has written of a drawing (or the mask beside one)
+// rather than a drawing: its drawing is among the others, or its skeleton file lies beside it. So `*.png` in
+// a folder of results rigs the drawings alone.
+bool isResult(const std::string& image, const std::vector<std::string>& images) {
+  if (images.size() < 2) return false;
+  const std::string name = fs::path(image).filename().string();
+  for (const std::string_view ending : {".overlay.png", ".silhouette.png", ".mask.png"}) {
+    if (!name.ends_with(ending)) continue;
+    const std::string stem = name.substr(0, name.size() - ending.size());
+    return fs::exists(fs::path(image).replace_filename(stem + ".skeleton.json")) ||
+           std::any_of(images.begin(), images.end(), [&](const std::string& other) {
+             return fs::path(other).parent_path() == fs::path(image).parent_path() && stemOf(other) == stem;
+           });
+  }
+  return false;
+}
+
+std::vector<std::string> drawingsAmong(const std::vector<std::string>& images) {
+  std::vector<std::string> drawings;
+  for (const std::string& image : images) {
+    if (isResult(image, images))
+      std::fprintf(stderr, "skel-infer: note: %s is no drawing but what was made of one: left out\n",
+                   image.c_str());
+    else
+      drawings.push_back(image);
+  }
+  if (drawings.empty() && !images.empty())
+    throw UsageError("none of the images is a drawing; name one of them alone to rig it all the same");
+  return drawings;
+}
+
 std::vector<Job> jobsOf(const InferOptions& options) {
   std::vector<Job> jobs;
   for (const std::string& image : options.images) jobs.push_back({image, stemOf(image)});
@@ -55,6 +87,9 @@ std::vector<Job> jobsOf(const InferOptions& options) {
   return jobs;
 }
 
+// What --back names, if it is a file.
+bool isPicture(const std::string& back) { return !back.empty() && back != "plain" && back != "same"; }
+
 void checkUsage(const InferOptions& options) {
   const auto single = [&](const std::string& file, const char* option) {
     if (!file.empty() && options.images.size() > 1)
@@ -64,6 +99,7 @@ void checkUsage(const InferOptions& options) {
   single(options.mask_file, "--mask");
   single(options.skeleton_file, "--skeleton");
   single(options.model_file, "--model");
+  if (isPicture(options.back)) single(options.back, "--back FILE");
   if (options.images.empty() && options.model_file.empty())
     throw UsageError("name an image, or --model; see --help");
   if (options.images.empty() && !options.mask_file.empty())
@@ -97,11 +133,59 @@ std::optional<SkeletonFile::Mask> useMask(const InferOptions& options,
   return SkeletonFile::Mask{pathSeenFrom(options.out_dir + "/", path), sha256(readFile(path))};
 }
 
+// The skeleton says which figure it belongs to; a number that was asked for must be that one.
+int figureOf(const InferOptions& options, const SkeletonFile& given, int asked) {
+  if (asked != 1 && asked != given.figure.number)
+    throw InputError(options.skeleton_file, "belongs to figure " + std::to_string(given.figure.number) +
+                                                " of the drawing, --figure asks for " +
+                                                std::to_string(asked));
+  return given.figure.number;
+}
+
+// What was made of one of several figures keeps its name.
+std::string stemOf(const InferOptions& options, const Job& job, int figure) {
+  if (options.figure == "all") return job.stem + "-" + std::to_string(figure);
+  const std::string from = fs::path(options.skeleton_file).filename().string(), start = job.stem + "-";
+  constexpr std::string_view kEnding = ".skeleton.json";
+  if (!from.starts_with(start) || !from.ends_with(kEnding)) return job.stem;
+  const std::string number = from.substr(start.size(), from.size() - start.size() - kEnding.size());
+  const bool numbered = !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+  return numbered ? start + number : job.stem;
+}
+
+// The joints must be this figure's.
+void checkJoints(const InferOptions& options, const SkeletonFile& given, const Plane8& mask) {
+  const Joint* stray = jointFarOutside(given.skeleton, mask);
+  if (!stray) return;
+  throw InputError(options.skeleton_file, "joint \"" + stray->name + "\" lies far outside figure " +
+                                              std::to_string(given.figure.number) +
+                                              " of the drawing; place it on the figure, or take the "
+                                              "skeleton of this one");
+}
+
+// What to say of a figure whose joints were given.
+std::vector<std::string> warningsOf(const SkeletonFile& given, const RiggedDrawing& drawing, bool own_mask) {
+  std::vector<std::string> warnings = drawing.silhouette.warnings;
+  // What was said of joints before somebody moved them is stale.
+  const auto& joints = given.skeleton.joints;
+  if (std::none_of(joints.begin(), joints.end(),
+                   [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; }))
+    for (const std::string& warning : given.warnings)
+      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+  if (!own_mask && !given.figure.sha256.empty() && given.figure.sha256 != outlineHash(drawing.silhouette))
+    warnings.push_back("the figure is not outlined as it was when the joints were found: look at them");
+  return warnings;
+}
+
 // Rigs one figure and writes its files. Returns how many figures there are in the drawing.
 int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job, int figure,
               Outcome& outcome) {
-  const std::string stem =
-      options.figure == "all" && figure > 0 ? job.stem + "-" + std::to_string(figure) : job.stem;
+  std::optional<SkeletonFile> given;
+  if (!options.skeleton_file.empty()) {
+    given = readSkeletonFile(options.skeleton_file, rig.body_plan);
+    figure = figureOf(options, *given, figure);
+  }
+  const std::string stem = stemOf(options, job, figure);
   const std::string skeleton_path = options.out_dir + "/" + stem + ".skeleton.json";
   const bool writes_skeleton = std::count(options.formats.begin(), options.formats.end(), "json") > 0;
   std::error_code no_file;
@@ -114,37 +198,40 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
   RigInput input;
   if (!options.images.empty()) input.image = readImage(job.source);
   if (!options.model_file.empty()) input.model = readMesh(options.model_file);
-  std::optional<SkeletonFile> given;
-  if (!options.skeleton_file.empty()) {
-    given = readSkeletonFile(options.skeleton_file, rig.body_plan);
+  if (given) {
     if (given->image_width != input.image.width || given->image_height != input.image.height)
       throw InputError(options.skeleton_file,
                        "belongs to an image of " + sizeText(given->image_width, given->image_height) +
                            " px, " + job.source + " has " + sizeText(input.image.width, input.image.height));
     input.skeleton = given->skeleton;
+    input.turned_deg = given->figure.turned_deg;
   }
   const auto mask = useMask(options, given, input);
+  if (isPicture(options.back)) input.back = readImage(options.back);
 
   RigOptions figure_rig = rig;
   figure_rig.silhouette.figure = std::max(figure, 1);
   RiggedDrawing drawing = rigCharacter(std::move(input), figure_rig);
   if (!drawing.found()) throw InputError(job.source, drawing.silhouette.reason);
+  std::vector<std::string> warnings = drawing.silhouette.warnings;
   if (given) {
+    checkJoints(options, *given, drawing.silhouette.mask);
     drawing.recognition.confidence = given->confidence;
     drawing.recognition.missing = given->missing;
-    drawing.recognition.warnings = given->warnings;
+    warnings = warningsOf(*given, drawing, mask.has_value());
+  } else {
+    warnings.insert(warnings.end(), drawing.recognition.warnings.begin(), drawing.recognition.warnings.end());
   }
 
   SkeletonFile file;
   file.image_file = pathSeenFrom(skeleton_path, job.source);
   file.image_width = drawing.image.width;
   file.image_height = drawing.image.height;
-  file.skeleton = drawing.character.skeleton;
+  file.figure = {figure, outlineHash(drawing.silhouette), drawing.recognition.turned_deg};
+  file.skeleton = drawing.recognition.skeleton;
   file.confidence = drawing.recognition.confidence;
   file.missing = drawing.recognition.missing;
-  file.warnings = drawing.silhouette.warnings;
-  file.warnings.insert(file.warnings.end(), drawing.recognition.warnings.begin(),
-                       drawing.recognition.warnings.end());
+  file.warnings = std::move(warnings);
   file.mask = mask;
 
   const std::vector<std::string> written = writeOutputs(options, stem, drawing, file);
@@ -154,9 +241,10 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
 
   char line[64];
   std::snprintf(line, sizeof line, "  confidence %.2f\n", file.confidence);
-  outcome.report += job.source + ": " + (written.empty() ? "nothing to write" : written.front()) + line;
-  for (const std::string& warning : file.warnings)
-    outcome.complaints += job.source + ": note: " + warning + "\n";
+  const std::string source =
+      options.figure == "all" ? job.source + ", figure " + std::to_string(figure) : job.source;
+  outcome.report += source + ": " + (written.empty() ? "nothing to write" : written.front()) + line;
+  for (const std::string& warning : file.warnings) outcome.complaints += source + ": note: " + warning + "\n";
   if (options.timings) {
     double total = 0;
     for (const StageTime& time : drawing.times) {
@@ -233,6 +321,13 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--rest-pose", options.rest_pose, "How the character stands when nothing moves it")
       ->check(namesOf(kRestPoseNames));
   app.add_option("--names", options.naming, "What exported joints are called")->check(namesOf(kNamingNames));
+  app.add_option(
+         "--back", options.back,
+         "What the model wears behind: plain (its colours without the face), same (the drawing), or a\n"
+         "picture of it from behind (default: plain; same for an animal, which is seen from the side)")
+      ->always_capture_default(false);
+  app.add_option("--height", options.height_m, "Of the model, m; 0: 1.7, or 1.2 from end to end of an animal")
+      ->check(CLI::Range(0.0, 1000.0));
   app.add_option("--figure", options.figure, "Which figure of the drawing: 1 is the largest; or all");
   app.add_option("--mesh-spacing", options.mesh_spacing_px,
                  "Distance of mesh vertices where the figure is 128 px long; 0: chosen")
@@ -246,8 +341,10 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.add_flag("--force", options.force, "Overwrite a skeleton that was edited by hand");
 }
 
-ExitCode runInfer(const InferOptions& options) {
-  checkUsage(options);
+ExitCode runInfer(const InferOptions& asked) {
+  checkUsage(asked);
+  InferOptions options = asked;
+  options.images = drawingsAmong(asked.images);
   const std::vector<Job> jobs = jobsOf(options);
   const RigOptions rig = rigOptions(options);
   noteUnusedWeights(options);

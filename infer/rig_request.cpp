@@ -21,6 +21,9 @@ RigOptions rigOptions(const InferOptions& options) {
   rig.skin_method = kSkinNames.at(options.skin);
   rig.skin.max_influences = options.max_influences;
   rig.inflate.spacing_px = options.mesh_spacing_px;
+  if (options.back == "same") rig.back = Back::kSame;
+  if (options.back == "plain") rig.back = Back::kPlain;
+  rig.height_m = options.height_m;
   rig.rest_pose = kRestPoseNames.at(options.rest_pose);
   if (!options.joint_net_file.empty())
     rig.joint_net = std::make_shared<const JointNet>(

@@ -42,8 +42,16 @@ std::shared_ptr<const Figure> figureOf(Silhouette silhouette, const Mlp& mlp) {
   return figure;
 }
 
-std::shared_ptr<const Figure> figureOf(const Image& image, const MaskVersion* mask, const Mlp& mlp) {
-  return figureOf(mask ? silhouetteFromMask(mask->pixels) : extractSilhouette(image), mlp);
+// `number`: which figure of the picture, or of the mask, if that holds so many: one that was painted for a
+// figure holds that one alone.
+std::shared_ptr<const Figure> figureOf(const Image& image, const MaskVersion* mask, int number,
+                                       const Mlp& mlp) {
+  SilhouetteOptions options;
+  options.figure = number;
+  if (!mask) return figureOf(extractSilhouette(image, options), mlp);
+  Silhouette silhouette = silhouetteFromMask(mask->pixels, options);
+  if (!silhouette.found() && number > 1) silhouette = silhouetteFromMask(mask->pixels);
+  return figureOf(std::move(silhouette), mlp);
 }
 
 // A candidate takes over the label of the nearest old one in whose disc it lies.
@@ -248,6 +256,8 @@ Document::Document(const std::string& path, DocumentOptions options)
   load(unfinished == items_.end() ? 0 : static_cast<int>(unfinished - items_.begin()));
 }
 
+int Document::figureNumber() const { return skeleton_file_ ? skeleton_file_->figure.number : 1; }
+
 bool Document::go(int item) {
   if (open_step_) endStep();
   if (item < 0 || item >= static_cast<int>(items_.size())) return false;
@@ -308,7 +318,7 @@ void Document::loadDrawing() {
   }
   if (!opened_mask_) opened_mask_ = saved_mask_;
   state_.mask = opened_mask_;
-  figure_ = figureOf(image_, state_.mask.get(), options_.mlp);
+  figure_ = figureOf(image_, state_.mask.get(), figureNumber(), options_.mlp);
   state_.labels.resize(figure_->centers_px.size());
   if (labels) {
     if (labels->image.sha256 != image_sha256_)
@@ -459,7 +469,7 @@ void Document::takeJointsOfFrameBefore() {
 }
 
 bool Document::replaceMask(std::shared_ptr<const MaskVersion> mask) {
-  auto figure = figureOf(image_, mask.get(), options_.mlp);
+  auto figure = figureOf(image_, mask.get(), figureNumber(), options_.mlp);
   if (!figure->silhouette.found()) {
     message_ = "that would leave no figure: " + figure->silhouette.reason;
     return false;
@@ -511,6 +521,7 @@ void Document::rigOrThrow() {
   options.mlp = options_.mlp;
   options.body_plan = options_.body_plan;
   options.recognizer = options_.recognizer;
+  options.silhouette.figure = std::min(figureNumber(), std::max(1, figure_->silhouette.figure_count));
   // The one clip that the preview plays.
   for (const Clip& clip : clipsFor(builtinClips(), options_.body_plan))
     if (clip.name == "wave" || clip.name == "wag") options.clips = {clip};
@@ -560,7 +571,7 @@ bool Document::travel(std::deque<Step>& from, std::deque<Step>& to, DrawingState
   const auto mask = same_mask ? state_.mask : (step.*target).mask;
   state_ = step.*target;
   state_.mask = mask;
-  if (!same_mask) figure_ = figureOf(image_, state_.mask.get(), options_.mlp);
+  if (!same_mask) figure_ = figureOf(image_, state_.mask.get(), figureNumber(), options_.mlp);
   if (!same_mask || !same_joints) rigged_.reset();
   message_ = &from == &undo_ ? "undone" : "done again";
   to.push_back(step);
@@ -634,6 +645,14 @@ void Document::writeSkeletonFile() {
     joint.confidence = place->confidence;
     joint.origin = place->origin;
     if (place->origin == JointOrigin::kEdited) std::erase(file.missing, joint.name);
+    // Joints that were found anew must not look as if somebody had moved them.
+    if (rigged_)
+      for (const Joint& lifted : rigged_->recognition.skeleton.joints)
+        if (lifted.name == joint.name && lifted.image == joint.image) joint.position = lifted.position;
+  }
+  if (const Silhouette& silhouette = figure_->silhouette; silhouette.found()) {
+    file.figure.number = std::min(figureNumber(), silhouette.figure_count);
+    file.figure.sha256 = outlineHash(silhouette);
   }
   if (!state_.mask)
     file.mask.reset();
@@ -642,6 +661,10 @@ void Document::writeSkeletonFile() {
   else
     file.mask = SkeletonFile::Mask{pathSeenFrom(path_, besideFile(item().files.image, state_.mask->file)),
                                    state_.mask->sha256};
+  // What was said of joints before somebody moved them is stale.
+  if (std::any_of(file.skeleton.joints.begin(), file.skeleton.joints.end(),
+                  [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; }))
+    file.warnings.clear();
   writeFile(path_, formatSkeletonFile(file));
 }
 

@@ -151,6 +151,7 @@ class Document {
   bool travel(std::deque<Step>& from, std::deque<Step>& to, DrawingState Step::*target);
   void save();
   void writeFiles();
+  int figureNumber() const;  // of the drawing, as the skeleton file says
   void writeSkeletonFile();
   void writeMotionFile();
   void count();

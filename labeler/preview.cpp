@@ -25,9 +25,10 @@ bool Preview::draw(const RiggedDrawing& rigged, float width, float height) {
   if (!resting_) {
     const float share = std::min(time_s / duration_s, 1.f);
     const Pose pose = samplePose(clip, character.skeleton, share * duration_s);
+    const auto heights = character.mesh.vertices.col(1);
     const Eigen::MatrixX3f vertices =
         skinVertices(character.mesh.vertices, character.weights,
-                     posedFromRest(character.skeleton, pose, float(kModelHeight_m)));
+                     posedFromRest(character.skeleton, pose, heights.maxCoeff() - heights.minCoeff()));
     RenderOptions options;
     options.width = std::max(1, static_cast<int>(width));
     options.height = std::max(1, static_cast<int>(height));

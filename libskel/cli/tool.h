@@ -14,9 +14,10 @@
 namespace skel {
 
 // Parses argv into `app`, then calls run(), which returns the exit code. CLI11's own codes become 1 (wrong
-// usage).
+// usage). SKEL_VERSION is the project's, given to every tool (cmake/SkelBuild.cmake).
 inline int runTool(CLI::App& app, int argc, char** argv, const std::function<ExitCode()>& run) {
   std::setlocale(LC_ALL, "C");
+  app.set_version_flag("--version", app.get_name() + " " SKEL_VERSION, "Print the version and exit");
   const auto say = [&](const std::exception& error, ExitCode code) {
     std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.what());
     return static_cast<int>(code);

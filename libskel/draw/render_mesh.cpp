@@ -49,7 +49,7 @@ Image textureAsSeen(const TriangleMesh& mesh, const std::vector<Vector3f>& scree
   double seen = 0, held = 0;
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     const RowVector3i v = mesh.triangles.row(t);
-    const RowVector2f a = mesh.uv.row(v[0]), b = mesh.uv.row(v[1]), c = mesh.uv.row(v[2]);
+    const RowVector2f a = mesh.uvOf(t, 0), b = mesh.uvOf(t, 1), c = mesh.uvOf(t, 2);
     seen += std::abs(cross2(screen[v[0]], screen[v[1]], screen[v[2]]));
     held += std::abs(cross2(a, b, c));
   }
@@ -125,6 +125,8 @@ Image renderMesh(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, con
     if (a.z() <= 0 || b.z() <= 0 || c.z() <= 0) continue;  // behind the eye
     const float area = cross2(a, b, c);
     if (area == 0) continue;
+    RowVector2f uv[3];
+    for (int k = 0; k < 3 && textured; ++k) uv[k] = mesh.uvOf(t, k);
     const int x0 = std::max(0, int(std::ceil(std::min({a.x(), b.x(), c.x()}))));
     const int x1 = std::min(width - 1, int(std::floor(std::max({a.x(), b.x(), c.x()}))));
     const int y0 = std::max(0, int(std::ceil(std::min({a.y(), b.y(), c.y()}))));
@@ -142,9 +144,7 @@ Image renderMesh(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, con
         front = z;
         const float pa = wa * a.z() / z, pb = wb * b.z() / z, pc = wc * c.z() / z;
         RowVector3f color = options.plain_rgb.transpose();
-        if (textured)
-          color = texel(texture, pa * mesh.uv.row(v[0]) + pb * mesh.uv.row(v[1]) + pc * mesh.uv.row(v[2]),
-                        repeat);
+        if (textured) color = texel(texture, pa * uv[0] + pb * uv[1] + pc * uv[2], repeat);
         const RowVector3f normal =
             (pa * normals.row(v[0]) + pb * normals.row(v[1]) + pc * normals.row(v[2])).normalized();
         // Full light on what faces it within 45°, so that most of the front shows the drawing's own colours.

@@ -109,8 +109,7 @@ std::string encodeBvh(const ExportInput& input, const Clip& clip) {
 std::vector<ExportedFile> exportBvh(const ExportInput& input) {
   if (input.clips.empty()) return {{".bvh", encodeBvh(input, Clip())}};
   std::vector<ExportedFile> files;
-  for (const Clip& clip : input.clips)
-    files.push_back({input.clips.size() == 1 ? ".bvh" : "." + clip.name + ".bvh", encodeBvh(input, clip)});
+  for (const Clip& clip : input.clips) files.push_back({"-" + clip.name + ".bvh", encodeBvh(input, clip)});
   return files;
 }
 

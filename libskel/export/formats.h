@@ -40,7 +40,8 @@ std::vector<ExportedFile> exportGlb(const ExportInput& input);
 std::vector<ExportedFile> exportObj(const ExportInput& input);
 // weights: the skin as .weights.json, vertices in the order of the .obj and the .glb.
 std::vector<ExportedFile> exportWeights(const ExportInput& input);
-// bvh: hierarchy and motion, one file a clip, or the rest pose if there is none. Centimetres, degrees, y up.
+// bvh: hierarchy and motion, one file a clip (-<clip>.bvh), or the rest pose if there is none (.bvh).
+// Centimetres, degrees, y up.
 std::vector<ExportedFile> exportBvh(const ExportInput& input);
 // char_cfg: a folder as AnimatedDrawings reads it, with char_cfg.yaml, mask.png and texture.png. Throws
 // UsageError without drawing and mask, or if the skeleton is not a biped.

@@ -13,6 +13,7 @@
 #include "libskel/export/joint_names.h"
 #include "libskel/export/write_character.h"
 #include "libskel/image/write_image.h"
+#include "libskel/mesh/split_seams.h"
 #include "libskel/mesh/vertex_normals.h"
 
 namespace skel {
@@ -186,8 +187,21 @@ int addMaterial(GlbBuilder& glb, const TriangleMesh& mesh, const std::string& na
   return 0;
 }
 
+template <class Matrix>
+Matrix rowsOf(const Matrix& matrix, const std::vector<int>& rows) {
+  Matrix result(Eigen::Index(rows.size()), matrix.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) result.row(Eigen::Index(i)) = matrix.row(rows[i]);
+  return result;
+}
+
 int addMesh(GlbBuilder& glb, const RiggedCharacter& character, const std::string& name) {
-  const TriangleMesh& mesh = character.mesh;
+  const SplitMesh split = splitSeams(character.mesh);
+  const TriangleMesh& mesh = split.mesh;
+  // Of the whole mesh, so that no edge shows where it is parted.
+  const Eigen::MatrixX3f normals = vertexNormals(character.mesh.vertices, character.mesh.triangles);
+  SkinWeights skin;
+  skin.joints = rowsOf(character.weights.joints, split.source);
+  skin.weights = rowsOf(character.weights.weights, split.source);
   constexpr int kVertices = TINYGLTF_TARGET_ARRAY_BUFFER;
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
@@ -195,13 +209,13 @@ int addMesh(GlbBuilder& glb, const RiggedCharacter& character, const std::string
   primitive.indices = addTriangles(glb, mesh);
   primitive.attributes["POSITION"] =
       glb.addBoundedAccessor(rowByRow(mesh.vertices), 3, TINYGLTF_TYPE_VEC3, kVertices);
-  primitive.attributes["NORMAL"] = glb.addAccessor(rowByRow(vertexNormals(mesh.vertices, mesh.triangles)), 3,
-                                                   TINYGLTF_TYPE_VEC3, kVertices);
+  primitive.attributes["NORMAL"] =
+      glb.addAccessor(rowByRow(rowsOf(normals, split.source)), 3, TINYGLTF_TYPE_VEC3, kVertices);
   if (!glb.model.textures.empty()) primitive.attributes["TEXCOORD_0"] = addTextureCoordinates(glb, mesh);
-  const std::vector<std::uint16_t> weights = quantizedWeights(character.weights);
+  const std::vector<std::uint16_t> weights = quantizedWeights(skin);
   primitive.attributes["JOINTS_0"] = character.skeleton.joints.size() <= 256
-                                         ? addJointIndices<std::uint8_t>(glb, character.weights, weights)
-                                         : addJointIndices<std::uint16_t>(glb, character.weights, weights);
+                                         ? addJointIndices<std::uint8_t>(glb, skin, weights)
+                                         : addJointIndices<std::uint16_t>(glb, skin, weights);
   primitive.attributes["WEIGHTS_0"] = glb.addAccessor(weights, 4, TINYGLTF_TYPE_VEC4, kVertices, true);
   tinygltf::Mesh result;
   result.name = name;

@@ -31,25 +31,30 @@ std::vector<ExportedFile> exportObj(const ExportInput& input) {
   if (textured)
     for (Eigen::Index i = 0; i < mesh.uv.rows(); ++i)
       appendRow(obj, "vt", Eigen::RowVector2f(mesh.uv(i, 0), 1 - mesh.uv(i, 1)));
+  const bool parted = textured && mesh.back_uv.rows() == mesh.vertices.rows();
+  if (parted)
+    for (Eigen::Index i = 0; i < mesh.back_uv.rows(); ++i)
+      appendRow(obj, "vt", Eigen::RowVector2f(mesh.back_uv(i, 0), 1 - mesh.back_uv(i, 1)));
   for (Eigen::Index i = 0; i < normals.rows(); ++i) appendRow(obj, "vn", normals.row(i));
   obj += "usemtl drawing\n";
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     obj += 'f';
     for (int k = 0; k < 3; ++k) {
       const std::string index = std::to_string(mesh.triangles(t, k) + 1);
-      obj += " " + index + "/" + (textured ? index : "") + "/" + index;
+      const bool back = parted && t >= mesh.first_back;
+      const std::string corner =
+          back ? std::to_string(mesh.triangles(t, k) + 1 + mesh.vertices.rows()) : index;
+      obj += " " + index + "/" + (textured ? corner : "") + "/" + index;
     }
     obj += '\n';
   }
 
   std::string mtl = "newmtl drawing\nKd 1 1 1\nKs 0 0 0\n";
+  if (textured) mtl += "map_Kd " + name + ".png\n";
   std::vector<ExportedFile> files;
-  if (textured) {
-    mtl += "map_Kd " + name + ".png\n";
-    files.push_back({".png", encodePng(mesh.texture)});
-  }
+  files.push_back({".obj", std::move(obj)});  // first: it is what was asked for
   files.push_back({".mtl", std::move(mtl)});
-  files.push_back({".obj", std::move(obj)});
+  if (textured) files.push_back({".png", encodePng(mesh.texture)});
   return files;
 }
 

@@ -11,6 +11,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/import/glb_container.h"
 #include "libskel/import/read_character.h"
+#include "libskel/mesh/split_seams.h"
 #include "libskel/skeleton/template.h"
 
 namespace skel {
@@ -295,6 +296,24 @@ SkinWeights readWeights(const GlbContainer& glb, const JsonValue& primitive, con
   return result;
 }
 
+// A drawing's model is parted in the file where front and back wear different parts of the texture.
+void makeWhole(RiggedCharacter& character) {
+  std::optional<TriangleMesh> whole = joinSeams(character.mesh);
+  if (!whole) return;
+  SkinWeights& weights = character.weights;
+  const std::vector<int> source = splitSeams(*whole).source;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (weights.joints.row(row) != weights.joints.row(source[i]) ||
+        weights.weights.row(row) != weights.weights.row(source[i]))
+      return;
+  }
+  const Eigen::Index count = whole->vertices.rows();
+  weights.joints.conservativeResize(count, Eigen::NoChange);
+  weights.weights.conservativeResize(count, Eigen::NoChange);
+  character.mesh = std::move(*whole);
+}
+
 std::vector<float> readTimes(const GlbContainer& glb, const JsonValue& index) {
   const std::vector<float> times = glb.numbers(index, 1).values;
   for (std::size_t i = 0; i < times.size(); ++i)
@@ -402,6 +421,7 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
   character.skeleton = joints.skeleton;
   character.weights =
       readWeights(glb, primitives[0], joints, static_cast<std::size_t>(character.mesh.vertices.rows()));
+  makeWhole(character);
   if (const auto animations = glb.root().find("animations")) {
     const std::vector<JsonValue> all = animations->items();
     for (std::size_t i = 0; i < all.size(); ++i)

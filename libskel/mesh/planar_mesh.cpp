@@ -117,8 +117,10 @@ class Builder {
       if (!in(k)) continue;
       const bool before = in(k + 3), after = in(k + 1);
       if (!before && !after) {  // this corner alone
-        triangle(node(k), side(k), side(k + 3));
-        rim(side(k), side(k + 3));
+        // Who asks for a crossing first makes it: the order decides its number.
+        const int before_k = side(k + 3), after_k = side(k);
+        triangle(node(k), after_k, before_k);
+        rim(after_k, before_k);
       } else if (count == 2 && !before) {  // the corners k and k + 1
         const int a = node(k), b = node(k + 1), c = side(k + 1), d = side(k + 3);
         const auto& v = mesh_.vertices;

@@ -9,7 +9,7 @@
 namespace skel {
 namespace {
 
-constexpr int kMargin = 4;  // texels around the figure's box
+constexpr int kMargin = kTextureMargin;
 
 // Alpha is 255 where the colour is known, 0 where it is not.
 void pullPush(Image& image) {
@@ -120,6 +120,7 @@ DrawingTexture drawingTexture(const Image& image, const Plane8& mask, const Pixe
   } else {
     result.image.rgba.setConstant(255);
   }
+  result.figure = std::move(figure);
   const Eigen::Vector2d figure_corner(box.x0 - 0.5, box.y0 - 0.5);
   result.corner_px = figure_corner - Eigen::Vector2d::Constant(kMargin * shrink);
   result.size_px = shrink * Eigen::Vector2d(result.image.width, result.image.height);

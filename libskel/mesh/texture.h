@@ -8,8 +8,11 @@
 
 namespace skel {
 
+inline constexpr int kTextureMargin = 4;  // texels around the figure's box
+
 struct DrawingTexture {
-  Image image;  // opaque
+  Image image;    // opaque
+  Plane8 figure;  // of its size, 1 where a texel shows the figure
   // Image px to glTF texture coordinates.
   Eigen::Vector2d corner_px;  // of the texture's top left pixel, image px
   Eigen::Vector2d size_px;    // of the whole texture, image px

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "libskel/image/image.h"
 
@@ -12,12 +13,21 @@ namespace skel {
 struct ModelFromImage {
   Eigen::Vector2d scale = Eigen::Vector2d::Ones();      // m per image px, across and down; both positive
   Eigen::Vector2d origin_px = Eigen::Vector2d::Zero();  // the image point at model x = 0, y = 0
+  double turned_rad = 0;  // how far the figure is turned clockwise in the drawing; the model stands upright
 
   Eigen::Vector2d operator()(const Eigen::Vector2d& p) const {
-    return {(p.x() - origin_px.x()) * scale.x(), (origin_px.y() - p.y()) * scale.y()};
+    const Eigen::Vector2d d = upright(p - origin_px);
+    return {d.x() * scale.x(), -d.y() * scale.y()};
   }
   Eigen::Vector2d inverse(const Eigen::Vector2d& p) const {
-    return {p.x() / scale.x() + origin_px.x(), origin_px.y() - p.y() / scale.y()};
+    const Eigen::Vector2d d(p.x() / scale.x(), -p.y() / scale.y());
+    if (turned_rad == 0) return d + origin_px;
+    return Eigen::Rotation2Dd(turned_rad) * d + origin_px;
+  }
+  // Directions of the drawing, turned back.
+  Eigen::Vector2d upright(const Eigen::Vector2d& d) const {
+    if (turned_rad == 0) return d;
+    return Eigen::Rotation2Dd(-turned_rad) * d;
   }
 };
 
@@ -27,8 +37,18 @@ struct TriangleMesh {
   Eigen::MatrixX3f vertices;   // #V×3, m, model frame
   Eigen::MatrixX3i triangles;  // #F×3
   Eigen::MatrixX2f uv;  // #V×2, glTF: origin at the texture's top left corner, +v down; empty: no texture
+  // Where the back wears another part of the texture than the front: the triangles from `first_back` on take
+  // their coordinates from here. The mesh stays closed; splitSeams() parts it for formats. Empty: all take
+  // uv.
+  Eigen::MatrixX2f back_uv;  // #V×2
+  Eigen::Index first_back = 0;
   Image texture;
   ModelFromImage model_from_image;
+
+  Eigen::RowVector2f uvOf(Eigen::Index triangle, int corner) const {
+    const bool back = back_uv.rows() > 0 && triangle >= first_back;
+    return (back ? back_uv : uv).row(triangles(triangle, corner));
+  }
 };
 
 // The height of a model that skel makes.

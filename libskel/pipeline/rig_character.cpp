@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
+#include <numbers>
 
 #include "libskel/animation/retarget.h"
 #include "libskel/classifier/features.h"
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
+#include "libskel/core/segment.h"
 #include "libskel/deform/figure_shape.h"
 #include "libskel/jointnet/net_joints.h"
 #include "libskel/mesh/front_view.h"
@@ -70,6 +73,40 @@ Image picture(const Plane8& mask) {
   return image;
 }
 
+// The disc around the head joint that touches the outline first.
+std::optional<HeadDisc> headDisc(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
+                                 const Silhouette& silhouette, double turned_rad) {
+  if (body_plan.head < 0) return std::nullopt;
+  const int head = skeleton.find(body_plan.joints[static_cast<size_t>(body_plan.head)].name);
+  if (head < 0) return std::nullopt;
+  HeadDisc disc{skeleton.joints[static_cast<size_t>(head)].image, std::numeric_limits<double>::infinity(),
+                Eigen::Rotation2Dd(turned_rad) * Eigen::Vector2d(0, -1)};
+  for (const Polygon& polygon : silhouette.outline)
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      disc.radius = std::min(disc.radius,
+                             distanceToSegment(disc.center, polygon[i], polygon[(i + 1) % polygon.size()]));
+  return disc;
+}
+
+InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawing,
+                              const RigOptions& options) {
+  InflateOptions inflate = options.inflate;
+  inflate.back = options.back.value_or(options.body_plan.from_side ? Back::kSame : Back::kPlain);
+  if (options.height_m > 0)
+    inflate.height_m = options.height_m;
+  else
+    inflate.length_m = options.body_plan.length_m;
+  inflate.turned_rad = drawing.recognition.turned_deg * std::numbers::pi / 180;
+  inflate.head =
+      headDisc(drawing.recognition.skeleton, options.body_plan, drawing.silhouette, inflate.turned_rad);
+  if (input.back) {
+    const Silhouette behind = extractSilhouette(*input.back);
+    if (!behind.found()) throw UsageError("the picture of the back shows no figure: " + behind.reason);
+    inflate.back_picture = std::make_shared<const BackPicture>(BackPicture{*input.back, behind.mask});
+  }
+  return inflate;
+}
+
 }  // namespace
 
 RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
@@ -102,6 +139,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     Recognition found;
     if (input.skeleton) {
       found.skeleton = *input.skeleton;
+      found.turned_deg = input.turned_deg;
     } else if (options.recognizer == Recognizer::kPaper) {
       found = recognizeByRules(silhouette, drawing.candidates, drawing.classes, options.body_plan);
     } else {
@@ -117,15 +155,16 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   roundToFile(drawing.recognition.skeleton);
 
   drawing.character.mesh = timed("mesh", [&] {
-    if (!input.model) return inflate(drawing.image, silhouette, options.inflate);
+    if (!input.model) return inflate(drawing.image, silhouette, inflateOptions(input, drawing, options));
     if (!own_view) input.model->model_from_image = bindByBoundingBox(silhouette.mask, *input.model);
     return std::move(*input.model);
   });
-  drawing.character.skeleton = timed("lift", [&] {
+  drawing.recognition.skeleton = timed("lift", [&] {
     Skeleton lifted = drawing.recognition.skeleton;
     liftToModel(lifted, drawing.character.mesh);
     return lifted;
   });
+  drawing.character.skeleton = drawing.recognition.skeleton;
   drawing.character.weights = timed("skin", [&] {
     return computeSkinWeights(drawing.character.mesh, drawing.character.skeleton, options.skin_method,
                               options.skin);

@@ -27,6 +27,8 @@ struct RigInput {
   Image image;
   std::optional<Plane8> mask;         // the figure, given by hand; of the image's size
   std::optional<TriangleMesh> model;  // take this mesh instead of inflating the silhouette
+  std::optional<Image> back;          // the figure seen from behind, for the back of the model
+  int turned_deg = 0;                 // of the `skeleton`'s figure, clockwise against upright
   std::optional<Skeleton> skeleton;   // go on from these joints (image px) instead of recognising any
 };
 
@@ -43,7 +45,9 @@ struct RigOptions {
   Recognizer recognizer = Recognizer::kTree;
   bool upright = false;                       // the figure is not turned: try no other orientations
   std::shared_ptr<const JointNet> joint_net;  // null: the built-in one that knows the body plan
-  InflateOptions inflate;
+  InflateOptions inflate{.thin_outline = true};
+  std::optional<Back> back;  // nothing: kPlain, or kSame for a body plan that is drawn from the side
+  double height_m = 0;       // of the model; 0: the body plan's own
   SkinMethod skin_method = SkinMethod::kGeodesic;
   SkinOptions skin;
   RestPose rest_pose = RestPose::kDrawn;
@@ -62,7 +66,7 @@ struct RiggedDrawing {
   CandidateSet candidates;
   Features features;
   ClassProbabilities classes;
-  Recognition recognition;
+  Recognition recognition;    // with positions in the model as it is drawn, whatever the rest pose
   RiggedCharacter character;  // empty if the silhouette has not been found
   std::vector<Clip> clips;    // retargeted to the rest pose
   std::vector<StageTime> times;

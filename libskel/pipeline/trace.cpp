@@ -83,6 +83,7 @@ TriangleMesh weightsPainted(const RiggedCharacter& character) {
   TriangleMesh mesh = character.mesh;
   if (mesh.uv.rows() == 0) return mesh;
   mesh.texture = blankImage(512, 512, kGrey);
+  mesh.back_uv.resize(0, 2);
   const auto colorOf = [&](int v) {
     Eigen::Array3d color = Eigen::Array3d::Zero();
     for (int k = 0; k < 4; ++k)
@@ -120,7 +121,9 @@ Image views(const TriangleMesh& mesh) {
 Image posed(const RiggedDrawing& drawing, const Clip& clip, double share, int size) {
   const RiggedCharacter& character = drawing.character;
   const Pose pose = samplePose(clip, character.skeleton, static_cast<float>(share) * clip.duration_s());
-  const auto posed_from_rest = posedFromRest(character.skeleton, pose, static_cast<float>(kModelHeight_m));
+  const auto heights = character.mesh.vertices.col(1);
+  const auto posed_from_rest =
+      posedFromRest(character.skeleton, pose, heights.maxCoeff() - heights.minCoeff());
   const auto vertices = skinVertices(character.mesh.vertices, character.weights, posed_from_rest);
   return renderMesh(vertices, character.mesh, framingCamera(vertices, 0.4, 0.1),
                     {.width = size, .height = size});
@@ -141,20 +144,34 @@ Image clipsPicture(const RiggedDrawing& drawing) {
   return panels.empty() ? views(drawing.character.mesh) : montage(panels, {.columns = 4});
 }
 
-// Two moments that show at a glance that it moves: of the walk, if there is one.
-const Clip& tellingClip(const std::vector<Clip>& clips) {
-  const auto walk =
-      std::find_if(clips.begin(), clips.end(), [](const Clip& clip) { return clip.name == "walk"; });
-  return walk == clips.end() ? clips.front() : *walk;
+// The one of that name, or else the first.
+const Clip& clipOr(const std::vector<Clip>& clips, std::string_view name) {
+  const auto found =
+      std::find_if(clips.begin(), clips.end(), [&](const Clip& clip) { return clip.name == name; });
+  return found == clips.end() ? clips.front() : *found;
 }
 
-// From the drawing to the model that moves, in one row.
+// The model from the front, the side and behind, and waving, in one row.
+Image sides(const RiggedDrawing& drawing) {
+  const TriangleMesh& mesh = drawing.character.mesh;
+  constexpr int kSize = 240;
+  std::vector<Panel> panels;
+  for (const double yaw : {0.0, 1.5708, 3.1416})
+    panels.push_back({renderMesh(mesh.vertices, mesh, framingCamera(mesh.vertices, yaw, 0.05),
+                                 {.width = kSize, .height = kSize}),
+                      ""});
+  if (!drawing.clips.empty())
+    panels.push_back({posed(drawing, clipOr(drawing.clips, "wave"), 0.45, kSize), ""});
+  return montage(panels, {.gap_px = 4});
+}
+
+// From the drawing to the model that moves, in one row: two moments of the walk tell it at a glance.
 Image summary(const RiggedDrawing& drawing, const Image& skeleton) {
   std::vector<Panel> panels = {{fitted(onPaper(drawing.image), 420, 420), "the drawing"},
                                {fitted(skeleton, 420, 420), "its skeleton"}};
   if (drawing.clips.empty()) return montage(panels);
   for (const double share : {0.1, 0.6})
-    panels.push_back({posed(drawing, tellingClip(drawing.clips), share, 420), "the model, moving"});
+    panels.push_back({posed(drawing, clipOr(drawing.clips, "walk"), share, 420), "the model, moving"});
   return montage(panels);
 }
 
@@ -177,6 +194,7 @@ void writeTrace(const RiggedDrawing& drawing, const std::string& dir) {
   write("6-mesh.png", views(drawing.character.mesh));
   write("7-skin.png", views(weightsPainted(drawing.character)));
   write("8-posed.png", clipsPicture(drawing));
+  write("sides.png", sides(drawing));
   write("summary.png", summary(drawing, skeleton));
 }
 

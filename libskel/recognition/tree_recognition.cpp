@@ -58,8 +58,9 @@ Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
       warning += (i ? ", " : "; not found: ") + recognition.missing[i];
     recognition.warnings.push_back(warning);
   }
-  if (const long degrees = std::lround(tree.turned * 180 / std::numbers::pi); degrees != 0)
-    recognition.warnings.push_back("the figure is turned by " + std::to_string(degrees) +
+  recognition.turned_deg = static_cast<int>(std::lround(tree.turned * 180 / std::numbers::pi));
+  if (recognition.turned_deg != 0)
+    recognition.warnings.push_back("the figure is turned by " + std::to_string(recognition.turned_deg) +
                                    " degrees (if it is not, use --upright)");
   completeSkeleton(recognition.skeleton, placed, body_plan, silhouette);
   return recognition;

@@ -157,7 +157,7 @@ class GlPainter : public MeshPainter {
     attribute(0, 4, offsetof(Corner, place));
     attribute(1, 3, offsetof(Corner, color));
     attribute(2, 3, offsetof(Corner, corner));
-    if (!mesh.texture.empty() && mesh.uv.rows() == vertex_count_ && vertex_count_ > 0) loadTexture(mesh);
+    if (!mesh.texture.empty() && mesh.uv.rows() == vertex_count_ && triangles_.rows() > 0) loadTexture(mesh);
   }
 
   bool isConcurrent() const override { return false; }
@@ -206,7 +206,9 @@ class GlPainter : public MeshPainter {
 
  private:
   void loadTexture(const TriangleMesh& mesh) {
-    uv_ = mesh.uv;
+    uv_.resize(3 * mesh.triangles.rows(), 2);
+    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
+      for (int k = 0; k < 3; ++k) uv_.row(3 * t + k) = mesh.uvOf(t, k);
     const GLint wrap = uv_.minCoeff() < 0 || uv_.maxCoeff() > 1 ? GL_REPEAT : GL_CLAMP_TO_EDGE;
     glGenTextures(1, &texture_);
     glBindTexture(GL_TEXTURE_2D, texture_);
@@ -236,13 +238,9 @@ class GlPainter : public MeshPainter {
       const float lit = std::clamp(normals.row(i).dot(light) + kLightReach, 0.f, 1.f);
       Corner& corner = seen[std::size_t(i)];
       corner = {{p.x(), p.y(), depth, 1 - surface.shading * (1 - lit)}, {0, 0, 0}, {0, 0, 0}};
-      if (textured) {
-        corner.color[0] = uv_(i, 0), corner.color[1] = uv_(i, 1);
-      } else {
-        const Eigen::Vector3f rgb =
-            surface.colors ? Eigen::Vector3f(surface.colors->row(i)) : surface.plain_rgb;
-        for (int k = 0; k < 3; ++k) corner.color[k] = rgb[k] / 255;
-      }
+      const Eigen::Vector3f rgb =
+          surface.colors ? Eigen::Vector3f(surface.colors->row(i)) : surface.plain_rgb;
+      for (int k = 0; k < 3; ++k) corner.color[k] = rgb[k] / 255;
     }
     farthest *= 1.01f;
     nearest = std::max(0.99f * nearest, 1e-4f * farthest);
@@ -251,6 +249,8 @@ class GlPainter : public MeshPainter {
       for (int k = 0; k < 3; ++k) {
         corners_.push_back(seen[std::size_t(triangles_(t, k))]);
         corners_.back().corner[k] = 1;
+        if (textured)
+          for (int axis : {0, 1}) corners_.back().color[axis] = uv_(3 * t + k, axis);
       }
   }
 
@@ -311,7 +311,7 @@ class GlPainter : public MeshPainter {
   Context context_;
   Eigen::MatrixX3i triangles_;
   Eigen::Index vertex_count_;
-  Eigen::MatrixX2f uv_;
+  Eigen::MatrixX2f uv_;  // a row for each corner of each triangle
   std::vector<Corner> corners_;
   GLuint program_ = 0, array_ = 0, buffer_ = 0, texture_ = 0;
   GLuint drawn_ = 0, resolved_ = 0, stores_[3] = {};  // frames: with samples, without; their memory

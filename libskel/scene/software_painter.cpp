@@ -11,6 +11,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/draw/canvas.h"
+#include "libskel/mesh/split_seams.h"
 #include "libskel/mesh/vertex_normals.h"
 #include "libskel/scene/mesh_painter.h"
 #include "libskel/scene/shading.h"
@@ -130,8 +131,11 @@ class SoftwarePainter : public MeshPainter {
  public:
   explicit SoftwarePainter(const TriangleMesh& mesh)
       : triangles_(mesh.triangles), vertex_count_(mesh.vertices.rows()), solid_(isSolid(mesh)) {
+    SplitMesh split = splitSeams(mesh);
+    drawn_ = std::move(split.mesh.triangles);
+    source_ = std::move(split.source);
     if (mesh.texture.empty() || mesh.uv.rows() != mesh.vertices.rows() || mesh.uv.rows() == 0) return;
-    uv_ = mesh.uv;
+    uv_ = std::move(split.mesh.uv);
     repeat_ = uv_.minCoeff() < 0 || uv_.maxCoeff() > 1;
     levels_.push_back(mesh.texture);
     while (levels_.back().width > 16 && levels_.back().height > 16)
@@ -162,9 +166,9 @@ class SoftwarePainter : public MeshPainter {
 
     thread_local Samples samples;
     samples.clear(left, top, right, bottom);
-    for (Eigen::Index t = 0; t < triangles_.rows(); ++t) {
-      const Corner &a = corners[std::size_t(triangles_(t, 0))], &b = corners[std::size_t(triangles_(t, 1))],
-                   &c = corners[std::size_t(triangles_(t, 2))];
+    for (Eigen::Index t = 0; t < drawn_.rows(); ++t) {
+      const Corner &a = corners[std::size_t(drawn_(t, 0))], &b = corners[std::size_t(drawn_(t, 1))],
+                   &c = corners[std::size_t(drawn_(t, 2))];
       if (surface.wires)
         drawTriangle<true>(samples, a, b, c, surface, texture);
       else
@@ -175,15 +179,15 @@ class SoftwarePainter : public MeshPainter {
   }
 
  private:
-  static std::vector<Corner> project(const Eigen::MatrixX3f& vertices, const Camera& camera, int width,
-                                     int height) {
+  std::vector<Corner> project(const Eigen::MatrixX3f& vertices, const Camera& camera, int width,
+                              int height) const {
     const Eigen::Matrix3f eye = eyeFromModel(camera).cast<float>();
     const Vector3f target = camera.target.cast<float>();
     const float distance = float(camera.distance_m),
                 scale = float(height / camera.view_height_m * camera.distance_m);
-    std::vector<Corner> corners(std::size_t(vertices.rows()));
+    std::vector<Corner> corners(source_.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vector3f p = eye * (vertices.row(Eigen::Index(i)).transpose() - target);
+      const Vector3f p = eye * (vertices.row(source_[i]).transpose() - target);
       const float depth = distance - p.z();
       if (depth <= 0) continue;  // behind the eye: near stays 0
       corners[i].near = 1 / depth;
@@ -199,8 +203,8 @@ class SoftwarePainter : public MeshPainter {
     const auto cross = [](const Vector2f& a, const Vector2f& b) {
       return std::abs(a.x() * b.y() - a.y() * b.x());
     };
-    for (Eigen::Index t = 0; t < triangles_.rows(); ++t) {
-      const Eigen::RowVector3i v = triangles_.row(t);
+    for (Eigen::Index t = 0; t < drawn_.rows(); ++t) {
+      const Eigen::RowVector3i v = drawn_.row(t);
       const Corner &a = corners[std::size_t(v[0])], &b = corners[std::size_t(v[1])],
                    &c = corners[std::size_t(v[2])];
       if (a.near <= 0 || b.near <= 0 || c.near <= 0) continue;
@@ -219,13 +223,13 @@ class SoftwarePainter : public MeshPainter {
     const Eigen::MatrixX3f normals = vertexNormals(vertices, triangles_);
     const Vector3f light = eyeFromModel(camera).cast<float>().transpose() * lightDirection();
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const auto row = Eigen::Index(i);
+      const int row = source_[i];
       Corner& corner = corners[i];
       const float lit = std::clamp(normals.row(row).dot(light) + kLightReach, 0.f, 1.f);
       corner.lit = 1 - surface.shading * (1 - lit);
       if (texture) {
-        corner.u = uv_(row, 0) * float(texture->width);
-        corner.v = uv_(row, 1) * float(texture->height);
+        corner.u = uv_(Eigen::Index(i), 0) * float(texture->width);
+        corner.v = uv_(Eigen::Index(i), 1) * float(texture->height);
       } else {
         corner.rgb = surface.colors ? Vector3f(surface.colors->row(row)) : surface.plain_rgb;
       }
@@ -382,6 +386,9 @@ class SoftwarePainter : public MeshPainter {
   Eigen::MatrixX3i triangles_;
   Eigen::Index vertex_count_;
   bool solid_;
+  // Parted where front and back wear different parts of the texture: triangles, and each corner's vertex.
+  Eigen::MatrixX3i drawn_;
+  std::vector<int> source_;
   Eigen::MatrixX2f uv_;
   bool repeat_ = false;
   std::vector<Image> levels_;  // the texture, each half as large as the one before

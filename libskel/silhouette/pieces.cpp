@@ -238,10 +238,21 @@ std::vector<JoinedFigure> joinPieces(const Plane8& foreground, int min_long_side
   }
   std::stable_sort(figures.begin(), figures.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  // What is much smaller than the largest figure belongs to nothing: a ball, a motion line.
+  // What is much smaller than the largest figure belongs to nothing: a ball, a motion line. A thin stick man
+  // has little area, but stands as tall as a person beside the largest, and is no line.
   constexpr int kSmallestShare = 5;
-  while (!figures.empty() && figures.back().first * kSmallestShare < figures.front().first)
-    figures.pop_back();
+  constexpr double kLeastWidth = 0.2;  // of its height
+  const auto boxOf = [](JoinedFigure& figure) {
+    return cv::boundingRect(cv::Mat(static_cast<int>(figure.mask.rows()),
+                                    static_cast<int>(figure.mask.cols()), CV_8U, figure.mask.data()));
+  };
+  const int largest_area = figures.empty() ? 0 : figures.front().first;
+  const int largest_height = figures.empty() ? 0 : boxOf(figures.front().second).height;
+  std::erase_if(figures, [&](auto& figure) {
+    if (figure.first * kSmallestShare >= largest_area) return false;
+    const cv::Rect box = boxOf(figure.second);
+    return box.height < kAsTall * largest_height || box.width < kLeastWidth * box.height;
+  });
   if (options.limbs_first && figures.size() > 1) {
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < figures.size(); ++i) {

@@ -1,10 +1,12 @@
 #include "libskel/silhouette/silhouette.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "libskel/core/check.h"
+#include "libskel/core/sha256.h"
 #include "libskel/silhouette/outline.h"
 #include "libskel/silhouette/paper.h"
 #include "libskel/silhouette/pieces.h"
@@ -167,6 +169,18 @@ Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& optio
   Silhouette out = finish(figures, options, kMinLongSide, pieces);
   if (!out.found() && out.reason == "the picture is blank") out.reason = "the mask is blank";
   return out;
+}
+
+std::string outlineHash(const Silhouette& silhouette) {
+  SKEL_CHECK(silhouette.found());
+  std::string text;  // corners lie between pixels: whole numbers after half a pixel's step
+  for (const Polygon& polygon : silhouette.outline) {
+    for (const Eigen::Vector2d& corner : polygon)
+      text += std::to_string(std::lround(corner.x() + 0.5)) + "," +
+              std::to_string(std::lround(corner.y() + 0.5)) + " ";
+    text += "\n";
+  }
+  return sha256(text);
 }
 
 }  // namespace skel

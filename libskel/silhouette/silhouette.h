@@ -65,6 +65,10 @@ struct SilhouetteOptions {
 // From the picture alone. An empty picture has no figure.
 Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& options = {});
 
+// SHA-256 of the figure's outline, to tell whether a skeleton was found in this figure. `silhouette` must be
+// found.
+std::string outlineHash(const Silhouette& silhouette);
+
 // From a mask given by hand (255 on the figure): cleaned, the chosen figure taken, scaled to the grid.
 // `options.method` does not matter.
 Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options = {});

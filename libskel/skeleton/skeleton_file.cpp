@@ -7,6 +7,7 @@
 #include "libskel/core/json.h"
 #include "libskel/core/json_names.h"
 #include "libskel/skeleton/joint_json.h"
+#include "libskel/skeleton/moved_joints.h"
 
 namespace skel {
 namespace {
@@ -40,15 +41,40 @@ Joint jointAt(const JsonValue& item, const SkeletonTemplate& body_plan, const Sk
   return joint;
 }
 
+SkeletonFile::Figure figureAt(const JsonValue& value) {
+  value.allowOnly({"number", "sha256", "turned"});
+  SkeletonFile::Figure figure;
+  figure.number = value.at("number").asInt(1, 9999);
+  figure.sha256 = value.at("sha256").asString();
+  figure.turned_deg = value.at("turned").asInt(0, 359);
+  return figure;
+}
+
+void markMovedJoints(SkeletonFile& file) {
+  std::vector<Eigen::Vector2d> image, position;
+  for (const Joint& joint : file.skeleton.joints) {
+    image.push_back(joint.image);
+    position.push_back(joint.position.head<2>());
+  }
+  for (const int moved : movedJoints(image, position)) {
+    Joint& joint = file.skeleton.joints[static_cast<size_t>(moved)];
+    joint.origin = JointOrigin::kEdited;
+    joint.confidence = 1;
+    std::erase(file.missing, joint.name);
+  }
+}
+
 }  // namespace
 
 std::string formatSkeletonFile(const SkeletonFile& file) {
   Json root;
   root["format"] = "skel-skeleton";
-  root["version"] = 1;
+  root["version"] = 2;
   root["image"] = {{"file", jsonFromFileName(file.image_file)},
                    {"width", file.image_width},
                    {"height", file.image_height}};
+  root["figure"] = {
+      {"number", file.figure.number}, {"sha256", file.figure.sha256}, {"turned", file.figure.turned_deg}};
   root["template"] = file.skeleton.template_name;
   root["confidence"] = rounded(file.confidence, 1000);
   root["missing"] = file.missing;
@@ -78,15 +104,16 @@ std::string formatSkeletonFile(const SkeletonFile& file) {
 SkeletonFile readSkeletonFile(const std::string& path, const SkeletonTemplate& body_plan) {
   const JsonDocument document = JsonDocument::readFile(path);
   const JsonValue root = document.root();
-  root.checkFormat("skel-skeleton", 1);
-  root.allowOnly(
-      {"format", "version", "image", "template", "confidence", "missing", "warnings", "mask", "joints"});
+  root.checkFormat("skel-skeleton", 2);
+  root.allowOnly({"format", "version", "image", "figure", "template", "confidence", "missing", "warnings",
+                  "mask", "joints"});
   SkeletonFile file;
   const JsonValue image = root.at("image");
   image.allowOnly({"file", "width", "height"});
   file.image_file = image.at("file").asFileName();
   file.image_width = image.at("width").asInt(1, 1'000'000);
   file.image_height = image.at("height").asInt(1, 1'000'000);
+  if (const auto figure = root.find("figure")) file.figure = figureAt(*figure);  // not in version 1
   checkTemplate(root.at("template"), body_plan.name);
   file.confidence = root.at("confidence").asNumber(0, 1);
   file.missing = textsAt(root.at("missing"));
@@ -107,6 +134,7 @@ SkeletonFile readSkeletonFile(const std::string& path, const SkeletonTemplate& b
   for (size_t i = 0; i < body_plan.joints.size(); ++i)
     if (file.skeleton.joints[i].name.empty())
       root.at("joints").fail("lacks the joint \"" + body_plan.joints[i].name + "\"");
+  markMovedJoints(file);
   return file;
 }
 
@@ -115,11 +143,24 @@ bool hasEditedJoint(const std::string& path) {
   const JsonDocument document = JsonDocument::readFile(path);
   const auto joints = document.root().find("joints");
   if (!joints) return false;
-  for (const JsonValue& joint : joints->items())
+  const auto numbers = [](const JsonValue& joint, const char* key) {
+    std::vector<double> result;
+    if (const auto value = joint.find(key); value && value->isArray())
+      for (const JsonValue& item : value->items())
+        if (item.isNumber()) result.push_back(item.asNumber());
+    return result;
+  };
+  std::vector<Eigen::Vector2d> image, position;
+  for (const JsonValue& joint : joints->items()) {
     if (const auto origin = joint.find("origin");
         origin && origin->isString() && origin->asString() == "edited")
       return true;
-  return false;
+    const auto at = numbers(joint, "image"), to = numbers(joint, "position");
+    if (at.size() != 2 || to.size() != 3) continue;
+    image.emplace_back(at[0], at[1]);
+    position.emplace_back(to[0], to[1]);
+  }
+  return !movedJoints(image, position).empty();
 }
 
 }  // namespace skel

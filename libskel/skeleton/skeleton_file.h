@@ -16,8 +16,16 @@ struct SkeletonFile {
     std::string sha256;
   };
 
+  // Which figure of the drawing it is.
+  struct Figure {
+    int number = 1;      // 1 is the largest
+    std::string sha256;  // of its outline (outlineHash()); empty: not known
+    int turned_deg = 0;  // how far it is turned clockwise against upright, 0 to 359
+  };
+
   std::string image_file;  // a path relative to the skeleton file
   int image_width = 0, image_height = 0;
+  Figure figure;
   Skeleton skeleton;
   double confidence = 0;
   std::vector<std::string> missing;  // joints that were not found in the drawing
@@ -28,10 +36,12 @@ struct SkeletonFile {
 std::string formatSkeletonFile(const SkeletonFile& file);
 
 // Throws InputError: joints that are not the template's (any order), outside the image, of another parent,
-// NaN. Positions are read as they stand; the pipeline computes them anew from `image`.
+// NaN. Positions are read as they stand; the pipeline computes them anew from `image`. A joint that somebody
+// has moved without saying so (moved_joints.h) comes back as edited, and is not missing any more.
 SkeletonFile readSkeletonFile(const std::string& path, const SkeletonTemplate& body_plan);
 
-// Whether a person has moved a joint in the skeleton file at `path`. False where there is no file.
+// Whether a person has moved a joint in the skeleton file at `path`, said so or not. False where there is no
+// file.
 bool hasEditedJoint(const std::string& path);
 
 }  // namespace skel

@@ -101,7 +101,8 @@ SkeletonTemplate parseTemplate(std::string_view text, const std::string& file) {
   const JsonDocument document = JsonDocument::parse(text, file);
   const JsonValue root = document.root();
   root.checkFormat("skel-template", 1);
-  root.allowOnly({"format", "version", "name", "joints", "head", "body", "limbs", "rules"});
+  root.allowOnly(
+      {"format", "version", "name", "joints", "head", "body", "limbs", "rules", "length_m", "from_side"});
   SkeletonTemplate body_plan;
   body_plan.name = root.at("name").asString();
   readJoints(body_plan, root.at("joints"));
@@ -118,6 +119,8 @@ SkeletonTemplate parseTemplate(std::string_view text, const std::string& file) {
     for (size_t i = 0; i < 3; ++i) limb.joints[i] = recognizedJointAt(body_plan, joints[i]);
     body_plan.limbs.push_back(limb);
   }
+  if (const auto from_side = root.find("from_side")) body_plan.from_side = from_side->asBool();
+  if (const auto length = root.find("length_m")) body_plan.length_m = length->asNumber(0, 1000);
   const JsonValue rules = root.at("rules");
   rules.allowOnly({"line_reach", "limb_probability", "limb_radius", "separation_px"});
   body_plan.rules.line_reach = rules.at("line_reach").asNumber(0, 100);

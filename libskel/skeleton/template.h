@@ -58,6 +58,8 @@ struct SkeletonTemplate {
   int head = -1, body = -1;           // the two joints that Algorithm 2 looks for first
   std::vector<TemplateLimb> limbs;
   RecognitionRules rules;
+  bool from_side = false;  // such figures are drawn from the side: their two sides look alike
+  double length_m = 0;     // of a model's longer side, up or across; 0: models are 1.7 m high
 
   int find(std::string_view joint) const;  // -1 if there is none
 };

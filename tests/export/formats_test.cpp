@@ -129,7 +129,8 @@ TEST_CASE("weights name their joints and sum to one") {
 TEST_CASE("a BVH holds the tree in centimetres and the clip in degrees") {
   const Fixture fixture;
   const Skeleton& skeleton = fixture.character.skeleton;
-  const std::vector<std::string> text = words(bySuffix(exportBvh(fixture.input)).at(".bvh"));
+  const std::vector<std::string> text =
+      words(bySuffix(exportBvh(fixture.input)).at("-" + fixture.clips.front().name + ".bvh"));
   // Reads it as a program would: offsets add up to the joints' positions.
   std::vector<Eigen::Vector3d> open;
   std::vector<std::string> order;

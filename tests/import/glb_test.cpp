@@ -16,6 +16,20 @@ bool same(const A& a, const B& b) {
 
 }  // namespace
 
+TEST_CASE("a model whose back wears its own part of the texture is parted in the file and whole again") {
+  RiggedCharacter character = figure();
+  TriangleMesh& mesh = character.mesh;
+  mesh.back_uv = 0.5f * mesh.uv;
+  mesh.first_back = mesh.triangles.rows() / 2;
+  const std::string bytes = encodeGlb(character, {}, {.name = "figure"});
+  const CharacterFile file = decodeGlb(bytes, "a.glb");
+  CHECK(file.character.mesh.vertices == mesh.vertices);
+  CHECK(file.character.mesh.triangles == mesh.triangles);
+  CHECK(file.character.weights.joints.rows() == mesh.vertices.rows());
+  const bool same_bytes = encodeGlb(file.character, {}, {.name = file.name}) == bytes;
+  CHECK(same_bytes);
+}
+
 TEST_CASE("what is written as GLB is read back whole, and written again gives the same bytes") {
   RiggedCharacter character = figure();
   const std::vector<Clip> clips = {retargetToRest(clipNamed(builtinClips(), "wave"), character.skeleton)};

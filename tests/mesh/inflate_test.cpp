@@ -9,6 +9,7 @@
 #include "libskel/core/rng.h"
 #include "libskel/image/read_image.h"
 #include "libskel/mesh/outline.h"
+#include "libskel/mesh/planar_mesh.h"
 #include "tests/support/catch.h"
 #include "tests/support/mesh_checks.h"
 #include "tests/support/random_silhouette.h"
@@ -273,4 +274,17 @@ TEST_CASE("every real drawing becomes a closed manifold") {
         std::sqrt(2.0 * (silhouette.mask != 0).count() / static_cast<double>(mesh.vertices.rows()));
     CHECK(outlineError(mesh, silhouette.mask) <= std::max(1.0, cell_px));
   }
+}
+
+TEST_CASE("the mesh does not depend on the order in which a compiler evaluates arguments") {
+  // A figure of one node: four cells with this corner alone, each of which makes its crossings in the order
+  // that GCC chose when it was free to choose.
+  Plane8 mask = Plane8::Zero(5, 5);
+  mask(2, 2) = 255;
+  PixelBox box;
+  box.x0 = box.y0 = 2, box.x1 = box.y1 = 3;
+  const PlanarMesh mesh = triangulateFigure(mask, box, {{{2, 1.5}, {2.5, 2}, {2, 2.5}, {1.5, 2}}}, 1);
+  REQUIRE(mesh.inner_count == 1);
+  const std::vector<std::array<int, 3>> expected = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {0, 4, 3}};
+  CHECK(mesh.triangles == expected);
 }

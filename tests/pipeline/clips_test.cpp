@@ -17,8 +17,6 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float kHeight_m = float(kModelHeight_m);
-
 // Every so many of them: a sample of all views and styles that does not take long.
 std::vector<std::string> drawings(const char* folder, std::size_t every) {
   std::vector<std::string> all, some;
@@ -43,15 +41,17 @@ RiggedDrawing rigged(const std::string& path, const std::string& body_plan) {
   return drawing;
 }
 
-std::vector<Vector3f> places(const Skeleton& skeleton, const Clip& clip, float time_s) {
-  return posedJoints(skeleton, posedFromRest(skeleton, samplePose(clip, skeleton, time_s), kHeight_m));
+std::vector<Vector3f> places(const Skeleton& skeleton, const Clip& clip, float time_s,
+                             float height_m = float(kModelHeight_m)) {
+  return posedJoints(skeleton, posedFromRest(skeleton, samplePose(clip, skeleton, time_s), height_m));
 }
 
 // How far feet that stand leave the place that runs evenly with the ground, in heights.
-float slide(const Skeleton& skeleton, const Clip& clip, const std::vector<FootContact>& contacts) {
+float slide(const Skeleton& skeleton, const Clip& clip, const std::vector<FootContact>& contacts,
+            float height_m) {
   const auto at = [&](const FootContact& contact, float share) {
     const float time_s = contact.from_s + share * (contact.to_s - contact.from_s);
-    return places(skeleton, clip, time_s)[skeleton.index(contact.joint)];
+    return places(skeleton, clip, time_s, height_m)[skeleton.index(contact.joint)];
   };
   Vector3f run = Vector3f::Zero();
   float stood_s = 0;
@@ -71,7 +71,7 @@ float slide(const Skeleton& skeleton, const Clip& clip, const std::vector<FootCo
       worst = std::max(worst, (at(contact, share) - mean - (share - 0.5f) * length_s * run).norm());
     }
   }
-  return worst / kHeight_m;
+  return worst / height_m;
 }
 
 // One who was drawn bent to the ground, or lying, stands on no feet that could stay where they are.
@@ -84,6 +84,8 @@ bool standsUpright(const Skeleton& skeleton) {
 void checkClips(const std::string& path, const std::string& body_plan, std::map<std::string, float>& worst) {
   const RiggedDrawing drawing = rigged(path, body_plan);
   const Skeleton& skeleton = drawing.character.skeleton;
+  const auto heights = drawing.character.mesh.vertices.col(1);
+  const float height_m = heights.maxCoeff() - heights.minCoeff();
   if (body_plan == "biped" && !standsUpright(skeleton)) return;
   const std::vector<Clip> made = clipsFor(builtinClips(), loadTemplate(body_plan));
   REQUIRE(drawing.clips.size() == made.size());
@@ -91,12 +93,12 @@ void checkClips(const std::string& path, const std::string& body_plan, std::map<
     const Clip& clip = drawing.clips[c];
     CAPTURE(path, clip.name);
     // Loops close, and what leads from the drawn pose begins and ends there.
-    const std::vector<Vector3f> first = places(skeleton, clip, 0),
-                                last = places(skeleton, clip, clip.duration_s());
+    const std::vector<Vector3f> first = places(skeleton, clip, 0, height_m),
+                                last = places(skeleton, clip, clip.duration_s(), height_m);
     for (std::size_t j = 0; j < first.size(); ++j) {
-      CHECK((first[j] - last[j]).norm() < 0.002f * kHeight_m);
+      CHECK((first[j] - last[j]).norm() < 0.002f * height_m);
       if (made[c].lead_s > 0)
-        CHECK((first[j] - skeleton.joints[j].position.cast<float>()).norm() < 1e-4f * kHeight_m);
+        CHECK((first[j] - skeleton.joints[j].position.cast<float>()).norm() < 1e-4f * height_m);
     }
     // A clip from the drawn pose has its feet on the ground between its leads only.
     std::vector<FootContact> contacts = made[c].contacts;
@@ -105,7 +107,7 @@ void checkClips(const std::string& path, const std::string& body_plan, std::map<
       contact.to_s = std::min(contact.to_s, clip.duration_s() - made[c].lead_s);
     }
     if (contacts.empty()) continue;
-    const float slid = slide(skeleton, clip, contacts);
+    const float slid = slide(skeleton, clip, contacts, height_m);
     worst[body_plan + " " + clip.name] = std::max(worst[body_plan + " " + clip.name], slid);
     CHECK(slid < (clip.name == "walk" ? 0.005f : 0.03f));
   }

@@ -1,6 +1,7 @@
 #include "libskel/pipeline/rig_character.h"
 
 #include "libskel/classifier/weights_file.h"
+#include "libskel/image/read_image.h"
 #include "tests/support/catch.h"
 #include "tests/support/figure.h"
 
@@ -37,4 +38,49 @@ TEST_CASE("a model in parts is bound by its whole front view, not by its largest
   }
   const Joint& head = character.skeleton.joints[character.skeleton.index("head")];
   CHECK(head.position.x() == Approx((0.5 * (low.x() + high.x()) - middle) * unit).margin(0.1));
+}
+
+TEST_CASE("a biped is 1.7 m high, an animal 1.2 m long or high, and both as high as was asked for") {
+  const auto model = [](const std::string& drawing, const std::string& body_plan, double height_m) {
+    RigInput input;
+    input.image = readImage(SKEL_SOURCE_DIR "/datasets/" + drawing);
+    RigOptions options;
+    options.mlp = defaultMlp();
+    options.body_plan = loadTemplate(body_plan);
+    options.height_m = height_m;
+    return rigCharacter(std::move(input), options).character.mesh;
+  };
+  const auto size = [](const TriangleMesh& mesh) {
+    return Eigen::Vector3f(
+        (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).transpose());
+  };
+  const std::string boy = "characters/cap_boy.png", dog = "animals/walking_dog.png";
+  CHECK(size(model(boy, "biped", 0)).y() == Approx(1.7));
+  CHECK(size(model(boy, "biped", 0.3)).y() == Approx(0.3));
+  const TriangleMesh animal = model(dog, "quadruped", 0);
+  CHECK(std::max(size(animal).x(), size(animal).y()) == Approx(1.2));
+  CHECK(size(model(dog, "quadruped", 0.5)).y() == Approx(0.5));
+  // Seen from the side, both sides of it have an eye; who faces us has no face behind.
+  CHECK(animal.back_uv.rows() == 0);
+  CHECK(model(boy, "biped", 0).back_uv.rows() > 0);
+}
+
+TEST_CASE("a drawing that stands on its head gives an upright model; its joints stay the picture's") {
+  RigInput input;
+  input.image = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");
+  const Image upright = input.image;
+  for (int i = 0; i < input.image.width * input.image.height; ++i)
+    input.image.rgba.row(i) = upright.rgba.row(upright.width * upright.height - 1 - i);
+  RigOptions options;
+  options.mlp = defaultMlp();
+  options.body_plan = loadTemplate("biped");
+  const RiggedDrawing drawing = rigCharacter(std::move(input), options);
+  REQUIRE(drawing.found());
+  REQUIRE(std::abs(drawing.recognition.turned_deg - 180) < 30);
+  const Skeleton& skeleton = drawing.character.skeleton;
+  const Joint &head = skeleton.joints[skeleton.index("head")],
+              &pelvis = skeleton.joints[skeleton.index("pelvis")];
+  CHECK(head.position.y() > pelvis.position.y() + 0.3);
+  CHECK(head.image.y() > pelvis.image.y() + 50);
+  CHECK(drawing.character.mesh.vertices.col(1).minCoeff() == Approx(0).margin(1e-5));
 }

@@ -191,3 +191,28 @@ TEST_CASE("a scene puts background, shadow, body and skeleton over one another")
   look.picture.rgba.setConstant(255);
   CHECK(covered(seen(look)) == 160 * 160);
 }
+
+TEST_CASE("the back wears its own part of the texture, in every painter") {
+  // A pillow: black in front, white behind.
+  TriangleMesh mesh = square();
+  mesh.vertices.conservativeResize(6, 3);
+  mesh.vertices.bottomRows(2) << 0, 0.5f, 0.2f, 0, 0.5f, -0.2f;
+  mesh.triangles.resize(8, 3);
+  mesh.triangles << 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 1, 0, 5, 2, 1, 5, 3, 2, 5, 0, 3, 5;
+  mesh.uv.setConstant(6, 2, 0.25f);
+  mesh.back_uv = mesh.uv;
+  mesh.back_uv.col(0).setConstant(0.75f);
+  mesh.first_back = 4;
+  Surface surface;
+  surface.shading = 0;
+  for (const auto& [name, painter] : painters(mesh)) {
+    CAPTURE(name);
+    for (const bool behind : {false, true}) {
+      Camera camera;
+      camera.target = {0, 0.5, 0};
+      camera.yaw_rad = behind ? std::numbers::pi : 0;
+      const Image image = painter->paint(mesh.vertices, camera, 40, 40, surface);
+      CHECK(int(image.pixel(18, 21)[0]) == (behind ? 255 : 0));
+    }
+  }
+}

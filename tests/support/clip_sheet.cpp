@@ -33,13 +33,14 @@ RiggedDrawing rigged(const std::string& path, const std::string& body_plan, cons
 
 Image posed(const RiggedCharacter& character, const Clip& clip, float time_s, double yaw_rad, int size) {
   const Pose pose = samplePose(clip, character.skeleton, time_s);
-  const Eigen::MatrixX3f vertices =
-      skinVertices(character.mesh.vertices, character.weights,
-                   posedFromRest(character.skeleton, pose, float(kModelHeight_m)));
+  const auto heights = character.mesh.vertices.col(1);
+  const float height_m = heights.maxCoeff() - heights.minCoeff();
+  const Eigen::MatrixX3f vertices = skinVertices(character.mesh.vertices, character.weights,
+                                                 posedFromRest(character.skeleton, pose, height_m));
   // The same camera for all moments, so that steps and jumps show.
   Camera camera = framingCamera(character.mesh.vertices, yaw_rad, 0.08);
-  camera.view_height_m = std::max(camera.view_height_m, 1.15 * kModelHeight_m) * 1.2;
-  camera.target.y() += 0.04 * kModelHeight_m;
+  camera.view_height_m = std::max(camera.view_height_m, 1.15 * double(height_m)) * 1.2;
+  camera.target.y() += 0.04 * double(height_m);
   return renderMesh(vertices, character.mesh, camera, {.width = size, .height = size});
 }
 

@@ -1,0 +1,442 @@
+// Lines are found as what a closing of the brightness takes away (the black top hat: F. Meyer, "Contrast
+// feature extraction", 1979), areas as connected pixels of like colour, and gaps are filled along shortest
+// ways inside the figure (E. Dijkstra, 1959).
+#include "libskel/mesh/back_colors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <vector>
+
+#include "libskel/core/check.h"
+
+namespace skel {
+namespace {
+
+constexpr int kWorkSize = 200;   // long side of the small picture that decides, px
+constexpr int kRim_px = 3;       // of it: how near to the outline an area comes that lies at the rim
+constexpr double kAtRim = 0.75;  // the least length of it along the rim, as a share of the root of its size
+constexpr double kLine = 0.022;  // half the width of what counts as a line, as a share of that long side
+constexpr double kLeastCore = 0.3;    // of an area: the blurred edges of lines have less
+constexpr double kLeastArea = 0.003;  // as a share of the figure's
+constexpr int kLineContrast = 40;     // of 255
+constexpr int kSameColor = 14;        // the most that neighbours of one area differ in any channel
+constexpr int kLikeArea = 45;         // and that a px differs from its area
+constexpr double kHatched = 0.5;      // share of lines from which on they are a colour
+// As shares of the head's radius.
+constexpr double kInsideHead = 0.8;  // all of it may be face
+constexpr double kHeadReach = 2;     // hair, ears and cheeks
+constexpr double kBelowHead = 1.1;   // and how far down
+constexpr double kMostOf = 0.5;      // of the rim or the middle of the head
+// What a step of the spreading colours costs, sideways 1.
+constexpr double kDown = 1.5, kUp = 3;
+
+constexpr int kNeighbours[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+
+struct Small {
+  int width = 0, height = 0, shrink = 1;
+  std::vector<Eigen::Vector3f> color;
+  std::vector<char> figure;
+
+  int index(int x, int y) const { return y * width + x; }
+  bool holds(int x, int y) const {
+    return x >= 0 && y >= 0 && x < width && y < height && figure[index(x, y)];
+  }
+};
+
+Small shrunk(const Image& front, const Plane8& figure) {
+  Small small;
+  small.shrink = std::max(1, (std::max(front.width, front.height) + kWorkSize - 1) / kWorkSize);
+  small.width = (front.width + small.shrink - 1) / small.shrink;
+  small.height = (front.height + small.shrink - 1) / small.shrink;
+  small.color.assign(std::size_t(small.width) * small.height, Eigen::Vector3f::Zero());
+  small.figure.assign(small.color.size(), 0);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      int inside = 0;
+      for (int v = y * small.shrink; v < std::min((y + 1) * small.shrink, front.height); ++v)
+        for (int u = x * small.shrink; u < std::min((x + 1) * small.shrink, front.width); ++u) {
+          if (!figure(v, u)) continue;
+          const std::uint8_t* p = front.pixel(u, v);
+          sum += Eigen::Vector3f(p[0], p[1], p[2]), ++inside;
+        }
+      if (inside == 0) continue;
+      small.color[small.index(x, y)] = sum / float(inside);
+      small.figure[small.index(x, y)] = 1;
+    }
+  return small;
+}
+
+// Distance to what is outside, px (chamfer 3-4: G. Borgefors, 1986).
+std::vector<float> distanceToRim(const Small& small) {
+  std::vector<float> distance(small.figure.size(), 0);
+  const auto at = [&](int x, int y) { return small.holds(x, y) ? distance[small.index(x, y)] : 0.0f; };
+  constexpr float kSide = 1, kCorner = 4.0f / 3;
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x)
+      if (small.holds(x, y))
+        distance[small.index(x, y)] = std::min({at(x - 1, y) + kSide, at(x, y - 1) + kSide,
+                                                at(x - 1, y - 1) + kCorner, at(x + 1, y - 1) + kCorner});
+  for (int y = small.height - 1; y >= 0; --y)
+    for (int x = small.width - 1; x >= 0; --x)
+      if (small.holds(x, y)) {
+        float& d = distance[small.index(x, y)];
+        d = std::min({d, at(x + 1, y) + kSide, at(x, y + 1) + kSide, at(x + 1, y + 1) + kCorner,
+                      at(x - 1, y + 1) + kCorner});
+      }
+  return distance;
+}
+
+// The greatest (`grow`) or least value within `radius` px each way, of the figure alone.
+std::vector<float> extreme(const Small& small, std::vector<float> values, int radius, bool grow) {
+  const float sign = grow ? 1 : -1;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = small.figure[i] ? sign * values[i] : std::numeric_limits<float>::lowest();
+  for (const bool across : {true, false}) {
+    const int length = across ? small.width : small.height, stride = across ? 1 : small.width;
+    std::vector<float> result = values;
+    for (int i = 0; i < int(values.size()); ++i) {
+      if (!small.figure[i]) continue;
+      const int at = across ? i % small.width : i / small.width;
+      const int last = std::min(radius, length - 1 - at);
+      for (int step = -std::min(radius, at); step <= last; ++step)
+        result[i] = std::max(result[i], values[i + step * stride]);
+    }
+    values = std::move(result);
+  }
+  for (float& value : values) value *= sign;
+  return values;
+}
+
+// Sums over boxes of the px that `counts` marks (F. Crow, "Summed-area tables for texture mapping", 1984).
+class BoxSums {
+ public:
+  BoxSums(const Small& small, const std::vector<char>& counts)
+      : width_(small.width + 1), height_(small.height + 1), sums_(std::size_t(width_) * height_) {
+    for (auto& sum : sums_) sum.setZero();
+    for (int y = 1; y < height_; ++y)
+      for (int x = 1; x < width_; ++x) {
+        Eigen::Vector4d own = Eigen::Vector4d::Zero();
+        const int i = small.index(x - 1, y - 1);
+        if (counts[i]) own << small.color[i].cast<double>(), 1;
+        at(x, y) = own + at(x - 1, y) + at(x, y - 1) - at(x - 1, y - 1);
+      }
+  }
+  // Red, green, blue and the number of px, up to `reach` px away each way.
+  Eigen::Vector4d around(int x, int y, int reach) {
+    const int x0 = std::max(0, x - reach), x1 = std::min(width_ - 1, x + reach + 1);
+    const int y0 = std::max(0, y - reach), y1 = std::min(height_ - 1, y + reach + 1);
+    return at(x1, y1) - at(x0, y1) - at(x1, y0) + at(x0, y0);
+  }
+
+ private:
+  Eigen::Vector4d& at(int x, int y) { return sums_[std::size_t(y) * width_ + x]; }
+
+  int width_, height_;
+  std::vector<Eigen::Vector4d> sums_;
+};
+
+struct Lines {
+  std::vector<char> line;   // thin dark and thin light things, with their blurred edges
+  std::vector<char> hatch;  // so many of them that they are a colour
+};
+
+Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
+                const std::function<bool(int, int)>& is_face) {
+  std::vector<float> light(small.color.size(), 0);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      if (!small.holds(x, y)) continue;
+      // The middle of five: strokes of crayon are no lines.
+      float five[5];
+      int count = 0;
+      for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+        if (small.holds(x + dx, y + dy))
+          five[count++] =
+              small.color[small.index(x + dx, y + dy)].dot(Eigen::Vector3f(0.299f, 0.587f, 0.114f));
+      std::nth_element(five, five + count / 2, five + count);
+      light[small.index(x, y)] = five[count / 2];
+    }
+  const auto closed = extreme(small, extreme(small, light, radius, true), radius, false);
+  const auto opened = extreme(small, extreme(small, light, radius, false), radius, true);
+  std::vector<char> thin(light.size(), 0);
+  for (std::size_t i = 0; i < thin.size(); ++i)
+    thin[i] =
+        small.figure[i] && (closed[i] - light[i] > kLineContrast || light[i] - opened[i] > 2 * kLineContrast);
+  Lines lines{std::vector<char>(thin.size(), 0), std::vector<char>(thin.size(), 0)};
+  // The outline is no hatching.
+  std::vector<char> deep = small.figure, deep_thin = thin;
+  for (std::size_t i = 0; i < thin.size(); ++i)
+    if (rim[i] <= 2.0f * float(radius)) deep[i] = deep_thin[i] = 0;
+  BoxSums thin_sums(small, deep_thin), figure_sums(small, deep);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      if (!small.holds(x, y)) continue;
+      const int i = small.index(x, y), reach = 3 * radius;
+      lines.hatch[i] =
+          !is_face(x, y) && thin_sums.around(x, y, reach)[3] > kHatched * figure_sums.around(x, y, reach)[3];
+      if (lines.hatch[i]) continue;
+      lines.line[i] = thin[i];
+      for (const auto& step : kNeighbours)
+        if (small.holds(x + step[0], y + step[1]))
+          lines.line[i] |= thin[small.index(x + step[0], y + step[1])];
+    }
+  return lines;
+}
+
+// Without the grain of crayon and paper, so that areas hold together.
+std::vector<Eigen::Vector3f> smoothed(const Small& small, const Lines& lines, int radius) {
+  std::vector<char> plain = small.figure;
+  for (std::size_t i = 0; i < plain.size(); ++i) plain[i] &= !lines.line[i];
+  BoxSums sums(small, plain);
+  std::vector<Eigen::Vector3f> result = small.color;
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      const int i = small.index(x, y);
+      if (!plain[i]) continue;
+      const Eigen::Vector4d sum = sums.around(x, y, lines.hatch[i] ? 2 * radius : 2);
+      result[i] = (sum.head<3>() / sum[3]).cast<float>();
+    }
+  return result;
+}
+
+class BackPainter {
+ public:
+  BackPainter(const Image& front, const Plane8& figure, std::optional<HeadDisc> head)
+      : small_(shrunk(front, figure)),
+        head_(std::move(head)),
+        line_radius_(std::max(1, int(std::lround(kLine * std::max(small_.width, small_.height))))),
+        rim_(distanceToRim(small_)) {
+    if (head_) head_->center /= small_.shrink, head_->radius /= small_.shrink;
+    lines_ = findLines(small_, line_radius_, rim_, [&](int x, int y) { return fromHead({x, y}) < 1; });
+    color_ = smoothed(small_, lines_, line_radius_);
+    findOutline();
+    findAreas();
+    keepAreas();
+    fill();
+    soften();
+  }
+
+  Image paint(const Image& front) const {
+    Image back = front;
+    const int shrink = small_.shrink;
+    for (int y = 0; y < back.height; ++y)
+      for (int x = 0; x < back.width; ++x) {
+        const int u = x / shrink, v = y / shrink;
+        if (!small_.holds(u, v)) continue;
+        const int i = small_.index(u, v);
+        if (kept_[i] || outline_[i]) continue;
+        const Eigen::Vector3f color = filledAt((x + 0.5) / shrink - 0.5, (y + 0.5) / shrink - 0.5);
+        std::uint8_t* p = back.pixel(x, y);
+        for (int c = 0; c < 3; ++c) p[c] = std::uint8_t(std::lround(std::clamp(color[c], 0.0f, 255.0f)));
+      }
+    return back;
+  }
+
+ private:
+  struct Area {
+    int size = 0, at_rim = 0;
+    int core = 0;                      // px whose neighbours belong to it as well
+    int in_head = 0, at_head_rim = 0;  // in the disc that may be all face; at the rim around the head
+    Eigen::Vector3f color = Eigen::Vector3f::Zero();
+  };
+
+  // Lines near the rim that hang together with it.
+  void findOutline() {
+    outline_.assign(small_.figure.size(), 0);
+    const auto mayBe = [&](int i) { return lines_.line[i] && rim_[i] <= 2.0f * float(line_radius_); };
+    std::vector<int> open;
+    for (int i = 0; i < int(outline_.size()); ++i)
+      if (mayBe(i) && rim_[i] <= 1.5f) outline_[i] = 1, open.push_back(i);
+    for (std::size_t next = 0; next < open.size(); ++next)
+      for (int k = 0; k < 4; ++k) {
+        const int u = open[next] % small_.width + kNeighbours[k][0];
+        const int v = open[next] / small_.width + kNeighbours[k][1];
+        if (!small_.holds(u, v)) continue;
+        const int j = small_.index(u, v);
+        if (!outline_[j] && mayBe(j)) outline_[j] = 1, open.push_back(j);
+      }
+  }
+
+  Eigen::Vector2d place(int i) const { return {i % small_.width, i / small_.width}; }
+
+  // In radii of the head, 0 at its middle.
+  double fromHead(const Eigen::Vector2d& p) const {
+    if (!head_ || head_->radius <= 0) return 1e9;
+    return (p - head_->center).norm() / head_->radius;
+  }
+  bool nearHead(const Eigen::Vector2d& p) const {
+    return fromHead(p) < kHeadReach && (p - head_->center).dot(head_->up) > -kBelowHead * head_->radius;
+  }
+
+  void findAreas() {
+    area_.assign(small_.figure.size(), -1);
+    Small inside = small_;
+    for (std::size_t i = 0; i < outline_.size(); ++i) inside.figure[i] &= !outline_[i];
+    const std::vector<float> to_rim = distanceToRim(inside);
+    std::vector<int> open;
+    for (int start = 0; start < int(area_.size()); ++start) {
+      if (!small_.figure[start] || lines_.line[start] || area_[start] >= 0) continue;
+      const int id = int(areas_.size());
+      Area area;
+      open.assign(1, start);
+      area_[start] = id;
+      for (std::size_t next = 0; next < open.size(); ++next) {
+        const int i = open[next];
+        const bool at_rim = to_rim[i] <= kRim_px;
+        area.at_rim += at_rim;
+        area.in_head += fromHead(place(i)) < kInsideHead;
+        area.at_head_rim += at_rim && nearHead(place(i));
+        area.color += color_[i];
+        const Eigen::Vector3f mean = area.color / float(next + 1);
+        for (int k = 0; k < 4; ++k) {
+          const int u = i % small_.width + kNeighbours[k][0], v = i / small_.width + kNeighbours[k][1];
+          if (!small_.holds(u, v)) continue;
+          const int j = small_.index(u, v);
+          if (area_[j] >= 0 || lines_.line[j] || (color_[i] - color_[j]).cwiseAbs().maxCoeff() > kSameColor ||
+              (mean - color_[j]).cwiseAbs().maxCoeff() > kLikeArea)
+            continue;
+          area_[j] = id;
+          open.push_back(j);
+        }
+      }
+      area.size = int(open.size());
+      area.color /= float(area.size);
+      areas_.push_back(area);
+    }
+    for (int i = 0; i < int(area_.size()); ++i) {
+      if (area_[i] < 0) continue;
+      bool core = true;
+      for (const auto& step : kNeighbours) {
+        const int u = i % small_.width + step[0], v = i / small_.width + step[1];
+        core &= small_.holds(u, v) && area_[small_.index(u, v)] == area_[i];
+      }
+      areas_[area_[i]].core += core;
+    }
+  }
+
+  // The face: what is most of the head's middle but not of its rim; -1: none, a head of one colour.
+  int face() const {
+    int in_head = 0, at_head_rim = 0, most = -1;
+    for (int id = 0; id < int(areas_.size()); ++id) {
+      in_head += areas_[id].in_head, at_head_rim += areas_[id].at_head_rim;
+      if (most < 0 || areas_[id].in_head > areas_[most].in_head) most = id;
+    }
+    if (most < 0 || areas_[most].in_head < kMostOf * in_head) return -1;
+    return areas_[most].at_head_rim > kMostOf * at_head_rim ? -1 : most;
+  }
+
+  // Those at the rim, without the face.
+  void keepAreas() {
+    kept_.assign(small_.figure.size(), 0);
+    const double figure_area = double(std::count(small_.figure.begin(), small_.figure.end(), 1));
+    const int face_area = face();
+    bool any = false;
+    for (int i = 0; i < int(kept_.size()); ++i) {
+      if (area_[i] < 0) continue;
+      const Area& area = areas_[area_[i]];
+      kept_[i] = area.size >= kLeastArea * figure_area && area.core >= kLeastCore * area.size &&
+                 area.at_rim >= kAtRim * kRim_px * std::sqrt(double(area.size)) &&
+                 fromHead(place(i)) > kInsideHead && !(area_[i] == face_area && nearHead(place(i)));
+      any |= kept_[i];
+    }
+    if (any || areas_.empty()) return;
+    const auto largest = std::max_element(areas_.begin(), areas_.end(),
+                                          [](const Area& a, const Area& b) { return a.size < b.size; });
+    for (int i = 0; i < int(kept_.size()); ++i) kept_[i] = area_[i] == int(largest - areas_.begin());
+  }
+
+  // What went takes the nearest colour that stays, from the sides rather than from above, and from there
+  // rather than from below.
+  void fill() {
+    filled_ = color_;
+    const Eigen::Vector2d up = head_ ? head_->up : Eigen::Vector2d(0, -1);
+    double costs[8];
+    for (int k = 0; k < 8; ++k) {
+      const Eigen::Vector2d step(kNeighbours[k][0], kNeighbours[k][1]);
+      const double rise = step.dot(up);
+      costs[k] = step.norm() + (rise > 0 ? (kUp - 1) * rise : -(kDown - 1) * rise);
+    }
+    std::vector<double> cost(kept_.size(), 1e9);
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    for (int i = 0; i < int(kept_.size()); ++i)
+      if (kept_[i]) cost[i] = 0, filled_[i] = areas_[area_[i]].color, open.emplace(0, i);
+    while (!open.empty()) {
+      const auto [reached, i] = open.top();
+      open.pop();
+      if (reached > cost[i]) continue;
+      for (int k = 0; k < 8; ++k) {
+        const int u = i % small_.width + kNeighbours[k][0], v = i / small_.width + kNeighbours[k][1];
+        if (!small_.holds(u, v)) continue;
+        const int j = small_.index(u, v);
+        if (reached + costs[k] >= cost[j]) continue;
+        cost[j] = reached + costs[k];
+        filled_[j] = filled_[i];
+        open.emplace(cost[j], j);
+      }
+    }
+    for (int i = 0; i < int(kept_.size()); ++i)
+      if (kept_[i]) filled_[i] = color_[i];
+  }
+
+  // So that colours that met have no stairs between them.
+  void soften() {
+    constexpr int kPasses = 2;
+    for (int pass = 0; pass < kPasses; ++pass) {
+      const std::vector<Eigen::Vector3f> before = filled_;
+      for (int y = 0; y < small_.height; ++y)
+        for (int x = 0; x < small_.width; ++x) {
+          if (!small_.holds(x, y) || kept_[small_.index(x, y)]) continue;
+          Eigen::Vector3f sum = before[small_.index(x, y)];
+          int count = 1;
+          for (const auto& step : kNeighbours)
+            if (small_.holds(x + step[0], y + step[1]))
+              sum += before[small_.index(x + step[0], y + step[1])], ++count;
+          filled_[small_.index(x, y)] = sum / float(count);
+        }
+    }
+  }
+
+  // Bilinear, over the figure's px alone.
+  Eigen::Vector3f filledAt(double x, double y) const {
+    const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
+    const double fx = x - x0, fy = y - y0;
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    double weights = 0;
+    for (int v = 0; v < 2; ++v)
+      for (int u = 0; u < 2; ++u) {
+        if (!small_.holds(x0 + u, y0 + v)) continue;
+        const double weight = (u ? fx : 1 - fx) * (v ? fy : 1 - fy) + 1e-6;
+        sum += float(weight) * filled_[small_.index(x0 + u, y0 + v)];
+        weights += weight;
+      }
+    return sum / float(std::max(weights, 1e-6));
+  }
+
+  Small small_;
+  std::optional<HeadDisc> head_;  // in px of small_
+  int line_radius_;
+  std::vector<float> rim_;
+  Lines lines_;
+  std::vector<char> outline_;
+  std::vector<Eigen::Vector3f> color_, filled_;
+  std::vector<int> area_;  // of each px; -1: none
+  std::vector<Area> areas_;
+  std::vector<char> kept_;
+};
+
+}  // namespace
+
+Image backColors(const Image& front, const Plane8& figure, const std::optional<HeadDisc>& head) {
+  SKEL_CHECK_EQ(figure.rows(), front.height);
+  SKEL_CHECK_EQ(figure.cols(), front.width);
+  if (!(figure != 0).any()) return front;
+  return BackPainter(front, figure, head).paint(front);
+}
+
+}  // namespace skel

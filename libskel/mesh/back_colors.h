@@ -1,0 +1,25 @@
+// What the back of a drawn figure wears: its areas of colour without what is drawn on its front.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "libskel/image/image.h"
+
+namespace skel {
+
+// The disc of the head that faces the viewer.
+struct HeadDisc {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  double radius = 0;
+  Eigen::Vector2d up = {0, -1};  // from chin to top, a unit vector
+};
+
+// `front`: opaque, the drawing seen from the front; `figure` (of its size, not 0 on the figure) and `head` in
+// its px. Lines and areas that lie inside the figure go (eyes, mouth, buttons, a belly), and the face does
+// unless the head is of that colour all round; areas that reach the rim stay, hatched ones too. What went
+// takes the colours of what stays, nearest first: those beside it rather than those above (hair, a hat), and
+// those rather than what is below. The drawn outline stays as it is.
+Image backColors(const Image& front, const Plane8& figure, const std::optional<HeadDisc>& head);
+
+}  // namespace skel

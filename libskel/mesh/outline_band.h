@@ -1,0 +1,28 @@
+// The band along a figure's rim that its drawn outline covers.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "libskel/image/image.h"
+#include "libskel/mesh/planar_mesh.h"
+
+namespace skel {
+
+// A point of the figure's outline and how wide the dark line is that is drawn there.
+struct OutlineSample {
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();  // image px
+  double width_px = 0;  // 0: no dark line, or the figure is dark all the way through
+};
+
+// `outline`: closed curves of points about one px apart, the figure to the right of the way round as seen on
+// the screen (sideMiddles() of a silhouette's). Looks inwards from every sample at the picture's brightness.
+std::vector<OutlineSample> drawnOutline(const Image& image, const Plane8& mask,
+                                        const std::vector<std::vector<Eigen::Vector2d>>& outline);
+
+// Moves inner vertices that lie about a line's width from the rim onto the line's inner edge, as far as the
+// triangles stay well shaped, and returns which inner vertices lie within the line: each one's width in px, 0
+// for all others. From the side the line then is as thin as the mesh is at these vertices.
+std::vector<double> outlineBand(PlanarMesh& mesh, const std::vector<OutlineSample>& outline);
+
+}  // namespace skel

@@ -1,0 +1,188 @@
+// What is written under which name, and which figure of a page it is of.
+#include <filesystem>
+
+#include "libskel/core/files.h"
+#include "libskel/image/write_image.h"
+#include "tests/support/catch.h"
+#include "tests/support/run_tool.h"
+#include "tests/support/synthetic_figure.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kDrawing = SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png";
+
+ToolRun infer(const TempDir& dir, const std::string& arguments) {
+  return runTool("cd '" + dir.path() + "' && '" SKEL_INFER "' " + arguments);
+}
+
+bool contains(const std::string& text, const std::string& what) {
+  return text.find(what) != std::string::npos;
+}
+
+// Figures side by side on white paper, each in its own square.
+std::string page(const std::vector<CapsuleFigure>& figures) {
+  int width = 0, height = 0;
+  for (const CapsuleFigure& figure : figures) width += figure.size, height = std::max(height, figure.size);
+  Image image(width, height);
+  image.rgba.setConstant(255);
+  int left = 0;
+  for (const CapsuleFigure& figure : figures) {
+    const Image drawn = capsuleImage(figure);
+    for (int y = 0; y < drawn.height; ++y)
+      for (int x = 0; x < drawn.width; ++x)
+        std::copy_n(drawn.pixel(x, y), 4, image.pixel(left + x, height - drawn.height + y));
+    left += figure.size;
+  }
+  return encodePng(image);
+}
+
+CapsuleFigure thinStickMan() {
+  CapsuleFigure figure;
+  figure.size = 320;
+  figure.limb_radius = 2;
+  figure.trunk_radius = 3;
+  figure.head_radius = 18;
+  return figure;
+}
+
+}  // namespace
+
+TEST_CASE("after --figure all, --skeleton page-2: the second skeleton stays on the second figure") {
+  const TempDir dir;
+  CapsuleFigure small;
+  small.size = 300;
+  writeFile(dir.file("page.png"), page({CapsuleFigure(), small}));
+  REQUIRE(infer(dir, "page.png -o one --figure all").exit_code == 0);
+  const ToolRun again = infer(dir, "page.png -o two --skeleton one/page-2.skeleton.json");
+  CAPTURE(again.err);
+  CHECK(again.exit_code == 0);
+  CHECK(readFile(dir.file("two/page-2.silhouette.png")) == readFile(dir.file("one/page-2.silhouette.png")));
+  CHECK(readFile(dir.file("two/page-2.glb")) == readFile(dir.file("one/page-2.glb")));
+  CHECK_FALSE(fs::exists(dir.file("two/page.glb")));
+  SECTION("one that is asked for on another figure is refused") {
+    const ToolRun run = infer(dir, "page.png -o two --figure 3 --skeleton one/page-2.skeleton.json");
+    CHECK(run.exit_code == 2);
+    CHECK(contains(run.err,
+                   "one/page-2.skeleton.json: belongs to figure 2 of the drawing, --figure asks for 3"));
+  }
+  SECTION("joints far outside the figure are refused by name") {
+    std::string text = readFile(dir.file("one/page-2.skeleton.json"));
+    text.replace(text.find("\"number\": 2"), 11, "\"number\": 1");
+    writeFile(dir.file("wrong.skeleton.json"), text);
+    const ToolRun run = infer(dir, "page.png -o three --skeleton wrong.skeleton.json");
+    CHECK(run.exit_code == 2);
+    CHECK(contains(run.err, "wrong.skeleton.json: joint \""));
+    CHECK(contains(run.err, "\" lies far outside figure 1 of the drawing"));
+    CHECK_FALSE(fs::exists(dir.file("three/page.glb")));
+  }
+}
+
+TEST_CASE("notes of --figure all say which figure") {
+  const TempDir dir;
+  CapsuleFigure small;
+  small.size = 300;
+  writeFile(dir.file("page.png"), page({CapsuleFigure(), small}));
+  const ToolRun run = infer(dir, "page.png --figure all");
+  CHECK(contains(run.out, "page.png, figure 1: out/page-1.glb"));
+  CHECK(contains(run.out, "page.png, figure 2: out/page-2.glb"));
+  CHECK_FALSE(contains(run.err, "page.png: note"));
+}
+
+TEST_CASE("a third figure, a thin stick man, is not dropped without a word") {
+  const TempDir dir;
+  CapsuleFigure small;
+  small.size = 340;
+  writeFile(dir.file("page.png"), page({CapsuleFigure(), small, thinStickMan()}));
+  const ToolRun run = infer(dir, "page.png");
+  CHECK(contains(run.err, "the picture shows 3 figures"));
+}
+
+TEST_CASE("an edit without \"origin\": \"edited\" is kept, and what was said before it is dropped") {
+  const TempDir dir;
+  const std::string path = dir.file("out/cap_boy.skeleton.json");
+  REQUIRE(infer(dir, kDrawing).exit_code == 0);
+  std::string text = readFile(path);
+  const size_t hand = text.find("\"left_hand\""), x = text.find("\"image\":[", hand) + 9;
+  text.replace(x, text.find(',', x) - x, "420.5");
+  text.replace(text.find("\"warnings\": []"), 14, "\"warnings\": [\"this hardly looks like one\"]");
+  writeFile(path, text);
+  const ToolRun plain = infer(dir, kDrawing);
+  CHECK(plain.exit_code == 2);
+  CHECK(contains(plain.err, "cap_boy.skeleton.json: holds joints that were edited by hand"));
+  CHECK(readFile(path) == text);
+  const ToolRun on = infer(dir, kDrawing + " --skeleton out/cap_boy.skeleton.json");
+  CHECK(on.exit_code == 0);
+  CHECK_FALSE(contains(on.err, "hardly"));
+  const std::string after = readFile(path);
+  CHECK(contains(after.substr(after.find("\"left_hand\"")), "\"origin\":\"edited\""));
+  CHECK_FALSE(contains(after, "hardly"));
+}
+
+TEST_CASE("a rest pose is no edit") {
+  const TempDir dir;
+  REQUIRE(infer(dir, kDrawing + " --rest-pose T").exit_code == 0);
+  CHECK(infer(dir, kDrawing + " --rest-pose T").exit_code == 0);
+}
+
+TEST_CASE("option --formats obj reports the .obj, not a .png") {
+  const TempDir dir;
+  CHECK(contains(infer(dir, kDrawing + " --formats obj").out, ": out/cap_boy.obj  confidence"));
+}
+
+TEST_CASE("one clip gives <stem>-<clip>.bvh, as the docs say") {
+  const TempDir dir;
+  CHECK(contains(infer(dir, kDrawing + " --formats bvh --clips wave").out, "out/cap_boy-wave.bvh"));
+  CHECK(fs::exists(dir.file("out/cap_boy-wave.bvh")));
+  CHECK(infer(dir, kDrawing + " -o still --formats bvh --clips none").exit_code == 0);
+  CHECK(fs::exists(dir.file("still/cap_boy.bvh")));
+}
+
+TEST_CASE("*.png in the folder of the results does not rig overlays and silhouettes") {
+  const TempDir dir;
+  writeFile(dir.file("boy.png"), readFile(kDrawing));
+  REQUIRE(infer(dir, "boy.png -o .").exit_code == 0);
+  const ToolRun again = infer(dir, "*.png -o .");
+  CHECK(again.exit_code == 0);
+  CHECK(contains(again.err, "note: boy.overlay.png is no drawing but what was made of one: left out"));
+  CHECK_FALSE(fs::exists(dir.file("boy.overlay.glb")));
+  CHECK_FALSE(fs::exists(dir.file("boy.silhouette.glb")));
+  fs::remove(dir.file("boy.png"));
+  const ToolRun none = infer(dir, "*.png -o .");
+  CHECK(none.exit_code == 1);
+  CHECK(contains(none.err, "none of the images is a drawing"));
+}
+
+TEST_CASE("every tool has --version") {
+  const TempDir dir;
+  const ToolRun run = infer(dir, "--version");
+  CHECK(run.exit_code == 0);
+  CHECK(run.out == "skel-infer " SKEL_VERSION "\n");
+}
+
+TEST_CASE("script/build --help makes no folder") {
+  for (const std::string argument : {"--help", "--nonsense"}) {
+    const ToolRun run = runTool("'" SKEL_SOURCE_DIR "/script/build' " + argument);
+    CHECK(run.exit_code == (argument == "--help" ? 0 : 1));
+    CHECK_FALSE(fs::exists(SKEL_SOURCE_DIR "/build/" + argument));
+  }
+}
+
+TEST_CASE("option --back takes plain, same or a picture, and refuses what shows no figure") {
+  const TempDir dir;
+  for (const std::string back : {"plain", "same"})
+    CHECK(infer(dir, kDrawing + " --formats glb -o " + back + " --back " + back).exit_code == 0);
+  CHECK(readFile(dir.file("plain/cap_boy.glb")) != readFile(dir.file("same/cap_boy.glb")));
+  writeFile(dir.file("behind.png"), page({CapsuleFigure()}));
+  CHECK(infer(dir, kDrawing + " --formats glb -o own --back behind.png").exit_code == 0);
+  Image white(100, 100);
+  white.rgba.setConstant(255);
+  writeFile(dir.file("white.png"), encodePng(white));
+  const ToolRun none = infer(dir, kDrawing + " -o none --back white.png");
+  CHECK(none.exit_code == 1);
+  CHECK(contains(none.err, "the picture of the back shows no figure"));
+  CHECK(infer(dir, kDrawing + " --back nothing.png").exit_code == 2);
+}

@@ -1,0 +1,250 @@
+// The model from behind, from the side and of a drawing that was turned.
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "libskel/mesh/back_colors.h"
+#include "libskel/mesh/inflate.h"
+#include "libskel/mesh/outline_band.h"
+#include "libskel/mesh/split_seams.h"
+#include "tests/support/catch.h"
+#include "tests/support/mesh_checks.h"
+#include "tests/support/synthetic_figure.h"
+
+using namespace skel;
+
+namespace {
+
+void paintDisc(Image& image, const Eigen::Vector2d& center, double radius, const std::array<int, 3>& color) {
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if ((Eigen::Vector2d(x, y) - center).norm() <= radius)
+        for (int c = 0; c < 3; ++c) image.pixel(x, y)[c] = static_cast<std::uint8_t>(color[c]);
+}
+
+// Orange, with two black eyes in the head and a white button on the body.
+Image withFace(const CapsuleFigure& figure) {
+  Image image = capsuleImage(figure);
+  for (Eigen::Index i = 0; i < image.rgba.rows(); ++i)
+    if (image.rgba(i, 0) == 60) image.rgba.row(i) << 230, 150, 60, 255;
+  const Skeleton skeleton = capsuleSkeleton(figure);
+  const Eigen::Vector2d head = skeleton.joints[skeleton.index("head")].image;
+  paintDisc(image, head - Eigen::Vector2d(14, 4), 6, {0, 0, 0});
+  paintDisc(image, head + Eigen::Vector2d(14, -4), 6, {0, 0, 0});
+  paintDisc(image, skeleton.joints[skeleton.index("body")].image, 9, {255, 255, 255});
+  return image;
+}
+
+// A ball drawn by a black line `width` px wide, yellow inside.
+Image outlinedBall(int size, double radius, double width) {
+  Image image(size, size);
+  image.rgba.setConstant(255);
+  const Eigen::Vector2d middle = Eigen::Vector2d::Constant(0.5 * (size - 1));
+  paintDisc(image, middle, radius, {0, 0, 0});
+  paintDisc(image, middle, radius - width, {250, 210, 60});
+  return image;
+}
+
+Plane8 notWhite(const Image& image) {
+  Plane8 mask = Plane8::Zero(image.height, image.width);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (image.pixel(x, y)[2] < 255) mask(y, x) = 255;
+  return mask;
+}
+
+int darkTexels(const Image& image) { return static_cast<int>((image.rgba.col(0) < 100).count()); }
+
+// Of the surface that is seen from the side, the share whose texture is dark.
+double darkFromTheSide(const TriangleMesh& mesh) {
+  double dark = 0, all = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    const Eigen::Vector3d a = mesh.vertices.row(mesh.triangles(t, 0)).cast<double>(),
+                          b = mesh.vertices.row(mesh.triangles(t, 1)).cast<double>(),
+                          c = mesh.vertices.row(mesh.triangles(t, 2)).cast<double>();
+    const double seen = (b - a).cross(c - a).x();
+    if (seen <= 0) continue;
+    constexpr int kSteps = 6;
+    for (int i = 0; i < kSteps; ++i)
+      for (int j = 0; j + i < kSteps; ++j) {
+        const float u = (i + 0.33f) / kSteps, v = (j + 0.33f) / kSteps;
+        const Eigen::RowVector2f uv =
+            (1 - u - v) * mesh.uvOf(t, 0) + u * mesh.uvOf(t, 1) + v * mesh.uvOf(t, 2);
+        const int x = std::min(mesh.texture.width - 1, static_cast<int>(uv.x() * mesh.texture.width));
+        const int y = std::min(mesh.texture.height - 1, static_cast<int>(uv.y() * mesh.texture.height));
+        all += seen;
+        if (mesh.texture.pixel(x, y)[0] < 125) dark += seen;
+      }
+  }
+  return dark / all;
+}
+
+}  // namespace
+
+TEST_CASE("no face on the back of the head, no button on the back") {
+  const CapsuleFigure figure;
+  const Image image = withFace(figure);
+  const Plane8 mask = capsuleMask(figure);
+  HeadDisc head{capsuleSkeleton(figure).joints[3].image, 40};
+  const Image back = backColors(image, mask, head);
+  CHECK(darkTexels(image) > 150);
+  CHECK(darkTexels(back) == 0);
+  for (int y = 0; y < back.height; ++y)
+    for (int x = 0; x < back.width; ++x)
+      if (mask(y, x)) {
+        REQUIRE(std::abs(back.pixel(x, y)[0] - 230) < 12);
+        REQUIRE(std::abs(back.pixel(x, y)[2] - 60) < 25);
+      }
+}
+
+TEST_CASE("the back of the head is hair where hair is at its rim, and the head's colour where none is") {
+  // A ball of skin, above and beside it hair.
+  Image image(200, 200);
+  image.rgba.setConstant(255);
+  const Eigen::Vector2d middle(100, 100);
+  const bool has_hair = GENERATE(true, false);
+  if (has_hair) paintDisc(image, middle, 80, {90, 50, 20});
+  paintDisc(image, has_hair ? Eigen::Vector2d(100, 108) : middle, has_hair ? 66 : 80, {240, 200, 160});
+  paintDisc(image, {80, 95}, 7, {0, 0, 0});
+  paintDisc(image, {120, 95}, 7, {0, 0, 0});
+  const Plane8 mask = notWhite(image);
+  const Image back = backColors(image, mask, HeadDisc{middle, 80});
+  for (int y = 60; y < 130; ++y)
+    for (int x = 60; x < 140; ++x) REQUIRE(std::abs(back.pixel(x, y)[0] - (has_hair ? 90 : 240)) < 10);
+}
+
+TEST_CASE("stripes of a shirt stay on the back") {
+  Image image = outlinedBall(200, 80, 4);
+  for (int y = 30; y < 170; ++y)
+    for (int x = 0; x < 200; ++x)
+      if (y % 10 < 5 && image.pixel(x, y)[0] == 250) image.pixel(x, y)[0] = 20;
+  const Image back = backColors(image, notWhite(image), std::nullopt);
+  CHECK(darkTexels(back) > 0.8 * darkTexels(image));
+}
+
+TEST_CASE("front and back share one texture, and the mesh stays closed") {
+  const CapsuleFigure figure;
+  const Image image = withFace(figure);
+  const Silhouette silhouette = silhouetteFromMask(capsuleMask(figure));
+  InflateOptions plain;
+  plain.back = Back::kPlain;
+  const TriangleMesh mesh = inflate(image, silhouette, plain);
+  CHECK(checkMesh(mesh).problem == "");
+  REQUIRE(mesh.back_uv.rows() == mesh.uv.rows());
+  CHECK(mesh.back_uv.minCoeff() >= 0);
+  CHECK(mesh.back_uv.maxCoeff() <= 1);
+  const SplitMesh split = splitSeams(mesh);
+  CHECK(split.mesh.triangles.rows() == mesh.triangles.rows());
+  CHECK(split.mesh.vertices.rows() > mesh.vertices.rows());
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      REQUIRE(split.source[static_cast<size_t>(split.mesh.triangles(t, k))] == mesh.triangles(t, k));
+      REQUIRE(split.mesh.uvOf(t, k) == mesh.uvOf(t, k));
+    }
+  const std::optional<TriangleMesh> whole = joinSeams(split.mesh);
+  REQUIRE(whole);
+  CHECK(whole->vertices == mesh.vertices);
+  CHECK(whole->triangles == mesh.triangles);
+  CHECK(splitSeams(*whole).mesh.uv == split.mesh.uv);
+
+  const TriangleMesh same = inflate(image, silhouette);
+  CHECK(same.back_uv.rows() == 0);
+  CHECK(splitSeams(same).mesh.vertices.rows() == same.vertices.rows());
+  CHECK_FALSE(joinSeams(same));
+}
+
+TEST_CASE("a picture of the back lies mirrored on the back") {
+  const Image front = outlinedBall(200, 80, 6);
+  // Seen from behind, its right half is red.
+  auto picture = std::make_shared<BackPicture>();
+  picture->image = outlinedBall(100, 40, 3);
+  picture->mask = notWhite(picture->image);
+  for (int y = 0; y < 100; ++y)
+    for (int x = 50; x < 100; ++x)
+      if (picture->mask(y, x))
+        std::copy_n(std::array<std::uint8_t, 3>{250, 0, 0}.data(), 3, picture->image.pixel(x, y));
+  InflateOptions options;
+  options.back_picture = picture;
+  const TriangleMesh mesh = inflate(front, silhouetteFromMask(notWhite(front)), options);
+  int red = 0, wrong = 0;
+  for (Eigen::Index t = mesh.first_back; t < mesh.triangles.rows(); ++t) {
+    const float x = mesh.vertices(mesh.triangles(t, 0), 0);
+    if (std::abs(x) < 0.1f || std::abs(x) > 0.5f) continue;
+    const Eigen::RowVector2f uv = mesh.uvOf(t, 0);
+    const std::uint8_t* color = mesh.texture.pixel(static_cast<int>(uv.x() * mesh.texture.width),
+                                                   static_cast<int>(uv.y() * mesh.texture.height));
+    if (color[0] < 200) continue;  // the outline
+    const bool is_red = color[1] < 100;
+    red += is_red;
+    wrong += is_red != (x < 0);  // who looks from behind has the model's -x at the right
+  }
+  CHECK(red > 50);
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("a dark outline is no broad black band from the side, and the front stays") {
+  const Image image = outlinedBall(400, 180, 14);
+  const Silhouette silhouette = silhouetteFromMask(notWhite(image));
+  InflateOptions thin;
+  thin.thin_outline = true;
+  const TriangleMesh before = inflate(image, silhouette), after = inflate(image, silhouette, thin);
+  CHECK(checkMesh(after).problem == "");
+  CHECK(darkFromTheSide(before) > 0.3);
+  CHECK(darkFromTheSide(after) < 0.2);
+  // From the front: the rim is where it was, and every point of the drawing lies where it is drawn.
+  REQUIRE(after.vertices.rows() == before.vertices.rows());
+  const Eigen::Vector2d texels(after.texture.width, after.texture.height);
+  const auto texelOf = [&](Eigen::Index v) {
+    return Eigen::Vector2d(after.uv.row(v).transpose().cast<double>().cwiseProduct(texels));
+  };
+  const auto pixelOf = [&](Eigen::Index v) {
+    return after.model_from_image.inverse(after.vertices.row(v).head<2>().transpose().cast<double>());
+  };
+  const Eigen::Vector2d margin = texelOf(0) - pixelOf(0);
+  int rim = 0;
+  for (Eigen::Index v = 0; v < after.vertices.rows(); ++v) {
+    REQUIRE((texelOf(v) - pixelOf(v) - margin).norm() < 0.1);
+    if (before.vertices(v, 2) != 0) continue;
+    ++rim;
+    REQUIRE(after.vertices.row(v) == before.vertices.row(v));
+  }
+  CHECK(rim > 100);
+}
+
+TEST_CASE("a figure that is dark all the way through has no outline") {
+  const Image image = outlinedBall(200, 80, 80);
+  const Plane8 mask = notWhite(image);
+  std::vector<std::vector<Eigen::Vector2d>> outline;
+  for (const Polygon& corners : silhouetteFromMask(mask).outline) outline.push_back(sideMiddles(corners));
+  for (const OutlineSample& sample : drawnOutline(image, mask, outline)) REQUIRE(sample.width_px == 0);
+  const Image ball = outlinedBall(200, 80, 5);
+  for (const OutlineSample& sample : drawnOutline(ball, mask, outline))
+    REQUIRE(sample.width_px == Approx(5).margin(1.6));
+}
+
+TEST_CASE("a drawing that was turned gives an upright model") {
+  const CapsuleFigure figure;
+  const Image image = capsuleImage(figure);
+  Image lying(image.height, image.width);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      std::copy_n(image.pixel(x, y), 4, lying.pixel(image.height - 1 - y, x));
+  InflateOptions turned;
+  turned.turned_rad = std::numbers::pi / 2;
+  turned.height_m = 2;
+  const TriangleMesh mesh = inflate(lying, silhouetteFromMask(notWhite(lying)), turned);
+  CHECK(checkMesh(mesh).problem == "");
+  CHECK(mesh.vertices.col(1).minCoeff() == Approx(0).margin(1e-5));
+  CHECK(mesh.vertices.col(1).maxCoeff() == Approx(2));
+  CHECK(mesh.vertices.col(0).minCoeff() == Approx(-mesh.vertices.col(0).maxCoeff()).margin(1e-5));
+  const Skeleton skeleton = capsuleSkeleton(figure);
+  const auto place = [&](const char* name) {
+    const Eigen::Vector2d p = skeleton.joints[skeleton.index(name)].image;
+    return mesh.model_from_image(Eigen::Vector2d(image.height - 1 - p.y(), p.x()));
+  };
+  CHECK(place("head_top").y() > place("pelvis").y());
+  CHECK(place("left_hand").x() > 0);
+  CHECK(std::abs(place("head").x()) < 0.01);
+  const Eigen::Vector2d p(123, 45);
+  CHECK((mesh.model_from_image.inverse(mesh.model_from_image(p)) - p).norm() < 1e-9);
+}

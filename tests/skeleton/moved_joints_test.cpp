@@ -1,0 +1,93 @@
+#include "libskel/skeleton/moved_joints.h"
+
+#include "libskel/core/files.h"
+#include "libskel/mesh/triangle_mesh.h"
+#include "libskel/skeleton/outside_figure.h"
+#include "libskel/skeleton/skeleton_file.h"
+#include "tests/support/catch.h"
+#include "tests/support/synthetic_figure.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+
+namespace {
+
+// As skel writes it: positions that fit the drawing.
+SkeletonFile fitting() {
+  SkeletonFile file;
+  file.image_file = "cat.png";
+  file.image_width = file.image_height = 400;
+  file.skeleton = capsuleSkeleton();
+  ModelFromImage model_from_image;
+  model_from_image.scale.setConstant(1.7 / 350);
+  model_from_image.origin_px = {200, 380};
+  for (Joint& joint : file.skeleton.joints) {
+    joint.image = (joint.image * 100).array().round() / 100;
+    joint.position.head<2>() = model_from_image(joint.image);
+  }
+  return file;
+}
+
+}  // namespace
+
+TEST_CASE("hand edits are lost on the next plain run unless marked: an unmarked edit is seen") {
+  const TempDir dir;
+  const std::string path = dir.file("s.json");
+  SkeletonFile file = fitting();
+  writeFile(path, formatSkeletonFile(file));
+  CHECK_FALSE(hasEditedJoint(path));
+
+  const auto hand = static_cast<size_t>(file.skeleton.index("left_hand"));
+  const auto knee = static_cast<size_t>(file.skeleton.index("right_knee"));
+  file.skeleton.joints[hand].image.x() -= 4;
+  file.skeleton.joints[knee].image.y() += 30;
+  file.missing = {"left_hand", "left_foot"};
+  writeFile(path, formatSkeletonFile(file));
+  CHECK(hasEditedJoint(path));
+  const SkeletonFile back = readSkeletonFile(path, loadTemplate("biped"));
+  for (const Joint& joint : back.skeleton.joints) {
+    CAPTURE(joint.name);
+    const bool moved = joint.name == "left_hand" || joint.name == "right_knee";
+    CHECK((joint.origin == JointOrigin::kEdited) == moved);
+  }
+  CHECK(back.missing == std::vector<std::string>{"left_foot"});
+}
+
+TEST_CASE("joints whose positions are not known are not taken for moved ones") {
+  std::vector<Eigen::Vector2d> image, nowhere;
+  for (const Joint& joint : fitting().skeleton.joints) {
+    image.push_back(joint.image);
+    nowhere.emplace_back(0, 0);
+  }
+  CHECK(movedJoints(image, nowhere).empty());
+  CHECK(movedJoints({image[0], image[1]}, {nowhere[0], nowhere[1]}).empty());
+  CHECK(movedJoints(nowhere, image).empty());
+}
+
+TEST_CASE("a skeleton file keeps its figure, and one of version 1 is of figure 1") {
+  const TempDir dir;
+  SkeletonFile file = fitting();
+  file.figure = {3, std::string(64, 'f'), 90};
+  std::string text = formatSkeletonFile(file);
+  writeFile(dir.file("s.json"), text);
+  const SkeletonFile back = readSkeletonFile(dir.file("s.json"), loadTemplate("biped"));
+  CHECK(back.figure.number == 3);
+  CHECK(back.figure.sha256 == file.figure.sha256);
+  CHECK(back.figure.turned_deg == 90);
+  text.replace(text.find("\"version\": 2"), 12, "\"version\": 1");
+  const size_t from = text.find("  \"figure\""), to = text.find("  \"template\"");
+  writeFile(dir.file("old.json"), text.erase(from, to - from));
+  CHECK(readSkeletonFile(dir.file("old.json"), loadTemplate("biped")).figure.number == 1);
+}
+
+TEST_CASE("joints far outside the mask are told from those a little beside it") {
+  const Plane8 mask = capsuleMask();
+  Skeleton skeleton = capsuleSkeleton();
+  CHECK(jointFarOutside(skeleton, mask) == nullptr);
+  Joint& hand = skeleton.joints[static_cast<size_t>(skeleton.index("left_hand"))];
+  hand.image.x() += 40;
+  CHECK(jointFarOutside(skeleton, mask) == nullptr);
+  hand.image.x() += 60;
+  REQUIRE(jointFarOutside(skeleton, mask));
+  CHECK(jointFarOutside(skeleton, mask)->name == "left_hand");
+}
