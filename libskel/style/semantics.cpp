@@ -42,8 +42,8 @@ Semantics fitSemantics(const MatrixXd& activations, const std::vector<std::strin
   MatrixXd y = MatrixXd::Zero(r, m);
   std::vector<int> truth;
   for (const std::string& action : actions)
-    truth.push_back(int(std::lower_bound(result.classes.begin(), result.classes.end(), action) -
-                        result.classes.begin()));
+    truth.push_back(
+        int(std::lower_bound(result.classes.begin(), result.classes.end(), action) - result.classes.begin()));
   for (Eigen::Index i = 0; i < m; ++i) y(truth[std::size_t(i)], i) = 1;
 
   result.rebuilt = rebuiltFromLeading(activations, int(std::min(r, k)));
@@ -67,8 +67,8 @@ Semantics fitSemantics(const MatrixXd& activations, const std::vector<std::strin
 std::vector<int> matchSignatures(const MatrixXd& ours, const MatrixXd& theirs) {
   SKEL_CHECK_EQ(ours.rows(), theirs.rows());
   SKEL_CHECK_EQ(ours.cols(), theirs.cols());
-  // Kuhn's method with potentials (Jonker, Volgenant 1987): one shortest augmenting path a row. Row and column
-  // 0 stand for none.
+  // Kuhn's method with potentials (Jonker, Volgenant 1987): one shortest augmenting path a row. Row and
+  // column 0 stand for none.
   const int n = int(ours.cols());
   constexpr double kFar = std::numeric_limits<double>::infinity();
   std::vector<double> of_row(std::size_t(n) + 1), of_column(std::size_t(n) + 1);

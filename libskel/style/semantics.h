@@ -16,10 +16,10 @@ struct SemanticOptions {
 struct Semantics {
   std::vector<std::string> classes;  // r, sorted
   Eigen::MatrixXd rebuilt;           // Ṽ, k×m: V from its r leading eigenvectors with weights >= 0
-  Eigen::MatrixXd class_weights;     // W = Y·Ṽᵀ(Ṽ·Ṽᵀ + λI)⁻¹, r×k; a column is a component's class signature
-  std::vector<int> predicted;        // of each frame, the row of W·Ṽ that is largest
-  double accuracy = 0;               // share of the frames of which that is the class
-  double residual = 0;               // ‖WṼ − Y‖²
+  Eigen::MatrixXd class_weights;  // W = Y·Ṽᵀ(Ṽ·Ṽᵀ + λI)⁻¹, r×k; a column is a component's class signature
+  std::vector<int> predicted;  // of each frame, the row of W·Ṽ that is largest
+  double accuracy = 0;         // share of the frames of which that is the class
+  double residual = 0;         // ‖WṼ − Y‖²
 };
 
 // `activations`: V, k×m, >= 0; `actions`: the class of each of the m frames. Throws UsageError: no frame, a

@@ -81,7 +81,8 @@ class Run {
       now = stepBasis(products(), now);
       MatrixXd v = updated(v_, u_.transpose() * x_, u_.transpose() * u_, options_.sparsity);
       std::swap(v, v_);
-      // The update lowers the objective (Hoyer 2002, theorem 1); what raises it are rounding errors at its end.
+      // The update lowers the objective (Hoyer 2002, theorem 1); what raises it are rounding errors at its
+      // end.
       if (const double objective = products().objective(u_); objective <= now)
         now = objective;
       else

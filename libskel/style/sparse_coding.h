@@ -20,8 +20,8 @@ struct SparseCodingOptions {
 
 // X ≈ U·V.
 struct SparseCoding {
-  Eigen::MatrixXd basis;           // U, n×k, >= 0, columns of length 1
-  Eigen::MatrixXd activations;     // V, k×m, >= 0
+  Eigen::MatrixXd basis;        // U, n×k, >= 0, columns of length 1
+  Eigen::MatrixXd activations;  // V, k×m, >= 0
   std::vector<double> objectives;  // ½‖X − UV‖² + α ΣV before the first iteration and after each; never rises
   double error = 0;                // ‖X − UV‖ / ‖X‖; 0 if X is 0
 };

@@ -67,8 +67,8 @@ TEST_CASE("the objective never rises, and is what it says") {
     REQUIRE(found.objectives.size() > 10);
     for (std::size_t i = 1; i < found.objectives.size(); ++i)
       REQUIRE(found.objectives[i] <= found.objectives[i - 1]);
-    const double direct = 0.5 * (p.data - found.basis * found.activations).squaredNorm() +
-                          sparsity * found.activations.sum();
+    const double direct =
+        0.5 * (p.data - found.basis * found.activations).squaredNorm() + sparsity * found.activations.sum();
     CHECK(found.objectives.back() == Approx(direct).epsilon(1e-9));
     CHECK(found.objectives.back() < (sparsity < 1 ? 0.3 : 0.9) * found.objectives.front());
     CHECK(found.basis.minCoeff() >= 0);
