@@ -83,7 +83,9 @@ namespace {
 
 // The area of the triangle beside that which it has at rest.
 double areaShare(const std::array<ArapMesh::Content::Edge, 3>& edges, const Eigen::MatrixX2d& v) {
-  const auto cross2 = [](const Complex& a, const Complex& b) { return a.real() * b.imag() - a.imag() * b.real(); };
+  const auto cross2 = [](const Complex& a, const Complex& b) {
+    return a.real() * b.imag() - a.imag() * b.real();
+  };
   const auto along = [&](const ArapMesh::Content::Edge& e) {
     return Complex(v(e.to, 0) - v(e.from, 0), v(e.to, 1) - v(e.from, 1));
   };
@@ -198,9 +200,8 @@ Eigen::MatrixX2d ArapMesh::deform(const Eigen::MatrixX2d& targets) const {
   Eigen::VectorXcd pull = Eigen::VectorXcd::Zero(c.vertex_count);
   for (std::size_t h = 0; h < c.handles.size(); ++h)
     for (std::size_t k = 0; k < 3; ++k)
-      pull(c.handles[h].vertices[k]) +=
-          c.handle_weight * c.handles[h].shares[k] *
-          Complex(targets(Eigen::Index(h), 0), targets(Eigen::Index(h), 1));
+      pull(c.handles[h].vertices[k]) += c.handle_weight * c.handles[h].shares[k] *
+                                        Complex(targets(Eigen::Index(h), 0), targets(Eigen::Index(h), 1));
 
   Eigen::VectorXcd z = c.free.solve(pull);
   Eigen::MatrixX2d posed(c.vertex_count, 2);

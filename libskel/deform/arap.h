@@ -13,8 +13,8 @@
 namespace skel {
 
 struct ArapOptions {
-  int iterations = 6;           // of the second solve, at least 1
-  double handle_weight = 100;   // how much a handle's place counts beside a triangle's shape
+  int iterations = 6;          // of the second solve, at least 1
+  double handle_weight = 100;  // how much a handle's place counts beside a triangle's shape
   // Where triangles are left turned over (inside an elbow that is bent far), their corners move to the middle
   // of their neighbours, so many times at most.
   int unfolding = 60;
@@ -22,11 +22,11 @@ struct ArapOptions {
 
 class ArapMesh {
  public:
-  // `vertices`: #V×2, `triangles`: #F×3, in one part, none of area 0, all of one orientation. `handles`: #H×2,
-  // at least two that differ; one that lies in no triangle holds on to the nearest one's nearest point. Throws
-  // UsageError where that is not so.
-  ArapMesh(const Eigen::MatrixX2d& vertices, const Eigen::MatrixX3i& triangles, const Eigen::MatrixX2d& handles,
-           const ArapOptions& options = {});
+  // `vertices`: #V×2, `triangles`: #F×3, in one part, none of area 0, all of one orientation. `handles`:
+  // #H×2, at least two that differ; one that lies in no triangle holds on to the nearest one's nearest point.
+  // Throws UsageError where that is not so.
+  ArapMesh(const Eigen::MatrixX2d& vertices, const Eigen::MatrixX3i& triangles,
+           const Eigen::MatrixX2d& handles, const ArapOptions& options = {});
   ~ArapMesh();
   ArapMesh(ArapMesh&&) noexcept;
 
