@@ -94,7 +94,9 @@ double period(const MatrixXd& content, bool loops) {
 Warp circularWarp(const MatrixXd& d, double speed, bool closes) {
   const Index n = d.rows(), m = d.cols();
   const int largest = int(std::ceil(2 * speed)) + 1;
-  const auto stepCost = [&](int step) { return kUnevenStep * std::pow((step - speed) / std::max(speed, 0.5), 2); };
+  const auto stepCost = [&](int step) {
+    return kUnevenStep * std::pow((step - speed) / std::max(speed, 0.5), 2);
+  };
   Warp best;
   const Index beginnings = closes ? std::min(m, kBeginnings) : 1;
   for (Index s = 0; s < beginnings; ++s) {
@@ -108,8 +110,7 @@ Warp circularWarp(const MatrixXd& d, double speed, bool closes) {
     for (std::size_t i = 1; i < std::size_t(n); ++i)
       for (Index j = 0; j < m; ++j)
         for (int k = 0; k <= largest && k < m; ++k) {
-          const double cost =
-              sum[i - 1][std::size_t((j - k + m) % m)] + stepCost(k) + d(Index(i), j);
+          const double cost = sum[i - 1][std::size_t((j - k + m) % m)] + stepCost(k) + d(Index(i), j);
           if (cost < sum[i][std::size_t(j)]) sum[i][std::size_t(j)] = cost, step[i][std::size_t(j)] = k;
         }
     for (Index end = 0; end < m; ++end) {
@@ -154,13 +155,14 @@ PhaseAlignment alignPhases(const PoseMatrix& content, const PoseMatrix& style, c
   Warp warp;
   if (options.style_loops && n > 1) {
     const double cycles = std::max(1., std::round(double(n) / period(a, options.content_loops)));
-    const double pace = options.content_loops ? cycles * double(m) / double(n)
-                                              : double(m) / period(a, options.content_loops);
+    const double pace =
+        options.content_loops ? cycles * double(m) / double(n) : double(m) / period(a, options.content_loops);
     warp = circularWarp(d, pace, options.content_loops);
     if (warp.frames.empty()) warp = circularWarp(d, pace, false);
     // What a loop really goes round.
     const double turns = std::round((warp.frames.back() - warp.frames.front() + pace) / double(m));
-    smoothFrames(warp.frames, options.content_loops ? turns * double(m) / double(n) : pace, options.content_loops);
+    smoothFrames(warp.frames, options.content_loops ? turns * double(m) / double(n) : pace,
+                 options.content_loops);
   } else {
     warp = straightWarp(d);
     smoothFrames(warp.frames, double(m) / double(n), false);

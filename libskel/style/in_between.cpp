@@ -30,8 +30,8 @@ PoseMatrix inBetweens(const PoseMatrix& source, const std::vector<int>& keys, co
       double w = da + db > 1e-12 ? da / (da + db) : time;
       if (f == from) w = 0;
       if (f == to) w = 1;
-      result.col(f).segment<2>(2 * j) = (1 - w) * (jointOf(key_poses, j, a) + from_a) +
-                                        w * (jointOf(key_poses, j, b) + from_b);
+      result.col(f).segment<2>(2 * j) =
+          (1 - w) * (jointOf(key_poses, j, a) + from_a) + w * (jointOf(key_poses, j, b) + from_b);
     }
   }
   return result;

@@ -73,9 +73,10 @@ PoseMatrix posesFromBones(const PoseMatrix& directions, const Eigen::VectorXd& l
   for (Index f = 0; f < poses.cols(); ++f)
     for (std::size_t j = 0; j < body_plan.joints.size(); ++j) {
       const int parent = body_plan.joints[j].parent;
-      const Vector2d at = parent < 0 ? Vector2d(root.col(f))
-                                     : Vector2d(jointOf(poses, parent, f) +
-                                                lengths(Index(j)) * jointOf(directions, int(j), f));
+      const Vector2d at =
+          parent < 0
+              ? Vector2d(root.col(f))
+              : Vector2d(jointOf(poses, parent, f) + lengths(Index(j)) * jointOf(directions, int(j), f));
       poses.col(f).segment<2>(2 * Index(j)) = at;
     }
   return poses;

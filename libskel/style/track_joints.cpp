@@ -17,8 +17,8 @@ using Eigen::Vector2d;
 // Squared, in shares of the figure's long side. A joint that is plainly wrong in one frame costs no more than
 // the cap, on whichever path.
 constexpr double kVelocity = 0.4, kAcceleration = 1, kCap = 0.02;
-constexpr double kColor = 0.02;    // for a squared difference of colours
-constexpr double kSwap = 0.0004;   // for a joint that is not as recognised, times its confidence
+constexpr double kColor = 0.02;   // for a squared difference of colours
+constexpr double kSwap = 0.0004;  // for a joint that is not as recognised, times its confidence
 constexpr double kSpareLength = 1.35, kLengthFade = 0.2;
 constexpr double kStray = 0.035;  // of the long side: so far from its way a joint is believed by half
 constexpr int kRounds = 8;
@@ -31,7 +31,8 @@ class Paths {
   Paths(const JointSightings& s, const SkeletonTemplate& plan) : s_(s) {
     for (const TemplateLimb& limb : plan.limbs)
       for (const int j : limb.joints)
-        joints_.push_back({j, plan.joints[std::size_t(j)].mirror, limb.limb_class == JointClass::kLeg ? kLegs : kArms});
+        joints_.push_back(
+            {j, plan.joints[std::size_t(j)].mirror, limb.limb_class == JointClass::kLeg ? kLegs : kArms});
   }
 
   // One hypothesis a frame.
@@ -191,8 +192,7 @@ JointTracks trackJoints(const JointSightings& sightings, const SkeletonTemplate&
       // At first what a stray would drag along is held by its neighbours.
       const double strength = options.smoothness * (round + 1 < kRounds ? 3 : 1);
       smooth = smoothSeries(offsets, weights, strength, sightings.loop);
-      const Eigen::VectorXd stray =
-          (smooth - offsets).rowwise().norm() / (kStray * sightings.figure_px);
+      const Eigen::VectorXd stray = (smooth - offsets).rowwise().norm() / (kStray * sightings.figure_px);
       weights = confidence.array().square() / (1 + stray.array().square()).square();
     }
     tracks.confidences.row(j) = (weights.array().sqrt()).transpose();
@@ -208,7 +208,8 @@ double unevenness(const PoseMatrix& poses, double figure_px) {
   int count = 0;
   for (Index f = 1; f + 1 < poses.cols(); ++f)
     for (Index j = 0; 2 * j < poses.rows(); ++j, ++count)
-      sum += (jointOf(poses, int(j), f - 1) - 2 * jointOf(poses, int(j), f) + jointOf(poses, int(j), f + 1)).norm();
+      sum += (jointOf(poses, int(j), f - 1) - 2 * jointOf(poses, int(j), f) + jointOf(poses, int(j), f + 1))
+                 .norm();
   return sum / count / figure_px;
 }
 

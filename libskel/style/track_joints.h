@@ -26,9 +26,9 @@ struct TrackOptions {
 };
 
 struct JointTracks {
-  PoseMatrix places;              // 2J×m, image px
-  Eigen::MatrixXd confidences;    // J×m: of what was seen, how much of it was believed
-  std::vector<bool> arms_swapped; // m: whether left and right of the recognition have changed places
+  PoseMatrix places;               // 2J×m, image px
+  Eigen::MatrixXd confidences;     // J×m: of what was seen, how much of it was believed
+  std::vector<bool> arms_swapped;  // m: whether left and right of the recognition have changed places
   std::vector<bool> legs_swapped;
 };
 

@@ -5,6 +5,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
+#include "libskel/style/in_between.h"
 #include "libskel/style/semantics.h"
 
 namespace skel {
@@ -55,14 +56,25 @@ Transfer transferStyle(const std::vector<MotionPair>& pairs, const TransferOptio
         alignPhases(pair.content, pair.style, {pair.content_loops, pair.style_loops}));
     pair.style = posesAt(pair.style, result.alignments.back().style_frame, pair.style_loops);
   }
-  const MatrixXd content = besides(aligned, &MotionPair::content), style = besides(aligned, &MotionPair::style);
+  for (MotionPair& pair : aligned) {
+    if (pair.keys.empty()) continue;
+    pair.content = pair.content(Eigen::all, pair.keys).eval();
+    pair.style = pair.style(Eigen::all, pair.keys).eval();
+  }
+  const MatrixXd content = besides(aligned, &MotionPair::content),
+                 style = besides(aligned, &MotionPair::style);
   const Index rows = content.rows();
   MatrixXd both(2 * rows, content.cols());
   both << content, style;
-  result.coding = sparseCoding(both, options.coding);
+  SparseCodingOptions coding = options.coding;
+  coding.components = std::min(coding.components, int(both.cols()));
+  result.coding = sparseCoding(both, coding);
   const MatrixXd change =
       (result.coding.basis.bottomRows(rows) - result.coding.basis.topRows(rows)) * result.coding.activations;
-  result.poses = split(content + options.amount * change, pairs);
+  result.poses = split(content + options.amount * change, aligned);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (!pairs[i].keys.empty())
+      result.poses[i] = inBetweens(pairs[i].content, pairs[i].keys, result.poses[i], pairs[i].content_loops);
   return result;
 }
 
@@ -72,12 +84,14 @@ Transfer transferBySignatures(const std::vector<MotionPair>& pairs, const std::v
   SKEL_CHECK_EQ(pairs.size(), actions.size());
   const std::set<std::string> classes(actions.begin(), actions.end());
   if (int(classes.size()) < options.coding.components)
-    throw UsageError("matching " + std::to_string(options.coding.components) +
-                     " components by their signatures needs as many action classes that both show; there are " +
-                     std::to_string(classes.size()));
+    throw UsageError(
+        "matching " + std::to_string(options.coding.components) +
+        " components by their signatures needs as many action classes that both show; there are " +
+        std::to_string(classes.size()));
   const auto actionsOf = [&](PoseMatrix MotionPair::*part) {
     std::vector<std::string> of;
-    for (std::size_t i = 0; i < pairs.size(); ++i) of.insert(of.end(), std::size_t((pairs[i].*part).cols()), actions[i]);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      of.insert(of.end(), std::size_t((pairs[i].*part).cols()), actions[i]);
     return of;
   };
   const MatrixXd content = besides(pairs, &MotionPair::content), style = besides(pairs, &MotionPair::style);
@@ -89,8 +103,8 @@ Transfer transferBySignatures(const std::vector<MotionPair>& pairs, const std::v
                       fitSemantics(theirs.activations, actionsOf(&MotionPair::style)).class_weights);
   MatrixXd basis(theirs.basis.rows(), theirs.basis.cols());
   for (std::size_t c = 0; c < match.size(); ++c) basis.col(Index(c)) = theirs.basis.col(match[c]);
-  result.poses = split(
-      content + options.amount * (basis - result.coding.basis) * result.coding.activations, pairs);
+  result.poses =
+      split(content + options.amount * (basis - result.coding.basis) * result.coding.activations, pairs);
   return result;
 }
 

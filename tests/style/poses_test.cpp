@@ -15,7 +15,8 @@ MotionFile motionOf(const PoseMatrix& poses) {
   for (Eigen::Index f = 0; f < poses.cols(); ++f) {
     MotionFrame& frame = motion.frames.emplace_back();
     frame.time_s = double(f) / 10;
-    for (int j = 0; j < 17; ++j) frame.joints.push_back(PlacedJoint{jointOf(poses, j, f), 1, JointOrigin::kEdited});
+    for (int j = 0; j < 17; ++j)
+      frame.joints.push_back(PlacedJoint{jointOf(poses, j, f), 1, JointOrigin::kEdited});
   }
   return motion;
 }
@@ -24,8 +25,8 @@ MotionFile motionOf(const PoseMatrix& poses) {
 
 TEST_CASE("directions and lengths of bones give the poses back") {
   const PoseMatrix poses = walker({});
-  const PoseMatrix again = posesFromBones(boneDirections(poses, biped()), boneLengths(poses, biped()),
-                                          poses.topRows(2), biped());
+  const PoseMatrix again =
+      posesFromBones(boneDirections(poses, biped()), boneLengths(poses, biped()), poses.topRows(2), biped());
   CHECK((again - poses).cwiseAbs().maxCoeff() < 1e-9);
 }
 
@@ -37,8 +38,7 @@ TEST_CASE("canonical poses lie in the unit box, and know neither size nor place 
   gait.size_px = 900;
   CHECK((canonicalPoses(walker(gait), biped()) - canonical).cwiseAbs().maxCoeff() < 1e-9);
   const Eigen::VectorXd longer = boneLengths(poses, biped()).array() * Eigen::ArrayXd::LinSpaced(17, 1, 3);
-  const PoseMatrix other =
-      posesFromBones(boneDirections(poses, biped()), longer, poses.topRows(2), biped());
+  const PoseMatrix other = posesFromBones(boneDirections(poses, biped()), longer, poses.topRows(2), biped());
   CHECK((canonicalPoses(other, biped()) - canonical).cwiseAbs().maxCoeff() < 1e-9);
   CHECK((boneDirections(canonical, biped()) - boneDirections(poses, biped())).cwiseAbs().maxCoeff() < 1e-9);
 }
@@ -75,8 +75,8 @@ TEST_CASE("joints that a frame lacks lie between those of its neighbours") {
   motion.frames[0].joints[hand].reset();
   motion.frames[23].joints[hand].reset();
   const PoseMatrix found = posesOf(motion, biped(), "m");
-  CHECK((jointOf(found, int(hand), 3) - 0.5 * (jointOf(poses, int(hand), 2) + jointOf(poses, int(hand), 4))).norm() <
-        1e-9);
+  CHECK((jointOf(found, int(hand), 3) - 0.5 * (jointOf(poses, int(hand), 2) + jointOf(poses, int(hand), 4)))
+            .norm() < 1e-9);
   CHECK(jointOf(found, int(hand), 0) == jointOf(poses, int(hand), 1));
   CHECK(jointOf(found, int(hand), 23) == jointOf(poses, int(hand), 22));
   CHECK(jointOf(found, int(hand), 7) == jointOf(poses, int(hand), 7));

@@ -14,11 +14,10 @@ PoseMatrix canonical(const Gait& gait) { return canonicalPoses(walker(gait), bip
 
 const Gait kPlain{.frames = 24};
 // Leans forward, holds its arms out, takes small steps, and begins elsewhere in its cycle.
-const Gait kStiff{.frames = 17, .phase_rad = 2, .legs_rad = 0.25, .arms_rad = 0.05, .lean_rad = 0.4, .reach_rad = 1.3};
+const Gait kStiff{
+    .frames = 17, .phase_rad = 2, .legs_rad = 0.25, .arms_rad = 0.05, .lean_rad = 0.4, .reach_rad = 1.3};
 
-Eigen::VectorXd meanBones(const PoseMatrix& poses) {
-  return boneDirections(poses, biped()).rowwise().mean();
-}
+Eigen::VectorXd meanBones(const PoseMatrix& poses) { return boneDirections(poses, biped()).rowwise().mean(); }
 
 }  // namespace
 

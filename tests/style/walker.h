@@ -32,7 +32,8 @@ inline PoseMatrix walker(const Gait& gait) {
     const auto set = [&](const std::string& joint, double from_down_rad) {
       directions.col(f).segment<2>(2 * plan.find(joint)) << std::sin(from_down_rad), std::cos(from_down_rad);
     };
-    for (const char* joint : {"body", "neck", "head", "head_top"}) set(joint, std::numbers::pi - gait.lean_rad);
+    for (const char* joint : {"body", "neck", "head", "head_top"})
+      set(joint, std::numbers::pi - gait.lean_rad);
     for (const std::string side : {"left_", "right_"}) {
       const double swing = std::sin(phase) * (side == "left_" ? 1 : -1);
       set(side + "shoulder", side == "left_" ? 1.4 : -1.4);
@@ -45,8 +46,7 @@ inline PoseMatrix walker(const Gait& gait) {
   }
   lengths(plan.find("left_shoulder")) = lengths(plan.find("right_shoulder")) = 0.02 * gait.size_px;
   lengths(plan.find("left_hip")) = lengths(plan.find("right_hip")) = 0.02 * gait.size_px;
-  return posesFromBones(directions, lengths,
-                        Eigen::Matrix2Xd::Constant(2, gait.frames, gait.size_px), plan);
+  return posesFromBones(directions, lengths, Eigen::Matrix2Xd::Constant(2, gait.frames, gait.size_px), plan);
 }
 
 // How far apart the feet are along x, a signal that goes round with the cycle.
