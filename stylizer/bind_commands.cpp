@@ -9,8 +9,9 @@ void bindFilm(CLI::App& app, FilmSource& source) {
   app.add_option("--fps", source.frame_rate, "Frames a second of a folder of pictures")
       ->check(CLI::Range(0.1, 240.0))
       ->capture_default_str();
-  app.add_option("--figure", source.figure,
-                 "How the figure is found: by the frames' alpha, before a still background, by its silhouette")
+  app.add_option(
+         "--figure", source.figure,
+         "How the figure is found: by the frames' alpha, before a still background, by its silhouette")
       ->check(CLI::IsMember({"auto", "alpha", "still", "silhouette"}))
       ->capture_default_str();
   app.add_option("--cutoff", source.foreground.cutoff,
@@ -27,9 +28,10 @@ void bindFilmPath(CLI::App& app, FilmSource& source) {
 }
 
 void bindThreshold(CLI::App& app, double& threshold) {
-  app.add_option("--threshold", threshold,
-                 "A frame is a key frame if its outline differs from the one before by more than this share of "
-                 "the largest difference")
+  app.add_option(
+         "--threshold", threshold,
+         "A frame is a key frame if its outline differs from the one before by more than this share of "
+         "the largest difference")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
 }
@@ -38,7 +40,8 @@ void bindCoding(CLI::App& app, SparseCodingOptions& options) {
   app.add_option("-k,--components", options.components, "Parts that poses are made of")
       ->check(CLI::Range(1, 34))
       ->capture_default_str();
-  app.add_option("--sparsity", options.sparsity, "How few of them a pose should use: 0 for as many as it likes")
+  app.add_option("--sparsity", options.sparsity,
+                 "How few of them a pose should use: 0 for as many as it likes")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   app.add_option("--iterations", options.max_iterations, "Of the factorisation, at most")
@@ -106,7 +109,8 @@ void bindKeypoints(CLI::App& app, KeypointsCommandOptions& options) {
   app.add_option("--action", options.find.action, "Its class: walk, run, jump, ...");
   bindThreshold(app, options.find.threshold);
   bindLoop(app, options.find.loop);
-  app.add_option("--smooth", options.find.track.smoothness, "How much key points are smoothed over time; 0: not")
+  app.add_option("--smooth", options.find.track.smoothness,
+                 "How much key points are smoothed over time; 0: not")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
   app.add_flag("--force", options.force, "Also over joints that were placed by hand");
@@ -123,7 +127,9 @@ void bindDatabase(CLI::App& app, DatabaseOptions& options) {
 }
 
 void bindFit(CLI::App& app, FitOptions& options) {
-  app.add_option("motions", options.motions, "Motion files, or databases")->required()->type_name("MOTION...");
+  app.add_option("motions", options.motions, "Motion files, or databases")
+      ->required()
+      ->type_name("MOTION...");
   app.add_option("-o,--output", options.output, "The .style.json")->type_name("FILE")->capture_default_str();
   bindCoding(app, options.coding);
   app.add_option("--ridge", options.semantic.ridge, "Of the semantic term")
@@ -135,7 +141,9 @@ void bindFit(CLI::App& app, FitOptions& options) {
 void bindTransfer(CLI::App& app, TransferCommandOptions& options) {
   app.add_option("--content", options.content, "Who moves: a motion file, or a database")->required();
   app.add_option("--style", options.style, "How: a motion file, or a database")->required();
-  app.add_option("-o,--output", options.output, "The motion file to write")->type_name("FILE")->capture_default_str();
+  app.add_option("-o,--output", options.output, "The motion file to write")
+      ->type_name("FILE")
+      ->capture_default_str();
   bindStyle(app, options.request);
 }
 
@@ -153,12 +161,16 @@ void bindRender(CLI::App& app, RenderOptions2D& options) {
 
 void bindInspect(CLI::App& app, InspectOptions& options) {
   app.add_option("motion", options.motion, "A motion file")->required()->type_name("MOTION");
-  app.add_option("-o,--output", options.output, "The picture (.png)")->type_name("FILE")->capture_default_str();
+  app.add_option("-o,--output", options.output, "The picture (.png)")
+      ->type_name("FILE")
+      ->capture_default_str();
   bindCoding(app, options.coding);
 }
 
 void bindMake(CLI::App& app, MakeOptions& options) {
-  app.add_option("--character", options.character, "A drawing, or its .skeleton.json")->required()->type_name("FILE");
+  app.add_option("--character", options.character, "A drawing, or its .skeleton.json")
+      ->required()
+      ->type_name("FILE");
   app.add_option("--content", options.content, "What it does: a film, a folder of frames, or a .motion.json")
       ->required();
   app.add_option("--style", options.style, "How: a film, a folder of frames, or a .motion.json")->required();

@@ -20,7 +20,8 @@ constexpr int kMaxFrames = 10'000'000;
 std::string indexOf(const std::string& dir) { return (fs::path(dir) / kDatabaseIndex).string(); }
 
 std::string formatIndex(const std::vector<DatabaseEntry>& entries) {
-  nlohmann::ordered_json root = {{"format", kFormat}, {"version", 1}, {"motions", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json root = {
+      {"format", kFormat}, {"version", 1}, {"motions", nlohmann::ordered_json::array()}};
   for (const DatabaseEntry& e : entries)
     root["motions"].push_back({{"file", jsonFromFileName(e.file)},
                                {"action", e.action},
@@ -32,7 +33,8 @@ std::string formatIndex(const std::vector<DatabaseEntry>& entries) {
 }
 
 int keysOf(const MotionFile& motion) {
-  return int(std::count_if(motion.frames.begin(), motion.frames.end(), [](const MotionFrame& f) { return f.key; }));
+  return int(
+      std::count_if(motion.frames.begin(), motion.frames.end(), [](const MotionFrame& f) { return f.key; }));
 }
 
 }  // namespace
@@ -46,22 +48,25 @@ std::vector<DatabaseEntry> readDatabase(const std::string& dir) {
   root.allowOnly({"format", "version", "motions"});
   for (const JsonValue& item : root.at("motions").items()) {
     item.allowOnly({"file", "action", "source", "frames", "keys", "sha256"});
-    entries.push_back({item.at("file").asFileName(), item.at("action").asString(), item.at("source").asFileName(),
-                       item.at("frames").asInt(1, kMaxFrames), item.at("keys").asInt(0, kMaxFrames),
-                       item.at("sha256").asString()});
-    if (fs::path(entries.back().file).has_parent_path()) item.at("file").fail("must lie in the folder itself");
+    entries.push_back({item.at("file").asFileName(), item.at("action").asString(),
+                       item.at("source").asFileName(), item.at("frames").asInt(1, kMaxFrames),
+                       item.at("keys").asInt(0, kMaxFrames), item.at("sha256").asString()});
+    if (fs::path(entries.back().file).has_parent_path())
+      item.at("file").fail("must lie in the folder itself");
   }
   return entries;
 }
 
-DatabaseEntry addToDatabase(const std::string& dir, const std::string& path, const std::string& action, bool force) {
+DatabaseEntry addToDatabase(const std::string& dir, const std::string& path, const std::string& action,
+                            bool force) {
   const SkeletonTemplate plan = loadTemplate("biped");
   MotionFile motion = readMotionFile(path, plan);
   if (!action.empty()) motion.action = action;
-  if (motion.action.empty()) throw InputError(path, "has no action class; name it by --action walk, run, jump ...");
+  if (motion.action.empty())
+    throw InputError(path, "has no action class; name it by --action walk, run, jump ...");
   std::vector<DatabaseEntry> entries = readDatabase(dir);
-  DatabaseEntry entry{fs::path(path).filename().string(), motion.action, motion.source, int(motion.frames.size()),
-                      keysOf(motion), ""};
+  DatabaseEntry entry{fs::path(path).filename().string(), motion.action,  motion.source,
+                      int(motion.frames.size()),          keysOf(motion), ""};
   const std::string to = (fs::path(dir) / entry.file).string();
   if (!force && fs::exists(to)) throw InputError(to, "is there already; give --force to replace it");
   for (MotionFrame& frame : motion.frames)
@@ -87,7 +92,8 @@ std::vector<std::string> checkDatabase(const std::string& dir) {
     try {
       const MotionFile motion = readMotionFile(path, plan);
       if (motion.action != e.action)
-        problems.push_back(path + ": its class is \"" + motion.action + "\", the index says \"" + e.action + "\"");
+        problems.push_back(path + ": its class is \"" + motion.action + "\", the index says \"" + e.action +
+                           "\"");
       else if (sha256(readFile(path)) != e.sha256)
         problems.push_back(path + ": has changed since it was added; add it again with --force");
     } catch (const InputError& error) {

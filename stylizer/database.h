@@ -27,8 +27,8 @@ std::vector<DatabaseEntry> readDatabase(const std::string& dir);
 DatabaseEntry addToDatabase(const std::string& dir, const std::string& motion, const std::string& action,
                             bool force);
 
-// What is wrong, one line each: motions that are missing, that have changed, that cannot be read, that stand in
-// no index. Empty: nothing.
+// What is wrong, one line each: motions that are missing, that have changed, that cannot be read, that stand
+// in no index. Empty: nothing.
 std::vector<std::string> checkDatabase(const std::string& dir);
 
 // A motion file alone, or all of a database.

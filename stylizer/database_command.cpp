@@ -10,8 +10,8 @@ ExitCode runDatabase(const DatabaseOptions& options) {
     if (options.motions.empty()) throw UsageError("database add: name the motion files to add");
     for (const std::string& motion : options.motions) {
       const DatabaseEntry entry = addToDatabase(options.folder, motion, options.action, options.force);
-      std::printf("%s: %s, %d frames, %d key frames\n", entry.file.c_str(), entry.action.c_str(), entry.frames,
-                  entry.keys);
+      std::printf("%s: %s, %d frames, %d key frames\n", entry.file.c_str(), entry.action.c_str(),
+                  entry.frames, entry.keys);
     }
     return ExitCode::kDone;
   }

@@ -10,8 +10,8 @@
 namespace skel {
 
 struct FilmSource {
-  std::string path;           // a film, or a folder of pictures
-  double frame_rate = 12;     // of a folder, 1/s
+  std::string path;             // a film, or a folder of pictures
+  double frame_rate = 12;       // of a folder, 1/s
   std::string figure = "auto";  // auto, alpha, still, silhouette
   ForegroundOptions foreground;
 };

@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // The mean colour of the figure in a disc around a joint, in [0, 1].
-Eigen::Vector3d colorAt(const Image& image, const Plane8& figure, const Eigen::Vector2d& at, double radius_px) {
+Eigen::Vector3d colorAt(const Image& image, const Plane8& figure, const Eigen::Vector2d& at,
+                        double radius_px) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int count = 0;
   const int reach = std::max(1, int(std::lround(radius_px)));
@@ -135,12 +136,14 @@ Keypoints findKeypoints(const KeypointOptions& options) {
   }
   result.without_figure =
       int(std::count_if(sightings.begin(), sightings.end(), [](const Sighting& s) { return !s.found; }));
-  if (result.without_figure == info.frames) throw InputError(options.film.path, "shows no figure in any frame");
+  if (result.without_figure == info.frames)
+    throw InputError(options.film.path, "shows no figure in any frame");
 
   std::vector<FrameOutline> outlines;
   for (Sighting& s : sightings) outlines.push_back(std::move(s.outline));
   const Eigen::VectorXd successive = successiveDistances(outlines);
-  for (const int key : keyFrames(successive, options.threshold)) result.motion.frames[std::size_t(key)].key = true;
+  for (const int key : keyFrames(successive, options.threshold))
+    result.motion.frames[std::size_t(key)].key = true;
 
   JointSightings seen = sideBySide(sightings, plan);
   seen.loop = options.loop == "auto" ? outlinesLoop(outlines, successive) : options.loop == "yes";
@@ -157,7 +160,7 @@ Keypoints findKeypoints(const KeypointOptions& options) {
       const Eigen::Vector2d at = jointOf(tracks.places, int(j), Eigen::Index(f));
       const double confidence = std::clamp(tracks.confidences(Eigen::Index(j), Eigen::Index(f)), 0., 1.);
       frame.joints.push_back(PlacedJoint{at.cwiseMax(-0.5).cwiseMin(corner), confidence,
-                                         confidence < 0.3          ? JointOrigin::kCompleted
+                                         confidence < 0.3         ? JointOrigin::kCompleted
                                          : plan.joints[j].derived ? JointOrigin::kDerived
                                                                   : JointOrigin::kRecognized});
     }

@@ -12,10 +12,10 @@ namespace skel {
 
 struct KeypointOptions {
   FilmSource film;
-  std::string output;      // the motion file; pictures of a film's frames go beside it
-  std::string action;      // its class
+  std::string output;         // the motion file; pictures of a film's frames go beside it
+  std::string action;         // its class
   std::string loop = "auto";  // auto, yes, no: whether the first frame follows the last
-  double threshold = 0.5;  // of key frames (outline_distance.h)
+  double threshold = 0.5;     // of key frames (outline_distance.h)
   TrackOptions track;
 };
 
@@ -28,9 +28,9 @@ struct Keypoints {
   bool loop = false;
 };
 
-// Recognition of each frame (rigCharacter()), one path through all of them (track_joints.h), key frames by the
-// outlines. The frames of a film are written as pictures to `<stem>.frames/`. Throws InputError: no figure in
-// any frame; OutputError.
+// Recognition of each frame (rigCharacter()), one path through all of them (track_joints.h), key frames by
+// the outlines. The frames of a film are written as pictures to `<stem>.frames/`. Throws InputError: no
+// figure in any frame; OutputError.
 Keypoints findKeypoints(const KeypointOptions& options);
 
 }  // namespace skel

@@ -35,8 +35,8 @@ ExitCode runFit(const FitOptions& options) {
               options.output.c_str(), int(data.cols()), int(data.rows()), options.coding.components,
               100 * style.coding.error, int(style.coding.objectives.size()) - 1);
   if (style.semantics)
-    std::printf("  %d action classes, told apart in %.1f %% of the frames\n", int(style.semantics->classes.size()),
-                100 * style.semantics->accuracy);
+    std::printf("  %d action classes, told apart in %.1f %% of the frames\n",
+                int(style.semantics->classes.size()), 100 * style.semantics->accuracy);
   return ExitCode::kDone;
 }
 

@@ -36,7 +36,8 @@ Image stickFigure(const Eigen::VectorXd& pose, const SkeletonTemplate& plan) {
 Image keyPicture(const MotionFrame& frame, const Eigen::VectorXd& pose, const std::string& motion,
                  const SkeletonTemplate& plan) {
   Image image = blankImage(frame.image_width, frame.image_height);
-  if (!frame.image_file.empty()) blit(image, readImage((fs::path(motion).parent_path() / frame.image_file).string()), 0, 0);
+  if (!frame.image_file.empty())
+    blit(image, readImage((fs::path(motion).parent_path() / frame.image_file).string()), 0, 0);
   drawBones(image, pose, plan, std::max(image.width, image.height) / 90.);
   return fitted(image, kCell_px, kCell_px);
 }
@@ -93,14 +94,14 @@ ExitCode runInspect(const InspectOptions& options) {
                           "frame " + std::to_string(f + 1)});
   }
   std::vector<Panel> basis_panels;
-  // A component alone is a pose of the canonical box at the size that its mean activation gives it, around the
-  // mean pose.
+  // A component alone is a pose of the canonical box at the size that its mean activation gives it, around
+  // the mean pose.
   const Eigen::VectorXd mean = canonical.rowwise().mean();
   for (Eigen::Index c = 0; c < style.basis.cols(); ++c) {
     const Eigen::RowVectorXd v = style.activations.row(c);
     const double swing = v.maxCoeff() - v.mean();
-    basis_panels.push_back({stickFigure((mean + swing * style.basis.col(c)).cwiseMin(1.2), plan),
-                            "U" + std::to_string(c + 1)});
+    basis_panels.push_back(
+        {stickFigure((mean + swing * style.basis.col(c)).cwiseMin(1.2), plan), "U" + std::to_string(c + 1)});
   }
   const int side = 3 * kCell_px;
   const std::vector<Panel> maps = {

@@ -1,6 +1,6 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "libskel/core/files.h"
@@ -100,8 +100,9 @@ ExitCode runKeyframes(const KeyframesOptions& options) {
         row.push_back(largest > 0 ? rounded(matrix(r, c) / largest, 1e6) : 0);
       rows.push_back(std::move(row));
     }
-    writeFile((fs::path(options.output) / "distances.json").string(),
-              Json{{"format", "skel-distances"}, {"version", 1}, {"distances", std::move(rows)}}.dump() + "\n");
+    writeFile(
+        (fs::path(options.output) / "distances.json").string(),
+        Json{{"format", "skel-distances"}, {"version", 1}, {"distances", std::move(rows)}}.dump() + "\n");
     writeFile((fs::path(options.output) / "distances.png").string(), encodePng(matrixPicture(matrix)));
   }
   std::printf("%s: %d of %d frames are key frames\n", options.output.c_str(), int(keys.size()), info.frames);

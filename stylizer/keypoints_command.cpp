@@ -13,8 +13,10 @@ void keepEdited(const std::string& path) {
   for (const MotionFrame& frame : readMotionFile(path, loadTemplate("biped")).frames)
     for (const auto& joint : frame.joints)
       if (joint && joint->origin == JointOrigin::kEdited)
-        throw InputError(path, "holds joints that were edited by hand; write to another file by -o, or give --force "
-                               "to lose them");
+        throw InputError(
+            path,
+            "holds joints that were edited by hand; write to another file by -o, or give --force "
+            "to lose them");
 }
 
 }  // namespace

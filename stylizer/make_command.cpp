@@ -46,7 +46,8 @@ ExitCode runMake(const MakeOptions& given) {
   const std::string file = (fs::path(options.work) / (std::string("transfer") + kMotionFileEnding)).string();
   writeFile(file, formatMotionFile(report.motion, plan));
   std::printf("%s: mean pose %.0f %% of the way, phase correlation %.3f%s\n", file.c_str(),
-              100 * report.mean_pose_moved, report.phase_correlation, report.mirrored ? ", style mirrored" : "");
+              100 * report.mean_pose_moved, report.phase_correlation,
+              report.mirrored ? ", style mirrored" : "");
   perform(drawing, report.motion, file, report.content_loops, options.perform, options.output);
   return ExitCode::kDone;
 }

@@ -22,7 +22,8 @@ int partOf(const std::string& joint) {
   };
   if (joint == "head" || joint == "head_top") return index("head");
   for (const std::string side : {"left_", "right_"}) {
-    if (joint == side + "shoulder" || joint == side + "elbow" || joint == side + "hand") return index(side + "arm");
+    if (joint == side + "shoulder" || joint == side + "elbow" || joint == side + "hand")
+      return index(side + "arm");
     if (joint == side + "hip" || joint == side + "knee" || joint == side + "foot") return index(side + "leg");
   }
   return index("body");
@@ -32,7 +33,8 @@ std::vector<int> ranks(const std::vector<std::string>& order) {
   std::vector<int> rank;
   for (const std::string& part : kPuppetParts)
     rank.push_back(int(std::find(order.begin(), order.end(), part) - order.begin()));
-  if (order.size() != kPuppetParts.size() || std::find(rank.begin(), rank.end(), int(order.size())) != rank.end()) {
+  if (order.size() != kPuppetParts.size() ||
+      std::find(rank.begin(), rank.end(), int(order.size())) != rank.end()) {
     std::string names;
     for (const std::string& part : kPuppetParts) names += (names.empty() ? "" : ",") + part;
     throw UsageError("--order names each part once, back to front; the parts are " + names);
@@ -83,7 +85,8 @@ Puppet makePuppet(const Image& image, const Silhouette& silhouette, const Skelet
     for (Eigen::Index k = 0; k < 3; ++k)
       for (Eigen::Index i = 0; i < 4; ++i) {
         const Eigen::Index v = flat.triangles(t, k);
-        votes[std::size_t(partOf(on_plane.joints[weights.joints(v, i)].name))] += double(weights.weights(v, i));
+        votes[std::size_t(partOf(on_plane.joints[weights.joints(v, i)].name))] +=
+            double(weights.weights(v, i));
       }
     part[std::size_t(t)] = int(std::max_element(votes.begin(), votes.end()) - votes.begin());
   }
@@ -109,13 +112,12 @@ Puppet makePuppet(const Image& image, const Silhouette& silhouette, const Skelet
   DrawingTexture texture = drawingTexture(image, silhouette.mask, figureBox(silhouette.mask), kMaxTexture_px);
   Eigen::MatrixX2d texture_places(count, 2);
   for (Eigen::Index v = 0; v < count; ++v)
-    texture_places.row(v) =
-        texture.uvFromImage(vertices.row(v).transpose())
-            .cwiseProduct(Eigen::Vector2d(texture.image.width, texture.image.height)) -
-        Eigen::Vector2d::Constant(0.5);
+    texture_places.row(v) = texture.uvFromImage(vertices.row(v).transpose())
+                                .cwiseProduct(Eigen::Vector2d(texture.image.width, texture.image.height)) -
+                            Eigen::Vector2d::Constant(0.5);
   ArapMesh mesh(vertices, triangles, handles);
-  return {std::move(vertices), std::move(triangles), std::move(parts), std::move(texture.image),
-          std::move(texture_places), std::move(rest), std::move(mesh)};
+  return {std::move(vertices),       std::move(triangles), std::move(parts), std::move(texture.image),
+          std::move(texture_places), std::move(rest),      std::move(mesh)};
 }
 
 Eigen::MatrixX2d posedVertices(const Puppet& puppet, const Eigen::VectorXd& pose) {

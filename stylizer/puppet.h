@@ -14,7 +14,8 @@
 namespace skel {
 
 // What can lie over each other, back to front: an arm before the body, a far leg behind the near one.
-inline const std::vector<std::string> kPuppetParts = {"left_leg", "right_leg", "body", "head", "left_arm", "right_arm"};
+inline const std::vector<std::string> kPuppetParts = {"left_leg", "right_leg", "body",
+                                                      "head",     "left_arm",  "right_arm"};
 
 struct PuppetOptions {
   std::vector<std::string> order = kPuppetParts;  // each once
@@ -22,16 +23,17 @@ struct PuppetOptions {
 };
 
 struct Puppet {
-  Eigen::MatrixX2d vertices;  // #V×2, image px of the drawing, at rest
-  Eigen::MatrixX3i triangles; // back to front
-  std::vector<int> parts;     // of each triangle, an index into kPuppetParts
+  Eigen::MatrixX2d vertices;   // #V×2, image px of the drawing, at rest
+  Eigen::MatrixX3i triangles;  // back to front
+  std::vector<int> parts;      // of each triangle, an index into kPuppetParts
   Image texture;
   Eigen::MatrixX2d texture_places;  // #V×2, px of the texture
   PoseMatrix rest;                  // 2J×1, the drawing's joints in the order of the template, image px
   ArapMesh mesh;                    // its handles are the joints
 };
 
-// `silhouette` is found and belongs to `image`. Throws UsageError: an order that does not name each part once.
+// `silhouette` is found and belongs to `image`. Throws UsageError: an order that does not name each part
+// once.
 Puppet makePuppet(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
                   const SkeletonTemplate& body_plan, const PuppetOptions& options = {});
 

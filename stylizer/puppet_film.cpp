@@ -42,7 +42,8 @@ Image withoutFigure(const Image& image, const Plane8& mask) {
       for (int i = x; i < end; ++i)
         for (int c = 0; c < 4; ++c) {
           const double t = double(i - x + 1) / (end - x + 1);
-          result.pixel(i, y)[c] = std::uint8_t(std::lround((1 - t) * image.pixel(a, y)[c] + t * image.pixel(b, y)[c]));
+          result.pixel(i, y)[c] =
+              std::uint8_t(std::lround((1 - t) * image.pixel(a, y)[c] + t * image.pixel(b, y)[c]));
         }
       x = end;
     }
@@ -72,12 +73,14 @@ Image covered(const Image& picture, int width, int height) {
 }
 
 // The joints at even moments.
-PoseMatrix atRate(const PoseMatrix& worn, const std::vector<double>& times_s, double rate, const PuppetFilmOptions& options) {
+PoseMatrix atRate(const PoseMatrix& worn, const std::vector<double>& times_s, double rate,
+                  const PuppetFilmOptions& options) {
   const std::size_t m = times_s.size();
   const double first = times_s.front();
   const double step = m > 1 ? (times_s.back() - first) / double(m - 1) : 1 / rate;
   const double cycle_s = times_s.back() - first + step;
-  const int count = std::max(1, int(std::lround((options.duration_s > 0 ? options.duration_s : cycle_s) * rate)));
+  const int count =
+      std::max(1, int(std::lround((options.duration_s > 0 ? options.duration_s : cycle_s) * rate)));
   std::vector<double> at;
   for (int i = 0; i < count; ++i) {
     const double t = std::fmod(i / rate + 1e-9, cycle_s) + first;
@@ -104,7 +107,8 @@ PuppetFrames layOut(const Puppet& puppet, const RiggedDrawing& drawing, const Po
   });
   for (const int count : flipped) frames.flipped += count;
   const bool keep = options.background == "keep";
-  Eigen::RowVector2d low = frames.vertices[0].colwise().minCoeff(), high = frames.vertices[0].colwise().maxCoeff();
+  Eigen::RowVector2d low = frames.vertices[0].colwise().minCoeff(),
+                     high = frames.vertices[0].colwise().maxCoeff();
   for (const Eigen::MatrixX2d& v : frames.vertices) {
     low = low.cwiseMin(v.colwise().minCoeff());
     high = high.cwiseMax(v.colwise().maxCoeff());
@@ -123,9 +127,10 @@ PuppetFrames layOut(const Puppet& puppet, const RiggedDrawing& drawing, const Po
   frames.width = even(frames.scale * extent.x());
   frames.height = even(frames.scale * extent.y());
   if (keep) {
-    frames.background = resized(withoutFigure(drawing.image, drawing.silhouette.mask), frames.width, frames.height);
-  } else if (options.background.starts_with('#') || options.background == "white" || options.background == "black" ||
-             options.background == "none") {
+    frames.background =
+        resized(withoutFigure(drawing.image, drawing.silhouette.mask), frames.width, frames.height);
+  } else if (options.background.starts_with('#') || options.background == "white" ||
+             options.background == "black" || options.background == "none") {
     frames.background = blankImage(frames.width, frames.height, colorOf(options.background));
   } else {
     frames.background = covered(readImage(options.background), frames.width, frames.height);

@@ -20,8 +20,8 @@ struct PuppetFilmOptions {
 };
 
 struct PuppetFrames {
-  int width = 0, height = 0;  // px, even
-  double scale = 1;           // film px a px of the drawing
+  int width = 0, height = 0;                         // px, even
+  double scale = 1;                                  // film px a px of the drawing
   Eigen::Vector2d corner = Eigen::Vector2d::Zero();  // of the film's first pixel, in px of the drawing
   Image background;                                  // of the film's size
   std::vector<Eigen::MatrixX2d> vertices;            // of each frame, px of the drawing

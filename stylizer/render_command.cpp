@@ -31,7 +31,8 @@ void perform(const RiggedDrawing& drawing, const MotionFile& motion, const std::
   }
   const Puppet puppet =
       makePuppet(drawing.image, drawing.silhouette, drawing.recognition.skeleton, plan, puppet_options);
-  const PoseMatrix worn = wornBy(puppet.rest, posesOf(motion, plan, path), plan, {.travels = !request.in_place});
+  const PoseMatrix worn =
+      wornBy(puppet.rest, posesOf(motion, plan, path), plan, {.travels = !request.in_place});
   PuppetFilmOptions film = request.film;
   if (film.frame_rate <= 0) film.frame_rate = motion.frame_rate;
   film.loops = loops;

@@ -63,8 +63,8 @@ StyleFile readStyleFile(const std::string& path) {
   const JsonDocument document = JsonDocument::readFile(path);
   const JsonValue root = document.root();
   root.checkFormat(kFormat, 1);
-  root.allowOnly({"format", "version", "template", "sparsity", "objective", "iterations", "error", "frames", "basis",
-                  "activations", "semantics"});
+  root.allowOnly({"format", "version", "template", "sparsity", "objective", "iterations", "error", "frames",
+                  "basis", "activations", "semantics"});
   checkTemplate(root.at("template"), "biped");
   StyleFile style;
   style.sparsity = root.at("sparsity").asNumber(0, 1e9);
@@ -72,8 +72,8 @@ StyleFile readStyleFile(const std::string& path) {
   style.coding.error = root.at("error").asNumber();
   for (const JsonValue& item : root.at("frames").items()) {
     item.allowOnly({"motion", "frame", "action"});
-    style.frames.push_back(
-        {item.at("motion").asFileName(), item.at("action").asString(), item.at("frame").asInt(0, kMaxFrames)});
+    style.frames.push_back({item.at("motion").asFileName(), item.at("action").asString(),
+                            item.at("frame").asInt(0, kMaxFrames)});
   }
   style.coding.basis = matrixAt(root.at("basis"));
   style.coding.activations = matrixAt(root.at("activations"));

@@ -19,7 +19,7 @@ struct StyleFrame {
 struct StyleFile {
   SparseCoding coding;  // of the frames' canonical poses
   double sparsity = 0;
-  std::vector<StyleFrame> frames;       // one a column of the activations
+  std::vector<StyleFrame> frames;      // one a column of the activations
   std::optional<Semantics> semantics;  // where all frames have a class
 };
 

@@ -33,8 +33,11 @@ double correlation(Eigen::VectorXd a, Eigen::VectorXd b) {
 }
 
 // How far `now` lies on the way from one to the other, by projection.
-double shareOfWay(const PoseMatrix& from, const PoseMatrix& to, const PoseMatrix& now, const SkeletonTemplate& plan) {
-  const auto mean = [&](const PoseMatrix& poses) { return Eigen::VectorXd(boneDirections(poses, plan).rowwise().mean()); };
+double shareOfWay(const PoseMatrix& from, const PoseMatrix& to, const PoseMatrix& now,
+                  const SkeletonTemplate& plan) {
+  const auto mean = [&](const PoseMatrix& poses) {
+    return Eigen::VectorXd(boneDirections(poses, plan).rowwise().mean());
+  };
   const Eigen::VectorXd a = mean(from), way = mean(to) - a;
   return way.squaredNorm() > 1e-12 ? (mean(now) - a).dot(way) / way.squaredNorm() : 1;
 }
@@ -49,7 +52,8 @@ Eigen::RowVectorXd lowestFoot(const PoseMatrix& poses, const SkeletonTemplate& p
 // The content's body with other bones: its lengths, its way, its feet as far from the ground as they were.
 MotionFile asMotion(const PoseMatrix& canonical, const PoseMatrix& content, const MotionFile& source,
                     const SkeletonTemplate& plan) {
-  PoseMatrix poses = posesFromBones(boneDirections(canonical, plan), boneLengths(content, plan), content.topRows(2), plan);
+  PoseMatrix poses =
+      posesFromBones(boneDirections(canonical, plan), boneLengths(content, plan), content.topRows(2), plan);
   const Eigen::RowVectorXd off = lowestFoot(content, plan) - lowestFoot(poses, plan);
   for (Index r = 1; r < poses.rows(); r += 2) poses.row(r) += off;
   Eigen::Vector2d low, high;
@@ -71,8 +75,8 @@ MotionFile asMotion(const PoseMatrix& canonical, const PoseMatrix& content, cons
     frame.time_s = source.frames[std::size_t(f)].time_s;
     frame.key = source.frames[std::size_t(f)].key;
     for (std::size_t j = 0; j < plan.joints.size(); ++j)
-      frame.joints.push_back(PlacedJoint{jointOf(poses, int(j), f) - low + Eigen::Vector2d::Constant(kMargin_px), 1,
-                                         JointOrigin::kDerived});
+      frame.joints.push_back(PlacedJoint{
+          jointOf(poses, int(j), f) - low + Eigen::Vector2d::Constant(kMargin_px), 1, JointOrigin::kDerived});
     motion.frames.push_back(std::move(frame));
   }
   return motion;
@@ -86,7 +90,8 @@ const NamedMotion* ofClass(const std::vector<NamedMotion>& motions, const std::s
 
 }  // namespace
 
-MotionTransferReport transferMotion(const std::vector<NamedMotion>& content, const std::vector<NamedMotion>& style,
+MotionTransferReport transferMotion(const std::vector<NamedMotion>& content,
+                                    const std::vector<NamedMotion>& style,
                                     const MotionTransferOptions& options) {
   const SkeletonTemplate plan = loadTemplate("biped");
   // One pair an action that both show; two motions alone are one pair, whatever they are called.

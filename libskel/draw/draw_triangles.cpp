@@ -22,7 +22,8 @@ std::array<std::uint8_t, 4> bilinear(const Image& texture, double x, double y) {
                      *d = texture.pixel(x1, y1);
   std::array<std::uint8_t, 4> color{0, 0, 0, 255};
   for (std::size_t k = 0; k < 3; ++k)
-    color[k] = std::uint8_t(std::lround((1 - ty) * ((1 - tx) * a[k] + tx * b[k]) + ty * ((1 - tx) * c[k] + tx * d[k])));
+    color[k] = std::uint8_t(
+        std::lround((1 - ty) * ((1 - tx) * a[k] + tx * b[k]) + ty * ((1 - tx) * c[k] + tx * d[k])));
   return color;
 }
 
@@ -52,7 +53,8 @@ void drawTriangles(Image& image, const Eigen::MatrixX2d& places, const Eigen::Ma
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
         const Eigen::Vector2d d(x - p[0].x(), y - p[0].y());
-        const double b = (d.x() * e2.y() - d.y() * e2.x()) / area, c = (e1.x() * d.y() - e1.y() * d.x()) / area;
+        const double b = (d.x() * e2.y() - d.y() * e2.x()) / area,
+                     c = (e1.x() * d.y() - e1.y() * d.x()) / area;
         constexpr double kEdge = -1e-9;  // samples on an edge belong to both triangles: no gap between them
         if (b < kEdge || c < kEdge || b + c > 1 - kEdge) continue;
         const Eigen::Vector2d at = q[0] + b * (q[1] - q[0]) + c * (q[2] - q[0]);
@@ -74,7 +76,8 @@ void drawTriangles(Image& image, const Eigen::MatrixX2d& places, const Eigen::Ma
       if (covered == 0) continue;
       // Over what is there, with straight alpha.
       std::uint8_t* out = image.pixel(x, y);
-      const double share = double(covered) / kAll, below = out[3] / 255.0 * (1 - share), alpha = share + below;
+      const double share = double(covered) / kAll, below = out[3] / 255.0 * (1 - share),
+                   alpha = share + below;
       for (std::size_t c = 0; c < 3; ++c)
         out[c] = std::uint8_t(std::lround((share * sum[c] / covered + below * out[c]) / alpha));
       out[3] = std::uint8_t(std::lround(255 * alpha));

@@ -8,7 +8,8 @@
 namespace skel {
 namespace {
 
-// The child that the joint's bone leads to: the next of its limb, or of the chain to the head; −1: it has none.
+// The child that the joint's bone leads to: the next of its limb, or of the chain to the head; −1: it has
+// none.
 int boneEnd(const SkeletonTemplate& plan, int joint) {
   for (const TemplateLimb& limb : plan.limbs)
     for (std::size_t k = 0; k < 3; ++k)
@@ -57,7 +58,9 @@ Clip clipOfMotion(const PoseMatrix& motion, const std::vector<double>& times_s, 
       const Eigen::Vector2d d = jointOf(directions, end, f);
       // +y is down in the picture, up in the model.
       double turn = std::atan2(-up * d.x(), -up * d.y());
-      if (f > 0) turn += 2 * std::numbers::pi * std::round((turns(Eigen::Index(j), f - 1) - turn) / (2 * std::numbers::pi));
+      if (f > 0)
+        turn += 2 * std::numbers::pi *
+                std::round((turns(Eigen::Index(j), f - 1) - turn) / (2 * std::numbers::pi));
       turns(Eigen::Index(j), f) = turn;
     }
     JointTrack track;

@@ -17,22 +17,42 @@ using Eigen::Vector2d;
 // Squared, in shares of the figure's long side. A joint that is plainly wrong in one frame costs no more than
 // the cap, on whichever path.
 constexpr double kVelocity = 0.4, kAcceleration = 1, kCap = 0.02;
-constexpr double kColor = 0.02;   // for a squared difference of colours
-constexpr double kSwap = 0.0004;  // for a joint that is not as recognised, times its confidence
+constexpr double kColor = 0.02;    // for a squared difference of colours
+constexpr double kSwap = 0.00001;  // for a joint that is not as recognised, times its confidence
 constexpr double kSpareLength = 1.35, kLengthFade = 0.2;
 constexpr double kStray = 0.035;  // of the long side: so far from its way a joint is believed by half
 constexpr int kRounds = 8;
 
-enum Swap { kArms = 1, kLegs = 2 };
-constexpr int kHypotheses = 4, kPairs = kHypotheses * kHypotheses;
+// As seen, or with the names of the other side.
+constexpr int kHypotheses = 2, kPairs = kHypotheses * kHypotheses;
+
+// Which joints change names together: of arms and legs what crosses, and apart from them shoulders and hips,
+// which stay where they are while legs cross.
+struct LimbPart {
+  JointClass limb_class;
+  bool root;  // shoulder or hip
+};
+constexpr std::array<LimbPart, 4> kLimbParts = {{{JointClass::kHand, false},
+                                                 {JointClass::kLeg, false},
+                                                 {JointClass::kHand, true},
+                                                 {JointClass::kLeg, true}}};
+
+std::vector<int> jointsOf(const LimbPart& part, const SkeletonTemplate& plan) {
+  std::vector<int> joints;
+  for (const TemplateLimb& limb : plan.limbs) {
+    if (limb.limb_class != part.limb_class) continue;
+    if (part.root)
+      joints.push_back(limb.joints[0]);
+    else
+      joints.insert(joints.end(), {limb.joints[1], limb.joints[2]});
+  }
+  return joints;
+}
 
 class Paths {
  public:
-  Paths(const JointSightings& s, const SkeletonTemplate& plan) : s_(s) {
-    for (const TemplateLimb& limb : plan.limbs)
-      for (const int j : limb.joints)
-        joints_.push_back(
-            {j, plan.joints[std::size_t(j)].mirror, limb.limb_class == JointClass::kLeg ? kLegs : kArms});
+  Paths(const JointSightings& s, const SkeletonTemplate& plan, const LimbPart& part) : s_(s) {
+    for (const int j : jointsOf(part, plan)) joints_.push_back({j, plan.joints[std::size_t(j)].mirror});
   }
 
   // One hypothesis a frame.
@@ -75,15 +95,14 @@ class Paths {
  private:
   struct LimbJoint {
     int joint, mirror;
-    Swap swap;
   };
 
-  int seen(const LimbJoint& j, int hypothesis) const { return hypothesis & j.swap ? j.mirror : j.joint; }
+  int seen(const LimbJoint& j, int hypothesis) const { return hypothesis ? j.mirror : j.joint; }
 
   double alone(int t, int hypothesis) const {
     double sum = 0;
     for (const LimbJoint& j : joints_)
-      if (hypothesis & j.swap) sum += kSwap * s_.confidences(j.joint, t);
+      if (hypothesis) sum += kSwap * s_.confidences(j.joint, t);
     return sum;
   }
   double step(int t0, int a, int t1, int b) const {
@@ -162,14 +181,14 @@ JointTracks trackJoints(const JointSightings& sightings, const SkeletonTemplate&
   SKEL_CHECK_EQ(sightings.confidences.rows(), joints);
   SKEL_CHECK(sightings.figure_px > 0);
   JointTracks tracks{sightings.places, sightings.confidences, {}, {}};
-  const std::vector<int> path = Paths(sightings, body_plan).best();
-  for (Index f = 0; f < m; ++f) {
-    const int hypothesis = path[std::size_t(f)];
-    tracks.arms_swapped.push_back(hypothesis & kArms);
-    tracks.legs_swapped.push_back(hypothesis & kLegs);
-    for (const TemplateLimb& limb : body_plan.limbs) {
-      if (!(hypothesis & (limb.limb_class == JointClass::kLeg ? kLegs : kArms))) continue;
-      for (const int j : limb.joints) {
+  for (const LimbPart& part : kLimbParts) {
+    const std::vector<int> path = Paths(sightings, body_plan, part).best();
+    for (Index f = 0; f < m; ++f) {
+      if (!part.root)
+        (part.limb_class == JointClass::kLeg ? tracks.legs_swapped : tracks.arms_swapped)
+            .push_back(path[std::size_t(f)] != 0);
+      if (path[std::size_t(f)] == 0) continue;
+      for (const int j : jointsOf(part, body_plan)) {
         const int k = body_plan.joints[std::size_t(j)].mirror;
         tracks.places.col(f).segment<2>(2 * j) = jointOf(sightings.places, k, f);
         tracks.confidences(j, f) = sightings.confidences(k, f);

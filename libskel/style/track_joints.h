@@ -32,11 +32,12 @@ struct JointTracks {
   std::vector<bool> legs_swapped;
 };
 
-// Hypotheses of a frame: its limbs as they are, its arms swapped, its legs, both (the figure mirrored). Of
-// the paths through them, that on which joints move most evenly and keep their colour, and on which most
-// frames are as recognised. Then joints that a body cannot have (bones longer than they are in most frames)
-// or that jump out of their way are believed less, and what is left is smoothed, each joint relative to its
-// parent. A single frame comes back as it is.
+// Hypotheses of a frame: its arms as they are or swapped, its legs, its shoulders, its hips; all of them is
+// the figure mirrored. What is summed over the path does not mix them, so that there is one path for each. Of
+// the paths, that on which joints move most evenly and keep their colour, and on which most frames are as
+// recognised. Then joints that a body cannot have (bones longer than they are in most frames) or that jump
+// out of their way are believed less, and what is left is smoothed, each joint relative to its parent. A
+// single frame comes back as it is.
 JointTracks trackJoints(const JointSightings& sightings, const SkeletonTemplate& body_plan,
                         const TrackOptions& options = {});
 

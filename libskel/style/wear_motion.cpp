@@ -41,21 +41,24 @@ PoseMatrix wornBy(const PoseMatrix& rest, const PoseMatrix& motion, const Skelet
   int top = 0;
   for (const TemplateLimb& limb : plan.limbs)
     if (limb.limb_class == JointClass::kHand) top = plan.joints[std::size_t(limb.joints[0])].parent;
-  const auto trunk = [&](const PoseMatrix& poses, Index f) { return Vector2d(jointOf(poses, top, f) - jointOf(poses, 0, f)); };
+  const auto trunk = [&](const PoseMatrix& poses, Index f) {
+    return Vector2d(jointOf(poses, top, f) - jointOf(poses, 0, f));
+  };
   const Vector2d upright = trunk(rest, 0);
   for (Index f = 0; f < motion.cols(); ++f) {
     const Vector2d now = trunk(motion, f);
     const double turn = std::atan2(upright.x() * now.y() - upright.y() * now.x(), upright.dot(now));
     for (const TemplateLimb& limb : plan.limbs)
-      directions.col(f).segment<2>(2 * limb.joints[0]) = Eigen::Rotation2Dd(turn) * jointOf(drawn, limb.joints[0], 0);
+      directions.col(f).segment<2>(2 * limb.joints[0]) =
+          Eigen::Rotation2Dd(turn) * jointOf(drawn, limb.joints[0], 0);
   }
   const double scale = legLength(lengths, plan) / legLength(theirs, plan);
   Eigen::Matrix2Xd root = jointOf(rest, 0, 0).replicate(1, motion.cols());
   if (options.travels) root.row(0).array() += scale * (motion.row(0).array() - motion(0, 0));
   PoseMatrix poses = posesFromBones(directions, lengths, root, plan);
   const Eigen::RowVectorXd ground = lowest(motion, plan);
-  const Eigen::RowVectorXd off = lowest(rest, plan)(0) - lowest(poses, plan).array() +
-                                 scale * (ground.array() - ground.maxCoeff());
+  const Eigen::RowVectorXd off =
+      lowest(rest, plan)(0) - lowest(poses, plan).array() + scale * (ground.array() - ground.maxCoeff());
   for (Index r = 1; r < poses.rows(); r += 2) poses.row(r) += off;
   return poses;
 }

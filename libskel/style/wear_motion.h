@@ -10,8 +10,8 @@ struct WearOptions {
 };
 
 // `motion`: 2J×m, px of its own pictures. `rest`: 2J×1, the joints of the other body, image px; the result is
-// in the same px. Shoulders and hips are where the drawing has them, turned with the trunk. Ways are scaled by
-// the length of the legs; the lower foot is as far above the ground as in the motion.
+// in the same px. Shoulders and hips are where the drawing has them, turned with the trunk. Ways are scaled
+// by the length of the legs; the lower foot is as far above the ground as in the motion.
 PoseMatrix wornBy(const PoseMatrix& rest, const PoseMatrix& motion, const SkeletonTemplate& body_plan,
                   const WearOptions& options = {});
 

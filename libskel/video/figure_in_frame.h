@@ -12,8 +12,9 @@ namespace skel {
 Image stillBackground(const std::vector<Image>& frames);
 
 struct ForegroundOptions {
-  double cutoff = 0.5;       // of the low-pass in the Fourier domain (low_pass.h) that takes noise away
-  double difference = 0.11;  // from the background, of the largest there can be: from here on it is the figure
+  double cutoff = 0.5;  // of the low-pass in the Fourier domain (low_pass.h) that takes noise away
+  double difference =
+      0.11;  // from the background, of the largest there can be: from here on it is the figure
 };
 
 // 255 where a frame differs from the background, by the channel that differs most.

@@ -28,9 +28,11 @@ FloatPlane lowPass(const FloatPlane& plane, double cutoff) {
   const int rows = static_cast<int>(plane.rows()), columns = static_cast<int>(plane.cols());
   if (rows == 0 || columns == 0) return plane;
   // Beyond three deviations of the filter in space nothing is left of it.
-  const int reach = static_cast<int>(std::ceil(3 * std::sqrt(2 * std::numbers::ln2) / (std::numbers::pi * cutoff)));
+  const int reach =
+      static_cast<int>(std::ceil(3 * std::sqrt(2 * std::numbers::ln2) / (std::numbers::pi * cutoff)));
   const int margin_y = std::min(reach, rows - 1), margin_x = std::min(reach, columns - 1);
-  const int height = cv::getOptimalDFTSize(rows + margin_y), width = cv::getOptimalDFTSize(columns + margin_x);
+  const int height = cv::getOptimalDFTSize(rows + margin_y),
+            width = cv::getOptimalDFTSize(columns + margin_x);
   const cv::Mat given(rows, columns, CV_32F, const_cast<float*>(plane.data()));
   cv::Mat padded;
   const int below = height - rows, right = width - columns;

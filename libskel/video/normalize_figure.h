@@ -21,8 +21,8 @@ struct FrameTransform {
 
 inline constexpr int kOutlineSamples = 200;  // t
 
-// Scales by √(area / the figure's area) and takes the centroid of kOutlineSamples points of the outline, drawn
-// with `seed`, to the middle of the picture. A frame without a figure stays as it is. `area_px` > 0.
+// Scales by √(area / the figure's area) and takes the centroid of kOutlineSamples points of the outline,
+// drawn with `seed`, to the middle of the picture. A frame without a figure stays as it is. `area_px` > 0.
 FrameTransform normalizeFigure(const FrameOutline& outline, double area_px, std::uint64_t seed = 1);
 
 // The picture so transformed, of the same size; bilinear, transparent where there was nothing.

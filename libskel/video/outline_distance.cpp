@@ -95,7 +95,8 @@ Eigen::MatrixXd distanceMatrix(const std::vector<FrameOutline>& outlines, int th
       return;
     }
     const DistanceTo distance(to, box);
-    for (Eigen::Index k = 0; k < n; ++k) one_way(Eigen::Index(i), k) = distance.farthestOf(outlines[std::size_t(k)]);
+    for (Eigen::Index k = 0; k < n; ++k)
+      one_way(Eigen::Index(i), k) = distance.farthestOf(outlines[std::size_t(k)]);
   });
   return one_way.cwiseMax(one_way.transpose());
 }

@@ -29,9 +29,9 @@ Eigen::VectorXd successiveDistances(const std::vector<FrameOutline>& outlines, i
 // Between all frames, n×n, symmetric, px.
 Eigen::MatrixXd distanceMatrix(const std::vector<FrameOutline>& outlines, int threads = 0);
 
-// The first frame, the last, and each that differs from the one before by more than `threshold` of the largest
-// such difference (patent CN102231209A). `successive`: px; `largest`: what they are divided by, > 0, or 0 for
-// their own largest. Frames that are all the same give the first and the last.
+// The first frame, the last, and each that differs from the one before by more than `threshold` of the
+// largest such difference (patent CN102231209A). `successive`: px; `largest`: what they are divided by, > 0,
+// or 0 for their own largest. Frames that are all the same give the first and the last.
 std::vector<int> keyFrames(const Eigen::VectorXd& successive, double threshold, double largest = 0);
 
 }  // namespace skel

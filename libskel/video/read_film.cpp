@@ -52,9 +52,9 @@ class FilmReader : public VideoReader {
     if (count_ == 0) width_ = frame_->width, height_ = frame_->height;
     if (frame_->width != width_ || frame_->height != height_)
       throw InputError(path_, "changes the size of its frames at frame " + std::to_string(count_ + 1));
-    scaler_ = sws_getCachedContext(scaler_, width_, height_, static_cast<AVPixelFormat>(frame_->format), width_,
-                                   height_, AV_PIX_FMT_RGBA, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr, nullptr,
-                                   nullptr);
+    scaler_ = sws_getCachedContext(scaler_, width_, height_, static_cast<AVPixelFormat>(frame_->format),
+                                   width_, height_, AV_PIX_FMT_RGBA, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr,
+                                   nullptr, nullptr);
     if (!scaler_) throw InputError(path_, "has colours that FFmpeg cannot convert");
     out.image = Image(width_, height_);
     std::uint8_t* rows[] = {out.image.rgba.data()};

@@ -16,11 +16,13 @@ namespace {
 namespace fs = std::filesystem;
 
 bool isPicture(const std::string& path) {
-  constexpr std::array<std::string_view, 7> kEndings = {".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tif", ".tiff"};
+  constexpr std::array<std::string_view, 7> kEndings = {".png", ".jpg", ".jpeg", ".webp",
+                                                        ".bmp", ".tif", ".tiff"};
   std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end() && !path.ends_with(".mask.png");
+  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end() &&
+         !path.ends_with(".mask.png");
 }
 
 class FolderReader : public VideoReader {
@@ -66,8 +68,9 @@ std::unique_ptr<VideoReader> readVideo(const std::string& path, double folder_fr
 #ifdef SKEL_VIDEO_MP4
   return readFilm(path);
 #else
-  throw UnavailableError(path + ": this build of skel reads folders of frames alone; for films install "
-                                "libavformat-dev and libswscale-dev and build again");
+  throw UnavailableError(path +
+                         ": this build of skel reads folders of frames alone; for films install "
+                         "libavformat-dev and libswscale-dev and build again");
 #endif
 }
 

@@ -20,11 +20,20 @@ JointSightings sightings(const PoseMatrix& places, bool loop) {
   return {places, Eigen::MatrixXd::Constant(17, places.cols(), 0.9), {}, 200, loop};
 }
 
-// Whole motions may come back mirrored, which is as good.
+// A part of the body may come back mirrored throughout, which is as good.
 double worst(const PoseMatrix& found, const PoseMatrix& truth) {
   PoseMatrix other = truth;
   for (Eigen::Index f = 0; f < truth.cols(); ++f) swapLimbs(other, f, JointClass::kLeg);
-  return std::min((found - truth).cwiseAbs().maxCoeff(), (found - other).cwiseAbs().maxCoeff());
+  const auto off = [&](const PoseMatrix& to, std::vector<std::string> joints) {
+    double most = 0;
+    for (const std::string& joint : joints)
+      for (const std::string side : {"left_", "right_"})
+        most =
+            std::max(most, (found - to).middleRows(2 * biped().find(side + joint), 2).cwiseAbs().maxCoeff());
+    return most;
+  };
+  return std::max(std::min(off(truth, {"knee", "foot"}), off(other, {"knee", "foot"})),
+                  std::min(off(truth, {"hip"}), off(other, {"hip"})));
 }
 
 }  // namespace

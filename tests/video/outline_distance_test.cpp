@@ -91,7 +91,8 @@ TEST_CASE("figures come to one size and to the middle, and back") {
     double area = 0;
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
     for (int y = 0; y < 60; ++y)
-      for (int x = 0; x < 80; ++x) area += moved.pixel(x, y)[3] / 255., middle += moved.pixel(x, y)[3] / 255. * Eigen::Vector2d(x, y);
+      for (int x = 0; x < 80; ++x)
+        area += moved.pixel(x, y)[3] / 255., middle += moved.pixel(x, y)[3] / 255. * Eigen::Vector2d(x, y);
     CHECK(area == Approx(400).epsilon(0.05));
     CHECK((middle / area - Eigen::Vector2d(39.5, 29.5)).norm() < 3);
     CHECK(normalizeFigure(outline, 400).shift == t.shift);

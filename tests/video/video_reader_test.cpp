@@ -63,7 +63,8 @@ TEST_CASE("films come back frame by frame, with their times") {
 #if defined(SKEL_VIDEO_MP4) && defined(SKEL_VIDEO_GIF)
 TEST_CASE("a transparent GIF stays transparent") {
   const TempDir dir;
-  const auto video = openVideo(dir.file("a.gif"), {.width = 32, .height = 32, .frame_rate = 10, .transparent = true});
+  const auto video =
+      openVideo(dir.file("a.gif"), {.width = 32, .height = 32, .frame_rate = 10, .transparent = true});
   for (int f = 0; f < 3; ++f) {
     Image image = blankImage(32, 32, kClear);
     drawDisc(image, {8. + 6 * f, 16}, 5, {10, 90, 60});
