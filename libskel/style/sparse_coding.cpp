@@ -16,6 +16,7 @@ using Eigen::MatrixXd;
 
 constexpr double kSmallestStep = 1e-12;
 constexpr double kLargestStep = 1e6;
+constexpr int kQuietIterations = 20;
 
 void check(const MatrixXd& data, const SparseCodingOptions& options) {
   if (data.size() == 0) throw UsageError("there are no poses to factorise");
@@ -76,6 +77,7 @@ class Run {
     SparseCoding result;
     double now = products().objective(u_);
     result.objectives.push_back(now);
+    int quiet = 0;
     for (int i = 0; i < options_.max_iterations; ++i) {
       const double before = now;
       now = stepBasis(products(), now);
@@ -88,7 +90,9 @@ class Run {
       else
         std::swap(v, v_);
       result.objectives.push_back(now);
-      if (before - now <= options_.tolerance * std::max(std::abs(now), 1e-12 * x2_)) break;
+      // One small step may be that of a column that shrank to nothing on the way; many are the end.
+      quiet = before - now <= options_.tolerance * std::max(std::abs(now), 1e-12 * x2_) ? quiet + 1 : 0;
+      if (quiet == kQuietIterations) break;
     }
     sortComponents();
     result.error = x2_ > 0 ? (x_ - u_ * v_).norm() / std::sqrt(x2_) : 0;

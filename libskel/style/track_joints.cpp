@@ -17,8 +17,8 @@ using Eigen::Vector2d;
 // Squared, in shares of the figure's long side. A joint that is plainly wrong in one frame costs no more than
 // the cap, on whichever path.
 constexpr double kVelocity = 0.4, kAcceleration = 1, kCap = 0.02;
-constexpr double kColor = 0.02;    // for a squared difference of colours
-constexpr double kSwap = 0.00001;  // for a joint that is not as recognised, times its confidence
+constexpr double kColor = 0.02;   // for a squared difference of colours
+constexpr double kSwap = 0.0001;  // for a joint that is not as recognised, times its confidence
 constexpr double kSpareLength = 1.35, kLengthFade = 0.2;
 constexpr double kStray = 0.035;  // of the long side: so far from its way a joint is believed by half
 constexpr int kRounds = 8;

@@ -1,5 +1,6 @@
 #include "libskel/style/transfer.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <set>
 
@@ -67,7 +68,10 @@ Transfer transferStyle(const std::vector<MotionPair>& pairs, const TransferOptio
   MatrixXd both(2 * rows, content.cols());
   both << content, style;
   SparseCodingOptions coding = options.coding;
-  coding.components = std::min(coding.components, int(both.cols()));
+  Eigen::ColPivHouseholderQR<MatrixXd> independent;
+  independent.setThreshold(1e-6);
+  independent.compute(both);
+  coding.components = std::min(coding.components, std::max(1, int(independent.rank())));
   result.coding = sparseCoding(both, coding);
   const MatrixXd change =
       (result.coding.basis.bottomRows(rows) - result.coding.basis.topRows(rows)) * result.coding.activations;

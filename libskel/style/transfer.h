@@ -31,7 +31,8 @@ struct Transfer {
 // For the components of two characters to mean the same, they are factored together: the style's poses at the
 // phases of the content's stand below those, [X_A; X_B] = [U_A; U_B]·V. With more than one pair (actions that
 // both show), all share one basis. What the factors cannot express is the content's own and stays:
-// X̃ = X_A + amount · (U_B − U_A)·V. With more components than frames, there are as many as frames. Frames
+// X̃ = X_A + amount · (U_B − U_A)·V. With more components than frames that are
+// independent of each other, there are as many as those. Frames
 // that are no keys come by inBetweens() (in_between.h). Throws UsageError: no pair, no frame, no component.
 Transfer transferStyle(const std::vector<MotionPair>& pairs, const TransferOptions& options = {});
 

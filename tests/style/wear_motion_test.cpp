@@ -19,7 +19,8 @@ TEST_CASE("a motion on another body keeps its directions and the body's lengths"
   CHECK((boneLengths(worn, biped()) - boneLengths(rest, biped())).cwiseAbs().maxCoeff() < 1e-6);
   // The lower foot comes down to where the drawing stands, and no further.
   double lowest = 0;
-  for (const char* foot : {"left_foot", "right_foot"}) lowest = std::max(lowest, worn.row(2 * biped().find(foot) + 1).maxCoeff());
+  for (const char* foot : {"left_foot", "right_foot"})
+    lowest = std::max(lowest, worn.row(2 * biped().find(foot) + 1).maxCoeff());
   CHECK(lowest == Approx(rest.col(0)(2 * biped().find("left_foot") + 1)).margin(25));
 }
 
@@ -47,7 +48,8 @@ TEST_CASE("a clip turns the joints as the motion turns the bones") {
   // Down the chain of the left arm: the canonical bone, turned by all rotations above it.
   for (const int f : {0, 5, 17}) {
     Eigen::Quaternionf turn = Eigen::Quaternionf::Identity();
-    for (const char* name : {"pelvis", "body", "neck", "left_shoulder"}) turn = turn * track(name).rotations[std::size_t(f)];
+    for (const char* name : {"pelvis", "body", "neck", "left_shoulder"})
+      turn = turn * track(name).rotations[std::size_t(f)];
     const Eigen::Vector3f bone = turn * track("left_shoulder").bone;
     const Eigen::Vector2d wanted = jointOf(directions, biped().find("left_elbow"), f);
     CHECK(bone.x() == Approx(wanted.x()).margin(1e-5));
