@@ -230,11 +230,14 @@ Document::Document(const std::string& path, DocumentOptions options)
                       {}});
   } else if (path.ends_with(kMotionFileEnding)) {
     motion_file_ = readMotionFile(path, options_.body_plan);
-    for (const MotionFrame& frame : motion_file_->frames)
+    for (const MotionFrame& frame : motion_file_->frames) {
+      if (frame.image_file.empty())
+        throw InputError(path, "has frames without a picture; it was computed, mend what it was made from");
       items_.push_back({drawingFiles(besideFile(path, frame.image_file), frame.image_file),
                         static_cast<int>(frame.joints.size()),
                         countFound(frame.joints),
                         {}});
+    }
   } else {
     readImage(path);
     items_.push_back({drawingFiles(path, fs::path(path).filename().string()), 0, 0, {}});

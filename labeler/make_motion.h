@@ -31,7 +31,4 @@ struct MotionCounts {
 // placed by hand in the file that is there already; OutputError.
 MotionCounts makeMotion(const std::string& dir, const MotionOptions& options, const OnError& on_note);
 
-// Whether numbers in names count as numbers: "a9" before "a10".
-bool comesBefore(const std::string& a, const std::string& b);
-
 }  // namespace skel

@@ -1,5 +1,6 @@
 #include "libskel/skeleton/motion_file.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "libskel/core/check.h"
@@ -13,17 +14,20 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "skel-motion";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;  // 1 knows no source, action, key frame or frame without a picture
 constexpr int kMaxImageSide = 1'000'000;
 constexpr double kMaxTime_s = 1e6;
 
 MotionFrame frameAt(const JsonValue& value, const SkeletonTemplate& body_plan) {
-  value.allowOnly({"image", "time_s", "joints"});
+  value.allowOnly({"image", "time_s", "key", "joints"});
   MotionFrame frame;
   const JsonValue image = value.at("image");
   image.allowOnly({"file", "width", "height"});
-  frame.image_file = image.at("file").asFileName();
-  if (frame.image_file.empty()) image.at("file").fail("must be the path of the frame's picture");
+  if (const JsonValue file = image.at("file"); !file.isNull()) {
+    frame.image_file = file.asFileName();
+    if (frame.image_file.empty()) file.fail("must be the path of the frame's picture, or null");
+  }
+  if (const auto key = value.find("key")) frame.key = key->asBool();
   frame.image_width = image.at("width").asInt(1, kMaxImageSide);
   frame.image_height = image.at("height").asInt(1, kMaxImageSide);
   frame.time_s = value.at("time_s").asNumber(0, kMaxTime_s);
@@ -46,21 +50,30 @@ MotionFrame frameAt(const JsonValue& value, const SkeletonTemplate& body_plan) {
 }  // namespace
 
 std::string formatMotionFile(const MotionFile& motion, const SkeletonTemplate& body_plan) {
+  const bool plain = motion.source.empty() && motion.action.empty() &&
+                     std::none_of(motion.frames.begin(), motion.frames.end(), [](const MotionFrame& frame) {
+                       return frame.key || frame.image_file.empty();
+                     });
   const auto text = [](const Json& value) {
     return value.dump(-1, ' ', false, Json::error_handler_t::replace);
   };
   std::string out = "{\n  \"format\": \"" + std::string(kFormat) +
-                    "\",\n  \"version\": " + std::to_string(kVersion) +
+                    "\",\n  \"version\": " + std::to_string(plain ? 1 : kVersion) +
                     ",\n  \"template\": " + text(body_plan.name) +
-                    ",\n  \"frame_rate\": " + text(rounded(motion.frame_rate, 1e6)) + ",\n  \"frames\": [";
+                    ",\n  \"frame_rate\": " + text(rounded(motion.frame_rate, 1e6));
+  if (!motion.source.empty()) out += ",\n  \"source\": " + text(jsonFromFileName(motion.source));
+  if (!motion.action.empty()) out += ",\n  \"action\": " + text(motion.action);
+  out += ",\n  \"frames\": [";
   for (size_t f = 0; f < motion.frames.size(); ++f) {
     const MotionFrame& frame = motion.frames[f];
     SKEL_CHECK_EQ(frame.joints.size(), body_plan.joints.size());
-    const Json image = {{"file", jsonFromFileName(frame.image_file)},
-                        {"width", frame.image_width},
-                        {"height", frame.image_height}};
+    const Json image = {
+        {"file", frame.image_file.empty() ? Json() : Json(jsonFromFileName(frame.image_file))},
+        {"width", frame.image_width},
+        {"height", frame.image_height}};
     out += (f ? ",\n    " : "\n    ") + std::string("{\"image\": ") + text(image) +
-           ", \"time_s\": " + text(rounded(frame.time_s, 1e6)) + ", \"joints\": [";
+           ", \"time_s\": " + text(rounded(frame.time_s, 1e6)) + (frame.key ? ", \"key\": true" : "") +
+           ", \"joints\": [";
     // One joint a line, so that a person finds and mends it.
     bool first = true;
     for (size_t j = 0; j < frame.joints.size(); ++j) {
@@ -82,10 +95,12 @@ MotionFile readMotionFile(const std::string& path, const SkeletonTemplate& body_
   const JsonDocument document = JsonDocument::readFile(path);
   const JsonValue root = document.root();
   root.checkFormat(kFormat, kVersion);
-  root.allowOnly({"format", "version", "template", "frame_rate", "frames"});
+  root.allowOnly({"format", "version", "template", "frame_rate", "source", "action", "frames"});
   checkTemplate(root.at("template"), body_plan.name);
   MotionFile motion;
   motion.frame_rate = root.at("frame_rate").asNumber(kMinFrameRate, kMaxFrameRate);
+  if (const auto source = root.find("source")) motion.source = source->asFileName();
+  if (const auto action = root.find("action")) motion.action = action->asString();
   for (const JsonValue& item : root.at("frames").items()) {
     motion.frames.push_back(frameAt(item, body_plan));
     const size_t count = motion.frames.size();

@@ -21,21 +21,25 @@ struct PlacedJoint {
 };
 
 struct MotionFrame {
-  std::string image_file;                          // a path relative to the motion file
+  std::string image_file;                          // a path relative to the motion file; empty: no picture
   int image_width = 0, image_height = 0;           // px
   double time_s = 0;                               // in the video, later than that of the frame before
   std::vector<std::optional<PlacedJoint>> joints;  // one a joint of the template; nullopt: not known
+  bool key = false;                                // one of the frames that tell most of the motion
 };
 
 struct MotionFile {
   double frame_rate = 0;            // of the video, 1/s; in [kMinFrameRate, kMaxFrameRate]
   std::vector<MotionFrame> frames;  // at least one
+  std::string source;               // where the motion is from, for people: a video, "A in the style of B"
+  std::string action;               // its class: walk, run, jump ...; empty: none
 };
 
 inline constexpr const char* kMotionFileEnding = ".motion.json";
 inline constexpr double kMinFrameRate = 0.001, kMaxFrameRate = 1000;
 
-// Places to the hundredth of a pixel, confidences and times to the thousandth and the millionth.
+// Version 1 where that holds all, as older programs read it. Places to the hundredth of a pixel, confidences
+// and times to the thousandth and the millionth.
 std::string formatMotionFile(const MotionFile& motion, const SkeletonTemplate& body_plan);
 
 // Throws InputError that names file, JSON path and reason: another template, joints that it does not have,

@@ -1,17 +1,20 @@
-// Inside the room: one writer a format.
+// Inside the room: one writer a format, and the readers.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "libskel/video/video_reader.h"
 #include "libskel/video/video_writer.h"
 
 namespace skel {
 
 std::unique_ptr<VideoWriter> openFrameFolder(const std::string& dir, const VideoOptions& options);
+std::unique_ptr<VideoReader> readFrameFolder(const std::string& dir, double frame_rate);
 
 #ifdef SKEL_VIDEO_MP4
+std::unique_ptr<VideoReader> readFilm(const std::string& path);
 // Encoders by FFmpeg's names, the best first; the first that is there and can be opened is taken.
 std::unique_ptr<VideoWriter> openMp4(const std::string& path, const VideoOptions& options,
                                      const std::vector<std::string>& encoders = {"libx264", "libopenh264",

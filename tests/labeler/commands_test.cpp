@@ -5,6 +5,7 @@
 
 #include "labeler/make_motion.h"
 #include "libskel/core/files.h"
+#include "libskel/core/natural_order.h"
 #include "libskel/image/write_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/labels/label_folder.h"

@@ -68,11 +68,32 @@ TEST_CASE("a motion file comes back as it was written") {
   }
 }
 
+TEST_CASE("a motion file keeps its source, its action and its key frames") {
+  const TempDir dir;
+  const std::string path = dir.file("m.motion.json");
+  MotionFile motion = example();
+  CHECK(formatMotionFile(motion, biped()).find("\"version\": 1") != std::string::npos);
+  motion.source = "h\xe9ros.mp4";
+  motion.action = "walk";
+  motion.frames[1].key = true;
+  motion.frames[2].image_file = "";
+  const std::string text = formatMotionFile(motion, biped());
+  CHECK(text.find("\"version\": 2") != std::string::npos);
+  writeFile(path, text);
+  const MotionFile again = readMotionFile(path, biped());
+  CHECK(formatMotionFile(again, biped()) == text);
+  CHECK(again.source == motion.source);
+  CHECK(again.action == "walk");
+  CHECK_FALSE(again.frames[0].key);
+  CHECK(again.frames[1].key);
+  CHECK(again.frames[2].image_file.empty());
+}
+
 TEST_CASE("a motion file with a mistake is refused with its place") {
   CHECK(complaint("skel-motion", "skel-skeleton") ==
         "is a file of format \"skel-skeleton\", \"skel-motion\" was expected");
-  CHECK(complaint("\"version\": 1", "\"version\": 2") ==
-        "version: is 2, this program reads up to 1; use a newer skel");
+  CHECK(complaint("\"version\": 1", "\"version\": 3") ==
+        "version: is 3, this program reads up to 2; use a newer skel");
   CHECK(complaint("\"biped\"", "\"quadruped\"") ==
         "template: is \"quadruped\", but the template in use is \"biped\"; give the same --template");
   CHECK(complaint("12.5", "0") == "frame_rate: is 0, must be between 0.001 and 1000");

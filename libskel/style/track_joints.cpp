@@ -1,0 +1,235 @@
+#include "libskel/style/track_joints.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "libskel/core/check.h"
+#include "libskel/style/smooth_series.h"
+
+namespace skel {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector2d;
+
+// Squared, in shares of the figure's long side. A joint that is plainly wrong in one frame costs no more than
+// the cap, on whichever path.
+constexpr double kVelocity = 0.4, kAcceleration = 1, kCap = 0.02;
+constexpr double kColor = 0.02;   // for a squared difference of colours
+constexpr double kSwap = 0.0001;  // for a joint that is not as recognised, times its confidence
+constexpr double kSpareLength = 1.35, kLengthFade = 0.2;
+constexpr double kStray = 0.035;  // of the long side: so far from its way a joint is believed by half
+constexpr int kRounds = 8;
+
+// As seen, or with the names of the other side.
+constexpr int kHypotheses = 2, kPairs = kHypotheses * kHypotheses;
+
+// Which joints change names together: of arms and legs what crosses, and apart from them shoulders and hips,
+// which stay where they are while legs cross.
+struct LimbPart {
+  JointClass limb_class;
+  bool root;  // shoulder or hip
+};
+constexpr std::array<LimbPart, 4> kLimbParts = {{{JointClass::kHand, false},
+                                                 {JointClass::kLeg, false},
+                                                 {JointClass::kHand, true},
+                                                 {JointClass::kLeg, true}}};
+
+std::vector<int> jointsOf(const LimbPart& part, const SkeletonTemplate& plan) {
+  std::vector<int> joints;
+  for (const TemplateLimb& limb : plan.limbs) {
+    if (limb.limb_class != part.limb_class) continue;
+    if (part.root)
+      joints.push_back(limb.joints[0]);
+    else
+      joints.insert(joints.end(), {limb.joints[1], limb.joints[2]});
+  }
+  return joints;
+}
+
+class Paths {
+ public:
+  Paths(const JointSightings& s, const SkeletonTemplate& plan, const LimbPart& part) : s_(s) {
+    for (const int j : jointsOf(part, plan)) joints_.push_back({j, plan.joints[std::size_t(j)].mirror});
+  }
+
+  // One hypothesis a frame.
+  std::vector<int> best() const {
+    const int m = int(s_.places.cols());
+    if (m < 2) return std::vector<int>(std::size_t(m), 0);
+    // Of a loop, the path goes round once more: its first frames then have a past as well.
+    const int steps = s_.loop ? 2 * m : m;
+    std::vector<std::array<double, kPairs>> cost(static_cast<std::size_t>(steps));
+    std::vector<std::array<int, kPairs>> from(static_cast<std::size_t>(steps));
+    for (int a = 0; a < kHypotheses; ++a)
+      for (int b = 0; b < kHypotheses; ++b)
+        cost[1][std::size_t(a * kHypotheses + b)] = alone(0, a) + alone(1, b) + step(0, a, 1, b);
+    for (int t = 2; t < steps; ++t)
+      for (int b = 0; b < kHypotheses; ++b)
+        for (int c = 0; c < kHypotheses; ++c) {
+          double least = std::numeric_limits<double>::infinity();
+          int best_a = 0;
+          for (int a = 0; a < kHypotheses; ++a) {
+            const double sum = cost[std::size_t(t) - 1][std::size_t(a * kHypotheses + b)] +
+                               bend((t - 2) % m, a, (t - 1) % m, b, t % m, c);
+            if (sum < least) least = sum, best_a = a;
+          }
+          cost[std::size_t(t)][std::size_t(b * kHypotheses + c)] =
+              least + alone(t % m, c) + step((t - 1) % m, b, t % m, c);
+          from[std::size_t(t)][std::size_t(b * kHypotheses + c)] = best_a;
+        }
+    const auto& last = cost.back();
+    int pair = int(std::min_element(last.begin(), last.end()) - last.begin());
+    std::vector<int> path(static_cast<std::size_t>(steps));
+    path.back() = pair % kHypotheses;
+    for (int t = steps - 1; t >= 1; --t) {
+      const int before = pair / kHypotheses;
+      path[std::size_t(t) - 1] = before;
+      if (t >= 2) pair = from[std::size_t(t)][std::size_t(pair)] * kHypotheses + before;
+    }
+    return {path.end() - m, path.end()};
+  }
+
+ private:
+  struct LimbJoint {
+    int joint, mirror;
+  };
+
+  int seen(const LimbJoint& j, int hypothesis) const { return hypothesis ? j.mirror : j.joint; }
+
+  double alone(int t, int hypothesis) const {
+    double sum = 0;
+    for (const LimbJoint& j : joints_)
+      if (hypothesis) sum += kSwap * s_.confidences(j.joint, t);
+    return sum;
+  }
+  double step(int t0, int a, int t1, int b) const {
+    double sum = 0;
+    for (const LimbJoint& j : joints_) {
+      const int k0 = seen(j, a), k1 = seen(j, b);
+      const double w = std::sqrt(s_.confidences(k0, t0) * s_.confidences(k1, t1));
+      const Vector2d d = (jointOf(s_.places, k1, t1) - jointOf(s_.places, k0, t0)) / s_.figure_px;
+      sum += w * std::min(kVelocity * d.squaredNorm(), kCap);
+      if (s_.colors.size() > 0)
+        sum += w * kColor *
+               (s_.colors.col(t1).segment<3>(3 * k1) - s_.colors.col(t0).segment<3>(3 * k0)).squaredNorm();
+    }
+    return sum;
+  }
+  double bend(int t0, int a, int t1, int b, int t2, int c) const {
+    double sum = 0;
+    for (const LimbJoint& j : joints_) {
+      const int k0 = seen(j, a), k1 = seen(j, b), k2 = seen(j, c);
+      const double w = std::cbrt(s_.confidences(k0, t0) * s_.confidences(k1, t1) * s_.confidences(k2, t2));
+      const Vector2d d =
+          (jointOf(s_.places, k0, t0) - 2 * jointOf(s_.places, k1, t1) + jointOf(s_.places, k2, t2)) /
+          s_.figure_px;
+      sum += w * std::min(kAcceleration * d.squaredNorm(), kCap);
+    }
+    return sum;
+  }
+
+  const JointSightings& s_;
+  std::vector<LimbJoint> joints_;
+};
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + Index(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+// J×m: how far each joint of a limb can be believed, given how long the bones are in most frames, on both
+// sides.
+Eigen::MatrixXd plausibility(const JointTracks& tracks, const SkeletonTemplate& plan) {
+  Eigen::MatrixXd belief = Eigen::MatrixXd::Ones(tracks.confidences.rows(), tracks.confidences.cols());
+  const Index m = tracks.places.cols();
+  const auto length = [&](int a, int b, Index f) {
+    return (jointOf(tracks.places, a, f) - jointOf(tracks.places, b, f)).norm();
+  };
+  const auto fades = [](double relative) {
+    return relative <= kSpareLength ? 1 : std::exp(-std::pow((relative - kSpareLength) / kLengthFade, 2));
+  };
+  for (const JointClass limb_class : {JointClass::kHand, JointClass::kLeg}) {
+    std::vector<double> upper, lower;
+    for (const TemplateLimb& limb : plan.limbs)
+      for (Index f = 0; limb.limb_class == limb_class && f < m; ++f) {
+        upper.push_back(length(limb.joints[0], limb.joints[1], f));
+        lower.push_back(length(limb.joints[1], limb.joints[2], f));
+      }
+    if (upper.empty()) continue;
+    const double u = std::max(1e-9, median(upper)), l = std::max(1e-9, median(lower));
+    for (const TemplateLimb& limb : plan.limbs)
+      for (Index f = 0; limb.limb_class == limb_class && f < m; ++f) {
+        const auto& j = limb.joints;
+        const double middle = fades(length(j[0], j[1], f) / u);
+        belief(j[1], f) = middle;
+        belief(j[2], f) = std::min(fades(length(j[0], j[2], f) / (u + l) * kSpareLength),
+                                   std::max(middle, 0.3) * fades(length(j[1], j[2], f) / l));
+      }
+  }
+  return belief;
+}
+
+}  // namespace
+
+JointTracks trackJoints(const JointSightings& sightings, const SkeletonTemplate& body_plan,
+                        const TrackOptions& options) {
+  const Index joints = Index(body_plan.joints.size()), m = sightings.places.cols();
+  SKEL_CHECK_EQ(sightings.places.rows(), 2 * joints);
+  SKEL_CHECK_EQ(sightings.confidences.rows(), joints);
+  SKEL_CHECK(sightings.figure_px > 0);
+  JointTracks tracks{sightings.places, sightings.confidences, {}, {}};
+  for (const LimbPart& part : kLimbParts) {
+    const std::vector<int> path = Paths(sightings, body_plan, part).best();
+    for (Index f = 0; f < m; ++f) {
+      if (!part.root)
+        (part.limb_class == JointClass::kLeg ? tracks.legs_swapped : tracks.arms_swapped)
+            .push_back(path[std::size_t(f)] != 0);
+      if (path[std::size_t(f)] == 0) continue;
+      for (const int j : jointsOf(part, body_plan)) {
+        const int k = body_plan.joints[std::size_t(j)].mirror;
+        tracks.places.col(f).segment<2>(2 * j) = jointOf(sightings.places, k, f);
+        tracks.confidences(j, f) = sightings.confidences(k, f);
+      }
+    }
+  }
+  if (m < 3 || options.smoothness <= 0) return tracks;
+
+  tracks.confidences.array() *= plausibility(tracks, body_plan).array();
+  const PoseMatrix seen = tracks.places;
+  for (Index j = 0; j < joints; ++j) {
+    const int parent = body_plan.joints[std::size_t(j)].parent;
+    Eigen::MatrixXd offsets = seen.middleRows(2 * j, 2).transpose();
+    if (parent >= 0) offsets -= tracks.places.middleRows(2 * parent, 2).transpose();
+    const Eigen::VectorXd confidence = tracks.confidences.row(j).transpose();
+    Eigen::VectorXd weights = confidence.cwiseProduct(confidence);
+    Eigen::MatrixXd smooth;
+    // Geman & McClure (1985), by iteratively reweighted least squares: strays count less each round.
+    for (int round = 0; round < kRounds; ++round) {
+      // At first what a stray would drag along is held by its neighbours.
+      const double strength = options.smoothness * (round + 1 < kRounds ? 3 : 1);
+      smooth = smoothSeries(offsets, weights, strength, sightings.loop);
+      const Eigen::VectorXd stray = (smooth - offsets).rowwise().norm() / (kStray * sightings.figure_px);
+      weights = confidence.array().square() / (1 + stray.array().square()).square();
+    }
+    tracks.confidences.row(j) = (weights.array().sqrt()).transpose();
+    tracks.places.middleRows(2 * j, 2) = smooth.transpose();
+    if (parent >= 0) tracks.places.middleRows(2 * j, 2) += tracks.places.middleRows(2 * parent, 2);
+  }
+  return tracks;
+}
+
+double unevenness(const PoseMatrix& poses, double figure_px) {
+  if (poses.cols() < 3) return 0;
+  double sum = 0;
+  int count = 0;
+  for (Index f = 1; f + 1 < poses.cols(); ++f)
+    for (Index j = 0; 2 * j < poses.rows(); ++j, ++count)
+      sum += (jointOf(poses, int(j), f - 1) - 2 * jointOf(poses, int(j), f) + jointOf(poses, int(j), f + 1))
+                 .norm();
+  return sum / count / figure_px;
+}
+
+}  // namespace skel

@@ -1,0 +1,122 @@
+// Films through FFmpeg's libraries.
+#include <cmath>
+
+#include "libskel/core/error.h"
+#include "libskel/video/formats.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libswscale/swscale.h>
+}
+
+namespace skel {
+namespace {
+
+constexpr double kUsualFrameRate = 25;
+
+class FilmReader : public VideoReader {
+ public:
+  explicit FilmReader(const std::string& path) : path_(path) {
+    av_log_set_level(AV_LOG_QUIET);
+    require(avformat_open_input(&file_, path.c_str(), nullptr, nullptr));
+    require(avformat_find_stream_info(file_, nullptr));
+    const AVCodec* codec = nullptr;
+    stream_ = av_find_best_stream(file_, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+    if (stream_ < 0 || !codec) throw InputError(path_, "holds no film that FFmpeg can read here");
+    decoder_ = avcodec_alloc_context3(codec);
+    packet_ = av_packet_alloc();
+    frame_ = av_frame_alloc();
+    if (!decoder_ || !packet_ || !frame_) throw std::bad_alloc();
+    const AVStream& stream = *file_->streams[stream_];
+    require(avcodec_parameters_to_context(decoder_, stream.codecpar));
+    require(avcodec_open2(decoder_, codec, nullptr));
+    const double rate = av_q2d(stream.avg_frame_rate.num > 0 ? stream.avg_frame_rate : stream.r_frame_rate);
+    frame_rate_ = rate > 0 && rate < 1000 ? rate : kUsualFrameRate;
+    frame_count_ = static_cast<int>(stream.nb_frames);
+  }
+
+  ~FilmReader() override {
+    sws_freeContext(scaler_);
+    av_frame_free(&frame_);
+    av_packet_free(&packet_);
+    avcodec_free_context(&decoder_);
+    avformat_close_input(&file_);
+  }
+
+  bool next(VideoFrame& out) override {
+    if (!decode()) {
+      if (count_ == 0) throw InputError(path_, "holds a film without frames");
+      return false;
+    }
+    if (count_ == 0) width_ = frame_->width, height_ = frame_->height;
+    if (frame_->width != width_ || frame_->height != height_)
+      throw InputError(path_, "changes the size of its frames at frame " + std::to_string(count_ + 1));
+    scaler_ = sws_getCachedContext(scaler_, width_, height_, static_cast<AVPixelFormat>(frame_->format),
+                                   width_, height_, AV_PIX_FMT_RGBA, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr,
+                                   nullptr, nullptr);
+    if (!scaler_) throw InputError(path_, "has colours that FFmpeg cannot convert");
+    out.image = Image(width_, height_);
+    std::uint8_t* rows[] = {out.image.rgba.data()};
+    const int row_bytes[] = {4 * width_};
+    sws_scale(scaler_, frame_->data, frame_->linesize, 0, height_, rows, row_bytes);
+    out.file.clear();
+    const AVRational unit = file_->streams[stream_]->time_base;
+    const std::int64_t stamp = frame_->best_effort_timestamp;
+    if (count_ == 0) first_ = stamp;
+    const double least = count_ == 0 ? 0 : time_s_ + 1e-4;
+    time_s_ = stamp == AV_NOPTS_VALUE || first_ == AV_NOPTS_VALUE
+                  ? count_ / frame_rate_
+                  : static_cast<double>(stamp - first_) * av_q2d(unit);
+    time_s_ = std::max(time_s_, least);
+    out.time_s = time_s_;
+    ++count_;
+    return true;
+  }
+
+ private:
+  void require(int result) const {
+    if (result >= 0) return;
+    char why[AV_ERROR_MAX_STRING_SIZE] = "";
+    av_strerror(result, why, sizeof why);
+    throw InputError(path_, std::string("cannot be read as a film: ") + why);
+  }
+
+  bool decode() {
+    for (;;) {
+      const int got = avcodec_receive_frame(decoder_, frame_);
+      if (got >= 0) return true;
+      if (got == AVERROR_EOF) return false;
+      if (got != AVERROR(EAGAIN)) require(got);
+      const int read = av_read_frame(file_, packet_);
+      if (read == AVERROR_EOF) {
+        require(avcodec_send_packet(decoder_, nullptr));
+        continue;
+      }
+      require(read);
+      if (packet_->stream_index == stream_) {
+        const int sent = avcodec_send_packet(decoder_, packet_);
+        av_packet_unref(packet_);
+        require(sent);
+      } else {
+        av_packet_unref(packet_);
+      }
+    }
+  }
+
+  std::string path_;
+  AVFormatContext* file_ = nullptr;
+  AVCodecContext* decoder_ = nullptr;
+  AVPacket* packet_ = nullptr;
+  AVFrame* frame_ = nullptr;
+  SwsContext* scaler_ = nullptr;
+  int stream_ = -1, width_ = 0, height_ = 0, count_ = 0;
+  std::int64_t first_ = 0;
+  double time_s_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<VideoReader> readFilm(const std::string& path) { return std::make_unique<FilmReader>(path); }
+
+}  // namespace skel

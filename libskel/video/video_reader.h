@@ -1,0 +1,36 @@
+// Films, read frame by frame.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "libskel/image/image.h"
+
+namespace skel {
+
+struct VideoFrame {
+  Image image;
+  double time_s = 0;  // from the beginning of the film, later than that of the frame before
+  std::string file;   // of a folder of frames: the picture's path; else empty
+};
+
+class VideoReader {
+ public:
+  virtual ~VideoReader() = default;
+  // The next frame, all of one size. False at the end. Throws InputError.
+  virtual bool next(VideoFrame& frame) = 0;
+  double frameRate() const { return frame_rate_; }  // 1/s
+  int frameCount() const { return frame_count_; }   // 0: not known before the end
+
+ protected:
+  double frame_rate_ = 0;
+  int frame_count_ = 0;
+};
+
+// A folder of pictures, in the order of their names with numbers counted as numbers, shown at
+// `folder_frame_rate`, 1/s; or a film in whatever format FFmpeg reads (MP4, GIF, WebM ...), transparency
+// kept. Throws InputError: not there, no film, no pictures; UnavailableError: a film in a build without
+// FFmpeg.
+std::unique_ptr<VideoReader> readVideo(const std::string& path, double folder_frame_rate = 12);
+
+}  // namespace skel

@@ -1,0 +1,93 @@
+#include "stylizer/film_figure.h"
+
+#include <algorithm>
+
+#include "libskel/core/error.h"
+#include "libskel/core/parallel.h"
+#include "libskel/silhouette/silhouette.h"
+
+namespace skel {
+namespace {
+
+constexpr std::size_t kBackgroundFrames = 25, kBatch = 16;
+// A figure that stands in the median of all frames is one that does not leave its place.
+constexpr double kStandingShare = 0.3;
+
+double areaOf(const Silhouette& silhouette) {
+  return silhouette.found() ? double((silhouette.mask > 0).count()) : 0;
+}
+
+}  // namespace
+
+FilmInfo lookAtFilm(const FilmSource& source, Image& background) {
+  const auto reader = readVideo(source.path, source.frame_rate);
+  FilmInfo info;
+  info.frame_rate = reader->frameRate();
+  // Of a film of unknown length, every second sample is dropped whenever there are twice too many.
+  std::vector<Image> samples;
+  int every = std::max(1, reader->frameCount() / int(kBackgroundFrames));
+  VideoFrame frame;
+  while (reader->next(frame)) {
+    if (info.frames == 0) {
+      info.width = frame.image.width;
+      info.height = frame.image.height;
+      const bool transparent = hasTransparency(frame.image);
+      if (source.figure == "alpha" && !transparent)
+        throw InputError(source.path, "has no transparency; use another --figure");
+      if (transparent && (source.figure == "auto" || source.figure == "alpha")) {
+        info.method = FigureMethod::kAlpha;
+        info.frames = reader->frameCount();
+        if (info.frames > 0) return info;
+      } else {
+        info.method = source.figure == "silhouette" ? FigureMethod::kSilhouette : FigureMethod::kStill;
+      }
+    }
+    if (info.method == FigureMethod::kStill && info.frames % every == 0) {
+      samples.push_back(frame.image);
+      if (samples.size() >= 2 * kBackgroundFrames) {
+        for (std::size_t i = 0; 2 * i < samples.size(); ++i) samples[i] = std::move(samples[2 * i]);
+        samples.resize(samples.size() / 2);
+        every *= 2;
+      }
+    }
+    ++info.frames;
+  }
+  if (info.method != FigureMethod::kStill) return info;
+  background = stillBackground(samples);
+  if (source.figure == "auto" &&
+      (samples.size() < 3 ||
+       areaOf(extractSilhouette(background)) > kStandingShare * areaOf(extractSilhouette(samples[0]))))
+    info.method = FigureMethod::kSilhouette;
+  return info;
+}
+
+void forEachFrame(const FilmSource& source, const FilmInfo& info, const Image& background,
+                  const std::function<void(std::size_t, FilmFrame&)>& work) {
+  const auto reader = readVideo(source.path, source.frame_rate);
+  std::size_t first = 0;
+  for (bool more = true; more;) {
+    std::vector<FilmFrame> batch;
+    while (batch.size() < kBatch) {
+      FilmFrame frame;
+      more = reader->next(frame.video) && first + batch.size() < std::size_t(info.frames);
+      if (!more) break;
+      batch.push_back(std::move(frame));
+    }
+    parallelFor(batch.size(), 0, [&](std::size_t i) {
+      FilmFrame& frame = batch[i];
+      const Image& image = frame.video.image;
+      if (info.method == FigureMethod::kAlpha) {
+        frame.figure = opaquePart(image, source.foreground);
+      } else if (info.method == FigureMethod::kStill) {
+        frame.figure = foreground(image, background, source.foreground);
+      } else {
+        frame.figure = extractSilhouette(image).mask;
+        if (frame.figure.size() == 0) frame.figure = Plane8::Zero(image.height, image.width);
+      }
+      work(first + i, frame);
+    });
+    first += batch.size();
+  }
+}
+
+}  // namespace skel

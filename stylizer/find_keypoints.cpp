@@ -1,0 +1,171 @@
+#include "stylizer/find_keypoints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "libskel/classifier/weights_file.h"
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/progress.h"
+#include "libskel/image/write_image.h"
+#include "libskel/pipeline/rig_character.h"
+#include "libskel/video/outline_distance.h"
+
+namespace skel {
+namespace {
+namespace fs = std::filesystem;
+
+// The mean colour of the figure in a disc around a joint, in [0, 1].
+Eigen::Vector3d colorAt(const Image& image, const Plane8& figure, const Eigen::Vector2d& at,
+                        double radius_px) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  const int reach = std::max(1, int(std::lround(radius_px)));
+  const int cx = int(std::lround(at.x())), cy = int(std::lround(at.y()));
+  for (int y = std::max(0, cy - reach); y <= std::min(image.height - 1, cy + reach); ++y)
+    for (int x = std::max(0, cx - reach); x <= std::min(image.width - 1, cx + reach); ++x) {
+      if (figure(y, x) == 0 || std::hypot(x - at.x(), y - at.y()) > radius_px) continue;
+      const std::uint8_t* p = image.pixel(x, y);
+      sum += Eigen::Vector3d(p[0], p[1], p[2]) / 255;
+      ++count;
+    }
+  return count > 0 ? Eigen::Vector3d(sum / count) : Eigen::Vector3d::Constant(0.5);
+}
+
+struct Sighting {
+  bool found = false;
+  Skeleton skeleton;
+  Eigen::VectorXd colors;
+  double long_side_px = 0;
+  FrameOutline outline;
+};
+
+Sighting look(const FilmFrame& frame, FigureMethod method, const RigOptions& rig) {
+  Sighting sighting;
+  sighting.outline = outlineOf(frame.figure);
+  if (sighting.outline.points.empty()) return sighting;
+  RigInput input;
+  input.image = frame.video.image;
+  if (method == FigureMethod::kStill) input.mask = frame.figure;
+  const RiggedDrawing drawing = rigCharacter(std::move(input), rig);
+  if (!drawing.found()) return sighting;
+  sighting.found = true;
+  sighting.skeleton = drawing.recognition.skeleton;
+  sighting.long_side_px = kWorkingGridSize / drawing.silhouette.grid.scale;
+  sighting.colors.resize(3 * Eigen::Index(sighting.skeleton.joints.size()));
+  for (std::size_t j = 0; j < sighting.skeleton.joints.size(); ++j)
+    sighting.colors.segment<3>(3 * Eigen::Index(j)) =
+        colorAt(drawing.image, drawing.silhouette.mask, sighting.skeleton.joints[j].image,
+                0.02 * sighting.long_side_px);
+  return sighting;
+}
+
+// Frames beside each other; those without a figure stay where the last one was, and count nothing.
+JointSightings sideBySide(const std::vector<Sighting>& all, const SkeletonTemplate& plan) {
+  const Eigen::Index joints = Eigen::Index(plan.joints.size()), m = Eigen::Index(all.size());
+  JointSightings seen{PoseMatrix::Zero(2 * joints, m), Eigen::MatrixXd::Zero(joints, m),
+                      Eigen::MatrixXd::Constant(3 * joints, m, 0.5), 1, false};
+  std::vector<double> sides;
+  std::size_t last = 0;
+  while (!all[last].found) ++last;
+  for (Eigen::Index f = 0; f < m; ++f) {
+    const bool found = all[std::size_t(f)].found;
+    if (found) last = std::size_t(f);
+    const Sighting& s = all[last];
+    if (found) sides.push_back(s.long_side_px);
+    for (const Joint& joint : s.skeleton.joints) {
+      const int j = plan.find(joint.name), at = s.skeleton.index(joint.name);
+      seen.places.col(f).segment<2>(2 * j) = joint.image;
+      seen.confidences(j, f) = found ? std::max(joint.confidence, 0.05) : 0;
+      seen.colors.col(f).segment<3>(3 * j) = s.colors.segment<3>(3 * at);
+    }
+  }
+  std::nth_element(sides.begin(), sides.begin() + Eigen::Index(sides.size() / 2), sides.end());
+  seen.figure_px = sides[sides.size() / 2];
+  return seen;
+}
+
+// By the outlines, which know nothing of limbs that are taken for each other.
+bool outlinesLoop(const std::vector<FrameOutline>& outlines, const Eigen::VectorXd& successive) {
+  return outlines.size() >= 4 && successive.maxCoeff() > 0 &&
+         hausdorffDistance(outlines.back(), outlines.front()) <= 1.5 * successive.maxCoeff();
+}
+
+}  // namespace
+
+Keypoints findKeypoints(const KeypointOptions& options) {
+  const SkeletonTemplate plan = loadTemplate("biped");
+  Image background;
+  const FilmInfo info = lookAtFilm(options.film, background);
+  RigOptions rig;
+  rig.mlp = defaultMlp();
+  rig.body_plan = plan;
+  rig.upright = true;
+
+  Keypoints result;
+  result.motion.frame_rate = std::clamp(info.frame_rate, kMinFrameRate, kMaxFrameRate);
+  result.motion.source = fs::path(options.film.path).lexically_normal().filename().string();
+  if (result.motion.source.empty())
+    result.motion.source = fs::path(options.film.path).parent_path().filename().string();
+  result.motion.action = options.action;
+  result.motion.frames.resize(std::size_t(info.frames));
+  std::vector<Sighting> sightings(static_cast<std::size_t>(info.frames));
+  const fs::path file = options.output;
+  std::string stem = file.filename().string();
+  if (stem.ends_with(kMotionFileEnding)) stem.resize(stem.size() - std::string(kMotionFileEnding).size());
+  {
+    ProgressBar bar("key points", std::size_t(info.frames));
+    forEachFrame(options.film, info, background, [&](std::size_t i, FilmFrame& frame) {
+      MotionFrame& out = result.motion.frames[i];
+      std::string picture = frame.video.file;
+      if (picture.empty()) {
+        char name[32];
+        std::snprintf(name, sizeof name, "frame-%04d.png", int(i) + 1);
+        picture = (file.parent_path() / (stem + ".frames") / name).string();
+        writeFile(picture, encodePng(frame.video.image));
+      }
+      out.image_file = pathSeenFrom(options.output, picture);
+      out.image_width = frame.video.image.width;
+      out.image_height = frame.video.image.height;
+      out.time_s = frame.video.time_s;
+      sightings[i] = look(frame, info.method, rig);
+      bar.advance();
+    });
+  }
+  result.without_figure =
+      int(std::count_if(sightings.begin(), sightings.end(), [](const Sighting& s) { return !s.found; }));
+  if (result.without_figure == info.frames)
+    throw InputError(options.film.path, "shows no figure in any frame");
+
+  std::vector<FrameOutline> outlines;
+  for (Sighting& s : sightings) outlines.push_back(std::move(s.outline));
+  const Eigen::VectorXd successive = successiveDistances(outlines);
+  for (const int key : keyFrames(successive, options.threshold))
+    result.motion.frames[std::size_t(key)].key = true;
+
+  JointSightings seen = sideBySide(sightings, plan);
+  seen.loop = options.loop == "auto" ? outlinesLoop(outlines, successive) : options.loop == "yes";
+  const JointTracks tracks = trackJoints(seen, plan, options.track);
+  result.loop = seen.loop;
+  result.unevenness_seen = unevenness(seen.places, seen.figure_px);
+  result.unevenness = unevenness(tracks.places, seen.figure_px);
+  result.arms_swapped = int(std::count(tracks.arms_swapped.begin(), tracks.arms_swapped.end(), true));
+  result.legs_swapped = int(std::count(tracks.legs_swapped.begin(), tracks.legs_swapped.end(), true));
+  for (std::size_t f = 0; f < sightings.size(); ++f) {
+    MotionFrame& frame = result.motion.frames[f];
+    const Eigen::Vector2d corner(frame.image_width - 0.5, frame.image_height - 0.5);
+    for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+      const Eigen::Vector2d at = jointOf(tracks.places, int(j), Eigen::Index(f));
+      const double confidence = std::clamp(tracks.confidences(Eigen::Index(j), Eigen::Index(f)), 0., 1.);
+      frame.joints.push_back(PlacedJoint{at.cwiseMax(-0.5).cwiseMin(corner), confidence,
+                                         confidence < 0.3         ? JointOrigin::kCompleted
+                                         : plan.joints[j].derived ? JointOrigin::kDerived
+                                                                  : JointOrigin::kRecognized});
+    }
+  }
+  return result;
+}
+
+}  // namespace skel

@@ -1,0 +1,36 @@
+// From a film to a motion: the joints of the figure in every frame.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libskel/skeleton/motion_file.h"
+#include "libskel/style/track_joints.h"
+#include "stylizer/film_figure.h"
+
+namespace skel {
+
+struct KeypointOptions {
+  FilmSource film;
+  std::string output;         // the motion file; pictures of a film's frames go beside it
+  std::string action;         // its class
+  std::string loop = "auto";  // auto, yes, no: whether the first frame follows the last
+  double threshold = 0.5;     // of key frames (outline_distance.h)
+  TrackOptions track;
+};
+
+struct Keypoints {
+  MotionFile motion;
+  int without_figure = 0;      // frames
+  double unevenness_seen = 0;  // unevenness() as recognised, and as written
+  double unevenness = 0;
+  int arms_swapped = 0, legs_swapped = 0;  // frames whose limbs got the names of the other side
+  bool loop = false;
+};
+
+// Recognition of each frame (rigCharacter()), one path through all of them (track_joints.h), key frames by
+// the outlines. The frames of a film are written as pictures to `<stem>.frames/`. Throws InputError: no
+// figure in any frame; OutputError.
+Keypoints findKeypoints(const KeypointOptions& options);
+
+}  // namespace skel

@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "libskel/core/files.h"
+#include "libskel/core/json_names.h"
+#include "libskel/core/progress.h"
+#include "libskel/draw/canvas.h"
+#include "libskel/image/write_image.h"
+#include "libskel/skeleton/joint_json.h"
+#include "libskel/video/normalize_figure.h"
+#include "stylizer/commands.h"
+
+namespace skel {
+namespace {
+
+// Light where frames are far apart.
+Image matrixPicture(const Eigen::MatrixXd& matrix) {
+  return magnified(heatMap(matrix.cast<float>().array() + 1e-6f), matrix.rows() < 100 ? 6 : 2);
+}
+
+double meanArea(const std::vector<FrameOutline>& outlines, const std::vector<int>& keys) {
+  double sum = 0;
+  for (const int key : keys) sum += outlines[std::size_t(key)].area_px;
+  return std::max(1., sum / double(keys.size()));
+}
+
+}  // namespace
+
+ExitCode runKeyframes(const KeyframesOptions& options) {
+  ensureWritableFolder(options.output);
+  Image background;
+  const FilmInfo info = lookAtFilm(options.film, background);
+  std::vector<FrameOutline> outlines(static_cast<std::size_t>(info.frames));
+  std::vector<double> times_s(outlines.size());
+  {
+    ProgressBar bar("outlines", outlines.size());
+    forEachFrame(options.film, info, background, [&](std::size_t i, FilmFrame& frame) {
+      outlines[i] = outlineOf(frame.figure);
+      times_s[i] = frame.video.time_s;
+      bar.advance();
+    });
+  }
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd successive;
+  double largest = 0;
+  if (options.matrix) {
+    matrix = distanceMatrix(outlines);
+    successive = matrix.diagonal(1);
+    largest = matrix.maxCoeff();
+  } else {
+    successive = successiveDistances(outlines);
+    largest = successive.size() > 0 ? successive.maxCoeff() : 0;
+  }
+  const std::vector<int> keys = keyFrames(successive, options.threshold, largest);
+  const double area_px = meanArea(outlines, keys);
+
+  namespace fs = std::filesystem;
+  using Json = nlohmann::ordered_json;
+  Json root = {{"format", "skel-keyframes"},
+               {"version", 1},
+               {"source", jsonFromFileName(options.film.path)},
+               {"frames", info.frames},
+               {"threshold", options.threshold},
+               {"largest_distance_px", rounded(largest, 1e4)},
+               {"area_px", rounded(area_px, 100)},
+               {"distances", Json::array()},
+               {"keys", Json::array()}};
+  for (const double d : successive) root["distances"].push_back(largest > 0 ? rounded(d / largest, 1e6) : 0);
+  // The pictures of the key frames, normalised: the film is read once more rather than kept whole.
+  std::vector<std::string> names;
+  for (const int key : keys) {
+    char name[32];
+    std::snprintf(name, sizeof name, "key-%04d.png", key + 1);
+    const FrameTransform t = normalizeFigure(outlines[std::size_t(key)], area_px);
+    names.push_back((fs::path(options.output) / name).string());
+    root["keys"].push_back({{"frame", key},
+                            {"time_s", rounded(times_s[std::size_t(key)], 1e6)},
+                            {"picture", name},
+                            {"scale", t.scale},
+                            {"shift", {t.shift.x(), t.shift.y()}}});
+  }
+  forEachFrame(options.film, info, background, [&](std::size_t i, FilmFrame& frame) {
+    const auto at = std::lower_bound(keys.begin(), keys.end(), int(i));
+    if (at == keys.end() || *at != int(i)) return;
+    Image& image = frame.video.image;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        if (frame.figure(y, x) == 0) image.pixel(x, y)[3] = 0;
+    writeFile(names[std::size_t(at - keys.begin())],
+              encodePng(transformed(image, normalizeFigure(outlines[i], area_px))));
+  });
+  writeFile((fs::path(options.output) / "keyframes.json").string(), root.dump(1) + "\n");
+  if (options.matrix) {
+    Json rows = Json::array();
+    for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
+      Json row = Json::array();
+      for (Eigen::Index c = 0; c < matrix.cols(); ++c)
+        row.push_back(largest > 0 ? rounded(matrix(r, c) / largest, 1e6) : 0);
+      rows.push_back(std::move(row));
+    }
+    writeFile(
+        (fs::path(options.output) / "distances.json").string(),
+        Json{{"format", "skel-distances"}, {"version", 1}, {"distances", std::move(rows)}}.dump() + "\n");
+    writeFile((fs::path(options.output) / "distances.png").string(), encodePng(matrixPicture(matrix)));
+  }
+  std::printf("%s: %d of %d frames are key frames\n", options.output.c_str(), int(keys.size()), info.frames);
+  return ExitCode::kDone;
+}
+
+}  // namespace skel

@@ -1,0 +1,44 @@
+#include <cstdio>
+#include <filesystem>
+
+#include "libskel/core/files.h"
+#include "stylizer/commands.h"
+
+namespace skel {
+namespace {
+namespace fs = std::filesystem;
+
+void keepEdited(const std::string& path) {
+  if (!fs::exists(path)) return;
+  for (const MotionFrame& frame : readMotionFile(path, loadTemplate("biped")).frames)
+    for (const auto& joint : frame.joints)
+      if (joint && joint->origin == JointOrigin::kEdited)
+        throw InputError(
+            path,
+            "holds joints that were edited by hand; write to another file by -o, or give --force "
+            "to lose them");
+}
+
+}  // namespace
+
+ExitCode runKeypoints(const KeypointsCommandOptions& given) {
+  KeypointOptions options = given.find;
+  if (options.output.empty()) {
+    fs::path film = fs::absolute(options.film.path).lexically_normal();
+    if (!film.has_filename()) film = film.parent_path();
+    options.output = "out/" + film.stem().string() + kMotionFileEnding;
+  }
+  if (!given.force) keepEdited(options.output);
+  const Keypoints found = findKeypoints(options);
+  writeFile(options.output, formatMotionFile(found.motion, loadTemplate("biped")));
+  int keys = 0;
+  for (const MotionFrame& frame : found.motion.frames) keys += frame.key;
+  std::printf("%s: %d frames, %d key frames%s", options.output.c_str(), int(found.motion.frames.size()), keys,
+              found.loop ? ", a loop" : "");
+  if (found.without_figure > 0) std::printf(", %d without a figure", found.without_figure);
+  std::printf("\n  limbs renamed in %d frames (arms) and %d (legs); unevenness %.4f as seen, %.4f smoothed\n",
+              found.arms_swapped, found.legs_swapped, found.unevenness_seen, found.unevenness);
+  return ExitCode::kDone;
+}
+
+}  // namespace skel

@@ -1,0 +1,55 @@
+#include <cstdio>
+#include <filesystem>
+
+#include "libskel/core/files.h"
+#include "stylizer/commands.h"
+
+namespace skel {
+namespace {
+namespace fs = std::filesystem;
+
+// The motion of a film: the file given, the one in the work folder, or a new one there.
+NamedMotion motionOf(const std::string& path, const std::string& name, const MakeOptions& options) {
+  const SkeletonTemplate plan = loadTemplate("biped");
+  if (path.ends_with(kMotionFileEnding)) return {path, readMotionFile(path, plan)};
+  const std::string file = (fs::path(options.work) / (name + kMotionFileEnding)).string();
+  if (!options.force && fs::exists(file)) {
+    std::printf("%s: taken as it is\n", file.c_str());
+    return {file, readMotionFile(file, plan)};
+  }
+  KeypointOptions find;
+  find.film = options.film;
+  find.film.path = path;
+  find.output = file;
+  find.loop = options.request.loop;
+  const Keypoints found = findKeypoints(find);
+  writeFile(file, formatMotionFile(found.motion, plan));
+  std::printf("%s: %d frames\n", file.c_str(), int(found.motion.frames.size()));
+  return {file, found.motion};
+}
+
+}  // namespace
+
+ExitCode runMake(const MakeOptions& given) {
+  MakeOptions options = given;
+  if (options.work.empty()) {
+    std::string stem = options.output;
+    while (stem.ends_with('/')) stem.pop_back();
+    options.work = stem + ".work";
+  }
+  openVideo(options.output, {.transparent = options.perform.film.background == "none"});
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const RiggedDrawing drawing = rigDrawing(options.character);
+  const NamedMotion content = motionOf(options.content, "content", options);
+  const NamedMotion style = motionOf(options.style, "style", options);
+  const MotionTransferReport report = transferMotion({content}, {style}, transferOptions(options.request));
+  const std::string file = (fs::path(options.work) / (std::string("transfer") + kMotionFileEnding)).string();
+  writeFile(file, formatMotionFile(report.motion, plan));
+  std::printf("%s: mean pose %.0f %% of the way, phase correlation %.3f%s\n", file.c_str(),
+              100 * report.mean_pose_moved, report.phase_correlation,
+              report.mirrored ? ", style mirrored" : "");
+  perform(drawing, report.motion, file, report.content_loops, options.perform, options.output);
+  return ExitCode::kDone;
+}
+
+}  // namespace skel

@@ -1,0 +1,46 @@
+// A drawing that performs a motion.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "libskel/pipeline/rig_character.h"
+#include "libskel/video/video_writer.h"
+#include "stylizer/puppet.h"
+
+namespace skel {
+
+struct PuppetFilmOptions {
+  std::string background = "white";  // keep, white, black, none, #rrggbb, or a picture
+  int size_px = 480;                 // of the film's long side, at most
+  double frame_rate = 0;             // 1/s; 0: the motion's
+  double duration_s = 0;             // the motion repeats; 0: once
+  bool loops = false;                // the first frame follows the last
+};
+
+struct PuppetFrames {
+  int width = 0, height = 0;                         // px, even
+  double scale = 1;                                  // film px a px of the drawing
+  Eigen::Vector2d corner = Eigen::Vector2d::Zero();  // of the film's first pixel, in px of the drawing
+  Image background;                                  // of the film's size
+  std::vector<Eigen::MatrixX2d> vertices;            // of each frame, px of the drawing
+  double frame_rate = 0;
+  int flipped = 0;  // triangles that are turned over, in all frames
+};
+
+// `worn`: the motion as this body does it (wornBy()), one column a frame at `times_s`. Throws UsageError,
+// InputError: a background that is none.
+PuppetFrames layOut(const Puppet& puppet, const RiggedDrawing& drawing, const PoseMatrix& worn,
+                    const std::vector<double>& times_s, const PuppetFilmOptions& options);
+
+Image paintFrame(const Puppet& puppet, const PuppetFrames& frames, std::size_t i);
+
+// All frames into `video`, several painted at once.
+void writePuppetFilm(const Puppet& puppet, const PuppetFrames& frames, VideoWriter& video,
+                     const std::function<void()>& on_frame);
+
+// Reads a drawing, or the .skeleton.json of one, and rigs it. Throws InputError.
+RiggedDrawing rigDrawing(const std::string& path);
+
+}  // namespace skel

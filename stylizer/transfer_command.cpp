@@ -1,0 +1,30 @@
+#include <cstdio>
+
+#include "libskel/core/files.h"
+#include "stylizer/commands.h"
+
+namespace skel {
+
+MotionTransferOptions transferOptions(const StyleRequest& request) {
+  MotionTransferOptions options;
+  options.transfer.coding = request.coding;
+  options.transfer.amount = request.amount;
+  options.mirror = request.mirror == "auto"  ? MirrorStyle::kAutomatic
+                   : request.mirror == "yes" ? MirrorStyle::kAlways
+                                             : MirrorStyle::kNever;
+  options.loop = request.loop;
+  options.by_signatures = request.match == "signatures";
+  return options;
+}
+
+ExitCode runTransfer(const TransferCommandOptions& options) {
+  const MotionTransferReport report = transferMotion(readMotions(options.content), readMotions(options.style),
+                                                     transferOptions(options.request));
+  writeFile(options.output, formatMotionFile(report.motion, loadTemplate("biped")));
+  std::printf("%s: %s%s\n  factored to %.2f %%; mean pose %.0f %% of the way; phase correlation %.3f\n",
+              options.output.c_str(), report.motion.source.c_str(), report.mirrored ? ", mirrored" : "",
+              100 * report.error, 100 * report.mean_pose_moved, report.phase_correlation);
+  return ExitCode::kDone;
+}
+
+}  // namespace skel

@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "libskel/core/files.h"
+#include "libskel/image/read_image.h"
+#include "tests/support/catch.h"
+#include "tests/support/run_tool.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kDrawing = std::string(SKEL_SOURCE_DIR) + "/datasets/characters/cap_boy.png";
+
+ToolRun style(const std::string& arguments) { return runTool(std::string(SKEL_STYLE) + " " + arguments); }
+
+ToolRun done(const std::string& arguments) {
+  const ToolRun run = style(arguments);
+  CAPTURE(arguments);
+  CHECK(run.err == "");
+  REQUIRE(run.exit_code == 0);
+  return run;
+}
+
+// A folder of frames of the drawing, dancing.
+std::string film(const TempDir& dir, const std::string& clip) {
+  const std::string folder = dir.file(clip + "/");
+  const ToolRun run = runTool(std::string(SKEL_ANIMATE) + " render " + kDrawing + " --clip " + clip +
+                              " --duration 0.8 --fps 10 --size 160x200 --angle 50 --background none -o " + folder);
+  REQUIRE(run.exit_code == 0);
+  return folder;
+}
+
+}  // namespace
+
+TEST_CASE("from a drawing and two films to a new film, and on from what lies between") {
+  const TempDir dir;
+  const std::string walk = film(dir, "walk"), run = film(dir, "run");
+  const std::string make = "make --character " + kDrawing + " --content " + walk + " --style " + run +
+                           " --size 160 --fps 10 -o " + dir.file("out.gif");
+  CHECK_THAT(done(make).out, Contains("8 frames"));
+  const std::string first = readFile(dir.file("out.gif"));
+  CHECK_THAT(done(make).out, Contains("content.motion.json: taken as it is"));
+  CHECK(readFile(dir.file("out.gif")) == first);
+  const std::string content = dir.file("out.gif.work/content.motion.json"), styled = dir.file("out.gif.work/style.motion.json");
+  CHECK(done("transfer --content " + content + " --style " + styled + " -o " + dir.file("t.motion.json")).exit_code == 0);
+  CHECK(readFile(dir.file("t.motion.json")) == readFile(dir.file("out.gif.work/transfer.motion.json")));
+
+  done("render --motion " + dir.file("t.motion.json") + " --to-clip " + dir.file("new.clip.json"));
+  CHECK(runTool(std::string(SKEL_ANIMATE) + " render " + kDrawing + " --clip " + dir.file("new.clip.json") +
+                " --size 64x64 --fps 5 -o " + dir.file("clip.gif"))
+            .exit_code == 0);
+  done("inspect " + content + " -o " + dir.file("look.png"));
+  CHECK(readImage(dir.file("look.png")).width > 400);
+  done("render --character " + kDrawing + " --motion " + content + " --background keep --in-place --order "
+       "left_arm,left_leg,right_leg,body,head,right_arm -o " + dir.file("keep/"));
+  CHECK(filesBelow(dir.file("keep")).size() == 8);
+
+  const std::string base = dir.file("base");
+  done("database add " + base + " " + content + " --action walk");
+  done("database add " + base + " " + styled + " --action run");
+  CHECK_THAT(done("database list " + base).out, Contains("walk") && Contains("style.motion.json"));
+  CHECK_THAT(done("database check " + base).out, Contains("2 motions, 0 problems"));
+  CHECK_THAT(done("fit " + base + " -k 4 --all-frames -o " + dir.file("f.style.json")).out,
+             Contains("2 action classes"));
+  CHECK(style("database add " + base + " " + content + " --action walk").exit_code == 2);
+  writeFile(base + "/content.motion.json", "{}");
+  const ToolRun bad = style("database check " + base);
+  CHECK(bad.exit_code == 2);
+  CHECK_THAT(bad.err, Contains("content.motion.json"));
+}
+
+TEST_CASE("key frames and the distances of all frames") {
+  const TempDir dir;
+  const std::string walk = film(dir, "walk");
+  CHECK_THAT(done("keyframes " + walk + " --fps 10 --matrix -o " + dir.file("keys")).out, Contains("of 8 frames"));
+  for (const char* name : {"keyframes.json", "distances.json", "distances.png", "key-0001.png", "key-0008.png"})
+    CHECK(fs::exists(dir.file("keys") + "/" + name));
+}
+
+TEST_CASE("what cannot be done is said in one line, and nothing is written") {
+  const TempDir dir;
+  writeFile(dir.file("bad.motion.json"), "{\"format\": \"skel-motion\", \"version\": 9}");
+  fs::create_directory(dir.file("empty"));
+  const std::string out = " -o " + dir.file("x.gif");
+  const struct {
+    std::string arguments;
+    int exit_code;
+    std::string message;
+  } cases[] = {
+      {"", 1, "subcommand"},
+      {"keyframes " + dir.file("none.mp4"), 2, "none.mp4: does not exist"},
+      {"keypoints " + dir.file("empty"), 2, "holds no pictures"},
+      {"keypoints " + dir.file("bad.motion.json"), 2, "cannot be read as a film"},
+      {"inspect " + dir.file("bad.motion.json"), 2, "bad.motion.json: version: is 9"},
+      {"inspect " + dir.file("none.motion.json"), 2, "none.motion.json: cannot be read"},
+      {"transfer --content " + dir.file("empty") + " --style x", 2, "is a folder without motions"},
+      {"render --motion m.motion.json", 1, "name a film by -o"},
+      {"render --motion m.motion.json" + out, 1, "needs --character"},
+      {"render --character " + kDrawing + " --motion " + dir.file("bad.motion.json") + out, 2, "version: is 9"},
+      {"make --character " + dir.file("none.png") + " --content a --style b" + out, 2, "none.png: cannot be read"},
+      {"make --character " + kDrawing + " --content a.mp4 --style b" + out, 2, "a.mp4: does not exist"},
+      {"make --character " + kDrawing + " --content a.mp4 --style b -o " + dir.file("x.avi"), 1, "films are written as"},
+      {"database list " + dir.file("none"), 2, "is no folder"},
+      {"database add " + dir.file("empty"), 1, "name the motion files"},
+      {"fit " + dir.file("bad.motion.json") + " -k 0", 1, "--components"},
+  };
+  for (const auto& one : cases) {
+    CAPTURE(one.arguments);
+    const ToolRun run = style(one.arguments);
+    CHECK(run.exit_code == one.exit_code);
+    CHECK_THAT(run.err, Contains(one.message));
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+  }
+  CHECK(filesBelow(dir.path()).size() == 1);
+}

@@ -1,0 +1,100 @@
+// A drawing as a cut-out, and key points on films whose joints are known.
+#include <cstdlib>
+
+#include "animator/film.h"
+#include "animator/load_character.h"
+#include "libskel/core/files.h"
+#include "libskel/image/write_image.h"
+#include "libskel/style/wear_motion.h"
+#include "stylizer/find_keypoints.h"
+#include "stylizer/puppet_film.h"
+#include "tests/support/catch.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+
+namespace {
+
+std::string drawing(const std::string& name) {
+  return std::string(SKEL_SOURCE_DIR) + "/datasets/characters/" + name + ".png";
+}
+
+const SkeletonTemplate& biped() {
+  static const SkeletonTemplate plan = loadTemplate("biped");
+  return plan;
+}
+
+// A clip by a character as it is filmed: where its joints are in each frame, film px.
+struct Filmed {
+  std::vector<Image> frames;
+  PoseMatrix joints;
+};
+Filmed filmed(const CharacterFile& file, const std::string& clip_name, double yaw_rad, int count, bool paint) {
+  constexpr int kWidth = 320, kHeight = 400;
+  const Clip clip = clipFor(clip_name, file);
+  const Camera camera = filmCamera(file.character, clip, yaw_rad, 0, double(kWidth) / kHeight);
+  const Projection projection(camera, kWidth, kHeight);
+  const Scene scene(file.character, softwarePainter(file.character.mesh));
+  Look look;
+  look.shadow = false;
+  look.background = kClear;
+  Filmed result{{}, PoseMatrix(34, count)};
+  for (int f = 0; f < count; ++f) {
+    const JointTransforms pose = posedAt(file.character, clip, double(clip.duration_s()) * f / count);
+    if (paint) result.frames.push_back(scene.paint(pose, camera, kWidth, kHeight, look));
+    const std::vector<Eigen::Vector3f> joints = posedJoints(file.character.skeleton, pose);
+    for (std::size_t j = 0; j < 17; ++j)
+      result.joints.col(f).segment<2>(2 * Eigen::Index(j)) =
+          *projection(joints[std::size_t(file.character.skeleton.index(biped().joints[j].name))].cast<double>());
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a drawing at rest is the drawing, and no triangle flips in the motions of skel") {
+  for (const char* name : {"cap_boy", "alien"}) {
+    CAPTURE(name);
+    const RiggedDrawing rigged = rigDrawing(drawing(name));
+    const Puppet puppet = makePuppet(rigged.image, rigged.silhouette, rigged.recognition.skeleton, biped());
+    const Eigen::MatrixX2d rest = posedVertices(puppet, puppet.rest.col(0));
+    CHECK((rest - puppet.vertices).cwiseAbs().maxCoeff() < 0.01);
+    const CharacterFile file = loadCharacter({.path = drawing(name)});
+    for (const char* clip : {"idle", "walk", "run", "jump", "wave", "dance", "cheer"}) {
+      CAPTURE(clip);
+      const PoseMatrix worn = wornBy(puppet.rest, filmed(file, clip, 0, 12, false).joints, biped());
+      int flipped = 0;
+      for (Eigen::Index f = 0; f < worn.cols(); ++f)
+        flipped += flippedTriangles(puppet.vertices, posedVertices(puppet, worn.col(f)), puppet.triangles);
+      CHECK(flipped == 0);
+    }
+  }
+}
+
+TEST_CASE("key points of filmed characters lie within 10 % in 85 % of cases") {
+  int near = 0, all = 0;
+  for (const char* name : {"cap_boy", "astronaut", "clerk", "dad_tie"})
+    for (const char* clip : {"walk", "wave", "dance"}) {
+      const TempDir dir;
+      const CharacterFile file = loadCharacter({.path = drawing(name)});
+      const Filmed film = filmed(file, clip, 0, 12, true);
+      for (std::size_t f = 0; f < film.frames.size(); ++f)
+        writeFile(dir.file("frames/f" + std::to_string(f) + ".png"), encodePng(film.frames[f]));
+      KeypointOptions options;
+      options.film.path = dir.file("frames");
+      options.output = dir.file("m.motion.json");
+      const PoseMatrix found = posesOf(findKeypoints(options).motion, biped(), "m");
+      int good = 0, count = 0;
+      for (Eigen::Index f = 0; f < found.cols(); ++f) {
+        const auto y = film.joints.col(f)(Eigen::seq(1, Eigen::last, 2));
+        const double size_px = 1.1 * (y.maxCoeff() - y.minCoeff());
+        for (int j = 0; j < 17; ++j, ++count)
+          good += (jointOf(found, j, f) - jointOf(film.joints, j, f)).norm() <= 0.1 * size_px;
+      }
+      UNSCOPED_INFO(name << " " << clip << ": " << 100. * good / count << " %");
+      near += good;
+      all += count;
+    }
+  INFO("in all " << 100. * near / all << " %");
+  CHECK(near >= 0.85 * all);
+}

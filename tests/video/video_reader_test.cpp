@@ -1,0 +1,90 @@
+#include "libskel/video/video_reader.h"
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/draw/canvas.h"
+#include "libskel/video/video_writer.h"
+#include "tests/support/catch.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::vector<VideoFrame> all(const std::string& path) {
+  const auto reader = readVideo(path, 10);
+  std::vector<VideoFrame> frames;
+  for (VideoFrame frame; reader->next(frame);) frames.push_back(frame);
+  return frames;
+}
+
+std::string complaint(const std::string& path) {
+  try {
+    all(path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+}  // namespace
+
+TEST_CASE("films come back frame by frame, with their times") {
+  const TempDir dir;
+  std::vector<std::string> names = {"frames/"};
+#ifdef SKEL_VIDEO_MP4
+  names.push_back("film.mp4");
+#ifdef SKEL_VIDEO_GIF
+  names.push_back("film.gif");
+#endif
+#endif
+  for (const std::string& name : names) {
+    CAPTURE(name);
+    const auto video = openVideo(dir.file(name), {.width = 64, .height = 48, .frame_rate = 10});
+    for (int f = 0; f < 12; ++f) {
+      Image image = blankImage(64, 48);
+      drawDisc(image, {8. + 4 * f, 24}, 6, {200, 30, 60});
+      video->add(image);
+    }
+    video->finish();
+    const std::vector<VideoFrame> frames = all(dir.file(name));
+    REQUIRE(frames.size() == 12);
+    for (int f = 0; f < 12; ++f) {
+      const Image& image = frames[std::size_t(f)].image;
+      REQUIRE(image.width == 64);
+      CHECK(frames[std::size_t(f)].time_s == Approx(f / 10.).margin(0.011));
+      CHECK(int(image.pixel(8 + 4 * f, 24)[1]) < 90);
+      CHECK(int(image.pixel(63 - 4 * f, 3)[1]) > 200);
+    }
+  }
+}
+
+#if defined(SKEL_VIDEO_MP4) && defined(SKEL_VIDEO_GIF)
+TEST_CASE("a transparent GIF stays transparent") {
+  const TempDir dir;
+  const auto video =
+      openVideo(dir.file("a.gif"), {.width = 32, .height = 32, .frame_rate = 10, .transparent = true});
+  for (int f = 0; f < 3; ++f) {
+    Image image = blankImage(32, 32, kClear);
+    drawDisc(image, {8. + 6 * f, 16}, 5, {10, 90, 60});
+    video->add(image);
+  }
+  video->finish();
+  for (const VideoFrame& frame : all(dir.file("a.gif"))) {
+    CHECK(frame.image.pixel(0, 0)[3] == 0);
+    CHECK((frame.image.rgba.col(3) == 255).count() > 50);
+  }
+}
+#endif
+
+TEST_CASE("what is no film is refused by name") {
+  const TempDir dir;
+  writeFile(dir.file("text.mp4"), "no film at all");
+  writeFile(dir.file("empty/readme.txt"), "nothing");
+  CHECK_THAT(complaint(dir.file("none.mp4")), Contains("none.mp4: does not exist"));
+  CHECK_THAT(complaint(dir.file("empty")), Contains("holds no pictures"));
+#ifdef SKEL_VIDEO_MP4
+  CHECK_THAT(complaint(dir.file("text.mp4")), Contains("text.mp4: cannot be read as a film"));
+#endif
+}
