@@ -1,5 +1,5 @@
-// The stylizer's numbers: factorising poses beside a plain loop of multiplicative updates, deforming a drawing,
-// finding key frames.
+// The stylizer's numbers: factorising poses beside a plain loop of multiplicative updates, deforming a
+// drawing, finding key frames.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -79,7 +79,8 @@ void deform(benchmark::State& state) {
     phase += 0.1;
     benchmark::DoNotOptimize(mesh.deform(targets).data());
   }
-  state.counters["frames_per_s"] = benchmark::Counter(double(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["frames_per_s"] =
+      benchmark::Counter(double(state.iterations()), benchmark::Counter::kIsRate);
 }
 BENCHMARK(deform)->Unit(benchmark::kMillisecond)->UseRealTime();
 
@@ -100,7 +101,8 @@ void keyFrameDistances(benchmark::State& state) {
   const Image background = stillBackground(frames);
   for (auto _ : state) {
     std::vector<FrameOutline> outlines(frames.size());
-    parallelFor(frames.size(), 0, [&](std::size_t i) { outlines[i] = outlineOf(foreground(frames[i], background)); });
+    parallelFor(frames.size(), 0,
+                [&](std::size_t i) { outlines[i] = outlineOf(foreground(frames[i], background)); });
     benchmark::DoNotOptimize(keyFrames(successiveDistances(outlines), 0.5));
   }
   state.counters["frames_per_s"] =

@@ -28,8 +28,9 @@ ToolRun done(const std::string& arguments) {
 // A folder of frames of the drawing, dancing.
 std::string film(const TempDir& dir, const std::string& clip) {
   const std::string folder = dir.file(clip + "/");
-  const ToolRun run = runTool(std::string(SKEL_ANIMATE) + " render " + kDrawing + " --clip " + clip +
-                              " --duration 0.8 --fps 10 --size 160x200 --angle 50 --background none -o " + folder);
+  const ToolRun run =
+      runTool(std::string(SKEL_ANIMATE) + " render " + kDrawing + " --clip " + clip +
+              " --duration 0.8 --fps 10 --size 160x200 --angle 50 --background none -o " + folder);
   REQUIRE(run.exit_code == 0);
   return folder;
 }
@@ -45,8 +46,10 @@ TEST_CASE("from a drawing and two films to a new film, and on from what lies bet
   const std::string first = readFile(dir.file("out.gif"));
   CHECK_THAT(done(make).out, Contains("content.motion.json: taken as it is"));
   CHECK(readFile(dir.file("out.gif")) == first);
-  const std::string content = dir.file("out.gif.work/content.motion.json"), styled = dir.file("out.gif.work/style.motion.json");
-  CHECK(done("transfer --content " + content + " --style " + styled + " -o " + dir.file("t.motion.json")).exit_code == 0);
+  const std::string content = dir.file("out.gif.work/content.motion.json"),
+                    styled = dir.file("out.gif.work/style.motion.json");
+  CHECK(done("transfer --content " + content + " --style " + styled + " -o " + dir.file("t.motion.json"))
+            .exit_code == 0);
   CHECK(readFile(dir.file("t.motion.json")) == readFile(dir.file("out.gif.work/transfer.motion.json")));
 
   done("render --motion " + dir.file("t.motion.json") + " --to-clip " + dir.file("new.clip.json"));
@@ -55,8 +58,10 @@ TEST_CASE("from a drawing and two films to a new film, and on from what lies bet
             .exit_code == 0);
   done("inspect " + content + " -o " + dir.file("look.png"));
   CHECK(readImage(dir.file("look.png")).width > 400);
-  done("render --character " + kDrawing + " --motion " + content + " --background keep --in-place --order "
-       "left_arm,left_leg,right_leg,body,head,right_arm -o " + dir.file("keep/"));
+  done("render --character " + kDrawing + " --motion " + content +
+       " --background keep --in-place --order "
+       "left_arm,left_leg,right_leg,body,head,right_arm -o " +
+       dir.file("keep/"));
   CHECK(filesBelow(dir.file("keep")).size() == 8);
 
   const std::string base = dir.file("base");
@@ -76,8 +81,10 @@ TEST_CASE("from a drawing and two films to a new film, and on from what lies bet
 TEST_CASE("key frames and the distances of all frames") {
   const TempDir dir;
   const std::string walk = film(dir, "walk");
-  CHECK_THAT(done("keyframes " + walk + " --fps 10 --matrix -o " + dir.file("keys")).out, Contains("of 8 frames"));
-  for (const char* name : {"keyframes.json", "distances.json", "distances.png", "key-0001.png", "key-0008.png"})
+  CHECK_THAT(done("keyframes " + walk + " --fps 10 --matrix -o " + dir.file("keys")).out,
+             Contains("of 8 frames"));
+  for (const char* name :
+       {"keyframes.json", "distances.json", "distances.png", "key-0001.png", "key-0008.png"})
     CHECK(fs::exists(dir.file("keys") + "/" + name));
 }
 
@@ -100,10 +107,13 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
       {"transfer --content " + dir.file("empty") + " --style x", 2, "is a folder without motions"},
       {"render --motion m.motion.json", 1, "name a film by -o"},
       {"render --motion m.motion.json" + out, 1, "needs --character"},
-      {"render --character " + kDrawing + " --motion " + dir.file("bad.motion.json") + out, 2, "version: is 9"},
-      {"make --character " + dir.file("none.png") + " --content a --style b" + out, 2, "none.png: cannot be read"},
+      {"render --character " + kDrawing + " --motion " + dir.file("bad.motion.json") + out, 2,
+       "version: is 9"},
+      {"make --character " + dir.file("none.png") + " --content a --style b" + out, 2,
+       "none.png: cannot be read"},
       {"make --character " + kDrawing + " --content a.mp4 --style b" + out, 2, "a.mp4: does not exist"},
-      {"make --character " + kDrawing + " --content a.mp4 --style b -o " + dir.file("x.avi"), 1, "films are written as"},
+      {"make --character " + kDrawing + " --content a.mp4 --style b -o " + dir.file("x.avi"), 1,
+       "films are written as"},
       {"database list " + dir.file("none"), 2, "is no folder"},
       {"database add " + dir.file("empty"), 1, "name the motion files"},
       {"fit " + dir.file("bad.motion.json") + " -k 0", 1, "--components"},

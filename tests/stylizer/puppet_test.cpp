@@ -29,7 +29,8 @@ struct Filmed {
   std::vector<Image> frames;
   PoseMatrix joints;
 };
-Filmed filmed(const CharacterFile& file, const std::string& clip_name, double yaw_rad, int count, bool paint) {
+Filmed filmed(const CharacterFile& file, const std::string& clip_name, double yaw_rad, int count,
+              bool paint) {
   constexpr int kWidth = 320, kHeight = 400;
   const Clip clip = clipFor(clip_name, file);
   const Camera camera = filmCamera(file.character, clip, yaw_rad, 0, double(kWidth) / kHeight);
@@ -44,8 +45,8 @@ Filmed filmed(const CharacterFile& file, const std::string& clip_name, double ya
     if (paint) result.frames.push_back(scene.paint(pose, camera, kWidth, kHeight, look));
     const std::vector<Eigen::Vector3f> joints = posedJoints(file.character.skeleton, pose);
     for (std::size_t j = 0; j < 17; ++j)
-      result.joints.col(f).segment<2>(2 * Eigen::Index(j)) =
-          *projection(joints[std::size_t(file.character.skeleton.index(biped().joints[j].name))].cast<double>());
+      result.joints.col(f).segment<2>(2 * Eigen::Index(j)) = *projection(
+          joints[std::size_t(file.character.skeleton.index(biped().joints[j].name))].cast<double>());
   }
   return result;
 }
