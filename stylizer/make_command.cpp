@@ -25,7 +25,8 @@ NamedMotion motionOf(const std::string& path, const std::string& name, const Mak
   const Keypoints found = findKeypoints(find);
   writeFile(file, formatMotionFile(found.motion, plan));
   std::printf("%s: %d frames\n", file.c_str(), int(found.motion.frames.size()));
-  return {file, found.motion};
+  // As the next run will see it.
+  return {file, readMotionFile(file, plan)};
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ ExitCode runMake(const MakeOptions& given) {
   std::printf("%s: mean pose %.0f %% of the way, phase correlation %.3f%s\n", file.c_str(),
               100 * report.mean_pose_moved, report.phase_correlation,
               report.mirrored ? ", style mirrored" : "");
-  perform(drawing, report.motion, file, report.content_loops, options.perform, options.output);
+  perform(drawing, readMotionFile(file, plan), file, report.content_loops, options.perform, options.output);
   return ExitCode::kDone;
 }
 

@@ -18,8 +18,8 @@ MotionTransferOptions transferOptions(const StyleRequest& request) {
 }
 
 ExitCode runTransfer(const TransferCommandOptions& options) {
-  const MotionTransferReport report = transferMotion(readMotions(options.content), readMotions(options.style),
-                                                     transferOptions(options.request));
+  const std::vector<NamedMotion> content = readMotions(options.content), style = readMotions(options.style);
+  const MotionTransferReport report = transferMotion(content, style, transferOptions(options.request));
   writeFile(options.output, formatMotionFile(report.motion, loadTemplate("biped")));
   std::printf("%s: %s%s\n  factored to %.2f %%; mean pose %.0f %% of the way; phase correlation %.3f\n",
               options.output.c_str(), report.motion.source.c_str(), report.mirrored ? ", mirrored" : "",

@@ -129,6 +129,8 @@ TEST_CASE("a figure that moves is found before a background that stands still") 
   const Plane8 figure = foreground(frames[3], background);
   CHECK(figure(30, 35) == 255);
   CHECK(figure(30, 60) == 0);
-  CHECK(std::abs((figure > 0).count() - 300) < 80);
+  // 10 × 30 px, its corners rounded by the low-pass, to about a pixel all round.
+  CHECK((figure > 0).count() > 8 * 28 - 12);
+  CHECK((figure > 0).count() < 12 * 32);
   CHECK_FALSE(hasTransparency(frames[0]));
 }
