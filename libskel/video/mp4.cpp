@@ -59,9 +59,9 @@ class Mp4 : public VideoWriter {
       throw UnavailableError(path_ + ": FFmpeg has no encoder for it here (tried " + tried +
                              "); install libavcodec-extra, or write .gif or .webp");
     openFile();
-    scaler_ =
-        sws_getContext(options_.width, options_.height, AV_PIX_FMT_RGBA, options_.width, options_.height,
-                       AV_PIX_FMT_YUV420P, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr, nullptr, nullptr);
+    scaler_ = sws_getContext(options_.width, options_.height, AV_PIX_FMT_RGBA, options_.width,
+                             options_.height, AV_PIX_FMT_YUV420P,
+                             SWS_BILINEAR | SWS_ACCURATE_RND | SWS_BITEXACT, nullptr, nullptr, nullptr);
     packet_ = av_packet_alloc();
     if (!scaler_ || !packet_) throw std::bad_alloc();
   }
@@ -91,6 +91,9 @@ class Mp4 : public VideoWriter {
     const int row_bytes[] = {4 * image.width};
     int failure = av_frame_get_buffer(frame, 0);
     if (failure >= 0) {
+      // The encoder also reads what lies beyond the picture's edges.
+      for (AVBufferRef* buffer : frame->buf)
+        if (buffer) std::memset(buffer->data, 0, buffer->size);
       sws_scale(scaler_, rows, row_bytes, 0, image.height, frame->data, frame->linesize);
       failure = avcodec_send_frame(encoder_, frame);
     }
