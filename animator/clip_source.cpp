@@ -6,7 +6,6 @@
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/keyframe_clip.h"
-#include "libskel/animation/retarget_motion.h"
 #include "libskel/animation/role_figure.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
@@ -68,12 +67,14 @@ Clip fitted(const Clip& clip, const RiggedCharacter& character) {
   return retargetToRest(clip, character.skeleton, options);
 }
 
+RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& character) {
+  return retargetMotion(readBvh(path), path, character.skeleton,
+                        measureFigure(character.mesh, character.weights, character.skeleton));
+}
+
 Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source) {
   const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending == ".bvh" || ending == ".BVH")
-    return retargetMotion(readBvh(path), path, character.skeleton,
-                          measureFigure(character.mesh, character.weights, character.skeleton))
-        .clip;
+  if (ending == ".bvh" || ending == ".BVH") return loadBvhFor(path, character).clip;
   const std::string text = readFile(path);
   if (isKeyframeClip(text)) {
     KeyframeClipOptions options;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "libskel/animation/retarget_motion.h"
 #include "libskel/import/read_character.h"
 
 namespace CLI {
@@ -29,6 +30,9 @@ std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharact
 
 // Made for the canonical pose; the result is for the character's rest pose.
 Clip fitted(const Clip& clip, const RiggedCharacter& character);
+
+// The motion of a .bvh, fitted to the character, and which joints were matched. Throws InputError.
+RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& character);
 
 // A clip file, ours or of the elk system, or a .bvh, fitted to the character. Throws InputError.
 Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source = {});

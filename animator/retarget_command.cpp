@@ -7,9 +7,7 @@
 #include "animator/load_character.h"
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_file.h"
-#include "libskel/animation/retarget_motion.h"
 #include "libskel/core/files.h"
-#include "libskel/deform/figure_shape.h"
 #include "libskel/export/formats.h"
 #include "libskel/import/read_character.h"
 
@@ -31,10 +29,7 @@ void report(const JointMatch& match) {
 
 Clip motionFor(const RetargetCommandOptions& options, const CharacterFile& file) {
   if (!options.motion.ends_with(".bvh")) return clipFor(options.motion, file, options.clips);
-  const RiggedCharacter& character = file.character;
-  RetargetedMotion result =
-      retargetMotion(readBvh(options.motion), options.motion, character.skeleton,
-                     measureFigure(character.mesh, character.weights, character.skeleton));
+  RetargetedMotion result = loadBvhFor(options.motion, file.character);
   report(result.match);
   return std::move(result.clip);
 }

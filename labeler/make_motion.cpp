@@ -18,17 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void keepEdited(const std::string& path, const SkeletonTemplate& body_plan) {
-  if (!fs::exists(path)) return;
-  for (const MotionFrame& frame : readMotionFile(path, body_plan).frames)
-    for (const auto& joint : frame.joints)
-      if (joint && joint->origin == JointOrigin::kEdited)
-        throw InputError(
-            path,
-            "holds joints that were edited by hand; write to another file by -o, or give --force "
-            "to lose them");
-}
-
 // Joints stay open, and `reason` says why, where there is no figure.
 MotionFrame frameOf(const DrawingFiles& files, const MotionOptions& options, std::string& reason) {
   RigInput input;
@@ -64,7 +53,7 @@ MotionCounts makeMotion(const std::string& dir, const MotionOptions& given, cons
   std::vector<DrawingFiles> drawings = findDrawings(dir);
   std::sort(drawings.begin(), drawings.end(),
             [](const DrawingFiles& a, const DrawingFiles& b) { return comesBefore(a.name, b.name); });
-  if (!options.force) keepEdited(options.output, options.body_plan);
+  if (!options.force) requireNoEdits(options.output, options.body_plan);
 
   MotionFile motion;
   motion.frame_rate = options.frame_rate;

@@ -5,21 +5,7 @@
 #include "stylizer/commands.h"
 
 namespace skel {
-namespace {
 namespace fs = std::filesystem;
-
-void keepEdited(const std::string& path) {
-  if (!fs::exists(path)) return;
-  for (const MotionFrame& frame : readMotionFile(path, loadTemplate("biped")).frames)
-    for (const auto& joint : frame.joints)
-      if (joint && joint->origin == JointOrigin::kEdited)
-        throw InputError(
-            path,
-            "holds joints that were edited by hand; write to another file by -o, or give --force "
-            "to lose them");
-}
-
-}  // namespace
 
 ExitCode runKeypoints(const KeypointsCommandOptions& given) {
   KeypointOptions options = given.find;
@@ -28,7 +14,7 @@ ExitCode runKeypoints(const KeypointsCommandOptions& given) {
     if (!film.has_filename()) film = film.parent_path();
     options.output = "out/" + film.stem().string() + kMotionFileEnding;
   }
-  if (!given.force) keepEdited(options.output);
+  if (!given.force) requireNoEdits(options.output, loadTemplate("biped"));
   const Keypoints found = findKeypoints(options);
   writeFile(options.output, formatMotionFile(found.motion, loadTemplate("biped")));
   int keys = 0;

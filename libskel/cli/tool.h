@@ -8,10 +8,22 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <string>
 
 #include "libskel/core/error.h"
 
 namespace skel {
+
+// Adds a subcommand; when it is given, `chosen` becomes what it does.
+template <class Options>
+void addCommand(CLI::App& app, std::function<ExitCode()>& chosen, const std::string& name,
+                const std::string& help, void (*bind)(CLI::App&, Options&), ExitCode (*run)(const Options&)) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(name, help);
+  bind(*command, *options);
+  command->callback([=, &chosen] { chosen = [=] { return run(*options); }; });
+}
 
 // Parses argv into `app`, then calls run(), which returns the exit code. CLI11's own codes become 1 (wrong
 // usage). SKEL_VERSION is the project's, given to every tool (cmake/SkelBuild.cmake).

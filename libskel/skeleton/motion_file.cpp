@@ -1,6 +1,7 @@
 #include "libskel/skeleton/motion_file.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "libskel/core/check.h"
@@ -110,6 +111,17 @@ MotionFile readMotionFile(const std::string& path, const SkeletonTemplate& body_
   }
   if (motion.frames.empty()) root.at("frames").fail("is empty");
   return motion;
+}
+
+void requireNoEdits(const std::string& path, const SkeletonTemplate& body_plan) {
+  if (!std::filesystem::exists(path)) return;
+  for (const MotionFrame& frame : readMotionFile(path, body_plan).frames)
+    for (const auto& joint : frame.joints)
+      if (joint && joint->origin == JointOrigin::kEdited)
+        throw InputError(
+            path,
+            "holds joints that were edited by hand; write to another file by -o, or give --force "
+            "to lose them");
 }
 
 }  // namespace skel

@@ -46,4 +46,8 @@ std::string formatMotionFile(const MotionFile& motion, const SkeletonTemplate& b
 // twice the same joint, one outside its image, times that do not increase, no frame at all.
 MotionFile readMotionFile(const std::string& path, const SkeletonTemplate& body_plan);
 
+// Before a motion file is written anew: throws InputError if there is one at `path` that holds joints which a
+// person has placed.
+void requireNoEdits(const std::string& path, const SkeletonTemplate& body_plan);
+
 }  // namespace skel

@@ -3,21 +3,14 @@
 
 #include "libskel/core/files.h"
 #include "libskel/image/write_image.h"
+#include "tests/infer/run_infer.h"
 #include "tests/support/catch.h"
-#include "tests/support/run_tool.h"
 #include "tests/support/synthetic_figure.h"
-#include "tests/support/temp_dir.h"
 
 using namespace skel;
 namespace fs = std::filesystem;
 
 namespace {
-
-const std::string kDrawing = SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png";
-
-ToolRun infer(const TempDir& dir, const std::string& arguments) {
-  return runTool("cd '" + dir.path() + "' && '" SKEL_INFER "' " + arguments);
-}
 
 bool contains(const std::string& text, const std::string& what) {
   return text.find(what) != std::string::npos;

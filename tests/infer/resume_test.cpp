@@ -2,9 +2,8 @@
 #include <filesystem>
 
 #include "libskel/core/files.h"
+#include "tests/infer/run_infer.h"
 #include "tests/support/catch.h"
-#include "tests/support/run_tool.h"
-#include "tests/support/temp_dir.h"
 
 using namespace skel;
 namespace fs = std::filesystem;
@@ -12,10 +11,6 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::string kCharacters = SKEL_SOURCE_DIR "/datasets/characters/";
-
-ToolRun infer(const TempDir& dir, const std::string& arguments) {
-  return runTool("cd '" + dir.path() + "' && '" SKEL_INFER "' " + arguments);
-}
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
   const size_t at = text.find(what);

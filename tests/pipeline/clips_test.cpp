@@ -4,12 +4,8 @@
 #include <map>
 
 #include "libskel/animation/clip_library.h"
-#include "libskel/animation/sample_pose.h"
-#include "libskel/classifier/weights_file.h"
-#include "libskel/deform/skin_vertices.h"
-#include "libskel/image/read_image.h"
-#include "libskel/pipeline/rig_character.h"
 #include "tests/support/catch.h"
+#include "tests/support/clips_on_drawings.h"
 
 using namespace skel;
 
@@ -30,13 +26,7 @@ std::vector<std::string> drawings(const char* folder, std::size_t every) {
 }
 
 RiggedDrawing rigged(const std::string& path, const std::string& body_plan) {
-  RigOptions options;
-  options.mlp = defaultMlp();
-  options.body_plan = loadTemplate(body_plan);
-  options.clips = clipsFor(builtinClips(), options.body_plan);
-  RigInput input;
-  input.image = readImage(path);
-  RiggedDrawing drawing = rigCharacter(std::move(input), options);
+  RiggedDrawing drawing = rigWithClips(path, body_plan, clipsFor(builtinClips(), loadTemplate(body_plan)));
   REQUIRE(drawing.found());
   return drawing;
 }

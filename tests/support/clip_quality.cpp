@@ -13,13 +13,9 @@
 #include <vector>
 
 #include "libskel/animation/clip_library.h"
-#include "libskel/animation/sample_pose.h"
-#include "libskel/classifier/weights_file.h"
 #include "libskel/core/error.h"
 #include "libskel/core/parallel.h"
-#include "libskel/deform/skin_vertices.h"
-#include "libskel/image/read_image.h"
-#include "libskel/pipeline/rig_character.h"
+#include "tests/support/clips_on_drawings.h"
 
 namespace skel {
 namespace {
@@ -99,13 +95,8 @@ struct Quality {
 };
 
 std::map<std::string, Quality> measure(const std::string& path, const std::string& body_plan) {
-  RigOptions options;
-  options.mlp = defaultMlp();
-  options.body_plan = loadTemplate(body_plan);
-  options.clips = clipsFor(builtinClips(), options.body_plan);
-  RigInput input;
-  input.image = readImage(path);
-  const RiggedDrawing drawing = rigCharacter(std::move(input), options);
+  const RiggedDrawing drawing =
+      rigWithClips(path, body_plan, clipsFor(builtinClips(), loadTemplate(body_plan)));
   if (!drawing.found()) throw InputError(path, drawing.silhouette.reason);
   const RiggedCharacter& character = drawing.character;
   const TriangleMesh& mesh = character.mesh;
@@ -121,10 +112,8 @@ std::map<std::string, Quality> measure(const std::string& path, const std::strin
   for (const Clip& clip : drawing.clips) {
     Quality& quality = result[clip.name];
     for (int frame = 0; frame < kFrames; ++frame) {
-      const Pose pose =
-          samplePose(clip, character.skeleton, clip.duration_s() * (float(frame) + 0.5f) / kFrames);
-      const Eigen::MatrixX3f posed = skinVertices(
-          mesh.vertices, character.weights, posedFromRest(character.skeleton, pose, float(kModelHeight_m)));
+      const Eigen::MatrixX3f posed =
+          posedVertices(character, clip, clip.duration_s() * (float(frame) + 0.5f) / kFrames);
       for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
         if (stretch(rest[std::size_t(t)], flat(posed, mesh, t)) > kTooFar)
           quality.stretched += rest[std::size_t(t)].determinant() / 2 / area / kFrames;

@@ -7,36 +7,19 @@
 #include <filesystem>
 
 #include "libskel/animation/clip_library.h"
-#include "libskel/animation/sample_pose.h"
-#include "libskel/classifier/weights_file.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
-#include "libskel/deform/skin_vertices.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/draw/render_mesh.h"
-#include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
-#include "libskel/pipeline/rig_character.h"
+#include "tests/support/clips_on_drawings.h"
 
 namespace skel {
 namespace {
 
-RiggedDrawing rigged(const std::string& path, const std::string& body_plan, const std::vector<Clip>& clips) {
-  RigOptions options;
-  options.mlp = defaultMlp();
-  options.body_plan = loadTemplate(body_plan);
-  options.clips = clips;
-  RigInput input;
-  input.image = readImage(path);
-  return rigCharacter(std::move(input), options);
-}
-
 Image posed(const RiggedCharacter& character, const Clip& clip, float time_s, double yaw_rad, int size) {
-  const Pose pose = samplePose(clip, character.skeleton, time_s);
-  const auto heights = character.mesh.vertices.col(1);
-  const float height_m = heights.maxCoeff() - heights.minCoeff();
-  const Eigen::MatrixX3f vertices = skinVertices(character.mesh.vertices, character.weights,
-                                                 posedFromRest(character.skeleton, pose, height_m));
+  const Eigen::MatrixX3f vertices = posedVertices(character, clip, time_s);
+  const float height_m = heightOf(character.mesh);
   // The same camera for all moments, so that steps and jumps show.
   Camera camera = framingCamera(character.mesh.vertices, yaw_rad, 0.08);
   camera.view_height_m = std::max(camera.view_height_m, 1.15 * double(height_m)) * 1.2;
@@ -57,7 +40,7 @@ void run(int argc, char** argv) {
   const double yaw_rad = std::atof(argv[5]) * M_PI / 180;
   std::vector<Panel> panels;
   for (int i = 7; i < argc; ++i) {
-    const RiggedDrawing drawing = rigged(argv[i], argv[2], clips);
+    const RiggedDrawing drawing = rigWithClips(argv[i], argv[2], clips);
     if (!drawing.found()) throw InputError(argv[i], drawing.silhouette.reason);
     for (const Clip& clip : drawing.clips)
       for (int frame = 0; frame < std::max(frames, 1); ++frame) {
