@@ -107,8 +107,7 @@ void ConvNetTrainer::adam() {
 
 std::string ConvNetTrainer::checkpoint() const {
   std::string out(reinterpret_cast<const char*>(&state_.step), sizeof state_.step);
-  for (const auto* v :
-       {&state_.parameters, &state_.first_moment, &state_.second_moment, &state_.average}) {
+  for (const auto* v : {&state_.parameters, &state_.first_moment, &state_.second_moment, &state_.average}) {
     out.append(reinterpret_cast<const char*>(v->data()), v->size() * sizeof(float));
   }
   return out;

@@ -69,10 +69,10 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file) {
   if (!same) root.at("convolutions").fail("not the layers of this program's net: train it anew");
 
   const std::string_view payload = bytes.substr(end + 1);
+  parseWeights(payload, file, net);
   if (sha256(payload) != root.at("sha256").asString()) {
     throw InputError(file, "its weights do not fit its sha256: the file is damaged");
   }
-  parseWeights(payload, file, net);
   return net;
 }
 
