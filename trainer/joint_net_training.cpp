@@ -12,9 +12,9 @@
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
+#include "trainer/conv_net_trainer.h"
 #include "trainer/figures/figure.h"
 #include "trainer/joint_accuracy.h"
-#include "trainer/conv_net_trainer.h"
 #include "trainer/joint_loss.h"
 #include "trainer/jointed_drawing.h"
 #include "trainer/posable_drawing.h"
@@ -22,7 +22,7 @@
 namespace skel {
 namespace {
 
-constexpr int kPoses = 2;            // of each drawing in a round, besides its own
+constexpr int kPoses = 2;  // of each drawing in a round, besides its own
 
 // What the options leave open.
 struct Schedule {
@@ -330,7 +330,8 @@ class Training {
     net.provenance = provenance.str();
     bar.clear();
     std::printf("step %lld  loss %.4f  validation: loss %.4f  within 10 %% %.4f  5 %% %.4f  whole %.4f\n",
-                static_cast<long long>(trainer_.steps()), loss, r.loss, r.within_10, r.within_5, r.whole_right);
+                static_cast<long long>(trainer_.steps()), loss, r.loss, r.within_10, r.within_5,
+                r.whole_right);
     std::fflush(stdout);
     writeFile(options_.output, formatJointNet(net));
     if (!options_.checkpoint.empty()) writeFile(options_.checkpoint, trainer_.checkpoint());

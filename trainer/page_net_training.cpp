@@ -109,6 +109,7 @@ void writeSheet(const PageTrainingOptions& options, const PageOptions& page_opti
 
 void bindPageTrainingOptions(CLI::App& command, PageTrainingOptions& options) {
   command.add_option("-o,--output", options.output, "Weights file to write")->capture_default_str();
+  command.add_option("--start", options.start, "Net to go on from")->type_name("FILE");
   command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report");
   command.add_option("--sheet", options.sheet, "Picture of generated pages to write, instead of training")
       ->type_name("FILE");
@@ -144,8 +145,12 @@ ExitCode runPageTraining(const PageTrainingOptions& options) {
     return ExitCode::kDone;
   }
   PageNet net = makePageNet();
-  Rng rng(options.seed, kInitialStream);
-  initialise(net, rng);
+  if (options.start.empty()) {
+    Rng rng(options.seed, kInitialStream);
+    initialise(net, rng);
+  } else {
+    net = parsePageNet(readFile(options.start), options.start);
+  }
   ConvNetSchedule schedule;
   schedule.steps = options.steps;
   schedule.batch = options.batch;

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <string>
+#include <string_view>
 
+#include "trainer/figures/biped_plan.h"
 #include "trainer/figures/drawing.h"
 #include "trainer/figures/warped_drawing.h"
 
@@ -91,6 +94,10 @@ Art house(Rng& rng, int size) {
   for (const double x : {left + .08, right - .24})
     e.polygon({{x, roof + .08}, {x + .16, roof + .08}, {x + .16, roof + .22}, {x, roof + .22}},
               randomColour(rng));
+  for (const double x : {left + .16, right - .16}) {
+    e.line({x, roof + .08}, {x, roof + .22}, .012, {30, 30, 30});
+    e.line({x - .08, roof + .15}, {x + .08, roof + .15}, .012, {30, 30, 30});
+  }
   if (rng.chance(.5)) e.polygon({{.68, .08}, {.76, .08}, {.76, .3}, {.68, .22}}, randomColour(rng));
   return e.take();
 }
@@ -178,20 +185,36 @@ Art ball(Rng& rng, int size) {
 
 // A written name.
 Art letters(Rng& rng, int size) {
-  Easel e(size);
-  const cv::Scalar colour = randomColour(rng, 10, 130);
-  const double height = rng.uniform(.12, .3), width = rng.uniform(.012, .04);
-  const int count = 3 + static_cast<int>(rng.below(6));
-  for (int i = 0; i < count; ++i) {
-    const double x0 = .04 + .92 * i / count, w = .6 / count;
-    cv::Point2d from(x0 + w * rng.uniform(), .5 - height / 2 + height * rng.uniform());
-    for (int k = 0; k < 4; ++k) {
-      const cv::Point2d to(x0 + w * rng.uniform(), .5 - height / 2 + height * rng.uniform());
-      e.line(from, to, width, colour);
-      from = to;
+  static constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPRSTUVWabdeghiklmnoprstu0123456789";
+  std::string name;
+  const int count = 1 + static_cast<int>(rng.below(8));
+  for (int i = 0; i < count; ++i) name += kLetters[rng.below(kLetters.size())];
+  constexpr std::array kFaces = {cv::FONT_HERSHEY_SIMPLEX, cv::FONT_HERSHEY_DUPLEX,
+                                 cv::FONT_HERSHEY_SCRIPT_SIMPLEX, cv::FONT_HERSHEY_COMPLEX_SMALL};
+  const int face = kFaces[rng.below(kFaces.size())], thickness = 1 + static_cast<int>(rng.below(3));
+  int baseline = 0;
+  const cv::Size plain = cv::getTextSize(name, face, 1, thickness, &baseline);
+  const double scale = std::min(.9 * size / plain.width, size / 90.);
+  Art art{cv::Mat(size, size, CV_8UC3, cv::Scalar::all(255)), cv::Mat::zeros(size, size, CV_8U)};
+  const cv::Point at(size / 20, size / 2);
+  cv::putText(art.rgb, name, at, face, scale, randomColour(rng, 10, 160), thickness);
+  cv::putText(art.solid, name, at, face, scale, 255, thickness);
+  return art;
+}
+
+// As an unsteady hand draws it.
+Art wobbled(Rng& rng, const Art& art, double size_px) {
+  cv::Mat dx = smoothNoise(rng, art.solid.size(), 14) * size_px,
+          dy = smoothNoise(rng, art.solid.size(), 14) * size_px;
+  for (int y = 0; y < dx.rows; ++y)
+    for (int x = 0; x < dx.cols; ++x) {
+      dx.at<float>(y, x) += static_cast<float>(x);
+      dy.at<float>(y, x) += static_cast<float>(y);
     }
-  }
-  return e.take();
+  Art out;
+  cv::remap(art.rgb, out.rgb, dx, dy, cv::INTER_NEAREST, cv::BORDER_CONSTANT, cv::Scalar::all(255));
+  cv::remap(art.solid, out.solid, dx, dy, cv::INTER_NEAREST, cv::BORDER_CONSTANT, cv::Scalar(0));
+  return out;
 }
 
 }  // namespace
@@ -210,6 +233,11 @@ Art figureArt(Rng& rng, const PageOptions& options, int long_side) {
         options.drawings[rng.below(static_cast<std::uint32_t>(options.drawings.size()))];
     const WarpedDrawing w = warpedDrawing(rng, drawing, 0, long_side, 4);
     return artOf(w.width, w.height, w.solid, w.colours);
+  }
+  if (rng.chance(.2)) {
+    Art stick = artOf(figurePlan("biped").draw(rng, static_cast<int>(BodyKind::kStick)).scene, long_side);
+    if (rng.chance(.7)) stick.rgb.setTo(randomColour(rng, 10, 160), stick.solid);
+    return stick;
   }
   const FigurePlan& plan = figurePlan(rng.chance(.8) ? "biped" : "quadruped");
   double r = rng.uniform();
@@ -242,10 +270,18 @@ Pens randomPens(Rng& rng) {
       pens.kind == Pens::Kind::kLines ? (rng.chance(.5) ? 0 : rng.uniform(.1, .9)) : rng.uniform(.4, 1);
   pens.gaps = rng.chance(.4) ? rng.uniform(0, .15) : 0;
   pens.grain = rng.uniform(.05, .45);
+  if (rng.chance(.35)) pens.hatch_px = rng.uniform(2.5, 8);
+  if (rng.chance(.5)) pens.wobble_px = rng.uniform(0, 1.6);
+  if (pens.kind == Pens::Kind::kLines && rng.chance(.3)) {  // a thin, pale pencil
+    const double pale = rng.uniform(110, 190);
+    pens.ink = {pale, pale, pale};
+    pens.line_px = rng.uniform(.8, 1.6);
+  }
   return pens;
 }
 
-void drawArt(Rng& rng, const Pens& pens, const Art& art, int x, int y, cv::Mat& page) {
+void drawArt(Rng& rng, const Pens& pens, const Art& steady, int x, int y, cv::Mat& page) {
+  const Art art = pens.wobble_px > 0 ? wobbled(rng, steady, pens.wobble_px) : steady;
   const cv::Rect place = cv::Rect(x, y, art.rgb.cols, art.rgb.rows) & cv::Rect(0, 0, page.cols, page.rows);
   if (place.empty()) return;
   const cv::Rect from(place.x - x, place.y - y, place.width, place.height);
@@ -256,6 +292,15 @@ void drawArt(Rng& rng, const Pens& pens, const Art& art, int x, int y, cv::Mat& 
   if (pens.kind == Pens::Kind::kCrayon) {
     const cv::Mat noise = smoothNoise(rng, cover.size(), 1 + static_cast<int>(rng.below(3)));
     cover.setTo(0, noise < static_cast<float>(2 * pens.grain - 1));
+  }
+  if (pens.hatch_px > 0) {
+    const double angle = rng.uniform(0, kPi), step = 2 * kPi / pens.hatch_px;
+    const cv::Mat sway = smoothNoise(rng, cover.size(), 12);
+    for (int row = 0; row < cover.rows; ++row)
+      for (int col = 0; col < cover.cols; ++col)
+        cover.at<float>(row, col) *= static_cast<float>(
+            .5 + .5 * std::tanh(2.5 * std::sin(step * (col * std::cos(angle) + row * std::sin(angle)) +
+                                               .8 * static_cast<double>(sway.at<float>(row, col)))));
   }
   if (pens.kind == Pens::Kind::kLines || (pens.kind == Pens::Kind::kCrayon && rng.chance(.5))) {
     cv::Mat shown = art.rgb.clone(), edges = cv::Mat::zeros(art.solid.size(), CV_8U);

@@ -27,6 +27,8 @@ struct Pens {
   cv::Scalar ink;        // RGB of lines
   double gaps = 0;       // share of a line that is missing
   double grain = 0;      // share of a crayon's area that shows the paper
+  double hatch_px = 0;   // from line to line of a hatched fill; 0: an even one
+  double wobble_px = 0;  // of a hand that draws lines
 };
 Pens randomPens(Rng& rng);
 

@@ -45,7 +45,7 @@ Drawn drawnPage(Rng& rng, const cv::Size& size, const PageOptions& options) {
   const Pens pens = randomPens(rng);
   const bool same_pens = rng.chance(.7);
   const int shorter = std::min(size.width, size.height);
-  const int long_side = static_cast<int>(shorter * rng.uniform(.35, .95));
+  const int long_side = static_cast<int>(shorter * rng.uniform(.3, .95));
   const Art figure = figureArt(rng, options, long_side);
   const int spare_x = size.width - figure.rgb.cols, spare_y = size.height - figure.rgb.rows;
   const auto place = [&](int spare) {
@@ -54,11 +54,13 @@ Drawn drawnPage(Rng& rng, const cv::Size& size, const PageOptions& options) {
   const int x = place(spare_x), y = place(spare_y);
   const int feet = y + figure.rgb.rows - 4;
 
-  const int things = rng.chance(.5) ? 1 + static_cast<int>(rng.below(5)) : 0;
+  const int things = rng.chance(.65) ? 1 + static_cast<int>(rng.below(6)) : 0;
   const auto drawThings = [&](int count) {
     for (int i = 0; i < count; ++i) {
       const Art thing = thingArt(rng, static_cast<int>(shorter * rng.uniform(.08, .5)));
-      const int tx = static_cast<int>(rng.uniform(-.3, 1) * size.width);
+      const int beside = rng.chance(.5) ? x - thing.rgb.cols : x + figure.rgb.cols;
+      const int tx = rng.chance(.35) ? beside + static_cast<int>(rng.normal(0, .25) * thing.rgb.cols)
+                                     : static_cast<int>(rng.uniform(-.3, 1) * size.width);
       const int ty = rng.chance(.5) ? feet - thing.rgb.rows + static_cast<int>(rng.normal(0, 6))
                                     : static_cast<int>(rng.uniform(-.1, .9) * size.height);
       drawArt(rng, same_pens ? pens : randomPens(rng), thing, tx, ty, out.rgb);
@@ -73,7 +75,7 @@ Drawn drawnPage(Rng& rng, const cv::Size& size, const PageOptions& options) {
                 out.rgb.at<cv::Vec3b>(0, 0) * rng.uniform(.4, .8), cv::FILLED, cv::LINE_AA);
     out.rgb = shade;
   }
-  if (rng.chance(.96)) {
+  if (rng.chance(.94)) {
     const cv::Rect to = cv::Rect(x, y, figure.rgb.cols, figure.rgb.rows) & cv::Rect({0, 0}, size);
     figure.solid(cv::Rect(to.x - x, to.y - y, to.width, to.height)).copyTo(out.figure(to));
     // What is behind a figure mostly stops at it.

@@ -101,6 +101,14 @@ cv::Mat paper(Rng& rng, const cv::Size& size) {
     screenGround(rng, page);
     return page;
   }
+  if (rng.chance(.02)) {  // noise
+    const double grey = rng.uniform(60, 200), spread = rng.uniform(20, 90);
+    for (int y = 0; y < page.rows; ++y)
+      for (int x = 0; x < page.cols; ++x)
+        for (int k = 0; k < 3; ++k)
+          page.at<cv::Vec3b>(y, x)[k] = cv::saturate_cast<std::uint8_t>(rng.normal(grey, spread));
+    return page;
+  }
   const double base = rng.chance(.3) ? 255 : rng.uniform(185, 255);
   page.setTo(rng.chance(.85) ? cv::Scalar(base, base * rng.uniform(.94, 1.02), base * rng.uniform(.85, 1.05))
                              : randomColour(rng, 110, 255));
@@ -109,6 +117,38 @@ cv::Mat paper(Rng& rng, const cv::Size& size) {
   if (rng.chance(.4)) addNoise(rng, page, 3 + static_cast<int>(rng.below(20)), rng.uniform(.5, 5));
   return page;
 }
+
+namespace {
+
+// An arm that reaches in from outside, often with a telephone or with fingers.
+void handShadow(Rng& rng, cv::Mat& shadow) {
+  const double unit = std::max(shadow.cols, shadow.rows), toward = rng.uniform(0, 2 * std::numbers::pi);
+  const cv::Point2d hand(shadow.cols * rng.uniform(.2, .8), shadow.rows * rng.uniform(.2, .8)),
+      along(std::cos(toward), std::sin(toward));
+  const auto stroke = [&](const cv::Point2d& a, const cv::Point2d& b, double width) {
+    cv::line(shadow, a, b, 1, std::max(1, static_cast<int>(width * unit)));
+  };
+  const double arm = rng.uniform(.06, .16);
+  stroke(hand, hand - 1.5 * unit * along, arm);
+  if (rng.chance(.4)) {
+    const cv::RotatedRect telephone(
+        hand,
+        {static_cast<float>(unit * rng.uniform(.2, .4)), static_cast<float>(unit * rng.uniform(.12, .25))},
+        static_cast<float>(rng.uniform(0, 180)));
+    std::array<cv::Point2f, 4> corners;
+    telephone.points(corners.data());
+    cv::fillPoly(shadow, std::vector<cv::Point>(corners.begin(), corners.end()), 1);
+  } else {
+    const int fingers = 3 + static_cast<int>(rng.below(3));
+    for (int i = 0; i < fingers; ++i) {
+      const double a = toward + (i - (fingers - 1) / 2.) * rng.uniform(.15, .4);
+      stroke(hand, hand + unit * rng.uniform(.1, .22) * cv::Point2d(std::cos(a), std::sin(a)),
+             rng.uniform(.015, .04));
+    }
+  }
+}
+
+}  // namespace
 
 void light(Rng& rng, cv::Mat& page) {
   const cv::Size size = page.size();
@@ -142,13 +182,17 @@ void light(Rng& rng, cv::Mat& page) {
   }
   if (rng.chance(.3)) {  // the shadow of a hand, or of who takes the picture
     cv::Mat shadow = cv::Mat::zeros(size, CV_32F);
-    std::vector<cv::Point> corners;
-    const double cx = size.width * rng.uniform(-.1, 1.1), cy = size.height * rng.uniform(.2, 1.2);
-    for (int i = 0; i < 9; ++i) {
-      const double a = 2 * std::numbers::pi * i / 9, r = size.width * rng.uniform(.1, .45);
-      corners.emplace_back(static_cast<int>(cx + r * std::cos(a)), static_cast<int>(cy + r * std::sin(a)));
+    if (rng.chance(.6)) {
+      handShadow(rng, shadow);
+    } else {
+      std::vector<cv::Point> corners;
+      const double cx = size.width * rng.uniform(-.1, 1.1), cy = size.height * rng.uniform(.2, 1.2);
+      for (int i = 0; i < 9; ++i) {
+        const double a = 2 * std::numbers::pi * i / 9, r = size.width * rng.uniform(.1, .45);
+        corners.emplace_back(static_cast<int>(cx + r * std::cos(a)), static_cast<int>(cy + r * std::sin(a)));
+      }
+      cv::fillPoly(shadow, corners, 1);
     }
-    cv::fillPoly(shadow, corners, 1);
     const double soft = rng.uniform(1, 18);
     cv::GaussianBlur(shadow, shadow, {}, soft);
     factor = factor.mul(1 - shadow * rng.uniform(.12, .5));
