@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <numbers>
@@ -13,21 +12,17 @@
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
+#include "trainer/conv_net_trainer.h"
 #include "trainer/figures/figure.h"
 #include "trainer/joint_accuracy.h"
-#include "trainer/joint_net_backward.h"
+#include "trainer/joint_loss.h"
 #include "trainer/jointed_drawing.h"
 #include "trainer/posable_drawing.h"
 
 namespace skel {
 namespace {
 
-// Gradients of a batch are summed in so many lanes, image b in lane b modulo kLanes, then lane by lane: a
-// fixed order, so that the bytes of the result do not depend on the number of threads.
-constexpr int kLanes = 4;
-constexpr double kGradientNorm = 1;  // longer ones are shortened
-constexpr double kWarmUp = .03;      // share of the steps
-constexpr int kPoses = 2;            // of each drawing in a round, besides its own
+constexpr int kPoses = 2;  // of each drawing in a round, besides its own
 
 // What the options leave open.
 struct Schedule {
@@ -60,21 +55,6 @@ std::vector<int> kindsOf(const FigurePlan& plan, const std::vector<int>& held_ba
   for (int k = 0; k < static_cast<int>(plan.kinds.size()); ++k)
     if ((std::find(held_back.begin(), held_back.end(), k) != held_back.end()) == held) kinds.push_back(k);
   return kinds;
-}
-
-// He's initialisation; what is added to a skip starts small.
-void initialise(JointNet& net, Rng& rng) {
-  for (std::size_t i = 0; i < net.layers.size(); ++i) {
-    const JointNetLayer& layer = net.layers[i];
-    if (layer.kind != JointNetLayer::Kind::kConvolution) continue;
-    const ConvShape shape = convShape(net, layer);
-    const bool last = i + 1 == net.layers.size();
-    const double size =
-        std::sqrt(2. / (shape.taps() * shape.in_channels)) * (layer.skip >= 0 ? .5 : 1) * (last ? .3 : 1);
-    for (std::size_t k = layer.weights; k < layer.biases; ++k) {
-      net.parameters[k] = static_cast<float>(size * rng.normal());
-    }
-  }
 }
 
 struct Sample {
@@ -115,32 +95,6 @@ Sample augmented(Rng& rng, const Figure& figure, const JointTrainingOptions& opt
   return sample;
 }
 
-// Everything that a step changes.
-struct State {
-  std::int64_t step = 0;
-  std::vector<float> parameters, first_moment, second_moment, average;
-
-  std::string bytes() const {
-    std::string out(reinterpret_cast<const char*>(&step), sizeof step);
-    for (const auto* v : {&parameters, &first_moment, &second_moment, &average}) {
-      out.append(reinterpret_cast<const char*>(v->data()), v->size() * sizeof(float));
-    }
-    return out;
-  }
-  void restore(const std::string& bytes, const std::string& file) {
-    if (bytes.size() != sizeof step + 4 * parameters.size() * sizeof(float)) {
-      throw InputError(file, "is no checkpoint of this net: remove it to start anew");
-    }
-    const char* at = bytes.data();
-    std::memcpy(&step, at, sizeof step);
-    at += sizeof step;
-    for (auto* v : {&parameters, &first_moment, &second_moment, &average}) {
-      std::memcpy(v->data(), at, v->size() * sizeof(float));
-      at += v->size() * sizeof(float);
-    }
-  }
-};
-
 // Mean loss and the share of joints whose highest cell is within 10 % and 5 % of the figure's long side.
 struct Report {
   double loss = 0, within_10 = 0, within_5 = 0, whole_right = 0;
@@ -151,7 +105,7 @@ Report validate(const JointNet& net, const NetJoints& joints, InstructionSet set
   const int count = joints.count(), channels = heatmapChannels(count);
   std::vector<Report> reports(figures.size());
   parallelFor(figures.size(), threads, [&](std::size_t i) {
-    thread_local JointNetMaps maps(net);
+    thread_local ConvNetMaps maps(net);
     const Figure& figure = figures[i];
     const FramePlacement placement = FramePlacement::centred(figure.mask);
     encodeJointNetInput(figure.mask, figure.look, placement, net.maps[0].channels, maps.maps[0]);
@@ -233,16 +187,9 @@ class Training {
         set_(bestInstructionSet()),
         plan_(figurePlan(options.body_plan)),
         net_(firstNet(options, plan_)),
-        joints_(netJoints(net_.joints, loadTemplate(net_.body_plan))) {
-    const std::size_t n = net_.parameters.size();
-    state_.parameters = net_.parameters;
-    state_.average = net_.parameters;
-    state_.first_moment.assign(n, 0.f);
-    state_.second_moment.assign(n, 0.f);
-    for (int i = 0; i < kLanes; ++i) {
-      maps_.emplace_back(net_);
-      gradients_.emplace_back(net_);
-    }
+        joints_(netJoints(net_.joints, loadTemplate(net_.body_plan))),
+        trainer_(net_, {schedule_.steps, options.batch, schedule_.peak_rate, options.weight_decay,
+                        schedule_.averaging, options.threads}) {
     for (const int kind : options.held_back)
       if (kind >= static_cast<int>(plan_.kinds.size()))
         throw UsageError("--hold-back: there is no body kind " + std::to_string(kind) + "; the last is " +
@@ -268,37 +215,34 @@ class Training {
 
   void run() {
     if (!options_.checkpoint.empty() && std::filesystem::exists(options_.checkpoint)) {
-      state_.restore(readFile(options_.checkpoint), options_.checkpoint);
+      trainer_.restore(readFile(options_.checkpoint), options_.checkpoint);
     }
     const int steps_per_round = options_.figures_per_round * options_.passes / options_.batch;
     reportLeftOut("before", net_);
     ProgressBar bar("training", static_cast<std::size_t>(schedule_.steps));
-    bar.advance(static_cast<std::size_t>(state_.step));
+    bar.advance(static_cast<std::size_t>(trainer_.steps()));
     std::int64_t round = -1;
     double loss = 0;
     int counted = 0;
-    while (state_.step < schedule_.steps) {
-      if (state_.step / steps_per_round != round) {
-        round = state_.step / steps_per_round;
+    while (!trainer_.done()) {
+      if (trainer_.steps() / steps_per_round != round) {
+        round = trainer_.steps() / steps_per_round;
         figure_options_.drawings = poseDrawings(round);
         figures_ = drawFigures(options_.seed,
                                kFigureStream + static_cast<std::uint64_t>(round * options_.figures_per_round),
                                options_.figures_per_round, figure_options_, options_.threads);
         shuffle(round);
       }
-      loss += step(static_cast<std::size_t>(state_.step % steps_per_round));
+      loss += step(static_cast<std::size_t>(trainer_.steps() % steps_per_round));
       ++counted;
-      ++state_.step;
       bar.advance();
-      if (state_.step % options_.report_every == 0 || state_.step == schedule_.steps) {
+      if (trainer_.steps() % options_.report_every == 0 || trainer_.done()) {
         report(bar, loss / counted);
         loss = 0;
         counted = 0;
       }
     }
-    JointNet net = net_;
-    net.parameters = state_.average;
-    reportLeftOut("after", quantized(net));
+    reportLeftOut("after", result());
   }
 
  private:
@@ -348,74 +292,36 @@ class Training {
   }
 
   double step(std::size_t step_of_round) {
-    net_.parameters = state_.parameters;
-    const std::vector<float> transposed = transposedWeights(net_);
     const std::size_t first = step_of_round * static_cast<std::size_t>(options_.batch);
-    std::array<double, kLanes> losses{};
-    parallelFor(kLanes, options_.threads, [&](std::size_t lane) {
-      JointNetMaps& maps = maps_[lane];
-      JointNetGradient& gradient = gradients_[lane];
-      std::fill(gradient.parameters.begin(), gradient.parameters.end(), 0.f);
-      for (int b = static_cast<int>(lane); b < options_.batch; b += kLanes) {
-        Rng rng(options_.seed, kStepStream + static_cast<std::uint64_t>(state_.step * options_.batch + b));
-        const Figure& figure = figures_[order_[first + b]];
-        const Sample sample = augmented(rng, figure, options_);
-        encodeJointNetInput(figure.mask, sample.look, sample.placement, net_.maps[0].channels, maps.maps[0]);
-        forward(net_, set_, maps);
-        for (auto& map : gradient.maps) std::fill(map.begin(), map.end(), 0.f);
-        losses[lane] += jointLoss<float>(maps.maps.back(), jointTarget(figure, sample.placement, joints_),
-                                         1. / options_.batch, &gradient.maps.back());
-        backward(net_, set_, transposed, maps, gradient);
-      }
-    });
-    adam();
-    double loss = 0;
-    for (const double l : losses) loss += l / options_.batch;
-    return loss;
+    std::vector<FramePlacement> placements(static_cast<std::size_t>(options_.batch));
+    return trainer_.step(
+        {[&](int b, std::vector<float>& input) {
+           Rng rng(options_.seed,
+                   kStepStream + static_cast<std::uint64_t>(trainer_.steps() * options_.batch + b));
+           const Figure& figure = figures_[order_[first + b]];
+           const Sample sample = augmented(rng, figure, options_);
+           placements[b] = sample.placement;
+           encodeJointNetInput(figure.mask, sample.look, sample.placement, net_.maps[0].channels, input);
+         },
+         [&](int b, const std::vector<float>& output, std::vector<float>& gradient) {
+           return jointLoss<float>(output, jointTarget(figures_[order_[first + b]], placements[b], joints_),
+                                   1. / options_.batch, &gradient);
+         }});
   }
 
-  double rate() const {
-    const double t = static_cast<double>(state_.step) / schedule_.steps;
-    if (t < kWarmUp) return schedule_.peak_rate * (t / kWarmUp + 1e-3);
-    return schedule_.peak_rate *
-           (.5 + .5 * std::cos(std::numbers::pi * (t - kWarmUp) / (1 - kWarmUp)) + 1e-3);
-  }
-
-  // Kingma & Ba, "Adam" (2015), with decoupled weight decay; and a running mean of the weights.
-  void adam() {
-    std::vector<float>& sum = gradients_[0].parameters;
-    double norm = 0;
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-      for (int lane = 1; lane < kLanes; ++lane) sum[i] += gradients_[lane].parameters[i];
-      norm += static_cast<double>(sum[i]) * sum[i];
-    }
-    norm = std::sqrt(norm);
-    const auto shorten = static_cast<float>(norm > kGradientNorm ? kGradientNorm / norm : 1);
-    constexpr float kBeta1 = .9f, kBeta2 = .99f;
-    const double t = static_cast<double>(state_.step + 1);
-    const auto unbias1 = static_cast<float>(1 / (1 - std::pow(kBeta1, t)));
-    const auto unbias2 = static_cast<float>(1 / (1 - std::pow(kBeta2, t)));
-    const auto r = static_cast<float>(rate()), decay = static_cast<float>(options_.weight_decay);
-    // A young mean follows closely.
-    const auto keep = static_cast<float>(std::min(schedule_.averaging, (1 + t) / (10 + t)));
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-      const float g = sum[i] * shorten;
-      float& w = state_.parameters[i];
-      float& m = state_.first_moment[i];
-      float& v = state_.second_moment[i];
-      m = kBeta1 * m + (1 - kBeta1) * g;
-      v = kBeta2 * v + (1 - kBeta2) * g * g;
-      w -= r * (m * unbias1 / (std::sqrt(v * unbias2) + 1e-8f) + decay * w);
-      state_.average[i] = keep * state_.average[i] + (1 - keep) * w;
-    }
+  // The net as its file holds it.
+  JointNet result() const {
+    JointNet net = net_;
+    net.parameters = trainer_.averaged();
+    quantize(net);
+    return net;
   }
 
   void report(ProgressBar& bar, double loss) {
-    JointNet net = net_;
-    net.parameters = state_.average;
-    const Report r = validate(quantized(net), joints_, set_, validation_, options_.threads);
+    JointNet net = result();
+    const Report r = validate(net, joints_, set_, validation_, options_.threads);
     std::ostringstream provenance;
-    provenance << "skel-train joints: seed " << options_.seed << ", step " << state_.step << " of "
+    provenance << "skel-train joints: seed " << options_.seed << ", step " << trainer_.steps() << " of "
                << schedule_.steps << ", batch " << options_.batch;
     if (!drawings_.empty())
       provenance << ", " << drawings_.size() << " drawings for " << schedule_.drawn_share
@@ -424,10 +330,11 @@ class Training {
     net.provenance = provenance.str();
     bar.clear();
     std::printf("step %lld  loss %.4f  validation: loss %.4f  within 10 %% %.4f  5 %% %.4f  whole %.4f\n",
-                static_cast<long long>(state_.step), loss, r.loss, r.within_10, r.within_5, r.whole_right);
+                static_cast<long long>(trainer_.steps()), loss, r.loss, r.within_10, r.within_5,
+                r.whole_right);
     std::fflush(stdout);
     writeFile(options_.output, formatJointNet(net));
-    if (!options_.checkpoint.empty()) writeFile(options_.checkpoint, state_.bytes());
+    if (!options_.checkpoint.empty()) writeFile(options_.checkpoint, trainer_.checkpoint());
   }
 
   JointTrainingOptions options_;
@@ -436,14 +343,12 @@ class Training {
   const FigurePlan& plan_;
   JointNet net_;
   NetJoints joints_;
-  State state_;
+  ConvNetTrainer trainer_;
   FigureOptions figure_options_;
   std::vector<PosableDrawing> drawings_;
   std::vector<JointedDrawing> left_out_;
   std::vector<Figure> validation_, figures_;
   std::vector<int> order_;
-  std::vector<JointNetMaps> maps_;
-  std::vector<JointNetGradient> gradients_;
 };
 
 }  // namespace

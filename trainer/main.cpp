@@ -1,6 +1,7 @@
 #include "libskel/cli/tool.h"
 #include "trainer/joint_net_figures.h"
 #include "trainer/joint_net_training.h"
+#include "trainer/page_net_training.h"
 #include "trainer/train_command.h"
 
 int main(int argc, char** argv) {
@@ -20,10 +21,14 @@ int main(int argc, char** argv) {
   CLI::App* joints =
       app.add_subcommand("joints", "Trains the net that finds joints, on generated figures and on drawings");
   skel::bindJointTrainingOptions(*joints, joint_training);
+  skel::PageTrainingOptions page_training;
+  CLI::App* pages = app.add_subcommand("pages", "Trains the net that tells the figure from its page");
+  skel::bindPageTrainingOptions(*pages, page_training);
   return skel::runTool(app, argc, argv, [&] {
     if (*evaluation) return skel::runEvaluateWeights(evaluate);
     if (*figures) return skel::runFigureSheet(sheet);
     if (*joints) return skel::runJointTraining(joint_training);
+    if (*pages) return skel::runPageTraining(page_training);
     return skel::runTrain(train);
   });
 }

@@ -8,46 +8,6 @@
 namespace skel {
 namespace {
 
-class Builder {
- public:
-  explicit Builder(int input_channels) {
-    net_.maps.push_back({kNetInputSize, kNetInputSize, input_channels});
-  }
-
-  int convolution(int input, int channels, int kernel, bool relu, int skip = -1) {
-    const MapShape in = net_.maps[input];
-    JointNetLayer layer{JointNetLayer::Kind::kConvolution, input, skip, channels, kernel, relu};
-    layer.weights = net_.parameters.size();
-    layer.biases = layer.weights + static_cast<std::size_t>(kernel * kernel * in.channels * channels);
-    net_.parameters.resize(layer.biases + static_cast<std::size_t>(channels), 0.f);
-    return add(layer, {in.height, in.width, channels});
-  }
-  int pool(int input) {
-    const MapShape in = net_.maps[input];
-    return add({JointNetLayer::Kind::kPool, input, -1, in.channels},
-               {in.height / 2, in.width / 2, in.channels});
-  }
-  int upsampleAdd(int input, int skip) {
-    const MapShape to = net_.maps[skip];
-    SKEL_CHECK_EQ(net_.maps[input].channels, to.channels);
-    return add({JointNetLayer::Kind::kUpsampleAdd, input, skip, to.channels}, to);
-  }
-  // `count` convolutions that each add to their input.
-  int residuals(int map, int count) {
-    for (int i = 0; i < count; ++i) map = convolution(map, net_.maps[map].channels, 3, true, map);
-    return map;
-  }
-  JointNet take() { return std::move(net_); }
-
- private:
-  int add(const JointNetLayer& layer, const MapShape& shape) {
-    net_.layers.push_back(layer);
-    net_.maps.push_back(shape);
-    return static_cast<int>(net_.maps.size()) - 1;
-  }
-  JointNet net_;
-};
-
 // Channels at full, half, quarter and eighth resolution, and how many residual convolutions there are at the
 // three lower ones on the way down, and at quarter and half on the way up.
 struct NetSize {
@@ -58,84 +18,19 @@ struct NetSize {
 constexpr NetSize kSize = {{32, 64, 96, 160}, {1, 2, 3}, {2, 2}};
 constexpr NetSize kFormerSize = {{16, 32, 64, 96}, {1, 1, 2}, {1, 2}};
 
-void runConvolution(const JointNet& net, const JointNetLayer& layer, InstructionSet set, JointNetMaps& maps,
-                    std::vector<float>& out) {
-  convolve(set, convShape(net, layer), maps.maps[layer.input].data(), net.parameters.data() + layer.weights,
-           net.parameters.data() + layer.biases, layer.skip < 0 ? nullptr : maps.maps[layer.skip].data(),
-           layer.relu, out.data());
-}
-
-void runPool(const MapShape& to, const std::vector<float>& in, std::vector<float>& out) {
-  const int width_in = 2 * to.width, channels = to.channels, stride = paddedStride(width_in) * channels;
-  for (int y = 0; y < to.height; ++y) {
-    for (int x = 0; x < to.width; ++x) {
-      const float* a = in.data() + static_cast<std::size_t>(paddedIndex(width_in, 2 * y, 2 * x)) * channels;
-      float* o = out.data() + static_cast<std::size_t>(paddedIndex(to.width, y, x)) * channels;
-      for (int c = 0; c < channels; ++c) {
-        o[c] = std::max(std::max(a[c], a[c + channels]), std::max(a[c + stride], a[c + stride + channels]));
-      }
-    }
-  }
-}
-
-void runUpsampleAdd(const MapShape& to, const std::vector<float>& in, const std::vector<float>& skip,
-                    std::vector<float>& out) {
-  const int channels = to.channels;
-  for (int y = 0; y < to.height; ++y) {
-    for (int x = 0; x < to.width; ++x) {
-      const float* a =
-          in.data() + static_cast<std::size_t>(paddedIndex(to.width / 2, y / 2, x / 2)) * channels;
-      const std::size_t i = static_cast<std::size_t>(paddedIndex(to.width, y, x)) * channels;
-      for (int c = 0; c < channels; ++c) out[i + c] = a[c] + skip[i + c];
-    }
-  }
-}
-
 }  // namespace
-
-ConvShape convShape(const JointNet& net, const JointNetLayer& layer) {
-  const MapShape& in = net.maps[layer.input];
-  return {in.height, in.width, in.channels, layer.channels, layer.kernel};
-}
 
 JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints, int input_channels) {
   SKEL_CHECK(!joints.empty() && joints.size() <= kMaxNetJoints);
   const NetSize& size = input_channels == kNetInputChannels ? kSize : kFormerSize;
-  Builder b(input_channels);
-  const int full = b.convolution(0, size.widths[0], 3, true);
-  const int half = b.residuals(b.convolution(b.pool(full), size.widths[1], 3, true), size.down[0]);
-  const int quarter = b.residuals(b.convolution(b.pool(half), size.widths[2], 3, true), size.down[1]);
-  const int eighth = b.residuals(b.convolution(b.pool(quarter), size.widths[3], 3, true), size.down[2]);
-  const int up =
-      b.residuals(b.upsampleAdd(b.convolution(eighth, size.widths[2], 1, false), quarter), size.up[0]);
-  const int out = b.residuals(b.upsampleAdd(b.convolution(up, size.widths[1], 1, false), half), size.up[1]);
-  b.convolution(out, heatmapChannels(static_cast<int>(joints.size())), 1, false);
-  JointNet net = b.take();
+  ConvNetBuilder b({kNetInputSize, kNetInputSize, input_channels});
+  b.convolution(hourglass(b, size.widths, size.down, size.up),
+                heatmapChannels(static_cast<int>(joints.size())), 1, false);
+  JointNet net;
+  static_cast<ConvNet&>(net) = b.take();
   net.body_plan = std::move(body_plan);
   net.joints = std::move(joints);
   return net;
-}
-
-JointNetMaps::JointNetMaps(const JointNet& net) {
-  for (const MapShape& shape : net.maps) maps.emplace_back(shape.paddedSize(), 0.f);
-}
-
-void forward(const JointNet& net, InstructionSet set, JointNetMaps& maps) {
-  for (std::size_t i = 0; i < net.layers.size(); ++i) {
-    const JointNetLayer& layer = net.layers[i];
-    std::vector<float>& out = maps.maps[i + 1];
-    switch (layer.kind) {
-      case JointNetLayer::Kind::kConvolution:
-        runConvolution(net, layer, set, maps, out);
-        break;
-      case JointNetLayer::Kind::kPool:
-        runPool(net.maps[i + 1], maps.maps[layer.input], out);
-        break;
-      case JointNetLayer::Kind::kUpsampleAdd:
-        runUpsampleAdd(net.maps[i + 1], maps.maps[layer.input], maps.maps[layer.skip], out);
-        break;
-    }
-  }
 }
 
 FramePlacement FramePlacement::centred(const Plane8& mask, bool mirrored) {

@@ -1,6 +1,5 @@
 // A small convolutional net that sees a whole silhouette and says where the joints are: one heatmap a joint.
-// An encoder of three scales and a decoder with skips, after Newell, Yang, Deng, "Stacked hourglass networks
-// for human pose estimation" (2016), much narrower. Trained on
+// Trained on
 // generated figures and on our own drawings in other poses (skel-train joints).
 #pragma once
 
@@ -10,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "libskel/convnet/conv_net.h"
 #include "libskel/image/image.h"
-#include "libskel/jointnet/conv_kernels.h"
 #include "libskel/jointnet/figure_look.h"
 
 namespace skel {
@@ -28,55 +27,19 @@ inline constexpr int kMaxNetJoints = 63;
 // One a joint, one for the figure; the kernels want multiples of 16, so the others are idle.
 constexpr int heatmapChannels(int joints) { return (joints + 1 + 15) / 16 * 16; }
 
-struct JointNetLayer {
-  enum class Kind {
-    kConvolution,  // kernel × kernel, then + skip, then max(0, ·) if relu
-    kPool,         // maximum of 2×2
-    kUpsampleAdd,  // input twice as large by repetition, + skip
-  };
-  Kind kind = Kind::kConvolution;
-  int input = 0;  // a map: 0 is the net's input, layer i gives map i + 1
-  int skip = -1;  // a map of the output's shape, or -1
-  int channels = 0;
-  int kernel = 0;
-  bool relu = false;
-  std::size_t weights = 0, biases = 0;  // where they begin in JointNet::parameters
-};
-
-struct MapShape {
-  int height, width, channels;
-  std::size_t paddedSize() const {
-    return static_cast<std::size_t>(paddedPixels(height, width)) * static_cast<std::size_t>(channels);
-  }
-};
-
-struct JointNet {
+struct JointNet : ConvNet {
   std::string body_plan;            // name of the template that it was trained for
   std::vector<std::string> joints;  // of the heatmaps, at most kMaxNetJoints
-  std::vector<JointNetLayer> layers;
-  std::vector<MapShape> maps;     // the input, then the output of each layer
-  std::vector<float> parameters;  // weights of a layer (see weightIndex), then its biases
   std::string provenance;         // how the weights came to be, for people
 
   // The channel after the joints': its mean is the log-odds of one whole upright figure of the body plan.
   int figureChannel() const { return static_cast<int>(joints.size()); }
 };
 
-ConvShape convShape(const JointNet& net, const JointNetLayer& layer);
-
 // The architecture with all parameters zero, for at most kMaxNetJoints joints. A net of kCoarseInputChannels
 // sees lines and colours at half the resolution, one of kColourlessInputChannels silhouette and lines alone.
 JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints,
                       int input_channels = kNetInputChannels);
-
-// The maps of one pass, padded as the kernels want them.
-struct JointNetMaps {
-  std::vector<std::vector<float>> maps;
-  explicit JointNetMaps(const JointNet& net);
-};
-
-// From maps[0] to maps.back().
-void forward(const JointNet& net, InstructionSet set, JointNetMaps& maps);
 
 // Where a figure lies in the net's frame: frame px = grid px + offset, mirrored about the frame's middle
 // after that if `mirrored`.
@@ -105,13 +68,10 @@ void encodeJointNetInput(const Plane8& mask, const FigureLook& look, const Frame
                          int channels, std::vector<float>& input);
 
 // A weights file: one line of JSON (format, version, provenance, body plan, joints, layers, the SHA-256 of
-// what follows), then for each convolution `outputs` scales (float32, little endian), `outputs` biases
-// (float32) and the weights as int8, in the order of JointNet::parameters; weight = int8 · scale of its
-// output. Version 1 names no body plan: it was the biped. Throws InputError.
+// what follows), then the weights (formatWeights()). Version 1 names no body plan: it was the biped. Throws
+// InputError.
 JointNet parseJointNet(std::string_view bytes, const std::string& file);
 std::string formatJointNet(const JointNet& net);
-// The net with its weights rounded as a weights file rounds them.
-JointNet quantized(const JointNet& net);
 
 // The names of the body plans that there is a net compiled in for.
 std::span<const std::string_view> builtInJointNets();

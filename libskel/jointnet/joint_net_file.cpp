@@ -1,9 +1,6 @@
 // Weights files of the joint net.
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
-#include <cstring>
 #include <mutex>
 #include <nlohmann/json.hpp>
 
@@ -18,43 +15,8 @@
 namespace skel {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "weights files are read and written as they lie");
-
 constexpr std::string_view kFormat = "skel-joint-net";
 constexpr int kVersion = 2;
-
-// [inputs, outputs, kernel] of each convolution: what the bytes are laid out by.
-std::vector<std::array<int, 3>> convolutions(const JointNet& net) {
-  std::vector<std::array<int, 3>> list;
-  for (const JointNetLayer& layer : net.layers) {
-    if (layer.kind != JointNetLayer::Kind::kConvolution) continue;
-    list.push_back({net.maps[layer.input].channels, layer.channels, layer.kernel});
-  }
-  return list;
-}
-
-// The output channel that weight i of a layer goes to: weightIndex(), read backwards.
-std::size_t outputOf(const JointNet& net, const JointNetLayer& layer, std::size_t i) {
-  const ConvShape shape = convShape(net, layer);
-  const auto panel = static_cast<std::size_t>(shape.taps() * shape.in_channels) * 16;
-  return i / panel * 16 + i % 16;
-}
-
-std::size_t weightCount(const JointNetLayer& layer) { return layer.biases - layer.weights; }
-
-std::vector<float> outputScales(const JointNet& net, const JointNetLayer& layer) {
-  std::vector<float> scales(layer.channels, 0.f);
-  for (std::size_t i = 0; i < weightCount(layer); ++i) {
-    float& s = scales[outputOf(net, layer, i)];
-    s = std::max(s, std::abs(net.parameters[layer.weights + i]) / 127);
-  }
-  return scales;
-}
-
-std::int8_t rounded(float weight, float scale) {
-  if (scale == 0) return 0;
-  return static_cast<std::int8_t>(std::clamp(std::lround(weight / scale), -127l, 127l));
-}
 
 std::vector<std::string> jointsAt(const JsonValue& list) {
   std::vector<std::string> joints;
@@ -71,37 +33,11 @@ std::vector<std::string> jointsAt(const JsonValue& list) {
 
 }  // namespace
 
-JointNet quantized(const JointNet& net) {
-  JointNet out = net;
-  for (const JointNetLayer& layer : net.layers) {
-    if (layer.kind != JointNetLayer::Kind::kConvolution) continue;
-    const std::vector<float> scales = outputScales(net, layer);
-    for (std::size_t i = 0; i < weightCount(layer); ++i) {
-      float& w = out.parameters[layer.weights + i];
-      w = static_cast<float>(rounded(w, scales[outputOf(net, layer, i)])) * scales[outputOf(net, layer, i)];
-    }
-  }
-  return out;
-}
-
 std::string formatJointNet(const JointNet& net) {
-  std::string payload;
-  const auto append = [&](const void* data, std::size_t size) {
-    payload.append(static_cast<const char*>(data), size);
-  };
-  for (const JointNetLayer& layer : net.layers) {
-    if (layer.kind != JointNetLayer::Kind::kConvolution) continue;
-    const std::vector<float> scales = outputScales(net, layer);
-    append(scales.data(), scales.size() * sizeof(float));
-    append(net.parameters.data() + layer.biases, layer.channels * sizeof(float));
-    for (std::size_t i = 0; i < weightCount(layer); ++i) {
-      const std::int8_t w = rounded(net.parameters[layer.weights + i], scales[outputOf(net, layer, i)]);
-      append(&w, 1);
-    }
-  }
+  const std::string payload = formatWeights(net);
   const nlohmann::ordered_json header = {
       {"format", kFormat},          {"version", kVersion},  {"provenance", net.provenance},
-      {"body_plan", net.body_plan}, {"joints", net.joints}, {"convolutions", convolutions(net)},
+      {"body_plan", net.body_plan}, {"joints", net.joints}, {"convolutions", convolutionSizes(net)},
       {"sha256", sha256(payload)}};
   return header.dump() + "\n" + payload;
 }
@@ -124,7 +60,7 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file) {
   JointNet net = makeJointNet(names_plan ? root.at("body_plan").asString() : "biped",
                               jointsAt(root.at("joints")), inputs);
   net.provenance = root.at("provenance").asString();
-  const auto expected = convolutions(net);
+  const auto expected = convolutionSizes(net);
   bool same = given.size() == expected.size();
   for (std::size_t i = 0; same && i < given.size(); ++i) {
     const std::vector<double> sizes = given[i].asNumbers(3);
@@ -133,37 +69,9 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file) {
   if (!same) root.at("convolutions").fail("not the layers of this program's net: train it anew");
 
   const std::string_view payload = bytes.substr(end + 1);
-  std::size_t size = 0;
-  for (const JointNetLayer& layer : net.layers) {
-    if (layer.kind == JointNetLayer::Kind::kConvolution) {
-      size += weightCount(layer) + 2 * sizeof(float) * static_cast<std::size_t>(layer.channels);
-    }
-  }
-  if (payload.size() != size) {
-    throw InputError(file, "has " + std::to_string(payload.size()) + " bytes of weights, expected " +
-                               std::to_string(size) + ": the file is cut off or damaged");
-  }
+  parseWeights(payload, file, net);
   if (sha256(payload) != root.at("sha256").asString()) {
     throw InputError(file, "its weights do not fit its sha256: the file is damaged");
-  }
-  const char* at = payload.data();
-  const auto take = [&](void* to, std::size_t bytes_wanted) {
-    std::memcpy(to, at, bytes_wanted);
-    at += bytes_wanted;
-  };
-  for (const JointNetLayer& layer : net.layers) {
-    if (layer.kind != JointNetLayer::Kind::kConvolution) continue;
-    std::vector<float> scales(layer.channels);
-    take(scales.data(), scales.size() * sizeof(float));
-    take(net.parameters.data() + layer.biases, layer.channels * sizeof(float));
-    std::vector<std::int8_t> weights(weightCount(layer));
-    take(weights.data(), weights.size());
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-      net.parameters[layer.weights + i] = static_cast<float>(weights[i]) * scales[outputOf(net, layer, i)];
-    }
-  }
-  for (const float p : net.parameters) {
-    if (!std::isfinite(p)) throw InputError(file, "holds weights that are no numbers");
   }
   return net;
 }

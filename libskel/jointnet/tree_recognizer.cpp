@@ -53,7 +53,7 @@ Heatmaps evaluateNet(const Plane8& mask, const FigureLook& look, const JointNet&
   const int count = joints.count(), channels = heatmapChannels(count), figure_channel = net.figureChannel();
   Heatmaps out;
   out.joints.assign(static_cast<std::size_t>(count), Heatmap{});
-  JointNetMaps maps(net);
+  ConvNetMaps maps(net);
   const int passes = mirror ? 2 : 1;
   for (int pass = 0; pass < passes; ++pass) {
     const bool mirrored = pass == 1;

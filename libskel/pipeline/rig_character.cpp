@@ -11,6 +11,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
 #include "libskel/deform/figure_shape.h"
+#include "libskel/deform/limb_depth.h"
 #include "libskel/jointnet/net_joints.h"
 #include "libskel/mesh/front_view.h"
 #include "libskel/recognition/paper_recognizer.h"
@@ -113,6 +114,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   RiggedDrawing drawing;
   Stopwatch timed(drawing.times);
 
+  const bool inflated = !input.model;
   if (input.model) standUpright(*input.model);
   const bool own_view = input.image.empty();
   if (own_view) {
@@ -169,6 +171,15 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     return computeSkinWeights(drawing.character.mesh, drawing.character.skeleton, options.skin_method,
                               options.skin);
   });
+  if (inflated) {
+    drawing.character = timed("depth", [&] {
+      RiggedCharacter parted = drawing.character;
+      const double yaw_rad = measureFigure(parted.mesh, parted.weights, parted.skeleton).yaw_rad;
+      partLimbsInDepth(parted.mesh, parted.skeleton, parted.weights, options.body_plan, yaw_rad);
+      return parted;
+    });
+    drawing.recognition.skeleton = drawing.character.skeleton;
+  }
   if (options.rest_pose != RestPose::kDrawn)
     drawing.character = timed("rest pose", [&] { return poseToRest(drawing.character, options.rest_pose); });
   drawing.clips = timed("clips", [&] {

@@ -12,6 +12,7 @@
 #include "libskel/silhouette/ground.h"
 #include "libskel/silhouette/outlined.h"
 #include "libskel/silhouette/page.h"
+#include "libskel/silhouette/page_net.h"
 #include "libskel/silhouette/ruling.h"
 #include "libskel/silhouette/sheet.h"
 #include "libskel/silhouette/strokes.h"
@@ -52,26 +53,37 @@ cv::Mat filledPencil(const cv::Mat& drawn, cv::Mat& lines) {
   return filled;
 }
 
-// Makes `rgb`, the whole picture, the sheet alone.
+// Makes `rgb`, the whole picture, the sheet alone. Returns the perspective from the picture to that.
 cv::Mat straightened(const Image& image, cv::Mat& rgb, PageCorners corners) {
-  for (Eigen::Vector2d& corner : corners)
-    corner = ((corner.array() + 0.5) * (static_cast<double>(image.width) / rgb.cols) - 0.5).matrix();
+  const double image_px = static_cast<double>(image.width) / rgb.cols;  // in one of rgb
+  for (Eigen::Vector2d& corner : corners) corner = ((corner.array() + 0.5) * image_px - 0.5).matrix();
   std::array<int, 2> size{};
   const cv::Mat page_from_image = pageFromPicture(corners, size);
   cv::Mat rgba(image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data())), page;
   cv::warpPerspective(rgba, page, page_from_image, cv::Size(size[0], size[1]), cv::INTER_LINEAR,
                       cv::BORDER_REPLICATE);
   cv::cvtColor(page, rgb, cv::COLOR_RGBA2RGB);
-  return page_from_image;
+  const double half = (image_px - 1) / 2;
+  const cv::Mat image_from_picture =
+      (cv::Mat_<double>(3, 3) << image_px, 0, half, 0, image_px, half, 0, 0, 1);
+  return page_from_image * image_from_picture;
 }
 
-// The mask of the figures in `rgb`, and in `reason` why there is none.
-cv::Mat figuresIn(const cv::Mat& rgb, const cv::Mat& lab, std::string& reason, int& margin) {
+// What lines and colours tell.
+struct Drawn {
+  cv::Mat figures;     // 8-bit, 255 on figures; empty if there are none
+  std::string reason;  // why there are none
+  bool tidy = false;   // on an even ground, with nothing around
+  bool soft = false;   // strokes on paper, of which the core is seen
+};
+
+Drawn figuresIn(const cv::Mat& rgb, const cv::Mat& lab) {
+  Drawn out;
   double explained_border = 0;
   const std::vector<Background> backgrounds = fitBackgrounds(lab, explained_border);
   if (explained_border < 0.4) {
-    reason = "no background can be told: the picture's border has no colour in common";
-    return {};
+    out.reason = "no background can be told: the picture's border has no colour in common";
+    return out;
   }
   const cv::Mat difference = colorDifference(lab, backgrounds);
   double sigma = 0;
@@ -101,8 +113,8 @@ cv::Mat figuresIn(const cv::Mat& rgb, const cv::Mat& lab, std::string& reason, i
     barrier = (strokes & (difference > low_color)) | far;
   }
   if (cv::countNonZero(barrier) == 0) {
-    reason = "the picture is blank";
-    return {};
+    out.reason = "the picture is blank";
+    return out;
   }
 
   const cv::Mat drawn = barrier.clone();
@@ -120,7 +132,8 @@ cv::Mat figuresIn(const cv::Mat& rgb, const cv::Mat& lab, std::string& reason, i
   } else {
     // Scenery shows at the border of the picture.
     cv::Mat outlined;
-    if (backgrounds.size() > 1 || touchesBorder(barrier)) outlined = outlinedFigure(lab, barrier);
+    out.tidy = backgrounds.size() == 1 && !touchesBorder(barrier);
+    if (!out.tidy) outlined = outlinedFigure(lab, barrier);
     const bool scenery = !outlined.empty();
     if (scenery) barrier = outlined;
     openLoops(barrier, drawn, isColored(backgrounds.front()));
@@ -128,40 +141,74 @@ cv::Mat figuresIn(const cv::Mat& rgb, const cv::Mat& lab, std::string& reason, i
   }
   dropBorderStrips(barrier);
   if (cv::countNonZero(barrier) == 0) {
-    reason = "nothing stands out from the background";
-    return {};
+    out.reason = "nothing stands out from the background";
+    return out;
   }
-  // The edges of strokes on paper are soft: what is seen as a stroke is its core.
-  margin = textured ? 1 : 0;
-  return barrier;
+  out.soft = textured;
+  out.figures = barrier;
+  return out;
+}
+
+// Share of `figure` that is farther than `reach` px from all of `other`.
+double shareApart(const cv::Mat& figure, const cv::Mat& other, int reach) {
+  cv::Mat around;
+  cv::dilate(other, around,
+             cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * reach + 1, 2 * reach + 1)));
+  return static_cast<double>(cv::countNonZero(figure & ~around)) / std::max(1, cv::countNonZero(figure));
+}
+
+// Lines and colours give the sharper edge, the page net knows what is a figure. Where they mean the same
+// figure, it is `drawn`; else what the net is sure of decides, and lines and colours where it is not. `page`:
+// how probably each pixel is figure, CV_32F.
+cv::Mat agreed(const cv::Mat& drawn, const cv::Mat& page) {
+  constexpr float kSurely = 0.7f, kSeen = 0.5f, kPerhaps = 0.3f, kWithoutDoubt = 0.9f;
+  constexpr double kReach = 0.02, kLeastApart = 0.1;     // of the long side; of the figure
+  constexpr double kLeastSeen = 0.2, kLeastClear = 0.35;  // of what is drawn; of what is seen
+  const int seen = cv::countNonZero(page > kSeen);
+  if (seen <= kLeastSeen * cv::countNonZero(drawn)) return drawn;
+  if (cv::countNonZero(page > kWithoutDoubt) < kLeastClear * seen) return drawn;
+  const int reach = std::max(1, cvRound(kReach * std::max(drawn.cols, drawn.rows)));
+  if (shareApart(drawn, page > kPerhaps, reach) < kLeastApart &&
+      shareApart(page > kSurely, drawn, reach) < kLeastApart)
+    return drawn;
+  return (page > kSurely) | (drawn & (page > kPerhaps));
 }
 
 }  // namespace
 
 Segmentation segment(const Image& image) {
-  const cv::Size full_size(image.width, image.height);
-  cv::Mat rgb = workingRgb(image), lab = labOf(rgb);
-  cv::Mat page_from_image;
-  if (const std::optional<PageCorners> corners = findPage(lab)) {
-    page_from_image = straightened(image, rgb, *corners);
+  const cv::Mat picture = workingRgb(image);
+  cv::Mat rgb = picture.clone(), lab = labOf(rgb), page_from_picture;
+  const std::optional<PageCorners> corners = findPage(lab);
+  if (corners) {
+    page_from_picture = straightened(image, rgb, *corners);
     lab = labOf(rgb);
   }
-  if (eraseRuling(rgb)) lab = labOf(rgb);
+  const bool ruled = eraseRuling(rgb);
+  if (ruled) lab = labOf(rgb);
+  const Drawn drawn = figuresIn(rgb, lab);
+
   Segmentation out;
-  int margin = 0;
-  const cv::Mat figures = figuresIn(rgb, lab, out.reason, margin);
-  if (!out.reason.empty()) return out;
-  cv::Mat full;
-  if (!page_from_image.empty()) {
-    cv::warpPerspective(figures, full, page_from_image, full_size, cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
-    full = full >= 128;
-  } else if (figures.size() == full_size) {
-    full = figures;
-  } else {
+  cv::Mat figures = drawn.figures;
+  if (figures.empty()) figures = cv::Mat::zeros(rgb.size(), CV_8U);
+  if (corners) {
+    cv::warpPerspective(figures, figures, page_from_picture, picture.size(),
+                        cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
+    figures = figures >= 128;
+  }
+  if (corners || ruled || drawn.soft || !drawn.tidy)
+    figures = agreed(figures, figureProbability(builtInPageNet(), picture));
+  if (cv::countNonZero(figures) == 0) {
+    out.reason = drawn.reason.empty() ? "nothing on the page looks like a figure" : drawn.reason;
+    return out;
+  }
+  cv::Mat full = figures;
+  if (const cv::Size full_size(image.width, image.height); figures.size() != full_size) {
     cv::resize(figures, full, full_size, 0, 0, cv::INTER_LINEAR);
     full = full >= 128;
   }
-  if (margin > 0) cv::dilate(full, full, cv::Mat::ones(2 * margin + 1, 2 * margin + 1, CV_8U));
+  // The edges of strokes on paper are soft: what is seen as a stroke is its core.
+  if (drawn.soft) cv::dilate(full, full, cv::Mat::ones(3, 3, CV_8U));
   out.foreground = Eigen::Map<Plane8>(full.data, full.rows, full.cols);
   return out;
 }

@@ -15,7 +15,8 @@ struct Segmentation {
 // Works for drawings on paper (also photographed in uneven light), line art whose white fills open to the
 // background through small gaps, and flat art on plain, graded or patterned backgrounds. A sheet that lies on
 // something else is straightened first (page.h), the ruling of paper taken off (ruling.h), and a line of
-// ground cut (ground.h); the mask is that of the picture all the same.
+// ground cut (ground.h); the mask is that of the picture all the same. Unless the picture is tidy, a net
+// that knows pages (page_net.h) says which of it is the figure.
 Segmentation segment(const Image& image);
 
 }  // namespace skel

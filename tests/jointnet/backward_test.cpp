@@ -1,9 +1,10 @@
-#include "trainer/joint_net_backward.h"
+#include "trainer/conv_net_backward.h"
 
 #include <cmath>
 
 #include "libskel/core/rng.h"
 #include "tests/support/catch.h"
+#include "trainer/joint_loss.h"
 
 namespace skel {
 namespace {
@@ -110,8 +111,8 @@ TEST_CASE("In side views, mirrored or not, the limb at the left of the picture i
 TEST_CASE("The whole net has the derivative that its differences show") {
   JointNet net = makeJointNet("biped", std::vector<std::string>(kJoints));
   Rng rng(3);
-  for (const JointNetLayer& layer : net.layers) {
-    if (layer.kind != JointNetLayer::Kind::kConvolution) continue;
+  for (const ConvLayer& layer : net.layers) {
+    if (layer.kind != ConvLayer::Kind::kConvolution) continue;
     const ConvShape shape = convShape(net, layer);
     const double size = std::sqrt(1. / (shape.taps() * shape.in_channels));
     for (std::size_t k = layer.weights; k < layer.biases; ++k)
@@ -119,7 +120,7 @@ TEST_CASE("The whole net has the derivative that its differences show") {
     for (int c = 0; c < layer.channels; ++c)
       net.parameters[layer.biases + c] = static_cast<float>(.1 * rng.normal());
   }
-  JointNetMaps maps(net);
+  ConvNetMaps maps(net);
   Plane8 mask = Plane8::Zero(128, 60);
   mask.block(0, 10, 128, 30) = 255;
   mask.block(30, 0, 20, 60) = 255;
@@ -128,7 +129,7 @@ TEST_CASE("The whole net has the derivative that its differences show") {
 
   for (const InstructionSet set : kInstructionSets) {
     if (!hasInstructionSet(set)) continue;
-    JointNetGradient gradient(net);
+    ConvNetGradient gradient(net);
     forward(net, set, maps);
     jointLoss<float>(maps.maps.back(), target, 1, &gradient.maps.back());
     backward(net, set, transposedWeights(net), maps, gradient);
@@ -142,8 +143,8 @@ TEST_CASE("The whole net has the derivative that its differences show") {
     };
     // One direction a layer, so that no layer's mistake can hide.
     for (std::size_t l = 0; l < net.layers.size(); ++l) {
-      const JointNetLayer& layer = net.layers[l];
-      if (layer.kind != JointNetLayer::Kind::kConvolution) continue;
+      const ConvLayer& layer = net.layers[l];
+      if (layer.kind != ConvLayer::Kind::kConvolution) continue;
       std::vector<float> direction(net.parameters.size(), 0.f);
       double slope = 0, length = 0;
       for (std::size_t i = layer.weights; i < layer.biases + static_cast<std::size_t>(layer.channels); ++i) {

@@ -1,4 +1,4 @@
-#include "libskel/jointnet/conv_kernels.h"
+#include "libskel/convnet/conv_kernels.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Derivatives of the joint net and of its loss.
+// What the joint net should say, and its loss.
 #pragma once
 
 #include <vector>
@@ -8,21 +8,6 @@
 #include "trainer/figures/figure.h"
 
 namespace skel {
-
-// Weights as the pass backwards wants them: of each convolution, outputs and inputs swapped, taps turned
-// round. To be made anew after each change of the parameters.
-std::vector<float> transposedWeights(const JointNet& net);
-
-struct JointNetGradient {
-  std::vector<std::vector<float>> maps;  // of the maps of one pass; as JointNetMaps
-  std::vector<float> parameters;         // summed over passes
-  explicit JointNetGradient(const JointNet& net);
-};
-
-// `gradient.maps.back()` holds the loss's derivative by the last map and the other maps' hold zeros. Adds
-// the derivative by the parameters to gradient.parameters. The input's own derivative is not computed.
-void backward(const JointNet& net, InstructionSet set, const std::vector<float>& transposed,
-              const JointNetMaps& maps, JointNetGradient& gradient);
 
 // What the net should say about one figure.
 struct JointTarget {

@@ -1,7 +1,7 @@
 // Compiled with -mavx512f.
 #include <immintrin.h>
 
-#include "libskel/jointnet/conv_kernels_sets.h"
+#include "libskel/convnet/conv_kernels_sets.h"
 
 namespace {
 
@@ -23,7 +23,7 @@ struct SixteenFloats {
 #define SKEL_VECTOR SixteenFloats
 #define SKEL_ROWS 12
 #define SKEL_GRADIENT_ROWS 8
-#include "libskel/jointnet/conv_kernels_impl.h"
+#include "libskel/convnet/conv_kernels_impl.h"
 
 namespace skel {
 const ConvKernels kAvx512Kernels = {convolvePixels, gradientPixels};

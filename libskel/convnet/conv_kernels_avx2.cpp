@@ -1,7 +1,7 @@
 // Compiled with -mavx2 -mfma.
 #include <immintrin.h>
 
-#include "libskel/jointnet/conv_kernels_sets.h"
+#include "libskel/convnet/conv_kernels_sets.h"
 
 namespace {
 
@@ -22,7 +22,7 @@ struct EightFloats {
 #define SKEL_VECTOR EightFloats
 #define SKEL_ROWS 6
 #define SKEL_GRADIENT_ROWS 4
-#include "libskel/jointnet/conv_kernels_impl.h"
+#include "libskel/convnet/conv_kernels_impl.h"
 
 namespace skel {
 const ConvKernels kAvx2Kernels = {convolvePixels, gradientPixels};

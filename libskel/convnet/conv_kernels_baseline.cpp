@@ -1,4 +1,4 @@
-#include "libskel/jointnet/conv_kernels_sets.h"
+#include "libskel/convnet/conv_kernels_sets.h"
 
 namespace {
 
@@ -21,7 +21,7 @@ struct FourFloats {
 #define SKEL_VECTOR FourFloats
 #define SKEL_ROWS 4
 #define SKEL_GRADIENT_ROWS 4
-#include "libskel/jointnet/conv_kernels_impl.h"
+#include "libskel/convnet/conv_kernels_impl.h"
 
 namespace skel {
 const ConvKernels kBaselineKernels = {convolvePixels, gradientPixels};

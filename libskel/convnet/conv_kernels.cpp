@@ -1,10 +1,10 @@
-#include "libskel/jointnet/conv_kernels.h"
+#include "libskel/convnet/conv_kernels.h"
 
 #include <algorithm>
 #include <array>
 
 #include "libskel/core/check.h"
-#include "libskel/jointnet/conv_kernels_sets.h"
+#include "libskel/convnet/conv_kernels_sets.h"
 
 namespace skel {
 namespace {

@@ -1,0 +1,110 @@
+// Weights of convolutional nets as bytes.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "libskel/convnet/conv_net.h"
+#include "libskel/core/error.h"
+
+namespace skel {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "weights are read and written as they lie");
+
+// The output channel that weight i of a layer goes to: weightIndex(), read backwards.
+std::size_t outputOf(const ConvNet& net, const ConvLayer& layer, std::size_t i) {
+  const ConvShape shape = convShape(net, layer);
+  const auto panel = static_cast<std::size_t>(shape.taps() * shape.in_channels) * 16;
+  return i / panel * 16 + i % 16;
+}
+
+std::size_t weightCount(const ConvLayer& layer) { return layer.biases - layer.weights; }
+
+std::vector<float> outputScales(const ConvNet& net, const ConvLayer& layer) {
+  std::vector<float> scales(layer.channels, 0.f);
+  for (std::size_t i = 0; i < weightCount(layer); ++i) {
+    float& s = scales[outputOf(net, layer, i)];
+    s = std::max(s, std::abs(net.parameters[layer.weights + i]) / 127);
+  }
+  return scales;
+}
+
+std::int8_t rounded(float weight, float scale) {
+  if (scale == 0) return 0;
+  return static_cast<std::int8_t>(std::clamp(std::lround(weight / scale), -127l, 127l));
+}
+
+}  // namespace
+
+std::vector<std::array<int, 3>> convolutionSizes(const ConvNet& net) {
+  std::vector<std::array<int, 3>> list;
+  for (const ConvLayer& layer : net.layers) {
+    if (layer.kind != ConvLayer::Kind::kConvolution) continue;
+    list.push_back({net.maps[layer.input].channels, layer.channels, layer.kernel});
+  }
+  return list;
+}
+
+void quantize(ConvNet& net) {
+  for (const ConvLayer& layer : net.layers) {
+    if (layer.kind != ConvLayer::Kind::kConvolution) continue;
+    const std::vector<float> scales = outputScales(net, layer);
+    for (std::size_t i = 0; i < weightCount(layer); ++i) {
+      float& w = net.parameters[layer.weights + i];
+      w = static_cast<float>(rounded(w, scales[outputOf(net, layer, i)])) * scales[outputOf(net, layer, i)];
+    }
+  }
+}
+
+std::string formatWeights(const ConvNet& net) {
+  std::string bytes;
+  const auto append = [&](const void* data, std::size_t size) {
+    bytes.append(static_cast<const char*>(data), size);
+  };
+  for (const ConvLayer& layer : net.layers) {
+    if (layer.kind != ConvLayer::Kind::kConvolution) continue;
+    const std::vector<float> scales = outputScales(net, layer);
+    append(scales.data(), scales.size() * sizeof(float));
+    append(net.parameters.data() + layer.biases, layer.channels * sizeof(float));
+    for (std::size_t i = 0; i < weightCount(layer); ++i) {
+      const std::int8_t w = rounded(net.parameters[layer.weights + i], scales[outputOf(net, layer, i)]);
+      append(&w, 1);
+    }
+  }
+  return bytes;
+}
+
+void parseWeights(std::string_view bytes, const std::string& file, ConvNet& net) {
+  std::size_t size = 0;
+  for (const ConvLayer& layer : net.layers) {
+    if (layer.kind == ConvLayer::Kind::kConvolution) {
+      size += weightCount(layer) + 2 * sizeof(float) * static_cast<std::size_t>(layer.channels);
+    }
+  }
+  if (bytes.size() != size) {
+    throw InputError(file, "has " + std::to_string(bytes.size()) + " bytes of weights, expected " +
+                               std::to_string(size) + ": the file is cut off or damaged");
+  }
+  const char* at = bytes.data();
+  const auto take = [&](void* to, std::size_t wanted) {
+    std::memcpy(to, at, wanted);
+    at += wanted;
+  };
+  for (const ConvLayer& layer : net.layers) {
+    if (layer.kind != ConvLayer::Kind::kConvolution) continue;
+    std::vector<float> scales(layer.channels);
+    take(scales.data(), scales.size() * sizeof(float));
+    take(net.parameters.data() + layer.biases, layer.channels * sizeof(float));
+    std::vector<std::int8_t> weights(weightCount(layer));
+    take(weights.data(), weights.size());
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      net.parameters[layer.weights + i] = static_cast<float>(weights[i]) * scales[outputOf(net, layer, i)];
+    }
+  }
+  for (const float p : net.parameters) {
+    if (!std::isfinite(p)) throw InputError(file, "holds weights that are no numbers");
+  }
+}
+
+}  // namespace skel

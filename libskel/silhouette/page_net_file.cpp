@@ -1,0 +1,57 @@
+// Weights files of the page net.
+#include <nlohmann/json.hpp>
+
+#include "embedded/page_net_weights.h"
+#include "libskel/core/error.h"
+#include "libskel/core/json.h"
+#include "libskel/core/sha256.h"
+#include "libskel/silhouette/page_net.h"
+
+namespace skel {
+namespace {
+
+constexpr std::string_view kFormat = "skel-page-net";
+constexpr int kVersion = 1;
+
+}  // namespace
+
+std::string formatPageNet(const PageNet& net) {
+  const std::string payload = formatWeights(net);
+  const nlohmann::ordered_json header = {{"format", kFormat},
+                                         {"version", kVersion},
+                                         {"provenance", net.provenance},
+                                         {"convolutions", convolutionSizes(net)},
+                                         {"sha256", sha256(payload)}};
+  return header.dump() + "\n" + payload;
+}
+
+PageNet parsePageNet(std::string_view bytes, const std::string& file) {
+  const std::size_t end = bytes.find('\n');
+  if (end == std::string_view::npos) throw InputError(file, "not a page net: it has no header line");
+  const JsonDocument document = JsonDocument::parse(bytes.substr(0, end), file);
+  const JsonValue root = document.root();
+  root.checkFormat(kFormat, kVersion);
+  root.allowOnly({"format", "version", "provenance", "convolutions", "sha256"});
+  PageNet net = makePageNet();
+  net.provenance = root.at("provenance").asString();
+  const auto expected = convolutionSizes(net);
+  const std::vector<JsonValue> given = root.at("convolutions").items();
+  bool same = given.size() == expected.size();
+  for (std::size_t i = 0; same && i < given.size(); ++i) {
+    const std::vector<double> sizes = given[i].asNumbers(3);
+    same = std::equal(sizes.begin(), sizes.end(), expected[i].begin());
+  }
+  if (!same) root.at("convolutions").fail("not the layers of this program's net: train it anew");
+  const std::string_view payload = bytes.substr(end + 1);
+  parseWeights(payload, file, net);
+  if (sha256(payload) != root.at("sha256").asString())
+    throw InputError(file, "its weights do not fit its sha256: the file is damaged");
+  return net;
+}
+
+const PageNet& builtInPageNet() {
+  static const PageNet net = parsePageNet(embedded::page_net_weights, "built-in page net");
+  return net;
+}
+
+}  // namespace skel

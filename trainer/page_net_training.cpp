@@ -1,0 +1,203 @@
+#include "trainer/page_net_training.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+#include <sstream>
+
+#include "libskel/core/files.h"
+#include "libskel/core/parallel.h"
+#include "libskel/core/progress.h"
+#include "libskel/image/read_image.h"
+#include "libskel/image/write_image.h"
+#include "libskel/silhouette/page_net.h"
+#include "trainer/conv_net_trainer.h"
+#include "trainer/jointed_drawing.h"
+#include "trainer/page_loss.h"
+#include "trainer/pages/page.h"
+
+namespace skel {
+namespace {
+
+// Streams of random numbers of one seed. Pages have a stream each by number.
+enum Stream : std::uint64_t { kInitialStream = 1, kPageStream = 1u << 20, kValidationStream = 1ull << 48 };
+
+PageOptions pageOptions(const PageTrainingOptions& options) {
+  PageOptions out;
+  out.drawn_share = options.drawn_share;
+  std::vector<JointedDrawing> drawings;
+  for (const std::string& folder : options.drawings) {
+    std::vector<JointedDrawing> found = findJointedDrawings(folder);
+    std::move(found.begin(), found.end(), std::back_inserter(drawings));
+  }
+  out.drawings.resize(drawings.size());
+  parallelFor(drawings.size(), options.threads, [&](std::size_t i) {
+    const Image image = readImage(drawings[i].image);
+    out.drawings[i] = annotatedDrawing(image, silhouetteOf(image, drawings[i]).mask, {}, FigureView::kFront);
+  });
+  return out;
+}
+
+std::vector<Page> drawPages(const PageTrainingOptions& options, const PageOptions& page_options,
+                            std::uint64_t first, int count) {
+  std::vector<Page> pages(static_cast<std::size_t>(count));
+  parallelFor(pages.size(), options.threads, [&](std::size_t i) {
+    Rng rng(options.seed, first + i);
+    pages[i] = generatePage(rng, page_options);
+  });
+  return pages;
+}
+
+// Mean loss, mean intersection over union, and the share of pages on which that is at least .9.
+struct PageReport {
+  double loss = 0, iou = 0, good = 0;
+};
+
+PageReport validate(const PageNet& net, const std::vector<Page>& pages, int threads) {
+  std::vector<PageReport> reports(pages.size());
+  parallelFor(pages.size(), threads, [&](std::size_t i) {
+    ConvNetMaps maps(net);
+    encodePage(pages[i].rgb, maps.maps[0]);
+    forward(net, bestInstructionSet(), maps);
+    reports[i].loss = pageLoss(maps.maps.back(), pages[i].figure, 0, nullptr);
+    int both = 0, either = 0;
+    for (int y = 0; y < pages[i].figure.rows; ++y)
+      for (int x = 0; x < pages[i].figure.cols; ++x) {
+        const bool is = pages[i].figure.at<std::uint8_t>(y, x) > 127,
+                   said = maps.maps.back()[pageLogitIndex(y, x)] > 0;
+        both += is && said;
+        either += is || said;
+      }
+    reports[i].iou = either == 0 ? 1 : static_cast<double>(both) / either;
+    reports[i].good = reports[i].iou >= .9;
+  });
+  PageReport mean;
+  for (const PageReport& r : reports) {
+    const auto n = static_cast<double>(reports.size());
+    mean.loss += r.loss / n;
+    mean.iou += r.iou / n;
+    mean.good += r.good / n;
+  }
+  return mean;
+}
+
+void writeSheet(const PageTrainingOptions& options, const PageOptions& page_options) {
+  constexpr int kColumns = 8, kRows = 5;
+  const std::vector<Page> pages = drawPages(options, page_options, kValidationStream, kColumns * kRows);
+  cv::Mat sheet(kRows * kPageNetSize, kColumns * kPageNetSize, CV_8UC3, cv::Scalar::all(128));
+  for (int i = 0; i < kColumns * kRows; ++i) {
+    const Page& page = pages[static_cast<std::size_t>(i)];
+    cv::Mat shown = page.rgb.clone(), edge;
+    cv::morphologyEx(page.figure > 127, edge, cv::MORPH_GRADIENT, cv::Mat::ones(2, 2, CV_8U));
+    shown.setTo(cv::Scalar(255, 0, 200), edge);
+    shown.copyTo(
+        sheet(cv::Rect(i % kColumns * kPageNetSize, i / kColumns * kPageNetSize, shown.cols, shown.rows)));
+  }
+  Image image(sheet.cols, sheet.rows);
+  for (int y = 0; y < sheet.rows; ++y)
+    for (int x = 0; x < sheet.cols; ++x) {
+      const cv::Vec3b& p = sheet.at<cv::Vec3b>(y, x);
+      std::uint8_t* o = image.pixel(x, y);
+      o[0] = p[0], o[1] = p[1], o[2] = p[2], o[3] = 255;
+    }
+  writeFile(options.sheet, encodePng(image));
+}
+
+}  // namespace
+
+void bindPageTrainingOptions(CLI::App& command, PageTrainingOptions& options) {
+  command.add_option("-o,--output", options.output, "Weights file to write")->capture_default_str();
+  command.add_option("--start", options.start, "Net to go on from")->type_name("FILE");
+  command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report");
+  command.add_option("--sheet", options.sheet, "Picture of generated pages to write, instead of training")
+      ->type_name("FILE");
+  command.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
+  command.add_option("--steps", options.steps)->check(CLI::Range(1, 10'000'000))->capture_default_str();
+  command.add_option("--batch", options.batch, "Pages a step")
+      ->check(CLI::Range(4, 1024))
+      ->capture_default_str();
+  command.add_option("--rate", options.peak_rate, "Highest learning rate")->capture_default_str();
+  command
+      .add_option("--drawings", options.drawings,
+                  "Drawings that some pages show: *.joints.json and *.mask.png, or what skel-label saves")
+      ->type_name("DIR")
+      ->take_all();
+  command.add_option("--drawn", options.drawn_share, "Share of figures that come from them")
+      ->check(CLI::Range(0., 1.))
+      ->capture_default_str();
+  command.add_option("--threads", options.threads, "0: one a core")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command.add_option("--validation", options.validation_pages, "Pages that a report measures on")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  command.add_option("--report-every", options.report_every, "Steps")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+}
+
+ExitCode runPageTraining(const PageTrainingOptions& options) {
+  const PageOptions page_options = pageOptions(options);
+  if (!options.sheet.empty()) {
+    writeSheet(options, page_options);
+    return ExitCode::kDone;
+  }
+  PageNet net = makePageNet();
+  if (options.start.empty()) {
+    Rng rng(options.seed, kInitialStream);
+    initialise(net, rng);
+  } else {
+    net = parsePageNet(readFile(options.start), options.start);
+  }
+  ConvNetSchedule schedule;
+  schedule.steps = options.steps;
+  schedule.batch = options.batch;
+  schedule.peak_rate = options.peak_rate;
+  schedule.threads = options.threads;
+  ConvNetTrainer trainer(net, schedule);
+  if (!options.checkpoint.empty() && std::filesystem::exists(options.checkpoint))
+    trainer.restore(readFile(options.checkpoint), options.checkpoint);
+  const std::vector<Page> validation =
+      drawPages(options, page_options, kValidationStream, options.validation_pages);
+  std::vector<Page> pages(static_cast<std::size_t>(options.batch));
+  ProgressBar bar("training", static_cast<std::size_t>(options.steps));
+  bar.advance(static_cast<std::size_t>(trainer.steps()));
+  double loss = 0;
+  int counted = 0;
+  while (!trainer.done()) {
+    loss += trainer.step({[&](int b, std::vector<float>& input) {
+                            Rng page_rng(options.seed,
+                                         kPageStream +
+                                             static_cast<std::uint64_t>(trainer.steps() * options.batch + b));
+                            pages[b] = generatePage(page_rng, page_options);
+                            encodePage(pages[b].rgb, input);
+                          },
+                          [&](int b, const std::vector<float>& output, std::vector<float>& gradient) {
+                            return pageLoss(output, pages[b].figure, 1. / options.batch, &gradient);
+                          }});
+    ++counted;
+    bar.advance();
+    if (trainer.steps() % options.report_every != 0 && !trainer.done()) continue;
+    net.parameters = trainer.averaged();
+    quantize(net);
+    const PageReport r = validate(net, validation, options.threads);
+    std::ostringstream provenance;
+    provenance << "skel-train pages: seed " << options.seed << ", step " << trainer.steps() << " of "
+               << options.steps << ", batch " << options.batch << ", " << page_options.drawings.size()
+               << " drawings for " << page_options.drawn_share << " of the figures, validation IoU " << r.iou;
+    net.provenance = provenance.str();
+    bar.clear();
+    std::printf("step %lld  loss %.4f  validation: loss %.4f  IoU %.4f  of at least .9 %.3f\n",
+                static_cast<long long>(trainer.steps()), loss / counted, r.loss, r.iou, r.good);
+    std::fflush(stdout);
+    loss = 0;
+    counted = 0;
+    writeFile(options.output, formatPageNet(net));
+    if (!options.checkpoint.empty()) writeFile(options.checkpoint, trainer.checkpoint());
+  }
+  return ExitCode::kDone;
+}
+
+}  // namespace skel
