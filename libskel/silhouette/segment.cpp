@@ -162,7 +162,7 @@ double shareApart(const cv::Mat& figure, const cv::Mat& other, int reach) {
 // how probably each pixel is figure, CV_32F.
 cv::Mat agreed(const cv::Mat& drawn, const cv::Mat& page) {
   constexpr float kSurely = 0.7f, kSeen = 0.5f, kPerhaps = 0.3f, kWithoutDoubt = 0.9f;
-  constexpr double kReach = 0.02, kLeastApart = 0.1;     // of the long side; of the figure
+  constexpr double kReach = 0.02, kLeastApart = 0.1;      // of the long side; of the figure
   constexpr double kLeastSeen = 0.2, kLeastClear = 0.35;  // of what is drawn; of what is seen
   const int seen = cv::countNonZero(page > kSeen);
   if (seen <= kLeastSeen * cv::countNonZero(drawn)) return drawn;
