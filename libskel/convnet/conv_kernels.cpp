@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "libskel/core/check.h"
 #include "libskel/convnet/conv_kernels_sets.h"
+#include "libskel/core/check.h"
 
 namespace skel {
 namespace {

@@ -30,7 +30,7 @@ constexpr int heatmapChannels(int joints) { return (joints + 1 + 15) / 16 * 16; 
 struct JointNet : ConvNet {
   std::string body_plan;            // name of the template that it was trained for
   std::vector<std::string> joints;  // of the heatmaps, at most kMaxNetJoints
-  std::string provenance;         // how the weights came to be, for people
+  std::string provenance;           // how the weights came to be, for people
 
   // The channel after the joints': its mean is the log-odds of one whole upright figure of the body plan.
   int figureChannel() const { return static_cast<int>(joints.size()); }
