@@ -66,7 +66,7 @@ Image heatPicture(const Eigen::MatrixXd& values, int width, int height) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       field(y, x) = float(values(y * values.rows() / height, x * values.cols() / width));
-  return heatMap(field);
+  return heatMap(field + 1e-6f);  // 0 is dark, not clear
 }
 
 }  // namespace
