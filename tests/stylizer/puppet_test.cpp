@@ -56,7 +56,7 @@ Filmed filmed(const CharacterFile& file, const std::string& clip_name, double ya
 TEST_CASE("a drawing at rest is the drawing, and no triangle is turned over in the motions of skel") {
   for (const char* name : {"cap_boy", "alien", "dad_tie", "clerk", "zombie"}) {
     CAPTURE(name);
-    const RiggedDrawing rigged = rigDrawing(drawing(name));
+    const RiggedDrawing rigged = rigPerformer(drawing(name));
     const Puppet puppet = makePuppet(rigged.image, rigged.silhouette, rigged.recognition.skeleton, biped());
     const Eigen::MatrixX2d rest = posedVertices(puppet, puppet.rest.col(0));
     CHECK((rest - puppet.vertices).cwiseAbs().maxCoeff() < 0.01);
