@@ -8,10 +8,8 @@
 
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_library.h"
-#include "libskel/classifier/weights_file.h"
 #include "libskel/core/error.h"
-#include "libskel/image/read_image.h"
-#include "libskel/pipeline/rig_character.h"
+#include "libskel/pipeline/rig_drawing.h"
 
 namespace skel {
 namespace {
@@ -28,17 +26,6 @@ bool isDrawing(const std::string& path) {
   constexpr std::array<std::string_view, 8> kEndings = {".png", ".jpg", ".jpeg", ".webp",
                                                         ".bmp", ".tif", ".tiff", ".gif"};
   return std::find(kEndings.begin(), kEndings.end(), endingOf(path)) != kEndings.end();
-}
-
-CharacterFile rigDrawing(const std::string& path, const std::string& body_plan) {
-  RigInput input;
-  input.image = readImage(path);
-  RigOptions rig;
-  rig.mlp = defaultMlp();
-  rig.body_plan = loadTemplate(body_plan);
-  RiggedDrawing drawing = rigCharacter(std::move(input), rig);
-  if (!drawing.found()) throw InputError(path, drawing.silhouette.reason);
-  return {std::move(drawing.character), {}, fs::path(path).stem().string()};
 }
 
 bool hasClip(const std::vector<Clip>& clips, const std::string& name) {
@@ -63,7 +50,8 @@ void bindCharacterSource(CLI::App& app, CharacterSource& source) {
 }
 
 CharacterFile loadCharacter(const CharacterSource& source) {
-  if (isDrawing(source.path)) return rigDrawing(source.path, source.body_plan);
+  if (isDrawing(source.path))
+    return {rigDrawing(source.path, source.body_plan).character, {}, stemOf(source.path)};
   const bool rigged = endingOf(source.path) == ".glb";
   if (rigged && source.skeleton.empty()) return readGlb(source.path);
   if (!rigged && source.skeleton.empty())

@@ -27,31 +27,29 @@ FilmInfo lookAtFilm(const FilmSource& source, Image& background) {
   std::vector<Image> samples;
   int every = std::max(1, reader->frameCount() / int(kBackgroundFrames));
   VideoFrame frame;
-  while (reader->next(frame)) {
-    if (info.frames == 0) {
-      info.width = frame.image.width;
-      info.height = frame.image.height;
-      const bool transparent = hasTransparency(frame.image);
-      if (source.figure == "alpha" && !transparent)
-        throw InputError(source.path, "has no transparency; use another --figure");
-      if (transparent && (source.figure == "auto" || source.figure == "alpha")) {
-        info.method = FigureMethod::kAlpha;
+  const bool by_alpha = source.figure == "auto" || source.figure == "alpha";
+  bool transparent = false;
+  info.method = source.figure == "silhouette" ? FigureMethod::kSilhouette : FigureMethod::kStill;
+  for (; reader->next(frame); ++info.frames) {
+    info.width = frame.image.width;
+    info.height = frame.image.height;
+    if (by_alpha && !transparent && hasTransparency(frame.image)) {
+      transparent = true;
+      info.method = FigureMethod::kAlpha;
+      if (reader->frameCount() > 0) {
         info.frames = reader->frameCount();
-        if (info.frames > 0) return info;
-      } else {
-        info.method = source.figure == "silhouette" ? FigureMethod::kSilhouette : FigureMethod::kStill;
+        break;
       }
     }
-    if (info.method == FigureMethod::kStill && info.frames % every == 0) {
-      samples.push_back(frame.image);
-      if (samples.size() >= 2 * kBackgroundFrames) {
-        for (std::size_t i = 0; 2 * i < samples.size(); ++i) samples[i] = std::move(samples[2 * i]);
-        samples.resize(samples.size() / 2);
-        every *= 2;
-      }
-    }
-    ++info.frames;
+    if (info.method != FigureMethod::kStill || info.frames % every != 0) continue;
+    samples.push_back(frame.image);
+    if (samples.size() < 2 * kBackgroundFrames) continue;
+    for (std::size_t i = 0; 2 * i < samples.size(); ++i) samples[i] = std::move(samples[2 * i]);
+    samples.resize(samples.size() / 2);
+    every *= 2;
   }
+  if (source.figure == "alpha" && !transparent)
+    throw InputError(source.path, "has no transparency in any frame; use another --figure");
   if (info.method != FigureMethod::kStill) return info;
   background = stillBackground(samples);
   if (source.figure == "auto" &&

@@ -34,8 +34,8 @@ struct FilmFrame {
 };
 
 // Which method, and how many frames: reads the film once unless its frames are transparent and counted. By
-// `auto`: their alpha if they have any; else a still background, unless the figure itself stands in it, as
-// one does that walks on the spot; then the silhouette. Throws InputError.
+// `auto`: their alpha if any frame has some; else a still background, unless the figure itself stands in it,
+// as one does that walks on the spot; then the silhouette. Throws InputError.
 FilmInfo lookAtFilm(const FilmSource& source, Image& background);
 
 // work(i, frame) for each frame, several at once, in batches; `background` as lookAtFilm() found it.

@@ -62,15 +62,11 @@ Eigen::MatrixXd distances(const MotionFile& motion, const std::string& path, con
 }
 
 Image heatPicture(const Eigen::MatrixXd& values, int width, int height) {
-  const double most = std::max(1e-12, values.maxCoeff());
-  Image image(width, height);
+  Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> field(height, width);
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const Color c = heatColor(values(y * values.rows() / height, x * values.cols() / width) / most);
-      std::uint8_t* p = image.pixel(x, y);
-      p[0] = c.r, p[1] = c.g, p[2] = c.b, p[3] = 255;
-    }
-  return image;
+    for (int x = 0; x < width; ++x)
+      field(y, x) = float(values(y * values.rows() / height, x * values.cols() / width));
+  return heatMap(field + 1e-6f);  // 0 is dark, not clear
 }
 
 }  // namespace

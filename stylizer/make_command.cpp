@@ -40,7 +40,7 @@ ExitCode runMake(const MakeOptions& given) {
   }
   openVideo(options.output, {.transparent = options.perform.film.background == "none"});
   const SkeletonTemplate plan = loadTemplate("biped");
-  const RiggedDrawing drawing = rigDrawing(options.character);
+  const RiggedDrawing drawing = rigPerformer(options.character);
   const NamedMotion content = motionOf(options.content, "content", options);
   const NamedMotion style = motionOf(options.style, "style", options);
   const MotionTransferReport report = transferMotion({content}, {style}, transferOptions(options.request));

@@ -3,20 +3,17 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
-#include "libskel/classifier/weights_file.h"
 #include "libskel/core/error.h"
 #include "libskel/core/parallel.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/draw/draw_triangles.h"
 #include "libskel/image/read_image.h"
-#include "libskel/skeleton/skeleton_file.h"
+#include "libskel/pipeline/rig_drawing.h"
 #include "libskel/style/align_phases.h"
 
 namespace skel {
 namespace {
-namespace fs = std::filesystem;
 
 constexpr double kMargin = 0.05;  // around the figure, of the long side
 constexpr std::size_t kBatch = 8;
@@ -158,24 +155,10 @@ void writePuppetFilm(const Puppet& puppet, const PuppetFrames& frames, VideoWrit
   }
 }
 
-RiggedDrawing rigDrawing(const std::string& path) {
-  RigInput input;
-  RigOptions rig;
-  rig.mlp = defaultMlp();
-  rig.body_plan = loadTemplate("biped");
+RiggedDrawing rigPerformer(const std::string& path) {
   if (path.ends_with(".glb"))
     throw InputError(path, "is a 3D character: make a clip by --to-clip, and play it by skel-animate render");
-  if (path.ends_with(".skeleton.json")) {
-    const SkeletonFile file = readSkeletonFile(path, rig.body_plan);
-    input.image = readImage((fs::path(path).parent_path() / file.image_file).string());
-    input.skeleton = file.skeleton;
-    if (file.mask) input.mask = readMask((fs::path(path).parent_path() / file.mask->file).string());
-  } else {
-    input.image = readImage(path);
-  }
-  RiggedDrawing drawing = rigCharacter(std::move(input), rig);
-  if (!drawing.found()) throw InputError(path, drawing.silhouette.reason);
-  return drawing;
+  return rigDrawing(path, "biped");
 }
 
 }  // namespace skel

@@ -41,6 +41,6 @@ void writePuppetFilm(const Puppet& puppet, const PuppetFrames& frames, VideoWrit
                      const std::function<void()>& on_frame);
 
 // Reads a drawing, or the .skeleton.json of one, and rigs it. Throws InputError.
-RiggedDrawing rigDrawing(const std::string& path);
+RiggedDrawing rigPerformer(const std::string& path);
 
 }  // namespace skel

@@ -64,7 +64,7 @@ ExitCode runRender(const RenderOptions2D& options) {
   if (!options.output.empty()) {
     // What cannot be written is said before anything is rigged.
     openVideo(options.output, {.transparent = options.perform.film.background == "none"});
-    perform(rigDrawing(options.character), motion, options.motion, loops, options.perform, options.output);
+    perform(rigPerformer(options.character), motion, options.motion, loops, options.perform, options.output);
   }
   if (!options.to_clip.empty()) {
     std::string name = std::filesystem::path(options.to_clip).filename().string();

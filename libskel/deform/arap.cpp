@@ -5,11 +5,13 @@
 #include <array>
 #include <complex>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
+#include "libskel/deform/untangle.h"
 
 namespace skel {
 namespace {
@@ -20,19 +22,12 @@ using Eigen::Vector2d;
 
 // Cotangents below this, of triangles that are nearly flat, would let edges pull themselves apart.
 constexpr double kLeastCotangent = 0.05;
-// A triangle of less area than this share of its own counts as turned over.
-constexpr double kLeastArea = 0.01;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-struct Handle {
-  std::array<int, 3> vertices;
-  std::array<double, 3> shares;  // barycentric
-};
-
-Handle handleAt(const Vector2d& p, const Eigen::MatrixX2d& v, const Eigen::MatrixX3i& triangles) {
+MeshHandle handleAt(const Vector2d& p, const Eigen::MatrixX2d& v, const Eigen::MatrixX3i& triangles) {
   double nearest = std::numeric_limits<double>::infinity();
-  Handle handle{};
+  MeshHandle handle{};
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     std::array<Vector2d, 3> c;
     for (int k = 0; k < 3; ++k) c[std::size_t(k)] = v.row(triangles(t, k));
@@ -71,48 +66,13 @@ struct ArapMesh::Content {
   };
   Eigen::Index vertex_count = 0;
   std::vector<std::array<Edge, 3>> triangles;
-  std::vector<Handle> handles;
+  std::vector<MeshHandle> handles;
   ArapOptions options;
   double handle_weight = 0;
-  std::vector<std::vector<int>> neighbours;  // one list a vertex, ascending
+  std::optional<Untangler> untangler;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complex>> free;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> rigid;
 };
-
-namespace {
-
-// The area of the triangle beside that which it has at rest.
-double areaShare(const std::array<ArapMesh::Content::Edge, 3>& edges, const Eigen::MatrixX2d& v) {
-  const auto cross2 = [](const Complex& a, const Complex& b) {
-    return a.real() * b.imag() - a.imag() * b.real();
-  };
-  const auto along = [&](const ArapMesh::Content::Edge& e) {
-    return Complex(v(e.to, 0) - v(e.from, 0), v(e.to, 1) - v(e.from, 1));
-  };
-  return cross2(along(edges[0]), along(edges[1])) / cross2(edges[0].rest, edges[1].rest);
-}
-
-void unfold(const ArapMesh::Content& c, Eigen::MatrixX2d& posed) {
-  std::vector<int> moving;
-  for (int i = 0; i < c.options.unfolding; ++i) {
-    bool folded = false;
-    for (const auto& edges : c.triangles) {
-      if (areaShare(edges, posed) > kLeastArea) continue;
-      folded = true;
-      for (const ArapMesh::Content::Edge& e : edges) moving.push_back(e.from);
-    }
-    if (!folded) return;
-    std::sort(moving.begin(), moving.end());
-    moving.erase(std::unique(moving.begin(), moving.end()), moving.end());
-    for (const int v : moving) {
-      Eigen::RowVector2d sum = Eigen::RowVector2d::Zero();
-      for (const int n : c.neighbours[std::size_t(v)]) sum += posed.row(n);
-      posed.row(v) = sum / double(c.neighbours[std::size_t(v)].size());
-    }
-  }
-}
-
-}  // namespace
 
 ArapMesh::ArapMesh(const Eigen::MatrixX2d& vertices, const Eigen::MatrixX3i& triangles,
                    const Eigen::MatrixX2d& handles, const ArapOptions& options) {
@@ -160,7 +120,7 @@ ArapMesh::ArapMesh(const Eigen::MatrixX2d& vertices, const Eigen::MatrixX3i& tri
   }
   c.handle_weight = options.handle_weight;
   for (Eigen::Index h = 0; h < handles.rows(); ++h) {
-    const Handle handle = handleAt(handles.row(h), vertices, triangles);
+    const MeshHandle handle = handleAt(handles.row(h), vertices, triangles);
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < 3; ++k) {
         const double w = c.handle_weight * handle.shares[i] * handle.shares[k];
@@ -177,16 +137,7 @@ ArapMesh::ArapMesh(const Eigen::MatrixX2d& vertices, const Eigen::MatrixX3i& tri
   c.rigid.compute(rigid_matrix);
   if (c.free.info() != Eigen::Success || c.rigid.info() != Eigen::Success)
     throw UsageError("the mesh cannot be deformed: it is in several parts, of which some have no handle");
-  c.neighbours.resize(std::size_t(c.vertex_count));
-  for (const auto& edges : c.triangles)
-    for (const Content::Edge& e : edges) {
-      c.neighbours[std::size_t(e.from)].push_back(e.to);
-      c.neighbours[std::size_t(e.to)].push_back(e.from);
-    }
-  for (std::vector<int>& list : c.neighbours) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
+  c.untangler.emplace(vertices, triangles, c.handles);
   content_ = std::move(content);
 }
 
@@ -224,17 +175,15 @@ Eigen::MatrixX2d ArapMesh::deform(const Eigen::MatrixX2d& targets) const {
     z.real() = posed.col(0);
     z.imag() = posed.col(1);
   }
-  unfold(c, posed);
+  c.untangler->untangle(posed, targets);
   return posed;
 }
 
 Eigen::MatrixX2d ArapMesh::handlesOf(const Eigen::MatrixX2d& vertices) const {
   SKEL_CHECK_EQ(vertices.rows(), content_->vertex_count);
-  Eigen::MatrixX2d places = Eigen::MatrixX2d::Zero(Eigen::Index(content_->handles.size()), 2);
+  Eigen::MatrixX2d places(Eigen::Index(content_->handles.size()), 2);
   for (std::size_t h = 0; h < content_->handles.size(); ++h)
-    for (std::size_t k = 0; k < 3; ++k)
-      places.row(Eigen::Index(h)) +=
-          content_->handles[h].shares[k] * vertices.row(content_->handles[h].vertices[k]);
+    places.row(Eigen::Index(h)) = content_->handles[h].of(vertices).transpose();
   return places;
 }
 

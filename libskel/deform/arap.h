@@ -4,7 +4,7 @@
 // which triangles may turn and scale freely (§4.1), a second one in which they have their own size back
 // (§4.2). The second one is that of L. Liu et al., "A local/global approach to mesh parameterization" (2008),
 // §4, repeated: triangles turn, then vertices follow, so that the energy never rises. Both matrices are
-// factorised once.
+// factorised once. What is then still turned over, inside an elbow that is bent far, is mended by untangle.h.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,9 +15,6 @@ namespace skel {
 struct ArapOptions {
   int iterations = 6;          // of the second solve, at least 1
   double handle_weight = 100;  // how much a handle's place counts beside a triangle's shape
-  // Where triangles are left turned over (inside an elbow that is bent far), their corners move to the middle
-  // of their neighbours, so many times at most.
-  int unfolding = 60;
 };
 
 class ArapMesh {

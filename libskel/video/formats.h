@@ -24,6 +24,7 @@ std::unique_ptr<VideoWriter> openMp4(const std::string& path, const VideoOptions
 std::unique_ptr<VideoWriter> openGif(const std::string& path, const VideoOptions& options);
 #endif
 #ifdef SKEL_VIDEO_WEBP
+std::unique_ptr<VideoReader> readWebp(const std::string& path);
 std::unique_ptr<VideoWriter> openWebp(const std::string& path, const VideoOptions& options);
 #endif
 

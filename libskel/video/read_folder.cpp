@@ -15,13 +15,17 @@ namespace skel {
 namespace {
 namespace fs = std::filesystem;
 
-bool isPicture(const std::string& path) {
-  constexpr std::array<std::string_view, 7> kEndings = {".png", ".jpg", ".jpeg", ".webp",
-                                                        ".bmp", ".tif", ".tiff"};
+std::string endingOf(const std::string& path) {
   std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end() &&
+  return ending;
+}
+
+bool isPicture(const std::string& path) {
+  constexpr std::array<std::string_view, 7> kEndings = {".png", ".jpg", ".jpeg", ".webp",
+                                                        ".bmp", ".tif", ".tiff"};
+  return std::find(kEndings.begin(), kEndings.end(), endingOf(path)) != kEndings.end() &&
          !path.ends_with(".mask.png");
 }
 
@@ -65,6 +69,14 @@ std::unique_ptr<VideoReader> readFrameFolder(const std::string& dir, double fram
 std::unique_ptr<VideoReader> readVideo(const std::string& path, double folder_frame_rate) {
   if (fs::is_directory(path)) return readFrameFolder(path, folder_frame_rate);
   if (!fs::exists(path)) throw InputError(path, "does not exist");
+  if (endingOf(path) == ".webp") {
+#ifdef SKEL_VIDEO_WEBP
+    return readWebp(path);
+#else
+    throw UnavailableError(path +
+                           ": for .webp install libwebp-dev and build again, or give a folder of frames");
+#endif
+  }
 #ifdef SKEL_VIDEO_MP4
   return readFilm(path);
 #else

@@ -28,9 +28,9 @@ class VideoReader {
 };
 
 // A folder of pictures, in the order of their names with numbers counted as numbers, shown at
-// `folder_frame_rate`, 1/s; or a film in whatever format FFmpeg reads (MP4, GIF, WebM ...), transparency
-// kept. Throws InputError: not there, no film, no pictures; UnavailableError: a film in a build without
-// FFmpeg.
+// `folder_frame_rate`, 1/s; or a film: an animated .webp, or whatever format FFmpeg reads (MP4, GIF, WebM
+// ...), transparency kept. Throws InputError: not there, no film, no pictures; UnavailableError: a film in a
+// build without the library that reads it.
 std::unique_ptr<VideoReader> readVideo(const std::string& path, double folder_frame_rate = 12);
 
 }  // namespace skel

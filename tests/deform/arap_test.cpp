@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "libskel/core/error.h"
+#include "libskel/deform/untangle.h"
 #include "tests/support/catch.h"
 
 using namespace skel;
@@ -67,7 +68,7 @@ TEST_CASE("a bar bends like an arm: no triangle flips, its area stays, the handl
     }
     return sum;
   };
-  for (const double degrees : {45., 90., 120.}) {
+  for (const double degrees : {45., 90., 120., 150., 170.}) {
     CAPTURE(degrees);
     const double a = degrees * std::numbers::pi / 180;
     MatrixX2d targets = kHandles;
@@ -77,6 +78,30 @@ TEST_CASE("a bar bends like an arm: no triangle flips, its area stays, the handl
     CHECK(area(posed) == Approx(area(kBar.vertices)).epsilon(0.15));
     CHECK((mesh.handlesOf(posed) - targets).cwiseAbs().maxCoeff() < 0.5);
   }
+}
+
+TEST_CASE("what is folded is unfolded; what is not stays as it is") {
+  const std::vector<MeshHandle> handles = {{{0, 1, 42}, {1, 0, 0}}, {{327, 368, 367}, {0, 1, 0}}};
+  const Untangler untangler(kBar.vertices, kBar.triangles, handles);
+  const MatrixX2d targets = (MatrixX2d(2, 2) << 0, 0, 40, 8).finished();
+  MatrixX2d posed = kBar.vertices;
+  untangler.untangle(posed, targets);
+  CHECK(posed == kBar.vertices);
+  // One vertex across its neighbours: what is far stays.
+  posed.row(4 * 41 + 20) += Eigen::RowVector2d(2.5, 0.3);
+  REQUIRE(flippedTriangles(kBar.vertices, posed, kBar.triangles) >= 2);
+  untangler.untangle(posed, targets);
+  CHECK(flippedTriangles(kBar.vertices, posed, kBar.triangles) == 0);
+  CHECK((posed - kBar.vertices).cwiseAbs().maxCoeff() < 1.5);
+  CHECK(posed.topRows(40) == kBar.vertices.topRows(40));
+  CHECK(posed.bottomRows(40) == kBar.vertices.bottomRows(40));
+  // A block in a mirror.
+  posed = kBar.vertices;
+  posed.block(2 * 41 + 5, 0, 4, 1).reverseInPlace();
+  posed.block(3 * 41 + 5, 0, 4, 1).reverseInPlace();
+  REQUIRE(flippedTriangles(kBar.vertices, posed, kBar.triangles) > 4);
+  untangler.untangle(posed, targets);
+  CHECK(flippedTriangles(kBar.vertices, posed, kBar.triangles) == 0);
 }
 
 TEST_CASE("the result does not depend on what was asked before") {

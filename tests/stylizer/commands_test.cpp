@@ -2,7 +2,9 @@
 #include <filesystem>
 
 #include "libskel/core/files.h"
+#include "libskel/draw/canvas.h"
 #include "libskel/image/read_image.h"
+#include "libskel/image/write_image.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 #include "tests/support/temp_dir.h"
@@ -88,6 +90,29 @@ TEST_CASE("key frames and the distances of all frames") {
     CHECK(fs::exists(dir.file("keys") + "/" + name));
 }
 
+TEST_CASE("one frame, frames that are all the same, and frames without a figure") {
+  const TempDir dir;
+  fs::create_directory(dir.file("one"));
+  fs::create_directory(dir.file("same"));
+  fs::copy_file(kDrawing, dir.file("one") + "/1.png");
+  for (const char* name : {"/1.png", "/2.png", "/3.png"}) fs::copy_file(kDrawing, dir.file("same") + name);
+  CHECK_THAT(done("keyframes " + dir.file("one") + " --matrix -o " + dir.file("k1")).out,
+             Contains("1 of 1 frames"));
+  CHECK_THAT(done("keyframes " + dir.file("same") + " --matrix -o " + dir.file("k3")).out,
+             Contains("2 of 3 frames"));
+  const std::string one = dir.file("one.motion.json"), same = dir.file("same.motion.json");
+  done("keypoints " + dir.file("one") + " -o " + one);
+  CHECK_THAT(done("keypoints " + dir.file("same") + " -o " + same).out, Contains("unevenness 0.0000"));
+  done("transfer --content " + same + " --style " + one + " -o " + dir.file("t.motion.json"));
+  CHECK_THAT(done("render --character " + kDrawing + " --motion " + one + " -o " + dir.file("o.gif")).out,
+             Contains("1 frames") && Contains("0 of "));
+
+  writeFile(dir.file("blank/1.png"), encodePng(blankImage(64, 64)));
+  const ToolRun run = style("keypoints " + dir.file("blank") + " -o " + dir.file("b.motion.json"));
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("shows no figure in any frame"));
+}
+
 TEST_CASE("what cannot be done is said in one line, and nothing is written") {
   const TempDir dir;
   writeFile(dir.file("bad.motion.json"), "{\"format\": \"skel-motion\", \"version\": 9}");
@@ -105,6 +130,8 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
       {"inspect " + dir.file("bad.motion.json"), 2, "bad.motion.json: version: is 9"},
       {"inspect " + dir.file("none.motion.json"), 2, "none.motion.json: cannot be read"},
       {"transfer --content " + dir.file("empty") + " --style x", 2, "is a folder without motions"},
+      {"render --character a.glb --motion " + dir.file("bad.motion.json") + out, 2, "version: is 9"},
+      {"make --character a.glb --content a --style b" + out, 2, "a.glb: is a 3D character"},
       {"render --motion m.motion.json", 1, "name a film by -o"},
       {"render --motion m.motion.json" + out, 1, "needs --character"},
       {"render --character " + kDrawing + " --motion " + dir.file("bad.motion.json") + out, 2,

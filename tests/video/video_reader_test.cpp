@@ -39,6 +39,9 @@ TEST_CASE("films come back frame by frame, with their times") {
   names.push_back("film.gif");
 #endif
 #endif
+#ifdef SKEL_VIDEO_WEBP
+  names.push_back("film.webp");
+#endif
   for (const std::string& name : names) {
     CAPTURE(name);
     const auto video = openVideo(dir.file(name), {.width = 64, .height = 48, .frame_rate = 10});
