@@ -3,6 +3,7 @@
 // chest has chest on both sides of it, one that hangs beside the body has not.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "libskel/candidates/candidates.h"
 #include "libskel/layers/layer_map.h"
@@ -149,14 +150,19 @@ Root rootOf(const Plane8& limb, const Coarse& coarse, const DistanceField& insid
 std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& silhouette,
                                       const Skeleton& skeleton, const SkeletonTemplate& body_plan) {
   if (!layers.any()) return {};
-  const Plane8& figure = silhouette.mask;
-  const auto rows = static_cast<int>(figure.rows()), columns = static_cast<int>(figure.cols());
+  // Of the picture, the figure's box alone.
+  const PixelBox box = figureBox(silhouette.mask);
+  const auto cropped = [&](const Plane8& plane) {
+    return Plane8(plane.block(box.y0, box.x0, box.height(), box.width()));
+  };
+  const Plane8 figure = cropped(silhouette.mask);
+  const int rows = box.height(), columns = box.width();
   Coarse coarse;
-  coarse.box = figureBox(figure);
+  coarse.box = {0, 0, columns, rows};
   const int long_side = std::max(coarse.box.width(), coarse.box.height());
   coarse.step = std::max(1, long_side / kCoarse);
   const auto figure_px = static_cast<double>((figure != 0).count());
-  Plane8 labels = layers.limb;
+  Plane8 labels = cropped(layers.limb);
 
   // A limb is one part of its pixels.
   std::vector<Limb> limbs;
@@ -165,11 +171,11 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
     Plane8 limb = where(labels, layer);
     if (!limb.any()) continue;
     Plane8 rest = keepLargest(limb);
-    const auto jointAt = [&](int i) {
-      const int joint = skeleton.find(
-          body_plan.joints[static_cast<std::size_t>(body_plan.limbs[k].joints[static_cast<std::size_t>(i)])]
-              .name);
-      return joint < 0 ? nullptr : &skeleton.joints[static_cast<std::size_t>(joint)];
+    const auto jointAt = [&](int i) -> std::optional<Vector2d> {
+      const auto of_plan = static_cast<std::size_t>(body_plan.limbs[k].joints[static_cast<std::size_t>(i)]);
+      const int joint = skeleton.find(body_plan.joints[of_plan].name);
+      if (joint < 0) return std::nullopt;
+      return skeleton.joints[static_cast<std::size_t>(joint)].image - Vector2d(box.x0, box.y0);
     };
     const bool enough =
         static_cast<double>(limb.cast<int>().sum()) >= kLeastLimb * figure_px && jointAt(0) && jointAt(1);
@@ -180,7 +186,7 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
     const Plane8 small = coarse.shrink(limb);
     const DistanceField inside = distanceField(small);
     limbs.push_back({layer, static_cast<double>(inside.maxCoeff()) * coarse.step,
-                     rootOf(small, coarse, inside, jointAt(0)->image, jointAt(1)->image)});
+                     rootOf(small, coarse, inside, *jointAt(0), *jointAt(1))});
   }
   if (limbs.empty()) return {};
 
@@ -266,6 +272,12 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
     pieces.push_back(std::move(drafts[*next].piece));
     left.erase(next);
   }
+  for (FigurePiece& piece : pieces)
+    for (Plane8* plane : {&piece.mask, &piece.hidden, &piece.over}) {
+      Plane8 whole = Plane8::Zero(silhouette.mask.rows(), silhouette.mask.cols());
+      whole.block(box.y0, box.x0, rows, columns) = *plane;
+      *plane = std::move(whole);
+    }
   return pieces;
 }
 
