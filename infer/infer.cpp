@@ -48,7 +48,7 @@ std::string stemOf(const std::string& path) { return fs::path(path).stem().strin
 bool isResult(const std::string& image, const std::vector<std::string>& images) {
   if (images.size() < 2) return false;
   const std::string name = fs::path(image).filename().string();
-  for (const std::string_view ending : {".overlay.png", ".silhouette.png", ".mask.png"}) {
+  for (const std::string_view ending : {".overlay.png", ".silhouette.png", ".layers.png", ".mask.png"}) {
     if (!name.ends_with(ending)) continue;
     const std::string stem = name.substr(0, name.size() - ending.size());
     return fs::exists(fs::path(image).replace_filename(stem + ".skeleton.json")) ||
@@ -90,6 +90,9 @@ std::vector<Job> jobsOf(const InferOptions& options) {
 // What --back names, if it is a file.
 bool isPicture(const std::string& back) { return !back.empty() && back != "plain" && back != "same"; }
 
+// What --layers names, if it is a file.
+bool isLayerMap(const std::string& layers) { return layers != "auto" && layers != "off"; }
+
 void checkUsage(const InferOptions& options) {
   const auto single = [&](const std::string& file, const char* option) {
     if (!file.empty() && options.images.size() > 1)
@@ -100,6 +103,13 @@ void checkUsage(const InferOptions& options) {
   single(options.skeleton_file, "--skeleton");
   single(options.model_file, "--model");
   if (isPicture(options.back)) single(options.back, "--back FILE");
+  if (isLayerMap(options.layers)) {
+    single(options.layers, "--layers FILE");
+    if (options.images.empty()) throw UsageError("--layers FILE needs the image that it belongs to");
+    if (!options.model_file.empty()) throw UsageError("--layers FILE goes with a drawing, not with --model");
+    if (options.figure == "all")
+      throw UsageError("--layers FILE goes with one figure, not with --figure all");
+  }
   if (options.images.empty() && options.model_file.empty())
     throw UsageError("name an image, or --model; see --help");
   if (options.images.empty() && !options.mask_file.empty())
@@ -207,6 +217,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
     input.turned_deg = given->figure.turned_deg;
   }
   const auto mask = useMask(options, given, input);
+  if (isLayerMap(options.layers)) input.layers = {readImage(options.layers), options.layers};
   if (isPicture(options.back)) input.back = readImage(options.back);
 
   RigOptions figure_rig = rig;
@@ -326,6 +337,10 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
          "What the model wears behind: plain (its colours without the face), same (the drawing), or a\n"
          "picture of it from behind (default: plain; same for an animal, which is seen from the side)")
       ->always_capture_default(false);
+  app.add_option(
+      "--layers", options.layers,
+      "Limbs drawn over the body: auto (each a body of its own), off (all one skin), or a layer map\n"
+      "(written by --formats layers) to go on from");
   app.add_option("--height", options.height_m, "Of the model, m; 0: 1.7, or 1.2 from end to end of an animal")
       ->check(CLI::Range(0.0, 1000.0));
   app.add_option("--figure", options.figure, "Which figure of the drawing: 1 is the largest; or all");

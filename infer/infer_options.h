@@ -25,9 +25,10 @@ struct InferOptions {
   std::string clips_dir;           // more of them
   std::string rest_pose = "drawn";
   std::string naming = "skel";
-  std::string back;          // "same", "plain", a picture, or nothing: the body plan's own
-  double height_m = 0;       // 0: the body plan's own
-  std::string figure = "1";  // a number, or "all"
+  std::string back;             // "same", "plain", a picture, or nothing: the body plan's own
+  std::string layers = "auto";  // "auto", "off", or a picture
+  double height_m = 0;          // 0: the body plan's own
+  std::string figure = "1";     // a number, or "all"
   double mesh_spacing_px = 0;
   std::vector<std::string> formats = {"glb", "json", "overlay", "silhouette"};
   std::string trace_dir;

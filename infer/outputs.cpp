@@ -44,6 +44,10 @@ std::vector<OutputFile> makeSilhouette(const Request& r) {
   return {{r.path(".silhouette.png"), encodePng(r.drawing.silhouette.mask)}};
 }
 
+std::vector<OutputFile> makeLayers(const Request& r) {
+  return {{r.path(".layers.png"), encodePng(layerPicture(r.drawing.layers, r.drawing.silhouette.mask))}};
+}
+
 // One row a candidate: where it is, what the net saw, what it took it for, whether the rules saw it.
 std::vector<OutputFile> makeFeatures(const Request& r) {
   std::string csv = "grid_x,grid_y,radius,x,y,D,head,body,hand,leg,kept\n";
@@ -74,6 +78,7 @@ std::vector<Format> makeFormats() {
   std::vector<Format> all = {{"json", makeSkeletonJson},
                              {"overlay", makeOverlay},
                              {"silhouette", makeSilhouette},
+                             {"layers", makeLayers},
                              {"features", makeFeatures}};
   for (const ExportFormat& format : exportFormats())
     all.push_back({format.name, [&format](const Request& r) {
@@ -117,7 +122,7 @@ std::vector<std::string> writeOutputs(const InferOptions& options, const std::st
   }
   std::vector<std::string> inputs = options.images;
   for (const std::string& other :
-       {options.mask_file, options.model_file, options.weights_file, options.joint_net_file})
+       {options.mask_file, options.layers, options.model_file, options.weights_file, options.joint_net_file})
     inputs.push_back(other);
   for (const OutputFile& made : files)
     for (const std::string& input : inputs)

@@ -24,6 +24,7 @@ RigOptions rigOptions(const InferOptions& options) {
   if (options.back == "same") rig.back = Back::kSame;
   if (options.back == "plain") rig.back = Back::kPlain;
   rig.height_m = options.height_m;
+  rig.layers = options.layers != "off";
   rig.rest_pose = kRestPoseNames.at(options.rest_pose);
   if (!options.joint_net_file.empty())
     rig.joint_net = std::make_shared<const JointNet>(

@@ -11,10 +11,14 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
+#include "libskel/mesh/fill_hidden.h"
+#include "libskel/mesh/lay_over.h"
 #include "libskel/mesh/outline.h"
 #include "libskel/mesh/outline_band.h"
 #include "libskel/mesh/planar_mesh.h"
 #include "libskel/mesh/texture.h"
+#include "libskel/mesh/texture_atlas.h"
+#include "libskel/silhouette/outline.h"
 
 namespace skel {
 namespace {
@@ -138,42 +142,121 @@ BackTexture backTexture(const DrawingTexture& front, const PixelBox& box, const 
   return back;
 }
 
+// A piece of the figure on its way to the mesh.
+struct Sheet {
+  PixelBox box;
+  std::vector<Polygon> outline;
+  PlanarMesh planar;
+  Eigen::VectorXd z;           // px, of the inner vertices
+  std::vector<double> offset;  // px, of all vertices
+  DrawingTexture front;
+  std::optional<BackTexture> back;
+
+  int inner() const { return planar.inner_count; }
+  int size() const { return static_cast<int>(planar.vertices.size()); }
+  int meshVertices() const { return size() + inner(); }
+};
+
+// Where a picture lies in the one that it is part of, texels.
+struct TexturePlace {
+  Eigen::Vector2d corner, size, whole;
+  Eigen::RowVector2f operator()(const Eigen::Vector2d& uv) const {
+    return (corner + uv.cwiseProduct(size)).cwiseQuotient(whole).cast<float>().transpose();
+  }
+};
+
+struct JoinedTexture {
+  Image image;
+  std::vector<TexturePlace> places;
+};
+
+Eigen::Vector2d sizeOf(const Image& image) { return {image.width, image.height}; }
+
 // Front and back in one picture, side by side or one over the other, whichever is the smaller.
-void addBack(TriangleMesh& mesh, const BackTexture& back) {
-  const Image &a = mesh.texture, &b = back.image;
+JoinedTexture joinTwo(const Image& a, const Image& b) {
   const bool beside = a.width + b.width <= a.height + b.height;
-  Image both(beside ? a.width + b.width : std::max(a.width, b.width),
-             beside ? std::max(a.height, b.height) : a.height + b.height);
+  JoinedTexture joined;
+  joined.image = Image(beside ? a.width + b.width : std::max(a.width, b.width),
+                       beside ? std::max(a.height, b.height) : a.height + b.height);
   // What neither covers repeats the nearest: no seam of another colour where a picture is shrunk.
   const auto copy = [&](const Image& part, int x0, int y0, int x1, int y1) {
     for (int y = y0; y < y1; ++y)
       for (int x = x0; x < x1; ++x)
         std::copy_n(part.pixel(std::min(x - x0, part.width - 1), std::min(y - y0, part.height - 1)), 4,
-                    both.pixel(x, y));
+                    joined.image.pixel(x, y));
   };
   const int split_x = beside ? a.width : 0, split_y = beside ? 0 : a.height;
+  const Image& both = joined.image;
   copy(a, 0, 0, beside ? a.width : both.width, beside ? both.height : a.height);
   copy(b, split_x, split_y, both.width, both.height);
-  const Eigen::RowVector2d size(both.width, both.height);
-  const auto place = [&](const Image& part, const Eigen::RowVector2d& corner, const Eigen::RowVector2d& uv) {
-    return Eigen::RowVector2d(
-        (corner + uv.cwiseProduct(Eigen::RowVector2d(part.width, part.height))).cwiseQuotient(size));
-  };
-  mesh.back_uv.resize(mesh.uv.rows(), 2);
-  for (Eigen::Index v = 0; v < mesh.uv.rows(); ++v) {
-    const Eigen::RowVector2d uv = mesh.uv.row(v).cast<double>();
-    const Eigen::RowVector2d behind =
-        (back.corner.transpose() + uv.cwiseProduct(back.size.transpose())).cwiseMax(0).cwiseMin(1);
-    mesh.back_uv.row(v) = place(b, {split_x, split_y}, behind).cast<float>();
-    mesh.uv.row(v) = place(a, {0, 0}, uv).cast<float>();
+  joined.places = {{{0, 0}, sizeOf(a), sizeOf(both)}, {{split_x, split_y}, sizeOf(b), sizeOf(both)}};
+  return joined;
+}
+
+JoinedTexture joinTextures(const std::vector<const Image*>& images) {
+  if (images.size() == 1) {
+    return {*images[0], {{{0, 0}, {1, 1}, {1, 1}}}};
   }
-  mesh.first_back = mesh.triangles.rows() / 2;
-  mesh.texture = std::move(both);
+  if (images.size() == 2) return joinTwo(*images[0], *images[1]);
+  std::vector<AtlasTile> tiles;
+  for (const Image* image : images) tiles.push_back({*image});
+  TextureAtlas atlas = packAtlas(tiles);
+  JoinedTexture joined{std::move(atlas.image), {}};
+  for (std::size_t k = 0; k < tiles.size(); ++k)
+    joined.places.push_back({atlas.offset[k].matrix().cast<double>().cwiseProduct(sizeOf(joined.image)),
+                             sizeOf(*images[k]), sizeOf(joined.image)});
+  return joined;
+}
+
+std::vector<Sheet> sheetsOf(const std::vector<FigurePiece>& pieces, const Silhouette& silhouette,
+                            const PixelBox& box) {
+  std::vector<Sheet> sheets(std::max<std::size_t>(1, pieces.size()));
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    sheets[i].box = pieces.empty() ? box : figureBox(pieces[i].mask);
+    for (const Polygon& corners : pieces.empty() ? silhouette.outline : traceOutline(pieces[i].mask))
+      sheets[i].outline.push_back(sideMiddles(corners));
+  }
+  return sheets;
+}
+
+void triangulate(const std::vector<FigurePiece>& pieces, const Silhouette& silhouette, double cell_px,
+                 std::vector<Sheet>& sheets) {
+  for (std::size_t i = 0; i < sheets.size(); ++i)
+    sheets[i].planar = triangulateFigure(pieces.empty() ? silhouette.mask : pieces[i].mask, sheets[i].box,
+                                         sheets[i].outline, cell_px);
+}
+
+double vertexCount(const std::vector<Sheet>& sheets) {
+  double count = 0;
+  for (const Sheet& sheet : sheets) count += sheet.meshVertices();
+  return count;
+}
+
+// The limit of one piece's texture so that all are as fine as the whole figure's would be.
+int shareOf(int max_texture_px, const PixelBox& piece, const PixelBox& figure) {
+  const double shrink =
+      std::max(1., std::max(figure.width(), figure.height()) / double(max_texture_px - 2 * kTextureMargin));
+  return std::max(
+      kLeastTexture,
+      static_cast<int>(std::ceil(std::max(piece.width(), piece.height()) / shrink)) + 2 * kTextureMargin);
+}
+
+// Brings each piece before those behind it.
+void layPieces(std::vector<Sheet>& sheets, const std::vector<FigurePiece>& pieces, const PixelBox& box) {
+  for (Sheet& sheet : sheets) sheet.offset.assign(sheet.planar.vertices.size(), 0);
+  if (sheets.size() == 1) return;
+  const double cell_px = sheets.front().planar.cell_px, margin = 2 * cell_px + 2;
+  Relief relief({box.x0 - margin, box.y0 - margin}, {box.x1 + margin, box.y1 + margin}, cell_px / 2);
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    if (i > 0) sheets[i].offset = layOver(relief, sheets[i].planar, sheets[i].z, pieces[i].over);
+    relief.raise(sheets[i].planar, sheets[i].z, sheets[i].offset);
+  }
 }
 
 }  // namespace
 
-TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const InflateOptions& options) {
+TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const InflateOptions& options,
+                     const std::vector<FigurePiece>& pieces) {
   SKEL_CHECK(silhouette.found());
   SKEL_CHECK_EQ(silhouette.mask.rows(), image.height);
   SKEL_CHECK_EQ(silhouette.mask.cols(), image.width);
@@ -181,9 +264,11 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
 
   const PixelBox box = figureBox(silhouette.mask);
   SKEL_CHECK(box.width() > 0);
-  std::vector<Polygon> outline;
-  for (const Polygon& corners : silhouette.outline) outline.push_back(sideMiddles(corners));
-  const VertexEstimate estimate = estimateVertices(outline);
+  std::vector<Sheet> sheets = sheetsOf(pieces, silhouette, box);
+  std::vector<Polygon> outlines;
+  for (const Sheet& sheet : sheets)
+    outlines.insert(outlines.end(), sheet.outline.begin(), sheet.outline.end());
+  const VertexEstimate estimate = estimateVertices(outlines);
   const double px_per_grid_px = std::max(box.width(), box.height()) / double(kWorkingGridSize);
   double cell_px = options.spacing_px * px_per_grid_px;
   if (cell_px == 0) cell_px = estimate.cell(kVertexCount);
@@ -194,31 +279,18 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
             << estimate.cell(kMaxInflatedVertices) / px_per_grid_px << " or more";
     throw UsageError(message.str());
   }
-  PlanarMesh planar = triangulateFigure(silhouette.mask, box, outline, cell_px);
+  triangulate(pieces, silhouette, cell_px, sheets);
   // A figure full of holes smaller than a cell loses them, and with them vertices that were counted on.
   for (int attempt = 0; attempt < 4 && options.spacing_px == 0; ++attempt) {
-    const double count = 2.0 * planar.inner_count + static_cast<double>(planar.rim.size());
+    const double count = vertexCount(sheets);
     if (count > 0.7 * kVertexCount && count < 1.3 * kVertexCount) break;
     cell_px *= std::sqrt(count / kVertexCount);
-    planar = triangulateFigure(silhouette.mask, box, outline, cell_px);
+    triangulate(pieces, silhouette, cell_px, sheets);
   }
-
-  std::vector<double> band(planar.inner_count, 0);
-  if (options.thin_outline) band = outlineBand(planar, drawnOutline(image, silhouette.mask, outline));
 
   TriangleMesh mesh;
   mesh.model_from_image.turned_rad = options.turned_rad;
   const auto upright = [&](const Eigen::Vector2d& p) { return mesh.model_from_image.upright(p); };
-  Eigen::Vector2d low = upright(planar.vertices.front()), high = low;
-  for (const Eigen::Vector2d& p : planar.vertices)
-    low = low.cwiseMin(upright(p)), high = high.cwiseMax(upright(p));
-  mesh.model_from_image.scale.setConstant(options.length_m > 0 ? options.length_m / (high - low).maxCoeff()
-                                                               : options.height_m / (high.y() - low.y()));
-  // Turned back into the drawing; exactly what it was where nothing is turned.
-  const Eigen::Vector2d soles(0.5 * (low.x() + high.x()), high.y());
-  mesh.model_from_image.origin_px =
-      options.turned_rad == 0 ? soles : Eigen::Vector2d(Eigen::Rotation2Dd(options.turned_rad) * soles);
-
   // Bridges show the paper: they take the colours of what they join.
   const Plane8 drawn = silhouette.bridges.size() == 0
                            ? silhouette.mask
@@ -226,33 +298,101 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
                                         .select(Plane8::Zero(silhouette.mask.rows(), silhouette.mask.cols()),
                                                 silhouette.mask));
   const bool same_back = options.back == Back::kSame && !options.back_picture;
-  const DrawingTexture texture = drawingTexture(
-      image, drawn, box, same_back ? options.max_texture_px : halfOf(options.max_texture_px, box));
-  mesh.texture = texture.image;
-  const Eigen::VectorXd z =
-      inflatedHeights(planar, band) * (options.thickness * mesh.model_from_image.scale.y());
+  const int max_texture_px = same_back ? options.max_texture_px : halfOf(options.max_texture_px, box);
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    Sheet& sheet = sheets[i];
+    Image filled;
+    Plane8 colored = drawn;
+    if (!pieces.empty()) {
+      const FigurePiece& piece = pieces[i];
+      colored = (piece.mask != 0 && drawn != 0).cast<std::uint8_t>();
+      filled = fillHidden(image, Plane8((colored != 0 && piece.hidden == 0).cast<std::uint8_t>()),
+                          Plane8((colored != 0 && piece.hidden != 0).cast<std::uint8_t>()));
+    }
+    const Image& picture = pieces.empty() ? image : filled;
+    const Plane8& mask = pieces.empty() ? silhouette.mask : pieces[i].mask;
+    std::vector<double> band(sheet.inner(), 0);
+    if (options.thin_outline) band = outlineBand(sheet.planar, drawnOutline(picture, mask, sheet.outline));
+    sheet.z = inflatedHeights(sheet.planar, band);
+    sheet.front =
+        drawingTexture(picture, colored, sheet.box,
+                       pieces.empty() ? max_texture_px : shareOf(max_texture_px / 2, sheet.box, box));
+  }
+  layPieces(sheets, pieces, box);
 
-  // The front's inner vertices, the rim, the back's inner vertices.
-  const int inner = planar.inner_count, sheet = static_cast<int>(planar.vertices.size());
-  mesh.vertices.resize(sheet + inner, 3);
-  mesh.uv.resize(sheet + inner, 2);
-  for (int v = 0; v < sheet; ++v) {
-    const Eigen::Vector2d p = mesh.model_from_image(planar.vertices[v]);
-    mesh.vertices.row(v) << p.cast<float>().transpose(), v < inner ? static_cast<float>(z[v]) : 0.0f;
-    mesh.uv.row(v) = texture.uvFromImage(planar.vertices[v]).cast<float>();
+  Eigen::Vector2d low = upright(sheets.front().planar.vertices.front()), high = low;
+  for (const Sheet& sheet : sheets)
+    for (const Eigen::Vector2d& p : sheet.planar.vertices)
+      low = low.cwiseMin(upright(p)), high = high.cwiseMax(upright(p));
+  mesh.model_from_image.scale.setConstant(options.length_m > 0 ? options.length_m / (high - low).maxCoeff()
+                                                               : options.height_m / (high.y() - low.y()));
+  // Turned back into the drawing; exactly what it was where nothing is turned.
+  const Eigen::Vector2d soles(0.5 * (low.x() + high.x()), high.y());
+  mesh.model_from_image.origin_px =
+      options.turned_rad == 0 ? soles : Eigen::Vector2d(Eigen::Rotation2Dd(options.turned_rad) * soles);
+
+  std::vector<const Image*> textures;
+  for (const Sheet& sheet : sheets) textures.push_back(&sheet.front.image);
+  if (!same_back) {
+    for (std::size_t i = 0; i < sheets.size(); ++i) {
+      // A picture of the back has all pieces in it.
+      if (i > 0 && options.back_picture) continue;
+      InflateOptions of_piece = options;
+      if (i > 0) of_piece.head.reset();
+      sheets[i].back = backTexture(sheets[i].front, sheets[i].box, of_piece);
+      textures.push_back(&sheets[i].back->image);
+    }
   }
-  mesh.vertices.bottomRows(inner) = mesh.vertices.topRows(inner);
-  mesh.vertices.col(2).tail(inner) *= -1;
-  mesh.uv.bottomRows(inner) = mesh.uv.topRows(inner);
-  const int triangles = static_cast<int>(planar.triangles.size());
+  JoinedTexture texture = joinTextures(textures);
+
+  int vertices = 0, triangles = 0;
+  for (const Sheet& sheet : sheets) {
+    vertices += sheet.meshVertices();
+    triangles += static_cast<int>(sheet.planar.triangles.size());
+  }
+  mesh.vertices.resize(vertices, 3);
+  mesh.uv.resize(vertices, 2);
+  if (!same_back) mesh.back_uv.resize(vertices, 2);
+  if (!pieces.empty()) mesh.layer.resize(vertices);
   mesh.triangles.resize(2 * triangles, 3);
-  const auto behind = [&](int v) { return v < inner ? v + sheet : v; };
-  for (int t = 0; t < triangles; ++t) {
-    const auto& [a, b, c] = planar.triangles[t];
-    mesh.triangles.row(t) << a, b, c;
-    mesh.triangles.row(triangles + t) << behind(a), behind(c), behind(b);
+  mesh.first_back = same_back ? 0 : triangles;
+  const double px_depth = options.thickness * mesh.model_from_image.scale.y();
+  const auto texel = [](const DrawingTexture& front, const Eigen::Vector2d& p) {
+    return Eigen::Vector2d(front.uvFromImage(p).cast<float>().cast<double>());
+  };
+  int first = 0, first_triangle = 0;
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    // The front's inner vertices, the rim, the back's inner vertices.
+    const Sheet& sheet = sheets[i];
+    const int inner = sheet.inner(), size = sheet.size();
+    const Sheet& backs = options.back_picture ? sheets.front() : sheet;
+    const TexturePlace& front_place = texture.places[i];
+    const TexturePlace& back_place =
+        same_back ? front_place : texture.places[sheets.size() + (options.back_picture ? 0 : i)];
+    for (int v = 0; v < sheet.meshVertices(); ++v) {
+      const int drawn_vertex = v < size ? v : v - size;
+      const Eigen::Vector2d& q = sheet.planar.vertices[drawn_vertex];
+      const Eigen::Vector2d p = mesh.model_from_image(q);
+      const double z = drawn_vertex >= inner ? 0 : v < size ? sheet.z[drawn_vertex] : -sheet.z[drawn_vertex];
+      mesh.vertices.row(first + v) << p.cast<float>().transpose(),
+          static_cast<float>((z + sheet.offset[drawn_vertex]) * px_depth);
+      mesh.uv.row(first + v) = front_place(texel(sheet.front, q));
+      if (!same_back) {
+        const Eigen::Vector2d uv = texel(backs.front, q);
+        mesh.back_uv.row(first + v) =
+            back_place((backs.back->corner + uv.cwiseProduct(backs.back->size)).cwiseMax(0).cwiseMin(1));
+      }
+      if (!pieces.empty()) mesh.layer[first + v] = pieces[i].layer;
+    }
+    const auto behind = [&](int v) { return first + (v < inner ? v + size : v); };
+    for (const auto& [a, b, c] : sheet.planar.triangles) {
+      mesh.triangles.row(first_triangle) << first + a, first + b, first + c;
+      mesh.triangles.row(triangles + first_triangle) << behind(a), behind(c), behind(b);
+      ++first_triangle;
+    }
+    first += sheet.meshVertices();
   }
-  if (!same_back) addBack(mesh, backTexture(texture, box, options));
+  mesh.texture = std::move(texture.image);
   return mesh;
 }
 

@@ -6,8 +6,10 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "libskel/mesh/back_colors.h"
+#include "libskel/mesh/figure_piece.h"
 #include "libskel/mesh/triangle_mesh.h"
 #include "libskel/silhouette/silhouette.h"
 
@@ -44,7 +46,12 @@ struct InflateOptions {
 // centred, options.height_m high. Closed, 2-manifold, in one part; its
 // outline lies within one cell (at least one image px) of the figure's. `silhouette` must be found and belong
 // to `image`. Throws UsageError if the cell would give more than kMaxInflatedVertices.
-TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const InflateOptions& options = {});
+//
+// `pieces`, if there are any, cover the figure, the farthest first, and lie within it: then each is a closed
+// body of its own, wears what the drawing shows of it, its hidden parts filled from around them, and lies
+// before those before it where `over` says so.
+TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const InflateOptions& options = {},
+                     const std::vector<FigurePiece>& pieces = {});
 
 inline constexpr int kMaxInflatedVertices = 1'000'000;
 

@@ -44,6 +44,9 @@ struct TriangleMesh {
   Eigen::Index first_back = 0;
   Image texture;
   ModelFromImage model_from_image;
+  // #V, of a mesh of several closed bodies: which one, 0 the trunk's, else the limb's that a vertex belongs
+  // to (FigurePiece::layer). Empty: one skin.
+  Eigen::VectorXi layer;
 
   Eigen::RowVector2f uvOf(Eigen::Index triangle, int corner) const {
     const bool back = back_uv.rows() > 0 && triangle >= first_back;

@@ -156,20 +156,34 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   });
   roundToFile(drawing.recognition.skeleton);
 
+  const Skeleton& skeleton = drawing.recognition.skeleton;
+  std::vector<FigurePiece> pieces;
+  if (inflated && options.layers) {
+    drawing.layers = timed("layers", [&] {
+      if (input.layers)
+        return layersOfPicture(input.layers->image, silhouette, options.body_plan, input.layers->file);
+      return findLayers(drawing.image, silhouette, skeleton, options.body_plan);
+    });
+    pieces = timed("pieces",
+                   [&] { return figurePieces(drawing.layers, silhouette, skeleton, options.body_plan); });
+  }
   drawing.character.mesh = timed("mesh", [&] {
-    if (!input.model) return inflate(drawing.image, silhouette, inflateOptions(input, drawing, options));
+    if (!input.model)
+      return inflate(drawing.image, silhouette, inflateOptions(input, drawing, options), pieces);
     if (!own_view) input.model->model_from_image = bindByBoundingBox(silhouette.mask, *input.model);
     return std::move(*input.model);
   });
+  std::vector<int> joint_layers;
+  if (!pieces.empty()) joint_layers = jointLayers(skeleton, options.body_plan, drawing.character.mesh);
   drawing.recognition.skeleton = timed("lift", [&] {
     Skeleton lifted = drawing.recognition.skeleton;
-    liftToModel(lifted, drawing.character.mesh);
+    liftToModel(lifted, drawing.character.mesh, joint_layers);
     return lifted;
   });
   drawing.character.skeleton = drawing.recognition.skeleton;
   drawing.character.weights = timed("skin", [&] {
     return computeSkinWeights(drawing.character.mesh, drawing.character.skeleton, options.skin_method,
-                              options.skin);
+                              options.skin, joint_layers);
   });
   if (inflated) {
     drawing.character = timed("depth", [&] {

@@ -14,6 +14,7 @@
 #include "libskel/export/write_character.h"
 #include "libskel/image/image.h"
 #include "libskel/jointnet/joint_net.h"
+#include "libskel/layers/layer_map.h"
 #include "libskel/mesh/inflate.h"
 #include "libskel/recognition/recognition.h"
 #include "libskel/silhouette/silhouette.h"
@@ -22,14 +23,21 @@
 
 namespace skel {
 
+// A mended picture of layers (layerPicture()) and the file that complaints name.
+struct LayerPicture {
+  Image image;
+  std::string file;
+};
+
 // What a character is made from. `image` is needed unless there is a `model`.
 struct RigInput {
   Image image;
-  std::optional<Plane8> mask;         // the figure, given by hand; of the image's size
-  std::optional<TriangleMesh> model;  // take this mesh instead of inflating the silhouette
-  std::optional<Image> back;          // the figure seen from behind, for the back of the model
-  int turned_deg = 0;                 // of the `skeleton`'s figure, clockwise against upright
-  std::optional<Skeleton> skeleton;   // go on from these joints (image px) instead of recognising any
+  std::optional<Plane8> mask;          // the figure, given by hand; of the image's size
+  std::optional<TriangleMesh> model;   // take this mesh instead of inflating the silhouette
+  std::optional<Image> back;           // the figure seen from behind, for the back of the model
+  int turned_deg = 0;                  // of the `skeleton`'s figure, clockwise against upright
+  std::optional<LayerPicture> layers;  // which limbs lie before the body, instead of finding out
+  std::optional<Skeleton> skeleton;    // go on from these joints (image px) instead of recognising any
 };
 
 enum class Recognizer {
@@ -45,6 +53,7 @@ struct RigOptions {
   Recognizer recognizer = Recognizer::kTree;
   bool upright = false;                       // the figure is not turned: try no other orientations
   std::shared_ptr<const JointNet> joint_net;  // null: the built-in one that knows the body plan
+  bool layers = true;  // limbs that are drawn over the body are bodies of their own; false: one skin
   InflateOptions inflate{.thin_outline = true};
   std::optional<Back> back;  // nothing: kPlain, or kSame for a body plan that is drawn from the side
   double height_m = 0;       // of the model; 0: the body plan's own
@@ -67,6 +76,7 @@ struct RiggedDrawing {
   Features features;
   ClassProbabilities classes;
   Recognition recognition;    // with positions in the model as it is drawn, whatever the rest pose
+  LayerMap layers;            // empty for a model of a user's own
   RiggedCharacter character;  // empty if the silhouette has not been found
   std::vector<Clip> clips;    // retargeted to the rest pose
   std::vector<StageTime> times;
@@ -75,7 +85,7 @@ struct RiggedDrawing {
 };
 
 // Stages 2 to 8. Where there is no figure, `found()` is false and silhouette.reason says why. Throws
-// UsageError if no net knows the body plan.
+// UsageError if no net knows the body plan, InputError if input.layers does not fit.
 RiggedDrawing rigCharacter(RigInput input, const RigOptions& options);
 
 }  // namespace skel

@@ -20,9 +20,12 @@ double nearestVertexDepth(const TriangleMesh& mesh, const Vector2d& p) {
   return mesh.vertices(nearest, 2);
 }
 
-double middleDepth(const TriangleMesh& mesh, const Vector2d& p) {
+constexpr int kAll = -1;
+
+double middleDepth(const TriangleMesh& mesh, const Vector2d& p, int layer) {
   double front = -std::numeric_limits<double>::infinity(), back = -front;
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    if (layer != kAll && mesh.layer[mesh.triangles(t, 0)] != layer) continue;
     const auto corner = [&](int k) { return mesh.vertices.row(mesh.triangles(t, k)).cast<double>(); };
     const Vector2d a = corner(0).head<2>(), b = corner(1).head<2>(), c = corner(2).head<2>();
     const double area = cross(b - a, c - a);
@@ -38,10 +41,12 @@ double middleDepth(const TriangleMesh& mesh, const Vector2d& p) {
 
 }  // namespace
 
-void liftToModel(Skeleton& skeleton, const TriangleMesh& mesh) {
-  for (Joint& joint : skeleton.joints) {
+void liftToModel(Skeleton& skeleton, const TriangleMesh& mesh, const std::vector<int>& layers) {
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    Joint& joint = skeleton.joints[j];
     const Vector2d p = mesh.model_from_image(joint.image);
-    joint.position = {p.x(), p.y(), mesh.vertices.rows() ? middleDepth(mesh, p) : 0};
+    joint.position = {p.x(), p.y(),
+                      mesh.vertices.rows() ? middleDepth(mesh, p, layers.empty() ? kAll : layers[j]) : 0};
   }
 }
 

@@ -112,6 +112,58 @@ JointWeights bodyWeights(const TriangleMesh& mesh, const Skeleton& skeleton, con
   return weights;
 }
 
+JointWeights meshWeights(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<Bone>& bones,
+                         const Method& way, const SkinOptions& options) {
+  const Welding welding(mesh.vertices);
+  const MeshParts parts = meshParts(mesh, welding);
+  std::vector<char> with_bones(static_cast<std::size_t>(parts.count), 1);
+  if (way.parts_follow && parts.count > 1) with_bones = partsWithBones(mesh, parts, bones);
+  if (parts.count == 1 && welding.count() == mesh.vertices.rows())
+    return bodyWeights(mesh, skeleton, bones, way, options);
+  const Body body(mesh, welding, parts, with_bones);
+  const JointWeights of_body = bodyWeights(body.mesh, skeleton, bones, way, options);
+  JointWeights weights =
+      JointWeights::Zero(mesh.vertices.rows(), static_cast<Eigen::Index>(skeleton.joints.size()));
+  for (Eigen::Index v = 0; v < weights.rows(); ++v)
+    if (const int row = body.rows[static_cast<std::size_t>(v)]; row >= 0) weights.row(v) = of_body.row(row);
+  followTouchedParts(mesh, parts, with_bones, weights);
+  return weights;
+}
+
+// The bodies of the mesh one by one.
+JointWeights layerWeights(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<Bone>& bones,
+                          const Method& way, const SkinOptions& options,
+                          const std::vector<int>& joint_layers) {
+  JointWeights weights =
+      JointWeights::Zero(mesh.vertices.rows(), static_cast<Eigen::Index>(skeleton.joints.size()));
+  for (int layer = 0; layer <= mesh.layer.maxCoeff(); ++layer) {
+    std::vector<int> rows, number(static_cast<std::size_t>(mesh.vertices.rows()), -1);
+    for (int v = 0; v < mesh.vertices.rows(); ++v) {
+      if (mesh.layer[v] != layer) continue;
+      number[static_cast<std::size_t>(v)] = static_cast<int>(rows.size());
+      rows.push_back(v);
+    }
+    if (rows.empty()) continue;
+    TriangleMesh piece;
+    piece.vertices = mesh.vertices(rows, Eigen::all);
+    piece.triangles.resize(mesh.triangles.rows(), 3);
+    Eigen::Index count = 0;
+    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+      if (mesh.layer[mesh.triangles(t, 0)] != layer) continue;
+      for (int k = 0; k < 3; ++k)
+        piece.triangles(count, k) = number[static_cast<std::size_t>(mesh.triangles(t, k))];
+      ++count;
+    }
+    piece.triangles.conservativeResize(count, 3);
+    std::vector<Bone> own;
+    for (const Bone& bone : bones)
+      if (joint_layers[static_cast<std::size_t>(bone.joint)] == layer) own.push_back(bone);
+    SKEL_CHECK(!own.empty());
+    weights(rows, Eigen::all) = meshWeights(piece, skeleton, own, way, options);
+  }
+  return weights;
+}
+
 }  // namespace
 
 std::vector<SkinMethod> skinMethods() {
@@ -123,7 +175,7 @@ std::vector<SkinMethod> skinMethods() {
 std::string_view skinMethodName(SkinMethod method) { return find(method).name; }
 
 SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleton, SkinMethod method,
-                               const SkinOptions& options) {
+                               const SkinOptions& options, const std::vector<int>& joint_layers) {
   SKEL_CHECK(options.max_influences >= 1 && options.max_influences <= 4);
   SKEL_CHECK(!skeleton.joints.empty());
   const int joint_count = static_cast<int>(skeleton.joints.size());
@@ -135,21 +187,9 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
 
   const Method& way = find(method);
   const std::vector<Bone> bones = skeletonBones(skeleton);
-  const Welding welding(mesh.vertices);
-  const MeshParts parts = meshParts(mesh, welding);
-  std::vector<char> with_bones(static_cast<std::size_t>(parts.count), 1);
-  if (way.parts_follow && parts.count > 1) with_bones = partsWithBones(mesh, parts, bones);
-  JointWeights weights;
-  if (parts.count == 1 && welding.count() == mesh.vertices.rows()) {
-    weights = bodyWeights(mesh, skeleton, bones, way, options);
-  } else {
-    const Body body(mesh, welding, parts, with_bones);
-    const JointWeights of_body = bodyWeights(body.mesh, skeleton, bones, way, options);
-    weights = JointWeights::Zero(mesh.vertices.rows(), joint_count);
-    for (Eigen::Index v = 0; v < weights.rows(); ++v)
-      if (const int row = body.rows[static_cast<std::size_t>(v)]; row >= 0) weights.row(v) = of_body.row(row);
-    followTouchedParts(mesh, parts, with_bones, weights);
-  }
+  const JointWeights weights = joint_layers.empty()
+                                   ? meshWeights(mesh, skeleton, bones, way, options)
+                                   : layerWeights(mesh, skeleton, bones, way, options, joint_layers);
   std::vector<int> order;
   for (Eigen::Index v = 0; v < weights.rows(); ++v) {
     order.clear();

@@ -44,7 +44,10 @@ struct SkinOptions {
 // open, in several parts, with several vertices at one place, its faces turned as they like. By kGeodesic and
 // kHeat, a part without a bone in it follows one joint of the part that it touches (parts.h). Vertices that
 // no bone reaches take the weights of the nearest one that is reached.
+//
+// Of a mesh in layers (TriangleMesh::layer), the vertices of each follow the bones of its own joints alone:
+// `joint_layers`, one number a joint, each layer has one; empty: all follow all.
 SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleton, SkinMethod method,
-                               const SkinOptions& options = {});
+                               const SkinOptions& options = {}, const std::vector<int>& joint_layers = {});
 
 }  // namespace skel

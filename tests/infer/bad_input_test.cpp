@@ -102,6 +102,9 @@ TEST_CASE("wrong usage is told before any work") {
          "a.png and more/a.png would both write out/a.*; rename one or run them with different -o");
   expect(infer(dir, "a.png b.png --mask m.png"), 1, "--mask goes with one image, 2 were given");
   expect(infer(dir, "a.png b.png --skeleton s.json"), 1, "--skeleton goes with one image, 2 were given");
+  expect(infer(dir, "a.png b.png --layers l.png"), 1, "--layers FILE goes with one image, 2 were given");
+  expect(infer(dir, "a.png --figure all --layers l.png"), 1,
+         "--layers FILE goes with one figure, not with --figure all");
   expect(infer(dir, "a.png --figure 0"), 1, "--figure is \"0\", must be 1, 2, ... or all");
   expect(infer(dir, "a.png --recognizer magic"), 1, "--recognizer: magic not in {");
   expect(infer(dir, "a.png --formats glb,fbx"), 1, "--formats: fbx not in {");
@@ -120,6 +123,9 @@ TEST_CASE("masks, weights, templates and models that do not fit are refused") {
   writeFile(dir.file("a.png"), readFile(kDrawing));
   writeFile(dir.file("small.png"), plainPng(30, 20, 255));
   expect(infer(dir, "a.png --mask small.png"), 2, "small.png: is a mask of 30x20 px, the image has 600x600");
+  expect(infer(dir, "a.png --layers small.png"), 2,
+         "small.png: is a layer map of 30x20 px, the image has 600x600");
+  expect(infer(dir, "a.png --layers a.png"), 2, "which is no limb's; paint with the colours that --formats");
   writeFile(dir.file("blank.png"), plainPng(600, 600, 0));
   expect(infer(dir, "a.png --mask blank.png"), 2, "a.png: ");
   expect(infer(dir, "a.png --template centaur"), 2, "centaur: is no template; use one of: biped, quadruped");

@@ -1,6 +1,6 @@
 // Figures of the built-in clips on drawings: how far the skin is stretched, and how much of the limbs goes
 // into the rest of the body.
-//   clip_quality TEMPLATE DRAWING...
+//   clip_quality [--one-skin] [--stretch-only] TEMPLATE DRAWING...
 // A line a clip, then the drawings that stretch most. Stretch: the largest singular value of the map from a
 // triangle at rest to the same one posed. Inside: the winding number of the skin just above a limb's surface
 // is 1 more than at rest.
@@ -94,9 +94,19 @@ struct Quality {
   double stretched = 0, inside = 0;  // shares, means over the frames
 };
 
-std::map<std::string, Quality> measure(const std::string& path, const std::string& body_plan) {
-  const RiggedDrawing drawing =
-      rigWithClips(path, body_plan, clipsFor(builtinClips(), loadTemplate(body_plan)));
+struct Measured {
+  std::map<std::string, Quality> clips;
+  bool layered = false;
+};
+
+struct Request {
+  bool layers = true, inside = true;
+  std::string body_plan;
+};
+
+Measured measure(const std::string& path, const Request& request) {
+  const RiggedDrawing drawing = rigWithClips(
+      path, request.body_plan, clipsFor(builtinClips(), loadTemplate(request.body_plan)), request.layers);
   if (!drawing.found()) throw InputError(path, drawing.silhouette.reason);
   const RiggedCharacter& character = drawing.character;
   const TriangleMesh& mesh = character.mesh;
@@ -106,11 +116,13 @@ std::map<std::string, Quality> measure(const std::string& path, const std::strin
     rest.push_back(flat(mesh.vertices, mesh, t));
     area += rest.back().determinant() / 2;
   }
-  const std::vector<Eigen::Index> limbs = limbTriangles(character);
+  const std::vector<Eigen::Index> limbs =
+      request.inside ? limbTriangles(character) : std::vector<Eigen::Index>();
   const std::vector<bool> inside_at_rest = insideOthers(mesh.vertices, mesh, limbs);
-  std::map<std::string, Quality> result;
+  Measured result;
+  result.layered = mesh.layer.size() > 0;
   for (const Clip& clip : drawing.clips) {
-    Quality& quality = result[clip.name];
+    Quality& quality = result.clips[clip.name];
     for (int frame = 0; frame < kFrames; ++frame) {
       const Eigen::MatrixX3f posed =
           posedVertices(character, clip, clip.duration_s() * (float(frame) + 0.5f) / kFrames);
@@ -126,18 +138,28 @@ std::map<std::string, Quality> measure(const std::string& path, const std::strin
 }
 
 void run(int argc, char** argv) {
-  if (argc < 3) throw UsageError("usage: clip_quality TEMPLATE DRAWING...");
-  const std::vector<std::string> paths(argv + 2, argv + argc);
-  std::vector<std::map<std::string, Quality>> all(paths.size());
-  parallelFor(paths.size(), 0, [&](std::size_t i) { all[i] = measure(paths[i], argv[1]); });
+  Request request;
+  std::vector<std::string> paths(argv + 1, argv + argc);
+  const auto flag = [&](const char* name) { return std::erase(paths, name) > 0; };
+  request.layers = !flag("--one-skin");
+  request.inside = !flag("--stretch-only");
+  if (paths.size() < 2)
+    throw UsageError("usage: clip_quality [--one-skin] [--stretch-only] TEMPLATE DRAWING...");
+  request.body_plan = paths.front();
+  paths.erase(paths.begin());
+  std::vector<Measured> all(paths.size());
+  parallelFor(paths.size(), 0, [&](std::size_t i) { all[i] = measure(paths[i], request); });
   std::map<std::string, std::vector<Quality>> by_clip;
   std::vector<std::pair<double, std::string>> stretched, inside;
   for (std::size_t i = 0; i < paths.size(); ++i)
-    for (const auto& [clip, quality] : all[i]) {
+    for (const auto& [clip, quality] : all[i].clips) {
       by_clip[clip].push_back(quality);
       stretched.emplace_back(quality.stretched, paths[i] + " " + clip);
       inside.emplace_back(quality.inside, paths[i] + " " + clip);
     }
+  std::printf("%d of %d drawings in layers\n",
+              int(std::count_if(all.begin(), all.end(), [](const Measured& m) { return m.layered; })),
+              int(all.size()));
   std::printf("clip       area stretched > 3: mean  worst     limbs inside others: mean  worst\n");
   for (const auto& [clip, qualities] : by_clip) {
     Quality mean, most;

@@ -14,11 +14,12 @@ namespace skel {
 
 // As skel-infer rigs it; found() says whether there is a figure.
 inline RiggedDrawing rigWithClips(const std::string& path, const std::string& body_plan,
-                                  const std::vector<Clip>& clips) {
+                                  const std::vector<Clip>& clips, bool layers = true) {
   RigOptions options;
   options.mlp = defaultMlp();
   options.body_plan = loadTemplate(body_plan);
   options.clips = clips;
+  options.layers = layers;
   RigInput input;
   input.image = readImage(path);
   return rigCharacter(std::move(input), options);

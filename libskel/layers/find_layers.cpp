@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "libskel/layers/layer_map.h"
+#include "libskel/layers/ribbon.h"
+
+namespace skel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kFiner = 2;  // than the working grid
+
+// Of a limb's sections beyond its root.
+constexpr double kLeastContact = 0.2;  // with the body, as a share of one side: less is free
+constexpr double kLeastDrawn = 0.7;    // of the contact: what is drawn
+constexpr double kAboutBones = 0.7;    // that hold the bones
+constexpr double kLeastSeen = 0.7;     // of a limb: more of it hidden by others, and it is left to the body
+constexpr double kCutOff = 0.3;        // of a limb's area: larger parts that it cuts off stay the body's
+constexpr double kClearer = 1.6;       // the edges are, than what lies between them
+
+LookGrid lookGrid(const Image& image, const Silhouette& silhouette) {
+  LookGrid look;
+  look.width = kFiner * silhouette.grid.width, look.height = kFiner * silhouette.grid.height;
+  look.scale = kFiner * silhouette.grid.scale;
+  look.corner_px = silhouette.grid.corner_px;
+  look.colours = gridColours(image, look.corner_px, look.scale, look.width, look.height);
+  look.mask = Plane8::Zero(look.height, look.width);
+  std::array<int, 256> histogram{};
+  int count = 0;
+  for (int y = 0; y < look.height; ++y)
+    for (int x = 0; x < look.width; ++x) {
+      const Vector2d p = look.toImage({x, y});
+      const auto u = std::clamp<Eigen::Index>(std::lround(p.x()), 0, image.width - 1),
+                 v = std::clamp<Eigen::Index>(std::lround(p.y()), 0, image.height - 1);
+      if (silhouette.mask(v, u) == 0) continue;
+      look.mask(y, x) = 255;
+      ++histogram[std::clamp(static_cast<int>(look.colours.row(std::int64_t{y} * look.width + x).mean()), 0,
+                             255)];
+      ++count;
+    }
+  const auto percentile = [&](double share) {
+    int left = static_cast<int>(share * count), value = 0;
+    while (value < 255 && left >= histogram[value]) left -= histogram[value++];
+    return value;
+  };
+  look.range = std::max(40, percentile(0.98) - percentile(0.02));
+  return look;
+}
+
+struct Limb {
+  Ribbon ribbon;
+  Plane8 mask;  // of the image's size
+  bool layer = false;
+  int wins = 0;
+};
+
+bool standsOut(const Ribbon& ribbon) {
+  int sections = 0, contact = 0, drawn = 0;
+  double strength = 0;
+  const auto see = [&](BandSide side, double how_strong) {
+    if (side == BandSide::kOutline) return;
+    ++contact;
+    drawn += side == BandSide::kDrawn;
+    strength += how_strong;
+  };
+  for (std::size_t s = 0; s < ribbon.sections.size(); ++s) {
+    if (static_cast<double>(s) < ribbon.root_radius) continue;
+    const Ribbon::Section& section = ribbon.sections[s];
+    ++sections;
+    see(section.left_side, section.left_strength);
+    see(section.right_side, section.right_strength);
+  }
+  if (ribbon.about_bones < kAboutBones || contact == 0 || contact < kLeastContact * sections) return false;
+  return drawn >= kLeastDrawn * contact && strength / contact >= kClearer * ribbon.inside_strength;
+}
+
+void fillTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, Plane8& mask) {
+  const auto cross = [](const Vector2d& u, const Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); };
+  const double area = cross(b - a, c - a);
+  if (area == 0) return;
+  const Vector2d low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+  const auto first = [](double value) {
+    return std::max<Eigen::Index>(0, static_cast<Eigen::Index>(std::ceil(value)));
+  };
+  const auto last = [](double value, Eigen::Index count) {
+    return std::min(count - 1, static_cast<Eigen::Index>(std::floor(value)));
+  };
+  for (Eigen::Index y = first(low.y()); y <= last(high.y(), mask.rows()); ++y)
+    for (Eigen::Index x = first(low.x()); x <= last(high.x(), mask.cols()); ++x) {
+      const Vector2d p(static_cast<double>(x), static_cast<double>(y));
+      const double u = cross(b - p, c - p) / area, v = cross(c - p, a - p) / area;
+      if (u >= 0 && v >= 0 && u + v <= 1) mask(y, x) = 1;
+    }
+}
+
+Plane8 maskOf(const Ribbon& ribbon, const LookGrid& look, const Plane8& figure) {
+  Plane8 mask = Plane8::Zero(figure.rows(), figure.cols());
+  std::vector<std::array<Vector2d, 2>> sections;
+  for (const Ribbon::Section& section : ribbon.sections)
+    sections.push_back({look.toImage(section.left), look.toImage(section.right)});
+  for (const auto& [left, right] : ribbon.cap) sections.push_back({look.toImage(left), look.toImage(right)});
+  for (std::size_t s = 0; s + 1 < sections.size(); ++s) {
+    const auto& [a, b] = sections[s];
+    const auto& [c, d] = sections[s + 1];
+    fillTriangle(a, b, c, mask);
+    fillTriangle(b, c, d, mask);
+  }
+  return (figure != 0).select(mask, Plane8::Zero(figure.rows(), figure.cols()));
+}
+
+// How clearly the limb is drawn where it lies within the other.
+double strengthWithin(const Limb& limb, const Plane8& other, const LookGrid& look) {
+  double sum = 0;
+  int count = 0;
+  const auto see = [&](const Vector2d& grid_point, double strength) {
+    const Vector2d p = look.toImage(grid_point);
+    const auto x = std::lround(p.x()), y = std::lround(p.y());
+    if (x < 0 || y < 0 || x >= other.cols() || y >= other.rows() || other(y, x) == 0) return;
+    sum += strength, ++count;
+  };
+  for (const Ribbon::Section& section : limb.ribbon.sections) {
+    see(section.left, section.left_strength);
+    see(section.right, section.right_strength);
+  }
+  return count ? sum / count : 0;
+}
+
+// Parts that the limbs cut off from the body go with a limb where they reach the outline: a thumb, the end of
+// a shoe. Parts with joints of others in them, and large ones without any, stay the body's.
+void takeWhatIsCutOff(const Plane8& figure, const Skeleton& skeleton, const std::vector<int>& limb_of_joint,
+                      Plane8& limbs) {
+  const auto rows = static_cast<int>(figure.rows()), columns = static_cast<int>(figure.cols());
+  constexpr int kSteps[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  struct Part {
+    std::vector<int> pixels;
+    std::array<int, 256> beside{};
+    bool at_outline = false;
+  };
+  std::vector<Part> parts;
+  Eigen::ArrayXi seen = Eigen::ArrayXi::Constant(figure.size(), -1);
+  std::array<std::int64_t, 256> areas{};
+  for (int i = 0; i < figure.size(); ++i) {
+    if (figure.data()[i]) ++areas[limbs.data()[i]];
+    if (figure.data()[i] == 0 || limbs.data()[i] != 0 || seen[i] >= 0) continue;
+    Part part;
+    part.pixels = {i};
+    seen[i] = static_cast<int>(parts.size());
+    for (std::size_t k = 0; k < part.pixels.size(); ++k) {
+      const int x = part.pixels[k] % columns, y = part.pixels[k] / columns;
+      for (const auto& step : kSteps) {
+        const int u = x + step[0], v = y + step[1];
+        if (u < 0 || v < 0 || u >= columns || v >= rows || figure(v, u) == 0) {
+          part.at_outline = true;
+        } else if (limbs(v, u) != 0) {
+          ++part.beside[limbs(v, u)];
+        } else if (int& there = seen[v * columns + u]; there < 0) {
+          there = seen[i];
+          part.pixels.push_back(v * columns + u);
+        }
+      }
+    }
+    parts.push_back(std::move(part));
+  }
+  if (parts.empty()) return;
+  std::vector<std::array<bool, 256>> joints_of(parts.size());
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const Vector2d& p = skeleton.joints[j].image;
+    const auto x = std::lround(p.x()), y = std::lround(p.y());
+    if (x < 0 || y < 0 || x >= columns || y >= rows) continue;
+    if (const int part = seen[y * columns + x]; part >= 0) joints_of[part][limb_of_joint[j]] = true;
+  }
+  const std::size_t body = static_cast<std::size_t>(
+      std::max_element(parts.begin(), parts.end(),
+                       [](const Part& a, const Part& b) { return a.pixels.size() < b.pixels.size(); }) -
+      parts.begin());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Part& part = parts[i];
+    if (i == body || !part.at_outline) continue;
+    const auto limb =
+        static_cast<int>(std::max_element(part.beside.begin(), part.beside.end()) - part.beside.begin());
+    bool others = false;
+    for (int k = 0; k < 256; ++k) others = others || (k != limb && joints_of[i][k]);
+    const bool large = static_cast<double>(part.pixels.size()) > kCutOff * static_cast<double>(areas[limb]);
+    if (others || (large && !joints_of[i][limb])) continue;
+    for (const int pixel : part.pixels) limbs.data()[pixel] = static_cast<std::uint8_t>(limb);
+  }
+}
+
+}  // namespace
+
+LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
+                    const SkeletonTemplate& body_plan) {
+  const LookGrid look = lookGrid(image, silhouette);
+  std::vector<Limb> limbs(std::min<std::size_t>(body_plan.limbs.size(), 255));
+  std::vector<int> limb_of_joint(skeleton.joints.size(), 0);
+  bool any = false;
+  for (std::size_t k = 0; k < limbs.size(); ++k) {
+    std::vector<Vector2d> bones;
+    for (const int joint : body_plan.limbs[k].joints) {
+      const int found = skeleton.find(body_plan.joints[static_cast<std::size_t>(joint)].name);
+      if (found < 0) break;
+      limb_of_joint[static_cast<std::size_t>(found)] = static_cast<int>(k) + 1;
+      bones.push_back(look.fromImage(skeleton.joints[static_cast<std::size_t>(found)].image));
+    }
+    if (bones.size() < body_plan.limbs[k].joints.size()) continue;
+    limbs[k].ribbon = findRibbon(look, bones);
+    limbs[k].layer = standsOut(limbs[k].ribbon);
+    if (limbs[k].layer) limbs[k].mask = maskOf(limbs[k].ribbon, look, silhouette.mask), any = true;
+  }
+  LayerMap map;
+  if (!any) return map;
+  for (std::size_t a = 0; a < limbs.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      if (!limbs[a].layer || !limbs[b].layer) continue;
+      const bool second =
+          strengthWithin(limbs[b], limbs[a].mask, look) >= strengthWithin(limbs[a], limbs[b].mask, look);
+      ++limbs[second ? b : a].wins;
+    }
+  map.limb = Plane8::Zero(image.height, image.width);
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < limbs.size(); ++k)
+    if (limbs[k].layer) order.push_back(k);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return limbs[a].wins > limbs[b].wins; });
+  for (const std::size_t k : order) {
+    const auto seen = limbs[k].mask != 0 && map.limb == 0;
+    if (static_cast<double>(seen.count()) < kLeastSeen * static_cast<double>((limbs[k].mask != 0).count()))
+      continue;
+    map.limb = Plane8(
+        seen.select(Plane8::Constant(image.height, image.width, static_cast<std::uint8_t>(k + 1)), map.limb));
+  }
+  takeWhatIsCutOff(silhouette.mask, skeleton, limb_of_joint, map.limb);
+  if (!(map.limb != 0).any()) map.limb.resize(0, 0);
+  return map;
+}
+
+}  // namespace skel

@@ -1,0 +1,70 @@
+#include <array>
+#include <cstdint>
+#include <sstream>
+
+#include "libskel/core/check.h"
+#include "libskel/core/error.h"
+#include "libskel/layers/layer_map.h"
+
+namespace skel {
+namespace {
+
+using Rgb = std::array<std::uint8_t, 3>;
+constexpr Rgb kBody = {150, 150, 150};
+
+// Far apart for the first limbs; no two alike, none grey.
+Rgb colorOf(int limb) {
+  constexpr Rgb kFirst[] = {{230, 60, 60}, {50, 110, 230}, {240, 160, 30}, {40, 170, 80}};
+  if (limb <= 4) return kFirst[limb - 1];
+  return {static_cast<std::uint8_t>(limb), static_cast<std::uint8_t>(255 - limb / 2), 255};
+}
+
+}  // namespace
+
+Image layerPicture(const LayerMap& layers, const Plane8& mask) {
+  const auto width = static_cast<int>(mask.cols()), height = static_cast<int>(mask.rows());
+  Image picture(width, height);
+  picture.rgba.setZero();
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      if (mask(y, x) == 0) continue;
+      const int limb = layers.any() ? layers.limb(y, x) : 0;
+      const Rgb color = limb == 0 ? kBody : colorOf(limb);
+      std::copy(color.begin(), color.end(), picture.pixel(x, y));
+      picture.pixel(x, y)[3] = 255;
+    }
+  return picture;
+}
+
+LayerMap layersOfPicture(const Image& picture, const Silhouette& silhouette,
+                         const SkeletonTemplate& body_plan, const std::string& file) {
+  const Plane8& mask = silhouette.mask;
+  if (picture.width != mask.cols() || picture.height != mask.rows()) {
+    std::ostringstream text;
+    text << "is a layer map of " << picture.width << "x" << picture.height << " px, the image has "
+         << mask.cols() << "x" << mask.rows();
+    throw InputError(file, text.str());
+  }
+  LayerMap layers;
+  layers.limb = Plane8::Zero(picture.height, picture.width);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const std::uint8_t* p = picture.pixel(x, y);
+      const bool grey = p[0] == p[1] && p[1] == p[2];
+      if (p[3] < 128 || grey || mask(y, x) == 0) continue;
+      int limb = 0;
+      for (int k = 1; k <= static_cast<int>(body_plan.limbs.size()) && limb == 0; ++k)
+        if (colorOf(k) == Rgb{p[0], p[1], p[2]}) limb = k;
+      if (limb == 0) {
+        std::ostringstream text;
+        text << "pixel (" << x << ", " << y << ") has the colour (" << int(p[0]) << ", " << int(p[1]) << ", "
+             << int(p[2]) << "), which is no limb's; paint with the colours that --formats layers writes";
+        throw InputError(file, text.str());
+      }
+      layers.limb(y, x) = static_cast<std::uint8_t>(limb);
+    }
+  if (!layers.limb.any()) layers.limb.resize(0, 0);
+  return layers;
+}
+
+}  // namespace skel

@@ -1,0 +1,270 @@
+// Limbs that cross the body: which pixels are theirs, and the bodies that become of them.
+#include "libskel/layers/layer_map.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <cmath>
+#include <numbers>
+
+#include "libskel/core/error.h"
+#include "libskel/core/segment.h"
+#include "libskel/mesh/fill_hidden.h"
+#include "libskel/mesh/inflate.h"
+#include "libskel/skeleton/lift.h"
+#include "libskel/skin/skin_weights.h"
+#include "tests/support/catch.h"
+#include "tests/support/mesh_checks.h"
+#include "tests/support/synthetic_figure.h"
+
+using namespace skel;
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// Blue, the right arm orange with a black line around it: from the shoulder down the flank and across the
+// belly.
+struct Drawing {
+  CapsuleFigure figure{.size = 400, .right_arm = 0, .right_forearm = -80};
+  Skeleton skeleton = capsuleSkeleton(figure);
+  SkeletonTemplate body_plan = loadTemplate("biped");
+  Plane8 arm;  // 1 on the arm, its line included
+  Image image;
+  Silhouette silhouette;
+
+  explicit Drawing(bool outlined = true,
+                   CapsuleFigure of = {.size = 400, .right_arm = 0, .right_forearm = -80})
+      : figure(of), image(capsuleImage(of)) {
+    arm = Plane8::Zero(figure.size, figure.size);
+    for (int y = 0; y < figure.size; ++y)
+      for (int x = 0; x < figure.size; ++x) {
+        const double distance = std::min(toBone(x, y, "right_shoulder", "right_elbow"),
+                                         toBone(x, y, "right_elbow", "right_hand"));
+        if (distance > figure.limb_radius) continue;
+        arm(y, x) = 1;
+        if (!outlined) continue;
+        const bool line = distance > figure.limb_radius - 3;
+        std::uint8_t* p = image.pixel(x, y);
+        p[0] = line ? 20 : 240, p[1] = line ? 20 : 160, p[2] = line ? 20 : 60;
+      }
+    silhouette = silhouetteFromMask(capsuleMask(figure));
+  }
+
+  const Vector2d& at(const std::string& joint) const {
+    return skeleton.joints[std::size_t(skeleton.index(joint))].image;
+  }
+  double toBone(int x, int y, const std::string& from, const std::string& to) const {
+    return distanceToSegment<Vector2d>(Vector2d(x, y), at(from), at(to));
+  }
+  LayerMap layers() const { return findLayers(image, silhouette, skeleton, body_plan); }
+  std::vector<FigurePiece> pieces() const { return figurePieces(layers(), silhouette, skeleton, body_plan); }
+  TriangleMesh mesh() const { return inflate(image, silhouette, {.back = Back::kPlain}, pieces()); }
+};
+
+// A mesh's triangles of one layer.
+TriangleMesh onlyLayer(const TriangleMesh& mesh, int layer) {
+  TriangleMesh part;
+  std::vector<int> number(std::size_t(mesh.vertices.rows()), -1), rows;
+  for (int v = 0; v < mesh.vertices.rows(); ++v)
+    if (mesh.layer[v] == layer) number[std::size_t(v)] = int(rows.size()), rows.push_back(v);
+  part.vertices = mesh.vertices(rows, Eigen::all);
+  std::vector<Eigen::RowVector3i> triangles;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
+    if (mesh.layer[mesh.triangles(t, 0)] == layer)
+      triangles.emplace_back(number[std::size_t(mesh.triangles(t, 0))],
+                             number[std::size_t(mesh.triangles(t, 1))],
+                             number[std::size_t(mesh.triangles(t, 2))]);
+  part.triangles.resize(Eigen::Index(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) part.triangles.row(Eigen::Index(t)) = triangles[t];
+  return part;
+}
+
+Vector3d corner(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, Eigen::Index t, int k) {
+  return vertices.row(mesh.triangles(t, k)).transpose().cast<double>();
+}
+
+// How far before and behind the drawing's plane a layer reaches at an image point.
+std::pair<double, double> depthAt(const TriangleMesh& mesh, int layer, const Vector2d& image_point) {
+  const Vector2d p = mesh.model_from_image(image_point);
+  double low = 1e9, high = -1e9;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    if (mesh.layer[mesh.triangles(t, 0)] != layer) continue;
+    const Vector3d a = corner(mesh.vertices, mesh, t, 0), b = corner(mesh.vertices, mesh, t, 1),
+                   c = corner(mesh.vertices, mesh, t, 2);
+    const auto cross = [](const Vector3d& u, const Vector3d& v) { return u.x() * v.y() - u.y() * v.x(); };
+    const Vector3d q(p.x(), p.y(), 0);
+    const double area = cross(b - a, c - a), u = cross(b - q, c - q) / area, v = cross(c - q, a - q) / area;
+    if (!(u >= 0 && v >= 0 && u + v <= 1)) continue;
+    const double z = u * a.z() + v * b.z() + (1 - u - v) * c.z();
+    low = std::min(low, z), high = std::max(high, z);
+  }
+  return {low, high};
+}
+
+// The largest singular value of the map of any triangle.
+double worstStretch(const TriangleMesh& mesh, const Eigen::MatrixX3f& posed) {
+  double worst = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    const auto edges = [&](const Eigen::MatrixX3f& vertices) {
+      Eigen::Matrix<double, 3, 2> e;
+      e << corner(vertices, mesh, t, 1) - corner(vertices, mesh, t, 0),
+          corner(vertices, mesh, t, 2) - corner(vertices, mesh, t, 0);
+      return e;
+    };
+    const Eigen::Matrix<double, 3, 2> rest = edges(mesh.vertices);
+    const Eigen::Matrix3d map = edges(posed) * (rest.transpose() * rest).inverse() * rest.transpose();
+    worst = std::max(worst, Eigen::JacobiSVD<Eigen::Matrix3d>(map).singularValues()[0]);
+  }
+  return worst;
+}
+
+// The arm turned about its shoulder by `degrees`.
+Eigen::MatrixX3f raised(const TriangleMesh& mesh, const Skeleton& skeleton, const SkinWeights& weights,
+                        double degrees) {
+  const Vector3d shoulder = skeleton.joints[std::size_t(skeleton.index("right_shoulder"))].position;
+  const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, Vector3d::UnitZ());
+  Eigen::MatrixX3f posed = mesh.vertices;
+  for (Eigen::Index v = 0; v < posed.rows(); ++v) {
+    double arm = 0;
+    for (int k = 0; k < 4; ++k)
+      for (const char* joint : {"right_shoulder", "right_elbow", "right_hand"})
+        if (weights.weights(v, k) > 0 && weights.joints(v, k) == skeleton.index(joint))
+          arm += double(weights.weights(v, k));
+    const Vector3d p = mesh.vertices.row(v).transpose().cast<double>();
+    posed.row(v) = ((1 - arm) * p + arm * (shoulder + turn * (p - shoulder))).transpose().cast<float>();
+  }
+  return posed;
+}
+
+}  // namespace
+
+TEST_CASE("an arm drawn before the chest is a layer, pixel by pixel; nothing else is") {
+  const Drawing drawing;
+  const LayerMap layers = drawing.layers();
+  REQUIRE(layers.any());
+  const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> right_arm = layers.limb == 1,
+                                                                            truth = drawing.arm != 0;
+  const double both = double((right_arm && truth).count()), either = double((right_arm || truth).count());
+  CHECK(both / either > 0.85);
+  CHECK((layers.limb > 1).count() == 0);
+}
+
+TEST_CASE("free limbs, and those that nothing tells from the body, are no layers") {
+  CHECK_FALSE(Drawing(false, CapsuleFigure{.size = 400}).layers().any());
+  CHECK_FALSE(Drawing(false).layers().any());
+  const Drawing drawing(false);
+  CHECK(figurePieces(drawing.layers(), drawing.silhouette, drawing.skeleton, drawing.body_plan).empty());
+}
+
+TEST_CASE("each layer is a closed body, and the arm lies before the belly by its own thickness") {
+  const Drawing drawing;
+  const TriangleMesh mesh = drawing.mesh();
+  REQUIRE(mesh.layer.size() == mesh.vertices.rows());
+  CHECK(checkMesh(mesh).problem == "");
+  CHECK(checkMesh(mesh).parts == 2);
+  for (const int layer : {0, 1}) {
+    CAPTURE(layer);
+    const MeshReport report = checkMesh(onlyLayer(mesh, layer));
+    CHECK(report.problem == "");
+    CHECK(report.parts == 1);
+    CHECK(report.euler == 2);
+  }
+  const Vector2d forearm = 0.4 * drawing.at("right_elbow") + 0.6 * drawing.at("right_hand");
+  const auto body = depthAt(mesh, 0, forearm), arm = depthAt(mesh, 1, forearm);
+  CHECK(body.second > 0.03);
+  CHECK(arm.first > body.second - 0.005);
+  CHECK(arm.second > arm.first + 0.03);
+  // From the front the figure is as wide and high as it was drawn.
+  const TriangleMesh one_skin = inflate(drawing.image, drawing.silhouette);
+  for (int axis : {0, 1}) {
+    CHECK(mesh.vertices.col(axis).minCoeff() == Approx(one_skin.vertices.col(axis).minCoeff()).margin(0.01));
+    CHECK(mesh.vertices.col(axis).maxCoeff() == Approx(one_skin.vertices.col(axis).maxCoeff()).margin(0.01));
+  }
+}
+
+TEST_CASE("behind the arm the body wears the body's colour, the arm its own all over") {
+  const Drawing drawing;
+  const TriangleMesh mesh = drawing.mesh();
+  int behind = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows() / 2; ++t) {
+    const int layer = mesh.layer[mesh.triangles(t, 0)];
+    const Vector3d middle = (corner(mesh.vertices, mesh, t, 0) + corner(mesh.vertices, mesh, t, 1) +
+                             corner(mesh.vertices, mesh, t, 2)) /
+                            3;
+    const Vector2d p = mesh.model_from_image.inverse(middle.head<2>());
+    const Eigen::RowVector2f uv = (mesh.uvOf(t, 0) + mesh.uvOf(t, 1) + mesh.uvOf(t, 2)) / 3;
+    const std::uint8_t* color =
+        mesh.texture.pixel(int(uv.x() * float(mesh.texture.width)), int(uv.y() * float(mesh.texture.height)));
+    CAPTURE(p.transpose(), int(color[0]), int(color[1]), int(color[2]));
+    const double to_forearm = drawing.toBone(int(p.x()), int(p.y()), "right_elbow", "right_hand");
+    const bool at_root = (p - drawing.at("right_shoulder")).norm() < 40;
+    if (layer == 0 && to_forearm < 12 && !at_root) {
+      ++behind;
+      CHECK(color[2] > color[0] + 60);
+    }
+    if (layer == 1 && to_forearm < 11 && !at_root) CHECK(color[2] <= color[0] + 60);
+  }
+  CHECK(behind > 20);
+}
+
+TEST_CASE("raising the arm stretches nothing: the chest stays where it is") {
+  const Drawing drawing;
+  const TriangleMesh mesh = drawing.mesh();
+  Skeleton skeleton = drawing.skeleton;
+  const std::vector<int> joint_layers = jointLayers(skeleton, drawing.body_plan, mesh);
+  liftToModel(skeleton, mesh, joint_layers);
+  CHECK(skeleton.joints[std::size_t(skeleton.index("right_hand"))].position.z() > 0.05);
+  const SkinWeights weights = computeSkinWeights(mesh, skeleton, SkinMethod::kGeodesic, {}, joint_layers);
+  CHECK(worstStretch(mesh, raised(mesh, skeleton, weights, -120)) < 3);
+
+  const TriangleMesh one_skin = inflate(drawing.image, drawing.silhouette);
+  Skeleton of_one = drawing.skeleton;
+  liftToModel(of_one, one_skin);
+  const SkinWeights torn = computeSkinWeights(one_skin, of_one, SkinMethod::kGeodesic);
+  CHECK(worstStretch(one_skin, raised(one_skin, of_one, torn, -120)) > 3);
+}
+
+TEST_CASE("a map of layers survives its picture; what is no map is refused") {
+  const Drawing drawing;
+  const LayerMap layers = drawing.layers();
+  const Image picture = layerPicture(layers, drawing.silhouette.mask);
+  CHECK(
+      (layersOfPicture(picture, drawing.silhouette, drawing.body_plan, "map.png").limb == layers.limb).all());
+  CHECK_FALSE(layersOfPicture(layerPicture({}, drawing.silhouette.mask), drawing.silhouette,
+                              drawing.body_plan, "map.png")
+                  .any());
+  CHECK_THROWS_WITH(layersOfPicture(Image(30, 20), drawing.silhouette, drawing.body_plan, "map.png"),
+                    "map.png: is a layer map of 30x20 px, the image has 400x400");
+  Image wrong = picture;
+  const Vector2d body = drawing.at("body");
+  wrong.pixel(int(body.x()), int(body.y()))[0] = 7;
+  const std::string pixel = std::to_string(int(body.x())) + ", " + std::to_string(int(body.y()));
+  CHECK_THROWS_WITH(layersOfPicture(wrong, drawing.silhouette, drawing.body_plan, "map.png"),
+                    "map.png: pixel (" + pixel +
+                        ") has the colour (7, 150, 150), which is no limb's; paint with the colours that "
+                        "--formats layers writes");
+}
+
+TEST_CASE("what is hidden takes the colours around it") {
+  Image image(60, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 60; ++x) {
+      const std::uint8_t color[4] = {std::uint8_t(x < 30 ? 200 : 20), 90, std::uint8_t(x < 30 ? 20 : 200),
+                                     255};
+      std::copy_n(color, 4, image.pixel(x, y));
+    }
+  Plane8 hidden = Plane8::Zero(40, 60);
+  hidden.block(15, 0, 10, 60).setConstant(1);
+  const Plane8 known = (hidden == 0).cast<std::uint8_t>();
+  Image covered = image;
+  for (int y = 15; y < 25; ++y)
+    for (int x = 0; x < 60; ++x) std::fill_n(covered.pixel(x, y), 3, std::uint8_t{0});
+  const Image filled = fillHidden(covered, known, hidden);
+  for (const int x : {5, 25, 35, 55})
+    for (int y = 15; y < 25; ++y) {
+      CAPTURE(x, y);
+      for (int c = 0; c < 3; ++c)
+        CHECK(std::abs(int(filled.pixel(x, y)[c]) - int(image.pixel(x, y)[c])) <= 2);
+    }
+}
