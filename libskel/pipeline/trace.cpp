@@ -191,6 +191,8 @@ void writeTrace(const RiggedDrawing& drawing, const std::string& dir) {
   Image skeleton = onPaper(drawing.image, std::max(drawing.image.width, drawing.image.height));
   drawSkeleton(skeleton, drawing.character.skeleton);
   write("5-skeleton.png", fitted(skeleton, kPictureSize, kPictureSize));
+  if (drawing.layers.any())
+    write("6-layers.png", onPaper(layerPicture(drawing.layers, drawing.silhouette.mask)));
   write("6-mesh.png", views(drawing.character.mesh));
   write("7-skin.png", views(weightsPainted(drawing.character)));
   write("8-posed.png", clipsPicture(drawing));

@@ -7,8 +7,8 @@
 
 namespace skel {
 
-// Writes dir/1-drawing.png … 8-posed.png, sides.png and summary.png. `drawing` must be found. Throws
-// OutputError.
+// Writes dir/1-drawing.png … 8-posed.png, sides.png and summary.png; 6-layers.png if there are layers.
+// `drawing` must be found. Throws OutputError.
 void writeTrace(const RiggedDrawing& drawing, const std::string& dir);
 
 }  // namespace skel
