@@ -146,7 +146,7 @@ val decode(const val& bytes, const std::string& file) {
 }
 
 // {width, height, mask} of a PNG file, 255 on the figure, or {error}.
-val readMask(const val& bytes, const std::string& file) {
+val maskOf(const val& bytes, const std::string& file) {
   return saying(file, [&] {
     const Plane8 mask = decodeMask(bytesOf(bytes), file);
     val said = val::object();
@@ -241,7 +241,7 @@ val mask() {
 
 EMSCRIPTEN_BINDINGS(skel) {
   emscripten::function("decode", &skel::decode);
-  emscripten::function("readMask", &skel::readMask);
+  emscripten::function("readMask", &skel::maskOf);
   emscripten::function("rig", &skel::rig);
   emscripten::function("glb", &skel::glb);
   emscripten::function("texture", &skel::texture);

@@ -1,6 +1,6 @@
 # Debian's header holds the implementation too, which its library is not there for.
 skel_headers(TinyGLTF::TinyGLTF tiny_gltf.h)
-file(CONFIGURE OUTPUT tiny_gltf.cpp CONTENT "#define TINYGLTF_IMPLEMENTATION\n#include <tiny_gltf.h>\n" @ONLY)
+file(CONFIGURE OUTPUT tiny_gltf.cpp CONTENT "#define TINYGLTF_IMPLEMENTATION\n#include <fstream>\n#include <tiny_gltf.h>\n" @ONLY)
 add_library(skel_tinygltf STATIC ${CMAKE_CURRENT_BINARY_DIR}/tiny_gltf.cpp)
 target_compile_options(skel_tinygltf PRIVATE -w)
 target_link_libraries(skel_tinygltf PRIVATE TinyGLTF::TinyGLTF nlohmann_json::nlohmann_json)

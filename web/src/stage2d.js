@@ -3,6 +3,7 @@
 import { say } from './words.js';
 
 const kSvg = 'http://www.w3.org/2000/svg';
+const kDot_px = 4.5, kGrip_px = 15; // at least, on the screen
 const kSure = 0.4; // below, a joint stands where the rest of the figure suggests
 
 const element = (name, attributes) => {
@@ -51,14 +52,16 @@ export class DrawingStage extends EventTarget {
   // `skeleton` is a parsed skeleton file. Joints keep their elements, and so the focus.
   showSkeleton(skeleton) {
     this.skeleton = skeleton;
-    const size = Math.max(this.width, this.height) / 100;
+    const longSide = Math.max(this.width, this.height);
+    const cssPixel = this.width / (this.stage.clientWidth || this.width);
+    const size = Math.max(longSide / 100, kDot_px * cssPixel), grip = Math.max(longSide / 40, kGrip_px * cssPixel);
     const names = skeleton.joints.map((joint) => joint.name).join();
     if (this.names !== names || !this.svg.firstChild) {
       this.names = names;
       this.svg.replaceChildren(element('g', { class: 'bones' }), element('g', { class: 'joints' }));
       for (const joint of skeleton.joints) {
         const group = element('g', { class: 'joint', tabindex: 0, role: 'button', 'data-joint': joint.name });
-        group.append(element('circle', { class: 'grip', r: 2.6 * size }), element('circle', { class: 'dot', r: size }));
+        group.append(element('circle', { class: 'grip', r: grip }), element('circle', { class: 'dot', r: size }));
         group.addEventListener('pointerdown', (event) => this.#startDragging(event, joint.name));
         group.addEventListener('keydown', (event) => this.#nudge(event, joint.name));
         this.svg.lastChild.append(group);

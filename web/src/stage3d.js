@@ -86,7 +86,7 @@ export class ModelStage extends EventTarget {
 
   // Looks at the model from this angle about the vertical, rad.
   face(angle) {
-    const far = this.reach * 5.4;
+    const far = this.reach * 5.4 / Math.min(1, this.camera.aspect);
     this.camera.position.copy(this.center).add(new Vector3(Math.sin(angle) * far, this.reach * 0.5, Math.cos(angle) * far));
     this.controls.target.copy(this.center);
     this.controls.update();
