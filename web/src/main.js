@@ -387,7 +387,7 @@ addEventListener('drop', (event) => {
 addEventListener('paste', (event) => takeFiles(event.clipboardData.files));
 
 for (const [word, name] of [['sampleBiscuit', 'gingerbread'], ['sampleRobot', 'box_robot'], ['sampleFox', 'walking_fox']]) {
-  const url = globalThis.skelSamples?.[name] ?? `samples/${name}.png`;
+  const url = sampleUrl(name);
   const button = document.createElement('button');
   const label = document.createElement('span');
   label.dataset.word = word;
@@ -396,9 +396,12 @@ for (const [word, name] of [['sampleBiscuit', 'gingerbread'], ['sampleRobot', 'b
   button.onclick = () => inTurn(async () => open(new File([await bytesOfUrl(url)], `${name}.png`, { type: 'image/png' })));
   $('samples').append(button);
 }
+function sampleUrl(name) {
+  return globalThis.skelSamples?.[name] ?? `samples/${name}.png`;
+}
 async function bytesOfUrl(url) {
   if (url.startsWith('data:')) return Uint8Array.from(atob(url.split(',')[1]), (c) => c.charCodeAt(0));
-  return (await fetch(url)).arrayBuffer();
+  return new Uint8Array(await (await fetch(url)).arrayBuffer());
 }
 
 // --- words, and off we go --------------------------------------------------------------------------------------------
@@ -424,6 +427,12 @@ if (!globalThis.WebAssembly || !WebAssembly.validate(kSimd)) {
     await start();
     if (!work) calm('');
     document.body.dataset.ready = Math.round(performance.now());
+  });
+  // The first drawing takes some times as long as those after it: let it be one that nobody waits for.
+  inTurn(async () => {
+    if (work) return;
+    await core.open(await bytesOfUrl(sampleUrl('gingerbread')), 'gingerbread.png');
+    await core.rig({ plan: 'biped' });
   });
 }
 if ('serviceWorker' in navigator && location.protocol.startsWith('http')) navigator.serviceWorker.register('sw.js');

@@ -12,7 +12,7 @@ globalThis.fetch = undefined; // node's is not for files
 const createSkel = createRequire(import.meta.url)(`${wasmDir}/skel.js`);
 const core = await createSkel({ wasmBinary: await readFile(`${wasmDir}/skel.wasm`) });
 
-const kFloat = 5126, kUnsignedShort = 5123;
+const kFloat = 5126; // glTF's name of it
 const kNumber = 1e-6, kWeight = 1;
 
 function chunks(glb) {
@@ -20,22 +20,43 @@ function chunks(glb) {
   return { json: JSON.parse(glb.subarray(20, 20 + size)), bytes: glb.subarray(20 + size + 8) };
 }
 
+// How the joints that carry the vertices differ, or null. Of two that carry nearly the same either may come first.
+function skinDifference(a, b) {
+  const { JOINTS_0: joints, WEIGHTS_0: weights } = a.json.meshes[0].primitives[0].attributes;
+  const viewOf = ({ json, bytes }, accessor) => {
+    const { byteOffset = 0, byteLength } = json.bufferViews[json.accessors[accessor].bufferView];
+    return bytes.subarray(byteOffset, byteOffset + byteLength);
+  };
+  const shares = (glb, vertex) => {
+    const carried = new Map();
+    for (let k = 4 * vertex; k < 4 * vertex + 4; ++k) {
+      const joint = viewOf(glb, joints)[k];
+      carried.set(joint, (carried.get(joint) ?? 0) + viewOf(glb, weights).readUInt16LE(2 * k));
+    }
+    return carried;
+  };
+  for (let vertex = 0; vertex < a.json.accessors[joints].count; ++vertex) {
+    const mine = shares(a, vertex), theirs = shares(b, vertex);
+    for (const joint of [...mine.keys(), ...theirs.keys()])
+      if (Math.abs((mine.get(joint) ?? 0) - (theirs.get(joint) ?? 0)) > kWeight) return `has another weight at vertex ${vertex}`;
+  }
+  return null;
+}
+
 // How two GLB files differ, or null.
 function difference(mine, theirs) {
   const a = chunks(mine), b = chunks(theirs);
   if (JSON.stringify(a.json.bufferViews) !== JSON.stringify(b.json.bufferViews)) return 'has other buffers';
+  const { JOINTS_0: joints, WEIGHTS_0: weights } = a.json.meshes[0].primitives[0].attributes;
+  const skin = [joints, weights].map((accessor) => a.json.accessors[accessor].bufferView);
   for (const [i, { byteOffset = 0, byteLength }] of a.json.bufferViews.entries()) {
     const x = a.bytes.subarray(byteOffset, byteOffset + byteLength), y = b.bytes.subarray(byteOffset, byteOffset + byteLength);
-    if (x.equals(y)) continue;
-    const accessor = a.json.accessors.find((one) => one.bufferView === i);
-    const weights = accessor?.componentType === kUnsignedShort && accessor.normalized;
-    if (!weights && accessor?.componentType !== kFloat) return `differs in buffer view ${i}`;
-    for (let at = 0; at < byteLength; at += weights ? 2 : 4) {
-      const [u, v] = [x, y].map((bytes) => (weights ? bytes.readUInt16LE(at) : bytes.readFloatLE(at)));
-      if (!(Math.abs(u - v) <= (weights ? kWeight : kNumber))) return `has ${u} for ${v} in buffer view ${i}`;
-    }
+    if (x.equals(y) || skin.includes(i)) continue;
+    if (a.json.accessors.find((one) => one.bufferView === i)?.componentType !== kFloat) return `differs in buffer view ${i}`;
+    for (let at = 0; at < byteLength; at += 4)
+      if (!(Math.abs(x.readFloatLE(at) - y.readFloatLE(at)) <= kNumber)) return `has ${x.readFloatLE(at)} for ${y.readFloatLE(at)} in buffer view ${i}`;
   }
-  return null;
+  return skinDifference(a, b);
 }
 
 let worst = 0, sameGlb = 0, failed = 0;
