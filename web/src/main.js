@@ -1,3 +1,4 @@
+import { bytesOfBase64 } from './base64.js';
 import { core, start } from './core.js';
 import { History } from './history.js';
 import { bytesOf, download, pngOf, stemOf, zipOf } from './save.js';
@@ -199,14 +200,18 @@ for (const id of ['plan', 'figure'])
 
 // --- the model ---------------------------------------------------------------------------------------------------
 
-try {
-  model = new ModelStage($('view'));
-} catch {
-  $('view').hidden = true;
-  $('no-webgl').hidden = false;
-  document.querySelector('#model .tools').hidden = true;
+function startModel() {
+  try {
+    model = new ModelStage($('view'));
+    model.playing = !matchMedia('(prefers-reduced-motion: reduce)').matches;
+    updatePlay();
+  } catch {
+    $('view').hidden = true;
+    $('no-webgl').hidden = false;
+    document.querySelector('#model .tools').hidden = true;
+    for (const key of ['saveFilm', 'saveSheet', 'saveFrames']) $(key).disabled = true;
+  }
 }
-if (model && matchMedia('(prefers-reduced-motion: reduce)').matches) model.playing = false;
 
 function updatePlay() {
   if (model) $('play').textContent = say(model.playing ? 'pause' : 'play');
@@ -280,7 +285,6 @@ for (const [key, make] of Object.entries(savers)) {
     part.dataset.word = word;
     button.append(part);
   }
-  button.disabled = !model && ['saveFilm', 'saveSheet', 'saveFrames'].includes(key);
   button.onclick = () => inTurn(async () => {
     const file = await make();
     download(...file);
@@ -366,7 +370,9 @@ async function take(files) {
 }
 const takeFiles = (list) => {
   const files = [...list];
-  if (files.length) inTurn(() => take(files));
+  if (!files.length) return;
+  busy(say('reading'));
+  inTurn(() => take(files));
 };
 
 for (const id of ['file', 'camera'])
@@ -393,14 +399,17 @@ for (const [word, name] of [['sampleBiscuit', 'gingerbread'], ['sampleRobot', 'b
   label.dataset.word = word;
   button.append(Object.assign(document.createElement('img'), { src: url, alt: '' }), label);
   button.dataset.sample = name;
-  button.onclick = () => inTurn(async () => open(new File([await bytesOfUrl(url)], `${name}.png`, { type: 'image/png' })));
+  button.onclick = () => {
+    busy(say('reading'));
+    inTurn(async () => open(new File([await bytesOfUrl(url)], `${name}.png`, { type: 'image/png' })));
+  };
   $('samples').append(button);
 }
 function sampleUrl(name) {
   return globalThis.skelSamples?.[name] ?? `samples/${name}.png`;
 }
 async function bytesOfUrl(url) {
-  if (url.startsWith('data:')) return Uint8Array.from(atob(url.split(',')[1]), (c) => c.charCodeAt(0));
+  if (url.startsWith('data:')) return bytesOfBase64(url.split(',')[1]);
   return new Uint8Array(await (await fetch(url)).arrayBuffer());
 }
 
@@ -419,7 +428,7 @@ speak($('language').value);
 
 // (module (func (result v128) i32.const 0 i8x16.splat))
 const kSimd = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 15, 11]);
-if (!globalThis.WebAssembly || !WebAssembly.validate(kSimd)) {
+if (!globalThis.WebAssembly || !globalThis.OffscreenCanvas || !WebAssembly.validate(kSimd)) {
   complain(new Error(say('tooOld')));
 } else {
   busy(say('starting'));
@@ -428,6 +437,7 @@ if (!globalThis.WebAssembly || !WebAssembly.validate(kSimd)) {
     if (!work) calm('');
     document.body.dataset.ready = Math.round(performance.now());
   });
+  inTurn(startModel);
   // The first drawing takes some times as long as those after it: let it be one that nobody waits for.
   inTurn(async () => {
     if (work) return;

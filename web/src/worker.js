@@ -1,6 +1,7 @@
 // The core, in a thread of its own so that the page never freezes.
 import { gunzipSync } from 'fflate';
 import createSkel from 'skel-core';
+import { bytesOfBase64 } from './base64.js';
 
 const kMostPixels = 6e6; // larger pictures are made smaller, for the memory of a phone
 const kLongSide = 2048;
@@ -46,7 +47,7 @@ async function decode(bytes, name) {
 
 const calls = {
   async start(wasm) {
-    const packed = typeof wasm === 'string' ? Uint8Array.from(atob(wasm), (c) => c.charCodeAt(0)) : wasm;
+    const packed = typeof wasm === 'string' ? bytesOfBase64(wasm) : wasm;
     core = await createSkel({ wasmBinary: packed[0] === 0x1f ? gunzipSync(packed) : packed });
   },
   async open(bytes, name) {
