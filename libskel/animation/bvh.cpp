@@ -1,13 +1,13 @@
 #include "libskel/animation/bvh.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/number_chars.h"
 
 namespace skel {
 namespace {
@@ -53,7 +53,7 @@ class Words {
   double number() {
     const std::string_view word = next();
     double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
     if (word.empty() || error != std::errc() || end != word.data() + word.size() ||
         !(std::abs(value) <= kMaxNumber))
       fail("has " + shown(word) + " where a number should be");

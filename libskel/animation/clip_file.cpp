@@ -1,7 +1,6 @@
 #include "libskel/animation/clip_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include "libskel/core/check.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
+#include "libskel/core/number_chars.h"
 
 namespace skel {
 namespace {
@@ -166,7 +166,7 @@ FootContact contactAt(const JsonValue& value, const Clip& clip) {
 
 void appendNumber(std::string& text, float number) {
   char buffer[32];
-  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, number).ptr);
+  text.append(buffer, shortestChars(buffer, buffer + sizeof buffer, number));
 }
 
 void appendRow(std::string& text, float time_s, const float* numbers, int count) {

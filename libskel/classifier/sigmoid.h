@@ -1,7 +1,6 @@
 // 1 / (1 + exp(-x)) that gives the same bits on every machine, for one number or for a vector of them.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <type_traits>
 
@@ -25,7 +24,7 @@ SKEL_INLINE void sigmoidInPlace(Value (&x)[kCount]) {
   // Added to a small number, it leaves the nearest whole number in the lowest bits.
   constexpr Scalar kRounder = kSingle ? Scalar(12582912) : Scalar(6755399441055744);
   constexpr int kExponentShift = kSingle ? 23 : 52;
-  constexpr auto kOne = std::bit_cast<BitsOf<Scalar>>(Scalar(1));
+  constexpr auto kOne = __builtin_bit_cast(BitsOf<Scalar>, Scalar(1));
   constexpr int kTerms = kSingle ? 6 : 13;
   constexpr Scalar kInverseFactorials[] = {Scalar(1.),
                                            Scalar(1.),
@@ -69,7 +68,7 @@ SKEL_INLINE void sigmoidInPlace(Value (&x)[kCount]) {
     const Value series =
         kTerms % 2 == 0 ? (1 + even[c] * square[c]) + odd[c] * x[c] : odd[c] + even[c] * x[c];
     const Value power_of_two =
-        std::bit_cast<Value>((std::bit_cast<Bits>(shifted[c]) << kExponentShift) + kOne);
+        __builtin_bit_cast(Value, (__builtin_bit_cast(Bits, shifted[c]) << kExponentShift) + kOne);
     x[c] = 1 / (1 + series * power_of_two);
   }
 }

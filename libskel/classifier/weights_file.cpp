@@ -1,6 +1,5 @@
 #include "libskel/classifier/weights_file.h"
 
-#include <charconv>
 #include <climits>
 #include <locale>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "libskel/core/check.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
+#include "libskel/core/number_chars.h"
 
 namespace skel {
 namespace {
@@ -95,7 +95,7 @@ WeightsProvenance readProvenance(const JsonValue& value) {
 std::string show(float number) {
   char text[32];
   // A JSON reader takes -0 for 0.
-  const auto end = std::to_chars(text, text + sizeof text, number == 0 ? 0 : number).ptr;
+  const auto end = shortestChars(text, text + sizeof text, number == 0 ? 0 : number);
   return std::string(text, end);
 }
 

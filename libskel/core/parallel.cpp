@@ -28,7 +28,11 @@ void parallelFor(std::size_t count, int threads, const std::function<void(std::s
   const std::size_t helpers =
       std::min<std::size_t>(static_cast<std::size_t>(threads), std::max<std::size_t>(count, 1)) - 1;
   {
-    std::vector<std::jthread> pool;
+    struct Pool : std::vector<std::thread> {
+      ~Pool() {
+        for (std::thread& thread : *this) thread.join();
+      }
+    } pool;
     for (std::size_t i = 0; i < helpers; ++i) pool.emplace_back(run);
     run();
   }

@@ -1,16 +1,17 @@
 // Numbers in text files.
 #pragma once
 
-#include <charconv>
-#include <cmath>
 #include <string>
+#include <string_view>
+
+#include "libskel/core/number_chars.h"
 
 namespace skel {
 
 // With at most `digits` decimals and no trailing zeros, the same on every machine and in every locale.
 inline void appendNumber(std::string& text, double value, int digits = 6) {
   char buffer[64];
-  char* end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, digits).ptr;
+  char* end = fixedChars(buffer, buffer + sizeof buffer, value, digits);
   while (end[-1] == '0') --end;
   if (end[-1] == '.') --end;
   const std::string_view number(buffer, std::size_t(end - buffer));

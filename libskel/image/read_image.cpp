@@ -31,8 +31,10 @@ Image decodeImage(std::string_view bytes, const std::string& file) {
 
 Image readImage(const std::string& path) { return decodeImage(readFile(path), path); }
 
-Plane8 readMask(const std::string& path) {
-  const Image image = readImage(path);
+Plane8 readMask(const std::string& path) { return decodeMask(readFile(path), path); }
+
+Plane8 decodeMask(std::string_view bytes, const std::string& file) {
+  const Image image = decodeImage(bytes, file);
   Plane8 mask(image.height, image.width);
   for (Eigen::Index i = 0; i < mask.size(); ++i) {
     const auto p = image.rgba.row(i);

@@ -18,6 +18,7 @@ Image decodeImage(std::string_view bytes, const std::string& file);
 
 // A grey picture as a mask: 255 where the picture is at least 128 (and, if it has alpha, opaque), else 0.
 Plane8 readMask(const std::string& path);
+Plane8 decodeMask(std::string_view bytes, const std::string& file);
 
 // Larger pictures are refused: they would need more than 1 GB.
 inline constexpr long kMaxPixels = 100'000'000;

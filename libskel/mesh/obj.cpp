@@ -13,6 +13,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/number_chars.h"
 #include "libskel/image/read_image.h"
 #include "libskel/mesh/cut_polygon.h"
 #include "libskel/mesh/texture_atlas.h"
@@ -87,7 +88,7 @@ Eigen::Matrix<float, kCount, 1> numbers(const Lines& lines, const std::vector<st
   for (int k = 0; k < kCount; ++k) {
     std::string_view word = line[k + 1];
     if (word.starts_with('+')) word.remove_prefix(1);
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), result[k]);
+    const auto [end, error] = from_chars(word.data(), word.data() + word.size(), result[k]);
     if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(result[k])) {
       lines.fail("'" + std::string(line[k + 1]) + "' is not a finite number");
     }

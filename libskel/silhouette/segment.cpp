@@ -62,7 +62,9 @@ cv::Mat straightened(const Image& image, cv::Mat& rgb, PageCorners corners) {
   cv::Mat rgba(image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data())), page;
   cv::warpPerspective(rgba, page, page_from_image, cv::Size(size[0], size[1]), cv::INTER_LINEAR,
                       cv::BORDER_REPLICATE);
-  cv::cvtColor(page, rgb, cv::COLOR_RGBA2RGB);
+  // cvtColor() would bring along every colour space that OpenCV knows.
+  rgb.create(page.size(), CV_8UC3);
+  cv::mixChannels(page, rgb, {0, 0, 1, 1, 2, 2});
   const double half = (image_px - 1) / 2;
   const cv::Mat image_from_picture =
       (cv::Mat_<double>(3, 3) << image_px, 0, half, 0, image_px, half, 0, 0, 1);

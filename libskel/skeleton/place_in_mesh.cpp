@@ -66,6 +66,7 @@ std::vector<std::vector<int>> groupsAround(const std::vector<Eigen::Vector3d>& p
   for (Eigen::Index i = 0; i < count; ++i) at.row(i) = points[static_cast<std::size_t>(i)].cast<float>();
   std::vector<std::map<int, unsigned>> met(points.size());  // sides by group
   Eigen::ArrayXi within(count);
+  const auto between = [](float low, float x, float high) { return int{low <= x} & int{x <= high}; };
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     const Eigen::RowVector3i corners = mesh.triangles.row(t);
     const Eigen::RowVector3f a = mesh.vertices.row(corners[0]), b = mesh.vertices.row(corners[1]),
@@ -73,9 +74,8 @@ std::vector<std::vector<int>> groupsAround(const std::vector<Eigen::Vector3d>& p
     const Eigen::RowVector3f low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
     // A line along an axis meets the triangle only where the other two coordinates are between its corners'.
     for (Eigen::Index i = 0; i < count; ++i) {
-      within[i] = ((at(i, 0) >= low[0]) & (at(i, 0) <= high[0])) +
-                  ((at(i, 1) >= low[1]) & (at(i, 1) <= high[1])) +
-                  ((at(i, 2) >= low[2]) & (at(i, 2) <= high[2]));
+      within[i] = between(low[0], at(i, 0), high[0]) + between(low[1], at(i, 1), high[1]) +
+                  between(low[2], at(i, 2), high[2]);
     }
     if (within.maxCoeff() < 2) continue;
     for (Eigen::Index i = 0; i < count; ++i) {

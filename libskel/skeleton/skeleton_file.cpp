@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "libskel/core/error.h"
+#include "libskel/core/files.h"
 #include "libskel/core/json.h"
 #include "libskel/core/json_names.h"
 #include "libskel/skeleton/joint_json.h"
@@ -102,7 +103,12 @@ std::string formatSkeletonFile(const SkeletonFile& file) {
 }
 
 SkeletonFile readSkeletonFile(const std::string& path, const SkeletonTemplate& body_plan) {
-  const JsonDocument document = JsonDocument::readFile(path);
+  return parseSkeletonFile(readFile(path), path, body_plan);
+}
+
+SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
+                               const SkeletonTemplate& body_plan) {
+  const JsonDocument document = JsonDocument::parse(text, path);
   const JsonValue root = document.root();
   root.checkFormat("skel-skeleton", 2);
   root.allowOnly({"format", "version", "image", "figure", "template", "confidence", "missing", "warnings",

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "libskel/skeleton/skeleton.h"
@@ -39,6 +40,9 @@ std::string formatSkeletonFile(const SkeletonFile& file);
 // NaN. Positions are read as they stand; the pipeline computes them anew from `image`. A joint that somebody
 // has moved without saying so (moved_joints.h) comes back as edited, and is not missing any more.
 SkeletonFile readSkeletonFile(const std::string& path, const SkeletonTemplate& body_plan);
+// `path` is the name that complaints use.
+SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
+                               const SkeletonTemplate& body_plan);
 
 // Whether a person has moved a joint in the skeleton file at `path`, said so or not. False where there is no
 // file.

@@ -17,7 +17,7 @@ Welding::Welding(const Eigen::MatrixX3f& vertices) {
     std::uint64_t hash = 0;
     for (int k = 0; k < 3; ++k) {
       const float c = vertices(static_cast<Eigen::Index>(v), k) + 0.0f;  // −0 is 0
-      hash = (hash ^ std::bit_cast<std::uint32_t>(c)) * 0x9e3779b97f4a7c15u;
+      hash = (hash ^ __builtin_bit_cast(std::uint32_t, c)) * 0x9e3779b97f4a7c15u;
       hash ^= hash >> 29;
     }
     std::size_t slot = hash & (size - 1);

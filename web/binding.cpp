@@ -1,0 +1,250 @@
+// The core for JavaScript: bytes in, bytes out. What is read and written are the files of skel-infer, so that
+// a character can go on there and come back.
+#include <emscripten/bind.h>
+
+#include <algorithm>
+#include <new>
+#include <optional>
+#include <string>
+
+#include "libskel/animation/clip_library.h"
+#include "libskel/classifier/weights_file.h"
+#include "libskel/core/error.h"
+#include "libskel/core/json.h"
+#include "libskel/core/sha256.h"
+#include "libskel/image/read_image.h"
+#include "libskel/image/write_image.h"
+#include "libskel/pipeline/rig_character.h"
+#include "libskel/skeleton/outside_figure.h"
+#include "libskel/skeleton/skeleton_file.h"
+
+namespace skel {
+namespace {
+using emscripten::val;
+
+std::string bytesOf(const val& array) {
+  std::string bytes(array["length"].as<std::size_t>(), '\0');
+  val(emscripten::typed_memory_view(bytes.size(), reinterpret_cast<std::uint8_t*>(bytes.data())))
+      .call<void>("set", array);
+  return bytes;
+}
+
+// A copy that JavaScript owns.
+template <class Bytes>
+val arrayOf(const Bytes& bytes) {
+  return val::global("Uint8Array")
+      .new_(val(emscripten::typed_memory_view(static_cast<std::size_t>(bytes.size()),
+                                              reinterpret_cast<const std::uint8_t*>(bytes.data()))));
+}
+
+val textsOf(const std::vector<std::string>& texts) {
+  val array = val::array();
+  for (const std::string& text : texts) array.call<void>("push", text);
+  return array;
+}
+
+std::string stemOf(const std::string& file) {
+  const std::size_t dot = file.rfind('.');
+  return dot == std::string::npos || dot == 0 ? file : file.substr(0, dot);
+}
+
+std::string sizeText(long width, long height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+// What the tools would have said, as {error}.
+template <class Work>
+val saying(const std::string& file, const Work& work) {
+  std::string message;
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    message = file + ": needs more memory than there is";
+  } catch (const std::exception& error) {
+    message = error.what();
+  }
+  val said = val::object();
+  said.set("error", message);
+  return said;
+}
+
+// The character at work.
+struct Character {
+  RiggedDrawing drawing;
+  SkeletonFile file;
+  Plane8 given_mask;  // empty: none was given
+  std::string stem;
+};
+Character current;
+
+RigOptions optionsFor(const std::string& body_plan, int figure) {
+  RigOptions options;
+  options.body_plan = loadTemplate(body_plan);
+  options.mlp = defaultMlp();
+  options.clips = clipsFor(builtinClips(), options.body_plan);
+  options.silhouette.figure = figure;
+  return options;
+}
+
+// Where one body plan leaves doubt, another that the figure fits.
+RiggedDrawing rigByAnyPlan(const RigInput& input, int figure) {
+  constexpr double kSure = 0.5;
+  std::optional<RiggedDrawing> first;
+  for (const char* name : {"biped", "quadruped"}) {
+    RiggedDrawing drawing = rigCharacter(input, optionsFor(name, figure));
+    if (!drawing.found() || drawing.recognition.confidence >= kSure) return drawing;
+    if (!first) first = std::move(drawing);
+  }
+  return std::move(*first);
+}
+
+SkeletonFile givenSkeleton(const std::string& text, const std::string& name, const std::string& image,
+                           const RigInput& input) {
+  const JsonDocument document = JsonDocument::parse(text, name);
+  document.root().checkFormat("skel-skeleton", 2);
+  const JsonValue plan = document.root().at("template");
+  const auto known = builtinTemplates();
+  if (std::find(known.begin(), known.end(), plan.asString()) == known.end())
+    plan.fail("\"" + plan.asString() + "\" is no body plan that is known here");
+  SkeletonFile given = parseSkeletonFile(text, name, loadTemplate(plan.asString()));
+  if (given.image_width != input.image.width || given.image_height != input.image.height)
+    throw InputError(name, "belongs to an image of " + sizeText(given.image_width, given.image_height) +
+                               " px, " + image + " has " + sizeText(input.image.width, input.image.height));
+  return given;
+}
+
+void checkJoints(const SkeletonFile& given, const std::string& name, const Plane8& mask) {
+  if (const Joint* stray = jointFarOutside(given.skeleton, mask))
+    throw InputError(name, "joint \"" + stray->name + "\" lies far outside figure " +
+                               std::to_string(given.figure.number) +
+                               " of the drawing; place it on the figure, or take the skeleton of this one");
+}
+
+val described() {
+  val said = val::object();
+  val times = val::object();
+  for (const StageTime& time : current.drawing.times) times.set(time.stage, time.time_s * 1e3);
+  const Skeleton& skeleton = current.drawing.recognition.skeleton;
+  said.set("skeleton", formatSkeletonFile(current.file));
+  said.set("plan", skeleton.template_name);
+  said.set("confidence", current.file.confidence);
+  said.set("warnings", textsOf(current.file.warnings));
+  said.set("figures", current.drawing.silhouette.figure_count);
+  said.set("mask", arrayOf(current.drawing.silhouette.mask));
+  said.set("times", times);
+  return said;
+}
+
+// {width, height, rgba} of a PNG file, or {error}: what other pictures hold, the browser knows.
+val decode(const val& bytes, const std::string& file) {
+  return saying(file, [&] {
+    const Image image = decodeImage(bytesOf(bytes), file);
+    val said = val::object();
+    said.set("width", image.width);
+    said.set("height", image.height);
+    said.set("rgba", arrayOf(image.rgba));
+    return said;
+  });
+}
+
+// {width, height, mask} of a PNG file, 255 on the figure, or {error}.
+val maskOf(const val& bytes, const std::string& file) {
+  return saying(file, [&] {
+    const Plane8 mask = decodeMask(bytesOf(bytes), file);
+    val said = val::object();
+    said.set("width", static_cast<int>(mask.cols()));
+    said.set("height", static_cast<int>(mask.rows()));
+    said.set("mask", arrayOf(mask));
+    return said;
+  });
+}
+
+// Request: {file, width, height, rgba, mask, skeleton, skeletonFile, plan, figure}. `mask` (width·height
+// bytes, 255 on the figure) and `skeleton` (the text of a skeleton file) may be null, `plan` empty: the one
+// that fits. Returns {skeleton, plan, confidence, warnings, figures, mask, times in ms} or {error}.
+val rig(const val& request) {
+  const auto file = request["file"].as<std::string>();
+  return saying(file, [&] {
+    RigInput input;
+    const int width = request["width"].as<int>(), height = request["height"].as<int>();
+    input.image = Image(width, height);
+    val(emscripten::typed_memory_view(static_cast<std::size_t>(input.image.rgba.size()),
+                                      input.image.rgba.data()))
+        .call<void>("set", request["rgba"]);
+    Character made;
+    made.stem = stemOf(file);
+    if (!request["mask"].isNull()) {
+      Plane8 mask(height, width);
+      val(emscripten::typed_memory_view(static_cast<std::size_t>(mask.size()), mask.data()))
+          .call<void>("set", request["mask"]);
+      made.file.mask = SkeletonFile::Mask{made.stem + ".mask.png", sha256(encodePng(mask))};
+      input.mask = made.given_mask = std::move(mask);
+    }
+    int figure = request["figure"].as<int>();
+    std::optional<SkeletonFile> given;
+    std::string skeleton_file;
+    if (!request["skeleton"].isNull()) {
+      skeleton_file = request["skeletonFile"].as<std::string>();
+      given = givenSkeleton(request["skeleton"].as<std::string>(), skeleton_file, file, input);
+      input.skeleton = given->skeleton;
+      input.turned_deg = given->figure.turned_deg;
+      figure = given->figure.number;
+    }
+    const auto plan = given ? given->skeleton.template_name : request["plan"].as<std::string>();
+    made.drawing = plan.empty() ? rigByAnyPlan(input, figure) : rigCharacter(input, optionsFor(plan, figure));
+    RiggedDrawing& drawing = made.drawing;
+    if (!drawing.found()) throw InputError(file, drawing.silhouette.reason);
+    made.file.warnings = drawing.silhouette.warnings;
+    if (given) {
+      checkJoints(*given, skeleton_file, drawing.silhouette.mask);
+      made.file.confidence = given->confidence;
+      made.file.missing = given->missing;
+      // What was said of joints before somebody moved them is stale.
+      const auto& joints = given->skeleton.joints;
+      if (std::none_of(joints.begin(), joints.end(),
+                       [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; }))
+        for (const std::string& warning : given->warnings)
+          if (std::find(made.file.warnings.begin(), made.file.warnings.end(), warning) ==
+              made.file.warnings.end())
+            made.file.warnings.push_back(warning);
+    } else {
+      made.file.confidence = drawing.recognition.confidence;
+      made.file.missing = drawing.recognition.missing;
+      made.file.warnings.insert(made.file.warnings.end(), drawing.recognition.warnings.begin(),
+                                drawing.recognition.warnings.end());
+    }
+    made.file.image_file = file;
+    made.file.image_width = width;
+    made.file.image_height = height;
+    made.file.figure = {figure, outlineHash(drawing.silhouette), drawing.recognition.turned_deg};
+    made.file.skeleton = drawing.recognition.skeleton;
+    current = std::move(made);
+    return described();
+  });
+}
+
+// The .glb of the character at work.
+val glb() {
+  return arrayOf(encodeGlb(current.drawing.character, current.drawing.clips, {.name = current.stem}));
+}
+
+// Its texture, as PNG.
+val texture() { return arrayOf(encodePng(current.drawing.character.mesh.texture)); }
+
+// Its drawing and its mask, as PNG.
+val drawing() { return arrayOf(encodePng(current.drawing.image)); }
+val mask() {
+  const Plane8& given = current.given_mask;
+  return arrayOf(encodePng(given.size() > 0 ? given : current.drawing.silhouette.mask));
+}
+
+}  // namespace
+}  // namespace skel
+
+EMSCRIPTEN_BINDINGS(skel) {
+  emscripten::function("decode", &skel::decode);
+  emscripten::function("readMask", &skel::maskOf);
+  emscripten::function("rig", &skel::rig);
+  emscripten::function("glb", &skel::glb);
+  emscripten::function("texture", &skel::texture);
+  emscripten::function("drawing", &skel::drawing);
+  emscripten::function("mask", &skel::mask);
+}

@@ -1,0 +1,63 @@
+// Puts the page together: node build.mjs WASM_DIR OUT. OUT/skel.html is the whole page in one file, OUT/site the same as
+// files to be hosted. WASM_DIR holds skel.js and skel.wasm.
+import { createHash } from 'node:crypto';
+import { cp, mkdir, readFile, writeFile } from 'node:fs/promises';
+import { gzipSync } from 'node:zlib';
+import { build } from 'esbuild';
+
+const [wasmDir, out] = process.argv.slice(2);
+const here = new URL('.', import.meta.url).pathname;
+const site = `${out}/site`;
+const samples = { gingerbread: 'characters', box_robot: 'characters', walking_fox: 'animals' };
+
+async function bundle(entry, plugins = []) {
+  const { outputFiles } = await build({
+    entryPoints: [here + entry], bundle: true, minify: true, write: false, format: 'iife', target: 'es2022',
+    legalComments: 'none', alias: { 'skel-core': `${wasmDir}/skel.js` }, external: ['fs', 'path', 'crypto'], plugins,
+    platform: 'browser',
+  });
+  return outputFiles[0].text;
+}
+
+const escaped = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
+const licences = JSON.parse(await readFile(`${here}/credits.json`, 'utf8'));
+const credits = '<ul>' + licences.map(({ name, url, licence }) => `<li><a href="${url}">${name}</a> · ${licence}</li>`).join('') + '</ul>';
+const inScript = (text) => text.replaceAll('</script', '<\\/script');
+
+const [html, css, page, worker, wasm, licence] = await Promise.all([
+  readFile(`${here}/index.html`, 'utf8'), readFile(`${here}/src/style.css`, 'utf8'), bundle('src/main.js'), bundle('src/worker.js'),
+  readFile(`${wasmDir}/skel.wasm`), readFile(`${here}/../LICENSE`, 'utf8'),
+]);
+const body = html.replace('<!-- credits -->', () => `${credits}\n<pre>${escaped(licence)}</pre>`);
+
+const pictures = {};
+for (const [name, set] of Object.entries(samples)) pictures[name] = await readFile(`${here}/../datasets/${set}/${name}.png`);
+
+// One file: a worker cannot be loaded from file://, nor can a .wasm be fetched.
+const packed = gzipSync(wasm, { level: 9 });
+const asData = Object.fromEntries(Object.entries(pictures).map(([name, bytes]) => [name, `data:image/png;base64,${bytes.toString('base64')}`]));
+await mkdir(`${site}/samples`, { recursive: true });
+const single = body
+  .replace('<!-- head -->', () => `<style>${css}</style>`)
+  .replace('<!-- scripts -->', () => `<script>globalThis.skelSamples = ${JSON.stringify(asData)};</script>
+<script type="text/plain" id="skel-worker">${inScript(worker)}</script>
+<script type="text/plain" id="skel-wasm">${packed.toString('base64')}</script>
+<script>${inScript(page)}</script>`);
+await writeFile(`${out}/skel.html`, single);
+
+// Files for a server, with what makes it an app that works offline.
+const version = createHash('sha256').update(page).update(worker).update(wasm).update(css).update(body).digest('hex').slice(0, 12);
+const index = body
+  .replace('<!-- head -->', () => '<link rel="stylesheet" href="style.css">\n<link rel="manifest" href="manifest.webmanifest">\n<link rel="icon" href="icon.svg">\n<meta name="theme-color" content="#2257c5">')
+  .replace('<!-- scripts -->', () => '<script src="page.js"></script>');
+const files = ['./', 'style.css', 'page.js', 'worker.js', 'skel.wasm', 'manifest.webmanifest', 'icon.svg', ...Object.keys(pictures).map((name) => `samples/${name}.png`)];
+const serviceWorker = (await readFile(`${here}/src/sw.js`, 'utf8')).replace('VERSION', version).replace('FILES', JSON.stringify(files));
+await Promise.all([
+  writeFile(`${site}/index.html`, index), writeFile(`${site}/style.css`, css), writeFile(`${site}/page.js`, page),
+  writeFile(`${site}/worker.js`, worker), writeFile(`${site}/skel.wasm`, wasm), writeFile(`${site}/sw.js`, serviceWorker),
+  cp(`${here}/src/manifest.webmanifest`, `${site}/manifest.webmanifest`), cp(`${here}/src/icon.svg`, `${site}/icon.svg`),
+  ...Object.entries(pictures).map(([name, bytes]) => writeFile(`${site}/samples/${name}.png`, bytes)),
+]);
+
+const kB = (bytes) => `${Math.round(bytes / 1000)} kB`;
+console.log(`skel.wasm ${kB(wasm.length)}, ${kB(packed.length)} gzipped; skel.html ${kB(Buffer.byteLength(single))}`);

@@ -1,0 +1,97 @@
+// The core in node against skel-infer: node core.mjs WASM_DIR NATIVE PLAN PNG... NATIVE holds what skel-infer wrote of
+// the pictures (json, glb). Joints within 0.1 px; of the GLB files, the same structure, texture and triangles, weights
+// within a step of 1/65535 and other numbers within a few units in the last place (sines are the C library's own).
+import { readFile } from 'node:fs/promises';
+import { createRequire } from 'node:module';
+import { basename } from 'node:path';
+
+const [wasmDir, native, plan, ...files] = process.argv.slice(2);
+const kTolerance_px = 0.1;
+
+globalThis.fetch = undefined; // node's is not for files
+const createSkel = createRequire(import.meta.url)(`${wasmDir}/skel.js`);
+const core = await createSkel({ wasmBinary: await readFile(`${wasmDir}/skel.wasm`) });
+
+const kFloat = 5126; // glTF's name of it
+const kNumber = 1e-6, kWeight = 1;
+
+function chunks(glb) {
+  const size = glb.readUInt32LE(12);
+  return { json: JSON.parse(glb.subarray(20, 20 + size)), bytes: glb.subarray(20 + size + 8) };
+}
+
+// How the joints that carry the vertices differ, or null. Of two that carry nearly the same either may come first.
+function skinDifference(a, b) {
+  const { JOINTS_0: joints, WEIGHTS_0: weights } = a.json.meshes[0].primitives[0].attributes;
+  const viewOf = ({ json, bytes }, accessor) => {
+    const { byteOffset = 0, byteLength } = json.bufferViews[json.accessors[accessor].bufferView];
+    return bytes.subarray(byteOffset, byteOffset + byteLength);
+  };
+  const shares = (glb, vertex) => {
+    const carried = new Map();
+    for (let k = 4 * vertex; k < 4 * vertex + 4; ++k) {
+      const joint = viewOf(glb, joints)[k];
+      carried.set(joint, (carried.get(joint) ?? 0) + viewOf(glb, weights).readUInt16LE(2 * k));
+    }
+    return carried;
+  };
+  for (let vertex = 0; vertex < a.json.accessors[joints].count; ++vertex) {
+    const mine = shares(a, vertex), theirs = shares(b, vertex);
+    for (const joint of [...mine.keys(), ...theirs.keys()])
+      if (Math.abs((mine.get(joint) ?? 0) - (theirs.get(joint) ?? 0)) > kWeight) return `has another weight at vertex ${vertex}`;
+  }
+  return null;
+}
+
+// How two GLB files differ, or null.
+function difference(mine, theirs) {
+  const a = chunks(mine), b = chunks(theirs);
+  if (JSON.stringify(a.json.bufferViews) !== JSON.stringify(b.json.bufferViews)) return 'has other buffers';
+  const { JOINTS_0: joints, WEIGHTS_0: weights } = a.json.meshes[0].primitives[0].attributes;
+  const skin = [joints, weights].map((accessor) => a.json.accessors[accessor].bufferView);
+  for (const [i, { byteOffset = 0, byteLength }] of a.json.bufferViews.entries()) {
+    const x = a.bytes.subarray(byteOffset, byteOffset + byteLength), y = b.bytes.subarray(byteOffset, byteOffset + byteLength);
+    if (x.equals(y) || skin.includes(i)) continue;
+    if (a.json.accessors.find((one) => one.bufferView === i)?.componentType !== kFloat) return `differs in buffer view ${i}`;
+    for (let at = 0; at < byteLength; at += 4)
+      if (!(Math.abs(x.readFloatLE(at) - y.readFloatLE(at)) <= kNumber)) return `has ${x.readFloatLE(at)} for ${y.readFloatLE(at)} in buffer view ${i}`;
+  }
+  return skinDifference(a, b);
+}
+
+let worst = 0, sameGlb = 0, failed = 0;
+const times = [];
+const fail = (name, problem) => {
+  console.error(`${name}: ${problem}`);
+  ++failed;
+};
+for (const file of files) {
+  const name = basename(file), stem = name.replace(/\.png$/, '');
+  const picture = core.decode(await readFile(file), name);
+  if (picture.error) {
+    fail(name, picture.error);
+    continue;
+  }
+  const start = performance.now();
+  const found = core.rig({ ...picture, file: name, mask: null, skeleton: null, skeletonFile: '', plan, figure: 1 });
+  times.push(performance.now() - start);
+  if (found.error) {
+    fail(name, found.error);
+    continue;
+  }
+  const mine = JSON.parse(found.skeleton), theirs = JSON.parse(await readFile(`${native}/${stem}.skeleton.json`, 'utf8'));
+  const off = Math.max(...mine.joints.map((joint, i) =>
+    Math.hypot(joint.image[0] - theirs.joints[i].image[0], joint.image[1] - theirs.joints[i].image[1])));
+  worst = Math.max(worst, off);
+  if (off > kTolerance_px) fail(name, `a joint lies ${off.toFixed(2)} px from the native one`);
+  if (mine.figure.sha256 !== theirs.figure.sha256) fail(name, 'the figure is outlined otherwise');
+  if (JSON.stringify(mine.warnings) !== JSON.stringify(theirs.warnings)) fail(name, `says ${mine.warnings}, not ${theirs.warnings}`);
+  const glb = Buffer.from(core.glb()), theirGlb = await readFile(`${native}/${stem}.glb`);
+  if (glb.equals(theirGlb)) ++sameGlb;
+  const differs = difference(glb, theirGlb);
+  if (differs) fail(`${stem}.glb`, differs);
+}
+times.sort((a, b) => a - b);
+console.log(`${plan}: ${files.length} drawings, joints at most ${worst.toFixed(3)} px apart, ${sameGlb} GLB files the same byte for byte, ` +
+  `median ${times[times.length >> 1]?.toFixed(0)} ms`);
+process.exit(failed ? 1 : 0);
