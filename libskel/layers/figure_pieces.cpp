@@ -101,6 +101,7 @@ Plane8 enclosed(const Plane8& mask, const Plane8& figure) {
 
 // The pixels within so many of the mask's, by steps across sides and corners in turn.
 Plane8 grown(Plane8 mask, int steps) {
+  if (!(mask != 0).any()) return mask;
   for (int step = 0; step < steps; ++step) {
     Plane8 wide = mask;
     const Eigen::Index rows = mask.rows(), columns = mask.cols();
@@ -200,7 +201,11 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
       if (limb.layer != layer) half = std::max(half, limb.half_px);
     const Plane8 own =
         ((small == static_cast<std::uint8_t>(layer)) && (small_figure != 0)).cast<std::uint8_t>();
-    if (half == 0) return Plane8(Plane8::Zero(own.rows(), own.cols()));
+    // A closing stays within the convex hull.
+    const PixelBox around = figureBox(own);
+    const auto near = small.block(around.y0, around.x0, around.height(), around.width());
+    if (half == 0 || !(near != 0 && near != static_cast<std::uint8_t>(layer)).any())
+      return Plane8(Plane8::Zero(own.rows(), own.cols()));
     const Plane8 closed = closing(own, kThicker * half / coarse.step + 1);
     return Plane8(
         (closed != 0 && small != static_cast<std::uint8_t>(layer) && small != 0).cast<std::uint8_t>());
