@@ -16,7 +16,8 @@ using Eigen::MatrixX2d;
 constexpr int kRings = 2;   // of triangles around what is turned over that move with it, at first
 constexpr int kSteps = 15;  // before twice as many rings
 constexpr double kLeastEpsilon = 1e-3, kShrink = 0.2;
-constexpr double kHold = 10;  // of a handle, beside the area of triangles
+// Of a handle, beside the area of triangles: at first, and as a share of that whenever the patch grows.
+constexpr double kHold = 10, kLoosen = 0.3;
 constexpr double kLeastStep = 1e-4;
 
 double chi(double det, double epsilon) { return (det + std::hypot(epsilon, det)) / 2; }
@@ -26,8 +27,8 @@ double chi(double det, double epsilon) { return (det + std::hypot(epsilon, det))
 // Some vertices that move between others that stay.
 class Untangler::Patch {
  public:
-  Patch(const Untangler& mesh, const std::vector<char>& moves, const MatrixX2d& targets)
-      : targets_(targets), unknown_(moves.size(), -1) {
+  Patch(const Untangler& mesh, const std::vector<char>& moves, const MatrixX2d& targets, double hold)
+      : targets_(targets), hold_(hold), unknown_(moves.size(), -1) {
     for (std::size_t v = 0; v < moves.size(); ++v)
       if (moves[v]) {
         unknown_[v] = int(vertices_.size());
@@ -81,7 +82,7 @@ class Untangler::Patch {
       const double det = j.determinant();
       sum += t->area * (j.squaredNorm() + det * det + 1) / chi(det, epsilon);
     }
-    for (const Held& h : handles_) sum += kHold * off(h, posed).squaredNorm();
+    for (const Held& h : handles_) sum += hold_ * off(h, posed).squaredNorm();
     return sum;
   }
 
@@ -95,15 +96,15 @@ class Untangler::Patch {
     for (std::size_t a = 0; a < 3; ++a) {
       const int row = unknown_[std::size_t(handle.vertices[a])];
       if (row < 0) continue;
-      slope.segment<2>(2 * row) += 2 * kHold * handle.shares[a] * way;
+      slope.segment<2>(2 * row) += 2 * hold_ * handle.shares[a] * way;
       for (std::size_t b = 0; b < 3; ++b) {
         const int column = unknown_[std::size_t(handle.vertices[b])];
         if (column < 0) continue;
         for (int r = 0; r < 2; ++r)
-          entries_.emplace_back(2 * row + r, 2 * column + r, 2 * kHold * handle.shares[a] * handle.shares[b]);
+          entries_.emplace_back(2 * row + r, 2 * column + r, 2 * hold_ * handle.shares[a] * handle.shares[b]);
       }
     }
-    return kHold * way.squaredNorm();
+    return hold_ * way.squaredNorm();
   }
 
   // The triangle's energy; adds its slope and its bend, in which χ counts as a line, so that it is convex in
@@ -138,6 +139,7 @@ class Untangler::Patch {
   }
 
   const MatrixX2d& targets_;
+  const double hold_;
   std::vector<Held> handles_;
   std::vector<int> unknown_;   // of each vertex of the mesh, or -1
   std::vector<int> vertices_;  // that move
@@ -178,7 +180,8 @@ Eigen::VectorXd Untangler::areaShares(const MatrixX2d& posed) const {
 
 void Untangler::untangle(MatrixX2d& posed, const MatrixX2d& targets) const {
   Eigen::VectorXd shares = areaShares(posed);
-  for (int rings = kRings; shares.minCoeff() < kLeastAreaShare; rings *= 2) {
+  double hold = kHold;
+  for (int rings = kRings; shares.minCoeff() < kLeastAreaShare; rings *= 2, hold *= kLoosen) {
     std::vector<char> moves(std::size_t(vertex_count_), 0);
     for (std::size_t t = 0; t < triangles_.size(); ++t)
       if (shares(Index(t)) < kLeastAreaShare)
@@ -190,7 +193,7 @@ void Untangler::untangle(MatrixX2d& posed, const MatrixX2d& targets) const {
           for (const int v : t.corners) wider[std::size_t(v)] = 1;
       moves = std::move(wider);
     }
-    Patch patch(*this, moves, targets);
+    Patch patch(*this, moves, targets, hold);
     for (int step = 0; step < kSteps && shares.minCoeff() < kLeastAreaShare; ++step) {
       const double epsilon = std::hypot(kLeastEpsilon, kShrink * std::min(0., shares.minCoeff()));
       if (!patch.step(epsilon, posed)) break;
