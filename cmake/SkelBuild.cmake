@@ -85,5 +85,6 @@ function(skel_embed target variable file)
     DEPENDS ${file} ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
     VERBATIM)
   target_sources(${target} PRIVATE ${dir}/${variable}.cpp)
+  set_source_files_properties(${dir}/${variable}.cpp PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
   target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 endfunction()
