@@ -11,6 +11,8 @@
 
 namespace skel {
 
+class JsonValue;
+
 struct ConvLayer {
   enum class Kind {
     kConvolution,  // kernel × kernel, then + skip, then max(0, ·) if relu
@@ -78,9 +80,10 @@ void forward(const ConvNet& net, InstructionSet set, ConvNetMaps& maps);
 // For each convolution `outputs` scales (float32, little endian), `outputs` biases (float32) and the weights
 // as int8, in the order of ConvNet::parameters; weight = int8 · scale of its output.
 std::string formatWeights(const ConvNet& net);
-// Into a net of the same layers. Throws InputError where there are too few or too many bytes, or where they
-// are no numbers.
-void parseWeights(std::string_view bytes, const std::string& file, ConvNet& net);
+// Into a net of the same layers, which `header` (of the file) tells under "convolutions" as
+// convolutionSizes() does, beside the bytes' "sha256". Throws InputError where either does not fit, where
+// there are too few or too many bytes, or where they are no numbers.
+void parseWeights(std::string_view bytes, const JsonValue& header, const std::string& file, ConvNet& net);
 // Rounds the weights as their bytes do.
 void quantize(ConvNet& net);
 // [inputs, outputs, kernel] of each convolution: what the bytes are laid out by.

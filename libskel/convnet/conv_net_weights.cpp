@@ -6,6 +6,8 @@
 
 #include "libskel/convnet/conv_net.h"
 #include "libskel/core/error.h"
+#include "libskel/core/json.h"
+#include "libskel/core/sha256.h"
 
 namespace skel {
 namespace {
@@ -75,7 +77,15 @@ std::string formatWeights(const ConvNet& net) {
   return bytes;
 }
 
-void parseWeights(std::string_view bytes, const std::string& file, ConvNet& net) {
+void parseWeights(std::string_view bytes, const JsonValue& header, const std::string& file, ConvNet& net) {
+  const auto expected = convolutionSizes(net);
+  const std::vector<JsonValue> given = header.at("convolutions").items();
+  bool same = given.size() == expected.size();
+  for (std::size_t i = 0; same && i < given.size(); ++i) {
+    const std::vector<double> sizes = given[i].asNumbers(3);
+    same = std::equal(sizes.begin(), sizes.end(), expected[i].begin());
+  }
+  if (!same) header.at("convolutions").fail("not the layers of this program's net: train it anew");
   std::size_t size = 0;
   for (const ConvLayer& layer : net.layers) {
     if (layer.kind == ConvLayer::Kind::kConvolution) {
@@ -105,6 +115,8 @@ void parseWeights(std::string_view bytes, const std::string& file, ConvNet& net)
   for (const float p : net.parameters) {
     if (!std::isfinite(p)) throw InputError(file, "holds weights that are no numbers");
   }
+  if (sha256(bytes) != header.at("sha256").asString())
+    throw InputError(file, "its weights do not fit its sha256: the file is damaged");
 }
 
 }  // namespace skel

@@ -60,19 +60,7 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file) {
   JointNet net = makeJointNet(names_plan ? root.at("body_plan").asString() : "biped",
                               jointsAt(root.at("joints")), inputs);
   net.provenance = root.at("provenance").asString();
-  const auto expected = convolutionSizes(net);
-  bool same = given.size() == expected.size();
-  for (std::size_t i = 0; same && i < given.size(); ++i) {
-    const std::vector<double> sizes = given[i].asNumbers(3);
-    same = std::equal(sizes.begin(), sizes.end(), expected[i].begin());
-  }
-  if (!same) root.at("convolutions").fail("not the layers of this program's net: train it anew");
-
-  const std::string_view payload = bytes.substr(end + 1);
-  parseWeights(payload, file, net);
-  if (sha256(payload) != root.at("sha256").asString()) {
-    throw InputError(file, "its weights do not fit its sha256: the file is damaged");
-  }
+  parseWeights(bytes.substr(end + 1), root, file, net);
   return net;
 }
 

@@ -187,7 +187,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   });
   if (inflated) {
     drawing.character = timed("depth", [&] {
-      RiggedCharacter parted = drawing.character;
+      RiggedCharacter parted = std::move(drawing.character);
       const double yaw_rad = measureFigure(parted.mesh, parted.weights, parted.skeleton).yaw_rad;
       partLimbsInDepth(parted.mesh, parted.skeleton, parted.weights, options.body_plan, yaw_rad);
       return parted;

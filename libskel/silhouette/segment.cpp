@@ -75,7 +75,7 @@ cv::Mat straightened(const Image& image, cv::Mat& rgb, PageCorners corners) {
 struct Drawn {
   cv::Mat figures;     // 8-bit, 255 on figures; empty if there are none
   std::string reason;  // why there are none
-  bool tidy = false;   // on an even ground, with nothing around
+  bool tidy = false;   // on an even ground that is no paper's grain, with nothing around
   bool soft = false;   // strokes on paper, of which the core is seen
 };
 
@@ -199,7 +199,7 @@ Segmentation segment(const Image& image) {
                         cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
     figures = figures >= 128;
   }
-  if (corners || ruled || drawn.soft || !drawn.tidy)
+  if (corners || ruled || !drawn.tidy)
     figures = agreed(figures, figureProbability(builtInPageNet(), picture));
   if (cv::countNonZero(figures) == 0) {
     out.reason = drawn.reason.empty() ? "nothing on the page looks like a figure" : drawn.reason;

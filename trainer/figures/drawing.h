@@ -39,6 +39,9 @@ struct FigurePlan {
 
 std::vector<std::string> jointNames(const FigurePlan& plan);
 
+// One of these kinds, each as likely; of none: of the plan's, as often as is useful for training.
+int sampleKind(Rng& rng, const FigurePlan& plan, const std::vector<int>& kinds = {});
+
 // Those that can be drawn.
 std::span<const FigurePlan> figurePlans();
 // The one of this template. Throws UsageError if there is none.

@@ -24,14 +24,6 @@ constexpr int kMargin = 12;       // raster px around the scene, for what the fi
 
 using Bits = std::vector<std::uint8_t>;
 
-int sampleKind(Rng& rng, const std::vector<int>& kinds, const std::vector<double>& shares) {
-  if (!kinds.empty()) return kinds[rng.below(static_cast<std::uint32_t>(kinds.size()))];
-  double r = rng.uniform();
-  int i = 0;
-  while (i + 1 < static_cast<int>(shares.size()) && r >= shares[i]) r -= shares[i++];
-  return i;
-}
-
 // A slight or sometimes strong turn, stretch and shear, and sometimes a soft bending of the plane.
 std::function<Vec(const Vec&)> sampleWarp(Rng& rng) {
   const double angle = rng.normal(0, rng.chance(.9) ? .06 : .4);
@@ -274,7 +266,7 @@ Scene sampleJunk(Rng& rng, const Scene& figure) {
 }
 
 Drawing drawFigure(Rng& rng, const FigurePlan& plan, const FigureOptions& options) {
-  Drawing drawing = plan.draw(rng, sampleKind(rng, options.kinds, plan.kinds));
+  Drawing drawing = plan.draw(rng, sampleKind(rng, plan, options.kinds));
   const auto warp = sampleWarp(rng);
   drawing.scene.transform(warp);
   for (Vec& p : drawing.joints) p = warp(p);

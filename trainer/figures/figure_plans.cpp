@@ -67,6 +67,14 @@ FigurePlan quadruped() {
 
 }  // namespace
 
+int sampleKind(Rng& rng, const FigurePlan& plan, const std::vector<int>& kinds) {
+  if (!kinds.empty()) return kinds[rng.below(static_cast<std::uint32_t>(kinds.size()))];
+  double r = rng.uniform();
+  int i = 0;
+  while (i + 1 < static_cast<int>(plan.kinds.size()) && r >= plan.kinds[i]) r -= plan.kinds[i++];
+  return i;
+}
+
 std::vector<std::string> jointNames(const FigurePlan& plan) {
   std::vector<std::string> names;
   for (const FigurePlan::Joint& joint : plan.joints) names.push_back(joint.name);

@@ -48,10 +48,6 @@ Art artOf(const Scene& scene, int long_side) {
   return artOf(width, height, solid, colours);
 }
 
-cv::Scalar randomColour(Rng& rng, double low = 20, double high = 255) {
-  return {rng.uniform(low, high), rng.uniform(low, high), rng.uniform(low, high)};
-}
-
 // A canvas of unit size on which things are painted.
 class Easel {
  public:
@@ -87,29 +83,28 @@ class Easel {
 Art house(Rng& rng, int size) {
   Easel e(size);
   const double left = rng.uniform(.05, .2), right = 1 - left, roof = rng.uniform(.3, .5);
-  e.polygon({{left, roof}, {right, roof}, {right, .98}, {left, .98}}, randomColour(rng, 120));
-  e.polygon({{left - .05, roof}, {.5, .03}, {right + .05, roof}}, randomColour(rng));
+  e.polygon({{left, roof}, {right, roof}, {right, .98}, {left, .98}}, randomRgb(rng, 120));
+  e.polygon({{left - .05, roof}, {.5, .03}, {right + .05, roof}}, randomRgb(rng));
   const double door = rng.uniform(.3, .6);
-  e.polygon({{door, .7}, {door + .14, .7}, {door + .14, .98}, {door, .98}}, randomColour(rng));
+  e.polygon({{door, .7}, {door + .14, .7}, {door + .14, .98}, {door, .98}}, randomRgb(rng));
   for (const double x : {left + .08, right - .24})
     e.polygon({{x, roof + .08}, {x + .16, roof + .08}, {x + .16, roof + .22}, {x, roof + .22}},
-              randomColour(rng));
+              randomRgb(rng));
   for (const double x : {left + .16, right - .16}) {
     e.line({x, roof + .08}, {x, roof + .22}, .012, {30, 30, 30});
     e.line({x - .08, roof + .15}, {x + .08, roof + .15}, .012, {30, 30, 30});
   }
-  if (rng.chance(.5)) e.polygon({{.68, .08}, {.76, .08}, {.76, .3}, {.68, .22}}, randomColour(rng));
+  if (rng.chance(.5)) e.polygon({{.68, .08}, {.76, .08}, {.76, .3}, {.68, .22}}, randomRgb(rng));
   return e.take();
 }
 
 Art tree(Rng& rng, int size) {
   Easel e(size);
   const double half = rng.uniform(.03, .09);
-  e.polygon({{.5 - half, .5}, {.5 + half, .5}, {.5 + half, .99}, {.5 - half, .99}},
-            randomColour(rng, 40, 160));
+  e.polygon({{.5 - half, .5}, {.5 + half, .5}, {.5 + half, .99}, {.5 - half, .99}}, randomRgb(rng, 40, 160));
   const cv::Scalar leaves =
       rng.chance(.7) ? cv::Scalar(rng.uniform(20, 140), rng.uniform(110, 220), rng.uniform(20, 110))
-                     : randomColour(rng);
+                     : randomRgb(rng);
   if (rng.chance(.3)) {
     for (int i = 0; i < 3; ++i)
       e.polygon({{.5, .02 + .18 * i}, {.72 + .05 * i, .34 + .18 * i}, {.28 - .05 * i, .34 + .18 * i}},
@@ -126,7 +121,7 @@ Art tree(Rng& rng, int size) {
 Art sun(Rng& rng, int size) {
   Easel e(size);
   const cv::Scalar colour =
-      rng.chance(.7) ? cv::Scalar(250, rng.uniform(170, 235), rng.uniform(20, 90)) : randomColour(rng);
+      rng.chance(.7) ? cv::Scalar(250, rng.uniform(170, 235), rng.uniform(20, 90)) : randomRgb(rng);
   const int rays = static_cast<int>(rng.below(15));
   const double r = rng.uniform(.2, .32), width = rng.uniform(.01, .05);
   for (int i = 0; i < rays; ++i) {
@@ -145,7 +140,7 @@ Art sun(Rng& rng, int size) {
 Art cloud(Rng& rng, int size) {
   Easel e(size);
   const cv::Scalar colour =
-      rng.chance(.6) ? cv::Scalar(rng.uniform(190, 250), rng.uniform(215, 250), 250) : randomColour(rng);
+      rng.chance(.6) ? cv::Scalar(rng.uniform(190, 250), rng.uniform(215, 250), 250) : randomRgb(rng);
   const int puffs = 3 + static_cast<int>(rng.below(4));
   for (int i = 0; i < puffs; ++i)
     e.ellipse({.2 + .6 * i / (puffs - 1), .5 + rng.uniform(-.08, .08)}, rng.uniform(.13, .2),
@@ -156,12 +151,12 @@ Art cloud(Rng& rng, int size) {
 Art flower(Rng& rng, int size) {
   Easel e(size);
   e.line({.5, .4}, {.5 + rng.uniform(-.1, .1), .98}, rng.uniform(.02, .06), {60, 150, 60});
-  const cv::Scalar colour = randomColour(rng);
+  const cv::Scalar colour = randomRgb(rng);
   const int petals = 5 + static_cast<int>(rng.below(4));
   for (int i = 0; i < petals; ++i)
     e.ellipse({.5 + .17 * std::cos(2 * kPi * i / petals), .25 + .17 * std::sin(2 * kPi * i / petals)}, .1, .1,
               colour);
-  e.ellipse({.5, .25}, .09, .09, randomColour(rng));
+  e.ellipse({.5, .25}, .09, .09, randomRgb(rng));
   return e.take();
 }
 
@@ -169,7 +164,7 @@ Art heart(Rng& rng, int size) {
   Easel e(size);
   const cv::Scalar colour =
       rng.chance(.7) ? cv::Scalar(rng.uniform(190, 250), rng.uniform(20, 110), rng.uniform(40, 140))
-                     : randomColour(rng);
+                     : randomRgb(rng);
   e.ellipse({.33, .33}, .19, .2, colour);
   e.ellipse({.67, .33}, .19, .2, colour);
   e.polygon({{.16, .42}, {.5, .9}, {.84, .42}, {.5, .3}}, colour);
@@ -178,8 +173,8 @@ Art heart(Rng& rng, int size) {
 
 Art ball(Rng& rng, int size) {
   Easel e(size);
-  e.ellipse({.5, .5}, .46, .46, randomColour(rng));
-  if (rng.chance(.5)) e.ellipse({.5, .5}, .46, .18, randomColour(rng));
+  e.ellipse({.5, .5}, .46, .46, randomRgb(rng));
+  if (rng.chance(.5)) e.ellipse({.5, .5}, .46, .18, randomRgb(rng));
   return e.take();
 }
 
@@ -197,7 +192,7 @@ Art letters(Rng& rng, int size) {
   const double scale = std::min(.9 * size / plain.width, size / 90.);
   Art art{cv::Mat(size, size, CV_8UC3, cv::Scalar::all(255)), cv::Mat::zeros(size, size, CV_8U)};
   const cv::Point at(size / 20, size / 2);
-  cv::putText(art.rgb, name, at, face, scale, randomColour(rng, 10, 160), thickness);
+  cv::putText(art.rgb, name, at, face, scale, randomRgb(rng, 10, 160), thickness);
   cv::putText(art.solid, name, at, face, scale, 255, thickness);
   return art;
 }
@@ -219,6 +214,10 @@ Art wobbled(Rng& rng, const Art& art, double size_px) {
 
 }  // namespace
 
+cv::Scalar randomRgb(Rng& rng, double low, double high) {
+  return {rng.uniform(low, high), rng.uniform(low, high), rng.uniform(low, high)};
+}
+
 cv::Mat smoothNoise(Rng& rng, const cv::Size& size, int cell) {
   cv::Mat coarse(size.height / cell + 3, size.width / cell + 3, CV_32F), fine;
   for (int y = 0; y < coarse.rows; ++y)
@@ -236,14 +235,11 @@ Art figureArt(Rng& rng, const PageOptions& options, int long_side) {
   }
   if (rng.chance(.2)) {
     Art stick = artOf(figurePlan("biped").draw(rng, static_cast<int>(BodyKind::kStick)).scene, long_side);
-    if (rng.chance(.7)) stick.rgb.setTo(randomColour(rng, 10, 160), stick.solid);
+    if (rng.chance(.7)) stick.rgb.setTo(randomRgb(rng, 10, 160), stick.solid);
     return stick;
   }
   const FigurePlan& plan = figurePlan(rng.chance(.8) ? "biped" : "quadruped");
-  double r = rng.uniform();
-  int kind = 0;
-  while (kind + 1 < static_cast<int>(plan.kinds.size()) && r >= plan.kinds[kind]) r -= plan.kinds[kind++];
-  return artOf(plan.draw(rng, kind).scene, long_side);
+  return artOf(plan.draw(rng, sampleKind(rng, plan)).scene, long_side);
 }
 
 Art thingArt(Rng& rng, int long_side) {
@@ -265,7 +261,7 @@ Pens randomPens(Rng& rng) {
                         : Pens::Kind::kCrayon;
   pens.line_px = rng.chance(.5) ? rng.uniform(.8, 2) : rng.uniform(2, 6);
   const double dark = rng.uniform(10, 150);
-  pens.ink = rng.chance(.7) ? cv::Scalar(dark, dark, dark + rng.uniform(0, 30)) : randomColour(rng, 10, 190);
+  pens.ink = rng.chance(.7) ? cv::Scalar(dark, dark, dark + rng.uniform(0, 30)) : randomRgb(rng, 10, 190);
   pens.strength =
       pens.kind == Pens::Kind::kLines ? (rng.chance(.5) ? 0 : rng.uniform(.1, .9)) : rng.uniform(.4, 1);
   pens.gaps = rng.chance(.4) ? rng.uniform(0, .15) : 0;

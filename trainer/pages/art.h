@@ -35,6 +35,9 @@ Pens randomPens(Rng& rng);
 // Draws the art with its top left corner at (x, y) of the page, which it may overhang.
 void drawArt(Rng& rng, const Pens& pens, const Art& art, int x, int y, cv::Mat& page);
 
+// RGB, each channel in [low, high).
+cv::Scalar randomRgb(Rng& rng, double low = 20, double high = 255);
+
 // Values about 0 with deviation 1 that change over `cell` px: CV_32F.
 cv::Mat smoothNoise(Rng& rng, const cv::Size& size, int cell);
 

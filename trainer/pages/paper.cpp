@@ -11,10 +11,6 @@
 namespace skel {
 namespace {
 
-cv::Scalar randomColour(Rng& rng, double low, double high) {
-  return {rng.uniform(low, high), rng.uniform(low, high), rng.uniform(low, high)};
-}
-
 void multiply(cv::Mat& page, const cv::Mat& factor) {
   for (int y = 0; y < page.rows; ++y) {
     cv::Vec3b* p = page.ptr<cv::Vec3b>(y);
@@ -66,12 +62,12 @@ void print(Rng& rng, cv::Mat& page) {
     const double gap = rng.uniform(10, 60), x = page.cols * rng.uniform(.015, .05);
     for (double y = gap / 2; y < page.rows; y += gap)
       cv::circle(page, cv::Point(static_cast<int>(x), static_cast<int>(y)),
-                 static_cast<int>(rng.uniform(2, 6)), randomColour(rng, 30, 200), cv::FILLED, cv::LINE_AA);
+                 static_cast<int>(rng.uniform(2, 6)), randomRgb(rng, 30, 200), cv::FILLED, cv::LINE_AA);
   }
 }
 
 void screenGround(Rng& rng, cv::Mat& page) {
-  const cv::Scalar a = randomColour(rng, 30, 255), b = rng.chance(.4) ? a : randomColour(rng, 30, 255);
+  const cv::Scalar a = randomRgb(rng, 30, 255), b = rng.chance(.4) ? a : randomRgb(rng, 30, 255);
   for (int y = 0; y < page.rows; ++y) {
     const double t = static_cast<double>(y) / page.rows;
     page.row(y).setTo(a * (1 - t) + b * t);
@@ -79,12 +75,12 @@ void screenGround(Rng& rng, cv::Mat& page) {
   const double r = rng.uniform();
   if (r < .3) {  // land
     const int horizon = static_cast<int>(page.rows * rng.uniform(.5, .95));
-    page.rowRange(horizon, page.rows).setTo(randomColour(rng, 30, 230));
+    page.rowRange(horizon, page.rows).setTo(randomRgb(rng, 30, 230));
   } else if (r < .45) {
-    rule(rng, page, rng.uniform(16, 60), rng.chance(.5), randomColour(rng, 30, 255),
+    rule(rng, page, rng.uniform(16, 60), rng.chance(.5), randomRgb(rng, 30, 255),
          static_cast<int>(rng.uniform(2, 20)));
   } else if (r < .6) {
-    const cv::Scalar spot = randomColour(rng, 30, 255);
+    const cv::Scalar spot = randomRgb(rng, 30, 255);
     for (int i = 0; i < 40; ++i)
       cv::circle(
           page,
@@ -111,7 +107,7 @@ cv::Mat paper(Rng& rng, const cv::Size& size) {
   }
   const double base = rng.chance(.3) ? 255 : rng.uniform(185, 255);
   page.setTo(rng.chance(.85) ? cv::Scalar(base, base * rng.uniform(.94, 1.02), base * rng.uniform(.85, 1.05))
-                             : randomColour(rng, 110, 255));
+                             : randomRgb(rng, 110, 255));
   if (rng.chance(.4)) print(rng, page);
   if (rng.chance(.6)) addNoise(rng, page, 1, rng.uniform(.5, 5));
   if (rng.chance(.4)) addNoise(rng, page, 3 + static_cast<int>(rng.below(20)), rng.uniform(.5, 5));
@@ -201,7 +197,7 @@ void light(Rng& rng, cv::Mat& page) {
 }
 
 cv::Mat table(Rng& rng, const cv::Size& size) {
-  cv::Mat out(size, CV_8UC3, randomColour(rng, 20, 240));
+  cv::Mat out(size, CV_8UC3, randomRgb(rng, 20, 240));
   const double r = rng.uniform();
   if (r < .35) {  // wood
     out.setTo(cv::Scalar(rng.uniform(70, 220), rng.uniform(50, 170), rng.uniform(20, 120)));
@@ -210,10 +206,10 @@ cv::Mat table(Rng& rng, const cv::Size& size) {
     cv::Mat fine = smoothNoise(rng, {size.width / 16 + 2, size.height}, 2), lines;
     cv::resize(fine, lines, size, 0, 0, cv::INTER_LINEAR);
     multiply(out, cv::max(1 + streaks * .08 + lines * rng.uniform(.02, .12), .2));
-    if (rng.chance(.4)) rule(rng, out, rng.uniform(40, 130), false, randomColour(rng, 20, 80), 2);
+    if (rng.chance(.4)) rule(rng, out, rng.uniform(40, 130), false, randomRgb(rng, 20, 80), 2);
     if (rng.chance(.5)) cv::rotate(out, out, cv::ROTATE_90_CLOCKWISE), cv::resize(out, out, size);
   } else if (r < .65) {  // cloth
-    const cv::Scalar other = randomColour(rng, 20, 255);
+    const cv::Scalar other = randomRgb(rng, 20, 255);
     const int cell = 8 + static_cast<int>(rng.below(40));
     const bool gingham = rng.chance(.5);
     cv::Mat ground = out.clone();
@@ -238,7 +234,7 @@ cv::Mat table(Rng& rng, const cv::Size& size) {
     std::array<cv::Point2f, 4> corners;
     pencil.points(corners.data());
     std::vector<cv::Point> polygon(corners.begin(), corners.end());
-    cv::fillPoly(out, polygon, randomColour(rng, 10, 250), cv::LINE_AA);
+    cv::fillPoly(out, polygon, randomRgb(rng, 10, 250), cv::LINE_AA);
   }
   return out;
 }
