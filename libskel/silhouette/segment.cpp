@@ -10,6 +10,7 @@
 #include "libskel/silhouette/background.h"
 #include "libskel/silhouette/chambers.h"
 #include "libskel/silhouette/ground.h"
+#include "libskel/silhouette/ink_edge.h"
 #include "libskel/silhouette/outlined.h"
 #include "libskel/silhouette/page.h"
 #include "libskel/silhouette/page_net.h"
@@ -212,6 +213,8 @@ Segmentation segment(const Image& image) {
   }
   // The edges of strokes on paper are soft: what is seen as a stroke is its core.
   if (drawn.soft) cv::dilate(full, full, cv::Mat::ones(3, 3, CV_8U));
+  constexpr double kReach = 2;  // px of the smaller picture
+  trimToInk(image, cvCeil(kReach * std::max(1., static_cast<double>(full.cols) / figures.cols)), full);
   out.foreground = Eigen::Map<Plane8>(full.data, full.rows, full.cols);
   return out;
 }

@@ -80,6 +80,100 @@ class Easel {
   Art art_;
 };
 
+// A stick figure as people draw it with one pen: limbs are strokes, head and torso rings that they take for
+// filled, or strokes as well.
+Art strokeFigure(Rng& rng, int long_side) {
+  constexpr std::array kKinds = {BodyKind::kStick, BodyKind::kStick, BodyKind::kChild,
+                                 BodyKind::kChild, BodyKind::kKid,   BodyKind::kEmoji};
+  const BipedPlan plan = sampleBipedPlan(rng, kKinds[rng.below(kKinds.size())]);
+  cv::Rect2d box(plan.head.x(), plan.head.y(), 0, 0);
+  const auto hold = [&](const Eigen::Vector2d& p, double r) {
+    box |= cv::Rect2d(p.x() - r, p.y() - r, 2 * r, 2 * r);
+  };
+  const double head = rng.uniform(.8, 1.1) * std::max(.09, plan.head_height / 2);
+  hold(plan.head, head);
+  for (const auto* limbs : {&plan.arms, &plan.legs})
+    for (const LimbPlan& limb : *limbs)
+      for (const Eigen::Vector2d& p : {limb.root, limb.middle, limb.end}) hold(p, .06);
+  const double scale = (long_side - 8) / std::max(box.width, box.height);
+  const cv::Size size(cvCeil(box.width * scale) + 8, cvCeil(box.height * scale) + 8);
+  Art art{cv::Mat(size, CV_8UC3, cv::Scalar::all(255)), cv::Mat::zeros(size, CV_8U), true};
+  const auto px = [&](const Eigen::Vector2d& p) {
+    return cv::Point(cvRound((p.x() - box.x) * scale) + 4, cvRound((p.y() - box.y) * scale) + 4);
+  };
+  const double dark = rng.uniform(5, 120);
+  const bool one_colour = rng.chance(.7);
+  const cv::Scalar ink = rng.chance(.6) ? cv::Scalar::all(dark) : randomRgb(rng, 5, 190);
+  const int width =
+      std::max(1, cvRound(long_side * (rng.chance(.4) ? rng.uniform(.005, .015) : rng.uniform(.015, .055))));
+  const auto colour = [&] { return one_colour ? ink : randomRgb(rng, 5, 190); };
+  const auto stroke = [&](std::vector<cv::Point> points, bool closed, const cv::Scalar& c) {
+    if (closed) cv::fillPoly(art.solid, points, 255);
+    cv::polylines(art.rgb, points, closed, c, width, cv::LINE_AA);
+    cv::polylines(art.solid, points, closed, 255, width);
+  };
+  const auto ring = [&](const Eigen::Vector2d& at, double rx, double ry, const cv::Scalar& c) {
+    std::vector<cv::Point> points;
+    const double wobble = rng.uniform(0, .08), phase = rng.uniform(0, 6), start = rng.uniform(0, 6),
+                 round = 2 * kPi * rng.uniform(.94, 1.03);
+    for (int i = 0; i <= 30; ++i) {
+      const double a = start + round * i / 30, r = 1 + wobble * std::sin(3 * a + phase);
+      points.push_back(px(at + Eigen::Vector2d(r * rx * std::cos(a), r * ry * std::sin(a))));
+    }
+    cv::fillPoly(art.solid, points, 255);
+    if (rng.chance(.15)) cv::fillPoly(art.rgb, points, c);
+    stroke(points, false, c);
+  };
+  const auto limbs = [&](const std::array<LimbPlan, 2>& pair, const Eigen::Vector2d* root, bool legs) {
+    const cv::Scalar c = colour();
+    for (const LimbPlan& limb : pair) {
+      const Eigen::Vector2d from = root != nullptr ? *root : limb.root;
+      stroke({px(from), px(limb.middle), px(limb.end)}, false, c);
+      const Eigen::Vector2d along = (limb.end - limb.middle).normalized(), across(-along.y(), along.x());
+      if (legs ? rng.chance(.6) : rng.chance(.15))
+        stroke({px(limb.end), px(limb.end + across * (limb.end.x() > from.x() ? -.06 : .06))}, false, c);
+      if (!legs && rng.chance(.3))
+        for (const double spread : {-.8, 0., .8})
+          stroke({px(limb.end), px(limb.end + .05 * (along + spread * across).normalized())}, false, c);
+      if (!legs && rng.chance(.1)) ring(limb.end, .035, .035, c);
+    }
+  };
+  const double trunk = rng.uniform();
+  const bool line = trunk < .5;
+  limbs(plan.arms, line ? &plan.neck : nullptr, false);
+  limbs(plan.legs, line ? &plan.pelvis : nullptr, true);
+  const Eigen::Vector2d shoulders = plan.chest_right * std::max(.06, plan.top),
+                        hips = plan.right * std::max(.06, plan.bottom);
+  const cv::Scalar c = colour();
+  if (line) {
+    const Eigen::Vector2d up = (plan.neck - plan.head).normalized();
+    stroke({px(plan.head + head * up), px(plan.neck), px(plan.middle), px(plan.pelvis)}, false, c);
+  } else if (trunk < .8) {
+    const double top = rng.chance(.5) ? 0 : 1, flare = rng.uniform(1, 2.2);
+    stroke({px(plan.neck - top * shoulders), px(plan.neck + top * shoulders), px(plan.pelvis + flare * hips),
+            px(plan.pelvis - flare * hips)},
+           true, c);
+  } else {
+    ring((plan.neck + plan.pelvis) / 2, std::max(.07, plan.waist), .55 * (plan.pelvis - plan.neck).norm(), c);
+  }
+  ring(plan.head, head, head * rng.uniform(.85, 1.2), colour());
+  const Eigen::Vector2d eye = .35 * head * plan.head_right;
+  const int dot = std::max(1, width / 2);
+  if (rng.chance(.8))
+    for (const double side : {-1., 1.}) cv::circle(art.rgb, px(plan.head + side * eye), dot, ink, cv::FILLED);
+  if (rng.chance(.8))
+    cv::ellipse(art.rgb, px(plan.head + .3 * head * Eigen::Vector2d(0, 1)),
+                {std::max(1, cvRound(.45 * head * scale)), std::max(1, cvRound(.3 * head * scale))}, 0, 20,
+                160, ink, std::max(1, width / 2));
+  if (rng.chance(.4))
+    for (int i = 0, hairs = 3 + static_cast<int>(rng.below(12)); i < hairs; ++i) {
+      const double a = kPi * (1 + rng.uniform(0, 1));
+      const Eigen::Vector2d out(std::cos(a), std::sin(a));
+      stroke({px(plan.head + head * out), px(plan.head + head * rng.uniform(1.1, 1.5) * out)}, false, ink);
+    }
+  return art;
+}
+
 Art house(Rng& rng, int size) {
   Easel e(size);
   const double left = rng.uniform(.05, .2), right = 1 - left, roof = rng.uniform(.3, .5);
@@ -207,6 +301,7 @@ Art wobbled(Rng& rng, const Art& art, double size_px) {
       dy.at<float>(y, x) += static_cast<float>(y);
     }
   Art out;
+  out.strokes = art.strokes;
   cv::remap(art.rgb, out.rgb, dx, dy, cv::INTER_NEAREST, cv::BORDER_CONSTANT, cv::Scalar::all(255));
   cv::remap(art.solid, out.solid, dx, dy, cv::INTER_NEAREST, cv::BORDER_CONSTANT, cv::Scalar(0));
   return out;
@@ -227,6 +322,7 @@ cv::Mat smoothNoise(Rng& rng, const cv::Size& size, int cell) {
 }
 
 Art figureArt(Rng& rng, const PageOptions& options, int long_side) {
+  if (rng.chance(.13)) return strokeFigure(rng, long_side);
   if (!options.drawings.empty() && rng.chance(options.drawn_share)) {
     const AnnotatedDrawing& drawing =
         options.drawings[rng.below(static_cast<std::uint32_t>(options.drawings.size()))];
@@ -276,6 +372,14 @@ Pens randomPens(Rng& rng) {
   return pens;
 }
 
+Pens strokePens(Rng& rng, Pens pens) {
+  pens.kind = rng.chance(.75) ? Pens::Kind::kPrint : Pens::Kind::kCrayon;
+  pens.strength = rng.uniform(.6, 1);
+  pens.grain = rng.uniform(.02, .2);
+  pens.hatch_px = 0;
+  return pens;
+}
+
 void drawArt(Rng& rng, const Pens& pens, const Art& steady, int x, int y, cv::Mat& page) {
   const Art art = pens.wobble_px > 0 ? wobbled(rng, steady, pens.wobble_px) : steady;
   const cv::Rect place = cv::Rect(x, y, art.rgb.cols, art.rgb.rows) & cv::Rect(0, 0, page.cols, page.rows);
@@ -298,7 +402,8 @@ void drawArt(Rng& rng, const Pens& pens, const Art& steady, int x, int y, cv::Ma
             .5 + .5 * std::tanh(2.5 * std::sin(step * (col * std::cos(angle) + row * std::sin(angle)) +
                                                .8 * static_cast<double>(sway.at<float>(row, col)))));
   }
-  if (pens.kind == Pens::Kind::kLines || (pens.kind == Pens::Kind::kCrayon && rng.chance(.5))) {
+  if (pens.kind == Pens::Kind::kLines ||
+      (pens.kind == Pens::Kind::kCrayon && !art.strokes && rng.chance(.5))) {
     cv::Mat shown = art.rgb.clone(), edges = cv::Mat::zeros(art.solid.size(), CV_8U);
     shown.setTo(cv::Scalar::all(255), art.solid == 0);
     std::vector<cv::Mat> channels;

@@ -9,8 +9,9 @@
 namespace skel {
 
 struct Art {
-  cv::Mat rgb;    // CV_8UC3
-  cv::Mat solid;  // CV_8U, 255 on the art
+  cv::Mat rgb;           // CV_8UC3
+  cv::Mat solid;         // CV_8U, 255 on the art
+  bool strokes = false;  // drawn with the lines of a pen, to be left as they are
 };
 
 // A figure, its long side so many px.
@@ -31,6 +32,8 @@ struct Pens {
   double wobble_px = 0;  // of a hand that draws lines
 };
 Pens randomPens(Rng& rng);
+// The same, but such that strokes stay strokes.
+Pens strokePens(Rng& rng, Pens pens);
 
 // Draws the art with its top left corner at (x, y) of the page, which it may overhang.
 void drawArt(Rng& rng, const Pens& pens, const Art& art, int x, int y, cv::Mat& page);

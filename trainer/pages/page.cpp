@@ -39,8 +39,11 @@ struct Drawn {
   cv::Mat rgb, figure;
 };
 
-Drawn drawnPage(Rng& rng, const cv::Size& size, const PageOptions& options) {
-  Drawn out{paper(rng, size), cv::Mat::zeros(size, CV_8U)};
+// `tidy`: on one even colour, mostly white, with little else.
+Drawn drawnPage(Rng& rng, const cv::Size& size, bool tidy, const PageOptions& options) {
+  Drawn out{tidy ? cv::Mat(size, CV_8UC3, rng.chance(.6) ? cv::Scalar::all(255) : randomRgb(rng, 60, 256))
+                 : paper(rng, size),
+            cv::Mat::zeros(size, CV_8U)};
   const cv::Mat blank = out.rgb.clone();
   const Pens pens = randomPens(rng);
   const bool same_pens = rng.chance(.7);
@@ -54,7 +57,7 @@ Drawn drawnPage(Rng& rng, const cv::Size& size, const PageOptions& options) {
   const int x = place(spare_x), y = place(spare_y);
   const int feet = y + figure.rgb.rows - 4;
 
-  const int things = rng.chance(.65) ? 1 + static_cast<int>(rng.below(6)) : 0;
+  const int things = rng.chance(tidy ? .25 : .65) ? 1 + static_cast<int>(rng.below(6)) : 0;
   const auto drawThings = [&](int count) {
     for (int i = 0; i < count; ++i) {
       const Art thing = thingArt(rng, static_cast<int>(shorter * rng.uniform(.08, .5)));
@@ -80,9 +83,9 @@ Drawn drawnPage(Rng& rng, const cv::Size& size, const PageOptions& options) {
     figure.solid(cv::Rect(to.x - x, to.y - y, to.width, to.height)).copyTo(out.figure(to));
     // What is behind a figure mostly stops at it.
     if (rng.chance(.85)) blank.copyTo(out.rgb, out.figure);
-    drawArt(rng, pens, figure, x, y, out.rgb);
+    drawArt(rng, figure.strokes ? strokePens(rng, pens) : pens, figure, x, y, out.rgb);
   }
-  if (rng.chance(.2)) {  // show-through of the other side
+  if (!tidy && rng.chance(.2)) {  // show-through of the other side
     const Art other = figureArt(rng, options, long_side);
     cv::Mat behind(size, CV_8UC3, cv::Scalar::all(255));
     drawArt(rng, randomPens(rng), other, place(spare_x), place(spare_y), behind);
@@ -108,8 +111,9 @@ Page generatePage(Rng& rng, const PageOptions& options) {
   const double aspect = rng.chance(.3) ? 1 : rng.uniform(.6, 1.6);
   const cv::Size size(static_cast<int>(kCanvas * std::min(1., aspect)),
                       static_cast<int>(kCanvas * std::min(1., 1 / aspect)));
-  Drawn drawn = drawnPage(rng, size, options);
-  if (rng.chance(.75)) light(rng, drawn.rgb);
+  const bool tidy = rng.chance(.15);
+  Drawn drawn = drawnPage(rng, size, tidy, options);
+  if (!tidy && rng.chance(.75)) light(rng, drawn.rgb);
   if (rng.chance(.4)) layOnTable(rng, size, drawn.rgb, drawn.figure);
   if (rng.chance(.1))
     cv::copyMakeBorder(drawn.rgb, drawn.rgb, 6, 6, 6, 6, cv::BORDER_CONSTANT,
