@@ -55,10 +55,18 @@ Sighting look(const FilmFrame& frame, FigureMethod method, const RigOptions& rig
   sighting.skeleton = drawing.recognition.skeleton;
   sighting.long_side_px = kWorkingGridSize / drawing.silhouette.grid.scale;
   sighting.colors.resize(3 * Eigen::Index(sighting.skeleton.joints.size()));
-  for (std::size_t j = 0; j < sighting.skeleton.joints.size(); ++j)
+  std::vector<Eigen::Vector2d> looked_at;
+  for (const Joint& joint : sighting.skeleton.joints) looked_at.push_back(joint.image);
+  for (const TemplateLimb& limb : rig.body_plan.limbs) {
+    const auto at = [&](int j) {
+      return std::size_t(sighting.skeleton.index(rig.body_plan.joints[std::size_t(j)].name));
+    };
+    const std::size_t middle = at(limb.joints[1]), end = at(limb.joints[2]);
+    looked_at[end] = (sighting.skeleton.joints[middle].image + sighting.skeleton.joints[end].image) / 2;
+  }
+  for (std::size_t j = 0; j < looked_at.size(); ++j)
     sighting.colors.segment<3>(3 * Eigen::Index(j)) =
-        colorAt(drawing.image, drawing.silhouette.mask, sighting.skeleton.joints[j].image,
-                0.02 * sighting.long_side_px);
+        colorAt(drawing.image, drawing.silhouette.mask, looked_at[j], 0.02 * sighting.long_side_px);
   return sighting;
 }
 

@@ -17,8 +17,13 @@ using Eigen::Vector2d;
 // Squared, in shares of the figure's long side. A joint that is plainly wrong in one frame costs no more than
 // the cap, on whichever path.
 constexpr double kVelocity = 0.4, kAcceleration = 1, kCap = 0.02;
-constexpr double kColor = 0.02;   // for a squared difference of colours
-constexpr double kSwap = 0.0001;  // for a joint that is not as recognised, times its confidence
+constexpr double kColor = 0.02;  // for a squared difference of colours
+// For a joint that has, of the two limbs' mean colours, the other's; as much less if its own. kColorNoise:
+// deviation of a channel that tells nothing.
+constexpr double kLook = 0.004, kColorNoise = 0.03;
+constexpr int kLookRounds = 8;
+constexpr double kSwap = 0.0001;     // for a joint that is not as recognised, times its confidence
+constexpr double kOtherRoots = 0.9;  // so much shorter limbs have to be for roots to change sides
 constexpr double kSpareLength = 1.35, kLengthFade = 0.2;
 constexpr double kStray = 0.035;  // of the long side: so far from its way a joint is believed by half
 constexpr int kRounds = 8;
@@ -55,10 +60,30 @@ class Paths {
     for (const int j : jointsOf(part, plan)) joints_.push_back({j, plan.joints[std::size_t(j)].mirror});
   }
 
-  // One hypothesis a frame.
-  std::vector<int> best() const {
+  // One hypothesis a frame. What a limb looks like over all frames follows from the path, and the other way
+  // round: in turns, until the path stays.
+  std::vector<int> best() {
     const int m = int(s_.places.cols());
-    if (m < 2) return std::vector<int>(std::size_t(m), 0);
+    std::vector<int> path(std::size_t(m), 0);
+    if (m < 2) return path;
+    looks_.clear();
+    path = shortest();
+    for (int round = 0; s_.colors.size() > 0 && round < kLookRounds; ++round) {
+      learnLooks(path);
+      std::vector<int> next = shortest();
+      if (next == path) break;
+      path = std::move(next);
+    }
+    return path;
+  }
+
+ private:
+  struct LimbJoint {
+    int joint, mirror;
+  };
+
+  std::vector<int> shortest() const {
+    const int m = int(s_.places.cols());
     // Of a loop, the path goes round once more: its first frames then have a past as well.
     const int steps = s_.loop ? 2 * m : m;
     std::vector<std::array<double, kPairs>> cost(static_cast<std::size_t>(steps));
@@ -92,10 +117,22 @@ class Paths {
     return {path.end() - m, path.end()};
   }
 
- private:
-  struct LimbJoint {
-    int joint, mirror;
-  };
+  Eigen::Vector3d color(int joint, int t) const { return s_.colors.col(t).segment<3>(3 * joint); }
+
+  // The mean colour of each joint on a path.
+  void learnLooks(const std::vector<int>& path) {
+    looks_.assign(joints_.size(), Eigen::Vector3d::Zero());
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      double weight = 1e-9;
+      for (std::size_t t = 0; t < path.size(); ++t) {
+        const int k = seen(joints_[i], path[t]);
+        const double w = s_.confidences(k, Index(t));
+        looks_[i] += w * color(k, int(t));
+        weight += w;
+      }
+      looks_[i] /= weight;
+    }
+  }
 
   int seen(const LimbJoint& j, int hypothesis) const { return hypothesis ? j.mirror : j.joint; }
 
@@ -103,6 +140,15 @@ class Paths {
     double sum = 0;
     for (const LimbJoint& j : joints_)
       if (hypothesis) sum += kSwap * s_.confidences(j.joint, t);
+    for (std::size_t i = 0; i < looks_.size(); ++i) {
+      const LimbJoint& j = joints_[i];
+      const auto other = std::find_if(joints_.begin(), joints_.end(),
+                                      [&](const LimbJoint& o) { return o.joint == j.mirror; });
+      const int k = seen(j, hypothesis);
+      const double own = (color(k, t) - looks_[i]).squaredNorm(),
+                   others = (color(k, t) - looks_[std::size_t(other - joints_.begin())]).squaredNorm();
+      sum += kLook * s_.confidences(k, t) * (own - others) / (own + others + 3 * kColorNoise * kColorNoise);
+    }
     return sum;
   }
   double step(int t0, int a, int t1, int b) const {
@@ -112,9 +158,7 @@ class Paths {
       const double w = std::sqrt(s_.confidences(k0, t0) * s_.confidences(k1, t1));
       const Vector2d d = (jointOf(s_.places, k1, t1) - jointOf(s_.places, k0, t0)) / s_.figure_px;
       sum += w * std::min(kVelocity * d.squaredNorm(), kCap);
-      if (s_.colors.size() > 0)
-        sum += w * kColor *
-               (s_.colors.col(t1).segment<3>(3 * k1) - s_.colors.col(t0).segment<3>(3 * k0)).squaredNorm();
+      if (s_.colors.size() > 0) sum += w * kColor * (color(k1, t1) - color(k0, t0)).squaredNorm();
     }
     return sum;
   }
@@ -133,7 +177,17 @@ class Paths {
 
   const JointSightings& s_;
   std::vector<LimbJoint> joints_;
+  std::vector<Eigen::Vector3d> looks_;  // of joints_; empty as long as nothing is known
 };
+
+// How long the upper bones of a kind of limb are together, in all frames.
+double upperBones(const PoseMatrix& places, const SkeletonTemplate& plan, JointClass limb_class) {
+  double sum = 0;
+  for (const TemplateLimb& limb : plan.limbs)
+    for (Index f = 0; limb.limb_class == limb_class && f < places.cols(); ++f)
+      sum += (jointOf(places, limb.joints[0], f) - jointOf(places, limb.joints[1], f)).norm();
+  return sum;
+}
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + Index(values.size() / 2), values.end());
@@ -181,19 +235,28 @@ JointTracks trackJoints(const JointSightings& sightings, const SkeletonTemplate&
   SKEL_CHECK_EQ(sightings.confidences.rows(), joints);
   SKEL_CHECK(sightings.figure_px > 0);
   JointTracks tracks{sightings.places, sightings.confidences, {}, {}};
+  const auto swap = [&](const LimbPart& part, Index f) {
+    for (const int j : jointsOf(part, body_plan)) {
+      const int k = body_plan.joints[std::size_t(j)].mirror;
+      if (j > k) continue;
+      tracks.places.col(f).segment<2>(2 * j).swap(tracks.places.col(f).segment<2>(2 * k));
+      std::swap(tracks.confidences(j, f), tracks.confidences(k, f));
+    }
+  };
   for (const LimbPart& part : kLimbParts) {
     const std::vector<int> path = Paths(sightings, body_plan, part).best();
     for (Index f = 0; f < m; ++f) {
+      if (path[std::size_t(f)] != 0) swap(part, f);
       if (!part.root)
         (part.limb_class == JointClass::kLeg ? tracks.legs_swapped : tracks.arms_swapped)
             .push_back(path[std::size_t(f)] != 0);
-      if (path[std::size_t(f)] == 0) continue;
-      for (const int j : jointsOf(part, body_plan)) {
-        const int k = body_plan.joints[std::size_t(j)].mirror;
-        tracks.places.col(f).segment<2>(2 * j) = jointOf(sightings.places, k, f);
-        tracks.confidences(j, f) = sightings.confidences(k, f);
-      }
     }
+    if (!part.root) continue;
+    // Which path of the roots belongs to which limbs: that for which the limbs are on their side most.
+    const double as_found = upperBones(tracks.places, body_plan, part.limb_class);
+    for (Index f = 0; f < m; ++f) swap(part, f);
+    if (upperBones(tracks.places, body_plan, part.limb_class) < kOtherRoots * as_found) continue;
+    for (Index f = 0; f < m; ++f) swap(part, f);
   }
   if (m < 3 || options.smoothness <= 0) return tracks;
 

@@ -14,8 +14,8 @@ namespace skel {
 struct JointSightings {
   PoseMatrix places;            // 2J×m, image px
   Eigen::MatrixXd confidences;  // J×m, in [0, 1]; 0: not seen
-  // Optional: the colour of the figure at each joint, 3J×m, each channel in [0, 1]; else empty. A far leg is
-  // often darker than a near one.
+  // Optional: the colour of the figure at each joint (of a hand or foot, half-way from the joint before),
+  // 3J×m, each channel in [0, 1]; else empty. A far leg is often darker than a near one.
   Eigen::MatrixXd colors;
   double figure_px = 1;  // the figure's long side, in which distances are measured
   bool loop = false;     // the first frame follows the last
@@ -34,10 +34,10 @@ struct JointTracks {
 
 // Hypotheses of a frame: its arms as they are or swapped, its legs, its shoulders, its hips; all of them is
 // the figure mirrored. What is summed over the path does not mix them, so that there is one path for each. Of
-// the paths, that on which joints move most evenly and keep their colour, and on which most frames are as
-// recognised. Then joints that a body cannot have (bones longer than they are in most frames) or that jump
-// out of their way are believed less, and what is left is smoothed, each joint relative to its parent. A
-// single frame comes back as it is.
+// the paths, that on which joints move most evenly and keep their colour, from frame to frame and over all of
+// them, and on which most frames are as recognised. Then joints that a body cannot have (bones longer than
+// they are in most frames) or that jump out of their way are believed less, and what is left is smoothed,
+// each joint relative to its parent. A single frame comes back as it is.
 JointTracks trackJoints(const JointSightings& sightings, const SkeletonTemplate& body_plan,
                         const TrackOptions& options = {});
 

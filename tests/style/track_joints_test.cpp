@@ -80,6 +80,47 @@ TEST_CASE("colours tell limbs apart where places do not") {
   for (std::size_t f = 0; f < 12; ++f) CHECK(tracks.legs_swapped[f] == (f >= 5 && f < 8));
 }
 
+TEST_CASE("legs that a recognition never crosses are told by their colour over the whole film") {
+  const PoseMatrix truth = walker({.frames = 24, .cycles = 2});
+  JointSightings seen = sightings(truth, true);
+  seen.colors = Eigen::MatrixXd::Constant(51, 24, 0.5);
+  std::size_t crossed = 0;
+  for (Eigen::Index f = 0; f < 24; ++f) {
+    for (const std::string joint : {"knee", "foot"}) {
+      seen.colors.col(f).segment<3>(3 * biped().find("left_" + joint)).setConstant(0.8);
+      seen.colors.col(f).segment<3>(3 * biped().find("right_" + joint)).setConstant(0.7);
+    }
+    if (stride(truth)(f) >= 0) continue;
+    ++crossed;
+    swapLimbs(seen.places, f, JointClass::kLeg);
+    for (const std::string joint : {"knee", "foot"}) {
+      seen.colors.col(f).segment<3>(3 * biped().find("left_" + joint)).setConstant(0.7);
+      seen.colors.col(f).segment<3>(3 * biped().find("right_" + joint)).setConstant(0.8);
+    }
+    // Where legs cross the feet are seen too near to each other, so that to turn back looks as smooth.
+    for (const std::string joint : {"knee", "foot"}) {
+      const int l = biped().find("left_" + joint), r = biped().find("right_" + joint);
+      const Eigen::Vector2d middle = (jointOf(seen.places, l, f) + jointOf(seen.places, r, f)) / 2;
+      for (const int j : {l, r})
+        seen.places.col(f).segment<2>(2 * j) = middle + 0.4 * (jointOf(seen.places, j, f) - middle);
+    }
+  }
+  REQUIRE(crossed > 5);
+  const JointTracks tracks = trackJoints(seen, biped(), {.smoothness = 0});
+  for (Eigen::Index f = 0; f < 24; ++f) CHECK(tracks.legs_swapped[std::size_t(f)] == (stride(truth)(f) < 0));
+}
+
+TEST_CASE("hips on the wrong side of their legs in every frame change sides") {
+  const PoseMatrix truth = walker({.frames = 12});
+  PoseMatrix seen = truth;
+  for (Eigen::Index f = 0; f < 12; ++f) {
+    const int l = biped().find("left_hip"), r = biped().find("right_hip");
+    seen.col(f).segment<2>(2 * l).swap(seen.col(f).segment<2>(2 * r));
+  }
+  const JointTracks tracks = trackJoints(sightings(seen, true), biped(), {.smoothness = 0});
+  CHECK(worst(tracks.places, truth) < 1e-9);
+}
+
 TEST_CASE("noise is smoothed away, and hands that jump to the head come back") {
   const PoseMatrix truth = walker({.frames = 24});
   Rng rng(3);
