@@ -1,5 +1,6 @@
 #include "libskel/style/track_joints.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,20 +62,24 @@ class Paths {
   }
 
   // One hypothesis a frame. What a limb looks like over all frames follows from the path, and the other way
-  // round: in turns, until the path stays.
+  // round: in turns, until the path stays; from the path that knows no looks and from byColor(), of which the
+  // cheaper one.
   std::vector<int> best() {
-    const int m = int(s_.places.cols());
-    std::vector<int> path(std::size_t(m), 0);
-    if (m < 2) return path;
-    looks_.clear();
-    path = shortest();
-    for (int round = 0; s_.colors.size() > 0 && round < kLookRounds; ++round) {
-      learnLooks(path);
-      std::vector<int> next = shortest();
-      if (next == path) break;
-      path = std::move(next);
+    const std::size_t m = std::size_t(s_.places.cols());
+    if (m < 2) return std::vector<int>(m, 0);
+    Path best = shortest();
+    if (s_.colors.size() == 0) return best.hypotheses;
+    best.cost = std::numeric_limits<double>::infinity();
+    for (std::vector<int> start : {best.hypotheses, byColor()}) {
+      Path path;
+      for (int round = 0; round < kLookRounds && path.hypotheses != start; ++round) {
+        if (round > 0) start = path.hypotheses;
+        learnLooks(start);
+        path = shortest();
+      }
+      if (path.cost < best.cost) best = path;
     }
-    return path;
+    return best.hypotheses;
   }
 
  private:
@@ -82,7 +87,12 @@ class Paths {
     int joint, mirror;
   };
 
-  std::vector<int> shortest() const {
+  struct Path {
+    std::vector<int> hypotheses;
+    double cost = 0;
+  };
+
+  Path shortest() const {
     const int m = int(s_.places.cols());
     // Of a loop, the path goes round once more: its first frames then have a past as well.
     const int steps = s_.loop ? 2 * m : m;
@@ -114,7 +124,26 @@ class Paths {
       path[std::size_t(t) - 1] = before;
       if (t >= 2) pair = from[std::size_t(t)][std::size_t(pair)] * kHypotheses + before;
     }
-    return {path.end() - m, path.end()};
+    return {{path.end() - m, path.end()},
+            last[std::size_t(path.back() + path[path.size() - 2] * kHypotheses)]};
+  }
+
+  // By the colours alone: the two limbs' difference in each frame along the direction in which it varies
+  // most.
+  std::vector<int> byColor() const {
+    const Index m = s_.places.cols();
+    Eigen::MatrixXd difference(3 * Index(joints_.size()), m);
+    for (Index t = 0; t < m; ++t)
+      for (std::size_t i = 0; i < joints_.size(); ++i)
+        difference.col(t).segment<3>(3 * Index(i)) =
+            s_.confidences(joints_[i].joint, t) * s_.confidences(joints_[i].mirror, t) *
+            (color(joints_[i].joint, int(t)) - color(joints_[i].mirror, int(t)));
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(difference * difference.transpose());
+    const Eigen::VectorXd along = difference.transpose() * solver.eigenvectors().rightCols<1>();
+    const bool most_negative = 2 * (along.array() < 0).count() > m;
+    std::vector<int> path;
+    for (Index t = 0; t < m; ++t) path.push_back((along(t) < 0) != most_negative);
+    return path;
   }
 
   Eigen::Vector3d color(int joint, int t) const { return s_.colors.col(t).segment<3>(3 * joint); }
