@@ -165,15 +165,14 @@ double shareApart(const cv::Mat& figure, const cv::Mat& other, int reach) {
 // how probably each pixel is figure, CV_32F.
 cv::Mat agreed(const cv::Mat& drawn, const cv::Mat& page) {
   constexpr float kSurely = 0.7f, kSeen = 0.5f, kPerhaps = 0.3f, kWithoutDoubt = 0.9f;
-  constexpr double kReach = 0.02;                         // of the long side
-  constexpr double kMuchMore = 0.1, kMuchMissing = 0.2;   // of what is drawn; of what the net is sure of
-  constexpr double kLeastSeen = 0.2, kLeastClear = 0.35;  // of what is drawn; of what is seen
+  constexpr double kReach = 0.02;                        // of the long side
+  constexpr double kMuch = 0.1;                          // of what is drawn, or of what the net is sure of
+  constexpr double kLeastSeen = 0.2, kLeastClear = 0.5;  // of what is drawn; of what is seen
   const int seen = cv::countNonZero(page > kSeen);
   if (seen <= kLeastSeen * cv::countNonZero(drawn)) return drawn;
   if (cv::countNonZero(page > kWithoutDoubt) < kLeastClear * seen) return drawn;
   const int reach = std::max(1, cvRound(kReach * std::max(drawn.cols, drawn.rows)));
-  if (shareApart(drawn, page > kPerhaps, reach) < kMuchMore &&
-      shareApart(page > kSurely, drawn, reach) < kMuchMissing)
+  if (shareApart(drawn, page > kPerhaps, reach) < kMuch && shareApart(page > kSurely, drawn, reach) < kMuch)
     return drawn;
   return (page > kSurely) | (drawn & (page > kPerhaps));
 }
