@@ -1,5 +1,6 @@
 #include "libskel/silhouette/ink_edge.h"
 
+#include <algorithm>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -13,7 +14,8 @@ cv::Mat square(int radius) { return cv::Mat::ones(2 * radius + 1, 2 * radius + 1
 
 void trimToInk(const Image& image, int reach, cv::Mat& figure) {
   constexpr int kMargin = 1, kThick = 4;
-  constexpr float kLeastContrast = 10, kDeviations = 4, kFullContrast = 50;
+  constexpr double kLeastContrast = 10, kDeviations = 4, kFullContrast = 50;
+  constexpr int kCoarse = 4;     // px of the picture in one of what changes slowly
   const int around = 3 * reach;  // px that tell what is outside
   const cv::Rect box = cv::boundingRect(figure);
   const cv::Rect place =
@@ -24,27 +26,34 @@ void trimToInk(const Image& image, int reach, cv::Mat& figure) {
   cv::Mat inside = figure(place);
 
   // What is outside, on the mean around each px, and how far each px is from that.
-  cv::Mat weight, outside = ~inside;
-  outside.convertTo(weight, CV_32F, 1 / 255.);
-  const cv::Size window(2 * around + 1, 2 * around + 1);
-  cv::Mat total, apart = cv::Mat::zeros(inside.size(), CV_32F);
-  cv::boxFilter(weight, total, CV_32F, window, {-1, -1}, false);
-  total = cv::max(total, 1);
-  for (int c = 0; c < 3; ++c) {
-    cv::Mat channel, mean;
-    cv::extractChannel(rgba, channel, c);
-    channel.convertTo(channel, CV_32F);
-    cv::boxFilter(channel.mul(weight), mean, CV_32F, window, {-1, -1}, false);
-    apart = cv::max(apart, cv::abs(channel - mean / total));
-  }
-  cv::Mat noise;
-  cv::boxFilter(apart.mul(weight), noise, CV_32F, window, {-1, -1}, false);
-  noise /= total;
+  const cv::Mat outside = ~inside;
+  const cv::Size coarse((place.width + kCoarse - 1) / kCoarse, (place.height + kCoarse - 1) / kCoarse);
+  const int radius = std::max(1, around / kCoarse);
+  const auto sums = [&](const cv::Mat& values) {  // of what is outside
+    cv::Mat masked = cv::Mat::zeros(values.size(), values.type()), small;
+    values.copyTo(masked, outside);
+    cv::resize(masked, small, coarse, 0, 0, cv::INTER_AREA);
+    cv::boxFilter(small, small, CV_32F, cv::Size(2 * radius + 1, 2 * radius + 1), {-1, -1}, false);
+    return small;
+  };
+  const cv::Mat weight = cv::max(sums(outside) / 255, 1e-3);
+  const auto meanOutside = [&](const cv::Mat& values, double factor) {
+    cv::Mat mean = sums(values), divisors, full;
+    cv::merge(std::vector<cv::Mat>(static_cast<std::size_t>(values.channels()), weight), divisors);
+    cv::divide(mean, divisors, mean, factor, CV_32F);
+    mean.convertTo(mean, CV_8U);
+    cv::resize(mean, full, place.size(), 0, 0, cv::INTER_LINEAR);
+    return full;
+  };
+  cv::Mat channels[4], apart;
+  cv::absdiff(rgba, meanOutside(rgba, 1), apart);
+  cv::split(apart, channels);
+  apart = cv::max(cv::max(channels[0], channels[1]), channels[2]);
 
   // Ink lies within reach, but for the width of a line.
   cv::Mat ink;
   cv::dilate(apart, ink, square(2 * reach));
-  const cv::Mat least = cv::max(kDeviations * noise, kLeastContrast);
+  const cv::Mat least = cv::max(meanOutside(apart, kDeviations), kLeastContrast);
   cv::Mat thick;
   cv::morphologyEx(inside, thick, cv::MORPH_OPEN, square(kThick * reach));
   cv::dilate(thick, thick, square(2 * reach));
