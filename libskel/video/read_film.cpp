@@ -1,7 +1,11 @@
 // Films through FFmpeg's libraries.
 #include <cmath>
+#include <memory>
+#include <new>
 
 #include "libskel/core/error.h"
+#include "libskel/image/formats.h"
+#include "libskel/image/read_image.h"
 #include "libskel/video/formats.h"
 
 extern "C" {
@@ -15,33 +19,38 @@ namespace {
 
 constexpr double kUsualFrameRate = 25;
 
+struct Free {
+  void operator()(AVFormatContext* file) const { avformat_close_input(&file); }
+  void operator()(AVCodecContext* decoder) const { avcodec_free_context(&decoder); }
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
+};
+template <class T>
+using Owned = std::unique_ptr<T, Free>;
+
 class FilmReader : public VideoReader {
  public:
   explicit FilmReader(const std::string& path) : path_(path) {
     av_log_set_level(AV_LOG_QUIET);
-    require(avformat_open_input(&file_, path.c_str(), nullptr, nullptr));
-    require(avformat_find_stream_info(file_, nullptr));
+    AVFormatContext* file = nullptr;
+    require(avformat_open_input(&file, path.c_str(), nullptr, nullptr));
+    file_.reset(file);
+    require(avformat_find_stream_info(file, nullptr));
     const AVCodec* codec = nullptr;
-    stream_ = av_find_best_stream(file_, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
+    stream_ = av_find_best_stream(file, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
     if (stream_ < 0 || !codec) throw InputError(path_, "holds no film that FFmpeg can read here");
-    decoder_ = avcodec_alloc_context3(codec);
-    packet_ = av_packet_alloc();
-    frame_ = av_frame_alloc();
+    decoder_.reset(avcodec_alloc_context3(codec));
+    packet_.reset(av_packet_alloc());
+    frame_.reset(av_frame_alloc());
     if (!decoder_ || !packet_ || !frame_) throw std::bad_alloc();
-    const AVStream& stream = *file_->streams[stream_];
-    require(avcodec_parameters_to_context(decoder_, stream.codecpar));
-    require(avcodec_open2(decoder_, codec, nullptr));
+    const AVStream& stream = *file->streams[stream_];
+    require(avcodec_parameters_to_context(decoder_.get(), stream.codecpar));
+    if (decoder_->width > 0) checkSize(decoder_->width, decoder_->height, path_);
+    decoder_->max_pixels = kMaxPixels;
+    require(avcodec_open2(decoder_.get(), codec, nullptr));
     const double rate = av_q2d(stream.avg_frame_rate.num > 0 ? stream.avg_frame_rate : stream.r_frame_rate);
     frame_rate_ = rate > 0 && rate < 1000 ? rate : kUsualFrameRate;
-    frame_count_ = static_cast<int>(stream.nb_frames);
-  }
-
-  ~FilmReader() override {
-    sws_freeContext(scaler_);
-    av_frame_free(&frame_);
-    av_packet_free(&packet_);
-    avcodec_free_context(&decoder_);
-    avformat_close_input(&file_);
   }
 
   bool next(VideoFrame& out) override {
@@ -52,14 +61,15 @@ class FilmReader : public VideoReader {
     if (count_ == 0) width_ = frame_->width, height_ = frame_->height;
     if (frame_->width != width_ || frame_->height != height_)
       throw InputError(path_, "changes the size of its frames at frame " + std::to_string(count_ + 1));
-    scaler_ = sws_getCachedContext(scaler_, width_, height_, static_cast<AVPixelFormat>(frame_->format),
-                                   width_, height_, AV_PIX_FMT_RGBA, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr,
-                                   nullptr, nullptr);
+    // What there was is freed or used again.
+    scaler_.reset(sws_getCachedContext(
+        scaler_.release(), width_, height_, static_cast<AVPixelFormat>(frame_->format), width_, height_,
+        AV_PIX_FMT_RGBA, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr, nullptr, nullptr));
     if (!scaler_) throw InputError(path_, "has colours that FFmpeg cannot convert");
     out.image = Image(width_, height_);
     std::uint8_t* rows[] = {out.image.rgba.data()};
     const int row_bytes[] = {4 * width_};
-    sws_scale(scaler_, frame_->data, frame_->linesize, 0, height_, rows, row_bytes);
+    sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, height_, rows, row_bytes);
     out.file.clear();
     const AVRational unit = file_->streams[stream_]->time_base;
     const std::int64_t stamp = frame_->best_effort_timestamp;
@@ -67,7 +77,7 @@ class FilmReader : public VideoReader {
     const double least = count_ == 0 ? 0 : time_s_ + 1e-4;
     time_s_ = stamp == AV_NOPTS_VALUE || first_ == AV_NOPTS_VALUE
                   ? count_ / frame_rate_
-                  : static_cast<double>(stamp - first_) * av_q2d(unit);
+                  : (static_cast<double>(stamp) - static_cast<double>(first_)) * av_q2d(unit);
     time_s_ = std::max(time_s_, least);
     out.time_s = time_s_;
     ++count_;
@@ -84,32 +94,32 @@ class FilmReader : public VideoReader {
 
   bool decode() {
     for (;;) {
-      const int got = avcodec_receive_frame(decoder_, frame_);
+      const int got = avcodec_receive_frame(decoder_.get(), frame_.get());
       if (got >= 0) return true;
       if (got == AVERROR_EOF) return false;
       if (got != AVERROR(EAGAIN)) require(got);
-      const int read = av_read_frame(file_, packet_);
+      const int read = av_read_frame(file_.get(), packet_.get());
       if (read == AVERROR_EOF) {
-        require(avcodec_send_packet(decoder_, nullptr));
+        require(avcodec_send_packet(decoder_.get(), nullptr));
         continue;
       }
       require(read);
       if (packet_->stream_index == stream_) {
-        const int sent = avcodec_send_packet(decoder_, packet_);
-        av_packet_unref(packet_);
+        const int sent = avcodec_send_packet(decoder_.get(), packet_.get());
+        av_packet_unref(packet_.get());
         require(sent);
       } else {
-        av_packet_unref(packet_);
+        av_packet_unref(packet_.get());
       }
     }
   }
 
   std::string path_;
-  AVFormatContext* file_ = nullptr;
-  AVCodecContext* decoder_ = nullptr;
-  AVPacket* packet_ = nullptr;
-  AVFrame* frame_ = nullptr;
-  SwsContext* scaler_ = nullptr;
+  Owned<AVFormatContext> file_;
+  Owned<AVCodecContext> decoder_;
+  Owned<AVPacket> packet_;
+  Owned<AVFrame> frame_;
+  Owned<SwsContext> scaler_;
   int stream_ = -1, width_ = 0, height_ = 0, count_ = 0;
   std::int64_t first_ = 0;
   double time_s_ = 0;

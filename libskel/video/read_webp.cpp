@@ -2,9 +2,11 @@
 #include <webp/demux.h>
 
 #include <algorithm>
+#include <cstdint>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/image/formats.h"
 #include "libskel/video/formats.h"
 
 namespace skel {
@@ -13,6 +15,9 @@ namespace {
 class WebpReader : public VideoReader {
  public:
   explicit WebpReader(const std::string& path) : path_(path), bytes_(readFile(path)) {
+    if (formatOf(bytes_) != Format::kWebp) throw InputError(path_, "cannot be read as WebP");
+    const HeaderSize size = headerSize(bytes_, Format::kWebp);
+    checkSize(size.width, size.height, path_);
     WebPAnimDecoderOptions settings;
     if (!WebPAnimDecoderOptionsInit(&settings))
       throw UnavailableError(path_ +
@@ -22,16 +27,17 @@ class WebpReader : public VideoReader {
     decoder_.reset(WebPAnimDecoderNew(&data, &settings));
     if (!decoder_ || !WebPAnimDecoderGetInfo(decoder_.get(), &info_))
       throw InputError(path_, "cannot be read as WebP");
+    if (info_.frame_count == 0) throw InputError(path_, "holds a film without frames");
     frame_count_ = static_cast<int>(info_.frame_count);
     const WebPDemuxer* demuxer = WebPAnimDecoderGetDemuxer(decoder_.get());
-    int duration_ms = 0;
+    std::int64_t duration_ms = 0;
     WebPIterator part;
     if (WebPDemuxGetFrame(demuxer, 1, &part)) {
       do duration_ms += part.duration;
       while (WebPDemuxNextFrame(&part));
       WebPDemuxReleaseIterator(&part);
     }
-    frame_rate_ = 1000. * frame_count_ / std::max(1, duration_ms);
+    frame_rate_ = 1000. * frame_count_ / double(std::max<std::int64_t>(1, duration_ms));
   }
 
   bool next(VideoFrame& out) override {

@@ -20,7 +20,7 @@ class VideoReader {
   // The next frame, all of one size. False at the end. Throws InputError.
   virtual bool next(VideoFrame& frame) = 0;
   double frameRate() const { return frame_rate_; }  // 1/s
-  int frameCount() const { return frame_count_; }   // 0: not known before the end
+  int frameCount() const { return frame_count_; }   // 0: only the end tells
 
  protected:
   double frame_rate_ = 0;

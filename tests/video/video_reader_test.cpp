@@ -81,6 +81,37 @@ TEST_CASE("a transparent GIF stays transparent") {
 }
 #endif
 
+TEST_CASE("a film whose header claims too many pixels is refused before they are made") {
+  const TempDir dir;
+  const struct {
+    std::string name;
+    std::size_t size_at, size_bytes;  // of width and height
+  } films[] = {
+#if defined(SKEL_VIDEO_MP4) && defined(SKEL_VIDEO_GIF)
+    {"a.gif", 6, 4},
+#endif
+#ifdef SKEL_VIDEO_WEBP
+    {"a.webp", 24, 6},
+#endif
+    {"", 0, 0}
+  };
+  for (const auto& film : films) {
+    if (film.name.empty()) continue;
+    CAPTURE(film.name);
+    const auto video = openVideo(dir.file(film.name), {.width = 32, .height = 32, .frame_rate = 10});
+    for (int f = 0; f < 3; ++f) {
+      Image image = blankImage(32, 32);
+      drawDisc(image, {8. + 6 * f, 16}, 5, {10, 90, 60});
+      video->add(image);
+    }
+    video->finish();
+    std::string bytes = readFile(dir.file(film.name));
+    std::fill_n(bytes.begin() + std::ptrdiff_t(film.size_at), film.size_bytes, '\xff');
+    writeFile(dir.file(film.name), bytes);
+    CHECK_THAT(complaint(dir.file(film.name)), Contains(film.name + ": is too large"));
+  }
+}
+
 TEST_CASE("what is no film is refused by name") {
   const TempDir dir;
   writeFile(dir.file("text.mp4"), "no film at all");
@@ -89,5 +120,11 @@ TEST_CASE("what is no film is refused by name") {
   CHECK_THAT(complaint(dir.file("empty")), Contains("holds no pictures"));
 #ifdef SKEL_VIDEO_MP4
   CHECK_THAT(complaint(dir.file("text.mp4")), Contains("text.mp4: cannot be read as a film"));
+#endif
+#ifdef SKEL_VIDEO_WEBP
+  for (const char* bytes : {"", "RIFF", "RIFF....WEBPVP8X"}) {
+    writeFile(dir.file("a.webp"), bytes);
+    CHECK_THAT(complaint(dir.file("a.webp")), Contains("a.webp: "));
+  }
 #endif
 }
