@@ -42,6 +42,8 @@ ExitCode runKeyframes(const KeyframesOptions& options) {
       bar.advance();
     });
   }
+  if (std::all_of(outlines.begin(), outlines.end(), [](const auto& o) { return o.points.empty(); }))
+    throw InputError(options.film.path, "shows no figure in any frame");
   Eigen::MatrixXd matrix;
   Eigen::VectorXd successive;
   double largest = 0;

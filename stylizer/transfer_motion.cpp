@@ -13,6 +13,8 @@ using Eigen::Index;
 // So sure must both be of where they look.
 constexpr double kFacing = 0.05;
 constexpr double kMargin_px = 20;
+// Mean poses whose bones point the same way within half a degree or so: there is no way between them.
+constexpr double kSameDirections = 0.03;
 
 bool loops(const PoseMatrix& poses, const std::string& option) {
   return option == "auto" ? isLoop(poses) : option == "yes";
@@ -39,7 +41,7 @@ double shareOfWay(const PoseMatrix& from, const PoseMatrix& to, const PoseMatrix
     return Eigen::VectorXd(boneDirections(poses, plan).rowwise().mean());
   };
   const Eigen::VectorXd a = mean(from), way = mean(to) - a;
-  return way.squaredNorm() > 1e-12 ? (mean(now) - a).dot(way) / way.squaredNorm() : 1;
+  return way.norm() > kSameDirections ? (mean(now) - a).dot(way) / way.squaredNorm() : 1;
 }
 
 Eigen::RowVectorXd lowestFoot(const PoseMatrix& poses, const SkeletonTemplate& plan) {

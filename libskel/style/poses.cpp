@@ -109,8 +109,10 @@ PoseMatrix canonicalPoses(const PoseMatrix& poses, const SkeletonTemplate& body_
     if (const int parent = body_plan.joints[j].parent; parent >= 0)
       reach[j] = reach[std::size_t(parent)] + lengths(Index(j));
   lengths /= 2 * *std::max_element(reach.begin(), reach.end());
-  return posesFromBones(boneDirections(poses, body_plan), lengths,
-                        Eigen::Matrix2Xd::Constant(2, poses.cols(), 0.5), body_plan);
+  const PoseMatrix canonical = posesFromBones(boneDirections(poses, body_plan), lengths,
+                                              Eigen::Matrix2Xd::Constant(2, poses.cols(), 0.5), body_plan);
+  // A chain that is stretched out ends at the border, but for rounding.
+  return canonical.cwiseMax(0).cwiseMin(1);
 }
 
 PoseMatrix mirroredPoses(const PoseMatrix& poses, const SkeletonTemplate& body_plan) {

@@ -89,4 +89,6 @@ TEST_CASE("bones of length 0 point somewhere") {
   const PoseMatrix none = PoseMatrix::Zero(34, 2);
   CHECK(boneDirections(none, biped()).allFinite());
   CHECK(canonicalPoses(none, biped()).allFinite());
+  // All bones upwards: at the border of the box, not beyond it.
+  CHECK(canonicalPoses(none, biped()).minCoeff() >= 0);
 }
