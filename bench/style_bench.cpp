@@ -1,15 +1,19 @@
 // The stylizer's numbers: factorising poses beside a plain loop of multiplicative updates, deforming a
-// drawing, finding key frames.
+// drawing, finding key frames. Rates are those of one core: processor time, whatever else the machine does.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 
+#include "animator/film.h"
+#include "animator/load_character.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/rng.h"
 #include "libskel/deform/arap.h"
 #include "libskel/style/sparse_coding.h"
+#include "libskel/style/wear_motion.h"
 #include "libskel/video/figure_in_frame.h"
 #include "libskel/video/outline_distance.h"
+#include "stylizer/puppet.h"
 
 namespace {
 
@@ -82,7 +86,41 @@ void deform(benchmark::State& state) {
   state.counters["frames_per_s"] =
       benchmark::Counter(double(state.iterations()), benchmark::Counter::kIsRate);
 }
-BENCHMARK(deform)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(deform)->Unit(benchmark::kMillisecond);
+
+// A drawing in the motions of skel, with what has to be turned back.
+void deformDrawing(benchmark::State& state, const std::string& name) {
+  constexpr int kFrames = 12;
+  const std::string path = std::string(SKEL_DATASETS) + "/characters/" + name + ".png";
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const CharacterFile file = loadCharacter({.path = path});
+  const RiggedCharacter& character = file.character;
+  const Puppet puppet = makePuppet(readPerformer(path), plan);
+  std::vector<Eigen::VectorXd> poses;
+  for (const Clip& clip : libraryFor(character)) {
+    PoseMatrix motion(34, kFrames);
+    for (int f = 0; f < kFrames; ++f) {
+      const std::vector<Eigen::Vector3f> joints =
+          posedJoints(character.skeleton, posedAt(character, clip, double(clip.duration_s()) * f / kFrames));
+      for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+        const Eigen::Vector3f& at = joints[std::size_t(character.skeleton.index(plan.joints[j].name))];
+        motion.col(f).segment<2>(2 * Eigen::Index(j)) << double(at.x()), -double(at.y());
+      }
+    }
+    const PoseMatrix worn = wornBy(puppet.rest, 1000 * motion, plan);
+    for (int f = 0; f < kFrames; ++f) poses.push_back(worn.col(f));
+  }
+  for (auto _ : state)
+    for (const Eigen::VectorXd& pose : poses) benchmark::DoNotOptimize(posedVertices(puppet, pose).data());
+  state.counters["frames_per_s"] =
+      benchmark::Counter(double(state.iterations()) * double(poses.size()), benchmark::Counter::kIsRate);
+  state.counters["vertices"] = double(puppet.vertices.rows());
+}
+BENCHMARK_CAPTURE(deformDrawing, cap_boy, "cap_boy")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(deformDrawing, alien, "alien")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(deformDrawing, dad_tie, "dad_tie")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(deformDrawing, clerk, "clerk")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(deformDrawing, zombie, "zombie")->Unit(benchmark::kMillisecond);
 
 // From decoded frames of 640×488 to distances between their outlines.
 void keyFrameDistances(benchmark::State& state) {
@@ -108,7 +146,7 @@ void keyFrameDistances(benchmark::State& state) {
   state.counters["frames_per_s"] =
       benchmark::Counter(double(state.iterations()) * kCount, benchmark::Counter::kIsRate);
 }
-BENCHMARK(keyFrameDistances)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(keyFrameDistances)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 
 }  // namespace
 
