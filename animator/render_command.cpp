@@ -8,6 +8,7 @@
 #include "animator/film.h"
 #include "animator/load_character.h"
 #include "libskel/core/progress.h"
+#include "libskel/draw/canvas.h"
 #include "libskel/image/read_image.h"
 
 namespace skel {
@@ -28,24 +29,11 @@ Size sizeOf(const std::string& text) {
   throw UsageError("--size is \"" + text + "\", must be WIDTHxHEIGHT in px, such as 512x512");
 }
 
-// A name, #rrggbb, none, or a picture.
 void setBackground(Look& look, const std::string& text, const Size& size) {
-  if (text == "white") return;
-  if (text == "black")
-    look.background = {0, 0, 0};
-  else if (text == "grey")
-    look.background = {224, 227, 233};
-  else if (text == "none")
-    look.background = kClear;
-  else if (text.starts_with('#')) {
-    unsigned value = 0;
-    const auto parsed = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
-    if (text.size() != 7 || parsed.ptr != text.data() + text.size())
-      throw UsageError("--background is \"" + text + "\"; a colour is written #rrggbb");
-    look.background = {std::uint8_t(value >> 16), std::uint8_t(value >> 8), std::uint8_t(value)};
-  } else {
+  if (const auto color = backgroundColor(text))
+    look.background = *color;
+  else
     look.picture = covering(readImage(text), size.width, size.height);
-  }
 }
 
 std::unique_ptr<MeshPainter> painterFor(const std::string& name, const TriangleMesh& mesh) {

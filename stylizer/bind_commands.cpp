@@ -78,15 +78,15 @@ void bindPerform(CLI::App& app, PerformRequest& request) {
   for (const std::string& part : kPuppetParts) parts += (parts.empty() ? "" : ",") + part;
   app.add_option("--order", request.order, "The figure's parts, back to front (default: " + parts + ")")
       ->type_name("PART,...");
-  app.add_option("--background", request.film.background,
-                 "keep (that of the drawing), white, black, none (transparent), #rrggbb, or a picture")
+  app.add_option("--background", request.background,
+                 "keep (that of the drawing), white, grey, black, none (transparent), #rrggbb, or a picture")
       ->capture_default_str();
-  app.add_option("--size", request.film.size_px, "Of the film's long side, px")
+  app.add_option("--size", request.size_px, "Of the film's long side, px")
       ->check(CLI::Range(16, 4096))
       ->capture_default_str();
-  app.add_option("--rate", request.film.frame_rate, "Frames a second of the film (default: the motion's)")
+  app.add_option("--rate", request.frame_rate, "Frames a second of the film (default: the motion's)")
       ->check(CLI::Range(0.1, 240.0));
-  app.add_option("--duration", request.film.duration_s, "In seconds; the motion repeats (default: once)")
+  app.add_option("--duration", request.duration_s, "In seconds; the motion repeats (default: once)")
       ->check(CLI::Range(0.0, 3600.0));
   app.add_flag("--in-place", request.in_place, "The figure stays where it is, but for ups and downs");
 }
@@ -148,7 +148,8 @@ void bindTransfer(CLI::App& app, TransferCommandOptions& options) {
 }
 
 void bindRender(CLI::App& app, RenderOptions2D& options) {
-  app.add_option("--character", options.character, "A drawing, or its .skeleton.json")->type_name("FILE");
+  app.add_option("--character", options.character, "A drawing, its .skeleton.json, or a .glb made of one")
+      ->type_name("FILE");
   app.add_option("--motion", options.motion, "A motion file")->required()->type_name("FILE");
   app.add_option("-o,--output", options.output,
                  "The film: " + videoFormatNames() + " (a name that ends with /) of PNG files")
@@ -168,7 +169,7 @@ void bindInspect(CLI::App& app, InspectOptions& options) {
 }
 
 void bindMake(CLI::App& app, MakeOptions& options) {
-  app.add_option("--character", options.character, "A drawing, or its .skeleton.json")
+  app.add_option("--character", options.character, "A drawing, its .skeleton.json, or a .glb made of one")
       ->required()
       ->type_name("FILE");
   app.add_option("--content", options.content, "What it does: a film, a folder of frames, or a .motion.json")

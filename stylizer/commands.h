@@ -67,7 +67,10 @@ ExitCode runTransfer(const TransferCommandOptions& options);
 // How a drawing performs, as `render` and `make` are asked.
 struct PerformRequest {
   std::string order;  // of parts, with commas
-  PuppetFilmOptions film;
+  std::string background = "white";
+  int size_px = 480;
+  double frame_rate = 0;  // 1/s; 0: the motion's
+  double duration_s = 0;  // 0: once
   bool in_place = false;
 };
 
@@ -98,8 +101,15 @@ ExitCode runMake(const MakeOptions& options);
 
 // What the commands share.
 MotionTransferOptions transferOptions(const StyleRequest& request);
-// Performs `motion` (of the file `path`) by the drawing and says so.
-void perform(const RiggedDrawing& drawing, const MotionFile& motion, const std::string& path, bool loops,
+// All that a film needs but a motion, so that what cannot be made is said before a motion is looked for.
+struct Stage {
+  Performer performer;
+  Puppet puppet;
+  FilmBackground background;
+};
+Stage setStage(const std::string& character, const PerformRequest& request, const std::string& output);
+// Performs `motion` (of the file `path`) and says so.
+void perform(const Stage& stage, const MotionFile& motion, const std::string& path, bool loops,
              const PerformRequest& request, const std::string& output);
 
 }  // namespace skel

@@ -38,9 +38,8 @@ ExitCode runMake(const MakeOptions& given) {
     while (stem.ends_with('/')) stem.pop_back();
     options.work = stem + ".work";
   }
-  openVideo(options.output, {.transparent = options.perform.film.background == "none"});
   const SkeletonTemplate plan = loadTemplate("biped");
-  const RiggedDrawing drawing = rigPerformer(options.character);
+  const Stage stage = setStage(options.character, options.perform, options.output);
   const NamedMotion content = motionOf(options.content, "content", options);
   const NamedMotion style = motionOf(options.style, "style", options);
   const MotionTransferReport report = transferMotion({content}, {style}, transferOptions(options.request));
@@ -49,7 +48,7 @@ ExitCode runMake(const MakeOptions& given) {
   std::printf("%s: mean pose %.0f %% of the way, phase correlation %.3f%s\n", file.c_str(),
               100 * report.mean_pose_moved, report.phase_correlation,
               report.mirrored ? ", style mirrored" : "");
-  perform(drawing, readMotionFile(file, plan), file, report.content_loops, options.perform, options.output);
+  perform(stage, readMotionFile(file, plan), file, report.content_loops, options.perform, options.output);
   return ExitCode::kDone;
 }
 

@@ -58,8 +58,9 @@ PlanarMesh triangulated(const Silhouette& silhouette, int vertices) {
 
 }  // namespace
 
-Puppet makePuppet(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
-                  const SkeletonTemplate& body_plan, const PuppetOptions& options) {
+Puppet makePuppet(const Performer& performer, const SkeletonTemplate& body_plan,
+                  const PuppetOptions& options) {
+  const auto& [image, silhouette, skeleton] = performer;
   const std::vector<int> rank = ranks(options.order);
   const PlanarMesh planar = triangulated(silhouette, options.vertices);
   const Eigen::Index count = Eigen::Index(planar.vertices.size());

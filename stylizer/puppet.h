@@ -5,11 +5,9 @@
 #include <vector>
 
 #include "libskel/deform/arap.h"
-#include "libskel/draw/color.h"
 #include "libskel/image/image.h"
-#include "libskel/silhouette/silhouette.h"
-#include "libskel/skeleton/skeleton.h"
 #include "libskel/style/poses.h"
+#include "stylizer/performer.h"
 
 namespace skel {
 
@@ -32,10 +30,9 @@ struct Puppet {
   ArapMesh mesh;                    // its handles are the joints
 };
 
-// `silhouette` is found and belongs to `image`. Throws UsageError: an order that does not name each part
-// once.
-Puppet makePuppet(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
-                  const SkeletonTemplate& body_plan, const PuppetOptions& options = {});
+// Throws UsageError: an order that does not name each part once.
+Puppet makePuppet(const Performer& performer, const SkeletonTemplate& body_plan,
+                  const PuppetOptions& options = {});
 
 // #V×2, for joints at `pose` (2J).
 Eigen::MatrixX2d posedVertices(const Puppet& puppet, const Eigen::VectorXd& pose);

@@ -1,15 +1,12 @@
 #include "stylizer/puppet_film.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
-#include "libskel/core/error.h"
 #include "libskel/core/parallel.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/draw/draw_triangles.h"
 #include "libskel/image/read_image.h"
-#include "libskel/pipeline/rig_drawing.h"
 #include "libskel/style/align_phases.h"
 
 namespace skel {
@@ -48,27 +45,6 @@ Image withoutFigure(const Image& image, const Plane8& mask) {
   return result;
 }
 
-Color colorOf(const std::string& text) {
-  if (text == "white") return kWhite;
-  if (text == "black") return {0, 0, 0};
-  if (text == "none") return kClear;
-  unsigned value = 0;
-  const auto parsed = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
-  if (text.size() != 7 || parsed.ptr != text.data() + text.size())
-    throw UsageError("--background is \"" + text + "\"; a colour is written #rrggbb");
-  return {std::uint8_t(value >> 16), std::uint8_t(value >> 8), std::uint8_t(value)};
-}
-
-// Scaled to cover the size, its middle in the middle.
-Image covered(const Image& picture, int width, int height) {
-  const double scale = std::max(double(width) / picture.width, double(height) / picture.height);
-  const Image scaled = resized(picture, std::max(width, int(std::lround(scale * picture.width))),
-                               std::max(height, int(std::lround(scale * picture.height))));
-  Image result = blankImage(width, height);
-  blit(result, scaled, (width - scaled.width) / 2, (height - scaled.height) / 2);
-  return result;
-}
-
 // The joints at even moments.
 PoseMatrix atRate(const PoseMatrix& worn, const std::vector<double>& times_s, double rate,
                   const PuppetFilmOptions& options) {
@@ -91,7 +67,13 @@ PoseMatrix atRate(const PoseMatrix& worn, const std::vector<double>& times_s, do
 
 }  // namespace
 
-PuppetFrames layOut(const Puppet& puppet, const RiggedDrawing& drawing, const PoseMatrix& worn,
+FilmBackground readBackground(const std::string& text) {
+  if (text == "keep") return {true, kWhite, {}};
+  if (const auto color = backgroundColor(text)) return {false, *color, {}};
+  return {false, kWhite, readImage(text)};
+}
+
+PuppetFrames layOut(const Puppet& puppet, const Performer& performer, const PoseMatrix& worn,
                     const std::vector<double>& times_s, const PuppetFilmOptions& options) {
   PuppetFrames frames;
   frames.frame_rate = options.frame_rate;
@@ -103,7 +85,6 @@ PuppetFrames layOut(const Puppet& puppet, const RiggedDrawing& drawing, const Po
     flipped[i] = flippedTriangles(puppet.vertices, frames.vertices[i], puppet.triangles);
   });
   for (const int count : flipped) frames.flipped += count;
-  const bool keep = options.background == "keep";
   Eigen::RowVector2d low = frames.vertices[0].colwise().minCoeff(),
                      high = frames.vertices[0].colwise().maxCoeff();
   for (const Eigen::MatrixX2d& v : frames.vertices) {
@@ -113,9 +94,9 @@ PuppetFrames layOut(const Puppet& puppet, const RiggedDrawing& drawing, const Po
   const double margin = kMargin * (high - low).maxCoeff();
   low.array() -= margin;
   high.array() += margin;
-  if (keep) {
+  if (options.background.keep) {
     low = Eigen::RowVector2d::Zero();
-    high = Eigen::RowVector2d(drawing.image.width - 1, drawing.image.height - 1);
+    high = Eigen::RowVector2d(performer.image.width - 1, performer.image.height - 1);
   }
   const Eigen::RowVector2d extent = high - low;
   frames.scale = std::min(options.size_px / extent.maxCoeff(), 4.);
@@ -123,14 +104,13 @@ PuppetFrames layOut(const Puppet& puppet, const RiggedDrawing& drawing, const Po
   const auto even = [](double side) { return std::max(2, 2 * int(std::lround(side / 2))); };
   frames.width = even(frames.scale * extent.x());
   frames.height = even(frames.scale * extent.y());
-  if (keep) {
+  if (options.background.keep) {
     frames.background =
-        resized(withoutFigure(drawing.image, drawing.silhouette.mask), frames.width, frames.height);
-  } else if (options.background.starts_with('#') || options.background == "white" ||
-             options.background == "black" || options.background == "none") {
-    frames.background = blankImage(frames.width, frames.height, colorOf(options.background));
+        resized(withoutFigure(performer.image, performer.silhouette.mask), frames.width, frames.height);
+  } else if (options.background.picture.empty()) {
+    frames.background = blankImage(frames.width, frames.height, options.background.color);
   } else {
-    frames.background = covered(readImage(options.background), frames.width, frames.height);
+    frames.background = covering(options.background.picture, frames.width, frames.height);
   }
   return frames;
 }
@@ -153,12 +133,6 @@ void writePuppetFilm(const Puppet& puppet, const PuppetFrames& frames, VideoWrit
       on_frame();
     }
   }
-}
-
-RiggedDrawing rigPerformer(const std::string& path) {
-  if (path.ends_with(".glb"))
-    throw InputError(path, "is a 3D character: make a clip by --to-clip, and play it by skel-animate render");
-  return rigDrawing(path, "biped");
 }
 
 }  // namespace skel

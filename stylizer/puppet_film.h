@@ -5,18 +5,26 @@
 #include <string>
 #include <vector>
 
-#include "libskel/pipeline/rig_character.h"
+#include "libskel/draw/color.h"
 #include "libskel/video/video_writer.h"
 #include "stylizer/puppet.h"
 
 namespace skel {
 
+struct FilmBackground {
+  bool keep = false;  // that of the drawing, closed behind the figure
+  Color color = kWhite;
+  Image picture;  // if not empty: instead of the colour, covering all of the film
+};
+// keep, a backgroundColor(), or a picture's file. Throws UsageError, InputError.
+FilmBackground readBackground(const std::string& text);
+
 struct PuppetFilmOptions {
-  std::string background = "white";  // keep, white, black, none, #rrggbb, or a picture
-  int size_px = 480;                 // of the film's long side, at most
-  double frame_rate = 0;             // 1/s; 0: the motion's
-  double duration_s = 0;             // the motion repeats; 0: once
-  bool loops = false;                // the first frame follows the last
+  FilmBackground background;
+  int size_px = 480;      // of the film's long side, at most
+  double frame_rate = 0;  // 1/s; 0: the motion's
+  double duration_s = 0;  // the motion repeats; 0: once
+  bool loops = false;     // the first frame follows the last
 };
 
 struct PuppetFrames {
@@ -29,9 +37,8 @@ struct PuppetFrames {
   int flipped = 0;  // triangles that are turned over, in all frames
 };
 
-// `worn`: the motion as this body does it (wornBy()), one column a frame at `times_s`. Throws UsageError,
-// InputError: a background that is none.
-PuppetFrames layOut(const Puppet& puppet, const RiggedDrawing& drawing, const PoseMatrix& worn,
+// `worn`: the motion as this body does it (wornBy()), one column a frame at `times_s`.
+PuppetFrames layOut(const Puppet& puppet, const Performer& performer, const PoseMatrix& worn,
                     const std::vector<double>& times_s, const PuppetFilmOptions& options);
 
 Image paintFrame(const Puppet& puppet, const PuppetFrames& frames, std::size_t i);
@@ -39,8 +46,5 @@ Image paintFrame(const Puppet& puppet, const PuppetFrames& frames, std::size_t i
 // All frames into `video`, several painted at once.
 void writePuppetFilm(const Puppet& puppet, const PuppetFrames& frames, VideoWriter& video,
                      const std::function<void()>& on_frame);
-
-// Reads a drawing, or the .skeleton.json of one, and rigs it. Throws InputError.
-RiggedDrawing rigPerformer(const std::string& path);
 
 }  // namespace skel

@@ -20,26 +20,35 @@ std::vector<double> timesOf(const MotionFile& motion) {
 
 }  // namespace
 
-void perform(const RiggedDrawing& drawing, const MotionFile& motion, const std::string& path, bool loops,
+Stage setStage(const std::string& character, const PerformRequest& request, const std::string& output) {
+  openVideo(output, {.transparent = request.background == "none"});
+  PuppetOptions options;
+  if (!request.order.empty()) {
+    options.order.clear();
+    std::istringstream parts(request.order);
+    for (std::string part; std::getline(parts, part, ',');) options.order.push_back(part);
+  }
+  FilmBackground background = readBackground(request.background);
+  Performer performer = readPerformer(character);
+  Puppet puppet = makePuppet(performer, loadTemplate("biped"), options);
+  return {std::move(performer), std::move(puppet), std::move(background)};
+}
+
+void perform(const Stage& stage, const MotionFile& motion, const std::string& path, bool loops,
              const PerformRequest& request, const std::string& output) {
   const SkeletonTemplate plan = loadTemplate("biped");
-  PuppetOptions puppet_options;
-  if (!request.order.empty()) {
-    puppet_options.order.clear();
-    std::istringstream parts(request.order);
-    for (std::string part; std::getline(parts, part, ',');) puppet_options.order.push_back(part);
-  }
-  const Puppet puppet =
-      makePuppet(drawing.image, drawing.silhouette, drawing.recognition.skeleton, plan, puppet_options);
+  const Puppet& puppet = stage.puppet;
   const PoseMatrix worn =
       wornBy(puppet.rest, posesOf(motion, plan, path), plan, {.travels = !request.in_place});
-  PuppetFilmOptions film = request.film;
-  if (film.frame_rate <= 0) film.frame_rate = motion.frame_rate;
-  film.loops = loops;
-  const PuppetFrames frames = layOut(puppet, drawing, worn, timesOf(motion), film);
+  const PuppetFilmOptions film{.background = stage.background,
+                               .size_px = request.size_px,
+                               .frame_rate = request.frame_rate > 0 ? request.frame_rate : motion.frame_rate,
+                               .duration_s = request.duration_s,
+                               .loops = loops};
+  const PuppetFrames frames = layOut(puppet, stage.performer, worn, timesOf(motion), film);
   VideoOptions video_options{.width = frames.width, .height = frames.height, .frame_rate = frames.frame_rate};
   video_options.frames = int(frames.vertices.size());
-  video_options.transparent = film.background == "none";
+  video_options.transparent = request.background == "none";
   const auto video = openVideo(output, video_options);
   {
     ProgressBar bar("frames", frames.vertices.size());
@@ -62,13 +71,12 @@ ExitCode runRender(const RenderOptions2D& options) {
   const PoseMatrix poses = posesOf(motion, plan, options.motion);
   const bool loops = options.loop == "auto" ? isLoop(poses) : options.loop == "yes";
   if (!options.output.empty()) {
-    // What cannot be written is said before anything is rigged.
-    openVideo(options.output, {.transparent = options.perform.film.background == "none"});
-    perform(rigPerformer(options.character), motion, options.motion, loops, options.perform, options.output);
+    perform(setStage(options.character, options.perform, options.output), motion, options.motion, loops,
+            options.perform, options.output);
   }
   if (!options.to_clip.empty()) {
-    std::string name = std::filesystem::path(options.to_clip).filename().string();
-    name.resize(name.find('.'));
+    const std::string file = std::filesystem::path(options.to_clip).filename().string();
+    const std::string name = file.substr(0, file.find('.'));
     const Clip clip = clipOfMotion(poses, timesOf(motion), loops, plan, name);
     writeFile(options.to_clip, formatClip(clip));
     std::printf("%s: %.2f s\n", options.to_clip.c_str(), double(clip.duration_s()));

@@ -33,6 +33,8 @@ void blit(Image& image, const Image& other, int x, int y);
 Image resized(const Image& image, int width, int height);
 // The largest size of the same proportions within the box.
 Image fitted(const Image& image, int max_width, int max_height);
+// Scaled and cut to cover the size, its middle in the middle.
+Image covering(const Image& picture, int width, int height);
 // Pixels as squares, factor >= 1: to look at the working grid. A point p of the grid is then at
 // (p + 0.5) · factor − 0.5.
 Image magnified(const Image& image, int factor);

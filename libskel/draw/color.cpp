@@ -2,9 +2,26 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <string>
+
+#include "libskel/core/error.h"
 
 namespace skel {
+
+std::optional<Color> backgroundColor(std::string_view text) {
+  if (text == "white") return kWhite;
+  if (text == "black") return Color{};
+  if (text == "grey") return Color{224, 227, 233};
+  if (text == "none") return kClear;
+  if (!text.starts_with('#')) return std::nullopt;
+  unsigned value = 0;
+  const auto parsed = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
+  if (text.size() != 7 || parsed.ptr != text.data() + text.size())
+    throw UsageError("--background is \"" + std::string(text) + "\"; a colour is written #rrggbb");
+  return Color{std::uint8_t(value >> 16), std::uint8_t(value >> 8), std::uint8_t(value)};
+}
 
 Color classColor(std::string_view name) {
   if (name == "head") return kHeadClass;

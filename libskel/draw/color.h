@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace skel {
@@ -20,6 +21,10 @@ inline constexpr Color kLeft{32, 113, 214}, kRight{238, 116, 20}, kMiddle{110, 6
 // Classes of candidates.
 inline constexpr Color kHeadClass{204, 51, 119}, kBodyClass{120, 94, 200}, kHandClass{240, 146, 20},
     kLegClass{20, 150, 120};
+
+// white, black, grey, none (clear) or #rrggbb; nothing for any other text. Throws UsageError: # and no
+// colour.
+std::optional<Color> backgroundColor(std::string_view text);
 
 // By the class's name (head, body, hand, leg); grey for any other.
 Color classColor(std::string_view name);

@@ -94,6 +94,23 @@ Camera framingCamera(const Eigen::MatrixX3f& vertices, double yaw_rad, double pi
   return camera;
 }
 
+Projection::Projection(const Camera& camera, int width, int height)
+    : eye_(eyeFromModel(camera)),
+      camera_(camera),
+      scale_(height / camera.view_height_m * camera.distance_m),
+      middle_(width / 2.0 - 0.5, height / 2.0 - 0.5) {}
+
+std::optional<Eigen::Vector2d> Projection::operator()(const Vector3d& model) const {
+  const Vector3d p = eye_ * (model - camera_.target);
+  const double depth = camera_.distance_m - p.z();
+  if (depth <= 0) return std::nullopt;
+  return middle_ + scale_ / depth * Eigen::Vector2d(p.x(), -p.y());
+}
+
+double Projection::pxPerMetre(const Vector3d& model) const {
+  return scale_ / std::max(camera_.distance_m - (eye_ * (model - camera_.target)).z(), 1e-9);
+}
+
 Image renderMesh(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, const Camera& camera,
                  const RenderOptions& options) {
   SKEL_CHECK_EQ(vertices.rows(), mesh.vertices.rows());

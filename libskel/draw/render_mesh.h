@@ -1,6 +1,8 @@
 // Pictures of a model, made in software: for traces, previews and the README.
 #pragma once
 
+#include <optional>
+
 #include "libskel/image/image.h"
 #include "libskel/mesh/triangle_mesh.h"
 
@@ -12,6 +14,21 @@ struct Camera {
   double pitch_rad = 0;                              // positive: from above
   double view_height_m = 2;  // what the picture's height shows at the target's distance
   double distance_m = 8;     // from the eye to the target
+};
+
+// Where points of the model are seen, px; a point behind the eye gives nothing.
+class Projection {
+ public:
+  Projection(const Camera& camera, int width, int height);
+  std::optional<Eigen::Vector2d> operator()(const Eigen::Vector3d& model) const;
+  // How many px a metre is at that point.
+  double pxPerMetre(const Eigen::Vector3d& model) const;
+
+ private:
+  Eigen::Matrix3d eye_;
+  Camera camera_;
+  double scale_;
+  Eigen::Vector2d middle_;
 };
 
 struct RenderOptions {

@@ -75,6 +75,15 @@ Image fitted(const Image& image, int max_width, int max_height) {
                  std::clamp(int(std::lround(image.height * scale)), 1, max_height));
 }
 
+Image covering(const Image& picture, int width, int height) {
+  const double scale = std::max(double(width) / picture.width, double(height) / picture.height);
+  const Image sized = resized(picture, std::max(width, int(std::lround(picture.width * scale))),
+                              std::max(height, int(std::lround(picture.height * scale))));
+  Image result = blankImage(width, height, kClear);
+  blit(result, sized, (width - sized.width) / 2, (height - sized.height) / 2);
+  return result;
+}
+
 Image magnified(const Image& image, int factor) {
   SKEL_CHECK(factor >= 1);
   Image result(image.width * factor, image.height * factor);

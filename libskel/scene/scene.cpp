@@ -86,23 +86,6 @@ void putOver(Image& below, const Image& above) {
 
 }  // namespace
 
-Projection::Projection(const Camera& camera, int width, int height)
-    : eye_(eyeFromModel(camera)),
-      camera_(camera),
-      scale_(height / camera.view_height_m * camera.distance_m),
-      middle_(width / 2.0 - 0.5, height / 2.0 - 0.5) {}
-
-std::optional<Vector2d> Projection::operator()(const Vector3d& model) const {
-  const Vector3d p = eye_ * (model - camera_.target);
-  const double depth = camera_.distance_m - p.z();
-  if (depth <= 0) return std::nullopt;
-  return middle_ + scale_ / depth * Vector2d(p.x(), -p.y());
-}
-
-double Projection::pxPerMetre(const Vector3d& model) const {
-  return scale_ / std::max(camera_.distance_m - (eye_ * (model - camera_.target)).z(), 1e-9);
-}
-
 Color weightColor(double weight) {
   // The colours of heat, but for the darkest, on which no shading would show; from grey into them.
   const Color none{196, 202, 214}, heat = heatColor(0.35 + 0.65 * std::clamp(weight, 0.0, 1.0));
@@ -111,15 +94,6 @@ Color weightColor(double weight) {
     return std::uint8_t(std::lround((1 - share) * a + share * b));
   };
   return {mixed(none.r, heat.r), mixed(none.g, heat.g), mixed(none.b, heat.b)};
-}
-
-Image covering(const Image& picture, int width, int height) {
-  const double scale = std::max(double(width) / picture.width, double(height) / picture.height);
-  const Image sized = resized(picture, std::max(width, int(std::lround(picture.width * scale))),
-                              std::max(height, int(std::lround(picture.height * scale))));
-  Image result = blankImage(width, height, kClear);
-  blit(result, sized, (width - sized.width) / 2, (height - sized.height) / 2);
-  return result;
 }
 
 Scene::Scene(const RiggedCharacter& character, std::unique_ptr<MeshPainter> painter)

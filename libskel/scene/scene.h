@@ -1,7 +1,6 @@
 // A character in a pose as it is seen: background, shadow, body, skeleton.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "libskel/deform/skin_vertices.h"
@@ -23,21 +22,6 @@ struct Look {
   Image picture;                          // if not empty: over the background, covering all of it
 };
 
-// Where points of the model are seen, px; a point behind the eye gives nothing.
-class Projection {
- public:
-  Projection(const Camera& camera, int width, int height);
-  std::optional<Eigen::Vector2d> operator()(const Eigen::Vector3d& model) const;
-  // How many px a metre is at that point.
-  double pxPerMetre(const Eigen::Vector3d& model) const;
-
- private:
-  Eigen::Matrix3d eye_;
-  Camera camera_;
-  double scale_;
-  Eigen::Vector2d middle_;
-};
-
 // What stays the same from frame to frame: the ground, the painted background.
 class Scene {
  public:
@@ -56,9 +40,6 @@ class Scene {
   std::unique_ptr<MeshPainter> painter_;
   float ground_y_ = 0;
 };
-
-// The picture scaled and cut to cover the size.
-Image covering(const Image& picture, int width, int height);
 
 // The colour of a weight in [0, 1].
 Color weightColor(double weight);

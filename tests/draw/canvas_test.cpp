@@ -1,5 +1,6 @@
 #include "libskel/draw/canvas.h"
 
+#include "libskel/core/error.h"
 #include "tests/support/catch.h"
 
 using namespace skel;
@@ -119,4 +120,18 @@ TEST_CASE("a montage holds its panels, and heat maps are brightest where the fie
   };
   CHECK(brightness(1) < brightness(2));
   CHECK(brightness(2) < brightness(3));
+}
+
+TEST_CASE("a background is a name, a colour in figures, or neither; a picture covers all of it") {
+  CHECK(backgroundColor("none")->a == 0);
+  CHECK(backgroundColor("white")->r == 255);
+  CHECK(backgroundColor("#10a0ff")->g == 0xa0);
+  CHECK_FALSE(backgroundColor("meadow.png"));
+  for (const char* text : {"#", "#12345", "#1234567", "#12345g", "#-12345"}) {
+    CAPTURE(text);
+    CHECK_THROWS_AS(backgroundColor(text), UsageError);
+  }
+  const Image covered = covering(blankImage(10, 40, {255, 0, 0}), 30, 20);
+  CHECK((covered.width == 30 && covered.height == 20));
+  CHECK(covered.rgba.col(0).minCoeff() == 255);
 }

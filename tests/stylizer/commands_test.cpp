@@ -111,6 +111,9 @@ TEST_CASE("one frame, frames that are all the same, and frames without a figure"
   const ToolRun run = style("keypoints " + dir.file("blank") + " -o " + dir.file("b.motion.json"));
   CHECK(run.exit_code == 2);
   CHECK_THAT(run.err, Contains("shows no figure in any frame"));
+  const ToolRun keys = style("keyframes " + dir.file("blank") + " -o " + dir.file("b"));
+  CHECK(keys.exit_code == 2);
+  CHECK_THAT(keys.err, Contains("shows no figure in any frame"));
 }
 
 TEST_CASE("what cannot be done is said in one line, and nothing is written") {
@@ -130,8 +133,16 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
       {"inspect " + dir.file("bad.motion.json"), 2, "bad.motion.json: version: is 9"},
       {"inspect " + dir.file("none.motion.json"), 2, "none.motion.json: cannot be read"},
       {"transfer --content " + dir.file("empty") + " --style x", 2, "is a folder without motions"},
-      {"render --character a.glb --motion " + dir.file("bad.motion.json") + out, 2, "version: is 9"},
-      {"make --character a.glb --content a --style b" + out, 2, "a.glb: is a 3D character"},
+      {"make --character " + dir.file("none.glb") + " --content a --style b" + out, 2,
+       "none.glb: cannot be read"},
+      {"make --character " + kDrawing + " --content a --style b --order head" + out, 1,
+       "--order names each part once"},
+      {"make --character " + kDrawing + " --content a --style b --background #12" + out, 1,
+       "a colour is written #rrggbb"},
+      {"make --character " + kDrawing + " --content a --style b --background " + dir.file("none.png") + out,
+       2, "none.png: cannot be read"},
+      {"render --motion " + dir.file("bad.motion.json") + " --to-clip " + dir.file("clip"), 2,
+       "version: is 9"},
       {"render --motion m.motion.json", 1, "name a film by -o"},
       {"render --motion m.motion.json" + out, 1, "needs --character"},
       {"render --character " + kDrawing + " --motion " + dir.file("bad.motion.json") + out, 2,

@@ -4,7 +4,9 @@
 #include "animator/film.h"
 #include "animator/load_character.h"
 #include "libskel/core/files.h"
+#include "libskel/export/write_character.h"
 #include "libskel/image/write_image.h"
+#include "libskel/mesh/outline.h"
 #include "libskel/style/wear_motion.h"
 #include "stylizer/find_keypoints.h"
 #include "stylizer/puppet_film.h"
@@ -12,6 +14,7 @@
 #include "tests/support/temp_dir.h"
 
 using namespace skel;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -56,8 +59,7 @@ Filmed filmed(const CharacterFile& file, const std::string& clip_name, double ya
 TEST_CASE("a drawing at rest is the drawing, and no triangle is turned over in the motions of skel") {
   for (const char* name : {"cap_boy", "alien", "dad_tie", "clerk", "zombie"}) {
     CAPTURE(name);
-    const RiggedDrawing rigged = rigPerformer(drawing(name));
-    const Puppet puppet = makePuppet(rigged.image, rigged.silhouette, rigged.recognition.skeleton, biped());
+    const Puppet puppet = makePuppet(readPerformer(drawing(name)), biped());
     const Eigen::MatrixX2d rest = posedVertices(puppet, puppet.rest.col(0));
     CHECK((rest - puppet.vertices).cwiseAbs().maxCoeff() < 0.01);
     const CharacterFile file = loadCharacter({.path = drawing(name)});
@@ -70,6 +72,32 @@ TEST_CASE("a drawing at rest is the drawing, and no triangle is turned over in t
       CHECK(flipped == 0);
     }
   }
+}
+
+TEST_CASE("a rigged character performs like its drawing") {
+  const TempDir dir;
+  const CharacterFile file = loadCharacter({.path = drawing("cap_boy")});
+  writeFile(dir.file("boy.glb"), encodeGlb(file.character, {}));
+  const Performer flat = readPerformer(drawing("cap_boy")), model = readPerformer(dir.file("boy.glb"));
+  const auto inFigure = [](const Performer& performer, const Joint& joint) {
+    const PixelBox box = figureBox(performer.silhouette.mask);
+    return Eigen::Vector2d((joint.image - Eigen::Vector2d(box.x0, box.y0)) / box.height());
+  };
+  for (const Joint& joint : flat.skeleton.joints) {
+    CAPTURE(joint.name);
+    const Joint& same = model.skeleton.joints[std::size_t(model.skeleton.index(joint.name))];
+    CHECK((inFigure(model, same) - inFigure(flat, joint)).norm() < 0.02);
+  }
+  const auto areaShare = [](const Performer& performer) {
+    const PixelBox box = figureBox(performer.silhouette.mask);
+    return double((performer.silhouette.mask > 0).count()) / (box.width() * box.height());
+  };
+  CHECK(areaShare(model) == Approx(areaShare(flat)).margin(0.02));
+  const Puppet puppet = makePuppet(model, biped());
+  CHECK((posedVertices(puppet, puppet.rest.col(0)) - puppet.vertices).cwiseAbs().maxCoeff() < 0.01);
+
+  writeFile(dir.file("vrm.glb"), encodeGlb(file.character, {}, {.naming = JointNaming::kVrm}));
+  CHECK_THROWS_WITH(readPerformer(dir.file("vrm.glb")), Contains("has other joints than skel's biped"));
 }
 
 TEST_CASE("key points of filmed characters lie within 10 % in 85 % of cases") {

@@ -1,0 +1,54 @@
+#include "stylizer/performer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "libskel/core/error.h"
+#include "libskel/draw/render_mesh.h"
+#include "libskel/import/read_character.h"
+#include "libskel/pipeline/rig_drawing.h"
+
+namespace skel {
+namespace {
+
+constexpr int kFront_px = 1024;  // the long side of a model's front view
+
+Performer seenFromTheFront(const std::string& path) {
+  const RiggedCharacter character = readGlb(path).character;
+  if (character.skeleton.template_name != "biped")
+    throw InputError(path, "has other joints than skel's biped; make it by skel-infer, with --names skel");
+  const TriangleMesh& mesh = character.mesh;
+  const Eigen::Vector2f size =
+      (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).head<2>();
+  if (!(size.minCoeff() > 0)) throw InputError(path, "is flat as seen from the front");
+  const auto px = [&](float side) {
+    return std::max(1, int(std::lround(double(kFront_px) * double(side / size.maxCoeff()))));
+  };
+  RenderOptions options;
+  options.width = px(size.x());
+  options.height = px(size.y());
+  if (!mesh.texture.empty()) options.shading = 0;
+  const Camera camera = framingCamera(mesh.vertices, 0, 0, double(options.width) / options.height);
+  Performer performer{renderMesh(mesh.vertices, mesh, camera, options), {}, character.skeleton};
+  performer.silhouette = extractSilhouette(performer.image);
+  if (!performer.silhouette.found()) throw InputError(path, performer.silhouette.reason);
+  const Projection project(camera, options.width, options.height);
+  for (Joint& joint : performer.skeleton.joints) {
+    const auto at = project(joint.position);
+    if (!at) throw InputError(path, "has its joint \"" + joint.name + "\" far before the model");
+    joint.image = *at;
+    joint.tail.reset();
+  }
+  return performer;
+}
+
+}  // namespace
+
+Performer readPerformer(const std::string& path) {
+  if (path.ends_with(".glb")) return seenFromTheFront(path);
+  RiggedDrawing drawing = rigDrawing(path, "biped");
+  return {std::move(drawing.image), std::move(drawing.silhouette), std::move(drawing.recognition.skeleton)};
+}
+
+}  // namespace skel
