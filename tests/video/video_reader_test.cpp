@@ -85,15 +85,16 @@ TEST_CASE("a film whose header claims too many pixels is refused before they are
   const TempDir dir;
   const struct {
     std::string name;
-    std::size_t size_at, size_bytes;  // of width and height
+    std::size_t size_at;
+    std::string size;  // 12000 × 12000, as its header says it
   } films[] = {
 #if defined(SKEL_VIDEO_MP4) && defined(SKEL_VIDEO_GIF)
-    {"a.gif", 6, 4},
+    {"a.gif", 6, "\xe0\x2e\xe0\x2e"},
 #endif
 #ifdef SKEL_VIDEO_WEBP
-    {"a.webp", 24, 6},
+    {"a.webp", 24, std::string("\xdf\x2e\0\xdf\x2e\0", 6)},
 #endif
-    {"", 0, 0}
+    {"", 0, ""}
   };
   for (const auto& film : films) {
     if (film.name.empty()) continue;
@@ -106,9 +107,9 @@ TEST_CASE("a film whose header claims too many pixels is refused before they are
     }
     video->finish();
     std::string bytes = readFile(dir.file(film.name));
-    std::fill_n(bytes.begin() + std::ptrdiff_t(film.size_at), film.size_bytes, '\xff');
+    bytes.replace(film.size_at, film.size.size(), film.size);
     writeFile(dir.file(film.name), bytes);
-    CHECK_THAT(complaint(dir.file(film.name)), Contains(film.name + ": is too large"));
+    CHECK_THAT(complaint(dir.file(film.name)), Contains(film.name + ": is too large: 12000x12000"));
   }
 }
 
