@@ -137,7 +137,7 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
        "none.glb: cannot be read"},
       {"make --character " + kDrawing + " --content a --style b --order head" + out, 1,
        "--order names each part once"},
-      {"make --character " + kDrawing + " --content a --style b --background #12" + out, 1,
+      {"make --character " + kDrawing + " --content a --style b --background '#12'" + out, 1,
        "a colour is written #rrggbb"},
       {"make --character " + kDrawing + " --content a --style b --background " + dir.file("none.png") + out,
        2, "none.png: cannot be read"},
