@@ -14,7 +14,7 @@ using Eigen::Matrix2d;
 using Eigen::MatrixX2d;
 
 constexpr int kRings = 2;   // of triangles around what is turned over that move with it, at first
-constexpr int kSteps = 15;  // before twice as many rings
+constexpr int kSteps = 25;  // before twice as many rings
 constexpr double kLeastEpsilon = 1e-3, kShrink = 0.2;
 // Of a handle, beside the area of triangles: at first, and as a share of that whenever the patch grows.
 constexpr double kHold = 10, kLoosen = 0.3;
