@@ -246,9 +246,12 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
   file.mask = mask;
 
   const std::vector<std::string> written = writeOutputs(options, stem, drawing, file);
-  if (!options.trace_dir.empty())
-    writeTrace(drawing, options.images.size() > 1 || options.figure == "all" ? options.trace_dir + "/" + stem
-                                                                             : options.trace_dir);
+  if (!options.trace_dir.empty()) {
+    const bool given_mask = mask.has_value() || options.images.empty();
+    writeTrace(drawing, given_mask ? SilhouetteSteps{} : silhouetteSteps(drawing.image),
+               options.images.size() > 1 || options.figure == "all" ? options.trace_dir + "/" + stem
+                                                                    : options.trace_dir);
+  }
 
   char line[64];
   std::snprintf(line, sizeof line, "  confidence %.2f\n", file.confidence);

@@ -40,6 +40,16 @@ Image silhouettePicture(const RiggedDrawing& drawing) {
   return fitted(picture, kPictureSize, kPictureSize);
 }
 
+// The figure, and in another colour what joins its pieces.
+Image piecesPicture(const RiggedDrawing& drawing) {
+  Image picture = onPaper(drawing.image, std::max(drawing.image.width, drawing.image.height));
+  drawMask(picture, drawing.silhouette.mask, kLeft.withAlpha(110));
+  drawMask(picture, drawing.silhouette.bridges, kRight);
+  return fitted(picture, kPictureSize, kPictureSize);
+}
+
+Image sharePicture(const Plane8& share) { return onPaper(heatMap(share.cast<float>())); }
+
 Image gridPicture(const RiggedDrawing& drawing) {
   Image picture = blankImage(drawing.silhouette.grid.width, drawing.silhouette.grid.height);
   drawMask(picture, drawing.silhouette.grid_mask, Color{222, 224, 230});
@@ -78,25 +88,19 @@ Eigen::Array3d jointColor(int joint) {
   return {channel(0), channel(4), channel(2)};
 }
 
-// The character with its skin painted in the colours of the joints that carry it.
-TriangleMesh weightsPainted(const RiggedCharacter& character) {
-  TriangleMesh mesh = character.mesh;
+// The mesh in the colours that `color_of` gives its vertices.
+template <class ColorOf>
+TriangleMesh painted(TriangleMesh mesh, const ColorOf& color_of) {
   if (mesh.uv.rows() == 0) return mesh;
   mesh.texture = blankImage(512, 512, kGrey);
   mesh.back_uv.resize(0, 2);
-  const auto colorOf = [&](int v) {
-    Eigen::Array3d color = Eigen::Array3d::Zero();
-    for (int k = 0; k < 4; ++k)
-      color += character.weights.weights(v, k) * jointColor(character.weights.joints(v, k));
-    return color;
-  };
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     Points corners;
     Eigen::Array3d color = Eigen::Array3d::Zero();
     for (int k = 0; k < 3; ++k) {
       const int v = mesh.triangles(t, k);
       corners.push_back(mesh.uv.row(v).transpose().cast<double>() * 512 - Vector2d(0.5, 0.5));
-      color += colorOf(v) / 3;
+      color += color_of(v) / 3;
     }
     const auto byte = [&](int c) { return static_cast<std::uint8_t>(std::lround(color(c))); };
     const Color flat{byte(0), byte(1), byte(2)};
@@ -104,6 +108,32 @@ TriangleMesh weightsPainted(const RiggedCharacter& character) {
     drawPolyline(mesh.texture, corners, 1, flat, true);
   }
   return mesh;
+}
+
+// In the colours of the joints that carry the skin.
+TriangleMesh weightsPainted(const RiggedCharacter& character) {
+  return painted(character.mesh, [&](int v) {
+    Eigen::Array3d color = Eigen::Array3d::Zero();
+    for (int k = 0; k < 4; ++k)
+      color += character.weights.weights(v, k) * jointColor(character.weights.joints(v, k));
+    return color;
+  });
+}
+
+// Orange what moves with the joints nearest to the viewer, blue what moves with the farthest.
+TriangleMesh depthPainted(const RiggedCharacter& character) {
+  const auto depth = character.mesh.vertices.col(2);
+  const double low = depth.minCoeff(), span = std::max(1e-6, depth.maxCoeff() - low);
+  const auto array = [](const Color& c) { return Eigen::Array3d(c.r, c.g, c.b); };
+  return painted(character.mesh, [&](int v) -> Eigen::Array3d {
+    double z = 0;
+    for (int k = 0; k < 4; ++k) {
+      const auto joint = static_cast<size_t>(character.weights.joints(v, k));
+      z += character.weights.weights(v, k) * character.skeleton.joints[joint].position.z();
+    }
+    const double near = std::clamp((z - low) / span, 0.0, 1.0);
+    return near * array(kRight) + (1 - near) * array(kLeft);
+  });
 }
 
 Image views(const TriangleMesh& mesh) {
@@ -177,13 +207,17 @@ Image summary(const RiggedDrawing& drawing, const Image& skeleton) {
 
 }  // namespace
 
-void writeTrace(const RiggedDrawing& drawing, const std::string& dir) {
+void writeTrace(const RiggedDrawing& drawing, const SilhouetteSteps& steps, const std::string& dir) {
   SKEL_CHECK(drawing.found());
   const auto write = [&](const char* name, const Image& picture) {
     writeFile(dir + "/" + name, encodePng(picture));
   };
   write("1-drawing.png", onPaper(drawing.image));
+  if (!steps.sheet.empty()) write("2-sheet.png", steps.sheet);
+  if (!steps.unruled.empty()) write("2-unruled.png", steps.unruled);
+  if (steps.figure_share.size() > 0) write("2-page-net.png", sharePicture(steps.figure_share));
   write("2-silhouette.png", silhouettePicture(drawing));
+  if (drawing.silhouette.bridges.size() > 0) write("2-pieces.png", piecesPicture(drawing));
   Image distance = gridPicture(drawing);
   blit(distance, magnified(heatMap(drawing.candidates.distance), kMagnification), 0, 0);
   write("3-distance.png", distance);
@@ -194,6 +228,7 @@ void writeTrace(const RiggedDrawing& drawing, const std::string& dir) {
   if (drawing.layers.any())
     write("6-layers.png", onPaper(layerPicture(drawing.layers, drawing.silhouette.mask)));
   write("6-mesh.png", views(drawing.character.mesh));
+  write("7-depth.png", views(depthPainted(drawing.character)));
   write("7-skin.png", views(weightsPainted(drawing.character)));
   write("8-posed.png", clipsPicture(drawing));
   write("sides.png", sides(drawing));

@@ -52,12 +52,14 @@ Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
   recognition.confidence = tree.figure_confidence;
   if (shareCutOff(silhouette.mask, grid) > kCutOff)
     recognition.confidence = std::min(recognition.confidence, kCutConfidence);
-  if (recognition.confidence < 0.5) {
-    std::string warning = "this hardly looks like one whole " + body_plan.name;
-    for (size_t i = 0; i < recognition.missing.size(); ++i)
-      warning += (i ? ", " : "; not found: ") + recognition.missing[i];
-    recognition.warnings.push_back(warning);
-  }
+  std::string not_found;
+  for (const std::string& name : recognition.missing)
+    not_found += (not_found.empty() ? "not found: " : ", ") + name;
+  if (recognition.confidence < 0.5)
+    recognition.warnings.push_back("this hardly looks like one whole " + body_plan.name +
+                                   (not_found.empty() ? "" : "; " + not_found));
+  else if (!not_found.empty())
+    recognition.warnings.push_back(not_found + " (placed where they probably are)");
   recognition.turned_deg = static_cast<int>(std::lround(tree.turned * 180 / std::numbers::pi));
   if (recognition.turned_deg != 0)
     recognition.warnings.push_back("the figure is turned by " + std::to_string(recognition.turned_deg) +

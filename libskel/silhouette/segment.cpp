@@ -72,6 +72,21 @@ cv::Mat straightened(const Image& image, cv::Mat& rgb, PageCorners corners) {
   return page_from_image * image_from_picture;
 }
 
+Image imageOf(const cv::Mat& rgb) {
+  Image image(rgb.cols, rgb.rows);
+  cv::Mat rgba(rgb.rows, rgb.cols, CV_8UC4, image.rgba.data());
+  cv::mixChannels(rgb, rgba, {0, 0, 1, 1, 2, 2});
+  image.rgba.col(3).setConstant(255);
+  return image;
+}
+
+Plane8 sharesOf(const cv::Mat& probability) {
+  Plane8 shares(probability.rows, probability.cols);
+  cv::Mat view(probability.rows, probability.cols, CV_8U, shares.data());
+  probability.convertTo(view, CV_8U, 255);
+  return shares;
+}
+
 // What lines and colours tell.
 struct Drawn {
   cv::Mat figures;     // 8-bit, 255 on figures; empty if there are none
@@ -179,19 +194,23 @@ cv::Mat agreed(const cv::Mat& drawn, const cv::Mat& page) {
 
 }  // namespace
 
-Segmentation segment(const Image& image) {
+Segmentation segment(const Image& image, bool keep_steps) {
+  Segmentation out;
   const cv::Mat picture = workingRgb(image);
   cv::Mat rgb = picture.clone(), lab = labOf(rgb), page_from_picture;
   const std::optional<PageCorners> corners = findPage(lab);
   if (corners) {
     page_from_picture = straightened(image, rgb, *corners);
     lab = labOf(rgb);
+    if (keep_steps) out.steps.sheet = imageOf(rgb);
   }
   const bool ruled = eraseRuling(rgb);
-  if (ruled) lab = labOf(rgb);
+  if (ruled) {
+    lab = labOf(rgb);
+    if (keep_steps) out.steps.unruled = imageOf(rgb);
+  }
   const Drawn drawn = figuresIn(rgb, lab);
 
-  Segmentation out;
   cv::Mat figures = drawn.figures;
   if (figures.empty()) figures = cv::Mat::zeros(rgb.size(), CV_8U);
   if (corners) {
@@ -199,8 +218,11 @@ Segmentation segment(const Image& image) {
                         cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
     figures = figures >= 128;
   }
-  if (corners || ruled || !drawn.tidy)
-    figures = agreed(figures, figureProbability(builtInPageNet(), picture));
+  if (corners || ruled || !drawn.tidy) {
+    const cv::Mat probability = figureProbability(builtInPageNet(), picture);
+    if (keep_steps) out.steps.figure_share = sharesOf(probability);
+    figures = agreed(figures, probability);
+  }
   if (cv::countNonZero(figures) == 0) {
     out.reason = drawn.reason.empty() ? "nothing on the page looks like a figure" : drawn.reason;
     return out;

@@ -4,12 +4,14 @@
 #include <string>
 
 #include "libskel/image/image.h"
+#include "libskel/silhouette/steps.h"
 
 namespace skel {
 
 struct Segmentation {
-  Plane8 foreground;   // 255 on figures, in any number of parts
-  std::string reason;  // why it is empty, where it is
+  Plane8 foreground;      // 255 on figures, in any number of parts
+  std::string reason;     // why it is empty, where it is
+  SilhouetteSteps steps;  // only if they are to be kept
 };
 
 // Works for drawings on paper (also photographed in uneven light), line art whose white fills open to the
@@ -18,6 +20,6 @@ struct Segmentation {
 // ground cut (ground.h); the mask is that of the picture all the same. Unless the picture is tidy, a net
 // that knows pages (page_net.h) says which of it is the figure. Its edge is that of the ink, in the picture's
 // own px (ink_edge.h).
-Segmentation segment(const Image& image);
+Segmentation segment(const Image& image, bool keep_steps = false);
 
 }  // namespace skel

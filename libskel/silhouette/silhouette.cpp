@@ -11,6 +11,7 @@
 #include "libskel/silhouette/paper.h"
 #include "libskel/silhouette/pieces.h"
 #include "libskel/silhouette/segment.h"
+#include "libskel/silhouette/steps.h"
 #include "libskel/silhouette/working_grid.h"
 
 namespace skel {
@@ -140,7 +141,7 @@ Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& option
     if ((alpha.opaque == 0).all()) return noFigure("the picture is fully transparent");
     return finish(alpha.opaque, options, kMinLongSide);
   }
-  Segmentation segmentation = segment(image);
+  const Segmentation segmentation = segment(image);
   if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
   // What the grain of paper left beside the figure is small and lies near it.
   PieceOptions pieces;
@@ -157,6 +158,11 @@ Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& option
         "FILE)");
   }
   return out;
+}
+
+SilhouetteSteps silhouetteSteps(const Image& image) {
+  if (image.empty() || alphaMask(image).meaningful) return {};
+  return segment(image, true).steps;
 }
 
 Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options) {

@@ -149,6 +149,18 @@ TEST_CASE("*.png in the folder of the results does not rig overlays and silhouet
   CHECK(contains(none.err, "none of the images is a drawing"));
 }
 
+TEST_CASE("--trace shows the steps that the picture needed") {
+  const TempDir dir;
+  const std::string drawing = SKEL_DATASETS "/characters/kid_floating_head.png",
+                    mask = SKEL_DATASETS "/characters/kid_floating_head.mask.png";
+  REQUIRE(infer(dir, drawing + " --formats json --trace seen").exit_code == 0);
+  for (const char* name : {"2-page-net.png", "2-pieces.png", "7-depth.png"})
+    CHECK(fs::exists(dir.file(std::string("seen/") + name)));
+  CHECK_FALSE(fs::exists(dir.file("seen/2-sheet.png")));
+  REQUIRE(infer(dir, drawing + " --formats json --trace given --mask " + mask).exit_code == 0);
+  CHECK_FALSE(fs::exists(dir.file("given/2-page-net.png")));
+}
+
 TEST_CASE("every tool has --version") {
   const TempDir dir;
   const ToolRun run = infer(dir, "--version");

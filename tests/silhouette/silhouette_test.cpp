@@ -9,6 +9,7 @@
 
 #include "libskel/core/rng.h"
 #include "libskel/image/read_image.h"
+#include "libskel/silhouette/steps.h"
 #include "tests/support/catch.h"
 
 using namespace skel;
@@ -467,6 +468,17 @@ TEST_CASE("ruled paper, a margin: what is printed is not drawn") {
   for (int y = 0; y < 800; ++y)
     for (int x = 0; x < 600; ++x) truth(y, x) = distanceTo(kPerson, x / 2.0, y / 2.0) <= 2 ? 255 : 0;
   CHECK(iou(s.mask, truth) > 0.9);
+}
+
+TEST_CASE("what was seen on the way can be looked at") {
+  const Paint page = pencilled(photographed(11, false));
+  const SilhouetteSteps steps =
+      silhouetteSteps(paint(600, 700, [&](double x, double y) { return onTable(page, x, y); }));
+  CHECK(std::max(steps.sheet.width, steps.sheet.height) == 640);
+  CHECK(steps.unruled.empty());
+  CHECK(steps.figure_share.maxCoeff() > 127);
+  const SilhouetteSteps tidy = silhouetteSteps(outlined(kPerson, plainWhite, kBlack, 4));
+  CHECK((tidy.sheet.empty() && tidy.unruled.empty() && tidy.figure_share.size() == 0));
 }
 
 TEST_CASE("a line of ground is cut where it leaves the feet") {
