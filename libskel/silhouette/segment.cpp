@@ -179,7 +179,7 @@ cv::Mat agreed(const cv::Mat& drawn, const cv::Mat& page) {
 
 }  // namespace
 
-Segmentation segment(const Image& image) {
+Segmentation segment(const Image& image, const PageNet* page_net) {
   const cv::Mat picture = workingRgb(image);
   cv::Mat rgb = picture.clone(), lab = labOf(rgb), page_from_picture;
   const std::optional<PageCorners> corners = findPage(lab);
@@ -200,7 +200,7 @@ Segmentation segment(const Image& image) {
     figures = figures >= 128;
   }
   if (corners || ruled || !drawn.tidy)
-    figures = agreed(figures, figureProbability(builtInPageNet(), picture));
+    figures = agreed(figures, figureProbability(page_net ? *page_net : builtInPageNet(), picture));
   if (cv::countNonZero(figures) == 0) {
     out.reason = drawn.reason.empty() ? "nothing on the page looks like a figure" : drawn.reason;
     return out;

@@ -140,7 +140,7 @@ Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& option
     if ((alpha.opaque == 0).all()) return noFigure("the picture is fully transparent");
     return finish(alpha.opaque, options, kMinLongSide);
   }
-  Segmentation segmentation = segment(image);
+  Segmentation segmentation = segment(image, options.page_net.get());
   if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
   // What the grain of paper left beside the figure is small and lies near it.
   PieceOptions pieces;
