@@ -20,9 +20,7 @@ constexpr double kLeastEpsilon = 1e-3, kShrink = 0.2;
 constexpr double kHold = 10, kLoosen = 0.3;
 constexpr double kLeastStep = 1e-4;
 
-// As std::hypot(), which is not the same in all C libraries.
-double length(double x, double y) { return std::sqrt(x * x + y * y); }
-double chi(double det, double epsilon) { return (det + length(epsilon, det)) / 2; }
+double chi(double det, double epsilon) { return (det + std::hypot(epsilon, det)) / 2; }
 
 }  // namespace
 
@@ -113,7 +111,7 @@ class Untangler::Patch {
   // J and det J: (2/χ)(|dJ − J q d|² + ((1 − det q)² + q²) d²) with q = χ'/χ and d the change of det J.
   double expand(const Triangle& t, double epsilon, const MatrixX2d& posed, Eigen::VectorXd& slope) {
     const Matrix2d j = jacobian(t, posed);
-    const double det = j.determinant(), x = chi(det, epsilon), q = 1 / length(epsilon, det);
+    const double det = j.determinant(), x = chi(det, epsilon), q = 1 / std::hypot(epsilon, det);
     const double value = t.area * (j.squaredNorm() + det * det + 1) / x;
     Matrix2d cofactors;
     cofactors << j(1, 1), -j(1, 0), -j(0, 1), j(0, 0);
@@ -197,7 +195,7 @@ void Untangler::untangle(MatrixX2d& posed, const MatrixX2d& targets) const {
     }
     Patch patch(*this, moves, targets, hold);
     for (int step = 0; step < kSteps && shares.minCoeff() < kLeastAreaShare; ++step) {
-      const double epsilon = length(kLeastEpsilon, kShrink * std::min(0., shares.minCoeff()));
+      const double epsilon = std::hypot(kLeastEpsilon, kShrink * std::min(0., shares.minCoeff()));
       if (!patch.step(epsilon, posed)) break;
       shares = areaShares(posed);
     }
