@@ -27,7 +27,7 @@ const std::vector<Case>& cases() {
 }
 
 TreeRecognition recognize(const Case& drawing, InstructionSet set) {
-  const JointNet& net = builtInJointNet("biped");
+  const JointNet& net = builtInJointNets().of("biped");
   static const NetJoints joints = netJoints(net.joints, loadTemplate("biped"));
   const WorkingGrid& grid = drawing.silhouette.grid;
   const Plane8& mask = drawing.silhouette.grid_mask;

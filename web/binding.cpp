@@ -3,6 +3,7 @@
 #include <emscripten/bind.h>
 
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "libskel/pipeline/rig_character.h"
+#include "libskel/silhouette/page_net.h"
 #include "libskel/skeleton/outside_figure.h"
 #include "libskel/skeleton/skeleton_file.h"
 
@@ -66,6 +68,14 @@ val saying(const std::string& file, const Work& work) {
   return said;
 }
 
+// The nets at work, which are handed over once.
+struct Nets {
+  std::vector<std::string> files;
+  std::shared_ptr<const JointNets> joints;
+  std::shared_ptr<const PageNet> page;
+};
+Nets nets;
+
 // The character at work.
 struct Character {
   RiggedDrawing drawing;
@@ -80,6 +90,8 @@ RigOptions optionsFor(const std::string& body_plan, int figure) {
   options.body_plan = loadTemplate(body_plan);
   options.mlp = defaultMlp();
   options.clips = clipsFor(builtinClips(), options.body_plan);
+  options.joint_nets = nets.joints;
+  options.silhouette.page_net = nets.page;
   options.silhouette.figure = figure;
   return options;
 }
@@ -96,15 +108,19 @@ RiggedDrawing rigByAnyPlan(const RigInput& input, int figure) {
   return std::move(*first);
 }
 
-SkeletonFile givenSkeleton(const std::string& text, const std::string& name, const std::string& image,
-                           const RigInput& input) {
+SkeletonFile skeletonFileOf(const std::string& text, const std::string& name) {
   const JsonDocument document = JsonDocument::parse(text, name);
   document.root().checkFormat("skel-skeleton", 2);
   const JsonValue plan = document.root().at("template");
   const auto known = builtinTemplates();
   if (std::find(known.begin(), known.end(), plan.asString()) == known.end())
     plan.fail("\"" + plan.asString() + "\" is no body plan that is known here");
-  SkeletonFile given = parseSkeletonFile(text, name, loadTemplate(plan.asString()));
+  return parseSkeletonFile(text, name, loadTemplate(plan.asString()));
+}
+
+SkeletonFile givenSkeleton(const std::string& text, const std::string& name, const std::string& image,
+                           const RigInput& input) {
+  SkeletonFile given = skeletonFileOf(text, name);
   if (given.image_width != input.image.width || given.image_height != input.image.height)
     throw InputError(name, "belongs to an image of " + sizeText(given.image_width, given.image_height) +
                                " px, " + image + " has " + sizeText(input.image.width, input.image.height));
@@ -133,6 +149,20 @@ val described() {
   return said;
 }
 
+// Request: the bytes of {page: of the page net, biped, quadruped: of the joint nets}. Returns {} or {error}.
+val useNets(const val& request) {
+  return saying("the nets", [&] {
+    Nets given;
+    for (const char* name : {"page", "biped", "quadruped"}) given.files.push_back(bytesOf(request[name]));
+    given.page = std::make_shared<const PageNet>(parsePageNet(given.files[0], "page net"));
+    given.joints = std::make_shared<const JointNets>(
+        std::vector<JointNets::File>{{"biped", given.files[1], "joint net of the biped"},
+                                     {"quadruped", given.files[2], "joint net of the quadruped"}});
+    nets = std::move(given);
+    return val::object();
+  });
+}
+
 // {width, height, rgba} of a PNG file, or {error}: what other pictures hold, the browser knows.
 val decode(const val& bytes, const std::string& file) {
   return saying(file, [&] {
@@ -145,13 +175,26 @@ val decode(const val& bytes, const std::string& file) {
   });
 }
 
-// {width, height, mask} of a PNG file, 255 on the figure, or {error}.
-val maskOf(const val& bytes, const std::string& file) {
+// Request: {bytes, file, width, height, skeleton, skeletonFile}, of a PNG file that belongs to a picture of
+// that size and, unless `skeleton` is null, to the text of that skeleton file. Returns {mask: width·height
+// bytes, 255 on the figure} or {error}.
+val maskOf(const val& request) {
+  const auto file = request["file"].as<std::string>();
   return saying(file, [&] {
-    const Plane8 mask = decodeMask(bytesOf(bytes), file);
+    const std::string bytes = bytesOf(request["bytes"]);
+    const Plane8 mask = decodeMask(bytes, file);
+    const int width = request["width"].as<int>(), height = request["height"].as<int>();
+    if (mask.cols() != width || mask.rows() != height)
+      throw InputError(file, "is a mask of " + sizeText(mask.cols(), mask.rows()) + " px, the image has " +
+                                 sizeText(width, height));
+    if (!request["skeleton"].isNull()) {
+      const auto name = request["skeletonFile"].as<std::string>();
+      const SkeletonFile given = skeletonFileOf(request["skeleton"].as<std::string>(), name);
+      if (given.mask && given.mask->sha256 != sha256(bytes))
+        throw InputError(
+            file, "has changed since " + name + " was made with it; drop it without that if it is meant");
+    }
     val said = val::object();
-    said.set("width", static_cast<int>(mask.cols()));
-    said.set("height", static_cast<int>(mask.rows()));
     said.set("mask", arrayOf(mask));
     return said;
   });
@@ -205,6 +248,10 @@ val rig(const val& request) {
           if (std::find(made.file.warnings.begin(), made.file.warnings.end(), warning) ==
               made.file.warnings.end())
             made.file.warnings.push_back(warning);
+      if (!input.mask && !given->figure.sha256.empty() &&
+          given->figure.sha256 != outlineHash(drawing.silhouette))
+        made.file.warnings.push_back(
+            "the figure is not outlined as it was when the joints were found: look at them");
     } else {
       made.file.confidence = drawing.recognition.confidence;
       made.file.missing = drawing.recognition.missing;
@@ -240,6 +287,7 @@ val mask() {
 }  // namespace skel
 
 EMSCRIPTEN_BINDINGS(skel) {
+  emscripten::function("useNets", &skel::useNets);
   emscripten::function("decode", &skel::decode);
   emscripten::function("readMask", &skel::maskOf);
   emscripten::function("rig", &skel::rig);

@@ -4,10 +4,13 @@ import { createHash } from 'node:crypto';
 import { cp, mkdir, readFile, writeFile } from 'node:fs/promises';
 import { gzipSync } from 'node:zlib';
 import { build } from 'esbuild';
+import { zipSync } from 'fflate';
+import { textOfBytes } from './src/bytes_text.js';
 
 const [wasmDir, out] = process.argv.slice(2);
 const here = new URL('.', import.meta.url).pathname;
 const site = `${out}/site`;
+const weights = { page: 'page_net', biped: 'joint_net', quadruped: 'quadruped_joint_net' };
 const samples = { gingerbread: 'characters', box_robot: 'characters', walking_fox: 'animals' };
 
 async function bundle(entry, plugins = []) {
@@ -33,6 +36,10 @@ const body = html.replace('<!-- credits -->', () => `${credits}\n<pre>${escaped(
 const pictures = {};
 for (const [name, set] of Object.entries(samples)) pictures[name] = await readFile(`${here}/../datasets/${set}/${name}.png`);
 
+const nets = {};
+for (const [name, file] of Object.entries(weights)) nets[name] = new Uint8Array(await readFile(`${here}/../weights/${file}.bin`));
+const netsZip = zipSync(nets, { level: 9, mtime: '1980-01-01' });
+
 // One file: a worker cannot be loaded from file://, nor can a .wasm be fetched.
 const packed = gzipSync(wasm, { level: 9 });
 const asData = Object.fromEntries(Object.entries(pictures).map(([name, bytes]) => [name, `data:image/png;base64,${bytes.toString('base64')}`]));
@@ -41,23 +48,24 @@ const single = body
   .replace('<!-- head -->', () => `<style>${css}</style>`)
   .replace('<!-- scripts -->', () => `<script>globalThis.skelSamples = ${JSON.stringify(asData)};</script>
 <script type="text/plain" id="skel-worker">${inScript(worker)}</script>
-<script type="text/plain" id="skel-wasm">${packed.toString('base64')}</script>
+<script type="text/plain" id="skel.wasm">${textOfBytes(packed)}</script>
+<script type="text/plain" id="nets.zip">${textOfBytes(netsZip)}</script>
 <script>${inScript(page)}</script>`);
 await writeFile(`${out}/skel.html`, single);
 
 // Files for a server, with what makes it an app that works offline.
-const version = createHash('sha256').update(page).update(worker).update(wasm).update(css).update(body).digest('hex').slice(0, 12);
+const version = createHash('sha256').update(page).update(worker).update(wasm).update(netsZip).update(css).update(body).digest('hex').slice(0, 12);
 const index = body
   .replace('<!-- head -->', () => '<link rel="stylesheet" href="style.css">\n<link rel="manifest" href="manifest.webmanifest">\n<link rel="icon" href="icon.svg">\n<meta name="theme-color" content="#2257c5">')
   .replace('<!-- scripts -->', () => '<script src="page.js"></script>');
-const files = ['./', 'style.css', 'page.js', 'worker.js', 'skel.wasm', 'manifest.webmanifest', 'icon.svg', ...Object.keys(pictures).map((name) => `samples/${name}.png`)];
+const files = ['./', 'style.css', 'page.js', 'worker.js', 'skel.wasm', 'nets.zip', 'manifest.webmanifest', 'icon.svg', ...Object.keys(pictures).map((name) => `samples/${name}.png`)];
 const serviceWorker = (await readFile(`${here}/src/sw.js`, 'utf8')).replace('VERSION', version).replace('FILES', JSON.stringify(files));
 await Promise.all([
   writeFile(`${site}/index.html`, index), writeFile(`${site}/style.css`, css), writeFile(`${site}/page.js`, page),
-  writeFile(`${site}/worker.js`, worker), writeFile(`${site}/skel.wasm`, wasm), writeFile(`${site}/sw.js`, serviceWorker),
+  writeFile(`${site}/worker.js`, worker), writeFile(`${site}/skel.wasm`, wasm), writeFile(`${site}/nets.zip`, netsZip), writeFile(`${site}/sw.js`, serviceWorker),
   cp(`${here}/src/manifest.webmanifest`, `${site}/manifest.webmanifest`), cp(`${here}/src/icon.svg`, `${site}/icon.svg`),
   ...Object.entries(pictures).map(([name, bytes]) => writeFile(`${site}/samples/${name}.png`, bytes)),
 ]);
 
 const kB = (bytes) => `${Math.round(bytes / 1000)} kB`;
-console.log(`skel.wasm ${kB(wasm.length)}, ${kB(packed.length)} gzipped; skel.html ${kB(Buffer.byteLength(single))}`);
+console.log(`skel.wasm ${kB(wasm.length)}, ${kB(packed.length)} gzipped; nets.zip ${kB(netsZip.length)}; skel.html ${kB(Buffer.byteLength(single))}`);

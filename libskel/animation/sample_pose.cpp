@@ -37,15 +37,22 @@ Eigen::Quaternionf rotationAt(const JointTrack& track, RotationInterpolation int
   if (interpolation == RotationInterpolation::kAngles && !track.angles_rad.empty())
     return rotationOfAngles(between(track.times_s, track.angles_rad, time_s));
   const Moment at = momentOf(track.times_s, time_s);
-  return track.rotations[at.key].slerp(at.t, track.rotations[at.next]);
+  // In doubles, as below: rounded to floats, the sines of all C libraries are the same.
+  return track.rotations[at.key]
+      .cast<double>()
+      .slerp(at.t, track.rotations[at.next].cast<double>())
+      .cast<float>();
 }
 
 }  // namespace
 
 Eigen::Quaternionf rotationOfAngles(const Eigen::Vector3f& angles_rad) {
-  using Eigen::AngleAxisf, Eigen::Vector3f;
-  return AngleAxisf(angles_rad.z(), Vector3f::UnitZ()) * AngleAxisf(angles_rad.y(), Vector3f::UnitY()) *
-         AngleAxisf(angles_rad.x(), Vector3f::UnitX());
+  using Eigen::AngleAxisd, Eigen::Vector3d;
+  const Vector3d angles = angles_rad.cast<double>();
+  return Eigen::Quaterniond(AngleAxisd(angles.z(), Vector3d::UnitZ()) *
+                            AngleAxisd(angles.y(), Vector3d::UnitY()) *
+                            AngleAxisd(angles.x(), Vector3d::UnitX()))
+      .cast<float>();
 }
 
 Pose samplePose(const Clip& clip, const Skeleton& skeleton, float time_s) {

@@ -4,7 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,9 +74,33 @@ void encodeJointNetInput(const Plane8& mask, const FigureLook& look, const Frame
 JointNet parseJointNet(std::string_view bytes, const std::string& file);
 std::string formatJointNet(const JointNet& net);
 
-// The names of the body plans that there is a net compiled in for.
-std::span<const std::string_view> builtInJointNets();
-// The net of one of them.
-const JointNet& builtInJointNet(std::string_view body_plan);
+// Nets of several body plans. Each is read when it is first asked for, since that takes time.
+class JointNets {
+ public:
+  // A weights file, whose bytes stay where they are as long as the nets are in use.
+  struct File {
+    std::string_view body_plan, bytes;
+    std::string name;  // that complaints begin with
+  };
+
+  explicit JointNets(std::vector<File> files);
+  std::vector<std::string_view> bodyPlans() const;
+  bool has(std::string_view body_plan) const;
+  // `body_plan`: one of bodyPlans(). Throws InputError.
+  const JointNet& of(std::string_view body_plan) const;
+
+ private:
+  struct Entry {
+    File file;
+    std::once_flag once;
+    JointNet net;
+  };
+  Entry* find(std::string_view body_plan) const;
+
+  std::vector<std::unique_ptr<Entry>> entries_;
+};
+
+// Those that are compiled in; none, where the build leaves them out (SKEL_NETS).
+const JointNets& builtInJointNets();
 
 }  // namespace skel

@@ -1,11 +1,7 @@
 // Weights files of the joint net.
 #include <algorithm>
-#include <array>
-#include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "embedded/joint_net_weights.h"
-#include "embedded/quadruped_joint_net_weights.h"
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
@@ -64,29 +60,32 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file) {
   return net;
 }
 
-namespace {
+JointNets::JointNets(std::vector<File> files) {
+  for (File& file : files) {
+    entries_.push_back(std::make_unique<Entry>());
+    entries_.back()->file = std::move(file);
+  }
+}
 
-// What is compiled in, of each body plan.
-constexpr std::string_view kBodyPlans[] = {"biped", "quadruped"};
-const std::string_view* const kWeights[] = {&embedded::joint_net_weights,
-                                            &embedded::quadruped_joint_net_weights};
-static_assert(std::size(kBodyPlans) == std::size(kWeights));
+std::vector<std::string_view> JointNets::bodyPlans() const {
+  std::vector<std::string_view> names;
+  for (const auto& entry : entries_) names.push_back(entry->file.body_plan);
+  return names;
+}
 
-}  // namespace
+JointNets::Entry* JointNets::find(std::string_view body_plan) const {
+  const auto at = std::find_if(entries_.begin(), entries_.end(),
+                               [&](const auto& entry) { return entry->file.body_plan == body_plan; });
+  return at == entries_.end() ? nullptr : at->get();
+}
 
-std::span<const std::string_view> builtInJointNets() { return kBodyPlans; }
+bool JointNets::has(std::string_view body_plan) const { return find(body_plan); }
 
-const JointNet& builtInJointNet(std::string_view body_plan) {
-  const auto at = static_cast<std::size_t>(
-      std::find(std::begin(kBodyPlans), std::end(kBodyPlans), body_plan) - kBodyPlans);
-  SKEL_CHECK(at < std::size(kBodyPlans));
-  // Each is read when it is first asked for, since that takes time.
-  static std::array<std::once_flag, std::size(kBodyPlans)> once;
-  static std::array<JointNet, std::size(kBodyPlans)> nets;
-  std::call_once(once[at], [at] {
-    nets[at] = parseJointNet(*kWeights[at], "built-in joint net of the " + std::string(kBodyPlans[at]));
-  });
-  return nets[at];
+const JointNet& JointNets::of(std::string_view body_plan) const {
+  Entry* entry = find(body_plan);
+  SKEL_CHECK(entry);
+  std::call_once(entry->once, [&] { entry->net = parseJointNet(entry->file.bytes, entry->file.name); });
+  return entry->net;
 }
 
 }  // namespace skel

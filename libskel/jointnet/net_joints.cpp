@@ -83,18 +83,17 @@ NetJoints netJoints(const std::vector<std::string>& names, const SkeletonTemplat
   return joints;
 }
 
-const JointNet* builtInJointNetFor(const SkeletonTemplate& body_plan) {
+const JointNet* jointNetFor(const SkeletonTemplate& body_plan, const JointNets& nets) {
   const auto knows = [&](std::string_view name) {
-    const std::vector<std::string>& joints = builtInJointNet(name).joints;
+    const std::vector<std::string>& joints = nets.of(name).joints;
     return std::all_of(joints.begin(), joints.end(),
                        [&](const std::string& joint) { return isFound(body_plan, joint); });
   };
-  const auto names = builtInJointNets();
   // That of the same name first, since to read a net takes time.
-  if (std::count(names.begin(), names.end(), body_plan.name) > 0 && knows(body_plan.name))
-    return &builtInJointNet(body_plan.name);
+  if (nets.has(body_plan.name) && knows(body_plan.name)) return &nets.of(body_plan.name);
+  const auto names = nets.bodyPlans();
   const auto other = std::find_if(names.begin(), names.end(), knows);
-  return other == names.end() ? nullptr : &builtInJointNet(*other);
+  return other == names.end() ? nullptr : &nets.of(*other);
 }
 
 }  // namespace skel

@@ -25,8 +25,8 @@ struct NetJoints {
 // joint's counterpart is not among them.
 NetJoints netJoints(const std::vector<std::string>& names, const SkeletonTemplate& body_plan);
 
-// The built-in net that knows a template of this name, or else one that finds joints which the template has;
-// null if there is none.
-const JointNet* builtInJointNetFor(const SkeletonTemplate& body_plan);
+// The net that knows a template of this name, or else one that finds joints which the template has; null if
+// there is none.
+const JointNet* jointNetFor(const SkeletonTemplate& body_plan, const JointNets& nets);
 
 }  // namespace skel

@@ -45,21 +45,27 @@ void roundToFile(Skeleton& skeleton) {
   for (Joint& joint : skeleton.joints) joint.image = (joint.image * 100).array().round() / 100;
 }
 
+const JointNets& jointNetsOf(const RigOptions& options) {
+  return options.joint_nets ? *options.joint_nets : builtInJointNets();
+}
+
 const JointNet& jointNetOf(const RigOptions& options) {
-  const JointNet* net = options.joint_net ? options.joint_net.get() : builtInJointNetFor(options.body_plan);
+  const JointNet* net =
+      options.joint_net ? options.joint_net.get() : jointNetFor(options.body_plan, jointNetsOf(options));
   if (!net)
     throw UsageError("no net is built in that knows the joints of the template \"" + options.body_plan.name +
                      "\"; name one by --joint-net, or use --recognizer paper");
   return *net;
 }
 
-// Another built-in body plan that the figure fits where the one in use leaves doubt.
+// Another body plan that the figure fits where the one in use leaves doubt.
 std::optional<std::string> betterBodyPlan(const Image& image, const Silhouette& silhouette,
-                                          const std::string& in_use) {
-  for (const std::string_view name : builtInJointNets()) {
-    if (name == in_use) continue;
+                                          const RigOptions& options) {
+  const JointNets& nets = jointNetsOf(options);
+  for (const std::string_view name : nets.bodyPlans()) {
+    if (name == options.body_plan.name) continue;
     const Recognition other =
-        recognizeByTree(image, silhouette, loadTemplate(std::string(name)), builtInJointNet(name));
+        recognizeByTree(image, silhouette, loadTemplate(std::string(name)), nets.of(name));
     if (other.confidence >= 0.5) return std::string(name);
   }
   return std::nullopt;
@@ -101,7 +107,9 @@ InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawin
   inflate.head =
       headDisc(drawing.recognition.skeleton, options.body_plan, drawing.silhouette, inflate.turned_rad);
   if (input.back) {
-    const Silhouette behind = extractSilhouette(*input.back);
+    SilhouetteOptions silhouette;
+    silhouette.page_net = options.silhouette.page_net;
+    const Silhouette behind = extractSilhouette(*input.back, silhouette);
     if (!behind.found()) throw UsageError("the picture of the back shows no figure: " + behind.reason);
     inflate.back_picture = std::make_shared<const BackPicture>(BackPicture{*input.back, behind.mask});
   }
@@ -149,7 +157,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
       recognizer.try_orientations = !options.upright;
       found = recognizeByTree(drawing.image, silhouette, options.body_plan, jointNetOf(options), recognizer);
       if (found.confidence < 0.5)
-        if (const auto better = betterBodyPlan(drawing.image, silhouette, options.body_plan.name))
+        if (const auto better = betterBodyPlan(drawing.image, silhouette, options))
           found.warnings.push_back("it looks like a " + *better + ": try --template " + *better);
     }
     return found;

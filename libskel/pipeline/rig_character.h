@@ -51,8 +51,9 @@ struct RigOptions {
   Mlp mlp;  // tells the classes of candidates apart
   SkeletonTemplate body_plan;
   Recognizer recognizer = Recognizer::kTree;
-  bool upright = false;                       // the figure is not turned: try no other orientations
-  std::shared_ptr<const JointNet> joint_net;  // null: the built-in one that knows the body plan
+  bool upright = false;                         // the figure is not turned: try no other orientations
+  std::shared_ptr<const JointNets> joint_nets;  // of body plans; null: the built-in ones
+  std::shared_ptr<const JointNet> joint_net;    // null: the one of `joint_nets` that knows the body plan
   bool layers = true;  // limbs that are drawn over the body are bodies of their own; false: one skin
   InflateOptions inflate{.thin_outline = true};
   std::optional<Back> back;  // nothing: kPlain, or kSame for a body plan that is drawn from the side

@@ -38,7 +38,7 @@ inline constexpr std::size_t pageLogitIndex(int y, int x) {
 // (formatWeights()). Throws InputError.
 PageNet parsePageNet(std::string_view bytes, const std::string& file);
 std::string formatPageNet(const PageNet& net);
-// The net that is compiled in.
+// The net that is compiled in. Throws UsageError where the build leaves it out (SKEL_NETS).
 const PageNet& builtInPageNet();
 
 // How probably each px is figure: CV_32F of the size of `rgb` (8-bit), 0…1. The page is looked at whole and,

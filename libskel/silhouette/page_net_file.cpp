@@ -1,7 +1,6 @@
 // Weights files of the page net.
 #include <nlohmann/json.hpp>
 
-#include "embedded/page_net_weights.h"
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
@@ -35,11 +34,6 @@ PageNet parsePageNet(std::string_view bytes, const std::string& file) {
   PageNet net = makePageNet();
   net.provenance = root.at("provenance").asString();
   parseWeights(bytes.substr(end + 1), root, file, net);
-  return net;
-}
-
-const PageNet& builtInPageNet() {
-  static const PageNet net = parsePageNet(embedded::page_net_weights, "built-in page net");
   return net;
 }
 

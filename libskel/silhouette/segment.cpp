@@ -194,7 +194,7 @@ cv::Mat agreed(const cv::Mat& drawn, const cv::Mat& page) {
 
 }  // namespace
 
-Segmentation segment(const Image& image, bool keep_steps) {
+Segmentation segment(const Image& image, const PageNet* page_net, bool keep_steps) {
   Segmentation out;
   const cv::Mat picture = workingRgb(image);
   cv::Mat rgb = picture.clone(), lab = labOf(rgb), page_from_picture;
@@ -219,7 +219,7 @@ Segmentation segment(const Image& image, bool keep_steps) {
     figures = figures >= 128;
   }
   if (corners || ruled || !drawn.tidy) {
-    const cv::Mat probability = figureProbability(builtInPageNet(), picture);
+    const cv::Mat probability = figureProbability(page_net ? *page_net : builtInPageNet(), picture);
     if (keep_steps) out.steps.figure_share = sharesOf(probability);
     figures = agreed(figures, probability);
   }

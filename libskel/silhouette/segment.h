@@ -8,6 +8,8 @@
 
 namespace skel {
 
+struct PageNet;
+
 struct Segmentation {
   Plane8 foreground;      // 255 on figures, in any number of parts
   std::string reason;     // why it is empty, where it is
@@ -18,8 +20,8 @@ struct Segmentation {
 // background through small gaps, and flat art on plain, graded or patterned backgrounds. A sheet that lies on
 // something else is straightened first (page.h), the ruling of paper taken off (ruling.h), and a line of
 // ground cut (ground.h); the mask is that of the picture all the same. Unless the picture is tidy, a net
-// that knows pages (page_net.h) says which of it is the figure. Its edge is that of the ink, in the picture's
-// own px (ink_edge.h).
-Segmentation segment(const Image& image, bool keep_steps = false);
+// that knows pages (page_net.h; null: the built-in one) says which of it is the figure. Its edge is that of
+// the ink, in the picture's own px (ink_edge.h).
+Segmentation segment(const Image& image, const PageNet* page_net = nullptr, bool keep_steps = false);
 
 }  // namespace skel

@@ -141,7 +141,7 @@ Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& option
     if ((alpha.opaque == 0).all()) return noFigure("the picture is fully transparent");
     return finish(alpha.opaque, options, kMinLongSide);
   }
-  const Segmentation segmentation = segment(image);
+  const Segmentation segmentation = segment(image, options.page_net.get());
   if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
   // What the grain of paper left beside the figure is small and lies near it.
   PieceOptions pieces;
@@ -162,7 +162,7 @@ Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& option
 
 SilhouetteSteps silhouetteSteps(const Image& image) {
   if (image.empty() || alphaMask(image).meaningful) return {};
-  return segment(image, true).steps;
+  return segment(image, nullptr, true).steps;
 }
 
 Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -56,10 +57,13 @@ enum class SilhouetteMethod {
   kPaper,      // dark lines and a flood fill, as the paper does it (paper.h); alpha is laid on white
 };
 
+struct PageNet;
+
 struct SilhouetteOptions {
   SilhouetteMethod method = SilhouetteMethod::kAutomatic;
-  int figure = 1;           // 1 is the largest
-  bool fill_holes = false;  // as in the paper, which keeps the outer contour alone
+  int figure = 1;                           // 1 is the largest
+  bool fill_holes = false;                  // as in the paper, which keeps the outer contour alone
+  std::shared_ptr<const PageNet> page_net;  // null: the built-in one (page_net.h)
 };
 
 // From the picture alone. An empty picture has no figure.

@@ -81,12 +81,12 @@ TEST_CASE("Damaged weights files are refused with a reason") {
 }
 
 TEST_CASE("The nets that are compiled in know their templates") {
-  for (const std::string_view name : builtInJointNets()) {
+  for (const std::string_view name : builtInJointNets().bodyPlans()) {
     INFO(name);
     const SkeletonTemplate body_plan = loadTemplate(std::string(name));
-    CHECK(builtInJointNet(name).body_plan == name);
-    CHECK(builtInJointNetFor(body_plan) == &builtInJointNet(name));
-    CHECK(netJoints(builtInJointNet(name).joints, body_plan).count() ==
+    CHECK(builtInJointNets().of(name).body_plan == name);
+    CHECK(jointNetFor(body_plan, builtInJointNets()) == &builtInJointNets().of(name));
+    CHECK(netJoints(builtInJointNets().of(name).joints, body_plan).count() ==
           std::count_if(body_plan.joints.begin(), body_plan.joints.end(),
                         [](const TemplateJoint& joint) { return !joint.derived; }));
   }
@@ -132,9 +132,9 @@ TEST_CASE("Joints of a net hang together as the template says") {
 TEST_CASE("A template of another name takes the net that finds its joints") {
   SkeletonTemplate body_plan = loadTemplate("biped");
   body_plan.name = "pirate";
-  CHECK(builtInJointNetFor(body_plan) == &builtInJointNet("biped"));
+  CHECK(jointNetFor(body_plan, builtInJointNets()) == &builtInJointNets().of("biped"));
   body_plan.joints[static_cast<size_t>(body_plan.find("left_hand"))].name = "left_hook";
-  CHECK(builtInJointNetFor(body_plan) == nullptr);
+  CHECK(jointNetFor(body_plan, builtInJointNets()) == nullptr);
 }
 
 TEST_CASE("Frame and grid points turn into each other") {

@@ -17,8 +17,8 @@ struct Subject {
   std::vector<Figure> figures;
 };
 Subject anySubject(std::uint64_t seed) {
-  const std::string name(GENERATE(from_range(builtInJointNets().begin(), builtInJointNets().end())));
-  const JointNet& net = builtInJointNet(name);
+  const std::string name(GENERATE(from_range(builtInJointNets().bodyPlans())));
+  const JointNet& net = builtInJointNets().of(name);
   Subject subject{net, netJoints(net.joints, loadTemplate(name)), {}};
   FigureOptions options;
   options.body_plan = name;

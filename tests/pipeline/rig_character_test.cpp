@@ -1,7 +1,10 @@
 #include "libskel/pipeline/rig_character.h"
 
 #include "libskel/classifier/weights_file.h"
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
 #include "libskel/image/read_image.h"
+#include "libskel/silhouette/page_net.h"
 #include "tests/support/catch.h"
 #include "tests/support/figure.h"
 
@@ -63,6 +66,32 @@ TEST_CASE("a biped is 1.7 m high, an animal 1.2 m long or high, and both as high
   // Seen from the side, both sides of it have an eye; who faces us has no face behind.
   CHECK(animal.back_uv.rows() == 0);
   CHECK(model(boy, "biped", 0).back_uv.rows() > 0);
+}
+
+TEST_CASE("nets that are handed over do what those do that are compiled in") {
+  const auto bytesOf = [](const char* file) {
+    return readFile(std::string(SKEL_SOURCE_DIR "/weights/") + file);
+  };
+  const std::string page = bytesOf("page_net.bin"), biped = bytesOf("joint_net.bin");
+  RigInput input;
+  input.image = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");
+  RigOptions options;
+  options.mlp = defaultMlp();
+  options.body_plan = loadTemplate("biped");
+  const RiggedDrawing expected = rigCharacter(input, options);
+  options.silhouette.page_net = std::make_shared<const PageNet>(parsePageNet(page, "page"));
+  options.joint_nets =
+      std::make_shared<const JointNets>(std::vector<JointNets::File>{{"biped", biped, "biped"}});
+  const RiggedDrawing drawing = rigCharacter(input, options);
+  CHECK((drawing.silhouette.mask == expected.silhouette.mask).all());
+  for (std::size_t j = 0; j < expected.recognition.skeleton.joints.size(); ++j)
+    CHECK(drawing.recognition.skeleton.joints[j].image == expected.recognition.skeleton.joints[j].image);
+
+  options.joint_nets = std::make_shared<const JointNets>(std::vector<JointNets::File>{});
+  CHECK_THROWS_AS(rigCharacter(input, options), UsageError);
+  options.joint_nets =
+      std::make_shared<const JointNets>(std::vector<JointNets::File>{{"biped", biped.substr(9), "biped"}});
+  CHECK_THROWS_AS(rigCharacter(input, options), InputError);
 }
 
 TEST_CASE("a drawing that stands on its head gives an upright model; its joints stay the picture's") {

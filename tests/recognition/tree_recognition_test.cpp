@@ -18,7 +18,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-const JointNet& kNet = builtInJointNet("biped");
+const JointNet& kNet = builtInJointNets().of("biped");
 
 std::vector<CapsuleFigure> poses() {
   CapsuleFigure down, out, up, mixed, walking;
@@ -250,7 +250,7 @@ DrawnAnimal drawn(const Figure& figure, int scale, int left, int top) {
 
 Recognition recognizeAnimal(const Plane8& mask) {
   return recognizeByTree(inkOn(mask), silhouetteFromMask(mask), loadTemplate("quadruped"),
-                         builtInJointNet("quadruped"));
+                         builtInJointNets().of("quadruped"));
 }
 
 std::vector<Figure> someAnimals(int count) {
@@ -265,7 +265,7 @@ std::vector<Figure> someAnimals(int count) {
 }  // namespace
 
 TEST_CASE("animals are found, of any size and anywhere in the picture, mirrored ones mirrored") {
-  const std::vector<std::string>& names = builtInJointNet("quadruped").joints;
+  const std::vector<std::string>& names = builtInJointNets().of("quadruped").joints;
   const std::vector<int> mirrored = netJoints(names, loadTemplate("quadruped")).mirrored;
   int right = 0, all = 0, sure_right = 0, sure = 0;  // joints; of figures of confidence >= 0.5
   const std::vector<Figure> animals = someAnimals(30);

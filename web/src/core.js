@@ -5,9 +5,8 @@ let waiting = new Map();
 // In the single file, worker and core stand in the page; else they lie beside it.
 const inlined = (id) => document.getElementById(id)?.textContent;
 
-async function wasm() {
-  const text = inlined('skel-wasm');
-  return text ?? new Uint8Array(await (await fetch('skel.wasm')).arrayBuffer());
+async function asset(file) {
+  return inlined(file) ?? new Uint8Array(await (await fetch(file)).arrayBuffer());
 }
 
 function ask(call, values) {
@@ -33,7 +32,7 @@ export function start() {
     if (error === undefined) resolve(result);
     else reject(Object.assign(new Error(error), { fatal }));
   };
-  asked = wasm().then((bytes) => ask('start', [bytes]));
+  asked = Promise.all(['skel.wasm', 'nets.zip'].map(asset)).then((assets) => ask('start', assets));
   return asked;
 }
 

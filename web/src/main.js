@@ -1,4 +1,3 @@
-import { bytesOfBase64 } from './base64.js';
 import { core, start } from './core.js';
 import { History } from './history.js';
 import { bytesOf, download, pngOf, stemOf, zipOf } from './save.js';
@@ -37,7 +36,14 @@ async function complain(error) {
 
 // One piece of work at a time, in the order in which they were asked for; what it complains of is shown.
 let last = Promise.resolve();
-const inTurn = (task) => (last = last.then(task).catch(complain));
+const inTurn = (task) => (last = last.then(runsHere ? task : refuse).catch(complain));
+
+// (module (func (result v128) i32.const 0 i8x16.splat))
+const kSimd = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 15, 11]);
+const runsHere = globalThis.WebAssembly && globalThis.OffscreenCanvas && WebAssembly.validate(kSimd);
+function refuse() {
+  throw new Error(say('tooOld'));
+}
 
 // --- from a file to a character -------------------------------------------------------------------------------
 
@@ -49,11 +55,11 @@ async function open(file, extra = {}) {
   busy(say('reading'));
   const picture = await core.open(await bytesOf(file), file.name);
   const opened = { file, picture, mask: null, plan: '', figure: 1, ...extra };
-  if (extra.maskFile) opened.mask = (await core.readMask(await bytesOf(extra.maskFile), extra.maskFile.name)).mask;
   const joints = extra.skeletonFile ? { skeleton: await extra.skeletonFile.text(), skeletonFile: extra.skeletonFile.name } : {};
-  busy(say('rigging'));
   let found;
   try {
+    if (extra.maskFile) opened.mask = (await core.readMask({ ...joints, bytes: await bytesOf(extra.maskFile), file: extra.maskFile.name })).mask;
+    busy(say('rigging'));
     found = await core.rig({ mask: opened.mask, plan: opened.plan, figure: opened.figure, ...joints });
   } catch (error) {
     if (!error.fatal) await reopen();
@@ -409,7 +415,6 @@ function sampleUrl(name) {
   return globalThis.skelSamples?.[name] ?? `samples/${name}.png`;
 }
 async function bytesOfUrl(url) {
-  if (url.startsWith('data:')) return bytesOfBase64(url.split(',')[1]);
   return new Uint8Array(await (await fetch(url)).arrayBuffer());
 }
 
@@ -426,23 +431,17 @@ $('language').onchange = () => speak($('language').value);
 $('language').value = languages.some(([code]) => navigator.language.startsWith(code)) ? navigator.language.slice(0, 2) : 'en';
 speak($('language').value);
 
-// (module (func (result v128) i32.const 0 i8x16.splat))
-const kSimd = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 15, 11]);
-if (!globalThis.WebAssembly || !globalThis.OffscreenCanvas || !WebAssembly.validate(kSimd)) {
-  complain(new Error(say('tooOld')));
-} else {
-  busy(say('starting'));
-  inTurn(async () => {
-    await start();
-    if (!work) calm('');
-    document.body.dataset.ready = Math.round(performance.now());
-  });
-  inTurn(startModel);
-  // The first drawing takes some times as long as those after it: let it be one that nobody waits for.
-  inTurn(async () => {
-    if (work) return;
-    await core.open(await bytesOfUrl(sampleUrl('gingerbread')), 'gingerbread.png');
-    await core.rig({ plan: 'biped' });
-  });
-}
+busy(say('starting'));
+inTurn(async () => {
+  await start();
+  if (!work) calm('');
+  document.body.dataset.ready = Math.round(performance.now());
+});
+inTurn(startModel);
+// The first drawing takes some times as long as those after it: let it be one that nobody waits for.
+inTurn(async () => {
+  if (work) return;
+  await core.open(await bytesOfUrl(sampleUrl('gingerbread')), 'gingerbread.png');
+  await core.rig({ plan: 'biped' });
+});
 if ('serviceWorker' in navigator && location.protocol.startsWith('http')) navigator.serviceWorker.register('sw.js');

@@ -1,7 +1,7 @@
 // The core, in a thread of its own so that the page never freezes.
-import { gunzipSync } from 'fflate';
+import { gunzipSync, unzipSync } from 'fflate';
 import createSkel from 'skel-core';
-import { bytesOfBase64 } from './base64.js';
+import { bytesOfText } from './bytes_text.js';
 
 const kMostPixels = 6e6; // larger pictures are made smaller, for the memory of a phone
 const kLongSide = 2048;
@@ -46,15 +46,15 @@ async function decode(bytes, name) {
 }
 
 const calls = {
-  async start(wasm) {
-    const packed = typeof wasm === 'string' ? bytesOfBase64(wasm) : wasm;
-    core = await createSkel({ wasmBinary: packed[0] === 0x1f ? gunzipSync(packed) : packed });
+  async start(wasm, nets) {
+    core = await createSkel({ wasmBinary: typeof wasm === 'string' ? gunzipSync(bytesOfText(wasm)) : wasm });
+    checked(core.useNets(unzipSync(typeof nets === 'string' ? bytesOfText(nets) : nets)));
   },
   async open(bytes, name) {
     picture = await decode(bytes, name);
     return { name: picture.name, width: picture.width, height: picture.height, rgba: picture.rgba, scaled: picture.scaled };
   },
-  readMask: (bytes, name) => checked(core.readMask(bytes, name)),
+  readMask: (request) => checked(core.readMask({ skeleton: null, skeletonFile: '', ...request, width: picture.width, height: picture.height })),
   rig(request) {
     return checked(core.rig({
       mask: null, skeleton: null, skeletonFile: '', plan: '', figure: 1,

@@ -1,4 +1,6 @@
-// Drives the page in headless Chromium from file://: node page.mjs OUT SKEL_INFER. Pictures go to OUT/shots.
+// Drives the page from file:// in a headless browser, chromium or firefox: node page.mjs OUT SKEL_INFER BROWSER.
+// Pictures go to OUT/shots. Debian's Firefox is driven by WebDriver BiDi; later versions of playwright-core ask it for
+// what it lacks.
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
 import { mkdir, mkdtemp, readFile, writeFile } from 'node:fs/promises';
@@ -7,18 +9,28 @@ import { tmpdir } from 'node:os';
 import { extname, join } from 'node:path';
 import { promisify } from 'node:util';
 import { unzipSync } from 'fflate';
-import { chromium } from 'playwright-core';
+import { chromium, firefox } from 'playwright-core';
 
-const [out, infer] = process.argv.slice(2);
+const [out, infer, browserName] = process.argv.slice(2);
 const root = new URL('../..', import.meta.url).pathname;
-const shots = join(out, 'shots'), scratch = await mkdtemp(join(tmpdir(), 'skel-web-'));
+const shots = join(out, browserName === 'chromium' ? 'shots' : `shots-${browserName}`), scratch = await mkdtemp(join(tmpdir(), 'skel-web-'));
 await mkdir(shots, { recursive: true });
 
 const kSoftwareGl = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
-const launch = (args) => chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', ...args] });
+const launchers = {
+  chromium: ({ webgl = true, simd = true } = {}) => chromium.launch({
+    executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', ...(webgl ? kSoftwareGl : ['--disable-gpu', '--disable-3d-apis']), ...(simd ? [] : ['--js-flags=--no-enable-sse4-1'])],
+  }),
+  firefox: ({ webgl = true } = {}) => firefox.launch({
+    channel: 'moz-firefox', executablePath: process.env.FIREFOX ?? '/usr/bin/firefox-esr',
+    firefoxUserPrefs: { 'webgl.disabled': !webgl, 'webgl.force-enabled': webgl },
+  }),
+};
+const launch = launchers[browserName];
 const kPatience_ms = 120_000;
 
-async function openPage(browser, { width = 1280, height = 900, url = `file://${out}/skel.html`, ...more } = {}) {
+async function openPage(browser, { width = 1280, height = 900, url = `file://${out}/skel.html`, runs = true, ...more } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, locale: 'en-GB', acceptDownloads: true, ...more });
   context.setDefaultTimeout(kPatience_ms);
   const page = await context.newPage();
@@ -26,7 +38,7 @@ async function openPage(browser, { width = 1280, height = 900, url = `file://${o
   page.on('pageerror', (error) => page.problems.push(error.message));
   page.on('console', (message) => message.type() === 'error' && page.problems.push(message.text()));
   await page.goto(url);
-  await page.waitForSelector('body[data-ready]');
+  if (runs) await page.waitForSelector('body[data-ready]');
   return page;
 }
 const idle = (page) => page.waitForSelector('#status:not(.busy)', { state: 'attached' });
@@ -43,7 +55,23 @@ async function drop(page, ...files) {
   await page.waitForTimeout(50);
   await idle(page);
 }
+// Firefox reports no downloads here: what the page hands to it is read instead.
+async function taken(page, button) {
+  const [name, text] = await page.evaluate((id) => new Promise((resolve) => {
+    const click = HTMLAnchorElement.prototype.click;
+    HTMLAnchorElement.prototype.click = async function () {
+      HTMLAnchorElement.prototype.click = click;
+      const bytes = new Uint8Array(await (await fetch(this.href)).arrayBuffer());
+      resolve([this.download, btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''))]);
+    };
+    document.getElementById(id).click();
+  }), button);
+  await writeFile(join(scratch, name), Buffer.from(text, 'base64'));
+  await idle(page);
+  return join(scratch, name);
+}
 async function save(page, button) {
+  if (browserName === 'firefox') return taken(page, button);
   const [download] = await Promise.all([page.waitForEvent('download'), page.click(`#${button}`)]);
   const path = join(scratch, download.suggestedFilename());
   await download.saveAs(path);
@@ -62,7 +90,7 @@ const drawing = (name, set = 'characters') => [`${name}.png`, join(root, 'datase
 const steps = [];
 const step = (name, run) => steps.push([name, run]);
 
-const browser = await launch(kSoftwareGl);
+const browser = await launch();
 const page = await openPage(browser);
 console.log(`ready after ${await page.evaluate(() => document.body.dataset.ready)} ms`);
 await shot(page, 'start.png');
@@ -147,8 +175,19 @@ step('the mask is painted', async () => {
   await mkdir(scratch + '/masked', { recursive: true });
   for (const [name, bytes] of Object.entries(files)) await writeFile(`${scratch}/masked/${name}`, bytes);
   await promisify(execFile)(infer, [drawing('gingerbread')[1], '--skeleton', `${scratch}/masked/gingerbread.skeleton.json`, '-o', scratch + '/masked-out']);
-  await drop(page, drawing('gingerbread'), ...Object.entries(files).map(([name, bytes]) => [name, Buffer.from(bytes)]));
+  const dropped = Object.entries(files).map(([name, bytes]) => [name, Buffer.from(bytes)]);
+  await drop(page, drawing('gingerbread'), ...dropped);
   assert.equal(await page.locator('#error').isHidden(), true, await page.locator('#error').textContent());
+
+  // Of files that do not belong together, one sentence, and what was there stays.
+  const [skeleton] = dropped.filter(([name]) => name.endsWith('.json'));
+  for (const [mask, words] of [
+    [drawing('gingerbread.mask'), 'gingerbread.mask.png: has changed since gingerbread.skeleton.json was made with it'],
+    [[, join(root, 'tests/fuzz/seeds/image/grey1.png')], 'gingerbread.mask.png: is a mask of 20x5 px'],
+  ]) {
+    await drop(page, drawing('gingerbread'), skeleton, ['gingerbread.mask.png', mask[1]]);
+    assert.ok((await page.locator('#error').textContent()).startsWith(words), await page.locator('#error').textContent());
+  }
   await page.click('button[data-tool="joints"]');
 });
 
@@ -239,7 +278,7 @@ step('the page speaks German', async () => {
 step('no script failed', async () => assert.deepEqual(page.problems, []));
 
 step('it fits a phone', async () => {
-  const phone = await openPage(browser, { width: 390, height: 844, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
+  const phone = await openPage(browser, { width: 390, height: 844, hasTouch: true, isMobile: browserName === 'chromium', deviceScaleFactor: 2 });
   await phone.tap('[data-sample="gingerbread"]');
   await phone.waitForSelector('#skeleton:not([hidden])');
   await idle(phone);
@@ -250,13 +289,26 @@ step('it fits a phone', async () => {
 });
 
 step('without WebGL the skeleton can be mended', async () => {
-  const plain = await launch(['--disable-gpu', '--disable-3d-apis']);
+  const plain = await launch({ webgl: false });
   const flat = await openPage(plain);
   await drop(flat, drawing('gingerbread'));
   assert.equal(await flat.locator('#no-webgl').isVisible(), true);
   assert.equal((await jsonOf(await save(flat, 'saveSkeleton'))).joints.length, 17);
   assert.equal((await readFile(await save(flat, 'saveGlb'))).subarray(0, 4).toString(), 'glTF');
   await plain.close();
+});
+
+if (browserName === 'chromium') step('a browser without SIMD is told so in one sentence', async () => {
+  const old = await launch({ simd: false });
+  const refused = await openPage(old, { runs: false });
+  for (const sample of [null, 'gingerbread']) {
+    if (sample) await refused.click(`[data-sample="${sample}"]`);
+    await refused.waitForSelector('#error:not([hidden])');
+    assert.match(await refused.locator('#error').textContent(), /^This browser is too old for skel/);
+    assert.equal(await refused.locator('#skeleton').isHidden(), true);
+  }
+  assert.deepEqual(refused.problems, []);
+  await old.close();
 });
 
 step('the hosted page works offline after the first visit', async () => {

@@ -1,0 +1,11 @@
+#include "embedded/page_net_weights.h"
+#include "libskel/silhouette/page_net.h"
+
+namespace skel {
+
+const PageNet& builtInPageNet() {
+  static const PageNet net = parsePageNet(embedded::page_net_weights, "built-in page net");
+  return net;
+}
+
+}  // namespace skel
