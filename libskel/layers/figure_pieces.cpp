@@ -192,8 +192,11 @@ void giveAway(const Plane8& figure, const PixelBox& box, std::vector<Draft>& dra
   Plane8 bare = (within(figure, box) != 0).cast<std::uint8_t>();
   for (const Draft& draft : drafts) {
     const PixelBox& own = draft.piece.box;
-    auto there = bare.block(own.y0 - box.y0, own.x0 - box.x0, own.height(), own.width());
-    there = Plane8((draft.piece.mask != 0).select(Plane8::Zero(own.height(), own.width()), there));
+    for (int v = 0; v < own.height(); ++v) {
+      const std::uint8_t* shown = draft.piece.mask.row(v).data();
+      std::uint8_t* there = &bare(own.y0 - box.y0 + v, own.x0 - box.x0);
+      for (int u = 0; u < own.width(); ++u) there[u] &= std::uint8_t(shown[u] == 0);
+    }
   }
   const MaskParts parts = maskParts(bare);
   std::vector<std::vector<MaskParts::Run>> runs_of(parts.size.size());
