@@ -94,10 +94,12 @@ GridColours gridColours(const Image& image, const Eigen::Vector2d& corner_px, do
         std::clamp(static_cast<int>(std::floor((cell + 1) / scale + corner - .5)), first, size - 1);
     return std::pair(first, last);
   };
+  std::vector<std::pair<int, int>> columns;
+  for (int x = 0; x < width; ++x) columns.push_back(range(x, corner_px.x(), image.width));
   for (int y = 0; y < height; ++y) {
     const auto [y0, y1] = range(y, corner_px.y(), image.height);
     for (int x = 0; x < width; ++x) {
-      const auto [x0, x1] = range(x, corner_px.x(), image.width);
+      const auto [x0, x1] = columns[static_cast<std::size_t>(x)];
       std::int64_t sum[3] = {0, 0, 0};
       for (int yy = y0; yy <= y1; ++yy) {
         for (int xx = x0; xx <= x1; ++xx) {

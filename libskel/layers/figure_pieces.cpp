@@ -2,11 +2,13 @@
 // morphology", 1982) that is a little larger than they are thick, as far as they cover it: an arm before the
 // chest has chest on both sides of it, one that hangs beside the body has not.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "libskel/candidates/candidates.h"
 #include "libskel/layers/layer_map.h"
+#include "libskel/layers/mask_parts.h"
 #include "libskel/mesh/outline.h"
 
 namespace skel {
@@ -18,127 +20,138 @@ constexpr int kCoarse = 200;          // px, the long side of the figure when hi
 constexpr double kThicker = 1.3;      // than half of what hides: the disc of the closing
 constexpr double kLeastLimb = 0.004;  // of the figure: less is no limb
 
-// A map at every n-th pixel of the figure's box.
+PixelBox common(const PixelBox& a, const PixelBox& b) {
+  const PixelBox box{std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+  return box.width() > 0 && box.height() > 0 ? box : PixelBox{};
+}
+
+PixelBox around(const PixelBox& a, const PixelBox& b) {
+  if (a.width() == 0 || b.width() == 0) return a.width() == 0 ? b : a;
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+PixelBox widened(const PixelBox& box, int by) { return {box.x0 - by, box.y0 - by, box.x1 + by, box.y1 + by}; }
+
+auto within(Plane8& plane, const PixelBox& box) {
+  return plane.block(box.y0, box.x0, box.height(), box.width());
+}
+auto within(const Plane8& plane, const PixelBox& box) {
+  return plane.block(box.y0, box.x0, box.height(), box.width());
+}
+
+// A plane at every n-th pixel of a box.
 struct Coarse {
   PixelBox box;
-  int step = 1, margin = 0;
+  int step = 1;
 
   Plane8 shrink(const Plane8& plane) const {
     const int rows = (box.height() + step - 1) / step, columns = (box.width() + step - 1) / step;
-    Plane8 small = Plane8::Zero(rows + 2 * margin, columns + 2 * margin);
+    Plane8 small(rows, columns);
     for (int y = 0; y < rows; ++y)
       for (int x = 0; x < columns; ++x)
-        small(y + margin, x + margin) = plane(std::min(box.y0 + y * step + step / 2, box.y1 - 1),
-                                              std::min(box.x0 + x * step + step / 2, box.x1 - 1));
+        small(y, x) = plane(std::min(box.y0 + y * step + step / 2, box.y1 - 1),
+                            std::min(box.x0 + x * step + step / 2, box.x1 - 1));
     return small;
   }
   std::uint8_t at(const Plane8& small, int x, int y) const {
-    return small((y - box.y0) / step + margin, (x - box.x0) / step + margin);
+    return small((y - box.y0) / step, (x - box.x0) / step);
   }
 };
 
-Plane8 where(const Plane8& plane, int value) {
-  return (plane == static_cast<std::uint8_t>(value)).cast<std::uint8_t>();
+// Within `wanted` alone, where it is that of the whole mask.
+Plane8 closing(const Plane8& mask, double radius, const PixelBox& wanted) {
+  const PixelBox whole{0, 0, static_cast<int>(mask.cols()), static_cast<int>(mask.rows())};
+  const int reach = 2 * static_cast<int>(std::ceil(radius)) + 2;
+  const PixelBox room = widened(wanted, reach), seen = common(room, whole);
+  Plane8 near = Plane8::Ones(room.height(), room.width());
+  near.block(seen.y0 - room.y0, seen.x0 - room.x0, seen.height(), seen.width()) =
+      (within(mask, seen) == 0).cast<std::uint8_t>();
+  near = (distanceField(near) <= static_cast<float>(radius)).cast<std::uint8_t>();
+  near = (distanceField(near) > static_cast<float>(radius)).cast<std::uint8_t>();
+  Plane8 closed = Plane8::Zero(mask.rows(), mask.cols());
+  within(closed, wanted) = near.block(reach, reach, wanted.height(), wanted.width());
+  return closed;
 }
 
-Plane8 closing(const Plane8& mask, double radius) {
-  const Plane8 grown =
-      ((mask != 0) || distanceField(where(mask, 0)) <= static_cast<float>(radius)).cast<std::uint8_t>();
-  return (distanceField(grown) > static_cast<float>(radius)).cast<std::uint8_t>();
+// All but the largest 4-connected part go.
+void keepLargest(Plane8& mask) {
+  const MaskParts parts = maskParts(mask);
+  const int largest = parts.largest();
+  for (const MaskParts::Run& run : parts.runs)
+    if (run.part != largest) mask.row(run.y).segment(run.x0, run.x1 - run.x0).setZero();
 }
 
-// All but the largest 4-connected part go; returns them.
-Plane8 keepLargest(Plane8& mask) {
-  const auto rows = static_cast<int>(mask.rows()), columns = static_cast<int>(mask.cols());
-  Plane8 rest = mask;
-  std::vector<int> largest, part;
-  for (int i = 0; i < mask.size(); ++i) {
-    if (rest.data()[i] == 0) continue;
-    part = {i};
-    rest.data()[i] = 0;
-    for (std::size_t k = 0; k < part.size(); ++k) {
-      const int x = part[k] % columns, y = part[k] / columns;
-      const auto see = [&](int u, int v) {
-        if (u < 0 || v < 0 || u >= columns || v >= rows || rest(v, u) == 0) return;
-        rest(v, u) = 0;
-        part.push_back(v * columns + u);
-      };
-      see(x + 1, y), see(x - 1, y), see(x, y + 1), see(x, y - 1);
-    }
-    if (part.size() > largest.size()) largest.swap(part);
-  }
-  rest = mask;
-  for (const int i : largest) rest.data()[i] = 0;
-  mask = (rest != 0).select(Plane8::Zero(rows, columns), mask);
-  return rest;
-}
-
-// What of the figure the mask encloses all round: 1 there.
+// 1 where the mask encloses what it does not hold all round. `figure`: of its size, not 0 on the figure.
 Plane8 enclosed(const Plane8& mask, const Plane8& figure) {
+  const Plane8 others = (figure != 0 && mask == 0).cast<std::uint8_t>();
+  const MaskParts parts = maskParts(others);
+  std::vector<char> open(parts.size.size(), 0);
   const auto rows = static_cast<int>(mask.rows()), columns = static_cast<int>(mask.cols());
-  Plane8 inside = (figure != 0 && mask == 0).cast<std::uint8_t>();
-  std::vector<int> reached;
-  const auto outside = [&](int x, int y) {
-    return x < 0 || y < 0 || x >= columns || y >= rows || figure(y, x) == 0;
-  };
-  const auto open = [&](int x, int y) {
-    return outside(x + 1, y) || outside(x - 1, y) || outside(x, y + 1) || outside(x, y - 1);
-  };
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < columns; ++x)
-      if (inside(y, x) && open(x, y)) inside(y, x) = 0, reached.push_back(y * columns + x);
-  for (std::size_t k = 0; k < reached.size(); ++k) {
-    const int x = reached[k] % columns, y = reached[k] / columns;
-    const auto see = [&](int u, int v) {
-      if (outside(u, v) || inside(v, u) == 0) return;
-      inside(v, u) = 0;
-      reached.push_back(v * columns + u);
-    };
-    see(x + 1, y), see(x - 1, y), see(x, y + 1), see(x, y - 1);
+  for (const MaskParts::Run& run : parts.runs) {
+    if (open[run.part]) continue;
+    open[run.part] = run.x0 == 0 || run.x1 == columns || run.y == 0 || run.y + 1 == rows ||
+                     figure(run.y, run.x0 - 1) == 0 || figure(run.y, run.x1) == 0 ||
+                     (figure.row(run.y - 1).segment(run.x0, run.x1 - run.x0) == 0).any() ||
+                     (figure.row(run.y + 1).segment(run.x0, run.x1 - run.x0) == 0).any();
   }
+  Plane8 inside = Plane8::Zero(rows, columns);
+  for (const MaskParts::Run& run : parts.runs)
+    if (!open[run.part]) inside.row(run.y).segment(run.x0, run.x1 - run.x0).setOnes();
   return inside;
 }
 
-// The pixels within so many of the mask's, by steps across sides and corners in turn.
-Plane8 grown(Plane8 mask, int steps) {
-  if (!(mask != 0).any()) return mask;
-  for (int step = 0; step < steps; ++step) {
-    Plane8 wide = mask;
-    const Eigen::Index rows = mask.rows(), columns = mask.cols();
-    wide.rightCols(columns - 1) = wide.rightCols(columns - 1).max(mask.leftCols(columns - 1));
-    wide.leftCols(columns - 1) = wide.leftCols(columns - 1).max(mask.rightCols(columns - 1));
-    mask = wide;
-    mask.bottomRows(rows - 1) = mask.bottomRows(rows - 1).max(wide.topRows(rows - 1));
-    mask.topRows(rows - 1) = mask.topRows(rows - 1).max(wide.bottomRows(rows - 1));
+// The pixels of a mask of 0 and 1 and those up to `reach` away from them each way.
+void grow(Plane8& mask, int reach) {
+  const PixelBox whole{0, 0, static_cast<int>(mask.cols()), static_cast<int>(mask.rows())};
+  const PixelBox box = figureBox(mask);
+  if (box.width() == 0) return;
+  const PixelBox wide = common(widened(box, reach), whole);
+  Plane8 rows = Plane8::Zero(mask.rows(), mask.cols());
+  for (int y = box.y0; y < box.y1; ++y)
+    for (int x = box.x0; x < box.x1; ++x) {
+      if (mask(y, x) == 0) continue;
+      const int first = x;
+      while (x < box.x1 && mask(y, x) != 0) ++x;
+      const int x0 = std::max(0, first - reach), x1 = std::min(whole.x1, x + reach);
+      rows.row(y).segment(x0, x1 - x0).setOnes();
+    }
+  for (int y = wide.y0; y < wide.y1; ++y) {
+    auto grown = mask.row(y).segment(wide.x0, wide.width());
+    for (int v = std::max(y - reach, box.y0); v <= std::min(y + reach, box.y1 - 1); ++v)
+      grown = grown.max(rows.row(v).segment(wide.x0, wide.width()));
   }
-  return mask;
 }
 
 struct Root {
   Vector2d center;
   double radius = 0;  // px
-  bool holds(int x, int y) const { return (Vector2d(x, y) - center).norm() <= radius; }
+  bool holds(int x, int y) const { return (Vector2d(x, y) - center).squaredNorm() <= radius * radius; }
+  PixelBox box() const {
+    const auto reach = static_cast<int>(std::ceil(radius)) + 1;
+    const auto x = static_cast<int>(std::lround(center.x())), y = static_cast<int>(std::lround(center.y()));
+    return {x - reach, y - reach, x + reach + 1, y + reach + 1};
+  }
 };
 
 struct Limb {
   int layer = 0;
+  PixelBox box;
   double half_px = 0;  // of its width where it is widest
   Root root;
 };
 
 // Half of the limb's width below its root: the median of the largest discs about the first bone that fit in.
-Root rootOf(const Plane8& limb, const Coarse& coarse, const DistanceField& inside, const Vector2d& from,
-            const Vector2d& to) {
+// `inside`: of the limb's coarse mask.
+Root rootOf(const Coarse& coarse, const DistanceField& inside, const Vector2d& from, const Vector2d& to) {
   std::vector<double> radii;
   for (double t = 0.25; t <= 0.75; t += 0.05) {
     const Vector2d p = from + t * (to - from);
     const auto x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
     const int reach = std::max(1, static_cast<int>(0.1 * (to - from).norm() / coarse.step));
     float widest = 0;
-    const int cx = (x - coarse.box.x0) / coarse.step + coarse.margin,
-              cy = (y - coarse.box.y0) / coarse.step + coarse.margin;
-    for (int v = std::max(0, cy - reach); v <= std::min<int>(cy + reach, int(limb.rows()) - 1); ++v)
-      for (int u = std::max(0, cx - reach); u <= std::min<int>(cx + reach, int(limb.cols()) - 1); ++u)
+    const int cx = (x - coarse.box.x0) / coarse.step, cy = (y - coarse.box.y0) / coarse.step;
+    for (int v = std::max(0, cy - reach); v <= std::min<int>(cy + reach, int(inside.rows()) - 1); ++v)
+      for (int u = std::max(0, cx - reach); u <= std::min<int>(cx + reach, int(inside.cols()) - 1); ++u)
         widest = std::max(widest, inside(v, u));
     radii.push_back(static_cast<double>(widest) * coarse.step);
   }
@@ -146,54 +159,118 @@ Root rootOf(const Plane8& limb, const Coarse& coarse, const DistanceField& insid
   return {from, radii[radii.size() / 2]};
 }
 
+// Of each number in the plane, the pixels that have it.
+std::array<PixelBox, 256> boxesOf(const Plane8& labels, const PixelBox& figure) {
+  std::array<PixelBox, 256> boxes;
+  for (int y = figure.y0; y < figure.y1; ++y)
+    for (int x = figure.x0; x < figure.x1;) {
+      const std::uint8_t label = labels(y, x);
+      const int first = x;
+      while (x < figure.x1 && labels(y, x) == label) ++x;
+      if (label != 0) boxes[label] = around(boxes[label], {first, y, x, y + 1});
+    }
+  return boxes;
+}
+
+struct Draft {
+  FigurePiece piece;
+  std::vector<std::int64_t> under;  // of each draft: how many pixels of it hide this one
+};
+
+void enlarge(FigurePiece& piece, const PixelBox& box) {
+  const PixelBox wide = around(piece.box, box);
+  for (Plane8* plane : {&piece.mask, &piece.hidden, &piece.over}) {
+    Plane8 whole = Plane8::Zero(wide.height(), wide.width());
+    whole.block(piece.box.y0 - wide.y0, piece.box.x0 - wide.x0, plane->rows(), plane->cols()) = *plane;
+    *plane = std::move(whole);
+  }
+  piece.box = wide;
+}
+
+// What no piece shows goes to the first that is beside it.
+void giveAway(const Plane8& figure, const PixelBox& box, std::vector<Draft>& drafts) {
+  Plane8 bare = (within(figure, box) != 0).cast<std::uint8_t>();
+  for (const Draft& draft : drafts) {
+    const PixelBox& own = draft.piece.box;
+    for (int v = 0; v < own.height(); ++v) {
+      const std::uint8_t* shown = draft.piece.mask.row(v).data();
+      std::uint8_t* there = &bare(own.y0 - box.y0 + v, own.x0 - box.x0);
+      for (int u = 0; u < own.width(); ++u) there[u] &= std::uint8_t(shown[u] == 0);
+    }
+  }
+  const MaskParts parts = maskParts(bare);
+  std::vector<std::vector<MaskParts::Run>> runs_of(parts.size.size());
+  for (const MaskParts::Run& run : parts.runs) runs_of[static_cast<std::size_t>(run.part)].push_back(run);
+  for (const std::vector<MaskParts::Run>& runs : runs_of) {
+    const auto beside = [&](const Draft& draft) {
+      const PixelBox& own = draft.piece.box;
+      const auto shows = [&](int x, int y) {
+        const int u = x + box.x0 - own.x0, v = y + box.y0 - own.y0;
+        return u >= 0 && v >= 0 && u < own.width() && v < own.height() && draft.piece.mask(v, u) != 0;
+      };
+      for (const MaskParts::Run& run : runs) {
+        if (shows(run.x0 - 1, run.y) || shows(run.x1, run.y)) return true;
+        for (int x = run.x0; x < run.x1; ++x)
+          if (shows(x, run.y - 1) || shows(x, run.y + 1)) return true;
+      }
+      return false;
+    };
+    const auto taker = std::find_if(drafts.begin(), drafts.end(), beside);
+    if (taker == drafts.end()) continue;
+    FigurePiece& piece = taker->piece;
+    for (const MaskParts::Run& run : runs) {
+      const PixelBox there{run.x0 + box.x0, run.y + box.y0, run.x1 + box.x0, run.y + box.y0 + 1};
+      const PixelBox in_both = common(there, piece.box);
+      if (in_both.width() < there.width()) enlarge(piece, there);
+      piece.mask.row(there.y0 - piece.box.y0)
+          .segment(there.x0 - piece.box.x0, there.width())
+          .setConstant(255);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& silhouette,
                                       const Skeleton& skeleton, const SkeletonTemplate& body_plan) {
   if (!layers.any()) return {};
-  // Of the picture, the figure's box alone.
-  const PixelBox box = figureBox(silhouette.mask);
-  const auto cropped = [&](const Plane8& plane) {
-    return Plane8(plane.block(box.y0, box.x0, box.height(), box.width()));
-  };
-  const Plane8 figure = cropped(silhouette.mask);
-  const int rows = box.height(), columns = box.width();
-  Coarse coarse;
-  coarse.box = {0, 0, columns, rows};
-  const int long_side = std::max(coarse.box.width(), coarse.box.height());
-  coarse.step = std::max(1, long_side / kCoarse);
-  const auto figure_px = static_cast<double>((figure != 0).count());
-  Plane8 labels = cropped(layers.limb);
+  const Plane8& figure = silhouette.mask;
+  const PixelBox box = figureBox(figure);
+  const int long_side = std::max(box.width(), box.height()), step = std::max(1, long_side / kCoarse);
+  const auto figure_px = static_cast<double>((within(figure, box) != 0).count());
+  Plane8 labels = layers.limb;
 
-  // A limb is one part of its pixels.
+  // A limb is one part of its pixels; what is apart belongs to the body.
   std::vector<Limb> limbs;
+  const std::array<PixelBox, 256> boxes = boxesOf(labels, box);
   for (std::size_t k = 0; k < body_plan.limbs.size(); ++k) {
     const int layer = static_cast<int>(k) + 1;
-    Plane8 limb = where(labels, layer);
-    if (!limb.any()) continue;
-    Plane8 rest = keepLargest(limb);
+    const PixelBox& own = boxes[static_cast<std::size_t>(layer)];
+    if (own.width() == 0) continue;
+    Plane8 limb = (within(labels, own) == static_cast<std::uint8_t>(layer)).cast<std::uint8_t>();
+    const Plane8 all = limb;
+    keepLargest(limb);
     const auto jointAt = [&](int i) -> std::optional<Vector2d> {
       const auto of_plan = static_cast<std::size_t>(body_plan.limbs[k].joints[static_cast<std::size_t>(i)]);
       const int joint = skeleton.find(body_plan.joints[of_plan].name);
       if (joint < 0) return std::nullopt;
-      return skeleton.joints[static_cast<std::size_t>(joint)].image - Vector2d(box.x0, box.y0);
+      return skeleton.joints[static_cast<std::size_t>(joint)].image;
     };
-    const bool enough =
-        static_cast<double>(limb.cast<int>().sum()) >= kLeastLimb * figure_px && jointAt(0) && jointAt(1);
-    if (!enough) rest = where(labels, layer);
-    // What is apart belongs to what lies before it, or to the body.
-    labels = (rest != 0).select(Plane8::Zero(rows, columns), labels);
-    if (!enough) continue;
-    const Plane8 small = coarse.shrink(limb);
-    const DistanceField inside = distanceField(small);
-    limbs.push_back({layer, static_cast<double>(inside.maxCoeff()) * coarse.step,
-                     rootOf(small, coarse, inside, *jointAt(0), *jointAt(1))});
+    const std::optional<Vector2d> from = jointAt(0), to = jointAt(1);
+    if (!(static_cast<double>((limb != 0).count()) >= kLeastLimb * figure_px && from && to)) limb.setZero();
+    within(labels, own) =
+        Plane8((all != limb).select(Plane8::Zero(limb.rows(), limb.cols()), within(labels, own)));
+    if (!limb.any()) continue;
+    const Coarse coarse{{0, 0, own.width(), own.height()}, step};
+    const DistanceField inside = distanceField(coarse.shrink(limb));
+    const Vector2d corner(own.x0, own.y0);
+    Root root = rootOf(coarse, inside, *from - corner, *to - corner);
+    root.center += corner;
+    limbs.push_back({layer, own, static_cast<double>(inside.maxCoeff()) * step, root});
   }
   if (limbs.empty()) return {};
 
-  double widest = 0;
-  for (const Limb& limb : limbs) widest = std::max(widest, limb.half_px);
-  coarse.margin = static_cast<int>(kThicker * widest / coarse.step) + 3;
+  const Coarse coarse{box, step};
   const Plane8 small = coarse.shrink(labels), small_figure = coarse.shrink(figure);
   const auto hiddenOf = [&](int layer) {
     double half = 0;
@@ -202,66 +279,59 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
     const Plane8 own =
         ((small == static_cast<std::uint8_t>(layer)) && (small_figure != 0)).cast<std::uint8_t>();
     // A closing stays within the convex hull.
-    const PixelBox around = figureBox(own);
-    const auto near = small.block(around.y0, around.x0, around.height(), around.width());
-    if (half == 0 || !(near != 0 && near != static_cast<std::uint8_t>(layer)).any())
-      return Plane8(Plane8::Zero(own.rows(), own.cols()));
-    const Plane8 closed = closing(own, kThicker * half / coarse.step + 1);
+    const PixelBox hull = figureBox(own);
+    Plane8 others = Plane8::Zero(own.rows(), own.cols());
+    within(others, hull) =
+        (within(small, hull) != 0 && within(small, hull) != static_cast<std::uint8_t>(layer))
+            .cast<std::uint8_t>();
+    const PixelBox wanted = figureBox(others);
+    if (half == 0 || wanted.width() == 0) return Plane8(Plane8::Zero(own.rows(), own.cols()));
     return Plane8(
-        (closed != 0 && small != static_cast<std::uint8_t>(layer) && small != 0).cast<std::uint8_t>());
+        (closing(own, kThicker * half / step + 1, wanted) != 0 && others != 0).cast<std::uint8_t>());
   };
 
-  struct Draft {
-    FigurePiece piece;
-    std::vector<std::int64_t> under;  // of each draft: how many pixels of it hide this one
-  };
   std::vector<Draft> drafts(limbs.size() + 1);
   const int soft = std::max(2, static_cast<int>(std::lround(0.006 * long_side)));
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     FigurePiece& piece = drafts[i].piece;
     piece.layer = i == 0 ? 0 : limbs[i - 1].layer;
+    piece.box = i == 0 ? box : common(around(limbs[i - 1].box, limbs[i - 1].root.box()), box);
     const Plane8 hidden = hiddenOf(piece.layer);
-    piece.mask = piece.hidden = piece.over = Plane8::Zero(rows, columns);
-    drafts[i].under.assign(drafts.size(), 0);
-    for (int y = coarse.box.y0; y < coarse.box.y1; ++y)
-      for (int x = coarse.box.x0; x < coarse.box.x1; ++x) {
+    piece.mask = piece.hidden = piece.over = Plane8::Zero(piece.box.height(), piece.box.width());
+    std::array<std::int64_t, 256> over{};
+    for (int y = piece.box.y0; y < piece.box.y1; ++y)
+      for (int x = piece.box.x0; x < piece.box.x1; ++x) {
         if (figure(y, x) == 0) continue;
-        const int layer = labels(y, x);
+        const int layer = labels(y, x), u = x - piece.box.x0, v = y - piece.box.y0;
+        if (layer == piece.layer) {
+          piece.mask(v, u) = 255;
+          piece.over(v, u) = i > 0 && !limbs[i - 1].root.holds(x, y);
+          continue;
+        }
         // At its root a limb and the body share what is drawn.
-        bool root = false;
-        for (const Limb& limb : limbs)
-          root = root || ((i == 0 ? limb.layer == layer : limb.layer == piece.layer && layer == 0) &&
-                          limb.root.holds(x, y));
-        const bool behind = layer != piece.layer && coarse.at(hidden, x, y) != 0;
-        if (layer != piece.layer && !root && !behind) continue;
-        piece.mask(y, x) = 255;
-        piece.hidden(y, x) = behind && !root;
-        piece.over(y, x) = i > 0 && layer == piece.layer && !limbs[i - 1].root.holds(x, y);
-        if (piece.hidden(y, x))
-          for (std::size_t j = 1; j < drafts.size(); ++j) drafts[i].under[j] += limbs[j - 1].layer == layer;
+        const auto rootHolds = [&](const Limb& limb) {
+          return limb.layer == std::max(layer, piece.layer) && limb.root.holds(x, y);
+        };
+        const bool root = (i == 0 || layer == 0) && std::any_of(limbs.begin(), limbs.end(), rootHolds);
+        if (root) {
+          piece.mask(v, u) = 255;
+        } else if (layer != 0 && coarse.at(hidden, x, y) != 0) {
+          piece.mask(v, u) = 255;
+          piece.hidden(v, u) = 1;
+          ++over[static_cast<std::size_t>(layer)];
+        }
       }
-    const Plane8 inside = enclosed(piece.mask, figure);
+    drafts[i].under.assign(drafts.size(), 0);
+    for (std::size_t j = 1; j < drafts.size(); ++j)
+      drafts[i].under[j] = over[static_cast<std::size_t>(limbs[j - 1].layer)];
+    const Plane8 inside = enclosed(piece.mask, within(figure, piece.box));
     piece.hidden = piece.hidden.max(inside);
-    piece.mask = (inside != 0).select(Plane8::Constant(rows, columns, 255), piece.mask);
-    piece.hidden = (piece.mask != 0).select(grown(piece.hidden, soft), Plane8::Zero(rows, columns));
+    piece.mask = (inside != 0).select(Plane8::Constant(inside.rows(), inside.cols(), 255), piece.mask);
+    grow(piece.hidden, soft);
+    piece.hidden = (piece.mask != 0).select(piece.hidden, Plane8::Zero(piece.mask.rows(), piece.mask.cols()));
     keepLargest(piece.mask);
   }
-
-  // What no piece shows any more goes to the one beside it.
-  Plane8 bare = (figure != 0).cast<std::uint8_t>();
-  for (const Draft& draft : drafts) bare = (draft.piece.mask != 0).select(Plane8::Zero(rows, columns), bare);
-  for (bool any = (bare != 0).any(); any;) {
-    any = false;
-    for (Draft& draft : drafts) {
-      Plane8 taken = (bare != 0 || draft.piece.mask != 0).cast<std::uint8_t>();
-      keepLargest(taken);
-      const Plane8 fresh = (taken != 0 && bare != 0).cast<std::uint8_t>();
-      if (!(fresh != 0).any()) continue;
-      any = true;
-      draft.piece.mask = (fresh != 0).select(Plane8::Constant(rows, columns, 255), draft.piece.mask);
-      bare = (fresh != 0).select(Plane8::Zero(rows, columns), bare);
-    }
-  }
+  giveAway(figure, box, drafts);
 
   // The body, then what is hidden by others before those.
   std::vector<FigurePiece> pieces{std::move(drafts[0].piece)};
@@ -277,12 +347,6 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
     pieces.push_back(std::move(drafts[*next].piece));
     left.erase(next);
   }
-  for (FigurePiece& piece : pieces)
-    for (Plane8* plane : {&piece.mask, &piece.hidden, &piece.over}) {
-      Plane8 whole = Plane8::Zero(silhouette.mask.rows(), silhouette.mask.cols());
-      whole.block(box.y0, box.x0, rows, columns) = *plane;
-      *plane = std::move(whole);
-    }
   return pieces;
 }
 

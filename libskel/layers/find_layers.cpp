@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <map>
 
 #include "libskel/layers/layer_map.h"
+#include "libskel/layers/mask_parts.h"
 #include "libskel/layers/ribbon.h"
+#include "libskel/mesh/outline.h"
 
 namespace skel {
 namespace {
@@ -52,9 +54,14 @@ LookGrid lookGrid(const Image& image, const Silhouette& silhouette) {
 
 struct Limb {
   Ribbon ribbon;
-  Plane8 mask;  // of the image's size
+  PixelBox box;  // of the image
+  Plane8 mask;   // of the box's size
   bool layer = false;
   int wins = 0;
+
+  bool holds(std::int64_t x, std::int64_t y) const {
+    return x >= box.x0 && x < box.x1 && y >= box.y0 && y < box.y1 && mask(y - box.y0, x - box.x0) != 0;
+  }
 };
 
 bool standsOut(const Ribbon& ribbon) {
@@ -96,29 +103,41 @@ void fillTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, Plane
     }
 }
 
-Plane8 maskOf(const Ribbon& ribbon, const LookGrid& look, const Plane8& figure) {
-  Plane8 mask = Plane8::Zero(figure.rows(), figure.cols());
+void drawLimb(const LookGrid& look, const Plane8& figure, Limb& limb) {
   std::vector<std::array<Vector2d, 2>> sections;
-  for (const Ribbon::Section& section : ribbon.sections)
+  for (const Ribbon::Section& section : limb.ribbon.sections)
     sections.push_back({look.toImage(section.left), look.toImage(section.right)});
-  for (const auto& [left, right] : ribbon.cap) sections.push_back({look.toImage(left), look.toImage(right)});
+  for (const auto& [left, right] : limb.ribbon.cap)
+    sections.push_back({look.toImage(left), look.toImage(right)});
+  Vector2d low = sections.front()[0], high = low;
+  for (const auto& ends : sections)
+    for (const Vector2d& p : ends) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  limb.box.x0 = static_cast<int>(std::clamp(std::floor(low.x()), 0., static_cast<double>(figure.cols() - 1)));
+  limb.box.y0 = static_cast<int>(std::clamp(std::floor(low.y()), 0., static_cast<double>(figure.rows() - 1)));
+  limb.box.x1 =
+      static_cast<int>(std::clamp(std::ceil(high.x()), 0., static_cast<double>(figure.cols() - 1))) + 1;
+  limb.box.y1 =
+      static_cast<int>(std::clamp(std::ceil(high.y()), 0., static_cast<double>(figure.rows() - 1))) + 1;
+  limb.mask = Plane8::Zero(limb.box.height(), limb.box.width());
+  const Vector2d corner(limb.box.x0, limb.box.y0);
+  for (auto& [left, right] : sections) left -= corner, right -= corner;
   for (std::size_t s = 0; s + 1 < sections.size(); ++s) {
     const auto& [a, b] = sections[s];
     const auto& [c, d] = sections[s + 1];
-    fillTriangle(a, b, c, mask);
-    fillTriangle(b, c, d, mask);
+    fillTriangle(a, b, c, limb.mask);
+    fillTriangle(b, c, d, limb.mask);
   }
-  return (figure != 0).select(mask, Plane8::Zero(figure.rows(), figure.cols()));
+  limb.mask = (figure.block(limb.box.y0, limb.box.x0, limb.mask.rows(), limb.mask.cols()) != 0)
+                  .select(limb.mask, Plane8::Zero(limb.mask.rows(), limb.mask.cols()));
 }
 
 // How clearly the limb is drawn where it lies within the other.
-double strengthWithin(const Limb& limb, const Plane8& other, const LookGrid& look) {
+double strengthWithin(const Limb& limb, const Limb& other, const LookGrid& look) {
   double sum = 0;
   int count = 0;
   const auto see = [&](const Vector2d& grid_point, double strength) {
     const Vector2d p = look.toImage(grid_point);
-    const auto x = std::lround(p.x()), y = std::lround(p.y());
-    if (x < 0 || y < 0 || x >= other.cols() || y >= other.rows() || other(y, x) == 0) return;
+    if (!other.holds(std::lround(p.x()), std::lround(p.y()))) return;
     sum += strength, ++count;
   };
   for (const Ribbon::Section& section : limb.ribbon.sections) {
@@ -132,61 +151,53 @@ double strengthWithin(const Limb& limb, const Plane8& other, const LookGrid& loo
 // a shoe. Parts with joints of others in them, and large ones without any, stay the body's.
 void takeWhatIsCutOff(const Plane8& figure, const Skeleton& skeleton, const std::vector<int>& limb_of_joint,
                       Plane8& limbs) {
-  const auto rows = static_cast<int>(figure.rows()), columns = static_cast<int>(figure.cols());
-  constexpr int kSteps[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  const PixelBox box = figureBox(figure);
+  const MaskParts parts = maskParts((figure.block(box.y0, box.x0, box.height(), box.width()) != 0 &&
+                                     limbs.block(box.y0, box.x0, box.height(), box.width()) == 0)
+                                        .cast<std::uint8_t>());
+  const int body = parts.largest();
   struct Part {
-    std::vector<int> pixels;
-    std::array<int, 256> beside{};
+    std::array<int, 256> beside{};  // how many sides of pixels each limb has in common with it
     bool at_outline = false;
+    std::array<bool, 256> joints_of{};
   };
-  std::vector<Part> parts;
-  Eigen::ArrayXi seen = Eigen::ArrayXi::Constant(figure.size(), -1);
-  std::array<std::int64_t, 256> areas{};
-  for (int i = 0; i < figure.size(); ++i) {
-    if (figure.data()[i]) ++areas[limbs.data()[i]];
-    if (figure.data()[i] == 0 || limbs.data()[i] != 0 || seen[i] >= 0) continue;
-    Part part;
-    part.pixels = {i};
-    seen[i] = static_cast<int>(parts.size());
-    for (std::size_t k = 0; k < part.pixels.size(); ++k) {
-      const int x = part.pixels[k] % columns, y = part.pixels[k] / columns;
-      for (const auto& step : kSteps) {
-        const int u = x + step[0], v = y + step[1];
-        if (u < 0 || v < 0 || u >= columns || v >= rows || figure(v, u) == 0) {
-          part.at_outline = true;
-        } else if (limbs(v, u) != 0) {
-          ++part.beside[limbs(v, u)];
-        } else if (int& there = seen[v * columns + u]; there < 0) {
-          there = seen[i];
-          part.pixels.push_back(v * columns + u);
-        }
-      }
+  std::map<int, Part> cut_off;
+  for (const MaskParts::Run& run : parts.runs) {
+    if (run.part == body) continue;
+    Part& part = cut_off[run.part];
+    const int y = run.y + box.y0, x0 = run.x0 + box.x0, x1 = run.x1 + box.x0;
+    const auto see = [&](int u, int v) {
+      if (u < 0 || v < 0 || u >= figure.cols() || v >= figure.rows() || figure(v, u) == 0)
+        part.at_outline = true;
+      else if (limbs(v, u) != 0)
+        ++part.beside[limbs(v, u)];
+    };
+    see(x0 - 1, y), see(x1, y);
+    for (int x = x0; x < x1; ++x) see(x, y - 1), see(x, y + 1);
+    for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+      const Vector2d& p = skeleton.joints[j].image;
+      if (std::lround(p.y()) == y && std::lround(p.x()) >= x0 && std::lround(p.x()) < x1)
+        part.joints_of[static_cast<std::size_t>(limb_of_joint[j])] = true;
     }
-    parts.push_back(std::move(part));
   }
-  if (parts.empty()) return;
-  std::vector<std::array<bool, 256>> joints_of(parts.size());
-  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-    const Vector2d& p = skeleton.joints[j].image;
-    const auto x = std::lround(p.x()), y = std::lround(p.y());
-    if (x < 0 || y < 0 || x >= columns || y >= rows) continue;
-    if (const int part = seen[y * columns + x]; part >= 0) joints_of[part][limb_of_joint[j]] = true;
-  }
-  const std::size_t body = static_cast<std::size_t>(
-      std::max_element(parts.begin(), parts.end(),
-                       [](const Part& a, const Part& b) { return a.pixels.size() < b.pixels.size(); }) -
-      parts.begin());
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Part& part = parts[i];
-    if (i == body || !part.at_outline) continue;
-    const auto limb =
-        static_cast<int>(std::max_element(part.beside.begin(), part.beside.end()) - part.beside.begin());
+  if (cut_off.empty()) return;
+  std::array<std::int64_t, 256> areas{};
+  for (int i = 0; i < limbs.size(); ++i) ++areas[limbs.data()[i]];
+  std::map<int, std::uint8_t> taken;
+  for (const auto& [number, part] : cut_off) {
+    const auto limb = static_cast<std::size_t>(std::max_element(part.beside.begin(), part.beside.end()) -
+                                               part.beside.begin());
     bool others = false;
-    for (int k = 0; k < 256; ++k) others = others || (k != limb && joints_of[i][k]);
-    const bool large = static_cast<double>(part.pixels.size()) > kCutOff * static_cast<double>(areas[limb]);
-    if (others || (large && !joints_of[i][limb])) continue;
-    for (const int pixel : part.pixels) limbs.data()[pixel] = static_cast<std::uint8_t>(limb);
+    for (std::size_t k = 0; k < part.joints_of.size(); ++k)
+      others = others || (k != limb && part.joints_of[k]);
+    const bool large = static_cast<double>(parts.size[static_cast<std::size_t>(number)]) >
+                       kCutOff * static_cast<double>(areas[limb]);
+    if (part.at_outline && !others && (!large || part.joints_of[limb]))
+      taken[number] = static_cast<std::uint8_t>(limb);
   }
+  for (const MaskParts::Run& run : parts.runs)
+    if (const auto limb = taken.find(run.part); limb != taken.end())
+      limbs.row(run.y + box.y0).segment(run.x0 + box.x0, run.x1 - run.x0).setConstant(limb->second);
 }
 
 }  // namespace
@@ -208,7 +219,7 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
     if (bones.size() < body_plan.limbs[k].joints.size()) continue;
     limbs[k].ribbon = findRibbon(look, bones);
     limbs[k].layer = standsOut(limbs[k].ribbon);
-    if (limbs[k].layer) limbs[k].mask = maskOf(limbs[k].ribbon, look, silhouette.mask), any = true;
+    if (limbs[k].layer) drawLimb(look, silhouette.mask, limbs[k]), any = true;
   }
   LayerMap map;
   if (!any) return map;
@@ -216,7 +227,7 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
     for (std::size_t b = 0; b < a; ++b) {
       if (!limbs[a].layer || !limbs[b].layer) continue;
       const bool second =
-          strengthWithin(limbs[b], limbs[a].mask, look) >= strengthWithin(limbs[a], limbs[b].mask, look);
+          strengthWithin(limbs[b], limbs[a], look) >= strengthWithin(limbs[a], limbs[b], look);
       ++limbs[second ? b : a].wins;
     }
   map.limb = Plane8::Zero(image.height, image.width);
@@ -226,11 +237,12 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return limbs[a].wins > limbs[b].wins; });
   for (const std::size_t k : order) {
-    const auto seen = limbs[k].mask != 0 && map.limb == 0;
-    if (static_cast<double>(seen.count()) < kLeastSeen * static_cast<double>((limbs[k].mask != 0).count()))
-      continue;
-    map.limb = Plane8(
-        seen.select(Plane8::Constant(image.height, image.width, static_cast<std::uint8_t>(k + 1)), map.limb));
+    const Plane8& mask = limbs[k].mask;
+    auto there = map.limb.block(limbs[k].box.y0, limbs[k].box.x0, mask.rows(), mask.cols());
+    const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> seen = mask != 0 && there == 0;
+    if (static_cast<double>(seen.count()) < kLeastSeen * static_cast<double>((mask != 0).count())) continue;
+    there = Plane8(
+        seen.select(Plane8::Constant(mask.rows(), mask.cols(), static_cast<std::uint8_t>(k + 1)), there));
   }
   takeWhatIsCutOff(silhouette.mask, skeleton, limb_of_joint, map.limb);
   if (!(map.limb != 0).any()) map.limb.resize(0, 0);

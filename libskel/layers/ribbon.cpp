@@ -142,61 +142,73 @@ float worthOf(const Strip& strip, int s, int o, int step) {
   return 0.95f * best;
 }
 
+// Straight on first.
+constexpr int kTurns[9][2] = {{0, 0}, {0, -1}, {0, 1}, {-1, 0}, {1, 0}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}};
+
+// The costs of a step to the side in either edge add up, so that the best section before this one is looked
+// for in one edge after the other.
 Path bestPath(const Strip& strip, double length, int first_end) {
+  using Row = Eigen::ArrayXf;
+  using Worth = Eigen::ArrayXXf;  // by right and left edge, with a rim of what never is
   const int rows = strip.sections(), columns = strip.offsets(), half = strip.half;
   const int narrowest = std::max(3, static_cast<int>(std::lround(kNarrowest * length)));
-  std::vector<float> unusual;  // by width
-  for (int width = 0; width <= columns; ++width)
-    unusual.push_back(kUnusual *
-                      static_cast<float>(std::abs(std::log2(std::max(1, width) / (kUsual * length)))));
-  const auto state = [&](int l, int r) { return l * columns + r; };
-  const auto valid = [&](int l, int r) {
-    return l >= 0 && r < columns && r - l + 1 >= narrowest && std::abs(l + r - 2 * half) <= half;
-  };
+  Row unusual(columns + 1), widths(columns + 1);
+  for (int width = 0; width <= columns; ++width) {
+    widths[width] = static_cast<float>(std::max(1, width));
+    unusual[width] = kUnusual * std::abs(std::log2(widths[width] / static_cast<float>(kUsual * length)));
+  }
   constexpr float kNever = -1e9f;
-  std::vector<float> worth(static_cast<std::size_t>(columns) * columns, 0), next(worth.size());
-  std::vector<std::vector<std::int8_t>> came(rows, std::vector<std::int8_t>(worth.size(), 4));
+  std::vector<Worth> worth(rows, Worth::Constant(columns + 2, columns + 2, kNever));
+  Worth turned = worth.front(), before = Worth::Zero(columns + 2, columns + 2);
   float best_end = kNever;
-  int end = rows - 1, end_state = -1;
-  std::vector<float> inner(columns + 1), cross(columns + 1), left(columns), right(columns);
+  int end = rows - 1, end_left = half, end_right = half;
+  Row inner(columns + 1), cross(columns + 1), left(columns), right(columns);
   for (int s = 0; s < rows; ++s) {
     inner[0] = cross[0] = 0;
     for (int o = 0; o < columns; ++o) {
-      inner[o + 1] = inner[o] + kInside * strip.edge(s, o) + (strip.inside(s, o) ? 0 : kOutside);
+      const float outside = strip.inside(s, o) ? 0 : kOutside;
+      inner[o + 1] = inner[o] + kInside * strip.edge(s, o) + outside;
       const bool ends = strip.inside(s, o) && (s + 1 == rows || !strip.inside(s + 1, o));
       cross[o + 1] = cross[o] + (ends ? 1 : strip.across_end(s, o));
-      left[o] = worthOf(strip, s, o, -1), right[o] = worthOf(strip, s, o, 1);
+      left[o] = worthOf(strip, s, o, -1) - outside - kLeast, right[o] = worthOf(strip, s, o, 1) - outside;
     }
-    std::fill(next.begin(), next.end(), kNever);
-    for (int l = 0; l < columns; ++l)
-      for (int r = l + 2; r < columns; ++r) {
-        if (!valid(l, r)) continue;
-        float best = s == 0 ? 0 : kNever;
-        int from = 4;
-        for (int k = 0; k < 9 && s > 0; ++k) {
-          const int pl = l + k / 3 - 1, pr = r + k % 3 - 1;
-          if (!valid(pl, pr)) continue;
-          const float value =
-              worth[state(pl, pr)] - kTurn * static_cast<float>(std::abs(pl - l) + std::abs(pr - r));
-          if (value > best || (value == best && k == 4)) best = value, from = k;
-        }
-        const float inside = std::max(0.f, inner[r - 1] - inner[l + 2]) +
-                             (strip.inside(s, l) ? 0 : kOutside) + (strip.inside(s, r) ? 0 : kOutside);
-        const float value = best + left[l] + right[r] - inside - kLeast - unusual[r - l + 1];
-        next[state(l, r)] = value;
-        came[s][state(l, r)] = static_cast<std::int8_t>(from);
-        if (s < first_end) continue;
-        const float ended = value + kEnd * (cross[r + 1] - cross[l]) / static_cast<float>(r - l + 1);
-        if (ended > best_end) best_end = ended, end = s, end_state = state(l, r);
-      }
-    worth.swap(next);
+    if (s > 0) {
+      const Worth& last = worth[s - 1];
+      for (int l = 0; l < columns + 2; ++l)
+        turned.col(l).segment(1, columns) =
+            last.col(l)
+                .segment(1, columns)
+                .max(last.col(l).head(columns).max(last.col(l).tail(columns)) - kTurn);
+      for (int l = 1; l <= columns; ++l)
+        before.col(l) = turned.col(l).max(turned.col(l - 1).max(turned.col(l + 1)) - kTurn);
+    }
+    for (int l = 0; l < columns; ++l) {
+      // Those that are wide enough and about the bones.
+      const int r = std::max(l + narrowest - 1, half - l),
+                count = std::min(columns - 1, 3 * half - l) - r + 1;
+      if (count <= 0) continue;
+      auto here = worth[s].col(l + 1).segment(r + 1, count);
+      here = before.col(l + 1).segment(r + 1, count) + left[l] + right.segment(r, count) -
+             (inner.segment(r - 1, count) - inner[l + 2]).max(0) - unusual.segment(r - l + 1, count);
+      if (s < first_end) continue;
+      int at = 0;
+      const float ended =
+          (here + kEnd * (cross.segment(r + 1, count) - cross[l]) / widths.segment(r - l + 1, count))
+              .maxCoeff(&at);
+      if (ended > best_end) best_end = ended, end = s, end_left = l, end_right = r + at;
+    }
   }
   Path path;
   path.left.resize(end + 1), path.right.resize(end + 1);
-  for (int s = end, at = end_state; s >= 0; --s) {
-    const int l = at / columns, r = at % columns, k = came[s][at];
+  for (int s = end, l = end_left, r = end_right; s >= 0; --s) {
     path.left[s] = l, path.right[s] = r;
-    at = state(l + k / 3 - 1, r + k % 3 - 1);
+    if (s == 0) break;
+    float best = kNever;
+    for (const auto& [dl, dr] : kTurns) {
+      const float value = worth[s - 1](path.right[s] + dr + 1, path.left[s] + dl + 1) -
+                          kTurn * static_cast<float>(std::abs(dl) + std::abs(dr));
+      if (value > best) best = value, l = path.left[s] + dl, r = path.right[s] + dr;
+    }
   }
   return path;
 }

@@ -47,9 +47,9 @@ struct Small {
   }
 };
 
-Small shrunk(const Image& front, const Plane8& figure) {
+Small shrunk(const Image& front, const Plane8& figure, int whole_px) {
   Small small;
-  small.shrink = std::max(1, (std::max(front.width, front.height) + kWorkSize - 1) / kWorkSize);
+  small.shrink = std::max(1, (whole_px + kWorkSize - 1) / kWorkSize);
   small.width = (front.width + small.shrink - 1) / small.shrink;
   small.height = (front.height + small.shrink - 1) / small.shrink;
   small.color.assign(std::size_t(small.width) * small.height, Eigen::Vector3f::Zero());
@@ -206,10 +206,10 @@ std::vector<Eigen::Vector3f> smoothed(const Small& small, const Lines& lines, in
 
 class BackPainter {
  public:
-  BackPainter(const Image& front, const Plane8& figure, std::optional<HeadDisc> head)
-      : small_(shrunk(front, figure)),
+  BackPainter(const Image& front, const Plane8& figure, std::optional<HeadDisc> head, int whole_px)
+      : small_(shrunk(front, figure, whole_px)),
         head_(std::move(head)),
-        line_radius_(std::max(1, int(std::lround(kLine * std::max(small_.width, small_.height))))),
+        line_radius_(std::max(1, int(std::lround(kLine * ((whole_px + small_.shrink - 1) / small_.shrink))))),
         rim_(distanceToRim(small_)) {
     if (head_) head_->center /= small_.shrink, head_->radius /= small_.shrink;
     lines_ = findLines(small_, line_radius_, rim_, [&](int x, int y) { return fromHead({x, y}) < 1; });
@@ -432,11 +432,13 @@ class BackPainter {
 
 }  // namespace
 
-Image backColors(const Image& front, const Plane8& figure, const std::optional<HeadDisc>& head) {
+Image backColors(const Image& front, const Plane8& figure, const std::optional<HeadDisc>& head,
+                 int whole_px) {
   SKEL_CHECK_EQ(figure.rows(), front.height);
   SKEL_CHECK_EQ(figure.cols(), front.width);
   if (!(figure != 0).any()) return front;
-  return BackPainter(front, figure, head).paint(front);
+  if (whole_px == 0) whole_px = std::max(front.width, front.height);
+  return BackPainter(front, figure, head, whole_px).paint(front);
 }
 
 }  // namespace skel

@@ -19,7 +19,9 @@ struct HeadDisc {
 // its px. Lines and areas that lie inside the figure go (eyes, mouth, buttons, a belly), and the face does
 // unless the head is of that colour all round; areas that reach the rim stay, hatched ones too. What went
 // takes the colours of what stays, nearest first: those beside it rather than those above (hair, a hat), and
-// those rather than what is below. The drawn outline stays as it is.
-Image backColors(const Image& front, const Plane8& figure, const std::optional<HeadDisc>& head);
+// those rather than what is below. The drawn outline stays as it is. `whole_px`: of a piece of a figure, the
+// long side of the whole picture that it is cut from, by which lines are told from areas; 0: it is the whole.
+Image backColors(const Image& front, const Plane8& figure, const std::optional<HeadDisc>& head,
+                 int whole_px = 0);
 
 }  // namespace skel

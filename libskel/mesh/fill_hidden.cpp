@@ -22,10 +22,9 @@ bool alike(const std::uint8_t* a, const std::uint8_t* b) {
 
 }  // namespace
 
-Image fillHidden(const Image& image, const Plane8& known, const Plane8& hidden) {
+Image fillHidden(Image image, const Plane8& known, const Plane8& hidden) {
   SKEL_CHECK_EQ(known.rows(), image.height);
   SKEL_CHECK_EQ(hidden.cols(), image.width);
-  Image filled = image;
   enum : std::uint8_t { kOther, kKnown, kWanted, kWaiting };
   Plane8 state =
       (hidden != 0)
@@ -49,26 +48,28 @@ Image fillHidden(const Image& image, const Plane8& known, const Plane8& hidden) 
       if (state(y, x) == kKnown) spread(x, y, front);
   while (!front.empty()) {
     for (const Pixel& p : front) {
-      const std::uint8_t* nearest = nullptr;
-      int least = 3 * kReach * kReach;
-      const auto forKnown = [&](const auto& visit) {
-        for (int v = p.y - kReach; v <= p.y + kReach; ++v)
-          for (int u = p.x - kReach; u <= p.x + kReach; ++u)
-            if (within(u, v) && state(v, u) == kKnown)
-              visit(filled.pixel(u, v), (u - p.x) * (u - p.x) + (v - p.y) * (v - p.y));
+      struct Known {
+        const std::uint8_t* color;
+        int distance2;
       };
-      forKnown([&](const std::uint8_t* c, int distance2) {
-        if (distance2 < least) least = distance2, nearest = c;
-      });
+      Known around[(2 * kReach + 1) * (2 * kReach + 1)];
+      int count = 0, nearest = 0;
+      for (int v = std::max(0, p.y - kReach); v <= std::min(image.height - 1, p.y + kReach); ++v)
+        for (int u = std::max(0, p.x - kReach); u <= std::min(image.width - 1, p.x + kReach); ++u) {
+          if (state(v, u) != kKnown) continue;
+          around[count] = {image.pixel(u, v), (u - p.x) * (u - p.x) + (v - p.y) * (v - p.y)};
+          if (around[count].distance2 < around[nearest].distance2) nearest = count;
+          ++count;
+        }
       int sum[4] = {0, 0, 0, 0}, weights = 0;
-      forKnown([&](const std::uint8_t* c, int distance2) {
-        if (!alike(c, nearest)) return;
-        const int weight = 64 / distance2;
-        for (int k = 0; k < 4; ++k) sum[k] += weight * c[k];
+      for (int i = 0; i < count; ++i) {
+        if (!alike(around[i].color, around[nearest].color)) continue;
+        const int weight = 64 / around[i].distance2;
+        for (int k = 0; k < 4; ++k) sum[k] += weight * around[i].color[k];
         weights += weight;
-      });
+      }
       for (int k = 0; k < 4; ++k)
-        filled.pixel(p.x, p.y)[k] = static_cast<std::uint8_t>((sum[k] + weights / 2) / weights);
+        image.pixel(p.x, p.y)[k] = static_cast<std::uint8_t>((sum[k] + weights / 2) / weights);
     }
     // Known from the next step on, so that the order within a step does not matter.
     next.clear();
@@ -76,7 +77,7 @@ Image fillHidden(const Image& image, const Plane8& known, const Plane8& hidden) 
     for (const Pixel& p : front) spread(p.x, p.y, next);
     front.swap(next);
   }
-  return filled;
+  return image;
 }
 
 }  // namespace skel

@@ -111,7 +111,9 @@ int halfOf(int max_texture_px, const PixelBox& box) {
   return std::max(kLeastTexture, static_cast<int>(std::min(fitting, double(max_texture_px))));
 }
 
-BackTexture backTexture(const DrawingTexture& front, const PixelBox& box, const InflateOptions& options) {
+// `whole_px`: of a piece, what backColors() asks for.
+BackTexture backTexture(const DrawingTexture& front, const PixelBox& box, const InflateOptions& options,
+                        int whole_px) {
   BackTexture back;
   if (!options.back_picture) {
     std::optional<HeadDisc> head = options.head;
@@ -120,7 +122,7 @@ BackTexture backTexture(const DrawingTexture& front, const PixelBox& box, const 
       head->center = front.uvFromImage(head->center).cwiseProduct(texels);
       head->radius *= front.image.width / front.size_px.x();
     }
-    back.image = backColors(front.image, front.figure, head);
+    back.image = backColors(front.image, front.figure, head, whole_px);
     return back;
   }
   // Seen from behind, left is right.
@@ -144,7 +146,7 @@ BackTexture backTexture(const DrawingTexture& front, const PixelBox& box, const 
 
 // A piece of the figure on its way to the mesh.
 struct Sheet {
-  PixelBox box;
+  PixelBox box;  // of the image
   std::vector<Polygon> outline;
   PlanarMesh planar;
   Eigen::VectorXd z;           // px, of the inner vertices
@@ -212,18 +214,21 @@ std::vector<Sheet> sheetsOf(const std::vector<FigurePiece>& pieces, const Silhou
                             const PixelBox& box) {
   std::vector<Sheet> sheets(std::max<std::size_t>(1, pieces.size()));
   for (std::size_t i = 0; i < sheets.size(); ++i) {
-    sheets[i].box = pieces.empty() ? box : figureBox(pieces[i].mask);
+    sheets[i].box = pieces.empty() ? box : pieces[i].box;
     for (const Polygon& corners : pieces.empty() ? silhouette.outline : traceOutline(pieces[i].mask))
       sheets[i].outline.push_back(sideMiddles(corners));
   }
   return sheets;
 }
 
+// Of pieces, within their boxes.
 void triangulate(const std::vector<FigurePiece>& pieces, const Silhouette& silhouette, double cell_px,
                  std::vector<Sheet>& sheets) {
-  for (std::size_t i = 0; i < sheets.size(); ++i)
-    sheets[i].planar = triangulateFigure(pieces.empty() ? silhouette.mask : pieces[i].mask, sheets[i].box,
-                                         sheets[i].outline, cell_px);
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    const Plane8& mask = pieces.empty() ? silhouette.mask : pieces[i].mask;
+    sheets[i].planar =
+        triangulateFigure(mask, pieces.empty() ? sheets[i].box : figureBox(mask), sheets[i].outline, cell_px);
+  }
 }
 
 double vertexCount(const std::vector<Sheet>& sheets) {
@@ -241,6 +246,34 @@ int shareOf(int max_texture_px, const PixelBox& piece, const PixelBox& figure) {
       static_cast<int>(std::ceil(std::max(piece.width(), piece.height()) / shrink)) + 2 * kTextureMargin);
 }
 
+// Its thickness and what its front wears. `mask`: the piece; `colored`: where it shows its own colours; both
+// of the size of `image`.
+void dress(const Image& image, const Plane8& mask, const Plane8& colored, bool thin_outline,
+           int max_texture_px, Sheet& sheet) {
+  std::vector<double> band(sheet.inner(), 0);
+  if (thin_outline) band = outlineBand(sheet.planar, drawnOutline(image, mask, sheet.outline));
+  sheet.z = inflatedHeights(sheet.planar, band);
+  sheet.front = drawingTexture(image, colored, figureBox(mask), max_texture_px);
+}
+
+// Within its box; then the sheet goes to its place in the image.
+void dressPiece(const Image& image, const FigurePiece& piece, const Plane8& drawn, bool thin_outline,
+                int max_texture_px, Sheet& sheet) {
+  const PixelBox& box = piece.box;
+  Image part(box.width(), box.height());
+  for (int y = 0; y < part.height; ++y)
+    std::copy_n(image.pixel(box.x0, box.y0 + y), 4 * std::size_t(part.width), part.pixel(0, y));
+  const Plane8 colored =
+      (piece.mask != 0 && drawn.block(box.y0, box.x0, part.height, part.width) != 0).cast<std::uint8_t>();
+  const Image filled =
+      fillHidden(std::move(part), Plane8((colored != 0 && piece.hidden == 0).cast<std::uint8_t>()),
+                 Plane8((colored != 0 && piece.hidden != 0).cast<std::uint8_t>()));
+  dress(filled, piece.mask, colored, thin_outline, max_texture_px, sheet);
+  const Eigen::Vector2d corner(box.x0, box.y0);
+  for (Eigen::Vector2d& p : sheet.planar.vertices) p += corner;
+  sheet.front.corner_px += corner;
+}
+
 // Brings each piece before those behind it.
 void layPieces(std::vector<Sheet>& sheets, const std::vector<FigurePiece>& pieces, const PixelBox& box) {
   for (Sheet& sheet : sheets) sheet.offset.assign(sheet.planar.vertices.size(), 0);
@@ -248,7 +281,7 @@ void layPieces(std::vector<Sheet>& sheets, const std::vector<FigurePiece>& piece
   const double cell_px = sheets.front().planar.cell_px, margin = 2 * cell_px + 2;
   Relief relief({box.x0 - margin, box.y0 - margin}, {box.x1 + margin, box.y1 + margin}, cell_px / 2);
   for (std::size_t i = 0; i < sheets.size(); ++i) {
-    if (i > 0) sheets[i].offset = layOver(relief, sheets[i].planar, sheets[i].z, pieces[i].over);
+    if (i > 0) sheets[i].offset = layOver(relief, sheets[i].planar, sheets[i].z, pieces[i]);
     relief.raise(sheets[i].planar, sheets[i].z, sheets[i].offset);
   }
 }
@@ -299,24 +332,12 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
                                                 silhouette.mask));
   const bool same_back = options.back == Back::kSame && !options.back_picture;
   const int max_texture_px = same_back ? options.max_texture_px : halfOf(options.max_texture_px, box);
-  for (std::size_t i = 0; i < sheets.size(); ++i) {
-    Sheet& sheet = sheets[i];
-    Image filled;
-    Plane8 colored = drawn;
-    if (!pieces.empty()) {
-      const FigurePiece& piece = pieces[i];
-      colored = (piece.mask != 0 && drawn != 0).cast<std::uint8_t>();
-      filled = fillHidden(image, Plane8((colored != 0 && piece.hidden == 0).cast<std::uint8_t>()),
-                          Plane8((colored != 0 && piece.hidden != 0).cast<std::uint8_t>()));
-    }
-    const Image& picture = pieces.empty() ? image : filled;
-    const Plane8& mask = pieces.empty() ? silhouette.mask : pieces[i].mask;
-    std::vector<double> band(sheet.inner(), 0);
-    if (options.thin_outline) band = outlineBand(sheet.planar, drawnOutline(picture, mask, sheet.outline));
-    sheet.z = inflatedHeights(sheet.planar, band);
-    sheet.front =
-        drawingTexture(picture, colored, sheet.box,
-                       pieces.empty() ? max_texture_px : shareOf(max_texture_px / 2, sheet.box, box));
+  if (pieces.empty()) {
+    dress(image, silhouette.mask, drawn, options.thin_outline, max_texture_px, sheets.front());
+  } else {
+    for (std::size_t i = 0; i < sheets.size(); ++i)
+      dressPiece(image, pieces[i], drawn, options.thin_outline,
+                 shareOf(max_texture_px / 2, pieces[i].box, box), sheets[i]);
   }
   layPieces(sheets, pieces, box);
 
@@ -339,7 +360,12 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
       if (i > 0 && options.back_picture) continue;
       InflateOptions of_piece = options;
       if (i > 0) of_piece.head.reset();
-      sheets[i].back = backTexture(sheets[i].front, sheets[i].box, of_piece);
+      const DrawingTexture& front = sheets[i].front;
+      const int whole_px = pieces.empty() ? 0
+                                          : static_cast<int>(std::max(box.width(), box.height()) *
+                                                             front.image.width / front.size_px.x()) +
+                                                2 * kTextureMargin;
+      sheets[i].back = backTexture(front, sheets[i].box, of_piece, whole_px);
       textures.push_back(&sheets[i].back->image);
     }
   }
@@ -357,9 +383,6 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
   mesh.triangles.resize(2 * triangles, 3);
   mesh.first_back = same_back ? 0 : triangles;
   const double px_depth = options.thickness * mesh.model_from_image.scale.y();
-  const auto texel = [](const DrawingTexture& front, const Eigen::Vector2d& p) {
-    return Eigen::Vector2d(front.uvFromImage(p).cast<float>().cast<double>());
-  };
   int first = 0, first_triangle = 0;
   for (std::size_t i = 0; i < sheets.size(); ++i) {
     // The front's inner vertices, the rim, the back's inner vertices.
@@ -376,13 +399,18 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
       const double z = drawn_vertex >= inner ? 0 : v < size ? sheet.z[drawn_vertex] : -sheet.z[drawn_vertex];
       mesh.vertices.row(first + v) << p.cast<float>().transpose(),
           static_cast<float>((z + sheet.offset[drawn_vertex]) * px_depth);
-      mesh.uv.row(first + v) = front_place(texel(sheet.front, q));
-      if (!same_back) {
-        const Eigen::Vector2d uv = texel(backs.front, q);
-        mesh.back_uv.row(first + v) =
-            back_place((backs.back->corner + uv.cwiseProduct(backs.back->size)).cwiseMax(0).cwiseMin(1));
-      }
+      mesh.uv.row(first + v) = sheet.front.uvFromImage(q).cast<float>();
+      if (!same_back) mesh.back_uv.row(first + v) = backs.front.uvFromImage(q).cast<float>();
       if (!pieces.empty()) mesh.layer[first + v] = pieces[i].layer;
+    }
+    // Only now to the joined texture, so that compilers round to float before: one skin has the same bytes as
+    // ever.
+    for (int v = first; v < first + sheet.meshVertices(); ++v) {
+      mesh.uv.row(v) = front_place(mesh.uv.row(v).transpose().cast<double>());
+      if (same_back) continue;
+      const Eigen::Vector2d uv = mesh.back_uv.row(v).transpose().cast<double>();
+      mesh.back_uv.row(v) =
+          back_place((backs.back->corner + uv.cwiseProduct(backs.back->size)).cwiseMax(0).cwiseMin(1));
     }
     const auto behind = [&](int v) { return first + (v < inner ? v + size : v); };
     for (const auto& [a, b, c] : sheet.planar.triangles) {

@@ -61,15 +61,15 @@ double Relief::at(const Vector2d& p) const {
 }
 
 std::vector<double> layOver(const Relief& below, const PlanarMesh& mesh, const Eigen::VectorXd& z,
-                            const Plane8& over) {
+                            const FigurePiece& piece) {
   Relief offset = below;
   auto& height = offset.height_;
   height.setZero();
   for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v) {
     const Vector2d& p = mesh.vertices[v];
-    const auto x = std::clamp<Eigen::Index>(std::lround(p.x()), 0, over.cols() - 1);
-    const auto y = std::clamp<Eigen::Index>(std::lround(p.y()), 0, over.rows() - 1);
-    if (over(y, x) == 0) continue;
+    const auto x = std::clamp<Eigen::Index>(std::lround(p.x()) - piece.box.x0, 0, piece.over.cols() - 1);
+    const auto y = std::clamp<Eigen::Index>(std::lround(p.y()) - piece.box.y0, 0, piece.over.rows() - 1);
+    if (piece.over(y, x) == 0) continue;
     const double base = below.at(p);
     if (base <= 0) continue;
     const double needed = base + heightOf(mesh, z, v);

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "libskel/image/image.h"
+#include "libskel/mesh/figure_piece.h"
 #include "libskel/mesh/planar_mesh.h"
 
 namespace skel {
@@ -22,15 +22,15 @@ class Relief {
 
  private:
   friend std::vector<double> layOver(const Relief& below, const PlanarMesh& mesh, const Eigen::VectorXd& z,
-                                     const Plane8& over);
+                                     const FigurePiece& piece);
   Eigen::Vector2d low_;
   double cell_px_;
   Eigen::ArrayXXd height_;  // rows × columns
 };
 
 // By how much each vertex of the piece is brought forward so that its back lies before `below` wherever
-// `over` (of the image's size, not 0 there) asks for it; to where it does not, it slopes down.
+// `piece.over` asks for it; to where it does not, it slopes down.
 std::vector<double> layOver(const Relief& below, const PlanarMesh& mesh, const Eigen::VectorXd& z,
-                            const Plane8& over);
+                            const FigurePiece& piece);
 
 }  // namespace skel

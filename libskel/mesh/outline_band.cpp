@@ -36,6 +36,7 @@ double lineWidth(const Image& image, const Plane8& mask, const Vector2d& p, cons
                  double widest_px) {
   std::vector<double> light;
   const double step = 0.5;
+  light.reserve(static_cast<std::size_t>(1.6 * widest_px / step) + 1);
   for (double t = step; t <= 1.6 * widest_px; t += step) {
     const Vector2d at = p + t * inwards;
     if (!inside(mask, at)) break;

@@ -67,10 +67,16 @@ TextureAtlas packAtlas(const std::vector<AtlasTile>& tiles) {
     const Place& place = places[k];
     const Image& from = tiles[k].image;
     for (int y = -kAtlasRim; y < place.height + kAtlasRim; ++y) {
+      const int sy = std::clamp(y, 0, place.height - 1) % from.height;
       for (int x = -kAtlasRim; x < place.width + kAtlasRim; ++x) {
-        const int sx = std::clamp(x, 0, place.width - 1) % from.width,
-                  sy = std::clamp(y, 0, place.height - 1) % from.height;
+        const int sx = std::clamp(x, 0, place.width - 1) % from.width;
         std::memcpy(atlas.image.pixel(place.x + x, place.y + y), from.pixel(sx, sy), 4);
+        // The rest of a whole tile's row at once.
+        if (sx == 0 && x >= 0 && x + from.width <= place.width) {
+          std::memcpy(atlas.image.pixel(place.x + x, place.y + y), from.pixel(0, sy),
+                      4 * std::size_t(from.width));
+          x += from.width - 1;
+        }
       }
     }
     const Eigen::Array2f whole(static_cast<float>(atlas.image.width), static_cast<float>(atlas.image.height));

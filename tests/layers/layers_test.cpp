@@ -8,6 +8,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
+#include "libskel/layers/mask_parts.h"
 #include "libskel/mesh/fill_hidden.h"
 #include "libskel/mesh/inflate.h"
 #include "libskel/skeleton/lift.h"
@@ -223,6 +224,52 @@ TEST_CASE("raising the arm stretches nothing: the chest stays where it is") {
   liftToModel(of_one, one_skin);
   const SkinWeights torn = computeSkinWeights(one_skin, of_one, SkinMethod::kGeodesic);
   CHECK(worstStretch(one_skin, raised(one_skin, of_one, torn, -120)) > 3);
+}
+
+TEST_CASE("the parts of a mask are the 4-connected ones, numbered as they begin") {
+  const auto masks = [](std::initializer_list<const char*> rows) {
+    Plane8 mask(Eigen::Index(rows.size()), Eigen::Index(std::string(*rows.begin()).size()));
+    Eigen::Index y = 0;
+    for (const char* row : rows) {
+      for (Eigen::Index x = 0; x < mask.cols(); ++x) mask(y, x) = row[x] == '#';
+      ++y;
+    }
+    return mask;
+  };
+  CHECK(maskParts(Plane8::Zero(3, 4)).largest() == -1);
+  CHECK(maskParts(Plane8::Zero(0, 0)).runs.empty());
+  // A comb whose teeth meet below; corners that touch do not join.
+  const MaskParts comb = maskParts(masks({"#.#.#", "#.#.#", "###..", ".....", "...##"}));
+  CHECK(comb.size == std::vector<std::int64_t>{7, 2, 2});
+  CHECK(comb.largest() == 0);
+  const std::vector<int> parts = {0, 0, 1, 0, 0, 1, 0, 2};
+  REQUIRE(comb.runs.size() == parts.size());
+  for (std::size_t k = 0; k < parts.size(); ++k) CHECK(comb.runs[k].part == parts[k]);
+}
+
+TEST_CASE("pieces cover the figure, each in its own box, in any part of the picture") {
+  const Drawing drawing;
+  const std::vector<FigurePiece> pieces = drawing.pieces();
+  REQUIRE(pieces.size() == 2);
+  Plane8 bare = drawing.silhouette.mask;
+  for (const FigurePiece& piece : pieces) {
+    const Plane8* planes[] = {&piece.mask, &piece.hidden, &piece.over};
+    for (const Plane8* plane : planes) {
+      CHECK(plane->rows() == piece.box.height());
+      CHECK(plane->cols() == piece.box.width());
+    }
+    CHECK(maskParts(piece.mask).size.size() == 1);
+    for (int y = piece.box.y0; y < piece.box.y1; ++y)
+      for (int x = piece.box.x0; x < piece.box.x1; ++x) {
+        if (piece.mask(y - piece.box.y0, x - piece.box.x0) == 0) continue;
+        REQUIRE(drawing.silhouette.mask(y, x) != 0);
+        bare(y, x) = 0;
+      }
+  }
+  CHECK_FALSE((bare != 0).any());
+  // The arm takes no more room than it needs.
+  CHECK(pieces[1].box.width() < pieces[0].box.width());
+  CHECK(pieces[1].box.height() < pieces[0].box.height() / 2);
 }
 
 TEST_CASE("a map of layers survives its picture; what is no map is refused") {

@@ -122,6 +122,22 @@ TEST_CASE("stripes of a shirt stay on the back") {
   CHECK(darkTexels(back) > 0.8 * darkTexels(image));
 }
 
+// As compilers please, a coordinate was rounded to float before it was placed in the joined texture, or not.
+TEST_CASE(
+    "one skin: where the back lies in the texture is told from the front's rounded place, to the last bit") {
+  const Image image = outlinedBall(200, 80, 4);
+  InflateOptions plain;
+  plain.back = Back::kPlain;
+  const TriangleMesh mesh = inflate(image, silhouetteFromMask(notWhite(image)), plain);
+  const bool beside = mesh.texture.width > mesh.texture.height;
+  const int along = beside ? 0 : 1;
+  for (Eigen::Index v = 0; v < mesh.uv.rows(); ++v) {
+    // Half a texture further.
+    REQUIRE(mesh.back_uv(v, along) == float(0.5 + double(mesh.uv(v, along))));
+    REQUIRE(mesh.back_uv(v, 1 - along) == mesh.uv(v, 1 - along));
+  }
+}
+
 TEST_CASE("front and back share one texture, and the mesh stays closed") {
   const CapsuleFigure figure;
   const Image image = withFace(figure);
