@@ -20,6 +20,7 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kTolerance = 0.0015;  // of thinned keys, in heights
+constexpr float kNoise = 1e-9f;
 
 Quaterniond aboutZ(double angle_rad) { return Quaterniond(Eigen::AngleAxisd(angle_rad, Vector3d::UnitZ())); }
 
@@ -461,6 +462,8 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
       Quaterniond local =
           parent < 0 ? globals[joint] : (globals[parent].conjugate() * globals[joint]).normalized();
       Eigen::Quaternionf rotation = local.cast<float>().normalized();
+      // What is zero but for rounding errors becomes zero: they are not the same everywhere.
+      rotation.coeffs() = (rotation.coeffs().array().abs() < kNoise).select(0.f, rotation.coeffs());
       // Neighbouring keys in the same half of the sphere, for programs that interpolate the four numbers.
       if (!track.rotations.empty() ? rotation.dot(track.rotations.back()) < 0 : rotation.w() < 0)
         rotation.coeffs() = -rotation.coeffs();

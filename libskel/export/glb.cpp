@@ -346,10 +346,8 @@ void addClip(GlbBuilder& glb, const Clip& any_clip, const RiggedCharacter& chara
     if (!track.times_s.empty()) {
       SKEL_CHECK_EQ(track.times_s.size(), track.rotations.size());
       std::vector<float> values;
-      // What is zero but for rounding errors becomes zero: those are not the same everywhere.
-      constexpr float kUnit = 1.f / (1 << 30);
       for (const Eigen::Quaternionf& q : track.rotations)
-        for (const float value : q.coeffs()) values.push_back(std::round(value / kUnit) * kUnit + 0.f);
+        values.insert(values.end(), {q.x(), q.y(), q.z(), q.w()});
       channel(joint, "rotation", track.times_s, values, 4);
     }
     if (!track.translation_times_s.empty()) {

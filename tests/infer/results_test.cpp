@@ -149,7 +149,7 @@ TEST_CASE("*.png in the folder of the results does not rig overlays and silhouet
   CHECK(contains(none.err, "none of the images is a drawing"));
 }
 
-TEST_CASE("--trace shows the steps that the picture needed") {
+TEST_CASE("trace pictures show the steps that the picture needed") {
   const TempDir dir;
   const std::string drawing = SKEL_DATASETS "/characters/kid_floating_head.png",
                     mask = SKEL_DATASETS "/characters/kid_floating_head.mask.png";
