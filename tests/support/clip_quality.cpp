@@ -1,15 +1,17 @@
 // Figures of the built-in clips on drawings: how far the skin is stretched, and how much of the limbs goes
 // into the rest of the body.
 //   clip_quality [--one-skin] [--stretch-only] TEMPLATE DRAWING...
-// A line a clip, then the drawings that stretch most. Stretch: the largest singular value of the map from a
-// triangle at rest to the same one posed. Inside: the winding number of the skin just above a limb's surface
-// is 1 more than at rest.
+// A line a clip, then the ten drawings that stretch most, each with its worst clip and where in it. Stretch:
+// the largest singular value of the map from a triangle at rest to the same one posed. Inside: the winding
+// number of the skin just above a limb's surface is 1 more than at rest.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "libskel/animation/clip_library.h"
@@ -92,6 +94,8 @@ std::vector<bool> insideOthers(const Eigen::MatrixX3f& vertices, const TriangleM
 
 struct Quality {
   double stretched = 0, inside = 0;  // shares, means over the frames
+  double most_stretched = 0;         // of a frame
+  float at_s = 0;                    // when
 };
 
 struct Measured {
@@ -124,11 +128,14 @@ Measured measure(const std::string& path, const Request& request) {
   for (const Clip& clip : drawing.clips) {
     Quality& quality = result.clips[clip.name];
     for (int frame = 0; frame < kFrames; ++frame) {
-      const Eigen::MatrixX3f posed =
-          posedVertices(character, clip, clip.duration_s() * (float(frame) + 0.5f) / kFrames);
+      const float time_s = clip.duration_s() * (float(frame) + 0.5f) / kFrames;
+      const Eigen::MatrixX3f posed = posedVertices(character, clip, time_s);
+      double stretched = 0;
       for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
         if (stretch(rest[std::size_t(t)], flat(posed, mesh, t)) > kTooFar)
-          quality.stretched += rest[std::size_t(t)].determinant() / 2 / area / kFrames;
+          stretched += rest[std::size_t(t)].determinant() / 2 / area;
+      quality.stretched += stretched / kFrames;
+      if (stretched > quality.most_stretched) quality.most_stretched = stretched, quality.at_s = time_s;
       const std::vector<bool> inside = insideOthers(posed, mesh, limbs);
       for (std::size_t i = 0; i < limbs.size(); ++i)
         if (inside[i] && !inside_at_rest[i]) quality.inside += 1. / double(limbs.size()) / kFrames;
@@ -136,6 +143,12 @@ Measured measure(const std::string& path, const Request& request) {
   }
   return result;
 }
+
+struct Case {
+  double share;
+  std::string path, clip;
+  float at_s;  // where most is stretched
+};
 
 void run(int argc, char** argv) {
   Request request;
@@ -150,12 +163,12 @@ void run(int argc, char** argv) {
   std::vector<Measured> all(paths.size());
   parallelFor(paths.size(), 0, [&](std::size_t i) { all[i] = measure(paths[i], request); });
   std::map<std::string, std::vector<Quality>> by_clip;
-  std::vector<std::pair<double, std::string>> stretched, inside;
+  std::vector<Case> stretched, inside;
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (const auto& [clip, quality] : all[i].clips) {
       by_clip[clip].push_back(quality);
-      stretched.emplace_back(quality.stretched, paths[i] + " " + clip);
-      inside.emplace_back(quality.inside, paths[i] + " " + clip);
+      stretched.push_back({quality.stretched, paths[i], clip, quality.at_s});
+      inside.push_back({quality.inside, paths[i], clip, quality.at_s});
     }
   std::printf("%d of %d drawings in layers\n",
               int(std::count_if(all.begin(), all.end(), [](const Measured& m) { return m.layered; })),
@@ -172,11 +185,16 @@ void run(int argc, char** argv) {
     std::printf("%-10s %24.2f %% %6.2f %% %24.2f %% %6.2f %%\n", clip.c_str(), 100 * mean.stretched,
                 100 * most.stretched, 100 * mean.inside, 100 * most.inside);
   }
-  const auto worst = [](const char* what, std::vector<std::pair<double, std::string>>& list) {
+  const auto worst = [](const char* what, std::vector<Case>& list) {
     std::printf("%s most:\n", what);
-    std::sort(list.rbegin(), list.rend());
-    for (std::size_t i = 0; i < std::min<std::size_t>(10, list.size()); ++i)
-      std::printf("%6.2f %% %s\n", 100 * list[i].first, list[i].second.c_str());
+    std::sort(list.begin(), list.end(), [](const Case& a, const Case& b) {
+      return std::tie(b.share, a.path, a.clip) < std::tie(a.share, b.path, b.clip);
+    });
+    std::set<std::string> shown;
+    for (const Case& c : list)
+      if (shown.size() < 10 && c.share > 0 && shown.insert(c.path).second)
+        std::printf("%6.2f %% %s %s at %.2f s\n", 100 * c.share, c.path.c_str(), c.clip.c_str(),
+                    double(c.at_s));
   };
   worst("stretched", stretched);
   worst("inside", inside);
