@@ -5,6 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "libskel/silhouette/working_colors.h"
+
 namespace skel {
 namespace {
 
@@ -21,8 +23,7 @@ void trimToInk(const Image& image, int reach, cv::Mat& figure) {
   const cv::Rect place =
       cv::Rect(box.x - around, box.y - around, box.width + 2 * around, box.height + 2 * around) &
       cv::Rect(0, 0, figure.cols, figure.rows);
-  const cv::Mat rgba =
-      cv::Mat(image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data()))(place);
+  const cv::Mat rgba = rgbaOf(image)(place);
   cv::Mat inside = figure(place);
 
   // What is outside, on the mean around each px, and how far each px is from that.
@@ -65,7 +66,7 @@ void trimToInk(const Image& image, int reach, cv::Mat& figure) {
               cv::BORDER_CONSTANT, cv::Scalar(255));
     trimmed &= core | ~paper;
   }
-  cv::dilate(trimmed, trimmed, cv::Mat::ones(3, 3, CV_8U), {-1, -1}, kMargin);
+  cv::dilate(trimmed, trimmed, square(kMargin));
   inside &= trimmed;
 }
 

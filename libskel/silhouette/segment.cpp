@@ -60,8 +60,8 @@ cv::Mat straightened(const Image& image, cv::Mat& rgb, PageCorners corners) {
   for (Eigen::Vector2d& corner : corners) corner = ((corner.array() + 0.5) * image_px - 0.5).matrix();
   std::array<int, 2> size{};
   const cv::Mat page_from_image = pageFromPicture(corners, size);
-  cv::Mat rgba(image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data())), page;
-  cv::warpPerspective(rgba, page, page_from_image, cv::Size(size[0], size[1]), cv::INTER_LINEAR,
+  cv::Mat page;
+  cv::warpPerspective(rgbaOf(image), page, page_from_image, cv::Size(size[0], size[1]), cv::INTER_LINEAR,
                       cv::BORDER_REPLICATE);
   // cvtColor() would bring along every colour space that OpenCV knows.
   rgb.create(page.size(), CV_8UC3);

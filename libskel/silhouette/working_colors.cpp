@@ -12,8 +12,12 @@ namespace skel {
 
 constexpr int kWorkSize = 512;  // long side, px
 
+cv::Mat rgbaOf(const Image& image) {
+  return {image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data())};
+}
+
 cv::Mat workingRgb(const Image& image) {
-  cv::Mat rgba(image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data()));
+  const cv::Mat rgba = rgbaOf(image);
   const double scale = std::min(1.0, kWorkSize / static_cast<double>(std::max(image.width, image.height)));
   cv::Mat small;
   if (scale < 1) {

@@ -9,6 +9,8 @@ class Mat;
 
 namespace skel {
 
+// The whole picture as it is, CV_8UC4; its pixels are not copied and not to be written.
+cv::Mat rgbaOf(const Image& image);
 // RGB on white, 8-bit. Figures are found with the long side at 512 px; larger pictures are reduced.
 cv::Mat workingRgb(const Image& image);
 

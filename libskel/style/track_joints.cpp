@@ -150,16 +150,16 @@ class Paths {
 
   // The mean colour of each joint on a path.
   void learnLooks(const std::vector<int>& path) {
-    looks_.assign(joints_.size(), Eigen::Vector3d::Zero());
-    for (std::size_t i = 0; i < joints_.size(); ++i) {
+    looks_ = Eigen::Matrix3Xd::Zero(3, s_.confidences.rows());
+    for (const LimbJoint& j : joints_) {
       double weight = 1e-9;
       for (std::size_t t = 0; t < path.size(); ++t) {
-        const int k = seen(joints_[i], path[t]);
+        const int k = seen(j, path[t]);
         const double w = s_.confidences(k, Index(t));
-        looks_[i] += w * color(k, int(t));
+        looks_.col(j.joint) += w * color(k, int(t));
         weight += w;
       }
-      looks_[i] /= weight;
+      looks_.col(j.joint) /= weight;
     }
   }
 
@@ -167,15 +167,12 @@ class Paths {
 
   double alone(int t, int hypothesis) const {
     double sum = 0;
-    for (const LimbJoint& j : joints_)
-      if (hypothesis) sum += kSwap * s_.confidences(j.joint, t);
-    for (std::size_t i = 0; i < looks_.size(); ++i) {
-      const LimbJoint& j = joints_[i];
-      const auto other = std::find_if(joints_.begin(), joints_.end(),
-                                      [&](const LimbJoint& o) { return o.joint == j.mirror; });
+    for (const LimbJoint& j : joints_) {
       const int k = seen(j, hypothesis);
-      const double own = (color(k, t) - looks_[i]).squaredNorm(),
-                   others = (color(k, t) - looks_[std::size_t(other - joints_.begin())]).squaredNorm();
+      if (hypothesis) sum += kSwap * s_.confidences(j.joint, t);
+      if (looks_.cols() == 0) continue;
+      const double own = (color(k, t) - looks_.col(j.joint)).squaredNorm(),
+                   others = (color(k, t) - looks_.col(j.mirror)).squaredNorm();
       sum += kLook * s_.confidences(k, t) * (own - others) / (own + others + 3 * kColorNoise * kColorNoise);
     }
     return sum;
@@ -206,7 +203,7 @@ class Paths {
 
   const JointSightings& s_;
   std::vector<LimbJoint> joints_;
-  std::vector<Eigen::Vector3d> looks_;  // of joints_; empty as long as nothing is known
+  Eigen::Matrix3Xd looks_;  // a column a joint; empty as long as nothing is known
 };
 
 // How long the upper bones of a kind of limb are together, in all frames.
