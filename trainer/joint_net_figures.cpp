@@ -39,10 +39,13 @@ ExitCode runFigureSheet(const FigureSheetOptions& options) {
   figure_options.other_share = options.other_share;
   if (!options.drawings.empty()) {
     Rng poses(options.seed, 1);
-    for (const PosableDrawing& drawing :
-         posableDrawings(findJointedDrawings(options.drawings), names, loadTemplate(options.body_plan), 0)) {
+    const std::vector<PosableDrawing> drawings =
+        posableDrawings(findJointedDrawings(options.drawings), names, loadTemplate(options.body_plan), 0);
+    for (const PosableDrawing& drawing : drawings) {
+      const PosableDrawing& donor = drawings[poses.below(static_cast<std::uint32_t>(drawings.size()))];
       figure_options.drawings.push_back(asDrawn(drawing));
-      for (int k = 0; k < 2; ++k) figure_options.drawings.push_back(posed(poses, drawing));
+      figure_options.drawings.push_back(posed(poses, drawing));
+      figure_options.drawings.push_back(withLimbsOf(poses, drawing, donor));
     }
     figure_options.drawn_share = 1;
   }

@@ -22,7 +22,7 @@
 namespace skel {
 namespace {
 
-constexpr int kPoses = 2;  // of each drawing in a round, besides its own
+constexpr int kPoses = 2;  // of each drawing in a round, besides its own: posed, with limbs of another
 
 // What the options leave open.
 struct Schedule {
@@ -273,7 +273,18 @@ class Training {
     parallelFor(drawn.size(), options_.threads, [&](std::size_t i) {
       const PosableDrawing& drawing = drawings_[i / (1 + kPoses)];
       Rng rng(options_.seed, kPoseStream + static_cast<std::uint64_t>(round) * drawn.size() + i);
-      drawn[i] = i % (1 + kPoses) == 0 ? asDrawn(drawing) : posed(rng, drawing);
+      switch (i % (1 + kPoses)) {
+        case 0:
+          drawn[i] = asDrawn(drawing);
+          break;
+        case 1:
+          drawn[i] = posed(rng, drawing);
+          break;
+        default: {
+          const auto donor = rng.below(static_cast<std::uint32_t>(drawings_.size()));
+          drawn[i] = withLimbsOf(rng, drawing, drawings_[donor]);
+        }
+      }
     });
     return drawn;
   }

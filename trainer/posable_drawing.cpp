@@ -1,6 +1,7 @@
 #include "trainer/posable_drawing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "libskel/core/error.h"
@@ -59,29 +60,75 @@ PosableDrawing posable(const JointedDrawing& drawing, const std::vector<std::str
   return out;
 }
 
+// A drawing in a pose.
+struct PosedDrawing {
+  Eigen::MatrixX3f vertices;
+  std::vector<Eigen::Vector3f> joints;  // of the skeleton
+};
+
 // `shift_m`: of each joint, towards the viewer.
-AnnotatedDrawing drawn(const PosableDrawing& drawing, const JointTransforms& posed_from_rest,
-                       const std::vector<float>& shift_m) {
+PosedDrawing pose(const PosableDrawing& drawing, const JointTransforms& posed_from_rest,
+                  const std::vector<float>& shift_m) {
   const RiggedCharacter& character = drawing.character;
-  Eigen::MatrixX3f vertices = skinVertices(character.mesh.vertices, character.weights, posed_from_rest);
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+  PosedDrawing out{skinVertices(character.mesh.vertices, character.weights, posed_from_rest),
+                   posedJoints(character.skeleton, posed_from_rest)};
+  for (Eigen::Index v = 0; v < out.vertices.rows(); ++v) {
     for (int k = 0; k < 4; ++k)
-      vertices(v, 2) += character.weights.weights(v, k) * shift_m[character.weights.joints(v, k)];
+      out.vertices(v, 2) += character.weights.weights(v, k) * shift_m[character.weights.joints(v, k)];
   }
-  Camera camera;
-  const Eigen::Vector3f low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
-  camera.target = ((low + high) / 2).cast<double>();
-  camera.view_height_m = 1.02 * std::max(high.x() - low.x(), high.y() - low.y());
-  camera.distance_m = 1e4;  // as good as without perspective
+  return out;
+}
+
+PosedDrawing randomPose(Rng& rng, const PosableDrawing& drawing) {
+  const Skeleton& skeleton = drawing.character.skeleton;
+  std::vector<Eigen::Quaternionf> rotations(skeleton.joints.size(), Eigen::Quaternionf::Identity());
+  std::vector<float> layers(1, 0.f), shift_m(skeleton.joints.size(), 0.f);
+  for (int k = 1; k <= *std::max_element(drawing.limbs.begin(), drawing.limbs.end()); ++k)
+    layers.push_back(static_cast<float>(kLayer_m * (rng.chance(.7) ? 1 : -1)));
+  const double liveliness = rng.uniform(.2, 1.3);
+  for (std::size_t j = 1; j < skeleton.joints.size(); ++j) {
+    const double angle = std::clamp(rng.normal(), -2., 2.) * liveliness * drawing.deviations[j];
+    rotations[j] = Eigen::AngleAxisf(static_cast<float>(angle), Eigen::Vector3f::UnitZ());
+    shift_m[j] = layers[static_cast<std::size_t>(drawing.limbs[j])];
+  }
+  return pose(drawing, posedFromRest(skeleton, rotations), shift_m);
+}
+
+struct Frame {
+  Eigen::Vector3f low = Eigen::Vector3f::Constant(1e9f), high = Eigen::Vector3f::Constant(-1e9f);
+  void add(const Eigen::Vector3f& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  // Without perspective, as good as.
+  Camera camera() const {
+    Camera camera;
+    camera.target = ((low + high) / 2).cast<double>();
+    camera.view_height_m = 1.02 * std::max(high.x() - low.x(), high.y() - low.y());
+    camera.distance_m = 1e4;
+    return camera;
+  }
+};
+
+Frame frameOf(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh) {
+  Frame frame;
+  for (const int v : mesh.triangles.reshaped()) frame.add(vertices.row(v).transpose());
+  return frame;
+}
+
+Image rendered(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, const Camera& camera) {
   RenderOptions options;
   options.width = options.height = kPictureSize;
   options.samples = 1;
   options.shading = 0;
-  Image picture = renderMesh(vertices, character.mesh, camera, options);
+  return renderMesh(vertices, mesh, camera, options);
+}
+
+// The joints of the net.
+AnnotatedDrawing annotated(const PosableDrawing& drawing, const Image& picture, const Camera& camera,
+                           const std::vector<Eigen::Vector3f>& joints) {
   Plane8 mask(kPictureSize, kPictureSize);
   for (Eigen::Index i = 0; i < mask.size(); ++i) mask.data()[i] = picture.rgba(i, 3) > 127 ? 255 : 0;
-
-  const std::vector<Eigen::Vector3f> joints = posedJoints(character.skeleton, posed_from_rest);
   std::vector<Eigen::Vector2d> places;
   for (const int j : drawing.joints) {
     const Eigen::Vector3d p = joints[static_cast<std::size_t>(j)].cast<double>() - camera.target;
@@ -89,6 +136,86 @@ AnnotatedDrawing drawn(const PosableDrawing& drawing, const JointTransforms& pos
     places.emplace_back(kPictureSize / 2.0 - .5 + px_a_m * p.x(), kPictureSize / 2.0 - .5 - px_a_m * p.y());
   }
   return annotatedDrawing(picture, mask, places, drawing.view);
+}
+
+AnnotatedDrawing drawn(const PosableDrawing& drawing, const PosedDrawing& pose) {
+  const Camera camera = frameOf(pose.vertices, drawing.character.mesh).camera();
+  return annotated(drawing, rendered(pose.vertices, drawing.character.mesh, camera), camera, pose.joints);
+}
+
+Eigen::Vector2d inModel(const PosableDrawing& drawing, int joint) {
+  return drawing.character.skeleton.joints[static_cast<std::size_t>(joint)].position.head<2>();
+}
+
+// The joints of a limb, from the trunk outwards.
+std::vector<int> chainOf(const PosableDrawing& drawing, int limb) {
+  std::vector<int> chain;
+  for (std::size_t j = 0; j < drawing.limbs.size(); ++j)
+    if (drawing.limbs[j] == limb) chain.push_back(static_cast<int>(j));
+  return chain;
+}
+
+double lengthOf(const PosableDrawing& drawing, const std::vector<int>& chain) {
+  double length = 0;
+  for (std::size_t k = 1; k < chain.size(); ++k)
+    length += (inModel(drawing, chain[k]) - inModel(drawing, chain[k - 1])).norm();
+  return length;
+}
+
+// Whether a limb is drawn beside the trunk, so that it can be taken off without a hole: none of its joints is
+// nearer to another limb's root or to the root of the skeleton than its own root.
+bool standsFree(const PosableDrawing& drawing, const std::vector<int>& chain) {
+  const Skeleton& skeleton = drawing.character.skeleton;
+  const int parent = skeleton.joints[static_cast<std::size_t>(chain.front())].parent;
+  const Eigen::Vector2d from = inModel(drawing, parent), root = inModel(drawing, chain.front());
+  for (std::size_t k = 1; k < chain.size(); ++k) {
+    const Eigen::Vector2d at = inModel(drawing, chain[k]);
+    if ((at - from).norm() < 1.1 * (root - from).norm()) return false;
+    for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+      const int limb = drawing.limbs[j];
+      if (limb == drawing.limbs[static_cast<std::size_t>(chain.front())]) continue;
+      if ((at - inModel(drawing, static_cast<int>(j))).norm() < .2 * lengthOf(drawing, chain)) return false;
+    }
+  }
+  return true;
+}
+
+// Of each vertex the limb to which it belongs, 0: none.
+std::vector<int> limbsOfVertices(const PosableDrawing& drawing) {
+  const SkinWeights& skin = drawing.character.weights;
+  std::vector<int> limbs(static_cast<std::size_t>(skin.weights.rows()), 0);
+  for (Eigen::Index v = 0; v < skin.weights.rows(); ++v) {
+    std::vector<float> share(drawing.joints.size() + 1, 0.f);
+    for (int k = 0; k < 4; ++k)
+      share[static_cast<std::size_t>(drawing.limbs[static_cast<std::size_t>(skin.joints(v, k))])] +=
+          skin.weights(v, k);
+    const auto most = std::max_element(share.begin(), share.end());
+    if (*most > .5f) limbs[static_cast<std::size_t>(v)] = static_cast<int>(most - share.begin());
+  }
+  return limbs;
+}
+
+// The triangles that have all corners in `kept`.
+TriangleMesh partOf(const TriangleMesh& mesh, const std::vector<bool>& kept) {
+  TriangleMesh part = mesh;
+  Eigen::Index count = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    if (t == mesh.first_back) part.first_back = count;
+    if (kept[static_cast<std::size_t>(mesh.triangles(t, 0))] &&
+        kept[static_cast<std::size_t>(mesh.triangles(t, 1))] &&
+        kept[static_cast<std::size_t>(mesh.triangles(t, 2))])
+      part.triangles.row(count++) = mesh.triangles.row(t);
+  }
+  part.triangles.conservativeResize(count, Eigen::NoChange);
+  return part;
+}
+
+// `front` over `back`.
+Image over(const Image& front, const Image& back) {
+  Image out = back;
+  for (Eigen::Index i = 0; i < front.rgba.rows(); ++i)
+    if (front.rgba(i, 3) > 127) out.rgba.row(i) = front.rgba.row(i);
+  return out;
 }
 
 }  // namespace
@@ -105,24 +232,59 @@ std::vector<PosableDrawing> posableDrawings(const std::vector<JointedDrawing>& d
 AnnotatedDrawing asDrawn(const PosableDrawing& drawing) {
   const std::size_t count = drawing.character.skeleton.joints.size();
   return drawn(drawing,
-               posedFromRest(drawing.character.skeleton,
-                             std::vector<Eigen::Quaternionf>(count, Eigen::Quaternionf::Identity())),
-               std::vector<float>(count, 0.f));
+               pose(drawing,
+                    posedFromRest(drawing.character.skeleton,
+                                  std::vector<Eigen::Quaternionf>(count, Eigen::Quaternionf::Identity())),
+                    std::vector<float>(count, 0.f)));
 }
 
 AnnotatedDrawing posed(Rng& rng, const PosableDrawing& drawing) {
-  const Skeleton& skeleton = drawing.character.skeleton;
-  std::vector<Eigen::Quaternionf> rotations(skeleton.joints.size(), Eigen::Quaternionf::Identity());
-  std::vector<float> layers(1, 0.f), shift_m(skeleton.joints.size(), 0.f);
-  for (int k = 1; k <= *std::max_element(drawing.limbs.begin(), drawing.limbs.end()); ++k)
-    layers.push_back(static_cast<float>(kLayer_m * (rng.chance(.7) ? 1 : -1)));
-  const double liveliness = rng.uniform(.2, 1.3);
-  for (std::size_t j = 1; j < skeleton.joints.size(); ++j) {
-    const double angle = std::clamp(rng.normal(), -2., 2.) * liveliness * drawing.deviations[j];
-    rotations[j] = Eigen::AngleAxisf(static_cast<float>(angle), Eigen::Vector3f::UnitZ());
-    shift_m[j] = layers[static_cast<std::size_t>(drawing.limbs[j])];
+  return drawn(drawing, randomPose(rng, drawing));
+}
+
+AnnotatedDrawing withLimbsOf(Rng& rng, const PosableDrawing& drawing, const PosableDrawing& donor) {
+  PosedDrawing own = randomPose(rng, drawing);
+  if (drawing.view != donor.view) return drawn(drawing, own);
+  const PosedDrawing other = randomPose(rng, donor);
+  const std::vector<int> own_limbs = limbsOfVertices(drawing), other_limbs = limbsOfVertices(donor);
+  std::vector<bool> kept(own_limbs.size(), true), taken(other_limbs.size(), false);
+  Eigen::MatrixX3f moved = other.vertices;
+  bool any = false;
+  for (int limb = 1; limb <= *std::max_element(drawing.limbs.begin(), drawing.limbs.end()); ++limb) {
+    const std::vector<int> own_chain = chainOf(drawing, limb), other_chain = chainOf(donor, limb);
+    const bool wanted = rng.chance(.6);
+    const double longer = std::exp(rng.normal(0, .2));
+    if (!wanted || !standsFree(drawing, own_chain) || !standsFree(donor, other_chain)) continue;
+    any = true;
+    const auto scale =
+        static_cast<float>(longer * lengthOf(drawing, own_chain) / lengthOf(donor, other_chain));
+    const auto move = [&](const Eigen::Vector3f& p) -> Eigen::Vector3f {
+      const auto root_of = [](const PosedDrawing& pose, const std::vector<int>& chain) {
+        return pose.joints[static_cast<std::size_t>(chain.front())];
+      };
+      return scale * (p - root_of(other, other_chain)) + root_of(own, own_chain);
+    };
+    for (std::size_t v = 0; v < own_limbs.size(); ++v)
+      if (own_limbs[v] == limb) kept[v] = false;
+    for (std::size_t v = 0; v < other_limbs.size(); ++v) {
+      if (other_limbs[v] != limb) continue;
+      taken[v] = true;
+      moved.row(static_cast<Eigen::Index>(v)) =
+          move(other.vertices.row(static_cast<Eigen::Index>(v)).transpose()).transpose();
+    }
+    for (std::size_t k = 1; k < own_chain.size(); ++k)
+      own.joints[static_cast<std::size_t>(own_chain[k])] =
+          move(other.joints[static_cast<std::size_t>(other_chain[k])]);
   }
-  return drawn(drawing, posedFromRest(skeleton, rotations), shift_m);
+  if (!any) return drawn(drawing, own);
+  const TriangleMesh rest = partOf(drawing.character.mesh, kept), limbs = partOf(donor.character.mesh, taken);
+  Frame frame = frameOf(own.vertices, rest);
+  const Frame frame_of_limbs = frameOf(moved, limbs);
+  frame.add(frame_of_limbs.low);
+  frame.add(frame_of_limbs.high);
+  const Camera camera = frame.camera();
+  const Image trunk = rendered(own.vertices, rest, camera), added = rendered(moved, limbs, camera);
+  return annotated(drawing, rng.chance(.6) ? over(added, trunk) : over(trunk, added), camera, own.joints);
 }
 
 }  // namespace skel
