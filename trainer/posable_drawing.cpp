@@ -18,8 +18,9 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kTrunkTurn = 6 * kDegree, kArmTurn = 35 * kDegree, kLegTurn = 14 * kDegree;
-constexpr double kLayer_m = 0.25;  // arms and legs before the body or behind it
-constexpr int kPictureSize = 400;  // px of the rendered drawing, before its box is cut out
+constexpr double kLayer_m = 0.25;   // arms and legs before the body or behind it
+constexpr int kLeastVertices = 20;  // of a limb that is given to another drawing
+constexpr int kPictureSize = 400;   // px of the rendered drawing, before its box is cut out
 
 PosableDrawing posable(const JointedDrawing& drawing, const std::vector<std::string>& names,
                        const SkeletonTemplate& body_plan) {
@@ -96,9 +97,11 @@ PosedDrawing randomPose(Rng& rng, const PosableDrawing& drawing) {
 
 struct Frame {
   Eigen::Vector3f low = Eigen::Vector3f::Constant(1e9f), high = Eigen::Vector3f::Constant(-1e9f);
-  void add(const Eigen::Vector3f& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
+  void add(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh) {
+    for (const int v : mesh.triangles.reshaped()) {
+      low = low.cwiseMin(vertices.row(v).transpose());
+      high = high.cwiseMax(vertices.row(v).transpose());
+    }
   }
   // Without perspective, as good as.
   Camera camera() const {
@@ -109,12 +112,6 @@ struct Frame {
     return camera;
   }
 };
-
-Frame frameOf(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh) {
-  Frame frame;
-  for (const int v : mesh.triangles.reshaped()) frame.add(vertices.row(v).transpose());
-  return frame;
-}
 
 Image rendered(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, const Camera& camera) {
   RenderOptions options;
@@ -139,7 +136,9 @@ AnnotatedDrawing annotated(const PosableDrawing& drawing, const Image& picture, 
 }
 
 AnnotatedDrawing drawn(const PosableDrawing& drawing, const PosedDrawing& pose) {
-  const Camera camera = frameOf(pose.vertices, drawing.character.mesh).camera();
+  Frame frame;
+  frame.add(pose.vertices, drawing.character.mesh);
+  const Camera camera = frame.camera();
   return annotated(drawing, rendered(pose.vertices, drawing.character.mesh, camera), camera, pose.joints);
 }
 
@@ -253,11 +252,13 @@ AnnotatedDrawing withLimbsOf(Rng& rng, const PosableDrawing& drawing, const Posa
   for (int limb = 1; limb <= *std::max_element(drawing.limbs.begin(), drawing.limbs.end()); ++limb) {
     const std::vector<int> own_chain = chainOf(drawing, limb), other_chain = chainOf(donor, limb);
     const bool wanted = rng.chance(.6);
-    const double longer = std::exp(rng.normal(0, .2));
+    const double own_length = lengthOf(drawing, own_chain) * std::exp(rng.normal(0, .2)),
+                 other_length = lengthOf(donor, other_chain);
     if (!wanted || !standsFree(drawing, own_chain) || !standsFree(donor, other_chain)) continue;
+    if (!(own_length > .4 * other_length && own_length < 2.5 * other_length)) continue;
+    if (std::count(other_limbs.begin(), other_limbs.end(), limb) < kLeastVertices) continue;
     any = true;
-    const auto scale =
-        static_cast<float>(longer * lengthOf(drawing, own_chain) / lengthOf(donor, other_chain));
+    const auto scale = static_cast<float>(own_length / other_length);
     const auto move = [&](const Eigen::Vector3f& p) -> Eigen::Vector3f {
       const auto root_of = [](const PosedDrawing& pose, const std::vector<int>& chain) {
         return pose.joints[static_cast<std::size_t>(chain.front())];
@@ -278,10 +279,9 @@ AnnotatedDrawing withLimbsOf(Rng& rng, const PosableDrawing& drawing, const Posa
   }
   if (!any) return drawn(drawing, own);
   const TriangleMesh rest = partOf(drawing.character.mesh, kept), limbs = partOf(donor.character.mesh, taken);
-  Frame frame = frameOf(own.vertices, rest);
-  const Frame frame_of_limbs = frameOf(moved, limbs);
-  frame.add(frame_of_limbs.low);
-  frame.add(frame_of_limbs.high);
+  Frame frame;
+  frame.add(own.vertices, rest);
+  frame.add(moved, limbs);
   const Camera camera = frame.camera();
   const Image trunk = rendered(own.vertices, rest, camera), added = rendered(moved, limbs, camera);
   return annotated(drawing, rng.chance(.6) ? over(added, trunk) : over(trunk, added), camera, own.joints);

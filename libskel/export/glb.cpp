@@ -10,6 +10,7 @@
 
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/check.h"
+#include "libskel/export/bone_axes.h"
 #include "libskel/export/joint_names.h"
 #include "libskel/export/write_character.h"
 #include "libskel/image/write_image.h"
@@ -20,6 +21,7 @@ namespace skel {
 
 namespace {
 
+using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 template <class T>
@@ -224,20 +226,51 @@ int addMesh(GlbBuilder& glb, const RiggedCharacter& character, const std::string
   return 0;
 }
 
-// To the micrometre: shorter to write, and every reader sums up the same numbers. No −0.
+// To the micrometre: a reader who sums up the joints' places finds the same ones. No −0.
 Vector3d rounded(const Vector3d& position) { return (position * 1e6).array().round() / 1e6 + 0.0; }
 
+Skeleton rounded(Skeleton skeleton) {
+  for (Joint& joint : skeleton.joints) {
+    joint.position = rounded(joint.position);
+    if (joint.tail) joint.tail = rounded(*joint.tail);
+  }
+  return skeleton;
+}
+
+// The joints' axes, see bone_axes.h: everything local to a joint is told in them.
+struct Rig {
+  Skeleton skeleton;
+  std::vector<Quaterniond> axes;
+
+  Quaterniond parentAxes(int joint) const {
+    const int parent = skeleton.joints[joint].parent;
+    return parent < 0 ? Quaterniond::Identity() : axes[parent];
+  }
+  // From the parent, in the parent's axes.
+  Vector3d offset(int joint) const {
+    const Joint& self = skeleton.joints[joint];
+    if (self.parent < 0) return self.position;
+    return parentAxes(joint).conjugate() * rounded(self.position - skeleton.joints[self.parent].position);
+  }
+  // `rotation`: local to the parent, in the model's axes.
+  Quaterniond local(int joint, const Quaterniond& rotation) const {
+    return parentAxes(joint).conjugate() * rotation * axes[joint];
+  }
+};
+
 // One node a joint, from `first` on.
-void addJoints(GlbBuilder& glb, const Skeleton& skeleton, JointNaming naming, int first) {
-  for (const Joint& joint : skeleton.joints) {
+void addJoints(GlbBuilder& glb, const Rig& rig, JointNaming naming, int first) {
+  for (std::size_t j = 0; j < rig.skeleton.joints.size(); ++j) {
+    const Joint& joint = rig.skeleton.joints[j];
     tinygltf::Node node;
     node.name = exportedJointName(joint.name, naming);
-    Vector3d local = rounded(joint.position);
-    if (joint.parent >= 0) local = rounded(local - rounded(skeleton.joints[joint.parent].position));
-    node.translation = {local.x(), local.y(), local.z()};
+    const Vector3d offset = rig.offset(int(j));
+    node.translation = {offset.x(), offset.y(), offset.z()};
+    const Quaterniond turn = rig.local(int(j), Quaterniond::Identity()).normalized();
+    if (turn.vec().norm() > 1e-9) node.rotation = {turn.x(), turn.y(), turn.z(), turn.w()};
     if (joint.tail) {
       tinygltf::Value::Array tail;
-      for (const double value : rounded(*joint.tail)) tail.emplace_back(value);
+      for (const double value : *joint.tail) tail.emplace_back(value);
       node.extras = tinygltf::Value(tinygltf::Value::Object{{"tail", tinygltf::Value(tail)}});
     }
     glb.model.nodes.push_back(node);
@@ -246,16 +279,19 @@ void addJoints(GlbBuilder& glb, const Skeleton& skeleton, JointNaming naming, in
   }
 }
 
-void addSkin(GlbBuilder& glb, const Skeleton& skeleton, const std::string& name, int first_joint) {
+void addSkin(GlbBuilder& glb, const Rig& rig, const std::string& name, int first_joint) {
   tinygltf::Skin skin;
   skin.name = name;
   skin.skeleton = first_joint;
   std::vector<float> inverse_bind;
-  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+  for (std::size_t j = 0; j < rig.skeleton.joints.size(); ++j) {
     skin.joints.push_back(first_joint + int(j));
-    Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity();
-    matrix.col(3).head<3>() = -rounded(skeleton.joints[j].position).cast<float>();
-    inverse_bind.insert(inverse_bind.end(), matrix.data(), matrix.data() + 16);
+    const Eigen::Matrix3d turn = rig.axes[j].conjugate().toRotationMatrix();
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+    matrix.topLeftCorner<3, 3>() = turn;
+    matrix.col(3).head<3>() = -turn * rig.skeleton.joints[j].position;
+    const Eigen::Matrix4f single = matrix.cast<float>();
+    inverse_bind.insert(inverse_bind.end(), single.data(), single.data() + 16);
   }
   skin.inverseBindMatrices = glb.addAccessor(inverse_bind, 16, TINYGLTF_TYPE_MAT4, kNoTarget);
   glb.model.skins.push_back(skin);
@@ -289,7 +325,7 @@ RootPath rootPath(const Clip& clip, const JointTrack* track, const Skeleton& ske
     std::sort(path.times_s.begin(), path.times_s.end());
     path.times_s.erase(std::unique(path.times_s.begin(), path.times_s.end()), path.times_s.end());
   }
-  const Eigen::Vector3f rest = rounded(skeleton.joints[0].position).cast<float>();
+  const Eigen::Vector3f rest = skeleton.joints[0].position.cast<float>();
   Clip root;
   root.root_times_s = clip.root_times_s;
   root.root_translations = clip.root_translations;
@@ -313,9 +349,10 @@ std::vector<float> numbersOf(const std::vector<Eigen::Vector3f>& vectors) {
   return values;
 }
 
-void addClip(GlbBuilder& glb, const Clip& any_clip, const RiggedCharacter& character, int first_joint) {
+void addClip(GlbBuilder& glb, const Clip& any_clip, const RiggedCharacter& character, const Rig& rig,
+             int first_joint) {
   const Clip clip = withSlerp(any_clip);
-  const Skeleton& skeleton = character.skeleton;
+  const Skeleton& skeleton = rig.skeleton;
   tinygltf::Animation animation;
   animation.name = clip.name;
   // Tracks that share their times share an accessor.
@@ -346,19 +383,20 @@ void addClip(GlbBuilder& glb, const Clip& any_clip, const RiggedCharacter& chara
     if (!track.times_s.empty()) {
       SKEL_CHECK_EQ(track.times_s.size(), track.rotations.size());
       std::vector<float> values;
-      for (const Eigen::Quaternionf& q : track.rotations)
+      for (const Eigen::Quaternionf& rotation : track.rotations) {
+        const Eigen::Quaternionf q = rig.local(joint, rotation.cast<double>()).normalized().cast<float>();
         values.insert(values.end(), {q.x(), q.y(), q.z(), q.w()});
+      }
       channel(joint, "rotation", track.times_s, values, 4);
     }
     if (!track.translation_times_s.empty()) {
       if (joint == 0) {
         root_track = &track;
       } else {
-        const Joint& self = skeleton.joints[joint];
-        const Eigen::Vector3f rest =
-            rounded(rounded(self.position) - rounded(skeleton.joints[self.parent].position)).cast<float>();
+        const Eigen::Vector3f rest = rig.offset(joint).cast<float>();
+        const Eigen::Quaternionf turn = rig.parentAxes(joint).conjugate().cast<float>();
         std::vector<Eigen::Vector3f> places = track.translations_m;
-        for (Eigen::Vector3f& place : places) place += rest;
+        for (Eigen::Vector3f& place : places) place = turn * place + rest;
         channel(joint, "translation", track.translation_times_s, numbersOf(places), 3);
       }
     }
@@ -408,9 +446,11 @@ std::string encodeGlb(const RiggedCharacter& character, const std::vector<Clip>&
   node.mesh = addMesh(glb, character, name);
   node.skin = 0;
   glb.model.nodes.push_back(node);
-  addJoints(glb, character.skeleton, options.naming, kFirstJoint);
-  addSkin(glb, character.skeleton, name, kFirstJoint);
-  for (const Clip& clip : clips) addClip(glb, clip, character, kFirstJoint);
+  const Skeleton skeleton = rounded(character.skeleton);
+  const Rig rig{skeleton, boneAxes(skeleton, mesh, character.weights, clips)};
+  addJoints(glb, rig, options.naming, kFirstJoint);
+  addSkin(glb, rig, name, kFirstJoint);
+  for (const Clip& clip : clips) addClip(glb, clip, character, rig, kFirstJoint);
 
   tinygltf::Scene scene;
   scene.name = name;

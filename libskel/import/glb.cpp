@@ -18,10 +18,11 @@ namespace skel {
 namespace {
 
 using Eigen::Affine3d;
+using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kUnturned = 1e-4;  // how far a rest transform may be from the identity
+constexpr double kRigid = 1e-4;  // how far a rest transform may be from a rotation
 
 std::optional<std::vector<double>> numbersAt(const JsonValue& object, std::string_view key,
                                              std::size_t count) {
@@ -100,6 +101,10 @@ int skinnedNode(const GlbContainer& glb, const Nodes& nodes) {
 
 struct Joints {
   Skeleton skeleton;
+  // Of each joint from its own axes and from those of its node's parent to the model's, in the rest pose.
+  // Skel's skeletons have the model's everywhere.
+  std::vector<Quaterniond> axes;
+  std::vector<Affine3d, Eigen::aligned_allocator<Affine3d>> model_from_parent;
   std::vector<int> of_node;        // index into skeleton.joints, -1: none
   std::vector<int> of_skin_joint;  // the same by the skin's own order
 };
@@ -161,9 +166,13 @@ Joints readJoints(const Nodes& nodes, const JsonValue& skin) {
       value.fail("the joint \"" + joint.name + "\" is a second root");
     }
     const Affine3d& rest = nodes.model_from_node[node];
-    if (!((rest.linear() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= kUnturned))
+    const Eigen::Matrix3d turn = rest.linear();
+    if (!((turn * turn.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= kRigid) ||
+        turn.determinant() < 0)
       value.fail("the joint \"" + joint.name +
-                 "\" is turned or scaled in the rest pose; apply rotation and scale before export");
+                 "\" is scaled in the rest pose; apply the scale before export");
+    joints.axes.push_back(Quaterniond(turn).normalized());
+    joints.model_from_parent.push_back(above < 0 ? Affine3d::Identity() : nodes.model_from_node[above]);
     joint.position = rest.translation();
     if (const auto extras = value.find("extras"); extras && extras->isObject())
       if (const auto tail = numbersAt(*extras, "tail", 3))
@@ -188,11 +197,13 @@ void checkInverseBind(const GlbContainer& glb, const JsonValue& skin, const Join
                 std::to_string(joints.of_skin_joint.size()) + " joints");
   for (std::size_t k = 0; k < matrices.count; ++k) {
     const Joint& joint = joints.skeleton.joints[joints.of_skin_joint[k]];
+    const Eigen::Matrix3d turn = joints.axes[joints.of_skin_joint[k]].conjugate().toRotationMatrix();
     Eigen::Matrix4d expected = Eigen::Matrix4d::Identity();
-    expected.col(3).head<3>() = -joint.position;
+    expected.topLeftCorner<3, 3>() = turn;
+    expected.col(3).head<3>() = -turn * joint.position;
     const Eigen::Matrix4d matrix =
         Eigen::Map<const Eigen::Matrix4f>(matrices.values.data() + 16 * k).cast<double>();
-    if (!((matrix - expected).cwiseAbs().maxCoeff() <= kUnturned * (1 + joint.position.norm())))
+    if (!((matrix - expected).cwiseAbs().maxCoeff() <= kRigid * (1 + joint.position.norm())))
       index->fail("that of \"" + joint.name + "\" is not where its node stands; export in the rest pose");
   }
 }
@@ -323,11 +334,28 @@ std::vector<float> readTimes(const GlbContainer& glb, const JsonValue& index) {
   return times;
 }
 
-std::vector<Vector3f> vectors(const GlbContainer::Numbers& numbers, const Vector3f& less) {
+std::vector<Vector3f> vectors(const GlbContainer::Numbers& numbers) {
   std::vector<Vector3f> result;
   for (std::size_t i = 0; i < numbers.count; ++i)
-    result.push_back(Eigen::Map<const Vector3f>(numbers.values.data() + 3 * i) - less);
+    result.push_back(Eigen::Map<const Vector3f>(numbers.values.data() + 3 * i));
   return result;
+}
+
+// From the joint's own axes to the model's: even ones as they are, others only where the axes are the model's
+// but for their order.
+std::vector<Vector3f> scalesInModel(std::vector<Vector3f> scales, const Quaterniond& axes,
+                                    const JsonValue& output) {
+  const Eigen::Matrix3d turn = axes.toRotationMatrix().cwiseAbs();
+  const bool along_axes = (turn - turn.array().round().matrix()).cwiseAbs().maxCoeff() <= kRigid;
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    Vector3f& scale = scales[i];
+    if (scale.x() == scale.y() && scale.y() == scale.z()) continue;
+    if (!along_axes)
+      output.fail("element " + std::to_string(i) +
+                  " scales a turned joint unevenly, which is not read; apply rotation before export");
+    scale = turn.array().round().matrix().cast<float>() * scale;
+  }
+  return scales;
 }
 
 std::vector<Eigen::Quaternionf> quaternions(const GlbContainer::Numbers& numbers, const JsonValue& output) {
@@ -374,8 +402,10 @@ Clip readClip(const GlbContainer& glb, const JsonValue& animation, const RiggedC
     if (kind == "translation" && joint == 0) {
       if (!(height > 0)) path.fail("cannot be measured by the height of a model that has none");
       clip.root_times_s = times;
-      clip.root_translations = vectors(values, all[0].position.cast<float>());
-      for (Vector3f& translation : clip.root_translations) translation /= height;
+      clip.root_translations = vectors(values);
+      const Eigen::Affine3f model_from_parent = joints.model_from_parent[0].cast<float>();
+      const Vector3f rest = all[0].position.cast<float>();
+      for (Vector3f& at : clip.root_translations) at = (model_from_parent * at - rest) / height;
       continue;
     }
     if (tracks[joint] < 0) {
@@ -383,16 +413,20 @@ Clip readClip(const GlbContainer& glb, const JsonValue& animation, const RiggedC
       clip.tracks.emplace_back().joint = all[joint].name;
     }
     JointTrack& track = clip.tracks[static_cast<std::size_t>(tracks[joint])];
+    const Quaterniond model_axes(joints.model_from_parent[joint].linear());  // from those of the parent
     if (kind == "rotation") {
       track.times_s = times;
       track.rotations = quaternions(values, output);
+      for (Eigen::Quaternionf& rotation : track.rotations)
+        rotation = (model_axes * rotation.cast<double>() * joints.axes[joint].conjugate()).cast<float>();
     } else if (kind == "translation") {
       track.translation_times_s = times;
-      track.translations_m =
-          vectors(values, (all[joint].position - all[all[joint].parent].position).cast<float>());
+      track.translations_m = vectors(values);
+      const Vector3f rest = (all[joint].position - all[all[joint].parent].position).cast<float>();
+      for (Vector3f& at : track.translations_m) at = model_axes.cast<float>() * at - rest;
     } else {
       track.scale_times_s = times;
-      track.scales = vectors(values, Vector3f::Zero());
+      track.scales = scalesInModel(vectors(values), joints.axes[joint], output);
     }
   }
   return clip;

@@ -69,6 +69,20 @@ std::vector<double> numbers(const Glb& glb, int index) {
   return values;
 }
 
+Eigen::Affine3d restTransform(const json& nodes, const std::vector<int>& parents, int node) {
+  Eigen::Affine3d global = Eigen::Affine3d::Identity();
+  for (; node >= 0; node = parents[node]) {
+    const auto t = nodes[node]["translation"].get<std::vector<double>>();
+    Eigen::Affine3d local(Eigen::Translation3d(t[0], t[1], t[2]));
+    if (nodes[node].contains("rotation")) {
+      const auto r = nodes[node]["rotation"].get<std::vector<double>>();
+      local.rotate(Eigen::Quaterniond(r[3], r[0], r[1], r[2]));
+    }
+    global = local * global;
+  }
+  return global;
+}
+
 // What must hold for every GLB that skel writes.
 void checkStructure(const Glb& glb, const RiggedCharacter& character) {
   const json& document = glb.document;
@@ -92,19 +106,29 @@ void checkStructure(const Glb& glb, const RiggedCharacter& character) {
   CHECK(roots == 1);
   CHECK(document["scenes"][0]["nodes"].size() == 2);
 
-  // Inverse bind matrix times global rest transform is the identity.
+  // Inverse bind matrix times global rest transform is the identity, and the joint's +y runs along its bone.
   const std::vector<double> inverse_bind = numbers(glb, skin["inverseBindMatrices"]);
+  const double ground = character.mesh.vertices.col(1).minCoeff();
   for (std::size_t j = 0; j < skin["joints"].size(); ++j) {
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    for (int node = skin["joints"][j]; node >= 0; node = parents[node]) {
-      CHECK_FALSE(nodes[node].contains("rotation"));
-      for (int k = 0; k < 3; ++k) at[k] += nodes[node]["translation"][k].get<double>();
+    const Eigen::Affine3d global = restTransform(nodes, parents, skin["joints"][j]);
+    const Joint& joint = character.skeleton.joints[j];
+    CHECK((global.translation() - joint.position).norm() < 1e-5);
+    const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix4d>(inverse_bind.data() + 16 * j);
+    CHECK((matrix * global.matrix() - Eigen::Matrix4d::Identity()).norm() < 1e-6);
+    int child = -1, children = 0;
+    for (std::size_t k = 0; k < skin["joints"].size(); ++k) {
+      if (character.skeleton.joints[k].parent != int(j)) continue;
+      child = int(k);
+      ++children;
     }
-    CHECK((at - character.skeleton.joints[j].position).norm() < 1e-5);
-    Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix4d>(inverse_bind.data() + 16 * j);
-    Eigen::Matrix4d global = Eigen::Matrix4d::Identity();
-    global.col(3).head<3>() = at;
-    CHECK((matrix * global - Eigen::Matrix4d::Identity()).norm() < 1e-6);
+    if (global.linear().isIdentity(1e-12)) continue;  // a clip stretches it
+    const Eigen::Vector3d y = global.linear().col(1);
+    if (children == 1) {
+      CHECK(y.dot((character.skeleton.joints[child].position - joint.position).normalized()) > .9999);
+    } else if (children == 0) {
+      const double length = (joint.position - character.skeleton.joints[joint.parent].position).norm();
+      CHECK((joint.position + length * y).y() > ground - 1e-6);
+    }
   }
 
   const json& primitive = document["meshes"][0]["primitives"][0];

@@ -107,7 +107,18 @@ TEST_CASE("GLB files that mean something else are refused with their place") {
       {[](json& d, std::string&) {
          d["nodes"][2]["rotation"] = {0, 0, 0.6, 0.8};
        },
-       "nodes[2]: the joint \"body\" is turned or scaled in the rest pose"},
+       "skins[0].inverseBindMatrices: that of \"body\" is not where its node stands"},
+      {[](json& d, std::string&) {
+         d["nodes"][2]["scale"] = {1, 2, 1};
+       },
+       "nodes[2]: the joint \"body\" is scaled in the rest pose"},
+      {[](json& d, std::string&) {
+         json& channel = d["animations"][0]["channels"][0];
+         const int output = d["animations"][0]["samplers"][channel["sampler"].get<int>()]["output"];
+         channel["target"] = {{"node", d["skins"][0]["joints"][5]}, {"path", "scale"}};
+         d["accessors"][output]["type"] = "VEC3";
+       },
+       " scales a turned joint unevenly, which is not read"},
       {[](json& d, std::string&) {
          d["nodes"][2]["translation"] = {0, 0};
        },
