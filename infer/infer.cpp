@@ -11,6 +11,7 @@
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
 #include "libskel/core/sha256.h"
+#include "libskel/deform/stretch.h"
 #include "libskel/image/read_image.h"
 #include "libskel/mesh/read_mesh.h"
 #include "libskel/pipeline/trace.h"
@@ -48,7 +49,8 @@ std::string stemOf(const std::string& path) { return fs::path(path).stem().strin
 bool isResult(const std::string& image, const std::vector<std::string>& images) {
   if (images.size() < 2) return false;
   const std::string name = fs::path(image).filename().string();
-  for (const std::string_view ending : {".overlay.png", ".silhouette.png", ".layers.png", ".mask.png"}) {
+  for (const std::string_view ending :
+       {".overlay.png", ".silhouette.png", ".layers.png", ".mask.png", ".limbs.png"}) {
     if (!name.ends_with(ending)) continue;
     const std::string stem = name.substr(0, name.size() - ending.size());
     return fs::exists(fs::path(image).replace_filename(stem + ".skeleton.json")) ||
@@ -187,6 +189,41 @@ std::vector<std::string> warningsOf(const SkeletonFile& given, const RiggedDrawi
   return warnings;
 }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+// What to say of limbs that do not move as limbs should.
+std::vector<std::string> limbWarnings(const RiggedDrawing& drawing, const SkeletonTemplate& body_plan,
+                                      const std::string& source) {
+  constexpr double kTorn = .02;  // share of the model's area that a clip stretches too far
+  std::vector<std::string> warnings, clips;
+  const std::string remedy = "; if it is drawn before the body, paint it: skel-label " + source + ", key G";
+  for (const int limb : drawing.layers.hidden)
+    warnings.push_back("the " + limbName(body_plan, limb) +
+                       " cannot be told from the body and stays with it" + remedy);
+  const RiggedCharacter& character = drawing.character;
+  std::vector<double> torn(body_plan.limbs.size(), 0);
+  for (const ClipStretch& stretch :
+       clipStretches(character.mesh, character.skeleton, character.weights, drawing.clips)) {
+    if (stretch.share < kTorn) continue;
+    clips.push_back(stretch.clip);
+    for (std::size_t k = 0; k < torn.size(); ++k)
+      for (const int joint : body_plan.limbs[k].joints)
+        if (const int j = character.skeleton.find(body_plan.joints[std::size_t(joint)].name); j >= 0)
+          torn[k] += stretch.by_joint[std::size_t(j)];
+  }
+  if (clips.empty() || torn.empty()) return warnings;
+  const auto most = std::max_element(torn.begin(), torn.end());
+  if (*most > 0)
+    warnings.push_back(joined(clips) + (clips.size() == 1 ? " pulls the " : " pull the ") +
+                       limbName(body_plan, static_cast<int>(most - torn.begin()) + 1) + " out of shape" +
+                       remedy);
+  return warnings;
+}
+
 // Rigs one figure and writes its files. Returns how many figures there are in the drawing.
 int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job, int figure,
               Outcome& outcome) {
@@ -258,7 +295,12 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
   const std::string source =
       options.figure == "all" ? job.source + ", figure " + std::to_string(figure) : job.source;
   outcome.report += source + ": " + (written.empty() ? "nothing to write" : written.front()) + line;
-  for (const std::string& warning : file.warnings) outcome.complaints += source + ": note: " + warning + "\n";
+  std::vector<std::string> notes = file.warnings;
+  if (options.model_file.empty() && rig.layers && file.confidence >= .5) {
+    const std::vector<std::string> of_limbs = limbWarnings(drawing, rig.body_plan, job.source);
+    notes.insert(notes.end(), of_limbs.begin(), of_limbs.end());
+  }
+  for (const std::string& note : notes) outcome.complaints += source + ": note: " + note + "\n";
   if (options.timings) {
     double total = 0;
     for (const StageTime& time : drawing.times) {

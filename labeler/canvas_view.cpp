@@ -86,6 +86,7 @@ void CanvasView::followDocument() {
     if (!document_.image().empty()) picture_.upload(onWhite(document_.image()));
     selected_ = -1;
     tinted_ = false;
+    tinted_limbs_.reset();
     cancel();
     fitted_ = false;
   }
@@ -123,6 +124,19 @@ void CanvasView::updateMaskTexture() {
   mask_tint_.upload(tint, Texture::Zoomed::kSquares);
 }
 
+// Each limb that lies before the body in its colour, the rest of the figure grey.
+void CanvasView::updateLimbTexture() {
+  const Plane8& mask = document_.figure().silhouette.mask;
+  const LayerMap* layers = document_.layers();
+  const Plane8 limbs = layers && layers->any() ? layers->limb : Plane8::Zero(mask.rows(), mask.cols());
+  if (tinted_limbs_ && tinted_limbs_->size() == limbs.size() && (*tinted_limbs_ == limbs).all()) return;
+  tinted_limbs_ = limbs;
+  Image tint = layerPicture({limbs}, mask);
+  for (Eigen::Index i = 0; i < tint.rgba.rows(); ++i)
+    if (tint.rgba(i, 3) != 0) tint.rgba(i, 3) = limbs.data()[i] == 0 ? 60 : 150;
+  limb_tint_.upload(tint, Texture::Zoomed::kSquares);
+}
+
 void CanvasView::draw() {
   view_corner_ = ImGui::GetCursorScreenPos();
   view_size_ = ImGui::GetContentRegionAvail();
@@ -143,7 +157,7 @@ void CanvasView::draw() {
   list->AddRectFilled(view_corner_, end, IM_COL32(222, 226, 234, 255));
   if (!document_.image().empty()) {
     drawPicture(list);
-    if (tool != Tool::kMask) drawCandidates(list);
+    if (tool != Tool::kMask && tool != Tool::kLimbs) drawCandidates(list);
     drawSkeleton(list);
     drawCursor(list, hovered);
   }
@@ -153,7 +167,7 @@ void CanvasView::draw() {
 void CanvasView::navigate(bool hovered) {
   const ImGuiIO& io = ImGui::GetIO();
   if (hovered && io.MouseWheel != 0) zoomAround(io.MousePos, std::pow(1.15, io.MouseWheel));
-  const bool right_pans = tool != Tool::kMask;
+  const bool right_pans = tool != Tool::kMask && tool != Tool::kLimbs;
   if (ImGui::IsItemActive() && (isDragging(2) || (right_pans && isDragging(1))))
     middle_px_ -= Eigen::Vector2d(io.MouseDelta.x, io.MouseDelta.y) / zoom_;
 }
@@ -170,6 +184,8 @@ void CanvasView::useTool(bool hovered) {
       return useJoints(hovered);
     case Tool::kMask:
       return useMask(hovered);
+    case Tool::kLimbs:
+      return useLimbs(hovered);
   }
 }
 
@@ -259,6 +275,23 @@ void CanvasView::useMask(bool hovered) {
   cancel();
 }
 
+void CanvasView::useLimbs(bool hovered) {
+  const Eigen::Vector2d now = imageFromScreen(ImGui::GetIO().MousePos);
+  const bool left = ImGui::IsMouseClicked(0), right = ImGui::IsMouseClicked(1);
+  const bool starts = hovered && (left || right) && !stroke_;
+  if (starts) {
+    document_.beginStep();
+    stroke_ = true;
+    stroke_limb_ = left ? active_limb : 0;
+    last_px_ = now;
+  }
+  if (!stroke_) return;
+  if (starts || now != last_px_) document_.paintLayer(last_px_, now, brush_screen_px_ / zoom_, stroke_limb_);
+  last_px_ = now;
+  if (isDragging(0) || isDragging(1)) return;
+  cancel();
+}
+
 void CanvasView::drawPicture(ImDrawList* list) {
   const Image& image = document_.image();
   const ImVec2 low = screenFromImage({-0.5, -0.5}),
@@ -269,6 +302,9 @@ void CanvasView::drawPicture(ImDrawList* list) {
   if (tool == Tool::kMask) {
     updateMaskTexture();
     list->AddImage(mask_tint_.id(), low, high);
+  } else if (tool == Tool::kLimbs && document_.figure().silhouette.found()) {
+    updateLimbTexture();
+    list->AddImage(limb_tint_.id(), low, high);
   } else {
     // Steps back behind the discs.
     list->AddRectFilled(low, high, IM_COL32(255, 255, 255, 70));
@@ -357,6 +393,11 @@ void CanvasView::drawCursor(ImDrawList* list, bool hovered) {
     const bool adds = stroke_ ? stroke_adds_ : mask_adds;
     list->AddCircle(mouse, radius, IM_COL32_WHITE, 48, 4);
     list->AddCircle(mouse, radius, adds ? IM_COL32(30, 140, 60, 255) : IM_COL32(210, 50, 40, 255), 48, 2.5f);
+  }
+  if (hovered && tool == Tool::kLimbs) {
+    const auto rgb = layerColor(stroke_ ? stroke_limb_ : active_limb);
+    list->AddCircle(mouse, radius, IM_COL32_WHITE, 48, 4);
+    list->AddCircle(mouse, radius, IM_COL32(rgb[0], rgb[1], rgb[2], 255), 48, 2.5f);
   }
   if (lassoing_) {
     std::vector<ImVec2> points;

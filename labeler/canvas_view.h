@@ -12,8 +12,8 @@
 
 namespace skel {
 
-enum class Tool { kTouch, kBrush, kLasso, kJoints, kMask };
-inline constexpr int kToolCount = 5;
+enum class Tool { kTouch, kBrush, kLasso, kJoints, kMask, kLimbs };
+inline constexpr int kToolCount = 6;
 
 class CanvasView {
  public:
@@ -34,6 +34,7 @@ class CanvasView {
 
   Tool tool = Tool::kTouch;
   JointClass active_class = JointClass::kHead;  // of brush, lasso and click
+  int active_limb = 1;    // what the left button paints (LayerMap::limb); the right one: the body
   bool mask_adds = true;  // what the left button does to the mask; the right one: the reverse
 
  private:
@@ -43,6 +44,7 @@ class CanvasView {
   void fitNow();
   void followDocument();
   void updateMaskTexture();
+  void updateLimbTexture();
   void navigate(bool hovered);
   void useTool(bool hovered);
   void useTouch(bool hovered);
@@ -50,13 +52,15 @@ class CanvasView {
   void useLasso(bool hovered);
   void useJoints(bool hovered);
   void useMask(bool hovered);
+  void useLimbs(bool hovered);
   void drawPicture(ImDrawList* list);
   void drawCandidates(ImDrawList* list);
   void drawSkeleton(ImDrawList* list);
   void drawCursor(ImDrawList* list, bool hovered);
 
   Document& document_;
-  Texture picture_, mask_tint_;
+  Texture picture_, mask_tint_, limb_tint_;
+  std::optional<Plane8> tinted_limbs_;  // limb_tint_ shows these; nothing: those of another drawing
   int shown_item_ = -1;
   bool tinted_ = false;                             // mask_tint_ is of this drawing
   std::shared_ptr<const MaskVersion> tinted_mask_;  // and of this mask
@@ -73,6 +77,7 @@ class CanvasView {
   int dragged_joint_ = -1;
   bool stroke_ = false;      // a step of the document is open
   bool stroke_adds_ = true;  // of a stroke on the mask
+  int stroke_limb_ = 0;      // of a stroke on the limbs
   Eigen::Vector2d last_px_ = Eigen::Vector2d::Zero();
   Polygon lasso_;
   bool lassoing_ = false;

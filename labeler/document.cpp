@@ -196,7 +196,10 @@ bool isInside(const Eigen::Vector2d& p, const Polygon& polygon) {
 bool DrawingState::operator==(const DrawingState& other) const {
   const bool same_mask = mask == other.mask || (mask && other.mask && mask->file == other.mask->file &&
                                                 (mask->pixels == other.mask->pixels).all());
-  return same_mask && labels == other.labels && joints == other.joints;
+  const bool same_layers =
+      layers == other.layers || (layers && other.layers && layers->limb.size() == other.layers->limb.size() &&
+                                 (layers->limb == other.layers->limb).all());
+  return same_mask && same_layers && labels == other.labels && joints == other.joints;
 }
 
 // Makes an action a step of its own unless one is open.
@@ -278,6 +281,7 @@ void Document::load(int item) {
   state_ = {};
   state_.joints.resize(options_.body_plan.joints.size());
   opened_mask_ = saved_mask_ = nullptr;
+  saved_layers_ = nullptr;
   rigged_.reset();
   message_.clear();
   try {
@@ -289,6 +293,7 @@ void Document::load(int item) {
     // What cannot be read must not be written over: nothing can be done here.
     image_ = {};
     state_.mask = nullptr;
+    state_.layers = nullptr;
     state_.labels.clear();
     state_.joints.assign(options_.body_plan.joints.size(), std::nullopt);
     figure_ = std::make_shared<Figure>();
@@ -353,6 +358,10 @@ void Document::loadDrawing() {
           PlacedJoint{joint.image, joint.confidence, joint.origin};
   }
   if (motion_file_) state_.joints = motion_file_->frames[static_cast<size_t>(current_)].joints;
+  if (!motion_file_ && figure_->silhouette.found() && fs::is_regular_file(files.layers)) {
+    state_.layers = saved_layers_ = std::make_shared<LayerMap>(
+        layersOfPicture(readImage(files.layers), figure_->silhouette, options_.body_plan, files.layers));
+  }
 }
 
 void Document::loadSkeletonsMask() {
@@ -507,6 +516,41 @@ void Document::forgetMask() {
   if (replaceMask(nullptr)) message_ = "the figure is found in the picture again";
 }
 
+void Document::paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px,
+                          int limb) {
+  if (image_.empty() || !figure_->silhouette.found()) return;
+  if (motion_file_) {
+    message_ = "limbs before the body are painted in drawings, not in motions";
+    return;
+  }
+  const StepScope scope(*this);
+  const Plane8& mask = figure_->silhouette.mask;
+  auto map = std::make_shared<LayerMap>();
+  if (const LayerMap* known = layers(); known && known->any())
+    map->limb = known->limb;
+  else
+    map->limb = Plane8::Zero(mask.rows(), mask.cols());
+  const bool changed = paintLine(map->limb, from_px, to_px, radius_px, static_cast<std::uint8_t>(limb));
+  map->limb = (mask != 0).select(map->limb, 0);
+  if (!changed) return;
+  state_.layers = std::move(map);
+  rigged_.reset();
+  message_ = limb == 0 ? "that is the body" : limbName(options_.body_plan, limb) + ": before the body";
+}
+
+void Document::forgetLayers() {
+  if (!state_.layers) return;
+  const StepScope scope(*this);
+  state_.layers = nullptr;
+  rigged_.reset();
+  message_ = "limbs before the body are found in the picture again";
+}
+
+const LayerMap* Document::layers() const {
+  if (state_.layers) return state_.layers.get();
+  return rigged_ ? &rigged_->layers : nullptr;
+}
+
 void Document::rig() {
   if (image_.empty()) return;
   try {
@@ -520,6 +564,8 @@ void Document::rigOrThrow() {
   RigInput input;
   input.image = image_;
   if (state_.mask) input.mask = state_.mask->pixels;
+  if (state_.layers)
+    input.layers = {layerPicture(*state_.layers, figure_->silhouette.mask), item().files.layers};
   RigOptions options;
   options.mlp = options_.mlp;
   options.body_plan = options_.body_plan;
@@ -570,12 +616,13 @@ bool Document::travel(std::deque<Step>& from, std::deque<Step>& to, DrawingState
   const Step step = std::move(from.back());
   from.pop_back();
   const bool same_mask = sameFile(state_.mask.get(), (step.*target).mask.get());
-  const bool same_joints = state_.joints == (step.*target).joints;
+  const bool same_rig =
+      same_mask && state_.joints == (step.*target).joints && state_.layers == (step.*target).layers;
   const auto mask = same_mask ? state_.mask : (step.*target).mask;
   state_ = step.*target;
   state_.mask = mask;
   if (!same_mask) figure_ = figureOf(image_, state_.mask.get(), figureNumber(), options_.mlp);
-  if (!same_mask || !same_joints) rigged_.reset();
+  if (!same_rig) rigged_.reset();
   message_ = &from == &undo_ ? "undone" : "done again";
   to.push_back(step);
   count();
@@ -602,6 +649,7 @@ void Document::save() {
 
 void Document::writeFiles() {
   const DrawingFiles& files = item().files;
+  writeLayers();
   if (skeleton_file_) writeSkeletonFile();
   if (motion_file_) writeMotionFile();
   if (skeleton_file_ || motion_file_) {
@@ -669,6 +717,16 @@ void Document::writeSkeletonFile() {
                   [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; }))
     file.warnings.clear();
   writeFile(path_, formatSkeletonFile(file));
+}
+
+void Document::writeLayers() {
+  if (state_.layers == saved_layers_) return;
+  const std::string& path = item().files.layers;
+  if (state_.layers)
+    writeFile(path, encodePng(layerPicture(*state_.layers, figure_->silhouette.mask)));
+  else
+    removeFile(path);
+  saved_layers_ = state_.layers;
 }
 
 void Document::writeMotionFile() {

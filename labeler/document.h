@@ -14,6 +14,7 @@
 #include "libskel/candidates/candidates.h"
 #include "libskel/classifier/mlp.h"
 #include "libskel/image/image.h"
+#include "libskel/layers/layer_map.h"
 #include "libskel/pipeline/rig_character.h"
 #include "libskel/silhouette/silhouette.h"
 #include "libskel/skeleton/motion_file.h"
@@ -46,6 +47,7 @@ struct DrawingState {
   std::shared_ptr<const MaskVersion> mask;         // null: the figure is found in the picture
   std::vector<std::optional<JointClass>> labels;   // one a candidate (CandidateSet::maxima)
   std::vector<std::optional<PlacedJoint>> joints;  // one a joint of the template
+  std::shared_ptr<const LayerMap> layers;          // painted by hand; null: found in the picture
 
   bool operator==(const DrawingState&) const;
 };
@@ -105,6 +107,13 @@ class Document {
   void paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px, bool add);
   // The figure is found in the picture again.
   void forgetMask();
+  // Says that pixels of the figure belong to a limb that lies before the body (LayerMap::limb; 0: to the
+  // body), along a line with a round brush. The first stroke starts from what rig() has found.
+  void paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px, int limb);
+  // Limbs before the body are found in the picture again.
+  void forgetLayers();
+  // Those painted, else those of the last rig(); null: not looked for yet.
+  const LayerMap* layers() const;
   // Recognises the joints anew, but for those that a person has placed, and builds the model. Says why where
   // that cannot be done.
   void rig();
@@ -154,6 +163,7 @@ class Document {
   int figureNumber() const;  // of the drawing, as the skeleton file says
   void writeSkeletonFile();
   void writeMotionFile();
+  void writeLayers();
   void count();
 
   DocumentOptions options_;
@@ -170,6 +180,7 @@ class Document {
   std::set<std::string> given_masks_;               // mask files that were there before
   std::shared_ptr<const MaskVersion> opened_mask_;  // of the current drawing when it was opened
   std::shared_ptr<const MaskVersion> saved_mask_;   // beside the drawing
+  std::shared_ptr<const LayerMap> saved_layers_;    // the same
   std::optional<OpenStep> open_step_;
   std::deque<Step> undo_, redo_;
   std::string message_, save_problem_;

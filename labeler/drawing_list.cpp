@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 bool isDrawing(const fs::path& path) {
   std::string name = path.filename().string();
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-  for (const char* other : {".mask.png", ".silhouette.png", ".overlay.png"})
+  for (const char* other : {".mask.png", ".limbs.png", ".layers.png", ".silhouette.png", ".overlay.png"})
     if (name.ends_with(other)) return false;
   if (name == "mask.png") return false;
   for (const char* ending : {".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tif", ".tiff", ".gif"})
@@ -26,7 +26,8 @@ bool isDrawing(const fs::path& path) {
 }  // namespace
 
 DrawingFiles drawingFiles(const std::string& image, const std::string& name) {
-  return {name, image, labelFileFor(image), fs::path(image).replace_extension().string() + ".mask.png"};
+  const std::string stem = fs::path(image).replace_extension().string();
+  return {name, image, labelFileFor(image), stem + ".mask.png", stem + ".limbs.png"};
 }
 
 std::optional<std::string> givenMask(const DrawingFiles& files) {

@@ -11,7 +11,8 @@ struct DrawingFiles {
   std::string name;   // below the folder
   std::string image;  // paths
   std::string labels;
-  std::string mask;  // <stem>.mask.png: where a mended mask is saved
+  std::string mask;    // <stem>.mask.png: where a mended mask is saved
+  std::string layers;  // <stem>.limbs.png: where a painted layer map is saved
 };
 
 // A mask that lies beside the drawing: <stem>.mask.png, or mask.png beside image.png and texture.png.
@@ -20,8 +21,8 @@ std::optional<std::string> givenMask(const DrawingFiles& files);
 DrawingFiles drawingFiles(const std::string& image, const std::string& name);
 
 // Pictures at any depth below `dir`, by name; not masks and what skel-infer writes (mask.png,
-// <stem>.mask.png, .silhouette.png, .overlay.png). Throws InputError: no folder, no picture in it, two
-// pictures that would share a label file.
+// <stem>.mask.png, .limbs.png, .layers.png, .silhouette.png, .overlay.png). Throws InputError: no folder, no
+// picture in it, two pictures that would share a label file.
 std::vector<DrawingFiles> findDrawings(const std::string& dir);
 
 }  // namespace skel

@@ -15,11 +15,15 @@ namespace skel {
 namespace {
 
 constexpr float kListWidth = 220, kPanelWidth = 270, kStatusHeight = 46, kButtonHeight = 44;
-constexpr const char* kToolNames[kToolCount] = {"Touch", "Brush", "Lasso", "Joints", "Mask"};
-constexpr const char* kToolKeys[kToolCount] = {"V", "B", "L", "J", "M"};
+constexpr const char* kToolNames[kToolCount] = {"Touch", "Brush", "Lasso", "Joints", "Mask", "Limbs"};
+constexpr const char* kToolKeys[kToolCount] = {"V", "B", "L", "J", "M", "G"};
 constexpr const char* kToolHelp[kToolCount] = {
-    "Point at a disc, press 1 to 4", "Paint over discs in the chosen class", "Draw a line around discs",
-    "Drag joints to their place", "Left adds to the figure, right erases"};
+    "Point at a disc, press 1 to 4",
+    "Paint over discs in the chosen class",
+    "Draw a line around discs",
+    "Drag joints to their place",
+    "Left adds to the figure, right erases",
+    "Paint limbs that lie before the body; right: that is the body"};
 
 constexpr struct {
   const char *keys, *what;
@@ -36,6 +40,7 @@ constexpr struct {
     {"Shift R", "forget all joints and rig"},
     {"C", "of a motion: joints as in the frame before"},
     {"M", "mend the mask: left button adds, right button erases"},
+    {"G", "paint which limbs lie before the body; 1 to 4 choose the limb, 0 the body"},
     {"X", "swap adding and erasing"},
     {"[  ]", "smaller, larger brush"},
     {"Ctrl Z", "undo"},
@@ -109,10 +114,16 @@ class LabelingWindow {
     if (pressed(key::kH) || pressed(key::kSlash) || pressed(key::kF1)) help_ = !help_;
     if (pressed(key::kEscape)) help_ = false;
     const key::Code class_keys[] = {key::k1, key::k2, key::k3, key::k4};
-    for (int c = 0; c < kJointClassCount; ++c)
-      if (pressed(class_keys[c])) chooseClass(static_cast<JointClass>(c), true);
-    if (pressed(key::k0) || pressed(key::kDelete) || pressed(key::kBackspace)) labelSelected(std::nullopt);
-    const key::Code tool_keys[] = {key::kV, key::kB, key::kL, key::kJ, key::kM};
+    if (canvas_.tool == Tool::kLimbs) {
+      for (int limb = 1; limb <= std::min(limbCount(), 4); ++limb)
+        if (pressed(class_keys[limb - 1])) canvas_.active_limb = limb;
+      if (pressed(key::k0)) canvas_.active_limb = 0;
+    } else {
+      for (int c = 0; c < kJointClassCount; ++c)
+        if (pressed(class_keys[c])) chooseClass(static_cast<JointClass>(c), true);
+      if (pressed(key::k0) || pressed(key::kDelete) || pressed(key::kBackspace)) labelSelected(std::nullopt);
+    }
+    const key::Code tool_keys[] = {key::kV, key::kB, key::kL, key::kJ, key::kM, key::kG};
     for (int t = 0; t < kToolCount; ++t)
       if (pressed(tool_keys[t])) chooseTool(static_cast<Tool>(t));
     if (pressed(key::kN) || pressed(key::kTab)) nextUnsure();
@@ -148,7 +159,11 @@ class LabelingWindow {
   void chooseTool(Tool tool) {
     canvas_.cancel();
     canvas_.tool = tool;
+    // What is found is what is mended.
+    if (tool == Tool::kLimbs && !document_.layers()) document_.rig();
   }
+
+  int limbCount() const { return static_cast<int>(document_.bodyPlan().limbs.size()); }
 
   void chooseClass(JointClass joint_class, bool label_too) {
     canvas_.active_class = joint_class;
@@ -274,13 +289,22 @@ class LabelingWindow {
         chooseTool(static_cast<Tool>(t));
       tip((std::string(kToolHelp[t]) + "  (key " + kToolKeys[t] + ")").c_str());
     }
-    ImGui::SameLine(0, 24);
+    if (canvas_.tool != Tool::kLimbs) ImGui::SameLine(0, 24);
     if (canvas_.tool == Tool::kMask) {
       if (colorButton("Add", {100, kButtonHeight}, {30, 140, 60}, canvas_.mask_adds))
         canvas_.mask_adds = true;
       ImGui::SameLine();
       if (colorButton("Erase", {100, kButtonHeight}, {210, 50, 40}, !canvas_.mask_adds))
         canvas_.mask_adds = false;
+    } else if (canvas_.tool == Tool::kLimbs) {
+      for (int limb = 0; limb <= limbCount(); ++limb) {
+        if (limb > 0) ImGui::SameLine();
+        const std::string name = limb == 0 ? "body" : limbName(document_.bodyPlan(), limb);
+        const auto rgb = layerColor(limb);
+        if (colorButton((std::to_string(limb) + " " + name).c_str(), {112, kButtonHeight},
+                        {rgb[0], rgb[1], rgb[2]}, canvas_.active_limb == limb))
+          canvas_.active_limb = limb;
+      }
     } else {
       for (int c = 0; c < kJointClassCount; ++c) {
         if (c > 0) ImGui::SameLine();
@@ -340,7 +364,8 @@ class LabelingWindow {
           [&] { takeJointsOfFrameBefore(); }, "C");
     bool moving = false;
     if (document_.rigged()) {
-      const float room = ImGui::GetContentRegionAvail().y - (document_.state().mask ? kButtonHeight + 12 : 0);
+      const float room = ImGui::GetContentRegionAvail().y -
+                         (document_.state().mask || document_.state().layers ? kButtonHeight + 12 : 0);
       moving = preview_.draw(*document_.rigged(), width, std::clamp(room, 120.f, 1.25f * width));
     }
     if (canvas_.tool == Tool::kMask && document_.state().mask)
@@ -351,6 +376,15 @@ class LabelingWindow {
             document_.forgetMask();
           },
           "Find the figure in the picture again");
+    if (canvas_.tool == Tool::kLimbs && document_.state().layers)
+      enabledButton(
+          "Limbs from the picture", {width, kButtonHeight}, true,
+          [&] {
+            canvas_.cancel();
+            document_.forgetLayers();
+            document_.rig();
+          },
+          "Find the limbs before the body in the picture again");
     ImGui::EndChild();
     return moving;
   }

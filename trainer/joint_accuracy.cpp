@@ -3,13 +3,15 @@
 #include <algorithm>
 
 #include "libskel/core/parallel.h"
+#include "libskel/core/progress.h"
 #include "libskel/image/read_image.h"
 #include "libskel/recognition/tree_recognition.h"
 
 namespace skel {
 
-JointAccuracy jointAccuracy(const std::vector<JointedDrawing>& drawings, const JointNet& net,
-                            const SkeletonTemplate& body_plan, int threads) {
+std::vector<JointAccuracy> jointAccuracies(const std::vector<JointedDrawing>& drawings, const JointNet& net,
+                                           const SkeletonTemplate& body_plan, int threads) {
+  ProgressBar bar("measuring", drawings.size());
   std::vector<JointAccuracy> each(drawings.size());
   parallelFor(drawings.size(), threads, [&](std::size_t i) {
     const Image image = readImage(drawings[i].image);
@@ -29,14 +31,20 @@ JointAccuracy jointAccuracy(const std::vector<JointedDrawing>& drawings, const J
       if (error > .15) sum.usable = 0;
     }
     each[i] = {sum.within_5 / std::max(count, 1), sum.within_10 / std::max(count, 1), sum.usable};
+    bar.advance();
   });
-  JointAccuracy mean;
-  for (const JointAccuracy& a : each) {
-    mean.within_5 += a.within_5 / static_cast<double>(each.size());
-    mean.within_10 += a.within_10 / static_cast<double>(each.size());
-    mean.usable += a.usable / static_cast<double>(each.size());
+  return each;
+}
+
+JointAccuracy mean(const std::vector<JointAccuracy>& accuracies) {
+  JointAccuracy sum;
+  for (const JointAccuracy& a : accuracies) {
+    sum.within_5 += a.within_5;
+    sum.within_10 += a.within_10;
+    sum.usable += a.usable;
   }
-  return mean;
+  const auto count = static_cast<double>(accuracies.size());
+  return {sum.within_5 / count, sum.within_10 / count, sum.usable / count};
 }
 
 }  // namespace skel

@@ -9,14 +9,16 @@
 
 namespace skel {
 
-// Means over the drawings; errors relative to the long side of the figure's box.
+// Of one drawing, or the mean over several; errors relative to the long side of the figure's box.
 struct JointAccuracy {
   double within_5 = 0, within_10 = 0;  // share of the joints within 5 %, 10 %
   double usable = 0;                   // share of the drawings with every joint within 15 %
 };
 
-// By the whole recognition, as skel-infer does it.
-JointAccuracy jointAccuracy(const std::vector<JointedDrawing>& drawings, const JointNet& net,
-                            const SkeletonTemplate& body_plan, int threads);
+// Of each drawing, by the whole recognition, as skel-infer does it; with a progress bar.
+std::vector<JointAccuracy> jointAccuracies(const std::vector<JointedDrawing>& drawings, const JointNet& net,
+                                           const SkeletonTemplate& body_plan, int threads);
+
+JointAccuracy mean(const std::vector<JointAccuracy>& accuracies);
 
 }  // namespace skel

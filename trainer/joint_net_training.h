@@ -31,10 +31,11 @@ struct JointTrainingOptions {
   double no_colours_share = .2;       // of the others: those that show only their lines
   std::vector<std::string> drawings;  // folders of drawings with joints, see findJointedDrawings()
   std::optional<double> drawn_share;  // of figures that come from them
-  std::optional<double> left_out;     // share of the drawings that only measure, before and after
-  std::vector<int> held_back;         // body kinds not trained on
-  int threads = 0;                    // 0: one a core. The result does not depend on it.
-  int report_every = 500;             // steps
+  int hard_copies = 1;             // how often a drawing counts of which `start` gets a joint wrong by 10 %
+  std::optional<double> left_out;  // share of the drawings that only measure, before and after
+  std::vector<int> held_back;      // body kinds not trained on
+  int threads = 0;                 // 0: one a core. The result does not depend on it.
+  int report_every = 500;          // steps
   int validation_figures = 1000;
 };
 

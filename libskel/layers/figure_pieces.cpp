@@ -351,14 +351,15 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
 }
 
 std::vector<int> jointLayers(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
-                             const TriangleMesh& mesh) {
+                             const TriangleMesh& mesh, const LayerMap& map) {
   std::vector<int> layers(skeleton.joints.size(), 0);
   for (std::size_t k = 0; k < body_plan.limbs.size(); ++k) {
-    const int layer = static_cast<int>(k) + 1;
-    if (!(mesh.layer.array() == layer).any()) continue;
+    const int limb = static_cast<int>(k) + 1;
+    const bool hidden = std::find(map.hidden.begin(), map.hidden.end(), limb) != map.hidden.end();
+    if (!hidden && !(mesh.layer.array() == limb).any()) continue;
     for (const int joint : body_plan.limbs[k].joints)
       if (const int found = skeleton.find(body_plan.joints[static_cast<std::size_t>(joint)].name); found >= 0)
-        layers[static_cast<std::size_t>(found)] = layer;
+        layers[static_cast<std::size_t>(found)] = hidden ? -1 : limb;
   }
   return layers;
 }

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "libskel/layers/layer_map.h"
 #include "libskel/layers/mask_parts.h"
@@ -22,6 +23,8 @@ constexpr double kAboutBones = 0.7;    // that hold the bones
 constexpr double kLeastSeen = 0.7;     // of a limb: more of it hidden by others, and it is left to the body
 constexpr double kCutOff = 0.3;        // of a limb's area: larger parts that it cuts off stay the body's
 constexpr double kClearer = 1.6;       // the edges are, than what lies between them
+constexpr double kGrown = 0.6;         // in contact with the body, of a limb that is hidden
+constexpr double kSure = 0.75;         // confidence in the end of a limb that is not hidden
 
 LookGrid lookGrid(const Image& image, const Silhouette& silhouette) {
   LookGrid look;
@@ -82,6 +85,29 @@ bool standsOut(const Ribbon& ribbon) {
   }
   if (ribbon.about_bones < kAboutBones || contact == 0 || contact < kLeastContact * sections) return false;
   return drawn >= kLeastDrawn * contact && strength / contact >= kClearer * ribbon.inside_strength;
+}
+
+bool cross(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
+  const auto side = [](const Vector2d& p, const Vector2d& q, const Vector2d& r) {
+    return (q - p).x() * (r - p).y() - (q - p).y() * (r - p).x();
+  };
+  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+}
+
+// Whether nearly all of it is against the body: no section ends at the outline on both sides, or it has taken
+// the body for a part of it. `spine`: the joints that it hangs on, up to the root, grid px.
+bool grownToBody(const Ribbon& ribbon, const std::vector<Vector2d>& spine) {
+  int sections = 0, grown = 0;
+  for (std::size_t s = 0; s < ribbon.sections.size(); ++s) {
+    if (static_cast<double>(s) < ribbon.root_radius) continue;
+    ++sections;
+    const Ribbon::Section& section = ribbon.sections[s];
+    bool against = section.left_side != BandSide::kOutline || section.right_side != BandSide::kOutline;
+    for (std::size_t k = 0; k + 1 < spine.size(); ++k)
+      against = against || cross(section.left, section.right, spine[k], spine[k + 1]);
+    grown += against;
+  }
+  return sections > 0 && grown >= kGrown * sections;
 }
 
 void fillTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, Plane8& mask) {
@@ -147,8 +173,35 @@ double strengthWithin(const Limb& limb, const Limb& other, const LookGrid& look)
   return count ? sum / count : 0;
 }
 
-// Parts that the limbs cut off from the body go with a limb where they reach the outline: a thumb, the end of
-// a shoe. Parts with joints of others in them, and large ones without any, stay the body's.
+// Grows the limbs into pixels that are `kFree`, each to the nearest, by steps to the four sides.
+constexpr std::uint8_t kFree = 255;
+void growInto(Plane8& limbs) {
+  std::vector<Eigen::Index> front;
+  const Eigen::Index columns = limbs.cols();
+  const auto eachBeside = [&](Eigen::Index i, const auto& see) {
+    if (i % columns > 0) see(i - 1);
+    if (i % columns + 1 < columns) see(i + 1);
+    if (i >= columns) see(i - columns);
+    if (i + columns < limbs.size()) see(i + columns);
+  };
+  for (Eigen::Index i = 0; i < limbs.size(); ++i)
+    if (limbs.data()[i] == kFree)
+      eachBeside(i, [&](Eigen::Index k) {
+        if (limbs.data()[k] != 0 && limbs.data()[k] != kFree) front.push_back(k);
+      });
+  for (std::size_t next = 0; next < front.size(); ++next) {
+    const std::uint8_t limb = limbs.data()[front[next]];
+    eachBeside(front[next], [&](Eigen::Index k) {
+      if (limbs.data()[k] != kFree) return;
+      limbs.data()[k] = limb;
+      front.push_back(k);
+    });
+  }
+}
+
+// Parts that the limbs cut off from the body go with them where they reach the outline: a thumb, the end of a
+// shoe, the rim of two shoes that touch. Parts with joints of others in them, and large ones without any,
+// stay the body's.
 void takeWhatIsCutOff(const Plane8& figure, const Skeleton& skeleton, const std::vector<int>& limb_of_joint,
                       Plane8& limbs) {
   const PixelBox box = figureBox(figure);
@@ -183,21 +236,21 @@ void takeWhatIsCutOff(const Plane8& figure, const Skeleton& skeleton, const std:
   if (cut_off.empty()) return;
   std::array<std::int64_t, 256> areas{};
   for (int i = 0; i < limbs.size(); ++i) ++areas[limbs.data()[i]];
-  std::map<int, std::uint8_t> taken;
+  std::set<int> taken;
   for (const auto& [number, part] : cut_off) {
     const auto limb = static_cast<std::size_t>(std::max_element(part.beside.begin(), part.beside.end()) -
                                                part.beside.begin());
     bool others = false;
     for (std::size_t k = 0; k < part.joints_of.size(); ++k)
-      others = others || (k != limb && part.joints_of[k]);
+      others = others || (part.beside[k] == 0 && part.joints_of[k]);
     const bool large = static_cast<double>(parts.size[static_cast<std::size_t>(number)]) >
                        kCutOff * static_cast<double>(areas[limb]);
-    if (part.at_outline && !others && (!large || part.joints_of[limb]))
-      taken[number] = static_cast<std::uint8_t>(limb);
+    if (part.at_outline && !others && (!large || part.joints_of[limb])) taken.insert(number);
   }
   for (const MaskParts::Run& run : parts.runs)
-    if (const auto limb = taken.find(run.part); limb != taken.end())
-      limbs.row(run.y + box.y0).segment(run.x0 + box.x0, run.x1 - run.x0).setConstant(limb->second);
+    if (taken.contains(run.part))
+      limbs.row(run.y + box.y0).segment(run.x0 + box.x0, run.x1 - run.x0).setConstant(kFree);
+  growInto(limbs);
 }
 
 }  // namespace
@@ -205,23 +258,33 @@ void takeWhatIsCutOff(const Plane8& figure, const Skeleton& skeleton, const std:
 LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
                     const SkeletonTemplate& body_plan) {
   const LookGrid look = lookGrid(image, silhouette);
-  std::vector<Limb> limbs(std::min<std::size_t>(body_plan.limbs.size(), 255));
+  std::vector<Limb> limbs(std::min<std::size_t>(body_plan.limbs.size(), kFree - 1));
   std::vector<int> limb_of_joint(skeleton.joints.size(), 0);
   bool any = false;
+  LayerMap map;
   for (std::size_t k = 0; k < limbs.size(); ++k) {
     std::vector<Vector2d> bones;
+    std::vector<Vector2d> spine;
+    double confidence = 0;  // of the last joint
     for (const int joint : body_plan.limbs[k].joints) {
       const int found = skeleton.find(body_plan.joints[static_cast<std::size_t>(joint)].name);
       if (found < 0) break;
       limb_of_joint[static_cast<std::size_t>(found)] = static_cast<int>(k) + 1;
       bones.push_back(look.fromImage(skeleton.joints[static_cast<std::size_t>(found)].image));
+      confidence = skeleton.joints[static_cast<std::size_t>(found)].confidence;
+      for (int up = skeleton.joints[static_cast<std::size_t>(found)].parent; up >= 0 && bones.size() == 1;
+           up = skeleton.joints[static_cast<std::size_t>(up)].parent)
+        spine.push_back(look.fromImage(skeleton.joints[static_cast<std::size_t>(up)].image));
     }
     if (bones.size() < body_plan.limbs[k].joints.size()) continue;
     limbs[k].ribbon = findRibbon(look, bones);
     limbs[k].layer = standsOut(limbs[k].ribbon);
-    if (limbs[k].layer) drawLimb(look, silhouette.mask, limbs[k]), any = true;
+    if (limbs[k].layer)
+      drawLimb(look, silhouette.mask, limbs[k]), any = true;
+    else if (body_plan.limbs[k].limb_class == JointClass::kHand && confidence < kSure &&
+             grownToBody(limbs[k].ribbon, spine))
+      map.hidden.push_back(static_cast<int>(k) + 1);
   }
-  LayerMap map;
   if (!any) return map;
   for (std::size_t a = 0; a < limbs.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {

@@ -1,6 +1,8 @@
 // Which limb each pixel of a drawing belongs to.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,9 @@ struct LayerMap {
   // Of the image's size: 0 outside of the figure, on its trunk and its head, else the limb, numbered from 1
   // in the template's order. Empty: one skin.
   Plane8 limb;
+  // Arms of which nothing is seen: no layer, against the rest of the figure all along, and the net is unsure
+  // where they end. They would only tear the body; its pixels stay with it, and these limbs move nothing.
+  std::vector<int> hidden = {};
 
   bool any() const { return limb.size() != 0; }
 };
@@ -34,9 +39,15 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
                                       const Skeleton& skeleton, const SkeletonTemplate& body_plan);
 
 // Of each joint of the skeleton, the layer whose vertices it moves: that of the limb it belongs to, if the
-// mesh has it, else 0.
+// mesh has it, -1 (none) if it is hidden, else 0.
 std::vector<int> jointLayers(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
-                             const TriangleMesh& mesh);
+                             const TriangleMesh& mesh, const LayerMap& layers = {});
+
+// The colour of a limb in such pictures; grey for 0.
+std::array<std::uint8_t, 3> layerColor(int limb);
+
+// "left arm" for a limb that ends in left_hand, "right hind leg" for one that ends in right_hind_foot.
+std::string limbName(const SkeletonTemplate& body_plan, int limb);
 
 // As a picture, one colour a limb: the figure's other pixels grey, the rest clear.
 Image layerPicture(const LayerMap& layers, const Plane8& mask);

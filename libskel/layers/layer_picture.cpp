@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <sstream>
+#include <utility>
 
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
@@ -10,16 +12,24 @@ namespace skel {
 namespace {
 
 using Rgb = std::array<std::uint8_t, 3>;
-constexpr Rgb kBody = {150, 150, 150};
 
-// Far apart for the first limbs; no two alike, none grey.
-Rgb colorOf(int limb) {
-  constexpr Rgb kFirst[] = {{230, 60, 60}, {50, 110, 230}, {240, 160, 30}, {40, 170, 80}};
-  if (limb <= 4) return kFirst[limb - 1];
+}  // namespace
+
+// Far apart for the first limbs; no two alike.
+Rgb layerColor(int limb) {
+  constexpr Rgb kFirst[] = {{150, 150, 150}, {230, 60, 60}, {50, 110, 230}, {240, 160, 30}, {40, 170, 80}};
+  if (limb <= 4) return kFirst[limb];
   return {static_cast<std::uint8_t>(limb), static_cast<std::uint8_t>(255 - limb / 2), 255};
 }
 
-}  // namespace
+std::string limbName(const SkeletonTemplate& body_plan, int limb) {
+  const int end = body_plan.limbs[static_cast<std::size_t>(limb) - 1].joints[2];
+  std::string name = body_plan.joints[static_cast<std::size_t>(end)].name;
+  std::replace(name.begin(), name.end(), '_', ' ');
+  for (const auto& [tip, whole] : {std::pair("hand", "arm"), std::pair("foot", "leg")})
+    if (name.ends_with(tip)) name.replace(name.size() - 4, 4, whole);
+  return name;
+}
 
 Image layerPicture(const LayerMap& layers, const Plane8& mask) {
   const auto width = static_cast<int>(mask.cols()), height = static_cast<int>(mask.rows());
@@ -29,7 +39,7 @@ Image layerPicture(const LayerMap& layers, const Plane8& mask) {
     for (int x = 0; x < width; ++x) {
       if (mask(y, x) == 0) continue;
       const int limb = layers.any() ? layers.limb(y, x) : 0;
-      const Rgb color = limb == 0 ? kBody : colorOf(limb);
+      const Rgb color = layerColor(limb);
       std::copy(color.begin(), color.end(), picture.pixel(x, y));
       picture.pixel(x, y)[3] = 255;
     }
@@ -54,7 +64,7 @@ LayerMap layersOfPicture(const Image& picture, const Silhouette& silhouette,
       if (p[3] < 128 || grey || mask(y, x) == 0) continue;
       int limb = 0;
       for (int k = 1; k <= static_cast<int>(body_plan.limbs.size()) && limb == 0; ++k)
-        if (colorOf(k) == Rgb{p[0], p[1], p[2]}) limb = k;
+        if (layerColor(k) == Rgb{p[0], p[1], p[2]}) limb = k;
       if (limb == 0) {
         std::ostringstream text;
         text << "pixel (" << x << ", " << y << ") has the colour (" << int(p[0]) << ", " << int(p[1]) << ", "

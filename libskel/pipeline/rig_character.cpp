@@ -168,9 +168,13 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   std::vector<FigurePiece> pieces;
   if (inflated && options.layers) {
     drawing.layers = timed("layers", [&] {
-      if (input.layers)
-        return layersOfPicture(input.layers->image, silhouette, options.body_plan, input.layers->file);
-      return findLayers(drawing.image, silhouette, skeleton, options.body_plan);
+      LayerMap found = findLayers(drawing.image, silhouette, skeleton, options.body_plan);
+      if (!input.layers) return found;
+      LayerMap given =
+          layersOfPicture(input.layers->image, silhouette, options.body_plan, input.layers->file);
+      for (const int limb : found.hidden)
+        if (!(given.limb == limb).any()) given.hidden.push_back(limb);
+      return given;
     });
     pieces = timed("pieces",
                    [&] { return figurePieces(drawing.layers, silhouette, skeleton, options.body_plan); });
@@ -182,7 +186,8 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     return std::move(*input.model);
   });
   std::vector<int> joint_layers;
-  if (!pieces.empty()) joint_layers = jointLayers(skeleton, options.body_plan, drawing.character.mesh);
+  if (!pieces.empty() || !drawing.layers.hidden.empty())
+    joint_layers = jointLayers(skeleton, options.body_plan, drawing.character.mesh, drawing.layers);
   drawing.recognition.skeleton = timed("lift", [&] {
     Skeleton lifted = drawing.recognition.skeleton;
     liftToModel(lifted, drawing.character.mesh, joint_layers);

@@ -46,7 +46,9 @@ void liftToModel(Skeleton& skeleton, const TriangleMesh& mesh, const std::vector
     Joint& joint = skeleton.joints[j];
     const Vector2d p = mesh.model_from_image(joint.image);
     joint.position = {p.x(), p.y(),
-                      mesh.vertices.rows() ? middleDepth(mesh, p, layers.empty() ? kAll : layers[j]) : 0};
+                      mesh.vertices.rows()
+                          ? middleDepth(mesh, p, mesh.layer.size() == 0 || layers.empty() ? kAll : layers[j])
+                          : 0};
   }
 }
 

@@ -130,10 +130,21 @@ JointWeights meshWeights(const TriangleMesh& mesh, const Skeleton& skeleton, con
   return weights;
 }
 
+std::vector<Bone> bonesOfLayer(const std::vector<Bone>& bones, const std::vector<int>& joint_layers,
+                               int layer) {
+  std::vector<Bone> own;
+  for (const Bone& bone : bones)
+    if (joint_layers[static_cast<std::size_t>(bone.joint)] == layer) own.push_back(bone);
+  SKEL_CHECK(!own.empty());
+  return own;
+}
+
 // The bodies of the mesh one by one.
 JointWeights layerWeights(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<Bone>& bones,
                           const Method& way, const SkinOptions& options,
                           const std::vector<int>& joint_layers) {
+  if (mesh.layer.size() == 0)
+    return meshWeights(mesh, skeleton, bonesOfLayer(bones, joint_layers, 0), way, options);
   JointWeights weights =
       JointWeights::Zero(mesh.vertices.rows(), static_cast<Eigen::Index>(skeleton.joints.size()));
   for (int layer = 0; layer <= mesh.layer.maxCoeff(); ++layer) {
@@ -155,11 +166,8 @@ JointWeights layerWeights(const TriangleMesh& mesh, const Skeleton& skeleton, co
       ++count;
     }
     piece.triangles.conservativeResize(count, 3);
-    std::vector<Bone> own;
-    for (const Bone& bone : bones)
-      if (joint_layers[static_cast<std::size_t>(bone.joint)] == layer) own.push_back(bone);
-    SKEL_CHECK(!own.empty());
-    weights(rows, Eigen::all) = meshWeights(piece, skeleton, own, way, options);
+    weights(rows, Eigen::all) =
+        meshWeights(piece, skeleton, bonesOfLayer(bones, joint_layers, layer), way, options);
   }
   return weights;
 }

@@ -46,7 +46,8 @@ struct SkinOptions {
 // no bone reaches take the weights of the nearest one that is reached.
 //
 // Of a mesh in layers (TriangleMesh::layer), the vertices of each follow the bones of its own joints alone:
-// `joint_layers`, one number a joint, each layer has one; empty: all follow all.
+// `joint_layers`, one number a joint, each layer has one; empty: all follow all. A joint of layer -1 moves
+// nothing.
 SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleton, SkinMethod method,
                                const SkinOptions& options = {}, const std::vector<int>& joint_layers = {});
 

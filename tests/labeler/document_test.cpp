@@ -26,7 +26,9 @@ void randomStep(Document& document, Rng& rng) {
     const Eigen::Vector2d p = place();
     return document.candidatesNear(p, rng.uniform(5, 80));
   };
-  switch (rng.below(10)) {
+  switch (rng.below(11)) {
+    case 10:
+      return document.paintLayer(place(), place(), rng.uniform(2, 40), static_cast<int>(rng.below(5)));
     case 0:
       return document.label(candidates(), std::nullopt);
     case 1:
@@ -337,6 +339,48 @@ TEST_CASE("a mended mask that lay there before comes back byte by byte") {
   CHECK(readFile(dir.file("cap_boy.mask.png")) != original);
   document.undo();
   CHECK(readFile(dir.file("cap_boy.mask.png")) == original);
+}
+
+TEST_CASE("limbs painted by hand are rigged with, on the disk at once, found by a new document, and undone") {
+  const TempDir dir;
+  copyCharacter("boss_crossed", dir.path());
+  const std::string file = dir.file("boss_crossed.limbs.png");
+  {
+    Document document(dir.path(), documentOptions());
+    document.rig();
+    REQUIRE(document.layers());
+    const auto body = document.bodyPlan().find("body");
+    const Eigen::Vector2d middle = document.state().joints[size_t(body)]->image;
+    document.paintLayer(middle, middle + Eigen::Vector2d(40, 0), 12, 2);
+    CHECK(fs::exists(file));
+    CHECK(contains(document.message(), "left arm"));
+    CHECK(int(document.layers()->limb(int(middle.y()), int(middle.x()) + 20)) == 2);
+    CHECK_FALSE(document.rigged());
+    document.rig();
+    REQUIRE(document.rigged());
+    CHECK((document.rigged()->layers.limb == document.state().layers->limb).all());
+    // Outside of the figure there is nothing to paint.
+    document.paintLayer({1, 1}, {2, 2}, 5, 2);
+    CHECK(int(document.layers()->limb(1, 1)) == 0);
+  }
+  Document document(dir.path(), documentOptions());
+  REQUIRE(document.state().layers);
+  CHECK((document.state().layers->limb == 2).count() > 500);
+  document.forgetLayers();
+  CHECK_FALSE(fs::exists(file));
+  document.undo();
+  CHECK(fs::exists(file));
+}
+
+TEST_CASE("a layer map that cannot be read is not written over") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  fs::copy_file(dir.file("cap_boy.png"), dir.file("cap_boy.limbs.png"));
+  const std::string before = readFile(dir.file("cap_boy.limbs.png"));
+  Document document(dir.path(), documentOptions());
+  CHECK(contains(document.item().problem, "which is no limb's"));
+  document.paintLayer({300, 300}, {320, 300}, 20, 1);
+  CHECK(readFile(dir.file("cap_boy.limbs.png")) == before);
 }
 
 TEST_CASE("a skeleton file: joints are edited in it, and no label file comes up") {

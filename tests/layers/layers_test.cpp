@@ -8,6 +8,8 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
+#include "libskel/image/read_image.h"
+#include "libskel/labels/annotated_image.h"
 #include "libskel/layers/mask_parts.h"
 #include "libskel/mesh/fill_hidden.h"
 #include "libskel/mesh/inflate.h"
@@ -224,6 +226,44 @@ TEST_CASE("raising the arm stretches nothing: the chest stays where it is") {
   liftToModel(of_one, one_skin);
   const SkinWeights torn = computeSkinWeights(one_skin, of_one, SkinMethod::kGeodesic);
   CHECK(worstStretch(one_skin, raised(one_skin, of_one, torn, -120)) > 3);
+}
+
+TEST_CASE("an arm that nothing tells from the body, and whose hand is a guess, moves nothing") {
+  Drawing drawing(false, {.size = 400, .right_arm = -30, .right_forearm = -30});
+  CHECK(drawing.layers().hidden.empty());
+  const std::size_t hand = std::size_t(drawing.skeleton.index("right_hand"));
+  drawing.skeleton.joints[hand].confidence = .5;
+  const LayerMap layers = drawing.layers();
+  CHECK(layers.hidden == std::vector<int>{1});
+  const TriangleMesh mesh = inflate(drawing.image, drawing.silhouette);
+  const std::vector<int> joint_layers = jointLayers(drawing.skeleton, drawing.body_plan, mesh, layers);
+  CHECK(joint_layers[hand] == -1);
+  Skeleton skeleton = drawing.skeleton;
+  liftToModel(skeleton, mesh, joint_layers);
+  const SkinWeights weights = computeSkinWeights(mesh, skeleton, SkinMethod::kGeodesic, {}, joint_layers);
+  for (const char* name : {"right_shoulder", "right_elbow", "right_hand"}) {
+    const auto joint = std::uint16_t(skeleton.index(name));
+    CHECK_FALSE((weights.joints.array() == joint && weights.weights.array() > 0).any());
+  }
+  CHECK(worstStretch(mesh, raised(mesh, skeleton, weights, -120)) < 1.01);
+}
+
+TEST_CASE("what two limbs cut off goes to the nearer of them: the rim of shoes that touch") {
+  const std::string character = SKEL_SOURCE_DIR "/datasets/characters/box_robot";
+  const SkeletonTemplate body_plan = loadTemplate("biped");
+  const Image image = readImage(character + ".png");
+  const Silhouette silhouette = silhouetteFromMask(readMask(character + ".mask.png"));
+  Skeleton skeleton = presetSkeleton(body_plan, {0, 0}, {1, 1});
+  for (const auto& [name, place] : readJointsFile(character + ".joints.json"))
+    skeleton.joints[std::size_t(skeleton.index(name))].image = *place;
+  const LayerMap layers = findLayers(image, silhouette, skeleton, body_plan);
+  REQUIRE(layers.any());
+  for (const auto& [foot, limb] : {std::pair("right_foot", 3), std::pair("left_foot", 4)}) {
+    const Vector2d& p = skeleton.joints[std::size_t(skeleton.index(foot))].image;
+    auto sole = Eigen::Index(p.y());
+    while (silhouette.mask(sole + 1, Eigen::Index(p.x())) != 0) ++sole;
+    CHECK(int(layers.limb(sole, Eigen::Index(p.x()))) == limb);
+  }
 }
 
 TEST_CASE("the parts of a mask are the 4-connected ones, numbered as they begin") {

@@ -2,7 +2,7 @@
 // into the rest of the body.
 //   clip_quality [--one-skin] [--stretch-only] TEMPLATE DRAWING...
 // A line a clip, then the ten drawings that stretch most, each with its worst clip and where in it. Stretch:
-// the largest singular value of the map from a triangle at rest to the same one posed. Inside: the winding
+// see libskel/deform/stretch.h. Inside: the winding
 // number of the skin just above a limb's surface is 1 more than at rest.
 #include <algorithm>
 #include <cmath>
@@ -17,39 +17,20 @@
 #include "libskel/animation/clip_library.h"
 #include "libskel/core/error.h"
 #include "libskel/core/parallel.h"
+#include "libskel/deform/stretch.h"
 #include "tests/support/clips_on_drawings.h"
 
 namespace skel {
 namespace {
 
-using Eigen::Matrix2d;
 using Eigen::Vector3d;
 
 constexpr int kFrames = 8;
 constexpr int kLimbPoints = 150;
-constexpr double kTooFar = 3;
 constexpr double kAbove_m = 0.003 * kModelHeight_m;
 
 Vector3d corner(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, Eigen::Index t, int k) {
   return vertices.row(mesh.triangles(t, k)).transpose().cast<double>();
-}
-
-// The triangle in its own plane: its edges from the first corner as columns.
-Matrix2d flat(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, Eigen::Index t) {
-  const Vector3d a = corner(vertices, mesh, t, 0), u = corner(vertices, mesh, t, 1) - a,
-                 v = corner(vertices, mesh, t, 2) - a;
-  const double length = std::max(1e-12, u.norm());
-  const double along = u.dot(v) / length;
-  Matrix2d edges;
-  edges << length, along, 0, std::sqrt(std::max(0., v.squaredNorm() - along * along));
-  return edges;
-}
-
-double stretch(const Matrix2d& rest, const Matrix2d& posed) {
-  if (!(std::abs(rest.determinant()) > 1e-12)) return 1;
-  const Matrix2d map = posed * rest.inverse();
-  const double sum = map.squaredNorm(), det = map.determinant();
-  return std::sqrt((sum + std::sqrt(std::max(0., sum * sum - 4 * det * det))) / 2);
 }
 
 // Van Oosterom & Strackee, "The solid angle of a plane triangle" (1983).
@@ -114,12 +95,6 @@ Measured measure(const std::string& path, const Request& request) {
   if (!drawing.found()) throw InputError(path, drawing.silhouette.reason);
   const RiggedCharacter& character = drawing.character;
   const TriangleMesh& mesh = character.mesh;
-  std::vector<Matrix2d> rest;
-  double area = 0;
-  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
-    rest.push_back(flat(mesh.vertices, mesh, t));
-    area += rest.back().determinant() / 2;
-  }
   const std::vector<Eigen::Index> limbs =
       request.inside ? limbTriangles(character) : std::vector<Eigen::Index>();
   const std::vector<bool> inside_at_rest = insideOthers(mesh.vertices, mesh, limbs);
@@ -130,10 +105,12 @@ Measured measure(const std::string& path, const Request& request) {
     for (int frame = 0; frame < kFrames; ++frame) {
       const float time_s = clip.duration_s() * (float(frame) + 0.5f) / kFrames;
       const Eigen::MatrixX3f posed = posedVertices(character, clip, time_s);
-      double stretched = 0;
-      for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
-        if (stretch(rest[std::size_t(t)], flat(posed, mesh, t)) > kTooFar)
-          stretched += rest[std::size_t(t)].determinant() / 2 / area;
+      double stretched = 0, area = 0;
+      for (const TriangleStretch& t : triangleStretches(mesh, posed)) {
+        area += t.area;
+        if (t.stretch > kFarStretch) stretched += t.area;
+      }
+      stretched /= area;
       quality.stretched += stretched / kFrames;
       if (stretched > quality.most_stretched) quality.most_stretched = stretched, quality.at_s = time_s;
       const std::vector<bool> inside = insideOthers(posed, mesh, limbs);
