@@ -11,6 +11,7 @@
 #include "libskel/jointnet/net_joints.h"
 #include "libskel/silhouette/pieces.h"
 #include "trainer/figures/biped_plan.h"
+#include "trainer/figures/pasted_drawing.h"
 #include "trainer/figures/warped_drawing.h"
 
 namespace skel {
@@ -538,83 +539,27 @@ std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& dr
   return finished(rng, plan, std::move(canvas), cut);
 }
 
-// A piece of another drawing, as something that the figure holds, wears or leans on, or that stands behind
-// it.
-struct Thing {
-  WarpedDrawing drawing;
-  Window window;  // what is left of it
-  bool round;     // an ellipse in its window
+// What is pasted onto a drawing.
+struct Pasted {
+  std::vector<const AnnotatedDrawing*> things;
+  const AnnotatedDrawing* neighbour = nullptr;
 };
-
-Thing sampleThing(Rng& rng, const AnnotatedDrawing& drawing) {
-  const int long_side = static_cast<int>(kOversampling * kLongSide * rng.uniform(.12, .5));
-  Thing thing{
-      warpedDrawing(rng, drawing, rng.uniform(0, 2 * std::numbers::pi), long_side, 0), {}, rng.chance(.3)};
-  const auto stretch = [&](int size) {
-    const double share = rng.uniform(.35, 1);
-    const int from = static_cast<int>(size * (1 - share) * rng.uniform());
-    return std::pair(from, from + std::max(1, static_cast<int>(size * share)));
-  };
-  const auto [x0, x1] = stretch(thing.drawing.width);
-  const auto [y0, y1] = stretch(thing.drawing.height);
-  thing.window = {x0, y0, x1, y1};
-  return thing;
-}
-
-// Puts it to a hand or foot, or anywhere on the figure, unless it would cover too much.
-void add(Rng& rng, const FigurePlan& plan, const Thing& thing, WarpedDrawing& figure,
-         std::vector<bool>& visible) {
-  constexpr int kMostCovered = 4;  // joints
-  const Window& w = thing.window;
-  const bool in_front = rng.chance(.5), at_end = rng.chance(.6);
-  std::size_t joint = 0;
-  do {
-    joint = rng.below(static_cast<std::uint32_t>(plan.joints.size()));
-  } while (plan.joints[joint].end != at_end);
-  const double spread = .05 * kOversampling * kLongSide;
-  const int left = static_cast<int>(figure.joints[joint].x() + spread * rng.normal()) - (w.x1 - w.x0) / 2,
-            top = static_cast<int>(figure.joints[joint].y() + spread * rng.normal()) - (w.y1 - w.y0) / 2;
-  // Where in the thing a px of the figure lies; -1: outside.
-  const auto at = [&](int x, int y) -> std::ptrdiff_t {
-    const int u = x - left + w.x0, v = y - top + w.y0;
-    if (u < w.x0 || u >= w.x1 || v < w.y0 || v >= w.y1 || u >= thing.drawing.width ||
-        v >= thing.drawing.height)
-      return -1;
-    if (thing.round) {
-      const Vec p((2. * u - w.x0 - w.x1) / (w.x1 - w.x0), (2. * v - w.y0 - w.y1) / (w.y1 - w.y0));
-      if (p.squaredNorm() > 1) return -1;
-    }
-    const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(v) * thing.drawing.width + u;
-    return thing.drawing.solid[static_cast<std::size_t>(i)] ? i : -1;
-  };
-  std::vector<std::size_t> covered;
-  for (std::size_t j = 0; in_front && j < figure.joints.size(); ++j) {
-    if (at(static_cast<int>(figure.joints[j].x()), static_cast<int>(figure.joints[j].y())) >= 0)
-      covered.push_back(j);
-  }
-  if (covered.size() > kMostCovered) return;
-  for (const std::size_t j : covered) visible[j] = false;
-  for (int y = std::max(0, top); y < std::min(figure.height, top + w.y1 - w.y0); ++y) {
-    for (int x = std::max(0, left); x < std::min(figure.width, left + w.x1 - w.x0); ++x) {
-      const std::ptrdiff_t from = at(x, y);
-      const std::size_t to = static_cast<std::size_t>(y) * figure.width + x;
-      if (from < 0 || (figure.solid[to] && !in_front)) continue;
-      figure.solid[to] = 1;
-      figure.colours[to] = thing.drawing.colours[static_cast<std::size_t>(from)];
-    }
-  }
-}
 
 // One of the drawings, in other proportions. `turn`: radians, from +x towards +y.
 std::optional<Figure> renderDrawn(Rng& rng, const FigurePlan& plan, const AnnotatedDrawing& drawing,
-                                  const std::vector<Thing>& things, double turn, Cut cut) {
-  const int margin = things.empty() ? kMargin : kOversampling * kLongSide / 4;
-  WarpedDrawing warped = warpedDrawing(rng, drawing, turn, kOversampling * kLongSide, margin);
+                                  const Pasted& pasted, double turn, Cut cut) {
+  constexpr int kSide = kOversampling * kLongSide;
+  const int margin = pasted.neighbour         ? kSide
+                     : !pasted.things.empty() ? static_cast<int>(kThingMargin * kSide)
+                                              : kMargin;
+  WarpedDrawing warped = warpedDrawing(rng, drawing, turn, kSide, margin);
   std::vector<bool> visible(plan.joints.size(), true);
-  for (const Thing& thing : things) add(rng, plan, thing, warped, visible);
+  for (const AnnotatedDrawing* thing : pasted.things) pasteThing(rng, plan, *thing, kSide, warped, visible);
+  if (pasted.neighbour) pasteNeighbour(rng, *pasted.neighbour, kSide, warped);
   const int width = warped.width, height = warped.height;
+  const bool whole = turn == 0 && !pasted.neighbour;
   Canvas canvas{width,        height, warped.solid, {}, warped.joints, std::move(visible), {},
-                drawing.view, 0,      turn == 0};
+                drawing.view, 0,      whole};
   canvas.absent.assign(plan.joints.size(), false);
   canvas.colour = [&](int x, int y) { return warped.colours[static_cast<std::size_t>(y) * width + x]; };
   return finished(rng, plan, std::move(canvas), cut);
@@ -630,12 +575,18 @@ Figure generateFigure(Rng& rng, const FigureOptions& options) {
         return options.drawings[rng.below(static_cast<std::uint32_t>(options.drawings.size()))];
       };
       const AnnotatedDrawing& drawing = any_drawing();
-      const bool other = rng.chance(options.other_share), cut = other && rng.chance(.5);
-      const double turn = other && !cut ? rng.uniform(1.2, 2 * std::numbers::pi - 1.2) : 0;
-      std::vector<Thing> things;
-      while (!other && things.size() < 2 && rng.chance(.25))
-        things.push_back(sampleThing(rng, any_drawing()));
-      if (auto figure = renderDrawn(rng, plan, drawing, things, turn, cut ? Cut::kHeavy : Cut::kNone))
+      enum class Kind { kWhole, kCut, kTurned, kPair } kind = Kind::kWhole;
+      if (rng.chance(options.other_share)) {
+        const double r = rng.uniform();
+        kind = r < .4 ? Kind::kCut : r < .75 ? Kind::kTurned : Kind::kPair;
+      }
+      const double turn = kind == Kind::kTurned ? rng.uniform(1.2, 2 * std::numbers::pi - 1.2) : 0;
+      Pasted pasted;
+      while (kind == Kind::kWhole && pasted.things.size() < 2 && rng.chance(.25))
+        pasted.things.push_back(&any_drawing());
+      if (kind == Kind::kPair) pasted.neighbour = &any_drawing();
+      if (auto figure =
+              renderDrawn(rng, plan, drawing, pasted, turn, kind == Kind::kCut ? Cut::kHeavy : Cut::kNone))
         return *std::move(figure);
       continue;
     }

@@ -44,7 +44,8 @@ struct FigureOptions {
   double other_share = 0;  // share of figures that are not whole: other beings, things, pairs, cut-offs, and
                            // some that lie or stand on their heads
   // Of the figures `drawn_share` is one of these drawings each, in other proportions, bent, with another
-  // outline; some of them cut or turned, as many as `other_share` says.
+  // outline, some with pieces of others pasted on; some of them cut, turned or in pairs, as many as
+  // `other_share` says.
   std::vector<AnnotatedDrawing> drawings;
   double drawn_share = 0;
 };
