@@ -22,7 +22,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kRigid = 1e-4;  // how far a rest transform may be from a rotation
+constexpr double kRigid = 1e-4;  // how far a rest transform may be from a rotation, a scale from an even one
 
 std::optional<std::vector<double>> numbersAt(const JsonValue& object, std::string_view key,
                                              std::size_t count) {
@@ -349,7 +349,7 @@ std::vector<Vector3f> scalesInModel(std::vector<Vector3f> scales, const Quaterni
   const bool along_axes = (turn - turn.array().round().matrix()).cwiseAbs().maxCoeff() <= kRigid;
   for (std::size_t i = 0; i < scales.size(); ++i) {
     Vector3f& scale = scales[i];
-    if (scale.x() == scale.y() && scale.y() == scale.z()) continue;
+    if (scale.maxCoeff() - scale.minCoeff() <= kRigid * scale.cwiseAbs().maxCoeff()) continue;
     if (!along_axes)
       output.fail("element " + std::to_string(i) +
                   " scales a turned joint unevenly, which is not read; apply rotation before export");
