@@ -13,6 +13,7 @@
 #include "libskel/core/sha256.h"
 #include "libskel/deform/stretch.h"
 #include "libskel/image/read_image.h"
+#include "libskel/image/result_picture.h"
 #include "libskel/mesh/read_mesh.h"
 #include "libskel/pipeline/trace.h"
 #include "libskel/skeleton/outside_figure.h"
@@ -49,8 +50,7 @@ std::string stemOf(const std::string& path) { return fs::path(path).stem().strin
 bool isResult(const std::string& image, const std::vector<std::string>& images) {
   if (images.size() < 2) return false;
   const std::string name = fs::path(image).filename().string();
-  for (const std::string_view ending :
-       {".overlay.png", ".silhouette.png", ".layers.png", ".mask.png", ".limbs.png"}) {
+  for (const std::string_view ending : kResultPictureEndings) {
     if (!name.ends_with(ending)) continue;
     const std::string stem = name.substr(0, name.size() - ending.size());
     return fs::exists(fs::path(image).replace_filename(stem + ".skeleton.json")) ||
@@ -195,32 +195,37 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-// What to say of limbs that do not move as limbs should.
+// What to say of limbs that do not move as limbs should. `file`: what skel-label is to open.
 std::vector<std::string> limbWarnings(const RiggedDrawing& drawing, const SkeletonTemplate& body_plan,
-                                      const std::string& source) {
-  constexpr double kTorn = .02;  // share of the model's area that a clip stretches too far
-  std::vector<std::string> warnings, clips;
-  const std::string remedy = "; if it is drawn before the body, paint it: skel-label " + source + ", key G";
+                                      const std::string& file) {
+  constexpr double kTorn = .02;    // share of the model's area that a clip stretches too far
+  constexpr double kOfLimb = .01;  // of which so much is a limb's
+  std::vector<std::string> warnings;
+  const std::string remedy = "; if it is drawn before the body, paint it (skel-label " + file +
+                             ", key G) and hand it back (--layers)";
   for (const int limb : drawing.layers.hidden)
     warnings.push_back("the " + limbName(body_plan, limb) +
                        " cannot be told from the body and stays with it" + remedy);
   const RiggedCharacter& character = drawing.character;
-  std::vector<double> torn(body_plan.limbs.size(), 0);
+  std::map<int, std::vector<std::string>> clips_of_limb;
   for (const ClipStretch& stretch :
        clipStretches(character.mesh, character.skeleton, character.weights, drawing.clips)) {
-    if (stretch.share < kTorn) continue;
-    clips.push_back(stretch.clip);
-    for (std::size_t k = 0; k < torn.size(); ++k)
+    int most = 0;
+    double share = kOfLimb;
+    for (std::size_t k = 0; k < body_plan.limbs.size(); ++k) {
+      const int limb = static_cast<int>(k) + 1;
+      if (drawing.layers.any() && (drawing.layers.limb == limb).any()) continue;
+      double sum = 0;
       for (const int joint : body_plan.limbs[k].joints)
         if (const int j = character.skeleton.find(body_plan.joints[std::size_t(joint)].name); j >= 0)
-          torn[k] += stretch.by_joint[std::size_t(j)];
+          sum += stretch.by_joint[std::size_t(j)];
+      if (sum > share) most = limb, share = sum;
+    }
+    if (stretch.share > kTorn && most > 0) clips_of_limb[most].push_back(stretch.clip);
   }
-  if (clips.empty() || torn.empty()) return warnings;
-  const auto most = std::max_element(torn.begin(), torn.end());
-  if (*most > 0)
+  for (const auto& [limb, clips] : clips_of_limb)
     warnings.push_back(joined(clips) + (clips.size() == 1 ? " pulls the " : " pull the ") +
-                       limbName(body_plan, static_cast<int>(most - torn.begin()) + 1) + " out of shape" +
-                       remedy);
+                       limbName(body_plan, limb) + " out of shape" + remedy);
   return warnings;
 }
 
@@ -297,7 +302,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
   outcome.report += source + ": " + (written.empty() ? "nothing to write" : written.front()) + line;
   std::vector<std::string> notes = file.warnings;
   if (options.model_file.empty() && rig.layers && file.confidence >= .5) {
-    const std::vector<std::string> of_limbs = limbWarnings(drawing, rig.body_plan, job.source);
+    const std::vector<std::string> of_limbs =
+        limbWarnings(drawing, rig.body_plan, figure > 1 ? skeleton_path : job.source);
     notes.insert(notes.end(), of_limbs.begin(), of_limbs.end());
   }
   for (const std::string& note : notes) outcome.complaints += source + ": note: " + note + "\n";

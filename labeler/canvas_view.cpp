@@ -86,7 +86,7 @@ void CanvasView::followDocument() {
     if (!document_.image().empty()) picture_.upload(onWhite(document_.image()));
     selected_ = -1;
     tinted_ = false;
-    tinted_limbs_.reset();
+    limb_picture_.reset();
     cancel();
     fitted_ = false;
   }
@@ -126,14 +126,16 @@ void CanvasView::updateMaskTexture() {
 
 // Each limb that lies before the body in its colour, the rest of the figure grey.
 void CanvasView::updateLimbTexture() {
-  const Plane8& mask = document_.figure().silhouette.mask;
+  document_.findLimbs();
   const LayerMap* layers = document_.layers();
-  const Plane8 limbs = layers && layers->any() ? layers->limb : Plane8::Zero(mask.rows(), mask.cols());
-  if (tinted_limbs_ && tinted_limbs_->size() == limbs.size() && (*tinted_limbs_ == limbs).all()) return;
-  tinted_limbs_ = limbs;
-  Image tint = layerPicture({limbs}, mask);
+  Image tint = layerPicture(layers ? *layers : LayerMap(), document_.figure().silhouette.mask);
+  if (limb_picture_ && limb_picture_->rgba.rows() == tint.rgba.rows() && (limb_picture_->rgba == tint.rgba).all())
+    return;
+  limb_picture_ = tint;
+  const auto body = layerColor(0);
   for (Eigen::Index i = 0; i < tint.rgba.rows(); ++i)
-    if (tint.rgba(i, 3) != 0) tint.rgba(i, 3) = limbs.data()[i] == 0 ? 60 : 150;
+    if (tint.rgba(i, 3) != 0)
+      tint.rgba(i, 3) = tint.rgba(i, 0) == body[0] && tint.rgba(i, 1) == body[1] ? 60 : 150;
   limb_tint_.upload(tint, Texture::Zoomed::kSquares);
 }
 

@@ -60,7 +60,7 @@ class CanvasView {
 
   Document& document_;
   Texture picture_, mask_tint_, limb_tint_;
-  std::optional<Plane8> tinted_limbs_;  // limb_tint_ shows these; nothing: those of another drawing
+  std::optional<Image> limb_picture_;  // what limb_tint_ shows; nothing: of another drawing
   int shown_item_ = -1;
   bool tinted_ = false;                             // mask_tint_ is of this drawing
   std::shared_ptr<const MaskVersion> tinted_mask_;  // and of this mask

@@ -282,7 +282,7 @@ void Document::load(int item) {
   state_.joints.resize(options_.body_plan.joints.size());
   opened_mask_ = saved_mask_ = nullptr;
   saved_layers_ = nullptr;
-  rigged_.reset();
+  forgetRig();
   message_.clear();
   try {
     loadDrawing();
@@ -358,10 +358,7 @@ void Document::loadDrawing() {
           PlacedJoint{joint.image, joint.confidence, joint.origin};
   }
   if (motion_file_) state_.joints = motion_file_->frames[static_cast<size_t>(current_)].joints;
-  if (!motion_file_ && figure_->silhouette.found() && fs::is_regular_file(files.layers)) {
-    state_.layers = saved_layers_ = std::make_shared<LayerMap>(
-        layersOfPicture(readImage(files.layers), figure_->silhouette, options_.body_plan, files.layers));
-  }
+  readLayers();
 }
 
 void Document::loadSkeletonsMask() {
@@ -446,7 +443,7 @@ void Document::moveJoint(int joint, const Eigen::Vector2d& image_px) {
   const Eigen::Vector2d place = (image_px.cwiseMax(low).cwiseMin(high) * 100).array().round() / 100;
   state_.joints.at(static_cast<size_t>(joint)) = PlacedJoint{place, 1, JointOrigin::kEdited};
   deriveMidpoints(state_.joints, options_.body_plan);
-  rigged_.reset();
+  forgetRig();
   message_ = options_.body_plan.joints[static_cast<size_t>(joint)].name + " placed by hand";
   std::replace(message_.begin(), message_.end(), '_', ' ');
 }
@@ -458,7 +455,7 @@ void Document::forgetJoints() {
   }
   const StepScope scope(*this);
   std::fill(state_.joints.begin(), state_.joints.end(), std::nullopt);
-  rigged_.reset();
+  forgetRig();
   message_ = "all joints forgotten: R finds them anew";
 }
 
@@ -476,7 +473,7 @@ void Document::takeJointsOfFrameBefore() {
     if (!before[j] || (joint && joint->origin == JointOrigin::kEdited)) continue;
     joint = PlacedJoint{before[j]->image.cwiseMin(high), 0, JointOrigin::kCompleted};
   }
-  rigged_.reset();
+  forgetRig();
   message_ = "joints as in the frame before: drag them";
 }
 
@@ -490,7 +487,7 @@ bool Document::replaceMask(std::shared_ptr<const MaskVersion> mask) {
   state_.labels = carriedLabels(*figure, *open_step_->figure, open_step_->before.labels);
   figure_ = std::move(figure);
   state_.mask = std::move(mask);
-  rigged_.reset();
+  forgetRig();
   return true;
 }
 
@@ -524,6 +521,9 @@ void Document::paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d&
     return;
   }
   const StepScope scope(*this);
+  // One that lies there although no figure was found when the drawing was opened.
+  if (!state_.layers && !saved_layers_) readLayers();
+  findLimbs();
   const Plane8& mask = figure_->silhouette.mask;
   auto map = std::make_shared<LayerMap>();
   if (const LayerMap* known = layers(); known && known->any())
@@ -546,9 +546,48 @@ void Document::forgetLayers() {
   message_ = "limbs before the body are found in the picture again";
 }
 
-const LayerMap* Document::layers() const {
-  if (state_.layers) return state_.layers.get();
-  return rigged_ ? &rigged_->layers : nullptr;
+void Document::findLimbs() {
+  if (layers() || image_.empty() || motion_file_ || !figure_->silhouette.found()) return;
+  auto found = std::make_shared<LayerMap>();
+  try {
+    RigInput input = rigInput();
+    if (std::all_of(state_.joints.begin(), state_.joints.end(),
+                    [](const auto& j) { return j.has_value(); })) {
+      input.skeleton = presetSkeleton(options_.body_plan, {0, 0}, {1, 1});
+      for (Joint& joint : input.skeleton->joints) {
+        const PlacedJoint& place = *state_.joints[static_cast<size_t>(options_.body_plan.find(joint.name))];
+        joint.image = place.image;
+        joint.confidence = place.confidence;
+      }
+    }
+    RigOptions options = rigOptions();
+    options.clips.clear();
+    *found = rigCharacter(std::move(input), options).layers;
+  } catch (const Error& error) {
+    message_ = error.what();
+  }
+  found_layers_ = std::move(found);
+}
+
+std::string Document::layersPath() const {
+  const std::string& path = item().files.layers;
+  if (figureNumber() <= 1) return path;
+  constexpr std::string_view kEnding = ".limbs.png";
+  return path.substr(0, path.size() - kEnding.size()) + "-" + std::to_string(figureNumber()) +
+         std::string(kEnding);
+}
+
+bool Document::readLayers() {
+  const std::string path = layersPath();
+  if (motion_file_ || !figure_->silhouette.found() || !fs::is_regular_file(path)) return false;
+  state_.layers = saved_layers_ = std::make_shared<LayerMap>(
+      layersOfPicture(readImage(path), figure_->silhouette, options_.body_plan, path));
+  return true;
+}
+
+void Document::forgetRig() {
+  rigged_.reset();
+  found_layers_.reset();
 }
 
 void Document::rig() {
@@ -560,12 +599,15 @@ void Document::rig() {
   }
 }
 
-void Document::rigOrThrow() {
+RigInput Document::rigInput() const {
   RigInput input;
   input.image = image_;
   if (state_.mask) input.mask = state_.mask->pixels;
-  if (state_.layers)
-    input.layers = {layerPicture(*state_.layers, figure_->silhouette.mask), item().files.layers};
+  if (state_.layers) input.layers = {layerPicture(*state_.layers, figure_->silhouette.mask), layersPath()};
+  return input;
+}
+
+RigOptions Document::rigOptions() const {
   RigOptions options;
   options.mlp = options_.mlp;
   options.body_plan = options_.body_plan;
@@ -574,6 +616,12 @@ void Document::rigOrThrow() {
   // The one clip that the preview plays.
   for (const Clip& clip : clipsFor(builtinClips(), options_.body_plan))
     if (clip.name == "wave" || clip.name == "wag") options.clips = {clip};
+  return options;
+}
+
+void Document::rigOrThrow() {
+  RigInput input = rigInput();
+  const RigOptions options = rigOptions();
   auto rigged = std::make_unique<RiggedDrawing>(rigCharacter(input, options));
   if (!rigged->found()) {
     message_ = rigged->silhouette.reason;
@@ -600,6 +648,7 @@ void Document::rigOrThrow() {
     return state_.joints[static_cast<size_t>(options_.body_plan.find(name))]->origin == JointOrigin::kEdited;
   });
   rigged_ = std::make_unique<RiggedDrawing>(rigCharacter(std::move(input), options));
+  if (!state_.layers) found_layers_ = std::make_shared<LayerMap>(rigged_->layers);
   message_ = "rigged";
   if (!missing.empty()) message_ += ": look at " + missing.front();
   if (missing.size() == 2) message_ += " and " + missing.back();
@@ -616,13 +665,14 @@ bool Document::travel(std::deque<Step>& from, std::deque<Step>& to, DrawingState
   const Step step = std::move(from.back());
   from.pop_back();
   const bool same_mask = sameFile(state_.mask.get(), (step.*target).mask.get());
-  const bool same_rig =
-      same_mask && state_.joints == (step.*target).joints && state_.layers == (step.*target).layers;
+  const bool same_joints = state_.joints == (step.*target).joints;
+  const bool same_layers = state_.layers == (step.*target).layers;
   const auto mask = same_mask ? state_.mask : (step.*target).mask;
   state_ = step.*target;
   state_.mask = mask;
   if (!same_mask) figure_ = figureOf(image_, state_.mask.get(), figureNumber(), options_.mlp);
-  if (!same_rig) rigged_.reset();
+  if (!same_mask || !same_joints) forgetRig();
+  if (!same_layers) rigged_.reset();
   message_ = &from == &undo_ ? "undone" : "done again";
   to.push_back(step);
   count();
@@ -721,7 +771,7 @@ void Document::writeSkeletonFile() {
 
 void Document::writeLayers() {
   if (state_.layers == saved_layers_) return;
-  const std::string& path = item().files.layers;
+  const std::string path = layersPath();
   if (state_.layers)
     writeFile(path, encodePng(layerPicture(*state_.layers, figure_->silhouette.mask)));
   else

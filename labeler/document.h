@@ -108,16 +108,19 @@ class Document {
   // The figure is found in the picture again.
   void forgetMask();
   // Says that pixels of the figure belong to a limb that lies before the body (LayerMap::limb; 0: to the
-  // body), along a line with a round brush. The first stroke starts from what rig() has found.
+  // body), along a line with a round brush. The first stroke starts from what is found in the picture.
   void paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px, int limb);
   // Limbs before the body are found in the picture again.
   void forgetLayers();
-  // Those painted, else those of the last rig(); null: not looked for yet.
-  const LayerMap* layers() const;
+  // Those painted, else those found by rig() or findLimbs(); null: not looked for since mask or joints have
+  // changed.
+  const LayerMap* layers() const { return state_.layers ? state_.layers.get() : found_layers_.get(); }
+  // Looks for them with the joints as they are. No step.
+  void findLimbs();
   // Recognises the joints anew, but for those that a person has placed, and builds the model. Says why where
   // that cannot be done.
   void rig();
-  // The model of the last rig(), until picture, mask or joints change; else null.
+  // The model of the last rig(), until picture, mask, joints or painted limbs change; else null.
   const RiggedDrawing* rigged() const { return rigged_.get(); }
 
   void beginStep();
@@ -163,7 +166,12 @@ class Document {
   int figureNumber() const;  // of the drawing, as the skeleton file says
   void writeSkeletonFile();
   void writeMotionFile();
+  std::string layersPath() const;  // of the drawing's figure
+  bool readLayers();               // false: there is no such file
   void writeLayers();
+  void forgetRig();  // mask or joints have changed
+  RigInput rigInput() const;
+  RigOptions rigOptions() const;
   void count();
 
   DocumentOptions options_;
@@ -174,8 +182,9 @@ class Document {
   DrawingState state_;
   std::shared_ptr<const Figure> figure_;
   std::unique_ptr<RiggedDrawing> rigged_;
-  std::string path_;                           // that was opened
-  std::optional<SkeletonFile> skeleton_file_;  // what `path_` holds
+  std::shared_ptr<const LayerMap> found_layers_;  // in the picture, for the mask and joints that are there
+  std::string path_;                              // that was opened
+  std::optional<SkeletonFile> skeleton_file_;     // what `path_` holds
   std::optional<MotionFile> motion_file_;
   std::set<std::string> given_masks_;               // mask files that were there before
   std::shared_ptr<const MaskVersion> opened_mask_;  // of the current drawing when it was opened

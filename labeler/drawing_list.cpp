@@ -5,6 +5,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/image/result_picture.h"
 #include "libskel/labels/label_file.h"
 
 namespace skel {
@@ -15,9 +16,7 @@ namespace fs = std::filesystem;
 bool isDrawing(const fs::path& path) {
   std::string name = path.filename().string();
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-  for (const char* other : {".mask.png", ".limbs.png", ".layers.png", ".silhouette.png", ".overlay.png"})
-    if (name.ends_with(other)) return false;
-  if (name == "mask.png") return false;
+  if (isResultPicture(name) || name == "mask.png") return false;
   for (const char* ending : {".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tif", ".tiff", ".gif"})
     if (name.ends_with(ending)) return true;
   return false;

@@ -159,8 +159,6 @@ class LabelingWindow {
   void chooseTool(Tool tool) {
     canvas_.cancel();
     canvas_.tool = tool;
-    // What is found is what is mended.
-    if (tool == Tool::kLimbs && !document_.layers()) document_.rig();
   }
 
   int limbCount() const { return static_cast<int>(document_.bodyPlan().limbs.size()); }

@@ -194,6 +194,8 @@ class Training {
       if (kind >= static_cast<int>(plan_.kinds.size()))
         throw UsageError("--hold-back: there is no body kind " + std::to_string(kind) + "; the last is " +
                          std::to_string(plan_.kinds.size() - 1));
+    if (options.hard_copies > 1 && (options.start.empty() || options.drawings.empty()))
+      throw UsageError("--hard needs --start and --drawings: hard is what that net gets wrong");
     figure_options_.body_plan = net_.body_plan;
     if (!options.held_back.empty()) figure_options_.kinds = kindsOf(plan_, options.held_back, false);
     figure_options_.other_share = options.other_share;
@@ -262,7 +264,7 @@ class Training {
 
   // Drawings that the first net does not know yet are drawn more often.
   void repeatHard(std::vector<JointedDrawing>& drawings) const {
-    if (options_.hard_copies == 1 || options_.start.empty()) return;
+    if (options_.hard_copies == 1) return;
     const std::vector<JointAccuracy> known =
         jointAccuracies(drawings, net_, loadTemplate(net_.body_plan), options_.threads);
     std::vector<JointedDrawing> hard;

@@ -161,8 +161,9 @@ double lengthOf(const PosableDrawing& drawing, const std::vector<int>& chain) {
   return length;
 }
 
-// Whether a limb is drawn beside the trunk, so that it can be taken off without a hole: none of its joints is
-// nearer to another limb's root or to the root of the skeleton than its own root.
+// Whether a limb is drawn beside the trunk, so that it can be taken off without a hole: its joints lie
+// farther from where it hangs than its root does, and from all other joints by a fifth of its length at
+// least.
 bool standsFree(const PosableDrawing& drawing, const std::vector<int>& chain) {
   const Skeleton& skeleton = drawing.character.skeleton;
   const int parent = skeleton.joints[static_cast<std::size_t>(chain.front())].parent;

@@ -40,8 +40,9 @@ Quaterniond withUpAlong(const Vector3d& direction) {
 bool stretchesUnevenly(const Clip& clip, const std::string& joint) {
   return std::any_of(clip.tracks.begin(), clip.tracks.end(), [&](const JointTrack& track) {
     return track.joint == joint &&
-           std::any_of(track.scales.begin(), track.scales.end(),
-                       [](const Eigen::Vector3f& s) { return s.x() != s.y() || s.y() != s.z(); });
+           std::any_of(track.scales.begin(), track.scales.end(), [](const Eigen::Vector3f& s) {
+             return s.maxCoeff() - s.minCoeff() > 1e-4f * s.cwiseAbs().maxCoeff();
+           });
   });
 }
 
@@ -58,9 +59,9 @@ std::vector<Quaterniond> boneAxes(const Skeleton& skeleton, const TriangleMesh& 
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const Joint& joint = joints[j];
     Vector3d bone = restBone(skeleton, int(j));
-    if (leaf[j] && joint.tail) {
-      bone = *joint.tail - joint.position;
-    } else if (leaf[j] && joint.parent >= 0) {
+    if (leaf[j] && joint.tail) bone = (*joint.tail - joint.position).normalized();
+    if (leaf[j] && joint.parent >= 0) {
+      // As long as its parent's is how programs draw a bone without a child.
       const double length = (joint.position - joints[std::size_t(joint.parent)].position).norm();
       if (joint.position.y() + length * bone.y() < ground) {
         const Vector3d reach = reachOnGround(mesh.vertices, skin, int(j), joint.position);

@@ -42,7 +42,7 @@ Affine3d localTransform(const JsonValue& node) {
   if (const auto r = numbersAt(node, "rotation", 4)) {
     const Eigen::Quaterniond rotation((*r)[3], (*r)[0], (*r)[1], (*r)[2]);
     if (std::abs(rotation.norm() - 1) > 1e-3) node.at("rotation").fail("is not a unit quaternion");
-    transform.rotate(rotation);
+    transform.rotate(rotation.normalized());
   }
   if (const auto s = numbersAt(node, "scale", 3)) transform.scale(Vector3d((*s)[0], (*s)[1], (*s)[2]));
   return transform;
@@ -125,6 +125,12 @@ std::string templateOf(const Skeleton& skeleton) {
   return "";
 }
 
+bool isRigid(const Affine3d& transform) {
+  const Eigen::Matrix3d turn = transform.linear();
+  return (turn * turn.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= kRigid &&
+         turn.determinant() > 0;
+}
+
 Joints readJoints(const Nodes& nodes, const JsonValue& skin) {
   const JsonValue list = skin.at("joints");
   const std::vector<JsonValue> items = list.items();
@@ -166,13 +172,12 @@ Joints readJoints(const Nodes& nodes, const JsonValue& skin) {
       value.fail("the joint \"" + joint.name + "\" is a second root");
     }
     const Affine3d& rest = nodes.model_from_node[node];
-    const Eigen::Matrix3d turn = rest.linear();
-    if (!((turn * turn.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= kRigid) ||
-        turn.determinant() < 0)
+    const Affine3d parent = above < 0 ? Affine3d::Identity() : nodes.model_from_node[above];
+    if (!isRigid(rest) || !isRigid(parent))
       value.fail("the joint \"" + joint.name +
                  "\" is scaled in the rest pose; apply the scale before export");
-    joints.axes.push_back(Quaterniond(turn).normalized());
-    joints.model_from_parent.push_back(above < 0 ? Affine3d::Identity() : nodes.model_from_node[above]);
+    joints.axes.push_back(Quaterniond(rest.linear()).normalized());
+    joints.model_from_parent.push_back(parent);
     joint.position = rest.translation();
     if (const auto extras = value.find("extras"); extras && extras->isObject())
       if (const auto tail = numbersAt(*extras, "tail", 3))
@@ -413,12 +418,15 @@ Clip readClip(const GlbContainer& glb, const JsonValue& animation, const RiggedC
       clip.tracks.emplace_back().joint = all[joint].name;
     }
     JointTrack& track = clip.tracks[static_cast<std::size_t>(tracks[joint])];
-    const Quaterniond model_axes(joints.model_from_parent[joint].linear());  // from those of the parent
+    const Quaterniond model_axes =
+        Quaterniond(joints.model_from_parent[joint].linear()).normalized();  // from those of the parent
     if (kind == "rotation") {
       track.times_s = times;
       track.rotations = quaternions(values, output);
       for (Eigen::Quaternionf& rotation : track.rotations)
-        rotation = (model_axes * rotation.cast<double>() * joints.axes[joint].conjugate()).cast<float>();
+        rotation = (model_axes * rotation.cast<double>() * joints.axes[joint].conjugate())
+                       .normalized()
+                       .cast<float>();
     } else if (kind == "translation") {
       track.translation_times_s = times;
       track.translations_m = vectors(values);

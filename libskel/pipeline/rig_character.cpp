@@ -169,6 +169,8 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   if (inflated && options.layers) {
     drawing.layers = timed("layers", [&] {
       LayerMap found = findLayers(drawing.image, silhouette, skeleton, options.body_plan);
+      // Only the net's confidence tells a guess.
+      if (options.recognizer == Recognizer::kPaper) found.hidden.clear();
       if (!input.layers) return found;
       LayerMap given =
           layersOfPicture(input.layers->image, silhouette, options.body_plan, input.layers->file);

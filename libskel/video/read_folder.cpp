@@ -9,6 +9,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/natural_order.h"
 #include "libskel/image/read_image.h"
+#include "libskel/image/result_picture.h"
 #include "libskel/video/formats.h"
 
 namespace skel {
@@ -26,7 +27,7 @@ bool isPicture(const std::string& path) {
   constexpr std::array<std::string_view, 7> kEndings = {".png", ".jpg", ".jpeg", ".webp",
                                                         ".bmp", ".tif", ".tiff"};
   return std::find(kEndings.begin(), kEndings.end(), endingOf(path)) != kEndings.end() &&
-         !path.ends_with(".mask.png");
+         !isResultPicture(path);
 }
 
 class FolderReader : public VideoReader {

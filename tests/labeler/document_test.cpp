@@ -372,6 +372,51 @@ TEST_CASE("limbs painted by hand are rigged with, on the disk at once, found by 
   CHECK(fs::exists(file));
 }
 
+TEST_CASE("limbs that are found stay where painting begins anew, and looking for them moves no joint") {
+  const TempDir dir;
+  copyCharacter("box_robot", dir.path());
+  Document document(dir.path(), documentOptions());
+  const DrawingState before = document.state();
+  document.findLimbs();
+  REQUIRE(document.layers());
+  const Plane8 found = document.layers()->limb;
+  REQUIRE(found.size() > 0);
+  CHECK(document.state() == before);
+  CHECK_FALSE(document.canUndo());
+  CHECK_FALSE(fs::exists(dir.file("box_robot.labels.json")));
+  document.paintLayer({300, 300}, {310, 300}, 5, 2);
+  document.undo();
+  document.paintLayer({300, 320}, {310, 320}, 5, 2);
+  const Plane8& painted = document.state().layers->limb;
+  CHECK((painted != found).count() < 300);
+  CHECK((painted == 1).count() == (found == 1).count());
+}
+
+TEST_CASE("each figure of a picture has painted limbs of its own") {
+  const TempDir dir;
+  const Image one = readImage(kCharacters + "box_robot.png");
+  Image page(1300, 600);
+  page.rgba.setZero();
+  for (int y = 0; y < 600; ++y)
+    for (int x = 0; x < 600; ++x)
+      for (const int left : {0, 700}) std::copy_n(one.pixel(x, y), 4, page.pixel(x + left, y));
+  writeFile(dir.file("page.png"), encodePng(page));
+  SkeletonFile file;
+  file.image_file = "page.png";
+  file.image_width = 1300;
+  file.image_height = 600;
+  file.figure.number = 2;
+  file.skeleton = presetSkeleton(loadTemplate("biped"), {850, 80}, {1150, 540});
+  writeFile(dir.file("page-2.skeleton.json"), formatSkeletonFile(file));
+  Document document(dir.file("page-2.skeleton.json"), documentOptions());
+  const Plane8& mask = document.figure().silhouette.mask;
+  REQUIRE((mask.leftCols(650) != 0).any() != (mask.rightCols(650) != 0).any());
+  const int left = (mask.rightCols(650) != 0).any() ? 700 : 0;
+  document.paintLayer({left + 300, 300}, {left + 310, 300}, 5, 2);
+  CHECK(fs::exists(dir.file("page-2.limbs.png")));
+  CHECK_FALSE(fs::exists(dir.file("page.limbs.png")));
+}
+
 TEST_CASE("a layer map that cannot be read is not written over") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());
