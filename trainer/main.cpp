@@ -1,4 +1,5 @@
 #include "libskel/cli/tool.h"
+#include "trainer/average_nets.h"
 #include "trainer/joint_net_figures.h"
 #include "trainer/joint_net_training.h"
 #include "trainer/page_net_training.h"
@@ -24,10 +25,15 @@ int main(int argc, char** argv) {
   skel::PageTrainingOptions page_training;
   CLI::App* pages = app.add_subcommand("pages", "Trains the net that tells the figure from its page");
   skel::bindPageTrainingOptions(*pages, page_training);
+  skel::AverageNetsOptions average;
+  CLI::App* averaging =
+      app.add_subcommand("average", "Averages joint nets that were trained on from one another");
+  skel::bindAverageNetsOptions(*averaging, average);
   return skel::runTool(app, argc, argv, [&] {
     if (*evaluation) return skel::runEvaluateWeights(evaluate);
     if (*figures) return skel::runFigureSheet(sheet);
     if (*joints) return skel::runJointTraining(joint_training);
+    if (*averaging) return skel::runAverageNets(average);
     if (*pages) return skel::runPageTraining(page_training);
     return skel::runTrain(train);
   });

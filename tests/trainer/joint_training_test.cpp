@@ -1,7 +1,9 @@
 // skel-train joints: the same net whatever the number of threads, and after a stop.
+#include <cmath>
 #include <filesystem>
 
 #include "libskel/core/files.h"
+#include "libskel/jointnet/joint_net.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 #include "tests/support/temp_dir.h"
@@ -65,6 +67,14 @@ TEST_CASE(
   CHECK(result.out.find("after: 1 drawings left out: joints within 5 % ") != std::string::npos);
   CHECK(readFile(dir.file("mine.bin")) != readFile(dir.file("first.bin")));
 
+  const auto hard = runTool(
+      command(dir, "hard.bin", "--hard 2 --left-out 0 --start '" + dir.file("first.bin") + "'" + from));
+  CHECK(hard.exit_code == 0);
+  CHECK(hard.out.find("3 of 3 drawings are hard") != std::string::npos);
+  const auto nothing = runTool(command(dir, "hard.bin", "--hard 2" + from));
+  CHECK(nothing.exit_code == 1);
+  CHECK(nothing.err.find("--hard needs --start and --drawings") != std::string::npos);
+
   const auto animal =
       runTool(command(dir, "n.bin", "--template quadruped --start '" + dir.file("first.bin") + "'"));
   CHECK(animal.exit_code == 2);
@@ -86,6 +96,32 @@ TEST_CASE("joint training refuses what it cannot go on from or learn from") {
   CHECK(empty.exit_code == 2);
   CHECK(empty.err.find("has no drawing with known joints") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(dir.file("n.bin")));
+}
+
+TEST_CASE("the mean of a net and itself is that net; the mean of two lies between them") {
+  const TempDir dir;
+  const std::string archive = SKEL_DATASETS "/../weights/archive/", tool = SKEL_TRAIN " average '";
+  const std::string a = archive + "joint-net-pass-1.bin", b = archive + "joint-net-pass-2.bin";
+  REQUIRE(runTool(tool + a + "' '" + a + "' -o '" + dir.file("same.bin") + "'").exit_code == 0);
+  REQUIRE(runTool(tool + a + "' '" + b + "' -o '" + dir.file("mean.bin") + "'").exit_code == 0);
+  const auto parameters = [](const std::string& file) {
+    return parseJointNet(readFile(file), file).parameters;
+  };
+  const auto of_a = parameters(a), of_b = parameters(b), same = parameters(dir.file("same.bin")),
+             mean = parameters(dir.file("mean.bin"));
+  REQUIRE(same.size() == of_a.size());
+  double off = 0, apart = 0;
+  for (std::size_t i = 0; i < of_a.size(); ++i) {
+    REQUIRE(std::abs(same[i] - of_a[i]) < 1e-6);
+    off += std::abs(mean[i] - (of_a[i] + of_b[i]) / 2);
+    apart += std::abs(of_a[i] - of_b[i]);
+  }
+  CHECK(off < .5 * apart);
+  const auto refused = runTool(tool + a + "' '" + archive + "quadruped-joint-net-pass-1.bin' -o '" +
+                               dir.file("none.bin") + "'");
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.err.find("is another kind of net than") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(dir.file("none.bin")));
 }
 
 }  // namespace
