@@ -129,7 +129,8 @@ void CanvasView::updateLimbTexture() {
   document_.findLimbs();
   const LayerMap* layers = document_.layers();
   Image tint = layerPicture(layers ? *layers : LayerMap(), document_.figure().silhouette.mask);
-  if (limb_picture_ && limb_picture_->rgba.rows() == tint.rgba.rows() && (limb_picture_->rgba == tint.rgba).all())
+  if (limb_picture_ && limb_picture_->rgba.rows() == tint.rgba.rows() &&
+      (limb_picture_->rgba == tint.rgba).all())
     return;
   limb_picture_ = tint;
   const auto body = layerColor(0);
