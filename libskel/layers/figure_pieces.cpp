@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "libskel/candidates/candidates.h"
+#include "libskel/image/mask_parts.h"
 #include "libskel/layers/layer_map.h"
-#include "libskel/layers/mask_parts.h"
 #include "libskel/mesh/outline.h"
 
 namespace skel {

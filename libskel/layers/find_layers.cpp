@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
+#include "libskel/image/mask_parts.h"
 #include "libskel/layers/layer_map.h"
-#include "libskel/layers/mask_parts.h"
 #include "libskel/layers/ribbon.h"
 #include "libskel/mesh/outline.h"
 
@@ -87,11 +87,11 @@ bool standsOut(const Ribbon& ribbon) {
   return drawn >= kLeastDrawn * contact && strength / contact >= kClearer * ribbon.inside_strength;
 }
 
-bool cross(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
-  const auto side = [](const Vector2d& p, const Vector2d& q, const Vector2d& r) {
-    return (q - p).x() * (r - p).y() - (q - p).y() * (r - p).x();
-  };
-  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+double cross(const Vector2d& u, const Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); }
+
+// Whether the segments from a to b and from c to d cross.
+bool segmentsCross(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
+  return cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
 }
 
 // Whether nearly all of it is against the body: no section ends at the outline on both sides, or it has taken
@@ -104,14 +104,13 @@ bool grownToBody(const Ribbon& ribbon, const std::vector<Vector2d>& spine) {
     const Ribbon::Section& section = ribbon.sections[s];
     bool against = section.left_side != BandSide::kOutline || section.right_side != BandSide::kOutline;
     for (std::size_t k = 0; k + 1 < spine.size(); ++k)
-      against = against || cross(section.left, section.right, spine[k], spine[k + 1]);
+      against = against || segmentsCross(section.left, section.right, spine[k], spine[k + 1]);
     grown += against;
   }
   return sections > 0 && grown >= kGrown * sections;
 }
 
 void fillTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, Plane8& mask) {
-  const auto cross = [](const Vector2d& u, const Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); };
   const double area = cross(b - a, c - a);
   if (area == 0) return;
   const Vector2d low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
@@ -247,6 +246,7 @@ void takeWhatIsCutOff(const Plane8& figure, const Skeleton& skeleton, const std:
                        kCutOff * static_cast<double>(areas[limb]);
     if (part.at_outline && !others && (!large || part.joints_of[limb])) taken.insert(number);
   }
+  if (taken.empty()) return;
   for (const MaskParts::Run& run : parts.runs)
     if (taken.contains(run.part))
       limbs.row(run.y + box.y0).segment(run.x0 + box.x0, run.x1 - run.x0).setConstant(kFree);

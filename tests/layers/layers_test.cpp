@@ -8,9 +8,9 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
+#include "libskel/image/mask_parts.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
-#include "libskel/layers/mask_parts.h"
 #include "libskel/mesh/fill_hidden.h"
 #include "libskel/mesh/inflate.h"
 #include "libskel/skeleton/lift.h"

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
+#include "libskel/image/mask_parts.h"
 #include "libskel/jointnet/figure_look.h"
 #include "libskel/jointnet/net_joints.h"
 #include "libskel/silhouette/pieces.h"
@@ -113,71 +115,37 @@ void grow(Bits& solid, int width, int height, int radius, std::uint8_t value) {
   }
 }
 
-// A row's stretch of equal pixels. `label` is the same for all runs of one 4-connected region.
-struct Run {
-  int y, x0, x1;  // x1 excluded
-  int label;
-};
+// The 4-connected parts of the pixels that have this value.
+MaskParts partsWith(std::uint8_t value, const Bits& plane, int width, int height) {
+  const Eigen::Map<const Plane8> all(plane.data(), height, width);
+  return maskParts((all == value).cast<std::uint8_t>());
+}
 
-std::vector<Run> labelledRuns(const Bits& plane, int width, int height, std::uint8_t value) {
-  std::vector<Run> runs;
-  const auto root = [&](int i) {
-    while (runs[i].label != i) i = runs[i].label = runs[runs[i].label].label;
-    return i;
-  };
-  std::size_t above = 0;
-  for (int y = 0; y < height; ++y) {
-    const std::size_t first = runs.size();
-    const std::uint8_t* row = plane.data() + y * width;
-    for (int x = 0; x < width;) {
-      if (row[x] != value) {
-        ++x;
-        continue;
-      }
-      const int x0 = x;
-      while (x < width && row[x] == value) ++x;
-      const int self = static_cast<int>(runs.size());
-      runs.push_back({y, x0, x, self});
-      while (above < first && runs[above].x1 <= x0) ++above;
-      for (std::size_t k = above; k < first && runs[k].x0 < x; ++k) {
-        const int a = root(static_cast<int>(k)), b = root(self);
-        runs[std::max(a, b)].label = std::min(a, b);
-      }
-    }
-    above = first;
-  }
-  for (int i = 0; i < static_cast<int>(runs.size()); ++i) runs[i].label = root(i);
-  return runs;
+void setRun(Bits& plane, int width, const MaskParts::Run& run, std::uint8_t value) {
+  std::fill_n(plane.begin() + static_cast<std::ptrdiff_t>(run.y) * width + run.x0, run.x1 - run.x0, value);
 }
 
 void fillHoles(Bits& solid, int width, int height) {
-  const std::vector<Run> runs = labelledRuns(solid, width, height, 0);
-  std::vector<bool> outside(runs.size(), false);
-  for (const Run& run : runs) {
-    if (run.y == 0 || run.y == height - 1 || run.x0 == 0 || run.x1 == width) outside[run.label] = true;
+  const MaskParts parts = partsWith(0, solid, width, height);
+  std::vector<bool> outside(parts.size.size(), false);
+  for (const MaskParts::Run& run : parts.runs) {
+    if (run.y == 0 || run.y == height - 1 || run.x0 == 0 || run.x1 == width) outside[run.part] = true;
   }
-  for (const Run& run : runs) {
-    if (!outside[run.label])
-      std::fill(&solid[run.y * width + run.x0], &solid[run.y * width + run.x1 - 1] + 1, 1);
+  for (const MaskParts::Run& run : parts.runs) {
+    if (!outside[run.part]) setRun(solid, width, run, 1);
   }
 }
 
 // Keeps the largest part; returns its share of all that was there.
 double keepLargestPart(Bits& solid, int width, int height) {
-  const std::vector<Run> runs = labelledRuns(solid, width, height, 1);
-  std::vector<int> size(runs.size(), 0);
-  int all = 0;
-  for (const Run& run : runs) {
-    size[run.label] += run.x1 - run.x0;
-    all += run.x1 - run.x0;
+  const MaskParts parts = partsWith(1, solid, width, height);
+  const int largest = parts.largest();
+  if (largest < 0) return 0;
+  for (const MaskParts::Run& run : parts.runs) {
+    if (run.part != largest) setRun(solid, width, run, 0);
   }
-  if (all == 0) return 0;
-  const int best = static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
-  for (const Run& run : runs) {
-    if (run.label != best)
-      std::fill(&solid[run.y * width + run.x0], &solid[run.y * width + run.x1 - 1] + 1, 0);
-  }
-  return static_cast<double>(size[best]) / all;
+  const auto all = std::accumulate(parts.size.begin(), parts.size.end(), std::int64_t{0});
+  return static_cast<double>(parts.size[largest]) / static_cast<double>(all);
 }
 
 // Joins the pieces of a figure as the silhouette stage does; returns the figure's share of all that was

@@ -1,4 +1,4 @@
-#include "libskel/layers/mask_parts.h"
+#include "libskel/image/mask_parts.h"
 
 #include <algorithm>
 
