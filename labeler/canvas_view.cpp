@@ -86,7 +86,7 @@ void CanvasView::followDocument() {
     if (!document_.image().empty()) picture_.upload(onWhite(document_.image()));
     selected_ = -1;
     tinted_ = false;
-    limb_picture_.reset();
+    limbs_tinted_ = false;
     cancel();
     fitted_ = false;
   }
@@ -127,12 +127,11 @@ void CanvasView::updateMaskTexture() {
 // Each limb that lies before the body in its colour, the rest of the figure grey.
 void CanvasView::updateLimbTexture() {
   document_.findLimbs();
-  const LayerMap* layers = document_.layers();
-  Image tint = layerPicture(layers ? *layers : LayerMap(), document_.figure().silhouette.mask);
-  if (limb_picture_ && limb_picture_->rgba.rows() == tint.rgba.rows() &&
-      (limb_picture_->rgba == tint.rgba).all())
-    return;
-  limb_picture_ = tint;
+  if (limbs_tinted_ && limb_mask_ == document_.state().mask && tinted_limbs_ == document_.layers()) return;
+  limbs_tinted_ = true;
+  limb_mask_ = document_.state().mask;
+  tinted_limbs_ = document_.layers();
+  Image tint = layerPicture(tinted_limbs_ ? *tinted_limbs_ : LayerMap(), document_.figure().silhouette.mask);
   const auto body = layerColor(0);
   for (Eigen::Index i = 0; i < tint.rgba.rows(); ++i)
     if (tint.rgba(i, 3) != 0)
@@ -261,38 +260,36 @@ void CanvasView::useJoints(bool hovered) {
   cancel();
 }
 
-void CanvasView::useMask(bool hovered) {
+template <class Value, class Paint>
+void CanvasView::strokeWith(bool hovered, Value left, Value right, Value& value, const Paint& paint) {
   const Eigen::Vector2d now = imageFromScreen(ImGui::GetIO().MousePos);
-  const bool left = ImGui::IsMouseClicked(0), right = ImGui::IsMouseClicked(1);
-  const bool starts = hovered && (left || right) && !stroke_;
+  const bool with_left = ImGui::IsMouseClicked(0), with_right = ImGui::IsMouseClicked(1);
+  const bool starts = hovered && (with_left || with_right) && !stroke_;
   if (starts) {
     document_.beginStep();
     stroke_ = true;
-    stroke_adds_ = left == mask_adds;
+    value = with_left ? left : right;
     last_px_ = now;
   }
   if (!stroke_) return;
-  if (starts || now != last_px_) document_.paintMask(last_px_, now, brush_screen_px_ / zoom_, stroke_adds_);
+  if (starts || now != last_px_) paint(last_px_, now, brush_screen_px_ / zoom_, value);
   last_px_ = now;
   if (isDragging(0) || isDragging(1)) return;
   cancel();
 }
 
+void CanvasView::useMask(bool hovered) {
+  strokeWith(hovered, mask_adds, !mask_adds, stroke_adds_,
+             [&](const auto& from, const auto& to, double radius_px, bool add) {
+               document_.paintMask(from, to, radius_px, add);
+             });
+}
+
 void CanvasView::useLimbs(bool hovered) {
-  const Eigen::Vector2d now = imageFromScreen(ImGui::GetIO().MousePos);
-  const bool left = ImGui::IsMouseClicked(0), right = ImGui::IsMouseClicked(1);
-  const bool starts = hovered && (left || right) && !stroke_;
-  if (starts) {
-    document_.beginStep();
-    stroke_ = true;
-    stroke_limb_ = left ? active_limb : 0;
-    last_px_ = now;
-  }
-  if (!stroke_) return;
-  if (starts || now != last_px_) document_.paintLayer(last_px_, now, brush_screen_px_ / zoom_, stroke_limb_);
-  last_px_ = now;
-  if (isDragging(0) || isDragging(1)) return;
-  cancel();
+  strokeWith(hovered, active_limb, 0, stroke_limb_,
+             [&](const auto& from, const auto& to, double radius_px, int limb) {
+               document_.paintLayer(from, to, radius_px, limb);
+             });
 }
 
 void CanvasView::drawPicture(ImDrawList* list) {
@@ -392,15 +389,17 @@ void CanvasView::drawCursor(ImDrawList* list, bool hovered) {
     list->AddCircleFilled(mouse, radius, imColor(active_class, 50), 48);
     list->AddCircle(mouse, radius, imColor(active_class), 48, 2.5f);
   }
+  const auto ring = [&](ImU32 color) {
+    list->AddCircle(mouse, radius, IM_COL32_WHITE, 48, 4);
+    list->AddCircle(mouse, radius, color, 48, 2.5f);
+  };
   if (hovered && tool == Tool::kMask) {
     const bool adds = stroke_ ? stroke_adds_ : mask_adds;
-    list->AddCircle(mouse, radius, IM_COL32_WHITE, 48, 4);
-    list->AddCircle(mouse, radius, adds ? IM_COL32(30, 140, 60, 255) : IM_COL32(210, 50, 40, 255), 48, 2.5f);
+    ring(adds ? IM_COL32(30, 140, 60, 255) : IM_COL32(210, 50, 40, 255));
   }
   if (hovered && tool == Tool::kLimbs) {
     const auto rgb = layerColor(stroke_ ? stroke_limb_ : active_limb);
-    list->AddCircle(mouse, radius, IM_COL32_WHITE, 48, 4);
-    list->AddCircle(mouse, radius, IM_COL32(rgb[0], rgb[1], rgb[2], 255), 48, 2.5f);
+    ring(IM_COL32(rgb[0], rgb[1], rgb[2], 255));
   }
   if (lassoing_) {
     std::vector<ImVec2> points;

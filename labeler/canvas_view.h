@@ -53,6 +53,9 @@ class CanvasView {
   void useJoints(bool hovered);
   void useMask(bool hovered);
   void useLimbs(bool hovered);
+  // A stroke of the round brush with either button: calls paint(from_px, to_px, radius_px, value) along it.
+  template <class Value, class Paint>
+  void strokeWith(bool hovered, Value left, Value right, Value& value, const Paint& paint);
   void drawPicture(ImDrawList* list);
   void drawCandidates(ImDrawList* list);
   void drawSkeleton(ImDrawList* list);
@@ -60,10 +63,12 @@ class CanvasView {
 
   Document& document_;
   Texture picture_, mask_tint_, limb_tint_;
-  std::optional<Image> limb_picture_;  // what limb_tint_ shows; nothing: of another drawing
   int shown_item_ = -1;
   bool tinted_ = false;                             // mask_tint_ is of this drawing
   std::shared_ptr<const MaskVersion> tinted_mask_;  // and of this mask
+  bool limbs_tinted_ = false;                       // the same of limb_tint_
+  std::shared_ptr<const MaskVersion> limb_mask_;
+  std::shared_ptr<const LayerMap> tinted_limbs_;
 
   ImVec2 view_corner_{}, view_size_{}, view_center_{};
   bool fitted_ = false;

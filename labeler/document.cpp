@@ -141,6 +141,18 @@ void deriveMidpoints(std::vector<std::optional<PlacedJoint>>& joints, const Skel
   }
 }
 
+// Puts the skeleton's joints where those are that are known.
+void placeJoints(const std::vector<std::optional<PlacedJoint>>& joints, const SkeletonTemplate& body_plan,
+                 Skeleton& skeleton) {
+  for (Joint& joint : skeleton.joints) {
+    const auto& place = joints[static_cast<size_t>(body_plan.find(joint.name))];
+    if (!place) continue;
+    joint.image = place->image;
+    joint.confidence = place->confidence;
+    joint.origin = place->origin;
+  }
+}
+
 int countLabels(const std::vector<std::optional<JointClass>>& labels) {
   return static_cast<int>(
       std::count_if(labels.begin(), labels.end(), [](const auto& label) { return label.has_value(); }));
@@ -526,7 +538,7 @@ void Document::paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d&
   findLimbs();
   const Plane8& mask = figure_->silhouette.mask;
   auto map = std::make_shared<LayerMap>();
-  if (const LayerMap* known = layers(); known && known->any())
+  if (const auto known = layers(); known && known->any())
     map->limb = known->limb;
   else
     map->limb = Plane8::Zero(mask.rows(), mask.cols());
@@ -554,11 +566,7 @@ void Document::findLimbs() {
     if (std::all_of(state_.joints.begin(), state_.joints.end(),
                     [](const auto& j) { return j.has_value(); })) {
       input.skeleton = presetSkeleton(options_.body_plan, {0, 0}, {1, 1});
-      for (Joint& joint : input.skeleton->joints) {
-        const PlacedJoint& place = *state_.joints[static_cast<size_t>(options_.body_plan.find(joint.name))];
-        joint.image = place.image;
-        joint.confidence = place.confidence;
-      }
+      placeJoints(state_.joints, options_.body_plan, *input.skeleton);
     }
     RigOptions options = rigOptions();
     options.clips.clear();
@@ -569,20 +577,13 @@ void Document::findLimbs() {
   found_layers_ = std::move(found);
 }
 
-std::string Document::layersPath() const {
-  const std::string& path = item().files.layers;
-  if (figureNumber() <= 1) return path;
-  constexpr std::string_view kEnding = ".limbs.png";
-  return path.substr(0, path.size() - kEnding.size()) + "-" + std::to_string(figureNumber()) +
-         std::string(kEnding);
-}
+std::string Document::layersPath() const { return layersFile(item().files, figureNumber()); }
 
-bool Document::readLayers() {
+void Document::readLayers() {
   const std::string path = layersPath();
-  if (motion_file_ || !figure_->silhouette.found() || !fs::is_regular_file(path)) return false;
+  if (motion_file_ || !figure_->silhouette.found() || !fs::is_regular_file(path)) return;
   state_.layers = saved_layers_ = std::make_shared<LayerMap>(
       layersOfPicture(readImage(path), figure_->silhouette, options_.body_plan, path));
-  return true;
 }
 
 void Document::forgetRig() {
@@ -636,12 +637,7 @@ void Document::rigOrThrow() {
   deriveMidpoints(state_.joints, options_.body_plan);
   // The model is to have the joints that are shown.
   Skeleton shown = rigged->recognition.skeleton;
-  for (Joint& joint : shown.joints) {
-    const PlacedJoint& place = *state_.joints[static_cast<size_t>(options_.body_plan.find(joint.name))];
-    joint.image = place.image;
-    joint.confidence = place.confidence;
-    joint.origin = place.origin;
-  }
+  placeJoints(state_.joints, options_.body_plan, shown);
   input.skeleton = std::move(shown);
   std::vector<std::string> missing = rigged->recognition.missing;
   std::erase_if(missing, [&](const std::string& name) {
@@ -739,12 +735,10 @@ void Document::writeFiles() {
 
 void Document::writeSkeletonFile() {
   SkeletonFile file = *skeleton_file_;
+  placeJoints(state_.joints, options_.body_plan, file.skeleton);
   for (Joint& joint : file.skeleton.joints) {
     const auto& place = state_.joints[static_cast<size_t>(options_.body_plan.find(joint.name))];
     if (!place) continue;
-    joint.image = place->image;
-    joint.confidence = place->confidence;
-    joint.origin = place->origin;
     if (place->origin == JointOrigin::kEdited) std::erase(file.missing, joint.name);
     // Joints that were found anew must not look as if somebody had moved them.
     if (rigged_)

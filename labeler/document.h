@@ -114,7 +114,7 @@ class Document {
   void forgetLayers();
   // Those painted, else those found by rig() or findLimbs(); null: not looked for since mask or joints have
   // changed.
-  const LayerMap* layers() const { return state_.layers ? state_.layers.get() : found_layers_.get(); }
+  std::shared_ptr<const LayerMap> layers() const { return state_.layers ? state_.layers : found_layers_; }
   // Looks for them with the joints as they are. No step.
   void findLimbs();
   // Recognises the joints anew, but for those that a person has placed, and builds the model. Says why where
@@ -167,7 +167,7 @@ class Document {
   void writeSkeletonFile();
   void writeMotionFile();
   std::string layersPath() const;  // of the drawing's figure
-  bool readLayers();               // false: there is no such file
+  void readLayers();               // where there is such a file
   void writeLayers();
   void forgetRig();  // mask or joints have changed
   RigInput rigInput() const;

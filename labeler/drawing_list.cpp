@@ -25,8 +25,12 @@ bool isDrawing(const fs::path& path) {
 }  // namespace
 
 DrawingFiles drawingFiles(const std::string& image, const std::string& name) {
-  const std::string stem = fs::path(image).replace_extension().string();
-  return {name, image, labelFileFor(image), stem + ".mask.png", stem + ".limbs.png"};
+  return {name, image, labelFileFor(image), fs::path(image).replace_extension().string() + ".mask.png"};
+}
+
+std::string layersFile(const DrawingFiles& files, int figure) {
+  const std::string stem = fs::path(files.image).replace_extension().string();
+  return stem + (figure > 1 ? "-" + std::to_string(figure) : "") + ".limbs.png";
 }
 
 std::optional<std::string> givenMask(const DrawingFiles& files) {

@@ -11,9 +11,11 @@ struct DrawingFiles {
   std::string name;   // below the folder
   std::string image;  // paths
   std::string labels;
-  std::string mask;    // <stem>.mask.png: where a mended mask is saved
-  std::string layers;  // <stem>.limbs.png: where a painted layer map is saved
+  std::string mask;  // <stem>.mask.png: where a mended mask is saved
 };
+
+// Where a painted layer map is saved: <stem>.limbs.png, <stem>-2.limbs.png for the second figure, and so on.
+std::string layersFile(const DrawingFiles& files, int figure);
 
 // A mask that lies beside the drawing: <stem>.mask.png, or mask.png beside image.png and texture.png.
 std::optional<std::string> givenMask(const DrawingFiles& files);
