@@ -8,17 +8,14 @@
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/core/files.h"
+#include "libskel/core/text.h"
 #include "libskel/export/formats.h"
 #include "libskel/import/read_character.h"
 
 namespace skel {
 namespace {
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none" : text;
-}
+std::string listed(const std::vector<std::string>& names) { return names.empty() ? "none" : joined(names); }
 
 void report(const JointMatch& match) {
   std::printf("matched %s:\n", match.by_shape ? "by the shape of the tree" : "by name");

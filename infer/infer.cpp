@@ -11,6 +11,7 @@
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
 #include "libskel/core/sha256.h"
+#include "libskel/core/text.h"
 #include "libskel/deform/stretch.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/result_picture.h"
@@ -189,12 +190,6 @@ std::vector<std::string> warningsOf(const SkeletonFile& given, const RiggedDrawi
   return warnings;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 // What to say of limbs that do not move as limbs should. `file`: what skel-label is to open.
 std::vector<std::string> limbWarnings(const RiggedDrawing& drawing, const SkeletonTemplate& body_plan,
                                       const std::string& file) {
@@ -207,18 +202,22 @@ std::vector<std::string> limbWarnings(const RiggedDrawing& drawing, const Skelet
     warnings.push_back("the " + limbName(body_plan, limb) +
                        " cannot be told from the body and stays with it" + remedy);
   const RiggedCharacter& character = drawing.character;
+  std::map<int, std::vector<int>> joints_of_limb;  // of those that are no layers
+  for (std::size_t k = 0; k < body_plan.limbs.size(); ++k) {
+    const int limb = static_cast<int>(k) + 1;
+    if (drawing.layers.any() && (drawing.layers.limb == limb).any()) continue;
+    for (const int joint : body_plan.limbs[k].joints)
+      if (const int j = character.skeleton.find(body_plan.joints[std::size_t(joint)].name); j >= 0)
+        joints_of_limb[limb].push_back(j);
+  }
   std::map<int, std::vector<std::string>> clips_of_limb;
   for (const ClipStretch& stretch :
        clipStretches(character.mesh, character.skeleton, character.weights, drawing.clips)) {
     int most = 0;
     double share = kOfLimb;
-    for (std::size_t k = 0; k < body_plan.limbs.size(); ++k) {
-      const int limb = static_cast<int>(k) + 1;
-      if (drawing.layers.any() && (drawing.layers.limb == limb).any()) continue;
+    for (const auto& [limb, joints] : joints_of_limb) {
       double sum = 0;
-      for (const int joint : body_plan.limbs[k].joints)
-        if (const int j = character.skeleton.find(body_plan.joints[std::size_t(joint)].name); j >= 0)
-          sum += stretch.by_joint[std::size_t(j)];
+      for (const int joint : joints) sum += stretch.by_joint[std::size_t(joint)];
       if (sum > share) most = limb, share = sum;
     }
     if (stretch.share > kTorn && most > 0) clips_of_limb[most].push_back(stretch.clip);

@@ -9,6 +9,7 @@
 
 #include "infer/rig_request.h"
 #include "libskel/core/files.h"
+#include "libskel/core/text.h"
 #include "libskel/draw/draw_skeleton.h"
 #include "libskel/export/formats.h"
 #include "libskel/image/write_image.h"
@@ -105,11 +106,7 @@ std::vector<std::string> allFormats() {
   return names;
 }
 
-std::string formatNames() {
-  std::string text;
-  for (const std::string& name : allFormats()) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
+std::string formatNames() { return joined(allFormats()); }
 
 std::vector<std::string> writeOutputs(const InferOptions& options, const std::string& stem,
                                       const RiggedDrawing& drawing, const SkeletonFile& file) {

@@ -168,13 +168,14 @@ bool standsFree(const PosableDrawing& drawing, const std::vector<int>& chain) {
   const Skeleton& skeleton = drawing.character.skeleton;
   const int parent = skeleton.joints[static_cast<std::size_t>(chain.front())].parent;
   const Eigen::Vector2d from = inModel(drawing, parent), root = inModel(drawing, chain.front());
+  const double apart = .2 * lengthOf(drawing, chain);
   for (std::size_t k = 1; k < chain.size(); ++k) {
     const Eigen::Vector2d at = inModel(drawing, chain[k]);
     if ((at - from).norm() < 1.1 * (root - from).norm()) return false;
     for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
       const int limb = drawing.limbs[j];
       if (limb == drawing.limbs[static_cast<std::size_t>(chain.front())]) continue;
-      if ((at - inModel(drawing, static_cast<int>(j))).norm() < .2 * lengthOf(drawing, chain)) return false;
+      if ((at - inModel(drawing, static_cast<int>(j))).norm() < apart) return false;
     }
   }
   return true;

@@ -36,36 +36,40 @@ double largestSingularValue(const Matrix2d& map) {
 
 }  // namespace
 
-std::vector<TriangleStretch> triangleStretches(const TriangleMesh& mesh, const Eigen::MatrixX3f& posed,
-                                               Eigen::Index step) {
-  std::vector<TriangleStretch> stretches;
+std::vector<RestTriangle> restTriangles(const TriangleMesh& mesh, Eigen::Index step) {
+  std::vector<RestTriangle> rest;
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); t += step) {
-    const Matrix2d rest = flat(mesh.vertices, mesh, t);
-    const double twice_area = rest.determinant();
-    const bool flat_at_rest = !(std::abs(twice_area) > 1e-12);
-    stretches.push_back(
-        {t, twice_area / 2, flat_at_rest ? 1 : largestSingularValue(flat(posed, mesh, t) * rest.inverse())});
+    const Matrix2d edges = flat(mesh.vertices, mesh, t);
+    const double twice_area = edges.determinant();
+    const Matrix2d inverse = std::abs(twice_area) > 1e-12 ? Matrix2d(edges.inverse()) : Matrix2d::Zero();
+    rest.push_back({t, twice_area / 2, inverse});
   }
-  return stretches;
+  return rest;
+}
+
+double stretchOf(const RestTriangle& rest, const TriangleMesh& mesh, const Eigen::MatrixX3f& posed) {
+  if (rest.inverse.isZero(0)) return 1;
+  return largestSingularValue(flat(posed, mesh, rest.triangle) * rest.inverse);
 }
 
 std::vector<ClipStretch> clipStretches(const TriangleMesh& mesh, const Skeleton& skeleton,
                                        const SkinWeights& weights, const std::vector<Clip>& clips) {
   const float height = mesh.vertices.col(1).maxCoeff() - mesh.vertices.col(1).minCoeff();
+  const std::vector<RestTriangle> rest = restTriangles(mesh, kStep);
+  double all = 0;
+  for (const RestTriangle& t : rest) all += kMoments * t.area;
   std::vector<ClipStretch> found;
   for (const Clip& clip : clips) {
     ClipStretch& stretch = found.emplace_back();
     stretch.clip = clip.name;
     stretch.by_joint.assign(skeleton.joints.size(), 0);
-    double all = 0;
     for (int moment = 0; moment < kMoments; ++moment) {
       const float time_s = clip.duration_s() * (static_cast<float>(moment) + .5f) / kMoments;
       const Pose pose = samplePose(clip, skeleton, time_s);
       const Eigen::MatrixX3f posed =
           skinVertices(mesh.vertices, weights, posedFromRest(skeleton, pose, height));
-      for (const TriangleStretch& t : triangleStretches(mesh, posed, kStep)) {
-        all += t.area;
-        if (t.stretch <= kFarStretch) continue;
+      for (const RestTriangle& t : rest) {
+        if (stretchOf(t, mesh, posed) <= kFarStretch) continue;
         stretch.share += t.area;
         const Eigen::Index vertex = mesh.triangles(t.triangle, 0);
         for (int k = 0; k < 4; ++k)

@@ -1,6 +1,7 @@
 // How far a pose stretches a skin.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -13,14 +14,18 @@ namespace skel {
 
 inline constexpr double kFarStretch = 3;  // what is stretched more looks torn
 
-// Of the triangles `first`, `first + step`, …: the area at rest in m², and the largest singular value of the
-// map that takes the triangle at rest to the posed one.
-struct TriangleStretch {
+// A triangle at rest, in its own plane.
+struct RestTriangle {
   Eigen::Index triangle;
-  double area, stretch;
+  double area;              // m²
+  Eigen::Matrix2d inverse;  // of its edges; zero where they have no area
 };
-std::vector<TriangleStretch> triangleStretches(const TriangleMesh& mesh, const Eigen::MatrixX3f& posed,
-                                               Eigen::Index step = 1);
+// Every `step`-th triangle of a mesh.
+std::vector<RestTriangle> restTriangles(const TriangleMesh& mesh, Eigen::Index step = 1);
+
+// The largest singular value of the map that takes the triangle at rest to the posed one; 1 if it has no
+// area.
+double stretchOf(const RestTriangle& rest, const TriangleMesh& mesh, const Eigen::MatrixX3f& posed);
 
 // The share of a mesh's area that a clip stretches above kFarStretch, mean over some moments of it.
 struct ClipStretch {

@@ -350,15 +350,15 @@ std::vector<Vector3f> vectors(const GlbContainer::Numbers& numbers) {
 // but for their order.
 std::vector<Vector3f> scalesInModel(std::vector<Vector3f> scales, const Quaterniond& axes,
                                     const JsonValue& output) {
-  const Eigen::Matrix3d turn = axes.toRotationMatrix().cwiseAbs();
-  const bool along_axes = (turn - turn.array().round().matrix()).cwiseAbs().maxCoeff() <= kRigid;
+  const Eigen::Matrix3d turn = axes.toRotationMatrix().cwiseAbs(), order = turn.array().round();
+  const bool along_axes = (turn - order).cwiseAbs().maxCoeff() <= kRigid;
   for (std::size_t i = 0; i < scales.size(); ++i) {
     Vector3f& scale = scales[i];
     if (scale.maxCoeff() - scale.minCoeff() <= kRigid * scale.cwiseAbs().maxCoeff()) continue;
     if (!along_axes)
       output.fail("element " + std::to_string(i) +
                   " scales a turned joint unevenly, which is not read; apply rotation before export");
-    scale = turn.array().round().matrix().cast<float>() * scale;
+    scale = order.cast<float>() * scale;
   }
   return scales;
 }

@@ -8,6 +8,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
+#include "libskel/core/text.h"
 
 namespace skel {
 namespace {
@@ -133,11 +134,9 @@ SkeletonTemplate parseTemplate(std::string_view text, const std::string& file) {
 SkeletonTemplate loadTemplate(const std::string& name_or_path) {
   if (const auto builtin = builtins().find(name_or_path); builtin != builtins().end())
     return parseTemplate(builtin->second, builtin->first + ".json");
-  if (!name_or_path.ends_with(".json")) {
-    std::string known;
-    for (const std::string& name : builtinTemplates()) known += (known.empty() ? "" : ", ") + name;
-    throw InputError(name_or_path, "is no template; use one of: " + known + ", or a template's .json file");
-  }
+  if (!name_or_path.ends_with(".json"))
+    throw InputError(name_or_path, "is no template; use one of: " + joined(builtinTemplates()) +
+                                       ", or a template's .json file");
   return parseTemplate(readFile(name_or_path), name_or_path);
 }
 

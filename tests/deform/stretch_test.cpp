@@ -24,14 +24,15 @@ TEST_CASE("stretch is the largest factor by which a triangle's map lengthens any
   const TriangleMesh mesh = square();
   Eigen::MatrixX3f posed = mesh.vertices;
   posed.col(0) *= 4;
-  for (const TriangleStretch& t : triangleStretches(mesh, posed)) {
-    CHECK(t.stretch == Approx(4));
+  for (const RestTriangle& t : restTriangles(mesh)) {
+    CHECK(stretchOf(t, mesh, posed) == Approx(4));
     CHECK(t.area == Approx(.25));
   }
   const Eigen::Matrix3f turn = Eigen::AngleAxisf(1, Eigen::Vector3f(1, 2, 3).normalized()).toRotationMatrix();
   posed = mesh.vertices * turn.transpose();
-  for (const TriangleStretch& t : triangleStretches(mesh, posed)) CHECK(t.stretch == Approx(1).margin(1e-5));
-  CHECK(triangleStretches(mesh, posed, 2).size() == 2);
+  for (const RestTriangle& t : restTriangles(mesh))
+    CHECK(stretchOf(t, mesh, posed) == Approx(1).margin(1e-5));
+  CHECK(restTriangles(mesh, 2).size() == 2);
 }
 
 TEST_CASE("a clip that pulls a corner off says so, by the joint that pulls") {

@@ -14,6 +14,17 @@ bool same(const A& a, const B& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && (a.array() == b.array()).all();
 }
 
+// Turned about the upright and moved.
+JointTrack movedTrack(const std::string& joint) {
+  JointTrack track;
+  track.joint = joint;
+  track.times_s = {0, 1};
+  track.rotations = {Eigen::Quaternionf::Identity(), Eigen::Quaternionf(0.8f, 0, 0.6f, 0)};
+  track.translation_times_s = {0, 0.5f};
+  track.translations_m = {{0, 0, 0}, {0.1f, 0.2f, 0.3f}};
+  return track;
+}
+
 }  // namespace
 
 TEST_CASE("a model whose back wears its own part of the texture is parted in the file and whole again") {
@@ -67,12 +78,7 @@ TEST_CASE("clips that move and scale joints and the root come back from GLB") {
   const RiggedCharacter character = figure();
   Clip clip;
   clip.name = "all";
-  JointTrack track;
-  track.joint = "head";
-  track.times_s = {0, 1};
-  track.rotations = {Eigen::Quaternionf::Identity(), Eigen::Quaternionf(0.8f, 0, 0.6f, 0)};
-  track.translation_times_s = {0, 0.5f};
-  track.translations_m = {{0, 0, 0}, {0.1f, 0.2f, 0.3f}};
+  JointTrack track = movedTrack("head");
   track.scale_times_s = {0.25f};
   track.scales = {{1, 2, 1}};
   clip.tracks = {track};
@@ -97,12 +103,7 @@ TEST_CASE("a clip's poses are the same in the joints' own axes and in the model'
   const RiggedCharacter character = figure();
   Clip clip;
   clip.name = "move";
-  JointTrack track;
-  track.joint = "right_elbow";
-  track.times_s = {0, 1};
-  track.rotations = {Eigen::Quaternionf::Identity(), Eigen::Quaternionf(0.8f, 0, 0.6f, 0)};
-  track.translation_times_s = {0, 1};
-  track.translations_m = {{0, 0, 0}, {0.1f, 0.2f, 0.3f}};
+  JointTrack track = movedTrack("right_elbow");
   track.scale_times_s = {0};
   track.scales = {{1.5f, 1.5f, 1.5f}};
   clip.tracks = {track};

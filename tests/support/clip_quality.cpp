@@ -95,6 +95,9 @@ Measured measure(const std::string& path, const Request& request) {
   if (!drawing.found()) throw InputError(path, drawing.silhouette.reason);
   const RiggedCharacter& character = drawing.character;
   const TriangleMesh& mesh = character.mesh;
+  const std::vector<RestTriangle> rest = restTriangles(mesh);
+  double area = 0;
+  for (const RestTriangle& t : rest) area += t.area;
   const std::vector<Eigen::Index> limbs =
       request.inside ? limbTriangles(character) : std::vector<Eigen::Index>();
   const std::vector<bool> inside_at_rest = insideOthers(mesh.vertices, mesh, limbs);
@@ -105,12 +108,9 @@ Measured measure(const std::string& path, const Request& request) {
     for (int frame = 0; frame < kFrames; ++frame) {
       const float time_s = clip.duration_s() * (float(frame) + 0.5f) / kFrames;
       const Eigen::MatrixX3f posed = posedVertices(character, clip, time_s);
-      double stretched = 0, area = 0;
-      for (const TriangleStretch& t : triangleStretches(mesh, posed)) {
-        area += t.area;
-        if (t.stretch > kFarStretch) stretched += t.area;
-      }
-      stretched /= area;
+      double stretched = 0;
+      for (const RestTriangle& t : rest)
+        if (stretchOf(t, mesh, posed) > kFarStretch) stretched += t.area / area;
       quality.stretched += stretched / kFrames;
       if (stretched > quality.most_stretched) quality.most_stretched = stretched, quality.at_s = time_s;
       const std::vector<bool> inside = insideOthers(posed, mesh, limbs);
