@@ -14,6 +14,7 @@
 #include "libskel/core/progress.h"
 #include "trainer/conv_net_trainer.h"
 #include "trainer/figures/figure.h"
+#include "trainer/grown_net.h"
 #include "trainer/joint_accuracy.h"
 #include "trainer/joint_loss.h"
 #include "trainer/jointed_drawing.h"
@@ -163,9 +164,10 @@ std::vector<Figure> drawFigures(std::uint64_t seed, std::uint64_t first, int cou
 
 // The net that the first step changes.
 JointNet firstNet(const JointTrainingOptions& options, const FigurePlan& plan) {
-  JointNet net = makeJointNet(std::string(plan.body_plan), jointNames(plan));
+  JointNet net =
+      makeJointNet(std::string(plan.body_plan), jointNames(plan), std::max(1, options.hourglasses));
+  Rng rng(options.seed, kInitialStream);
   if (options.start.empty()) {
-    Rng rng(options.seed, kInitialStream);
     initialise(net, rng);
     return net;
   }
@@ -173,10 +175,13 @@ JointNet firstNet(const JointTrainingOptions& options, const FigurePlan& plan) {
   if (start.body_plan != net.body_plan || start.joints != net.joints)
     throw InputError(options.start, "finds the joints of a " + start.body_plan + ", not of a " +
                                         net.body_plan + " (see --template)");
-  if (start.parameters.size() != net.parameters.size())
+  if (start.maps[0].channels != net.maps[0].channels)
     throw InputError(options.start,
                      "comes from a former version of skel-train; it can be used, but not trained on");
-  return start;
+  if (options.hourglasses != 0 && options.hourglasses < start.hourglasses)
+    throw UsageError("--hourglasses: " + options.start + " has " + std::to_string(start.hourglasses) +
+                     ", which can grow but not shrink");
+  return grown(start, std::max(start.hourglasses, options.hourglasses), rng);
 }
 
 class Training {
@@ -392,6 +397,11 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
           "Net to go on from, with drawings of your own: few steps, a low rate, every fifth drawing measures")
       ->type_name("FILE");
   command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report");
+  command
+      .add_option("--hourglasses", options.hourglasses,
+                  "Of the net, one behind another; what the net of --start lacks of them is added")
+      ->check(CLI::Range(1, kMaxHourglasses))
+      ->default_str("1, with --start as many as that has");
   command.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
   const auto preset = [](double plain, double going_on) {
     std::ostringstream text;

@@ -18,6 +18,7 @@ struct JointTrainingOptions {
   std::string output = "weights/joint_net.bin";
   std::string start;       // net to go on from; "": from nothing
   std::string checkpoint;  // "": none
+  int hourglasses = 0;     // of the net; more than `start` has are added to it. 0: as many as that, else 1
   std::uint64_t seed = 1;
   std::optional<int> steps;
   int batch = 16;

@@ -154,7 +154,9 @@ val useNets(const val& request) {
   return saying("the nets", [&] {
     Nets given;
     for (const char* name : {"page", "biped", "quadruped"}) given.files.push_back(bytesOf(request[name]));
-    given.page = std::make_shared<const PageNet>(parsePageNet(given.files[0], "page net"));
+    PageNet page = parsePageNet(given.files[0], "page net");
+    transformWeights(page);
+    given.page = std::make_shared<const PageNet>(std::move(page));
     given.joints = std::make_shared<const JointNets>(
         std::vector<JointNets::File>{{"biped", given.files[1], "joint net of the biped"},
                                      {"quadruped", given.files[2], "joint net of the quadruped"}});

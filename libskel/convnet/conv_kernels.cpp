@@ -9,16 +9,6 @@
 namespace skel {
 namespace {
 
-const ConvKernels& kernelsOf(InstructionSet set) {
-#ifdef SKEL_X86_KERNELS
-  if (set == InstructionSet::kAvx512) return kAvx512Kernels;
-  if (set == InstructionSet::kAvx2) return kAvx2Kernels;
-#else
-  (void)set;
-#endif
-  return kBaselineKernels;
-}
-
 std::array<long, 9> tapOffsets(const ConvShape& shape) {
   std::array<long, 9> offsets{};
   if (shape.kernel == 1) return offsets;
@@ -42,6 +32,26 @@ long runLength(const ConvShape& shape) {
 }
 
 }  // namespace
+
+const ConvKernels& kernelsOf(InstructionSet set) {
+#ifdef SKEL_X86_KERNELS
+  if (set == InstructionSet::kAvx512) return kAvx512Kernels;
+  if (set == InstructionSet::kAvx2) return kAvx2Kernels;
+#else
+  (void)set;
+#endif
+  return kBaselineKernels;
+}
+
+void clearPadding(const ConvShape& shape, float* out) {
+  const long channels = shape.out_channels;
+  std::fill_n(out, paddedIndex(shape.width, 0, 0) * channels, 0.f);
+  for (int y = 0; y + 1 < shape.height; ++y) {
+    std::fill_n(out + paddedIndex(shape.width, y, shape.width) * channels, channels, 0.f);
+  }
+  const long last = paddedIndex(shape.width, shape.height - 1, shape.width);
+  std::fill(out + last * channels, out + paddedPixels(shape.height, shape.width) * channels, 0.f);
+}
 
 int weightIndex(const ConvShape& shape, int tap, int in, int out) {
   return ((out / kWeightPanel * shape.taps() + tap) * shape.in_channels + in) * kWeightPanel +
@@ -84,13 +94,7 @@ void convolve(InstructionSet set, const ConvShape& shape, const float* in, const
   kernelsOf(set).convolve({in + first * shape.in_channels, offsets.data(), shape.taps(), shape.in_channels,
                            shape.out_channels, weights, bias, skip ? skip + first * channels : nullptr, relu,
                            out + first * channels, runLength(shape)});
-  // The run went over the zeros between the rows.
-  std::fill_n(out, first * channels, 0.f);
-  for (int y = 0; y + 1 < shape.height; ++y) {
-    std::fill_n(out + paddedIndex(shape.width, y, shape.width) * channels, channels, 0.f);
-  }
-  const long last = paddedIndex(shape.width, shape.height - 1, shape.width);
-  std::fill(out + last * channels, out + paddedPixels(shape.height, shape.width) * channels, 0.f);
+  clearPadding(shape, out);  // the run went over it
 }
 
 void convolveWeightGradient(InstructionSet set, const ConvShape& shape, const float* in,

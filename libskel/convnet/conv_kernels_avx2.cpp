@@ -13,6 +13,7 @@ struct EightFloats {
   static Vector broadcast(float x) { return _mm256_set1_ps(x); }
   static Vector zero() { return _mm256_setzero_ps(); }
   static Vector add(Vector a, Vector b) { return _mm256_add_ps(a, b); }
+  static Vector subtract(Vector a, Vector b) { return _mm256_sub_ps(a, b); }
   static Vector maximum(Vector a, Vector b) { return _mm256_max_ps(a, b); }
   static Vector multiplyAdd(Vector a, Vector b, Vector c) { return _mm256_fmadd_ps(a, b, c); }
 };
@@ -23,7 +24,8 @@ struct EightFloats {
 #define SKEL_ROWS 6
 #define SKEL_GRADIENT_ROWS 4
 #include "libskel/convnet/conv_kernels_impl.h"
+#include "libskel/convnet/winograd_impl.h"
 
 namespace skel {
-const ConvKernels kAvx2Kernels = {convolvePixels, gradientPixels};
+const ConvKernels kAvx2Kernels = {convolvePixels, gradientPixels, transformTiles, untransformTiles};
 }  // namespace skel

@@ -13,6 +13,7 @@ struct SixteenFloats {
   static Vector broadcast(float x) { return _mm512_set1_ps(x); }
   static Vector zero() { return _mm512_setzero_ps(); }
   static Vector add(Vector a, Vector b) { return _mm512_add_ps(a, b); }
+  static Vector subtract(Vector a, Vector b) { return _mm512_sub_ps(a, b); }
   // _mm512_max_ps has GCC 12 warn of its own undefined operand.
   static Vector maximum(Vector a, Vector b) { return a > b ? a : b; }
   static Vector multiplyAdd(Vector a, Vector b, Vector c) { return _mm512_fmadd_ps(a, b, c); }
@@ -24,7 +25,8 @@ struct SixteenFloats {
 #define SKEL_ROWS 12
 #define SKEL_GRADIENT_ROWS 8
 #include "libskel/convnet/conv_kernels_impl.h"
+#include "libskel/convnet/winograd_impl.h"
 
 namespace skel {
-const ConvKernels kAvx512Kernels = {convolvePixels, gradientPixels};
+const ConvKernels kAvx512Kernels = {convolvePixels, gradientPixels, transformTiles, untransformTiles};
 }  // namespace skel

@@ -12,6 +12,7 @@ struct FourFloats {
   static Vector broadcast(float x) { return Vector{x, x, x, x}; }
   static Vector zero() { return Vector{0, 0, 0, 0}; }
   static Vector add(Vector a, Vector b) { return a + b; }
+  static Vector subtract(Vector a, Vector b) { return a - b; }
   static Vector maximum(Vector a, Vector b) { return a > b ? a : b; }
   static Vector multiplyAdd(Vector a, Vector b, Vector c) { return a * b + c; }
 };
@@ -22,7 +23,8 @@ struct FourFloats {
 #define SKEL_ROWS 4
 #define SKEL_GRADIENT_ROWS 4
 #include "libskel/convnet/conv_kernels_impl.h"
+#include "libskel/convnet/winograd_impl.h"
 
 namespace skel {
-const ConvKernels kBaselineKernels = {convolvePixels, gradientPixels};
+const ConvKernels kBaselineKernels = {convolvePixels, gradientPixels, transformTiles, untransformTiles};
 }  // namespace skel

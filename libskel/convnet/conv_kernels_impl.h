@@ -3,7 +3,7 @@
 // file could share. Hence no standard headers and everything in an unnamed namespace.
 //
 // Before inclusion, SKEL_VECTOR names a struct with
-//   kLanes; Vector; load(p); store(p, v); broadcast(x); zero(); add(a, b); maximum(a, b);
+//   kLanes; Vector; load(p); store(p, v); broadcast(x); zero(); add(a, b); subtract(a, b); maximum(a, b);
 //   multiplyAdd(a, b, c) = a·b + c
 // and SKEL_ROWS is the number of pixels whose sums are held in registers at a time.
 #pragma once

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "libskel/convnet/winograd.h"
 #include "libskel/core/check.h"
 
 namespace skel {
@@ -9,9 +10,14 @@ namespace {
 
 void runConvolution(const ConvNet& net, const ConvLayer& layer, InstructionSet set, ConvNetMaps& maps,
                     std::vector<float>& out) {
-  convolve(set, convShape(net, layer), maps.maps[layer.input].data(), net.parameters.data() + layer.weights,
-           net.parameters.data() + layer.biases, layer.skip < 0 ? nullptr : maps.maps[layer.skip].data(),
-           layer.relu, out.data());
+  const ConvShape shape = convShape(net, layer);
+  const float *in = maps.maps[layer.input].data(), *bias = net.parameters.data() + layer.biases,
+              *skip = layer.skip < 0 ? nullptr : maps.maps[layer.skip].data();
+  if (suitsWinograd(shape) && !net.transformed.empty())
+    convolveWinograd(set, shape, in, net.transformed.data() + layer.transformed, bias, skip, layer.relu,
+                     out.data(), maps.scratch);
+  else
+    convolve(set, shape, in, net.parameters.data() + layer.weights, bias, skip, layer.relu, out.data());
 }
 
 void runPool(const MapShape& to, const std::vector<float>& in, std::vector<float>& out) {
@@ -73,13 +79,13 @@ int ConvNetBuilder::add(const ConvLayer& layer, const MapShape& shape) {
   return static_cast<int>(net_.maps.size()) - 1;
 }
 
-int hourglass(ConvNetBuilder& b, std::span<const int> widths, std::span<const int> down,
+int hourglass(ConvNetBuilder& b, int map, std::span<const int> widths, std::span<const int> down,
               std::span<const int> up) {
   SKEL_CHECK(down.size() + 1 == widths.size() && up.size() <= down.size());
-  std::vector<int> scales = {b.convolution(0, widths[0], 3, true)};
+  std::vector<int> scales = {map};
   for (std::size_t i = 0; i < down.size(); ++i)
     scales.push_back(b.residuals(b.convolution(b.pool(scales.back()), widths[i + 1], 3, true), down[i]));
-  int map = scales.back();
+  map = scales.back();
   for (std::size_t i = 0; i < up.size(); ++i) {
     const std::size_t to = down.size() - 1 - i;
     map = b.residuals(b.upsampleAdd(b.convolution(map, widths[to], 1, false), scales[to]), up[i]);
@@ -90,6 +96,21 @@ int hourglass(ConvNetBuilder& b, std::span<const int> widths, std::span<const in
 ConvShape convShape(const ConvNet& net, const ConvLayer& layer) {
   const MapShape& in = net.maps[layer.input];
   return {in.height, in.width, in.channels, layer.channels, layer.kernel};
+}
+
+void transformWeights(ConvNet& net) {
+  std::size_t size = 0;
+  for (ConvLayer& layer : net.layers) {
+    if (layer.kind != ConvLayer::Kind::kConvolution || !suitsWinograd(convShape(net, layer))) continue;
+    layer.transformed = size;
+    size += winogradWeightCount(convShape(net, layer));
+  }
+  net.transformed.resize(size);
+  for (const ConvLayer& layer : net.layers) {
+    if (layer.kind != ConvLayer::Kind::kConvolution || !suitsWinograd(convShape(net, layer))) continue;
+    winogradWeights(convShape(net, layer), net.parameters.data() + layer.weights,
+                    net.transformed.data() + layer.transformed);
+  }
 }
 
 ConvNetMaps::ConvNetMaps(const ConvNet& net) {

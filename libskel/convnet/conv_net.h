@@ -26,6 +26,7 @@ struct ConvLayer {
   int kernel = 0;
   bool relu = false;
   std::size_t weights = 0, biases = 0;  // where they begin in ConvNet::parameters
+  std::size_t transformed = 0;          // and in ConvNet::transformed
 };
 
 struct MapShape {
@@ -37,9 +38,13 @@ struct MapShape {
 
 struct ConvNet {
   std::vector<ConvLayer> layers;
-  std::vector<MapShape> maps;     // the input, then the output of each layer
-  std::vector<float> parameters;  // weights of a layer (see weightIndex), then its biases
+  std::vector<MapShape> maps;      // the input, then the output of each layer
+  std::vector<float> parameters;   // weights of a layer (see weightIndex), then its biases
+  std::vector<float> transformed;  // see transformWeights(); empty: not made
 };
+
+// Has forward() take less time (winograd.h). To be called anew after each change of the parameters.
+void transformWeights(ConvNet& net);
 
 ConvShape convShape(const ConvNet& net, const ConvLayer& layer);
 
@@ -61,15 +66,16 @@ class ConvNetBuilder {
 };
 
 // An encoder and a decoder with skips between equal resolutions, after Newell, Yang, Deng, "Stacked hourglass
-// networks for human pose estimation" (2016), much narrower. widths[i] channels at 1 / 2^i of the input's
-// resolution; down[i] residual convolutions at 1 / 2^(i + 1) on the way down, up[i] at 1 / 2^(last - 1 - i)
-// on the way up, which ends there. Returns the last map.
-int hourglass(ConvNetBuilder& builder, std::span<const int> widths, std::span<const int> down,
+// networks for human pose estimation" (2016), much narrower. widths[i] channels at 1 / 2^i of the resolution
+// of `map`, which has widths[0]; down[i] residual convolutions at 1 / 2^(i + 1) on the way down, up[i] at
+// 1 / 2^(last - 1 - i) on the way up, which ends there. Returns the last map.
+int hourglass(ConvNetBuilder& builder, int map, std::span<const int> widths, std::span<const int> down,
               std::span<const int> up);
 
 // The maps of one pass, padded as the kernels want them.
 struct ConvNetMaps {
   std::vector<std::vector<float>> maps;
+  std::vector<float> scratch;
   explicit ConvNetMaps(const ConvNet& net);
 };
 

@@ -20,13 +20,18 @@ constexpr NetSize kFormerSize = {{16, 32, 64, 96}, {1, 1, 2}, {1, 2}};
 
 }  // namespace
 
-JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints, int input_channels) {
-  SKEL_CHECK(!joints.empty() && joints.size() <= kMaxNetJoints);
+JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints, int hourglasses,
+                      int input_channels) {
+  SKEL_CHECK(!joints.empty() && joints.size() <= kMaxNetJoints && hourglasses >= 1);
   const NetSize& size = input_channels == kNetInputChannels ? kSize : kFormerSize;
   ConvNetBuilder b({kNetInputSize, kNetInputSize, input_channels});
-  b.convolution(hourglass(b, size.widths, size.down, size.up),
-                heatmapChannels(static_cast<int>(joints.size())), 1, false);
+  int map = hourglass(b, b.convolution(0, size.widths[0], 3, true), size.widths, size.down, size.up);
+  // The others begin where the first one ends, at half its resolution.
+  for (int i = 1; i < hourglasses; ++i)
+    map = hourglass(b, map, std::span(size.widths).subspan(1), std::span(size.down).subspan(1), size.up);
+  b.convolution(map, heatmapChannels(static_cast<int>(joints.size())), 1, false);
   JointNet net;
+  net.hourglasses = hourglasses;
   static_cast<ConvNet&>(net) = b.take();
   net.body_plan = std::move(body_plan);
   net.joints = std::move(joints);

@@ -24,7 +24,7 @@ inline constexpr int kNetInputChannels = 32;
 // Nets of former versions of the program, which are still read, have these and are narrower.
 inline constexpr int kCoarseInputChannels = 16, kColourlessInputChannels = 8;
 inline constexpr int kHeatmapSize = kFrameSize / 4;
-inline constexpr int kMaxNetJoints = 63;
+inline constexpr int kMaxNetJoints = 63, kMaxHourglasses = 8;
 // One a joint, one for the figure; the kernels want multiples of 16, so the others are idle.
 constexpr int heatmapChannels(int joints) { return (joints + 1 + 15) / 16 * 16; }
 
@@ -32,6 +32,7 @@ struct JointNet : ConvNet {
   std::string body_plan;            // name of the template that it was trained for
   std::vector<std::string> joints;  // of the heatmaps, at most kMaxNetJoints
   std::string provenance;           // how the weights came to be, for people
+  int hourglasses = 1;              // one behind another
 
   // The channel after the joints': its mean is the log-odds of one whole upright figure of the body plan.
   int figureChannel() const { return static_cast<int>(joints.size()); }
@@ -39,7 +40,7 @@ struct JointNet : ConvNet {
 
 // The architecture with all parameters zero, for at most kMaxNetJoints joints. A net of kCoarseInputChannels
 // sees lines and colours at half the resolution, one of kColourlessInputChannels silhouette and lines alone.
-JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints,
+JointNet makeJointNet(std::string body_plan, std::vector<std::string> joints, int hourglasses = 1,
                       int input_channels = kNetInputChannels);
 
 // Where a figure lies in the net's frame: frame px = grid px + offset, mirrored about the frame's middle
@@ -69,8 +70,8 @@ void encodeJointNetInput(const Plane8& mask, const FigureLook& look, const Frame
                          int channels, std::vector<float>& input);
 
 // A weights file: one line of JSON (format, version, provenance, body plan, joints, layers, the SHA-256 of
-// what follows), then the weights (formatWeights()). Version 1 names no body plan: it was the biped. Throws
-// InputError.
+// hourglasses, what follows), then the weights (formatWeights()). Version 1 names no body plan: it was the
+// biped; before version 3 there is one hourglass. Throws InputError.
 JointNet parseJointNet(std::string_view bytes, const std::string& file);
 std::string formatJointNet(const JointNet& net);
 

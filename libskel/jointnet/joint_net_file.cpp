@@ -12,7 +12,7 @@ namespace skel {
 namespace {
 
 constexpr std::string_view kFormat = "skel-joint-net";
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 
 std::vector<std::string> jointsAt(const JsonValue& list) {
   std::vector<std::string> joints;
@@ -31,10 +31,14 @@ std::vector<std::string> jointsAt(const JsonValue& list) {
 
 std::string formatJointNet(const JointNet& net) {
   const std::string payload = formatWeights(net);
-  const nlohmann::ordered_json header = {
-      {"format", kFormat},          {"version", kVersion},  {"provenance", net.provenance},
-      {"body_plan", net.body_plan}, {"joints", net.joints}, {"convolutions", convolutionSizes(net)},
-      {"sha256", sha256(payload)}};
+  const nlohmann::ordered_json header = {{"format", kFormat},
+                                         {"version", kVersion},
+                                         {"provenance", net.provenance},
+                                         {"body_plan", net.body_plan},
+                                         {"joints", net.joints},
+                                         {"hourglasses", net.hourglasses},
+                                         {"convolutions", convolutionSizes(net)},
+                                         {"sha256", sha256(payload)}};
   return header.dump() + "\n" + payload;
 }
 
@@ -43,18 +47,22 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file) {
   if (end == std::string_view::npos) throw InputError(file, "not a joint net: it has no header line");
   const JsonDocument document = JsonDocument::parse(bytes.substr(0, end), file);
   const JsonValue root = document.root();
-  const bool names_plan = root.checkFormat(kFormat, kVersion) > 1;
-  if (names_plan)
+  const int version = root.checkFormat(kFormat, kVersion);
+  if (version == 1)
+    root.allowOnly({"format", "version", "provenance", "joints", "convolutions", "sha256"});
+  else if (version == 2)
     root.allowOnly({"format", "version", "provenance", "body_plan", "joints", "convolutions", "sha256"});
   else
-    root.allowOnly({"format", "version", "provenance", "joints", "convolutions", "sha256"});
+    root.allowOnly(
+        {"format", "version", "provenance", "body_plan", "joints", "hourglasses", "convolutions", "sha256"});
 
   const std::vector<JsonValue> given = root.at("convolutions").items();
   int inputs = kNetInputChannels;
   for (const int former : {kCoarseInputChannels, kColourlessInputChannels})
     if (!given.empty() && given[0].asNumbers(3)[0] == former) inputs = former;
-  JointNet net = makeJointNet(names_plan ? root.at("body_plan").asString() : "biped",
-                              jointsAt(root.at("joints")), inputs);
+  JointNet net =
+      makeJointNet(version > 1 ? root.at("body_plan").asString() : "biped", jointsAt(root.at("joints")),
+                   version > 2 ? root.at("hourglasses").asInt(1, kMaxHourglasses) : 1, inputs);
   net.provenance = root.at("provenance").asString();
   parseWeights(bytes.substr(end + 1), root, file, net);
   return net;
@@ -84,7 +92,10 @@ bool JointNets::has(std::string_view body_plan) const { return find(body_plan); 
 const JointNet& JointNets::of(std::string_view body_plan) const {
   Entry* entry = find(body_plan);
   SKEL_CHECK(entry);
-  std::call_once(entry->once, [&] { entry->net = parseJointNet(entry->file.bytes, entry->file.name); });
+  std::call_once(entry->once, [&] {
+    entry->net = parseJointNet(entry->file.bytes, entry->file.name);
+    transformWeights(entry->net);
+  });
   return entry->net;
 }
 

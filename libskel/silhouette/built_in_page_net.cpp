@@ -4,7 +4,11 @@
 namespace skel {
 
 const PageNet& builtInPageNet() {
-  static const PageNet net = parsePageNet(embedded::page_net_weights, "built-in page net");
+  static const PageNet net = [] {
+    PageNet made = parsePageNet(embedded::page_net_weights, "built-in page net");
+    transformWeights(made);
+    return made;
+  }();
   return net;
 }
 

@@ -37,7 +37,8 @@ cv::Mat probabilityAt(const PageNet& net, const cv::Mat& rgb) {
 
 PageNet makePageNet() {
   ConvNetBuilder b({kPageMapSize, kPageMapSize, kPageInputChannels});
-  b.convolution(hourglass(b, kWidths, kDown, kUp), kPageOutputChannels, 1, false);
+  const int first = b.convolution(0, kWidths[0], 3, true);
+  b.convolution(hourglass(b, first, kWidths, kDown, kUp), kPageOutputChannels, 1, false);
   PageNet net;
   static_cast<ConvNet&>(net) = b.take();
   return net;

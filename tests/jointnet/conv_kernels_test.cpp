@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "libskel/convnet/winograd.h"
 #include "libskel/core/rng.h"
 #include "tests/support/catch.h"
 
@@ -73,6 +74,34 @@ TEST_CASE("Every instruction set convolves as the definition does") {
       INFO(instructionSetName(set) << " relu " << relu);
       CHECK(worst < 1e-4);
       CHECK(std::abs(padding) < 1e-2);
+    }
+  }
+}
+
+TEST_CASE("Winograd's convolution is the plain one but for rounding") {
+  const ConvShape shape =
+      GENERATE(ConvShape{7, 5, 16, 16, 3}, ConvShape{9, 9, 32, 64, 3}, ConvShape{1, 1, 16, 16, 3},
+               ConvShape{18, 18, 96, 48, 3}, ConvShape{72, 70, 32, 32, 3}, ConvShape{2, 9, 48, 16, 3});
+  REQUIRE(suitsWinograd(shape));
+  Rng rng(5);
+  const std::vector<float> in = randomMap(rng, shape.height, shape.width, shape.in_channels);
+  const std::vector<float> skip = randomMap(rng, shape.height, shape.width, shape.out_channels);
+  std::vector<float> weights(shape.weights()), bias(shape.out_channels);
+  for (float& w : weights) w = static_cast<float>(.2 * rng.normal());
+  for (float& b : bias) b = static_cast<float>(rng.normal());
+  std::vector<float> transformed(winogradWeightCount(shape)), scratch;
+  winogradWeights(shape, weights.data(), transformed.data());
+  for (const InstructionSet set : kInstructionSets) {
+    if (!hasInstructionSet(set)) continue;
+    for (const bool relu : {false, true}) {
+      std::vector<float> wanted(skip.size(), 99.f), out(skip.size(), 99.f);
+      convolve(set, shape, in.data(), weights.data(), bias.data(), skip.data(), relu, wanted.data());
+      convolveWinograd(set, shape, in.data(), transformed.data(), bias.data(), skip.data(), relu, out.data(),
+                       scratch);
+      float worst = 0;
+      for (std::size_t i = 0; i < out.size(); ++i) worst = std::max(worst, std::abs(out[i] - wanted[i]));
+      INFO(instructionSetName(set) << " relu " << relu);
+      CHECK(worst < 1e-4);
     }
   }
 }

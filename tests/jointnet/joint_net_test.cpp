@@ -76,7 +76,7 @@ TEST_CASE("Damaged weights files are refused with a reason") {
   layers.replace(layers.find("[32,32,3]"), 9, "[32,32,1]");
   CHECK_THAT(complaint(layers), Contains("convolutions"));
   std::string version = bytes;
-  version.replace(version.find("\"version\":2"), 11, "\"version\":9");
+  version.replace(version.find("\"version\":3"), 11, "\"version\":9");
   CHECK_THAT(complaint(version), Contains("version"));
 }
 

@@ -75,6 +75,15 @@ TEST_CASE(
   CHECK(nothing.exit_code == 1);
   CHECK(nothing.err.find("--hard needs --start and --drawings") != std::string::npos);
 
+  const std::string start = "--left-out 0 --start '" + dir.file("first.bin") + "'" + from;
+  REQUIRE(runTool(command(dir, "larger.bin", "--hourglasses 2 " + start)).exit_code == 0);
+  const JointNet larger = parseJointNet(readFile(dir.file("larger.bin")), "larger.bin");
+  CHECK(larger.hourglasses == 2);
+  const auto shrunk = runTool(
+      command(dir, "n.bin", "--hourglasses 1 --left-out 0 --start '" + dir.file("larger.bin") + "'" + from));
+  CHECK(shrunk.exit_code == 1);
+  CHECK(shrunk.err.find("has 2, which can grow but not shrink") != std::string::npos);
+
   const auto animal =
       runTool(command(dir, "n.bin", "--template quadruped --start '" + dir.file("first.bin") + "'"));
   CHECK(animal.exit_code == 2);
