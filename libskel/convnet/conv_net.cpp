@@ -13,8 +13,8 @@ void runConvolution(const ConvNet& net, const ConvLayer& layer, InstructionSet s
   const ConvShape shape = convShape(net, layer);
   const float *in = maps.maps[layer.input].data(), *bias = net.parameters.data() + layer.biases,
               *skip = layer.skip < 0 ? nullptr : maps.maps[layer.skip].data();
-  if (suitsWinograd(shape) && !net.transformed.empty())
-    convolveWinograd(set, shape, in, net.transformed.data() + layer.transformed, bias, skip, layer.relu,
+  if (suitsWinograd(shape) && net.transformed)
+    convolveWinograd(set, shape, in, net.transformed.get() + layer.transformed, bias, skip, layer.relu,
                      out.data(), maps.scratch);
   else
     convolve(set, shape, in, net.parameters.data() + layer.weights, bias, skip, layer.relu, out.data());
@@ -51,9 +51,9 @@ void runUpsampleAdd(const MapShape& to, const std::vector<float>& in, const std:
 int ConvNetBuilder::convolution(int input, int channels, int kernel, bool relu, int skip) {
   const MapShape in = net_.maps[input];
   ConvLayer layer{ConvLayer::Kind::kConvolution, input, skip, channels, kernel, relu};
-  layer.weights = net_.parameters.size();
+  layer.weights = parameters_;
   layer.biases = layer.weights + static_cast<std::size_t>(kernel * kernel * in.channels * channels);
-  net_.parameters.resize(layer.biases + static_cast<std::size_t>(channels), 0.f);
+  parameters_ = layer.biases + static_cast<std::size_t>(channels);
   return add(layer, {in.height, in.width, channels});
 }
 
@@ -71,6 +71,11 @@ int ConvNetBuilder::upsampleAdd(int input, int skip) {
 int ConvNetBuilder::residuals(int map, int count) {
   for (int i = 0; i < count; ++i) map = convolution(map, net_.maps[map].channels, 3, true, map);
   return map;
+}
+
+ConvNet ConvNetBuilder::take() {
+  net_.parameters.assign(parameters_, 0.f);
+  return std::move(net_);
 }
 
 int ConvNetBuilder::add(const ConvLayer& layer, const MapShape& shape) {
@@ -105,12 +110,13 @@ void transformWeights(ConvNet& net) {
     layer.transformed = size;
     size += winogradWeightCount(convShape(net, layer));
   }
-  net.transformed.resize(size);
+  const auto transformed = std::make_shared_for_overwrite<float[]>(size);
   for (const ConvLayer& layer : net.layers) {
     if (layer.kind != ConvLayer::Kind::kConvolution || !suitsWinograd(convShape(net, layer))) continue;
     winogradWeights(convShape(net, layer), net.parameters.data() + layer.weights,
-                    net.transformed.data() + layer.transformed);
+                    transformed.get() + layer.transformed);
   }
+  net.transformed = transformed;
 }
 
 ConvNetMaps::ConvNetMaps(const ConvNet& net) {

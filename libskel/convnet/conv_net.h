@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,9 +39,9 @@ struct MapShape {
 
 struct ConvNet {
   std::vector<ConvLayer> layers;
-  std::vector<MapShape> maps;      // the input, then the output of each layer
-  std::vector<float> parameters;   // weights of a layer (see weightIndex), then its biases
-  std::vector<float> transformed;  // see transformWeights(); empty: not made
+  std::vector<MapShape> maps;                  // the input, then the output of each layer
+  std::vector<float> parameters;               // weights of a layer (see weightIndex), then its biases
+  std::shared_ptr<const float[]> transformed;  // see transformWeights(); null: not made
 };
 
 // Has forward() take less time (winograd.h). To be called anew after each change of the parameters.
@@ -58,11 +59,12 @@ class ConvNetBuilder {
   int upsampleAdd(int input, int skip);
   // `count` convolutions of 3×3 that each add to their input.
   int residuals(int map, int count);
-  ConvNet take() { return std::move(net_); }
+  ConvNet take();
 
  private:
   int add(const ConvLayer& layer, const MapShape& shape);
   ConvNet net_;
+  std::size_t parameters_ = 0;
 };
 
 // An encoder and a decoder with skips between equal resolutions, after Newell, Yang, Deng, "Stacked hourglass
@@ -88,8 +90,10 @@ void forward(const ConvNet& net, InstructionSet set, ConvNetMaps& maps);
 std::string formatWeights(const ConvNet& net);
 // Into a net of the same layers, which `header` (of the file) tells under "convolutions" as
 // convolutionSizes() does, beside the bytes' "sha256". Throws InputError where either does not fit, where
-// there are too few or too many bytes, or where they are no numbers.
-void parseWeights(std::string_view bytes, const JsonValue& header, const std::string& file, ConvNet& net);
+// there are too few or too many bytes, or where they are no numbers. check_hash: not needed for what is
+// compiled in.
+void parseWeights(std::string_view bytes, const JsonValue& header, const std::string& file, ConvNet& net,
+                  bool check_hash = true);
 // Rounds the weights as their bytes do.
 void quantize(ConvNet& net);
 // [inputs, outputs, kernel] of each convolution: what the bytes are laid out by.

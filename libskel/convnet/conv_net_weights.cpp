@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "libskel/convnet/conv_kernels_sets.h"
 #include "libskel/convnet/conv_net.h"
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
@@ -14,21 +15,21 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "weights are read and written as they lie");
 
-// The output channel that weight i of a layer goes to: weightIndex(), read backwards.
-std::size_t outputOf(const ConvNet& net, const ConvLayer& layer, std::size_t i) {
-  const ConvShape shape = convShape(net, layer);
-  const auto panel = static_cast<std::size_t>(shape.taps() * shape.in_channels) * 16;
-  return i / panel * 16 + i % 16;
-}
-
 std::size_t weightCount(const ConvLayer& layer) { return layer.biases - layer.weights; }
+
+// visit(weight, output) for each weight of a layer, in their order: weightIndex(), read backwards.
+template <typename Visit>
+void forEachWeight(const ConvLayer& layer, const Visit& visit) {
+  const std::size_t panel = weightCount(layer) / static_cast<std::size_t>(layer.channels) * kWeightPanel;
+  for (std::size_t first = 0; first < weightCount(layer); first += kWeightPanel)
+    for (std::size_t k = 0; k < kWeightPanel; ++k) visit(first + k, first / panel * kWeightPanel + k);
+}
 
 std::vector<float> outputScales(const ConvNet& net, const ConvLayer& layer) {
   std::vector<float> scales(layer.channels, 0.f);
-  for (std::size_t i = 0; i < weightCount(layer); ++i) {
-    float& s = scales[outputOf(net, layer, i)];
-    s = std::max(s, std::abs(net.parameters[layer.weights + i]) / 127);
-  }
+  forEachWeight(layer, [&](std::size_t i, std::size_t output) {
+    scales[output] = std::max(scales[output], std::abs(net.parameters[layer.weights + i]) / 127);
+  });
   return scales;
 }
 
@@ -52,10 +53,10 @@ void quantize(ConvNet& net) {
   for (const ConvLayer& layer : net.layers) {
     if (layer.kind != ConvLayer::Kind::kConvolution) continue;
     const std::vector<float> scales = outputScales(net, layer);
-    for (std::size_t i = 0; i < weightCount(layer); ++i) {
+    forEachWeight(layer, [&](std::size_t i, std::size_t output) {
       float& w = net.parameters[layer.weights + i];
-      w = static_cast<float>(rounded(w, scales[outputOf(net, layer, i)])) * scales[outputOf(net, layer, i)];
-    }
+      w = static_cast<float>(rounded(w, scales[output])) * scales[output];
+    });
   }
 }
 
@@ -69,15 +70,16 @@ std::string formatWeights(const ConvNet& net) {
     const std::vector<float> scales = outputScales(net, layer);
     append(scales.data(), scales.size() * sizeof(float));
     append(net.parameters.data() + layer.biases, layer.channels * sizeof(float));
-    for (std::size_t i = 0; i < weightCount(layer); ++i) {
-      const std::int8_t w = rounded(net.parameters[layer.weights + i], scales[outputOf(net, layer, i)]);
+    forEachWeight(layer, [&](std::size_t i, std::size_t output) {
+      const std::int8_t w = rounded(net.parameters[layer.weights + i], scales[output]);
       append(&w, 1);
-    }
+    });
   }
   return bytes;
 }
 
-void parseWeights(std::string_view bytes, const JsonValue& header, const std::string& file, ConvNet& net) {
+void parseWeights(std::string_view bytes, const JsonValue& header, const std::string& file, ConvNet& net,
+                  bool check_hash) {
   const auto expected = convolutionSizes(net);
   const std::vector<JsonValue> given = header.at("convolutions").items();
   bool same = given.size() == expected.size();
@@ -105,17 +107,18 @@ void parseWeights(std::string_view bytes, const JsonValue& header, const std::st
     if (layer.kind != ConvLayer::Kind::kConvolution) continue;
     std::vector<float> scales(layer.channels);
     take(scales.data(), scales.size() * sizeof(float));
-    take(net.parameters.data() + layer.biases, layer.channels * sizeof(float));
-    std::vector<std::int8_t> weights(weightCount(layer));
-    take(weights.data(), weights.size());
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-      net.parameters[layer.weights + i] = static_cast<float>(weights[i]) * scales[outputOf(net, layer, i)];
-    }
+    float *weights = net.parameters.data() + layer.weights, *biases = net.parameters.data() + layer.biases;
+    take(biases, layer.channels * sizeof(float));
+    for (std::size_t output = 0; output < scales.size(); ++output)
+      if (!std::isfinite(127 * scales[output]) || !std::isfinite(biases[output]))
+        throw InputError(file, "holds weights that are no numbers");
+    const char* rounded = at;
+    at += weightCount(layer);
+    forEachWeight(layer, [&](std::size_t i, std::size_t output) {
+      weights[i] = static_cast<float>(static_cast<std::int8_t>(rounded[i])) * scales[output];
+    });
   }
-  for (const float p : net.parameters) {
-    if (!std::isfinite(p)) throw InputError(file, "holds weights that are no numbers");
-  }
-  if (sha256(bytes) != header.at("sha256").asString())
+  if (check_hash && sha256(bytes) != header.at("sha256").asString())
     throw InputError(file, "its weights do not fit its sha256: the file is damaged");
 }
 

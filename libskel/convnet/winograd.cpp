@@ -1,6 +1,7 @@
 #include "libskel/convnet/winograd.h"
 
 #include <algorithm>
+#include <array>
 
 #include "libskel/convnet/conv_kernels_sets.h"
 #include "libskel/core/check.h"
@@ -16,30 +17,27 @@ bool suitsWinograd(const ConvShape& shape) { return shape.kernel == 3 && shape.i
 
 void winogradWeights(const ConvShape& shape, const float* weights, float* transformed) {
   SKEL_CHECK_EQ(shape.kernel, 3);
-  constexpr float kG[4][3] = {{1, 0, 0}, {.5f, .5f, .5f}, {.5f, -.5f, .5f}, {0, 0, 1}};
   const std::size_t block = static_cast<std::size_t>(shape.in_channels) * kWeightPanel,
                     plane = static_cast<std::size_t>(shape.in_channels * shape.out_channels);
-  std::vector<float> half(12 * kWeightPanel);  // Gg of one input channel
-  for (int panel = 0; panel < shape.out_channels / kWeightPanel; ++panel) {
-    for (int in = 0; in < shape.in_channels; ++in) {
-      const float* g = weights + panel * 9 * block + static_cast<std::size_t>(in) * kWeightPanel;
-      float* u = transformed + panel * block + static_cast<std::size_t>(in) * kWeightPanel;
-      for (int i = 0; i < 4; ++i) {
-        for (int x = 0; x < 3; ++x) {
-          for (int k = 0; k < kWeightPanel; ++k)
-            half[static_cast<std::size_t>((3 * i + x) * kWeightPanel + k)] =
-                kG[i][0] * g[x * block + k] + kG[i][1] * g[(3 + x) * block + k] +
-                kG[i][2] * g[(6 + x) * block + k];
-        }
-      }
-      for (int i = 0; i < 4; ++i) {
-        const float* h = half.data() + 3 * i * kWeightPanel;
-        for (int j = 0; j < 4; ++j) {
-          float* to = u + static_cast<std::size_t>(4 * i + j) * plane;
-          for (int k = 0; k < kWeightPanel; ++k)
-            to[k] = kG[j][0] * h[k] + kG[j][1] * h[kWeightPanel + k] + kG[j][2] * h[2 * kWeightPanel + k];
-        }
-      }
+  // G applied to three rows of kWeightPanel numbers that lie `from_step` apart gives four, `to_step` apart.
+  const auto applyG = [](const float* from, std::size_t from_step, float* to, std::size_t to_step) {
+    for (std::size_t k = 0; k < kWeightPanel; ++k) {
+      const float a = from[k], b = from[from_step + k], c = from[2 * from_step + k];
+      to[k] = a;
+      to[to_step + k] = .5f * (a + b + c);
+      to[2 * to_step + k] = .5f * (a - b + c);
+      to[3 * to_step + k] = c;
+    }
+  };
+  std::array<float, 12 * kWeightPanel> half;  // Gg of one input channel, column by column
+  for (std::size_t panel = 0; panel * kWeightPanel < static_cast<std::size_t>(shape.out_channels); ++panel) {
+    for (std::size_t in = 0; in < block; in += kWeightPanel) {
+      const float* g = weights + 9 * panel * block + in;
+      float* u = transformed + panel * block + in;
+      for (std::size_t x = 0; x < 3; ++x)
+        applyG(g + x * block, 3 * block, half.data() + x * kWeightPanel, 3 * kWeightPanel);
+      for (std::size_t i = 0; i < 4; ++i)
+        applyG(half.data() + 3 * i * kWeightPanel, kWeightPanel, u + 4 * i * plane, plane);
     }
   }
 }

@@ -6,8 +6,8 @@ namespace skel {
 
 const JointNets& builtInJointNets() {
   static const JointNets nets(
-      {{"biped", embedded::joint_net_weights, "built-in joint net of the biped"},
-       {"quadruped", embedded::quadruped_joint_net_weights, "built-in joint net of the quadruped"}});
+      {{"biped", embedded::joint_net_weights, "built-in joint net of the biped", false},
+       {"quadruped", embedded::quadruped_joint_net_weights, "built-in joint net of the quadruped", false}});
   return nets;
 }
 

@@ -72,7 +72,7 @@ void encodeJointNetInput(const Plane8& mask, const FigureLook& look, const Frame
 // A weights file: one line of JSON (format, version, provenance, body plan, joints, layers, the SHA-256 of
 // hourglasses, what follows), then the weights (formatWeights()). Version 1 names no body plan: it was the
 // biped; before version 3 there is one hourglass. Throws InputError.
-JointNet parseJointNet(std::string_view bytes, const std::string& file);
+JointNet parseJointNet(std::string_view bytes, const std::string& file, bool check_hash = true);
 std::string formatJointNet(const JointNet& net);
 
 // Nets of several body plans. Each is read when it is first asked for, since that takes time.
@@ -81,7 +81,8 @@ class JointNets {
   // A weights file, whose bytes stay where they are as long as the nets are in use.
   struct File {
     std::string_view body_plan, bytes;
-    std::string name;  // that complaints begin with
+    std::string name;        // that complaints begin with
+    bool check_hash = true;  // not needed for what is compiled in
   };
 
   explicit JointNets(std::vector<File> files);

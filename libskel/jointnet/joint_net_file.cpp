@@ -42,7 +42,7 @@ std::string formatJointNet(const JointNet& net) {
   return header.dump() + "\n" + payload;
 }
 
-JointNet parseJointNet(std::string_view bytes, const std::string& file) {
+JointNet parseJointNet(std::string_view bytes, const std::string& file, bool check_hash) {
   const std::size_t end = bytes.find('\n');
   if (end == std::string_view::npos) throw InputError(file, "not a joint net: it has no header line");
   const JsonDocument document = JsonDocument::parse(bytes.substr(0, end), file);
@@ -64,7 +64,7 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file) {
       makeJointNet(version > 1 ? root.at("body_plan").asString() : "biped", jointsAt(root.at("joints")),
                    version > 2 ? root.at("hourglasses").asInt(1, kMaxHourglasses) : 1, inputs);
   net.provenance = root.at("provenance").asString();
-  parseWeights(bytes.substr(end + 1), root, file, net);
+  parseWeights(bytes.substr(end + 1), root, file, net, check_hash);
   return net;
 }
 
@@ -93,7 +93,7 @@ const JointNet& JointNets::of(std::string_view body_plan) const {
   Entry* entry = find(body_plan);
   SKEL_CHECK(entry);
   std::call_once(entry->once, [&] {
-    entry->net = parseJointNet(entry->file.bytes, entry->file.name);
+    entry->net = parseJointNet(entry->file.bytes, entry->file.name, entry->file.check_hash);
     transformWeights(entry->net);
   });
   return entry->net;

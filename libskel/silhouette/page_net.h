@@ -36,7 +36,7 @@ inline constexpr std::size_t pageLogitIndex(int y, int x) {
 
 // One line of JSON (format, version, provenance, SHA-256 of what follows), then the weights
 // (formatWeights()). Throws InputError.
-PageNet parsePageNet(std::string_view bytes, const std::string& file);
+PageNet parsePageNet(std::string_view bytes, const std::string& file, bool check_hash = true);
 std::string formatPageNet(const PageNet& net);
 // The net that is compiled in. Throws UsageError where the build leaves it out (SKEL_NETS).
 const PageNet& builtInPageNet();

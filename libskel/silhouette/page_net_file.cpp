@@ -24,7 +24,7 @@ std::string formatPageNet(const PageNet& net) {
   return header.dump() + "\n" + payload;
 }
 
-PageNet parsePageNet(std::string_view bytes, const std::string& file) {
+PageNet parsePageNet(std::string_view bytes, const std::string& file, bool check_hash) {
   const std::size_t end = bytes.find('\n');
   if (end == std::string_view::npos) throw InputError(file, "not a page net: it has no header line");
   const JsonDocument document = JsonDocument::parse(bytes.substr(0, end), file);
@@ -33,7 +33,7 @@ PageNet parsePageNet(std::string_view bytes, const std::string& file) {
   root.allowOnly({"format", "version", "provenance", "convolutions", "sha256"});
   PageNet net = makePageNet();
   net.provenance = root.at("provenance").asString();
-  parseWeights(bytes.substr(end + 1), root, file, net);
+  parseWeights(bytes.substr(end + 1), root, file, net, check_hash);
   return net;
 }
 

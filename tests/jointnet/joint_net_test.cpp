@@ -92,6 +92,13 @@ TEST_CASE("The nets that are compiled in know their templates") {
   }
 }
 
+TEST_CASE("The nets that are compiled in are the files of weights/, which fit their hashes") {
+  const auto file =
+      GENERATE(std::pair("biped", "joint_net.bin"), std::pair("quadruped", "quadruped_joint_net.bin"));
+  const std::string path = std::string(SKEL_SOURCE_DIR "/weights/") + file.second;
+  CHECK(parseJointNet(readFile(path), path).parameters == builtInJointNets().of(file.first).parameters);
+}
+
 TEST_CASE("Files of every version can be read") {
   struct Version {
     const char* file;
