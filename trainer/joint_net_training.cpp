@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -63,22 +64,50 @@ struct Sample {
   FigureLook look;  // as the net gets to see it
 };
 
-// Other ink, other light, other colours: what is drawn counts, not in which colour.
-FigureLook recoloured(Rng& rng, const FigureLook& look, double no_colours_share) {
+// Other ink, other light, other colours: what is drawn counts, not in which colour. Now and then what was
+// light and what was dark change as a random curve does, and hues apart from one another.
+FigureLook recoloured(Rng& rng, const Figure& figure, double no_colours_share) {
+  constexpr double kCurveShare = .35;
+  const FigureLook& look = figure.look;
   FigureLook out;
   const double strength = rng.uniform(.4, 1.4);
   out.lines = (look.lines.cast<double>() * strength).min(255).cast<std::uint8_t>();
   const bool grey = rng.chance(.3), flat = rng.chance(no_colours_share);
   const double brightness = flat ? 0 : rng.uniform(.4, 1.4) * (rng.chance(.15) ? -1 : 1);
   const double chroma = grey || flat ? 0 : rng.uniform(.2, 1.5), hue = rng.uniform(0, 2 * std::numbers::pi);
-  Eigen::Matrix3d mix = Eigen::Matrix3d::Zero();
-  mix(0, 0) = brightness;
-  mix.bottomRightCorner<2, 2>() = chroma * Eigen::Rotation2Dd(hue).toRotationMatrix();
+  const bool curved = !flat && rng.chance(kCurveShare);
+  const double twist = curved ? rng.normal(0, 1.2) : 0;  // radians from the darkest to the mean
+  std::array<double, 6> bends{};
+  if (curved)
+    for (double& bend : bends) bend = rng.normal(0, 40);
+
+  // Of each brightness the new one, and what becomes of the two differences of colours there.
+  struct Tone {
+    double value;
+    Eigen::Matrix2d chroma;
+  };
+  std::array<Tone, 256> tones;
+  for (int t = 0; t < 256; ++t) {
+    const double at = t / 256. * (bends.size() - 1);
+    const auto knot = static_cast<std::size_t>(at);
+    const double bend = bends[knot] + (at - static_cast<double>(knot)) * (bends[knot + 1] - bends[knot]);
+    tones[t] = {brightness * (t - kMeanTone) + bend,
+                chroma * Eigen::Rotation2Dd(hue + twist * (t - kMeanTone) / 128.).toRotationMatrix()};
+  }
+  double sum = 0;
+  int pixels = 0;
+  for (int i = 0; i < figure.mask.size(); ++i) {
+    if (figure.mask.data()[i] == 0) continue;
+    sum += tones[look.tones[0].data()[i]].value;
+    ++pixels;
+  }
+  const double mean = curved && pixels > 0 ? sum / pixels : 0;
   for (Plane8& tone : out.tones) tone.resize(look.lines.rows(), look.lines.cols());
   for (int i = 0; i < look.lines.size(); ++i) {
-    Eigen::Vector3d t;
-    for (int k = 0; k < 3; ++k) t[k] = look.tones[k].data()[i] - kMeanTone;
-    t = mix * t;
+    const auto difference = [&](int k) { return static_cast<double>(look.tones[k].data()[i]) - kMeanTone; };
+    const Tone& tone = tones[look.tones[0].data()[i]];
+    const Eigen::Vector2d hues = tone.chroma * Eigen::Vector2d(difference(1), difference(2));
+    const double t[] = {tone.value - mean, hues.x(), hues.y()};
     for (int k = 0; k < 3; ++k) {
       out.tones[k].data()[i] = static_cast<std::uint8_t>(std::clamp(std::lround(kMeanTone + t[k]), 0l, 255l));
     }
@@ -91,8 +120,7 @@ Sample augmented(Rng& rng, const Figure& figure, const JointTrainingOptions& opt
   sample.placement = FramePlacement::centred(figure.mask, rng.chance(.5));
   sample.placement.offset_x += static_cast<int>(rng.below(7)) - 3;
   sample.placement.offset_y += static_cast<int>(rng.below(7)) - 3;
-  if (!rng.chance(options.no_look_share))
-    sample.look = recoloured(rng, figure.look, options.no_colours_share);
+  if (!rng.chance(options.no_look_share)) sample.look = recoloured(rng, figure, options.no_colours_share);
   return sample;
 }
 
