@@ -32,11 +32,12 @@ struct Schedule {
   double peak_rate, averaging, drawn_share, left_out;
 };
 constexpr Schedule kFromNothing = {12000, 2e-3, .999, .4, 0};
-// Little by little, so that nothing is forgotten.
-constexpr Schedule kGoingOn = {1200, 3e-4, .99, .5, .2};
+// Little by little, so that nothing is forgotten; what is rehearsed is not forgotten anyway.
+constexpr Schedule kGoingOn = {900, 3e-4, .99, .5, .2};
+constexpr Schedule kRehearsing = {900, 8e-4, .99, .7, .2};
 
 Schedule scheduleOf(const JointTrainingOptions& o) {
-  const Schedule& preset = o.start.empty() ? kFromNothing : kGoingOn;
+  const Schedule& preset = o.start.empty() ? kFromNothing : o.rehearsed.empty() ? kGoingOn : kRehearsing;
   return {o.steps.value_or(preset.steps), o.peak_rate.value_or(preset.peak_rate),
           o.averaging.value_or(preset.averaging), o.drawn_share.value_or(preset.drawn_share),
           o.left_out.value_or(preset.left_out)};
@@ -233,15 +234,17 @@ class Training {
     if (!options.held_back.empty()) figure_options_.kinds = kindsOf(plan_, options.held_back, false);
     figure_options_.other_share = options.other_share;
     FigureOptions validation = figure_options_;
+    if (!options.rehearsed.empty() && options.drawings.empty())
+      throw UsageError("--rehearse needs --drawings: what is to be learned besides");
     if (!options.drawings.empty()) {
-      std::vector<JointedDrawing> drawings;
-      for (const std::string& folder : options.drawings) {
-        std::vector<JointedDrawing> found = findJointedDrawings(folder);
-        std::move(found.begin(), found.end(), std::back_inserter(drawings));
-      }
+      std::vector<JointedDrawing> drawings = drawingsIn(options.drawings);
       splitOff(drawings);
       repeatHard(drawings);
+      const std::size_t learned = drawings.size();
+      std::vector<JointedDrawing> rehearsed = drawingsIn(options.rehearsed);
+      std::move(rehearsed.begin(), rehearsed.end(), std::back_inserter(drawings));
       drawings_ = posableDrawings(drawings, net_.joints, loadTemplate(net_.body_plan), options.threads);
+      shown_ = inEqualShares(learned, drawings_.size() - learned);
       figure_options_.drawn_share = schedule_.drawn_share;
     }
     if (!options.held_back.empty()) validation.kinds = kindsOf(plan_, options.held_back, true);
@@ -282,6 +285,27 @@ class Training {
   }
 
  private:
+  static std::vector<JointedDrawing> drawingsIn(const std::vector<std::string>& folders) {
+    std::vector<JointedDrawing> drawings;
+    for (const std::string& folder : folders) {
+      std::vector<JointedDrawing> found = findJointedDrawings(folder);
+      std::move(found.begin(), found.end(), std::back_inserter(drawings));
+    }
+    return drawings;
+  }
+
+  // The numbers of `first` and then of `second` things, those of the smaller group as often as it takes to
+  // have about as many as the larger.
+  static std::vector<std::size_t> inEqualShares(std::size_t first, std::size_t second) {
+    const auto copies = [](std::size_t of, std::size_t other) {
+      return std::max<std::size_t>(1, (other + of / 2) / std::max<std::size_t>(1, of));
+    };
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < first + second; ++i)
+      numbers.insert(numbers.end(), i < first ? copies(first, second) : copies(second, first), i);
+    return numbers;
+  }
+
   // Every so many drawings one that only measures, if there are enough.
   void splitOff(std::vector<JointedDrawing>& drawings) {
     const auto count =
@@ -320,9 +344,9 @@ class Training {
 
   // Each drawing as it is and in some other poses.
   std::vector<AnnotatedDrawing> poseDrawings(std::int64_t round) const {
-    std::vector<AnnotatedDrawing> drawn(drawings_.size() * (1 + kPoses));
+    std::vector<AnnotatedDrawing> drawn(shown_.size() * (1 + kPoses));
     parallelFor(drawn.size(), options_.threads, [&](std::size_t i) {
-      const PosableDrawing& drawing = drawings_[i / (1 + kPoses)];
+      const PosableDrawing& drawing = drawings_[shown_[i / (1 + kPoses)]];
       Rng rng(options_.seed, kPoseStream + static_cast<std::uint64_t>(round) * drawn.size() + i);
       switch (i % (1 + kPoses)) {
         case 0:
@@ -408,6 +432,7 @@ class Training {
   ConvNetTrainer trainer_;
   FigureOptions figure_options_;
   std::vector<PosableDrawing> drawings_;
+  std::vector<std::size_t> shown_;  // numbers of drawings_, which a round shows
   std::vector<JointedDrawing> left_out_;
   std::vector<Figure> validation_, figures_;
   std::vector<int> order_;
@@ -431,22 +456,23 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
       ->check(CLI::Range(1, kMaxHourglasses))
       ->default_str("1, with --start as many as that has");
   command.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
-  const auto preset = [](double plain, double going_on) {
+  const auto preset = [](auto Schedule::*value) {
     std::ostringstream text;
-    text << plain << ", with --start " << going_on;
+    text << kFromNothing.*value << ", with --start " << kGoingOn.*value;
+    if (kRehearsing.*value != kGoingOn.*value) text << ", with --rehearse " << kRehearsing.*value;
     return text.str();
   };
   command.add_option("--steps", options.steps)
       ->check(CLI::Range(1, 10'000'000))
-      ->default_str(preset(kFromNothing.steps, kGoingOn.steps));
+      ->default_str(preset(&Schedule::steps));
   command.add_option("--batch", options.batch, "Figures a step")
       ->check(CLI::Range(4, 1024))
       ->capture_default_str();
   command.add_option("--rate", options.peak_rate, "Highest learning rate")
-      ->default_str(preset(kFromNothing.peak_rate, kGoingOn.peak_rate));
+      ->default_str(preset(&Schedule::peak_rate));
   command.add_option("--weight-decay", options.weight_decay)->capture_default_str();
   command.add_option("--averaging", options.averaging, "Of the weights over steps")
-      ->default_str(preset(kFromNothing.averaging, kGoingOn.averaging));
+      ->default_str(preset(&Schedule::averaging));
   command.add_option("--figures", options.figures_per_round, "Figures drawn anew each round")
       ->check(CLI::Range(64, 1'000'000))
       ->capture_default_str();
@@ -471,9 +497,17 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
                   "*.joints.json and *.mask.png, or what skel-label saves: *.skeleton.json, *.labels.json")
       ->type_name("DIR")
       ->take_all();
-  command.add_option("--drawn", options.drawn_share, "Share of figures that come from them")
+  command
+      .add_option(
+          "--rehearse", options.rehearsed,
+          "Drawings that the net of --start knows, lest it forgets: as many figures come from them as\n"
+          "from --drawings")
+      ->type_name("DIR")
+      ->take_all();
+  command
+      .add_option("--drawn", options.drawn_share, "Share of figures that come from --drawings and --rehearse")
       ->check(CLI::Range(0., 1.))
-      ->default_str(preset(kFromNothing.drawn_share, kGoingOn.drawn_share));
+      ->default_str(preset(&Schedule::drawn_share));
   command
       .add_option("--hard", options.hard_copies,
                   "How often a drawing counts of which the net of --start gets a joint wrong by 10 %")
@@ -482,7 +516,7 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
   command
       .add_option("--left-out", options.left_out, "Share of the drawings that only measure, before and after")
       ->check(CLI::Range(0., .9))
-      ->default_str(preset(kFromNothing.left_out, kGoingOn.left_out));
+      ->default_str(preset(&Schedule::left_out));
   command
       .add_option("--hold-back", options.held_back, "Body kinds to validate on instead of training on them")
       ->check(CLI::NonNegativeNumber);

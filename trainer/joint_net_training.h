@@ -24,14 +24,15 @@ struct JointTrainingOptions {
   int batch = 16;
   std::optional<double> peak_rate;
   double weight_decay = 1e-4;
-  std::optional<double> averaging;    // of the weights over steps
-  int figures_per_round = 4096;       // drawn anew each round
-  int passes = 3;                     // over the figures of a round
-  double other_share = .16;           // of figures that are not whole
-  double no_look_share = .25;         // of figures of which only the silhouette is shown
-  double no_colours_share = .2;       // of the others: those that show only their lines
-  std::vector<std::string> drawings;  // folders of drawings with joints, see findJointedDrawings()
-  std::optional<double> drawn_share;  // of figures that come from them
+  std::optional<double> averaging;     // of the weights over steps
+  int figures_per_round = 4096;        // drawn anew each round
+  int passes = 3;                      // over the figures of a round
+  double other_share = .16;            // of figures that are not whole
+  double no_look_share = .25;          // of figures of which only the silhouette is shown
+  double no_colours_share = .2;        // of the others: those that show only their lines
+  std::vector<std::string> drawings;   // folders of drawings with joints, see findJointedDrawings()
+  std::vector<std::string> rehearsed;  // folders of drawings that `start` knows, so that it forgets nothing
+  std::optional<double> drawn_share;   // of figures that come from them and from those, half from each
   int hard_copies = 1;             // how often a drawing counts of which `start` gets a joint wrong by 10 %
   std::optional<double> left_out;  // share of the drawings that only measure, before and after
   std::vector<int> held_back;      // body kinds not trained on

@@ -75,6 +75,15 @@ TEST_CASE(
   CHECK(nothing.exit_code == 1);
   CHECK(nothing.err.find("--hard needs --start and --drawings") != std::string::npos);
 
+  CHECK(runTool(command(dir, "rehearsed.bin",
+                        "--left-out .34 --start '" + dir.file("first.bin") + "' --rehearse '" +
+                            dir.file("drawings") + "'" + from))
+            .exit_code == 0);
+  const auto alone = runTool(command(
+      dir, "n.bin", "--start '" + dir.file("first.bin") + "' --rehearse '" + dir.file("drawings") + "'"));
+  CHECK(alone.exit_code == 1);
+  CHECK(alone.err.find("--rehearse needs --drawings") != std::string::npos);
+
   const std::string start = "--left-out 0 --start '" + dir.file("first.bin") + "'" + from;
   REQUIRE(runTool(command(dir, "larger.bin", "--hourglasses 2 " + start)).exit_code == 0);
   const JointNet larger = parseJointNet(readFile(dir.file("larger.bin")), "larger.bin");
