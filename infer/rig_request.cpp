@@ -26,11 +26,9 @@ RigOptions rigOptions(const InferOptions& options) {
   rig.height_m = options.height_m;
   rig.layers = options.layers != "off";
   rig.rest_pose = kRestPoseNames.at(options.rest_pose);
-  if (!options.joint_net_file.empty()) {
-    JointNet net = parseJointNet(readFile(options.joint_net_file), options.joint_net_file);
-    transformWeights(net);
-    rig.joint_net = std::make_shared<const JointNet>(std::move(net));
-  }
+  if (!options.joint_net_file.empty())
+    rig.joint_net = std::make_shared<const JointNet>(
+        readyToRun(parseJointNet(readFile(options.joint_net_file), options.joint_net_file)));
   const std::vector<Clip> clips = clipsFor(
       options.clips_dir.empty() ? builtinClips() : clipsWithFolder(options.clips_dir), rig.body_plan);
   if (options.clips.empty())

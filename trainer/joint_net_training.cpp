@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -65,50 +64,22 @@ struct Sample {
   FigureLook look;  // as the net gets to see it
 };
 
-// Other ink, other light, other colours: what is drawn counts, not in which colour. Now and then what was
-// light and what was dark change as a random curve does, and hues apart from one another.
-FigureLook recoloured(Rng& rng, const Figure& figure, double no_colours_share) {
-  constexpr double kCurveShare = .35;
-  const FigureLook& look = figure.look;
+// Other ink, other light, other colours: what is drawn counts, not in which colour.
+FigureLook recoloured(Rng& rng, const FigureLook& look, double no_colours_share) {
   FigureLook out;
   const double strength = rng.uniform(.4, 1.4);
   out.lines = (look.lines.cast<double>() * strength).min(255).cast<std::uint8_t>();
   const bool grey = rng.chance(.3), flat = rng.chance(no_colours_share);
   const double brightness = flat ? 0 : rng.uniform(.4, 1.4) * (rng.chance(.15) ? -1 : 1);
   const double chroma = grey || flat ? 0 : rng.uniform(.2, 1.5), hue = rng.uniform(0, 2 * std::numbers::pi);
-  const bool curved = !flat && rng.chance(kCurveShare);
-  const double twist = curved ? rng.normal(0, 1.2) : 0;  // radians from the darkest to the mean
-  std::array<double, 6> bends{};
-  if (curved)
-    for (double& bend : bends) bend = rng.normal(0, 40);
-
-  // Of each brightness the new one, and what becomes of the two differences of colours there.
-  struct Tone {
-    double value;
-    Eigen::Matrix2d chroma;
-  };
-  std::array<Tone, 256> tones;
-  for (int t = 0; t < 256; ++t) {
-    const double at = t / 256. * (bends.size() - 1);
-    const auto knot = static_cast<std::size_t>(at);
-    const double bend = bends[knot] + (at - static_cast<double>(knot)) * (bends[knot + 1] - bends[knot]);
-    tones[t] = {brightness * (t - kMeanTone) + bend,
-                chroma * Eigen::Rotation2Dd(hue + twist * (t - kMeanTone) / 128.).toRotationMatrix()};
-  }
-  double sum = 0;
-  int pixels = 0;
-  for (int i = 0; i < figure.mask.size(); ++i) {
-    if (figure.mask.data()[i] == 0) continue;
-    sum += tones[look.tones[0].data()[i]].value;
-    ++pixels;
-  }
-  const double mean = curved && pixels > 0 ? sum / pixels : 0;
+  Eigen::Matrix3d mix = Eigen::Matrix3d::Zero();
+  mix(0, 0) = brightness;
+  mix.bottomRightCorner<2, 2>() = chroma * Eigen::Rotation2Dd(hue).toRotationMatrix();
   for (Plane8& tone : out.tones) tone.resize(look.lines.rows(), look.lines.cols());
   for (int i = 0; i < look.lines.size(); ++i) {
-    const auto difference = [&](int k) { return static_cast<double>(look.tones[k].data()[i]) - kMeanTone; };
-    const Tone& tone = tones[look.tones[0].data()[i]];
-    const Eigen::Vector2d hues = tone.chroma * Eigen::Vector2d(difference(1), difference(2));
-    const double t[] = {tone.value - mean, hues.x(), hues.y()};
+    Eigen::Vector3d t;
+    for (int k = 0; k < 3; ++k) t[k] = look.tones[k].data()[i] - kMeanTone;
+    t = mix * t;
     for (int k = 0; k < 3; ++k) {
       out.tones[k].data()[i] = static_cast<std::uint8_t>(std::clamp(std::lround(kMeanTone + t[k]), 0l, 255l));
     }
@@ -121,7 +92,8 @@ Sample augmented(Rng& rng, const Figure& figure, const JointTrainingOptions& opt
   sample.placement = FramePlacement::centred(figure.mask, rng.chance(.5));
   sample.placement.offset_x += static_cast<int>(rng.below(7)) - 3;
   sample.placement.offset_y += static_cast<int>(rng.below(7)) - 3;
-  if (!rng.chance(options.no_look_share)) sample.look = recoloured(rng, figure, options.no_colours_share);
+  if (!rng.chance(options.no_look_share))
+    sample.look = recoloured(rng, figure.look, options.no_colours_share);
   return sample;
 }
 
@@ -193,18 +165,18 @@ std::vector<Figure> drawFigures(std::uint64_t seed, std::uint64_t first, int cou
 
 // The net that the first step changes.
 JointNet firstNet(const JointTrainingOptions& options, const FigurePlan& plan) {
-  JointNet net =
-      makeJointNet(std::string(plan.body_plan), jointNames(plan), std::max(1, options.hourglasses));
+  const std::string body_plan(plan.body_plan);
   Rng rng(options.seed, kInitialStream);
   if (options.start.empty()) {
+    JointNet net = makeJointNet(body_plan, jointNames(plan), std::max(1, options.hourglasses));
     initialise(net, rng);
     return net;
   }
-  JointNet start = parseJointNet(readFile(options.start), options.start);
-  if (start.body_plan != net.body_plan || start.joints != net.joints)
-    throw InputError(options.start, "finds the joints of a " + start.body_plan + ", not of a " +
-                                        net.body_plan + " (see --template)");
-  if (start.maps[0].channels != net.maps[0].channels)
+  const JointNet start = parseJointNet(readFile(options.start), options.start);
+  if (start.body_plan != body_plan || start.joints != jointNames(plan))
+    throw InputError(options.start, "finds the joints of a " + start.body_plan + ", not of a " + body_plan +
+                                        " (see --template)");
+  if (start.maps[0].channels != kNetInputChannels)
     throw InputError(options.start,
                      "comes from a former version of skel-train; it can be used, but not trained on");
   if (options.hourglasses != 0 && options.hourglasses < start.hourglasses)
@@ -234,17 +206,18 @@ class Training {
     if (!options.held_back.empty()) figure_options_.kinds = kindsOf(plan_, options.held_back, false);
     figure_options_.other_share = options.other_share;
     FigureOptions validation = figure_options_;
-    if (!options.rehearsed.empty() && options.drawings.empty())
-      throw UsageError("--rehearse needs --drawings: what is to be learned besides");
+    if (!options.rehearsed.empty() && (options.start.empty() || options.drawings.empty()))
+      throw UsageError(
+          "--rehearse needs --start and --drawings: what that net knows, and what it is to learn");
     if (!options.drawings.empty()) {
       std::vector<JointedDrawing> drawings = drawingsIn(options.drawings);
       splitOff(drawings);
       repeatHard(drawings);
-      const std::size_t learned = drawings.size();
+      learned_ = drawings.size();
       std::vector<JointedDrawing> rehearsed = drawingsIn(options.rehearsed);
       std::move(rehearsed.begin(), rehearsed.end(), std::back_inserter(drawings));
       drawings_ = posableDrawings(drawings, net_.joints, loadTemplate(net_.body_plan), options.threads);
-      shown_ = inEqualShares(learned, drawings_.size() - learned);
+      shown_ = inEqualShares(learned_, drawings_.size() - learned_);
       figure_options_.drawn_share = schedule_.drawn_share;
     }
     if (!options.held_back.empty()) validation.kinds = kindsOf(plan_, options.held_back, true);
@@ -266,6 +239,7 @@ class Training {
     while (!trainer_.done()) {
       if (trainer_.steps() / steps_per_round != round) {
         round = trainer_.steps() / steps_per_round;
+        figure_options_.drawings.clear();  // two rounds' would not fit everywhere
         figure_options_.drawings = poseDrawings(round);
         figures_ = drawFigures(options_.seed,
                                kFigureStream + static_cast<std::uint64_t>(round * options_.figures_per_round),
@@ -356,8 +330,8 @@ class Training {
           drawn[i] = posed(rng, drawing);
           break;
         default: {
-          const auto donor = rng.below(static_cast<std::uint32_t>(drawings_.size()));
-          drawn[i] = withLimbsOf(rng, drawing, drawings_[donor]);
+          const auto donor = rng.below(static_cast<std::uint32_t>(shown_.size()));
+          drawn[i] = withLimbsOf(rng, drawing, drawings_[shown_[donor]]);
         }
       }
     });
@@ -410,8 +384,8 @@ class Training {
     provenance << "skel-train joints: seed " << options_.seed << ", step " << trainer_.steps() << " of "
                << schedule_.steps << ", batch " << options_.batch;
     if (!drawings_.empty())
-      provenance << ", " << drawings_.size() << " drawings for " << schedule_.drawn_share
-                 << " of the figures";
+      provenance << ", " << learned_ << " drawings for " << schedule_.drawn_share << " of the figures";
+    if (learned_ < drawings_.size()) provenance << " with " << drawings_.size() - learned_ << " rehearsed";
     provenance << ", validation loss " << r.loss << ", within 10 % " << r.within_10;
     net.provenance = provenance.str();
     bar.clear();
@@ -432,6 +406,7 @@ class Training {
   ConvNetTrainer trainer_;
   FigureOptions figure_options_;
   std::vector<PosableDrawing> drawings_;
+  std::size_t learned_ = 0;         // of drawings_; the others are rehearsed
   std::vector<std::size_t> shown_;  // numbers of drawings_, which a round shows
   std::vector<JointedDrawing> left_out_;
   std::vector<Figure> validation_, figures_;

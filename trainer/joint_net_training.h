@@ -32,7 +32,7 @@ struct JointTrainingOptions {
   double no_colours_share = .2;        // of the others: those that show only their lines
   std::vector<std::string> drawings;   // folders of drawings with joints, see findJointedDrawings()
   std::vector<std::string> rehearsed;  // folders of drawings that `start` knows, so that it forgets nothing
-  std::optional<double> drawn_share;   // of figures that come from them and from those, half from each
+  std::optional<double> drawn_share;   // of figures that come from drawings and rehearsed ones
   int hard_copies = 1;             // how often a drawing counts of which `start` gets a joint wrong by 10 %
   std::optional<double> left_out;  // share of the drawings that only measure, before and after
   std::vector<int> held_back;      // body kinds not trained on

@@ -154,9 +154,7 @@ val useNets(const val& request) {
   return saying("the nets", [&] {
     Nets given;
     for (const char* name : {"page", "biped", "quadruped"}) given.files.push_back(bytesOf(request[name]));
-    PageNet page = parsePageNet(given.files[0], "page net");
-    transformWeights(page);
-    given.page = std::make_shared<const PageNet>(std::move(page));
+    given.page = std::make_shared<const PageNet>(readyToRun(parsePageNet(given.files[0], "page net")));
     given.joints = std::make_shared<const JointNets>(
         std::vector<JointNets::File>{{"biped", given.files[1], "joint net of the biped"},
                                      {"quadruped", given.files[2], "joint net of the quadruped"}});

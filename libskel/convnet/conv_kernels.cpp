@@ -18,14 +18,6 @@ std::array<long, 9> tapOffsets(const ConvShape& shape) {
   return offsets;
 }
 
-void checkShape(InstructionSet set, const ConvShape& shape) {
-  SKEL_CHECK(hasInstructionSet(set));
-  SKEL_CHECK(shape.kernel == 1 || shape.kernel == 3);
-  SKEL_CHECK(shape.height > 0 && shape.width > 0);
-  SKEL_CHECK(shape.in_channels > 0 && shape.in_channels % 8 == 0);
-  SKEL_CHECK(shape.out_channels > 0 && shape.out_channels % kWeightPanel == 0);
-}
-
 // From the first pixel to the last, with the zeros between the rows.
 long runLength(const ConvShape& shape) {
   return static_cast<long>(shape.height) * paddedStride(shape.width) - 1;
@@ -41,6 +33,14 @@ const ConvKernels& kernelsOf(InstructionSet set) {
   (void)set;
 #endif
   return kBaselineKernels;
+}
+
+void checkShape(InstructionSet set, const ConvShape& shape) {
+  SKEL_CHECK(hasInstructionSet(set));
+  SKEL_CHECK(shape.kernel == 1 || shape.kernel == 3);
+  SKEL_CHECK(shape.height > 0 && shape.width > 0);
+  SKEL_CHECK(shape.in_channels > 0 && shape.in_channels % 8 == 0);
+  SKEL_CHECK(shape.out_channels > 0 && shape.out_channels % kWeightPanel == 0);
 }
 
 void clearPadding(const ConvShape& shape, float* out) {

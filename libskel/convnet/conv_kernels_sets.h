@@ -50,6 +50,7 @@ extern const ConvKernels kAvx512Kernels;
 #endif
 const ConvKernels& kernelsOf(InstructionSet set);
 
+void checkShape(InstructionSet set, const ConvShape& shape);
 // Sets what lies between and around the pixels of a map of `shape`'s outputs to zero.
 void clearPadding(const ConvShape& shape, float* out);
 

@@ -8,12 +8,16 @@
 namespace skel {
 namespace {
 
+bool suitsWinograd(const ConvNet& net, const ConvLayer& layer) {
+  return layer.kind == ConvLayer::Kind::kConvolution && suitsWinograd(convShape(net, layer));
+}
+
 void runConvolution(const ConvNet& net, const ConvLayer& layer, InstructionSet set, ConvNetMaps& maps,
                     std::vector<float>& out) {
   const ConvShape shape = convShape(net, layer);
   const float *in = maps.maps[layer.input].data(), *bias = net.parameters.data() + layer.biases,
               *skip = layer.skip < 0 ? nullptr : maps.maps[layer.skip].data();
-  if (suitsWinograd(shape) && net.transformed)
+  if (net.transformed && suitsWinograd(shape))
     convolveWinograd(set, shape, in, net.transformed.get() + layer.transformed, bias, skip, layer.relu,
                      out.data(), maps.scratch);
   else
@@ -51,9 +55,9 @@ void runUpsampleAdd(const MapShape& to, const std::vector<float>& in, const std:
 int ConvNetBuilder::convolution(int input, int channels, int kernel, bool relu, int skip) {
   const MapShape in = net_.maps[input];
   ConvLayer layer{ConvLayer::Kind::kConvolution, input, skip, channels, kernel, relu};
-  layer.weights = parameters_;
+  layer.weights = parameter_count_;
   layer.biases = layer.weights + static_cast<std::size_t>(kernel * kernel * in.channels * channels);
-  parameters_ = layer.biases + static_cast<std::size_t>(channels);
+  parameter_count_ = layer.biases + static_cast<std::size_t>(channels);
   return add(layer, {in.height, in.width, channels});
 }
 
@@ -74,7 +78,7 @@ int ConvNetBuilder::residuals(int map, int count) {
 }
 
 ConvNet ConvNetBuilder::take() {
-  net_.parameters.assign(parameters_, 0.f);
+  net_.parameters.assign(parameter_count_, 0.f);
   return std::move(net_);
 }
 
@@ -106,13 +110,13 @@ ConvShape convShape(const ConvNet& net, const ConvLayer& layer) {
 void transformWeights(ConvNet& net) {
   std::size_t size = 0;
   for (ConvLayer& layer : net.layers) {
-    if (layer.kind != ConvLayer::Kind::kConvolution || !suitsWinograd(convShape(net, layer))) continue;
+    if (!suitsWinograd(net, layer)) continue;
     layer.transformed = size;
     size += winogradWeightCount(convShape(net, layer));
   }
-  const auto transformed = std::make_shared_for_overwrite<float[]>(size);
+  const std::shared_ptr<float[]> transformed(new float[size]);
   for (const ConvLayer& layer : net.layers) {
-    if (layer.kind != ConvLayer::Kind::kConvolution || !suitsWinograd(convShape(net, layer))) continue;
+    if (!suitsWinograd(net, layer)) continue;
     winogradWeights(convShape(net, layer), net.parameters.data() + layer.weights,
                     transformed.get() + layer.transformed);
   }

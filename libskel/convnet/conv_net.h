@@ -46,6 +46,12 @@ struct ConvNet {
 
 // Has forward() take less time (winograd.h). To be called anew after each change of the parameters.
 void transformWeights(ConvNet& net);
+// A net of any kind that is only run from now on.
+template <typename Net>
+Net readyToRun(Net net) {
+  transformWeights(net);
+  return net;
+}
 
 ConvShape convShape(const ConvNet& net, const ConvLayer& layer);
 
@@ -64,7 +70,7 @@ class ConvNetBuilder {
  private:
   int add(const ConvLayer& layer, const MapShape& shape);
   ConvNet net_;
-  std::size_t parameters_ = 0;
+  std::size_t parameter_count_ = 0;
 };
 
 // An encoder and a decoder with skips between equal resolutions, after Newell, Yang, Deng, "Stacked hourglass

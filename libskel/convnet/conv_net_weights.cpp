@@ -50,6 +50,7 @@ std::vector<std::array<int, 3>> convolutionSizes(const ConvNet& net) {
 }
 
 void quantize(ConvNet& net) {
+  net.transformed = nullptr;
   for (const ConvLayer& layer : net.layers) {
     if (layer.kind != ConvLayer::Kind::kConvolution) continue;
     const std::vector<float> scales = outputScales(net, layer);
@@ -110,12 +111,12 @@ void parseWeights(std::string_view bytes, const JsonValue& header, const std::st
     float *weights = net.parameters.data() + layer.weights, *biases = net.parameters.data() + layer.biases;
     take(biases, layer.channels * sizeof(float));
     for (std::size_t output = 0; output < scales.size(); ++output)
-      if (!std::isfinite(127 * scales[output]) || !std::isfinite(biases[output]))
+      if (!std::isfinite(128 * scales[output]) || !std::isfinite(biases[output]))
         throw InputError(file, "holds weights that are no numbers");
-    const char* rounded = at;
+    const char* bytes_of_layer = at;
     at += weightCount(layer);
     forEachWeight(layer, [&](std::size_t i, std::size_t output) {
-      weights[i] = static_cast<float>(static_cast<std::int8_t>(rounded[i])) * scales[output];
+      weights[i] = static_cast<float>(static_cast<std::int8_t>(bytes_of_layer[i])) * scales[output];
     });
   }
   if (check_hash && sha256(bytes) != header.at("sha256").asString())

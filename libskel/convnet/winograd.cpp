@@ -13,10 +13,12 @@ constexpr int kTilesAtATime = 64;  // so many that what they are made into stays
 
 }  // namespace
 
-bool suitsWinograd(const ConvShape& shape) { return shape.kernel == 3 && shape.in_channels % 16 == 0; }
+bool suitsWinograd(const ConvShape& shape) {
+  return shape.kernel == 3 && shape.in_channels % 16 == 0 && shape.out_channels % kWeightPanel == 0;
+}
 
 void winogradWeights(const ConvShape& shape, const float* weights, float* transformed) {
-  SKEL_CHECK_EQ(shape.kernel, 3);
+  SKEL_CHECK(suitsWinograd(shape));
   const std::size_t block = static_cast<std::size_t>(shape.in_channels) * kWeightPanel,
                     plane = static_cast<std::size_t>(shape.in_channels * shape.out_channels);
   // G applied to three rows of kWeightPanel numbers that lie `from_step` apart gives four, `to_step` apart.
@@ -45,7 +47,8 @@ void winogradWeights(const ConvShape& shape, const float* weights, float* transf
 void convolveWinograd(InstructionSet set, const ConvShape& shape, const float* in, const float* transformed,
                       const float* bias, const float* skip, bool relu, float* out,
                       std::vector<float>& scratch) {
-  SKEL_CHECK(hasInstructionSet(set) && suitsWinograd(shape));
+  checkShape(set, shape);
+  SKEL_CHECK(suitsWinograd(shape));
   const ConvKernels& kernels = kernelsOf(set);
   const int tiles_across = (shape.width + 1) / 2, tiles_down = (shape.height + 1) / 2;
   const int rows_at_a_time = std::clamp(kTilesAtATime / tiles_across, 1, tiles_down);

@@ -13,7 +13,7 @@ inline std::size_t winogradWeightCount(const ConvShape& shape) {
 }
 void winogradWeights(const ConvShape& shape, const float* weights, float* transformed);
 
-// Whether it is worth its transforms, and the kernels can do it.
+// Sixteen channels are the widest vector; the transforms go over whole ones.
 bool suitsWinograd(const ConvShape& shape);
 
 // As convolve() with a kernel of 3, but for rounding. `scratch` is resized as needed.

@@ -4,7 +4,7 @@
 namespace skel {
 namespace {
 
-// 4×4 inputs of each tile from `first` on, tile by tile: BᵀdB.
+// 4×4 inputs of each tile of `rows` rows: BᵀdB.
 void transformTiles(const WinogradTask& task, int first_row, int rows) {
   const int channels = task.in_channels;
   const long plane = static_cast<long>(rows) * task.tiles_across * channels;

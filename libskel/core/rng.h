@@ -8,6 +8,8 @@ namespace skel {
 class Rng {
  public:
   explicit Rng(std::uint64_t seed, std::uint64_t stream = 0);
+  // Another stream that begins here; this one goes on as if there was none.
+  Rng branch(std::uint64_t stream) const { return Rng(state_, stream); }
   std::uint32_t next();
   // In [0, 1).
   double uniform();

@@ -69,9 +69,9 @@ inline Eigen::Vector2d frameFromCell(const Eigen::Vector2d& p) { return (p.array
 void encodeJointNetInput(const Plane8& mask, const FigureLook& look, const FramePlacement& placement,
                          int channels, std::vector<float>& input);
 
-// A weights file: one line of JSON (format, version, provenance, body plan, joints, layers, the SHA-256 of
-// hourglasses, what follows), then the weights (formatWeights()). Version 1 names no body plan: it was the
-// biped; before version 3 there is one hourglass. Throws InputError.
+// A weights file: one line of JSON (format, version, provenance, body plan, joints, hourglasses, layers, the
+// SHA-256 of what follows), then the weights (formatWeights()). Version 1 names no body plan: it was the
+// biped; before version 3 there is one hourglass. check_hash: as in parseWeights(). Throws InputError.
 JointNet parseJointNet(std::string_view bytes, const std::string& file, bool check_hash = true);
 std::string formatJointNet(const JointNet& net);
 

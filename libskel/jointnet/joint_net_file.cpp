@@ -93,8 +93,7 @@ const JointNet& JointNets::of(std::string_view body_plan) const {
   Entry* entry = find(body_plan);
   SKEL_CHECK(entry);
   std::call_once(entry->once, [&] {
-    entry->net = parseJointNet(entry->file.bytes, entry->file.name, entry->file.check_hash);
-    transformWeights(entry->net);
+    entry->net = readyToRun(parseJointNet(entry->file.bytes, entry->file.name, entry->file.check_hash));
   });
   return entry->net;
 }

@@ -4,11 +4,7 @@
 namespace skel {
 
 const PageNet& builtInPageNet() {
-  static const PageNet net = [] {
-    PageNet made = parsePageNet(embedded::page_net_weights, "built-in page net", false);
-    transformWeights(made);
-    return made;
-  }();
+  static const PageNet net = readyToRun(parsePageNet(embedded::page_net_weights, "built-in page net", false));
   return net;
 }
 

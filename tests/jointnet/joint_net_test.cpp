@@ -75,9 +75,44 @@ TEST_CASE("Damaged weights files are refused with a reason") {
   std::string layers = bytes;
   layers.replace(layers.find("[32,32,3]"), 9, "[32,32,1]");
   CHECK_THAT(complaint(layers), Contains("convolutions"));
+  const auto hourglasses = [&](const std::string& count) {
+    std::string other = bytes;
+    other.replace(other.find("\"hourglasses\":1"), 15, "\"hourglasses\":" + count);
+    return complaint(other);
+  };
+  CHECK_THAT(hourglasses("0"), Contains("hourglasses"));
+  CHECK_THAT(hourglasses("9"), Contains("hourglasses"));
+  CHECK_THAT(hourglasses("1.5"), Contains("hourglasses"));
+  CHECK_THAT(hourglasses("2"), Contains("convolutions"));
   std::string version = bytes;
   version.replace(version.find("\"version\":3"), 11, "\"version\":9");
   CHECK_THAT(complaint(version), Contains("version"));
+}
+
+TEST_CASE("A net that is ready to run says what it said before") {
+  JointNet net = makeJointNet("spider", {"head", "left_leg", "right_leg"}, 2);
+  Rng rng(2);
+  for (float& w : net.parameters) w = static_cast<float>(.03 * rng.normal());
+  const JointNet ready = readyToRun(net);
+  REQUIRE(ready.transformed);
+  ConvNetMaps plain(net), transformed(net);
+  Plane8 mask = Plane8::Zero(128, 60);
+  mask.block(0, 10, 128, 30) = 255;
+  for (ConvNetMaps* maps : {&plain, &transformed})
+    encodeJointNetInput(mask, {}, FramePlacement::centred(mask), net.maps[0].channels, maps->maps[0]);
+  forward(net, bestInstructionSet(), plain);
+  forward(ready, bestInstructionSet(), transformed);
+  float largest = 0, worst = 0;
+  for (std::size_t i = 0; i < plain.maps.back().size(); ++i) {
+    largest = std::max(largest, std::abs(plain.maps.back()[i]));
+    worst = std::max(worst, std::abs(plain.maps.back()[i] - transformed.maps.back()[i]));
+  }
+  CHECK(largest > 1e-3f);
+  CHECK(worst < 1e-4f * largest);
+  // What has been changed must not be run as it was.
+  JointNet changed = ready;
+  quantize(changed);
+  CHECK_FALSE(changed.transformed);
 }
 
 TEST_CASE("The nets that are compiled in know their templates") {

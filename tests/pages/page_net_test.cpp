@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "libskel/core/error.h"
+#include "libskel/core/files.h"
 #include "tests/support/catch.h"
 #include "trainer/conv_net_trainer.h"
 #include "trainer/page_loss.h"
@@ -42,6 +43,11 @@ TEST_CASE("A page net's file gives back the rounded net, and damaged ones are re
   std::string flipped = bytes;
   flipped.back() = static_cast<char>(flipped.back() ^ 1);
   CHECK_THAT(complaint(flipped), Contains("sha256"));
+}
+
+TEST_CASE("The page net that is compiled in is the file of weights/, which fits its hash") {
+  const std::string path = SKEL_SOURCE_DIR "/weights/page_net.bin";
+  CHECK(parsePageNet(readFile(path), path).parameters == builtInPageNet().parameters);
 }
 
 TEST_CASE("The page loss has the derivative that its differences show") {

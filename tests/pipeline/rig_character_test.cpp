@@ -79,7 +79,7 @@ TEST_CASE("nets that are handed over do what those do that are compiled in") {
   options.mlp = defaultMlp();
   options.body_plan = loadTemplate("biped");
   const RiggedDrawing expected = rigCharacter(input, options);
-  options.silhouette.page_net = std::make_shared<const PageNet>(parsePageNet(page, "page"));
+  options.silhouette.page_net = std::make_shared<const PageNet>(readyToRun(parsePageNet(page, "page")));
   options.joint_nets =
       std::make_shared<const JointNets>(std::vector<JointNets::File>{{"biped", biped, "biped"}});
   const RiggedDrawing drawing = rigCharacter(input, options);

@@ -82,7 +82,7 @@ TEST_CASE(
   const auto alone = runTool(command(
       dir, "n.bin", "--start '" + dir.file("first.bin") + "' --rehearse '" + dir.file("drawings") + "'"));
   CHECK(alone.exit_code == 1);
-  CHECK(alone.err.find("--rehearse needs --drawings") != std::string::npos);
+  CHECK(alone.err.find("--rehearse needs --start and --drawings") != std::string::npos);
 
   const std::string start = "--left-out 0 --start '" + dir.file("first.bin") + "'" + from;
   REQUIRE(runTool(command(dir, "larger.bin", "--hourglasses 2 " + start)).exit_code == 0);

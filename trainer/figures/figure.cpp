@@ -14,6 +14,7 @@
 #include "libskel/silhouette/pieces.h"
 #include "trainer/figures/biped_plan.h"
 #include "trainer/figures/pasted_drawing.h"
+#include "trainer/figures/repaint.h"
 #include "trainer/figures/warped_drawing.h"
 
 namespace skel {
@@ -468,6 +469,8 @@ std::optional<Figure> finished(Rng& rng, const FigurePlan& plan, Canvas canvas, 
       }
     }
   }
+  Rng brush = rng.branch(1);  // shapes do not depend on how they are painted
+  repaint(brush, figure.mask, colours);
   if (rng.chance(.35)) {  // grain of paper, noise of a camera
     const auto grain = static_cast<float>(rng.uniform(2, 14));
     for (float& c : colours.reshaped()) c += grain * static_cast<float>(rng.normal());
