@@ -25,6 +25,7 @@ void copyLayer(const ConvNet& from, const ConvLayer& source, ConvNet& to, const 
 JointNet grown(const JointNet& net, int hourglasses, Rng& rng) {
   SKEL_CHECK(hourglasses >= net.hourglasses);
   JointNet out = makeJointNet(net.body_plan, net.joints, hourglasses, net.maps[0].channels);
+  out.bones = net.bones;
   initialise(out, rng);
   const std::size_t kept = net.layers.size() - 1;
   for (std::size_t i = 0; i < kept; ++i) copyLayer(net, net.layers[i], out, out.layers[i]);

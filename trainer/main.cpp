@@ -1,5 +1,6 @@
 #include "libskel/cli/tool.h"
 #include "trainer/average_nets.h"
+#include "trainer/bone_lengths.h"
 #include "trainer/joint_net_figures.h"
 #include "trainer/joint_net_training.h"
 #include "trainer/page_net_training.h"
@@ -29,10 +30,14 @@ int main(int argc, char** argv) {
   CLI::App* averaging =
       app.add_subcommand("average", "Averages joint nets that were trained on from one another");
   skel::bindAverageNetsOptions(*averaging, average);
+  skel::BoneLengthsOptions bone_lengths;
+  CLI::App* bones = app.add_subcommand("bones", "Tells a joint net how long the bones of drawn figures are");
+  skel::bindBoneLengthsOptions(*bones, bone_lengths);
   return skel::runTool(app, argc, argv, [&] {
     if (*evaluation) return skel::runEvaluateWeights(evaluate);
     if (*figures) return skel::runFigureSheet(sheet);
     if (*joints) return skel::runJointTraining(joint_training);
+    if (*bones) return skel::runBoneLengths(bone_lengths);
     if (*averaging) return skel::runAverageNets(average);
     if (*pages) return skel::runPageTraining(page_training);
     return skel::runTrain(train);

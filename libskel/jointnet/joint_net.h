@@ -3,6 +3,7 @@
 // generated figures and on our own drawings in other poses (skel-train joints).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -28,11 +29,20 @@ inline constexpr int kMaxNetJoints = 63, kMaxHourglasses = 8;
 // One a joint, one for the figure; the kernels want multiples of 16, so the others are idle.
 constexpr int heatmapChannels(int joints) { return (joints + 1 + 15) / 16 * 16; }
 
+// How long the bones are that lead to a joint from the next one on the way to the body, in drawings: of the
+// logarithm of 1 + the length, in px of a figure whose long side is 128; and of its difference to that of the
+// bone before. A deviation of 0: not known.
+struct BoneLength {
+  double mean = 0, deviation = 0, ratio_mean = 0, ratio_deviation = 0;
+  static double logOf(double length_px) { return std::log(1 + length_px); }
+};
+
 struct JointNet : ConvNet {
   std::string body_plan;            // name of the template that it was trained for
   std::vector<std::string> joints;  // of the heatmaps, at most kMaxNetJoints
   std::string provenance;           // how the weights came to be, for people
   int hourglasses = 1;              // one behind another
+  std::vector<BoneLength> bones;    // by joint; empty: not known
 
   // The channel after the joints': its mean is the log-odds of one whole upright figure of the body plan.
   int figureChannel() const { return static_cast<int>(joints.size()); }
@@ -69,9 +79,10 @@ inline Eigen::Vector2d frameFromCell(const Eigen::Vector2d& p) { return (p.array
 void encodeJointNetInput(const Plane8& mask, const FigureLook& look, const FramePlacement& placement,
                          int channels, std::vector<float>& input);
 
-// A weights file: one line of JSON (format, version, provenance, body plan, joints, hourglasses, layers, the
-// SHA-256 of what follows), then the weights (formatWeights()). Version 1 names no body plan: it was the
-// biped; before version 3 there is one hourglass. check_hash: as in parseWeights(). Throws InputError.
+// A weights file: one line of JSON (format, version, provenance, body plan, joints, hourglasses, bones,
+// layers, the SHA-256 of what follows), then the weights (formatWeights()). Version 1 names no body plan: it
+// was the biped; before version 3 there is one hourglass. check_hash: as in parseWeights(). Throws
+// InputError.
 JointNet parseJointNet(std::string_view bytes, const std::string& file, bool check_hash = true);
 std::string formatJointNet(const JointNet& net);
 

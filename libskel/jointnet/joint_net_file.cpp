@@ -27,15 +27,31 @@ std::vector<std::string> jointsAt(const JsonValue& list) {
   return joints;
 }
 
+std::vector<BoneLength> bonesAt(const JsonValue& list, std::size_t joints) {
+  std::vector<BoneLength> bones;
+  for (const JsonValue& item : list.items()) {
+    const std::vector<double> n = item.asNumbers(4);
+    if (n[1] < 0 || n[3] < 0) item.fail("has a deviation below 0");
+    bones.push_back({n[0], n[1], n[2], n[3]});
+  }
+  if (!bones.empty() && bones.size() != joints)
+    list.fail("has " + std::to_string(bones.size()) + " entries for " + std::to_string(joints) + " joints");
+  return bones;
+}
+
 }  // namespace
 
 std::string formatJointNet(const JointNet& net) {
   const std::string payload = formatWeights(net);
+  auto bones = nlohmann::json::array();
+  for (const BoneLength& b : net.bones)
+    bones.push_back({b.mean, b.deviation, b.ratio_mean, b.ratio_deviation});
   const nlohmann::ordered_json header = {{"format", kFormat},
                                          {"version", kVersion},
                                          {"provenance", net.provenance},
                                          {"body_plan", net.body_plan},
                                          {"joints", net.joints},
+                                         {"bones", bones},
                                          {"hourglasses", net.hourglasses},
                                          {"convolutions", convolutionSizes(net)},
                                          {"sha256", sha256(payload)}};
@@ -53,8 +69,8 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file, bool che
   else if (version == 2)
     root.allowOnly({"format", "version", "provenance", "body_plan", "joints", "convolutions", "sha256"});
   else
-    root.allowOnly(
-        {"format", "version", "provenance", "body_plan", "joints", "hourglasses", "convolutions", "sha256"});
+    root.allowOnly({"format", "version", "provenance", "body_plan", "joints", "bones", "hourglasses",
+                    "convolutions", "sha256"});
 
   const std::vector<JsonValue> given = root.at("convolutions").items();
   int inputs = kNetInputChannels;
@@ -64,6 +80,7 @@ JointNet parseJointNet(std::string_view bytes, const std::string& file, bool che
       makeJointNet(version > 1 ? root.at("body_plan").asString() : "biped", jointsAt(root.at("joints")),
                    version > 2 ? root.at("hourglasses").asInt(1, kMaxHourglasses) : 1, inputs);
   net.provenance = root.at("provenance").asString();
+  if (version > 2) net.bones = bonesAt(root.at("bones"), net.joints.size());
   parseWeights(bytes.substr(end + 1), root, file, net, check_hash);
   return net;
 }

@@ -1,5 +1,3 @@
-// The tree search is exact dynamic programming over the best cells of each heatmap, as in pictorial
-// structures: P. Felzenszwalb, D. Huttenlocher, "Pictorial structures for object recognition" (2005), §3.
 #include "libskel/jointnet/tree_recognizer.h"
 
 #include <Eigen/Geometry>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "libskel/core/check.h"
+#include "libskel/jointnet/tree_search.h"
 
 namespace skel {
 namespace {
@@ -18,10 +17,6 @@ using Vec = Eigen::Vector2d;
 
 constexpr int kCells = kHeatmapSize * kHeatmapSize;
 constexpr int kLongSide = 128;
-constexpr int kCandidates = 30;               // cells a joint that the search looks at
-constexpr float kLeastShare = 1e-4f;          // of the highest probability: what such a cell needs
-constexpr double kOutsidePenalty = 4;         // nats for a bone that lies wholly outside the figure
-constexpr double kBoneSample = 2;             // grid px between samples along a bone
 constexpr double kNear = .1 * kLongSide / 4;  // cells: what counts as found
 // Drawings stand upright but for few, which lie, stand on their heads or are scanned sideways. The net has
 // learned to tell upright figures from turned ones: above kSurelyUpright (log-odds) nothing else is looked
@@ -38,8 +33,6 @@ constexpr int kOrientations = 8;
 constexpr double kFigureLogit = .9, kFigureJoints = 8, kFigureConstant = -9;
 // Off the log-odds of a figure that was turned: of eight views of an animal one may look human.
 constexpr double kTurnedOdds = 1.5;
-
-using Heatmap = std::array<float, kCells>;
 
 struct Heatmaps {
   std::vector<Heatmap> joints;  // probabilities, each sums to 1
@@ -140,87 +133,6 @@ Turned turnedBy(const Plane8& mask, const FigureLook& look, double angle) {
   return out;
 }
 
-// Share of the bone between two points that lies outside the figure. A sample halfway between two columns
-// counts for both, so that a mirrored figure gives the same.
-double shareOutside(const Plane8& mask, const Vec& a, const Vec& b) {
-  constexpr double kHalf = .5 + 1e-6;
-  const int steps = std::max(1, static_cast<int>((b - a).norm() / kBoneSample));
-  const auto outside = [&](int y, int x) {
-    return y < 0 || x < 0 || y >= mask.rows() || x >= mask.cols() || mask(y, x) == 0;
-  };
-  int sum = 0;
-  for (int i = 0; i <= steps; ++i) {
-    const Vec p = a + (b - a) * (static_cast<double>(i) / steps);
-    const int y = static_cast<int>(std::floor(p.y() + .5));
-    const int last = static_cast<int>(std::floor(p.x() + kHalf)),
-              first = static_cast<int>(std::ceil(p.x() - kHalf));
-    sum += outside(y, first) + outside(y, last);
-  }
-  return static_cast<double>(sum) / (2 * (steps + 1));
-}
-
-struct Candidate {
-  int cell;
-  Vec position;  // grid px
-  double score;  // log probability, later with the best of the joints below it
-  std::array<std::uint8_t, kMaxNetJoints>
-      below;  // of each child joint, the candidate that is best with this one
-};
-
-// The cell of each joint in the tree of highest total score. frame px = grid px + offset.
-std::vector<int> searchTree(const Plane8& mask, const Vec& offset, const Heatmaps& maps,
-                            const NetJoints& joints) {
-  const int count = joints.count();
-  std::vector<std::vector<Candidate>> candidates(count);
-  for (int j = 0; j < count; ++j) {
-    const Heatmap& map = maps.joints[j];
-    const float least = *std::max_element(map.begin(), map.end()) * kLeastShare;
-    std::vector<Candidate>& list = candidates[j];
-    for (int i = 0; i < kCells; ++i) {
-      if (map[i] >= least) list.push_back({i, Vec::Zero(), std::log(static_cast<double>(map[i])), {}});
-    }
-    const std::size_t kept = std::min<std::size_t>(list.size(), kCandidates);
-    std::partial_sort(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(kept), list.end(),
-                      [](const Candidate& a, const Candidate& b) {
-                        return a.score != b.score ? a.score > b.score : a.cell < b.cell;
-                      });
-    list.resize(kept);
-    for (Candidate& c : list) {
-      c.position = frameFromCell(Vec(c.cell % kHeatmapSize, c.cell / kHeatmapSize)) - offset;
-    }
-  }
-  for (int i = count - 1; i > 0; --i) {
-    const int j = joints.order[i];
-    std::vector<Candidate>& list = candidates[j];
-    std::stable_sort(list.begin(), list.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
-    for (Candidate& parent : candidates[joints.parent[j]]) {
-      double best = -std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < list.size(); ++k) {
-        // They come by falling score: no later one can win, even without any penalty.
-        if (list[k].score <= best) break;
-        const double s =
-            list[k].score - kOutsidePenalty * shareOutside(mask, parent.position, list[k].position);
-        if (s > best) best = s, parent.below[j] = static_cast<std::uint8_t>(k);
-      }
-      parent.score += best;
-    }
-  }
-  std::vector<const Candidate*> chosen(count);
-  std::vector<int> cells(count);
-  for (const int j : joints.order) {
-    const std::vector<Candidate>& list = candidates[j];
-    if (joints.parent[j] < 0) {
-      chosen[j] = &*std::max_element(
-          list.begin(), list.end(), [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
-    } else {
-      chosen[j] = &list[chosen[joints.parent[j]]->below[j]];
-    }
-    cells[j] = chosen[j]->cell;
-  }
-  return cells;
-}
-
 // The mean cell of the heatmap around a cell.
 Vec refined(const Heatmap& map, int cell) {
   const int cx = cell % kHeatmapSize, cy = cell / kHeatmapSize;
@@ -297,7 +209,7 @@ TreeRecognition recognizeByJointNet(const Plane8& mask, const FigureLook& look, 
   const FramePlacement one = FramePlacement::centred(figure.mask);
   const FramePlacement other = FramePlacement::centred(figure.mask, options.mirror);
   const Vec offset((one.offset_x + other.offset_x) / 2., one.offset_y);
-  const std::vector<int> cells = searchTree(figure.mask, offset, maps, joints);
+  const std::vector<int> cells = searchTree(figure.mask, offset, maps.joints, joints, net.bones);
   result.joints.resize(cells.size());
   double mean_confidence = 0;
   for (int j = 0; j < joints.count(); ++j) {

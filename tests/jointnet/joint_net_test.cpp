@@ -24,6 +24,7 @@ JointNet randomNet() {
       net.parameters[k] = static_cast<float>(size * rng.normal());
   }
   net.provenance = "random";
+  net.bones = {{}, {3, .25, 0, 0}, {3.5, .5, -.125, .25}};
   return net;
 }
 
@@ -46,6 +47,9 @@ TEST_CASE("A weights file gives back the rounded net") {
   CHECK(read.parameters == rounded.parameters);
   CHECK(read.provenance == "random");
   CHECK(read.body_plan == "spider");
+  REQUIRE(read.bones.size() == 3);
+  CHECK(read.bones[2].deviation == .5);
+  CHECK(read.bones[2].ratio_mean == -.125);
   CHECK(read.joints == net.joints);
   // Rounding twice changes nothing.
   CHECK(formatJointNet(read) == bytes);
@@ -75,6 +79,12 @@ TEST_CASE("Damaged weights files are refused with a reason") {
   std::string layers = bytes;
   layers.replace(layers.find("[32,32,3]"), 9, "[32,32,1]");
   CHECK_THAT(complaint(layers), Contains("convolutions"));
+  std::string bones = bytes;
+  bones.replace(bones.find("[3.0,0.25,0.0,0.0],"), 19, "");
+  CHECK_THAT(complaint(bones), Contains("bones: has 2 entries for 3 joints"));
+  bones = bytes;
+  bones.replace(bones.find("0.25,0.0,0.0]"), 4, "-1.0");
+  CHECK_THAT(complaint(bones), Contains("bones[1]: has a deviation below 0"));
   const auto hourglasses = [&](const std::string& count) {
     std::string other = bytes;
     other.replace(other.find("\"hourglasses\":1"), 15, "\"hourglasses\":" + count);
@@ -140,7 +150,8 @@ TEST_CASE("Files of every version can be read") {
     double heatmap_value;  // what it finds is pinned down by one
   };
   const auto version =
-      GENERATE(Version{"joint-net-version-1.bin", -0.40456}, Version{"joint-net-version-2.bin", -19.40218});
+      GENERATE(Version{"joint-net-version-1.bin", -0.40456}, Version{"joint-net-version-2.bin", -19.40218},
+               Version{"joint-net-two-hourglasses.bin", -31.26297});
   const std::string file = std::string(SKEL_SOURCE_DIR "/weights/archive/") + version.file;
   const JointNet net = parseJointNet(readFile(file), file);
   CHECK(net.body_plan == "biped");

@@ -103,6 +103,31 @@ TEST_CASE(
   CHECK(old.err.find("comes from a former version of skel-train") != std::string::npos);
 }
 
+TEST_CASE("bones of drawn figures are measured, and a net keeps them when it is trained on") {
+  const TempDir dir;
+  const std::string net = dir.file("net.bin"), measured = dir.file("measured.bin");
+  std::filesystem::copy_file(SKEL_DATASETS "/../weights/archive/joint-net-pass-1.bin", net);
+  const auto result = runTool("'" SKEL_TRAIN "' bones '" + net + "' -o '" + measured +
+                              "' --drawings '" SKEL_DATASETS "/unseen/characters'");
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.out.find("left_elbow ") != std::string::npos);
+  const JointNet read = parseJointNet(readFile(measured), measured);
+  CHECK(parseJointNet(readFile(net), net).bones.empty());
+  REQUIRE(read.bones.size() == read.joints.size());
+  for (std::size_t j = 0; j < read.joints.size(); ++j) {
+    INFO(read.joints[j]);
+    const bool in_limb = read.joints[j].ends_with("elbow") || read.joints[j].ends_with("hand") ||
+                         read.joints[j].ends_with("knee") || read.joints[j].ends_with("foot");
+    CHECK((read.bones[j].deviation > 0) == in_limb);
+    if (read.joints[j] == "left_hand" || read.joints[j] == "right_foot") {
+      CHECK(std::abs(read.bones[j].ratio_mean) < .2);
+      CHECK(read.bones[j].ratio_deviation == Approx(.2).margin(.15));
+    }
+  }
+  REQUIRE(runTool(command(dir, "on.bin", "--start '" + measured + "'")).exit_code == 0);
+  CHECK(parseJointNet(readFile(dir.file("on.bin")), "on.bin").bones[3].mean == read.bones[3].mean);
+}
+
 TEST_CASE("joint training refuses what it cannot go on from or learn from") {
   const TempDir dir;
   writeFile(dir.file("state"), "short");
