@@ -48,6 +48,7 @@ double surprise(double value, double mean, double deviation) {
 // One way for a limb to end: the last bone's log length, and the score but for its proportion.
 struct End {
   double score, log_length;
+  std::size_t candidate;
 };
 
 struct Candidate {
@@ -80,7 +81,8 @@ class TreeSearch {
                                [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
       else if (endsLimb(j))
         chosen[j] = &candidates_[j][bestEnd(j, *chosen[parent],
-                                            logLength(*chosen[joints_.parent[parent]], *chosen[parent]))];
+                                            logLength(*chosen[joints_.parent[parent]], *chosen[parent]))
+                                        .candidate];
       else
         chosen[j] = &candidates_[j][chosen[parent]->below[j]];
       cells[j] = chosen[j]->cell;
@@ -121,19 +123,16 @@ class TreeSearch {
                : surprise(log_length, bones_[j].mean, bones_[j].deviation);
   }
 
-  // Of joint j, given the one before it and the log length of the bone that leads there.
-  double scoreOf(int j, const End& end, double log_length_before) const {
-    return end.score -
-           surprise(end.log_length - log_length_before, bones_[j].ratio_mean, bones_[j].ratio_deviation);
-  }
-  std::size_t bestEnd(int j, const Candidate& before, double log_length_before) const {
-    const std::vector<End>& ends = ends_[j][before.id];
-    return static_cast<std::size_t>(std::max_element(ends.begin(), ends.end(),
-                                                     [&](const End& a, const End& b) {
-                                                       return scoreOf(j, a, log_length_before) <
-                                                              scoreOf(j, b, log_length_before);
-                                                     }) -
-                                    ends.begin());
+  // Of joint j, given the one before it and the log length of the bone that leads there: with its proportion.
+  End bestEnd(int j, const Candidate& before, double log_length_before) const {
+    End best{-std::numeric_limits<double>::infinity(), 0, 0};
+    for (const End& end : ends_[j][before.id]) {
+      if (end.score <= best.score) break;  // they come by falling score
+      const double score = end.score - surprise(end.log_length - log_length_before, bones_[j].ratio_mean,
+                                                bones_[j].ratio_deviation);
+      if (score > best.score) best = {score, end.log_length, end.candidate};
+    }
+    return best;
   }
 
   // Adds the best of joint j to the candidates of its parent.
@@ -157,10 +156,8 @@ class TreeSearch {
         if (list[k].score <= best) break;
         const double log_length = logLength(parent, list[k]);
         double s = list[k].score - lengthCost(j, log_length);
-        for (const int end : limb_ends) {
-          const std::vector<End>& ends = ends_[end][list[k].id];
-          s += scoreOf(end, ends[bestEnd(end, list[k], log_length)], log_length) - most(ends);
-        }
+        for (const int end : limb_ends)
+          s += bestEnd(end, list[k], log_length).score - ends_[end][list[k].id].front().score;
         if (s <= best) continue;
         s -= kOutsidePenalty * shareOutside(mask_, parent.position, list[k].position);
         if (s > best) best = s, parent.below[j] = static_cast<std::uint8_t>(k);
@@ -169,21 +166,18 @@ class TreeSearch {
     }
   }
 
-  static double most(const std::vector<End>& ends) {
-    double most = -std::numeric_limits<double>::infinity();
-    for (const End& end : ends) most = std::max(most, end.score);
-    return most;
-  }
-
+  // The ways to end at joint j from a candidate of its parent; returns the highest of their scores.
   double addEnds(int j, const Candidate& parent) {
     std::vector<End>& ends = ends_[j][parent.id];
-    for (const Candidate& end : candidates_[j]) {
+    for (std::size_t k = 0; k < candidates_[j].size(); ++k) {
+      const Candidate& end = candidates_[j][k];
       const double log_length = logLength(parent, end);
       ends.push_back({end.score - lengthCost(j, log_length) -
                           kOutsidePenalty * shareOutside(mask_, parent.position, end.position),
-                      log_length});
+                      log_length, k});
     }
-    return most(ends);
+    std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.score > b.score; });
+    return ends.front().score;
   }
 
   const Plane8& mask_;
