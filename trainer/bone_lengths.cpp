@@ -60,9 +60,7 @@ void bindBoneLengthsOptions(CLI::App& command, BoneLengthsOptions& options) {
 ExitCode runBoneLengths(const BoneLengthsOptions& options) {
   JointNet net = parseJointNet(readFile(options.net), options.net);
   const NetJoints joints = netJoints(net.joints, loadTemplate(net.body_plan));
-  std::vector<JointedDrawing> drawings;
-  for (const std::string& folder : options.drawings)
-    for (JointedDrawing& found : findJointedDrawings(folder)) drawings.push_back(std::move(found));
+  const std::vector<JointedDrawing> drawings = findJointedDrawings(options.drawings);
   std::vector<std::vector<std::optional<Eigen::Vector2d>>> places(drawings.size());
   parallelFor(drawings.size(), 0, [&](std::size_t i) { places[i] = placed(drawings[i], joints); });
 

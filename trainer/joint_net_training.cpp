@@ -210,11 +210,11 @@ class Training {
       throw UsageError(
           "--rehearse needs --start and --drawings: what that net knows, and what it is to learn");
     if (!options.drawings.empty()) {
-      std::vector<JointedDrawing> drawings = drawingsIn(options.drawings);
+      std::vector<JointedDrawing> drawings = findJointedDrawings(options.drawings);
       splitOff(drawings);
       repeatHard(drawings);
       learned_ = drawings.size();
-      std::vector<JointedDrawing> rehearsed = drawingsIn(options.rehearsed);
+      std::vector<JointedDrawing> rehearsed = findJointedDrawings(options.rehearsed);
       std::move(rehearsed.begin(), rehearsed.end(), std::back_inserter(drawings));
       drawings_ = posableDrawings(drawings, net_.joints, loadTemplate(net_.body_plan), options.threads);
       shown_ = inEqualShares(learned_, drawings_.size() - learned_);
@@ -259,15 +259,6 @@ class Training {
   }
 
  private:
-  static std::vector<JointedDrawing> drawingsIn(const std::vector<std::string>& folders) {
-    std::vector<JointedDrawing> drawings;
-    for (const std::string& folder : folders) {
-      std::vector<JointedDrawing> found = findJointedDrawings(folder);
-      std::move(found.begin(), found.end(), std::back_inserter(drawings));
-    }
-    return drawings;
-  }
-
   // The numbers of `first` and then of `second` things, those of the smaller group as often as it takes to
   // have about as many as the larger.
   static std::vector<std::size_t> inEqualShares(std::size_t first, std::size_t second) {

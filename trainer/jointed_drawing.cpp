@@ -68,6 +68,13 @@ std::vector<JointedDrawing> findJointedDrawings(const std::string& dir) {
   return drawings;
 }
 
+std::vector<JointedDrawing> findJointedDrawings(const std::vector<std::string>& dirs) {
+  std::vector<JointedDrawing> drawings;
+  for (const std::string& dir : dirs)
+    for (JointedDrawing& found : findJointedDrawings(dir)) drawings.push_back(std::move(found));
+  return drawings;
+}
+
 Silhouette silhouetteOf(const Image& image, const JointedDrawing& drawing) {
   Silhouette silhouette =
       drawing.mask ? silhouetteFromMask(readMaskOf(image, *drawing.mask)) : extractSilhouette(image);

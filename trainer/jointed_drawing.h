@@ -23,6 +23,8 @@ struct JointedDrawing {
 // files with joints, and skeleton files in which a person has placed a joint. Of several files that speak of
 // one image the first of these kinds counts. Throws InputError if there are none, or one cannot be read.
 std::vector<JointedDrawing> findJointedDrawings(const std::string& dir);
+// Of several folders, one after the other.
+std::vector<JointedDrawing> findJointedDrawings(const std::vector<std::string>& dirs);
 
 // By the drawing's mask, or as found in the image. Throws InputError with the reason if there is none.
 Silhouette silhouetteOf(const Image& image, const JointedDrawing& drawing);
