@@ -15,7 +15,6 @@ namespace {
 
 using Vec = Eigen::Vector2d;
 
-constexpr int kCells = kHeatmapSize * kHeatmapSize;
 constexpr int kLongSide = 128;
 constexpr double kNear = .1 * kLongSide / 4;  // cells: what counts as found
 // Drawings stand upright but for few, which lie, stand on their heads or are scanned sideways. The net has
@@ -60,7 +59,7 @@ Heatmaps evaluateNet(const Plane8& mask, const FigureLook& look, const JointNet&
         const int cell = y * kHeatmapSize + (mirrored ? kHeatmapSize - 1 - x : x);
         for (int j = 0; j < count; ++j)
           out.joints[mirrored ? joints.mirrored[j] : j][cell] += a[j] / static_cast<float>(passes);
-        out.figure_logit += a[figure_channel] / (static_cast<double>(kCells) * passes);
+        out.figure_logit += a[figure_channel] / (static_cast<double>(kHeatmapCells) * passes);
       }
     }
   }

@@ -13,7 +13,6 @@ namespace {
 
 using Vec = Eigen::Vector2d;
 
-constexpr int kCells = kHeatmapSize * kHeatmapSize;
 constexpr std::size_t kCandidates = 30;  // cells a joint that the search looks at
 constexpr float kLeastShare = 1e-4f;     // of the highest probability: what such a cell needs
 constexpr double kOutsidePenalty = 4;    // nats for a bone that lies wholly outside the figure
@@ -94,7 +93,7 @@ class TreeSearch {
   static std::vector<Candidate> likely(const Heatmap& map, const Vec& offset) {
     const float least = *std::max_element(map.begin(), map.end()) * kLeastShare;
     std::vector<Candidate> list;
-    for (int i = 0; i < kCells; ++i)
+    for (int i = 0; i < kHeatmapCells; ++i)
       if (map[i] >= least) list.push_back({i, 0, Vec::Zero(), std::log(static_cast<double>(map[i])), {}});
     const std::size_t kept = std::min(list.size(), kCandidates);
     std::partial_sort(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(kept), list.end(),

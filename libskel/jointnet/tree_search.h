@@ -11,7 +11,8 @@
 
 namespace skel {
 
-using Heatmap = std::array<float, kHeatmapSize * kHeatmapSize>;  // probabilities, sum 1
+inline constexpr int kHeatmapCells = kHeatmapSize * kHeatmapSize;
+using Heatmap = std::array<float, kHeatmapCells>;  // probabilities, sum 1
 
 // The cell of each joint in the tree of highest total score: the heatmaps' log probabilities, less what bones
 // cost that leave the figure, that are longer or shorter than others of their kind or out of proportion to

@@ -57,12 +57,6 @@ std::string bytesOf(const std::string& path) {
   return bytes;
 }
 
-std::uint32_t bigEndian(const std::string& bytes, size_t at) {
-  std::uint32_t value = 0;
-  for (size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes.at(at + i));
-  return value;
-}
-
 }  // namespace
 
 TEST_CASE("the same frames give the same bytes, in every format") {
@@ -96,6 +90,16 @@ TEST_CASE("a folder of frames holds the frames") {
 }
 
 #ifdef SKEL_VIDEO_MP4
+namespace {
+
+std::uint32_t bigEndian(const std::string& bytes, size_t at) {
+  std::uint32_t value = 0;
+  for (size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes.at(at + i));
+  return value;
+}
+
+}  // namespace
+
 TEST_CASE("an MP4 holds every frame, at its size and rate") {
   const TempDir dir;
   write(dir.file("film.mp4"), {.width = 64, .height = 48, .frame_rate = 24}, 17);
