@@ -13,6 +13,7 @@
 #include "animator/pose_file.h"
 #include "animator/stage_view.h"
 #include "libskel/animation/clip_file.h"
+#include "libskel/core/caught_error.h"
 #include "libskel/draw/color.h"
 #include "libskel/window/keys.h"
 #include "libskel/window/window.h"
@@ -523,8 +524,8 @@ class AnimationWindow {
       try {
         film_->finish();
         document_.say("written: " + film_->path());
-      } catch (const Error& error) {
-        document_.say(error.what());
+      } catch (...) {
+        document_.say(caughtError(film_->path()).what());
       }
       film_.reset();
     }

@@ -10,6 +10,7 @@
 #include "animator/rig_text.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/retarget.h"
+#include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/export/formats.h"
@@ -326,10 +327,8 @@ bool AnimationDocument::attempt(const Action& action) {
   try {
     message_ = action();
     return true;
-  } catch (const Error& error) {
-    message_ = error.what();
-  } catch (const fs::filesystem_error& error) {
-    message_ = error.what();
+  } catch (...) {
+    message_ = caughtError(source_.path).what();
   }
   return false;
 }

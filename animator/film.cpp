@@ -14,6 +14,9 @@ constexpr int kBatch = 8;
 // Moments that decide what the camera shows.
 constexpr int kMoments = 32;
 
+// Where there is no thread to be had, frames are encoded when they are asked for.
+constexpr auto kAtOnceIfPossible = std::launch::async | std::launch::deferred;
+
 }  // namespace
 
 int frameCount(const Clip& clip, const FilmOptions& options) {
@@ -58,7 +61,7 @@ void writeFilm(const Scene& scene, const Clip& clip, const Camera& camera, const
                               options.look);
     });
     if (encoded.valid()) encoded.get();
-    encoded = std::async(std::launch::async, [&video, &on_frame, frames = std::move(frames)] {
+    encoded = std::async(kAtOnceIfPossible, [&video, &on_frame, frames = std::move(frames)] {
       for (const Image& frame : frames) {
         video.add(frame);
         on_frame();

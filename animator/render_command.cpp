@@ -7,6 +7,7 @@
 
 #include "animator/film.h"
 #include "animator/load_character.h"
+#include "libskel/cli/number.h"
 #include "libskel/core/progress.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/image/read_image.h"
@@ -52,18 +53,18 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
                  "The film: " + videoFormatNames() + " (a name that ends with /) of PNG files")
       ->required();
   app.add_option("--fps", options.frame_rate, "Frames a second")
-      ->check(CLI::Range(0.1, 240.0))
+      ->check(numberIn(0.1, 240.0))
       ->capture_default_str();
   bindClipSource(app, options.clips);
   app.add_option("--duration", options.duration_s, "In seconds; the clip repeats (default: once)")
-      ->check(CLI::Range(0.0, 3600.0));
+      ->check(numberIn(0.0, 3600.0));
   app.add_option("--size", options.size, "WIDTHxHEIGHT, px")->capture_default_str();
   app.add_option("--angle", options.angle_deg,
                  "From where it is seen: 0 from the front, 90 from its left, degrees")
-      ->check(CLI::Range(-360.0, 360.0))
+      ->check(numberIn(-360.0, 360.0))
       ->capture_default_str();
   app.add_option("--pitch", options.pitch_deg, "How far from above, degrees")
-      ->check(CLI::Range(-89.0, 89.0))
+      ->check(numberIn(-89.0, 89.0))
       ->capture_default_str();
   app.add_option("--background", options.background,
                  "white, grey, black, #rrggbb, none (transparent), or a picture")

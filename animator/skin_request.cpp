@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "libskel/cli/number.h"
 #include "libskel/core/error.h"
 
 namespace skel {
@@ -14,10 +15,10 @@ void bindSkinRequest(CLI::App& app, SkinRequest& request) {
       ->check(CLI::IsMember(methods))
       ->capture_default_str();
   app.add_option("--max-influences", request.max_influences, "Joints that share a vertex, at most")
-      ->check(CLI::Range(1, 4))
+      ->check(numberIn(1, 4))
       ->capture_default_str();
   app.add_option("--smoothing", request.smoothing, "Rounds of evening out the weights of neighbours")
-      ->check(CLI::Range(0, 1000))
+      ->check(numberIn(0, 1000))
       ->capture_default_str();
   app.add_option("--regions", request.regions,
                  "idw-region: which parts of the body may mix (docs/formats.md)")

@@ -4,9 +4,12 @@
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "infer/annotation.h"
 #include "infer/rig_request.h"
+#include "libskel/cli/number.h"
+#include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json_names.h"
 #include "libskel/core/parallel.h"
@@ -25,6 +28,7 @@ struct Row {
   bool annotated = false, counts = true, found = false;
   Score score;
   std::string reason;  // why nothing was found
+  std::optional<Error> failure;
 };
 
 Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const std::string& id) {
@@ -93,7 +97,7 @@ void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
                "Hand the true mask over: judges everything after the silhouette");
   app.add_flag("--opaque", options.opaque, "Only annotated drawings whose silhouette has to be found");
   app.add_option("--rotate", options.turn_deg, "Turn all drawings clockwise first, degrees")
-      ->check(CLI::IsMember({0, 90, 180, 270}));
+      ->check(oneOfNumbers({0, 90, 180, 270}));
   bindRecognitionOptions(app, options.infer);
 }
 
@@ -106,14 +110,24 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
   {
     ProgressBar progress("evaluating", ids.size());
     parallelFor(ids.size(), options.infer.jobs, [&](std::size_t i) {
-      all[i] = evaluateDrawing(options, rig, ids[i]);
+      try {
+        all[i] = evaluateDrawing(options, rig, ids[i]);
+      } catch (...) {
+        all[i].failure = caughtError(options.dir + "/" + ids[i]);
+      }
       progress.advance();
     });
   }
 
+  ExitCode code = ExitCode::kDone;
+  for (const Row& row : all) {
+    if (!row.failure) continue;
+    std::fprintf(stderr, "skel-infer: %s\n", row.failure->what());
+    if (code == ExitCode::kDone) code = row.failure->exitCode();
+  }
   std::vector<Row> rows, hard;
   for (const Row& row : all)
-    if (row.counts) (row.annotated ? rows : hard).push_back(row);
+    if (row.counts && !row.failure) (row.annotated ? rows : hard).push_back(row);
   Json json;
   json["characters"] = Json::object();
   std::printf("%-34s  PCK.05 PCK.10  error usable limbs inside   IoU  worst joint\n", "character");
@@ -176,7 +190,7 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
                 unsure, static_cast<std::ptrdiff_t>(hard.size()) - refused);
   }
   if (!options.json_file.empty()) writeFile(options.json_file, json.dump(1) + "\n");
-  return ExitCode::kDone;
+  return code;
 }
 
 }  // namespace skel

@@ -7,6 +7,8 @@
 #include "infer/infer_options.h"
 #include "infer/outputs.h"
 #include "infer/rig_request.h"
+#include "libskel/cli/number.h"
+#include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
@@ -328,12 +330,10 @@ Outcome rigDrawing(const InferOptions& options, const RigOptions& rig, const Job
     } else {
       rigFigure(options, rig, job, std::stoi(options.figure), outcome);
     }
-  } catch (const Error& error) {
+  } catch (...) {
+    const Error error = caughtError(job.source);
     outcome.code = error.exitCode();
     outcome.complaints += std::string("skel-infer: ") + error.what() + "\n";
-  } catch (const std::bad_alloc&) {
-    outcome.code = ExitCode::kUnavailable;
-    outcome.complaints += "skel-infer: " + job.source + ": needs more memory than there is\n";
   }
   return outcome;
 }
@@ -352,7 +352,7 @@ void bindRecognitionOptions(CLI::App& app, InferOptions& options) {
       ->check(namesOf(kRecognizerNames));
   app.add_option("--candidates", options.candidates, "Which points may be joints")
       ->check(namesOf(kCandidateNames));
-  app.add_option("--jobs", options.jobs, "Drawings at a time; 0: one a core")->check(CLI::Range(0, 1024));
+  app.add_option("--jobs", options.jobs, "Drawings at a time; 0: one a core")->check(numberIn(0, 1024));
 }
 
 void bindInferOptions(CLI::App& app, InferOptions& options) {
@@ -370,7 +370,7 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
   bindRecognitionOptions(app, options);
   app.add_option("--skin", options.skin, "How the skin follows the bones")->check(namesOf(kSkinNames));
   app.add_option("--max-influences", options.max_influences, "Joints that carry one vertex at most")
-      ->check(CLI::Range(1, 4));
+      ->check(numberIn(1, 4));
   app.add_option("--clips", options.clips,
                  "Motions to put into the .glb, or none (default: the built-in ones that fit the body plan)")
       ->delimiter(',')
@@ -392,11 +392,11 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
       "Limbs drawn over the body: auto (each a body of its own), off (all one skin), or a layer map\n"
       "(written by --formats layers) to go on from");
   app.add_option("--height", options.height_m, "Of the model, m; 0: 1.7, or 1.2 from end to end of an animal")
-      ->check(CLI::Range(0.0, 1000.0));
+      ->check(zeroOrNumberIn(1e-3, 1e3));
   app.add_option("--figure", options.figure, "Which figure of the drawing: 1 is the largest; or all");
   app.add_option("--mesh-spacing", options.mesh_spacing_px,
                  "Distance of mesh vertices where the figure is 128 px long; 0: chosen")
-      ->check(CLI::Range(0.0, 64.0));
+      ->check(zeroOrNumberIn(1e-3, 64.0));
   app.add_option("--formats", options.formats, "What to write: " + formatNames())
       ->delimiter(',')
       ->check(CLI::IsMember(allFormats()));

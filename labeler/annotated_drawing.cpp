@@ -88,16 +88,30 @@ std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir,
 }
 
 Plane8 maskFromPolygons(const std::vector<Polygon>& polygons, int width, int height) {
+  struct Edge {
+    Eigen::Vector2d a, b;
+    double top, bottom;  // rows y with top <= y < bottom cross it
+  };
+  std::vector<Edge> edges;
+  for (const Polygon& polygon : polygons)
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      const double top = std::ceil(std::min(a.y(), b.y())), bottom = std::ceil(std::max(a.y(), b.y()));
+      if (top < bottom) edges.push_back({a, b, top, bottom});
+    }
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.top < b.top; });
   Plane8 mask = Plane8::Zero(height, width);
+  std::vector<const Edge*> open;  // those that the row crosses
   std::vector<double> crossings;
+  auto next = edges.begin();
   for (int y = 0; y < height; ++y) {
+    for (; next != edges.end() && next->top <= y; ++next) open.push_back(&*next);
+    std::erase_if(open, [&](const Edge* edge) { return edge->bottom <= y; });
     crossings.clear();
-    for (const Polygon& polygon : polygons)
-      for (size_t i = 0; i < polygon.size(); ++i) {
-        const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-        if ((a.y() <= y) == (b.y() <= y)) continue;
-        crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
-      }
+    for (const Edge* edge : open) {
+      const Eigen::Vector2d &a = edge->a, &b = edge->b;
+      crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+    }
     std::sort(crossings.begin(), crossings.end());
     for (size_t i = 0; i + 1 < crossings.size(); i += 2) {
       const int first = static_cast<int>(std::ceil(std::clamp(crossings[i], 0.0, double(width))));

@@ -41,7 +41,8 @@ struct CocoPicture {
 };
 std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonTemplate& body_plan);
 
-// 255 at pixels whose centre lies inside. Even-odd: a polygon inside another is a hole.
+// 255 at pixels whose centre lies inside. Places within 1e6 px of the first pixel. Even-odd: a polygon inside
+// another is a hole.
 Plane8 maskFromPolygons(const std::vector<Polygon>& polygons, int width, int height);
 
 }  // namespace skel

@@ -2,6 +2,7 @@
 // left pixel, ours from its centre; keypoints are pixels in both.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,14 @@ const std::vector<std::string> kPersonKeypoints = {
     "nose",           "left_eye",   "right_eye",   "left_ear",   "right_ear",   "left_shoulder",
     "right_shoulder", "left_elbow", "right_elbow", "left_wrist", "right_wrist", "left_hip",
     "right_hip",      "left_knee",  "right_knee",  "left_ankle", "right_ankle"};
+
+// Of places in pictures, each way; and of how far the lines go up and down that outline one figure, in sum.
+constexpr double kFarthest_px = 1e6, kLongestOutline_px = 2e7;
+
+double placeAt(const JsonValue& list, double number) {
+  if (!(std::abs(number) <= kFarthest_px)) list.fail("holds a place that lies in no picture");
+  return number;
+}
 
 using Points = std::map<std::string, Eigen::Vector2d>;
 
@@ -60,7 +69,8 @@ Points keypoints(const JsonValue& annotation, const std::vector<std::string>& na
     list.fail("expected " + std::to_string(names.size()) + " times x, y, visibility");
   Points points;
   for (size_t i = 0; i < names.size(); ++i)
-    if (numbers[3 * i + 2] > 0) points[names[i]] = {numbers[3 * i], numbers[3 * i + 1]};
+    if (numbers[3 * i + 2] > 0)
+      points[names[i]] = {placeAt(list, numbers[3 * i]), placeAt(list, numbers[3 * i + 1])};
   return points;
 }
 
@@ -69,12 +79,16 @@ std::vector<Polygon> polygons(const JsonValue& annotation) {
   if (!segmentation) return {};
   if (!segmentation->isArray()) segmentation->fail("run lengths are not read: give polygons");
   std::vector<Polygon> result;
+  double length_px = 0;
   for (const JsonValue& item : segmentation->items()) {
     const std::vector<double> numbers = item.asNumbers();
     if (numbers.size() < 6 || numbers.size() % 2 != 0) item.fail("expected x, y of at least three corners");
     Polygon polygon;
     for (size_t i = 0; i < numbers.size(); i += 2)
-      polygon.emplace_back(numbers[i] - 0.5, numbers[i + 1] - 0.5);
+      polygon.emplace_back(placeAt(item, numbers[i]) - 0.5, placeAt(item, numbers[i + 1]) - 0.5);
+    for (size_t i = 0; i < polygon.size(); ++i)
+      length_px += std::abs(polygon[i].y() - polygon[(i + 1) % polygon.size()].y());
+    if (length_px > kLongestOutline_px) segmentation->fail("outlines no figure: its lines are too long");
     result.push_back(std::move(polygon));
   }
   return result;

@@ -8,6 +8,7 @@
 #include "labeler/labeling_window.h"
 #include "labeler/make_motion.h"
 #include "libskel/classifier/weights_file.h"
+#include "libskel/cli/number.h"
 #include "libskel/core/files.h"
 #include "libskel/skeleton/motion_file.h"
 
@@ -111,7 +112,7 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
                                 [&] { return motion(options); });
   motion_of->add_option("-o,--output", options.output, "File (default: out/<folder>.motion.json)");
   motion_of->add_option("--frame-rate", options.frame_rate, "Frames a second")
-      ->check(CLI::Range(kMinFrameRate, kMaxFrameRate))
+      ->check(numberIn(kMinFrameRate, kMaxFrameRate))
       ->capture_default_str();
   motion_of->add_flag("--force", options.force, "Also over joints that were placed by hand");
   CLI::App* exported =

@@ -8,6 +8,7 @@
 #include "labeler/save_drawing.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/classifier/features.h"
+#include "libskel/core/caught_error.h"
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
@@ -300,8 +301,8 @@ void Document::load(int item) {
     loadDrawing();
     mutableItem().problem = figure_->silhouette.found() ? "" : figure_->silhouette.reason;
     count();
-  } catch (const Error& error) {
-    mutableItem().problem = error.what();
+  } catch (...) {
+    mutableItem().problem = caughtError(this->item().files.image).what();
     // What cannot be read must not be written over: nothing can be done here.
     image_ = {};
     state_.mask = nullptr;
@@ -571,8 +572,8 @@ void Document::findLimbs() {
     RigOptions options = rigOptions();
     options.clips.clear();
     *found = rigCharacter(std::move(input), options).layers;
-  } catch (const Error& error) {
-    message_ = error.what();
+  } catch (...) {
+    message_ = caughtError(item().files.image).what();
   }
   found_layers_ = std::move(found);
 }
@@ -595,8 +596,8 @@ void Document::rig() {
   if (image_.empty()) return;
   try {
     rigOrThrow();
-  } catch (const Error& error) {
-    message_ = error.what();
+  } catch (...) {
+    message_ = caughtError(item().files.image).what();
   }
 }
 
@@ -688,8 +689,8 @@ void Document::save() {
   try {
     writeFiles();
     save_problem_.clear();
-  } catch (const OutputError& error) {
-    save_problem_ = error.what();
+  } catch (...) {
+    save_problem_ = caughtError(item().files.image).what();
   }
 }
 

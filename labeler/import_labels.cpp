@@ -4,6 +4,7 @@
 
 #include "labeler/annotated_drawing.h"
 #include "labeler/drawing_list.h"
+#include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/progress.h"
 #include "libskel/image/read_image.h"
@@ -68,7 +69,8 @@ ImportCounts forEach(const List& list, const char* title, const OnError& on_erro
   for (const auto& entry : list) {
     try {
       make(entry) ? ++counts.made : ++counts.kept;
-    } catch (const Error& error) {
+    } catch (...) {
+      const Error error = caughtError(entry.image);
       if (counts.failed++ == 0) counts.exit_code = error.exitCode();
       bar.clear();
       on_error(error);

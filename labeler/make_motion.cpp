@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "labeler/drawing_list.h"
+#include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/natural_order.h"
 #include "libskel/core/parallel.h"
@@ -61,7 +62,11 @@ MotionCounts makeMotion(const std::string& dir, const MotionOptions& given, cons
   std::vector<std::string> reasons(drawings.size());
   ProgressBar bar("motion", drawings.size());
   parallelFor(drawings.size(), 0, [&](std::size_t i) {
-    motion.frames[i] = frameOf(drawings[i], options, reasons[i]);
+    try {
+      motion.frames[i] = frameOf(drawings[i], options, reasons[i]);
+    } catch (...) {
+      throw caughtError(drawings[i].image);
+    }
     motion.frames[i].time_s = static_cast<double>(i) / options.frame_rate;
     bar.advance();
   });

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include "libskel/cli/number.h"
 #include "stylizer/commands.h"
 
 namespace skel {
@@ -7,7 +8,7 @@ namespace {
 
 void bindFilm(CLI::App& app, FilmSource& source) {
   app.add_option("--fps", source.frame_rate, "Frames a second of a folder of pictures")
-      ->check(CLI::Range(0.1, 240.0))
+      ->check(numberIn(0.1, 240.0))
       ->capture_default_str();
   app.add_option(
          "--figure", source.figure,
@@ -16,7 +17,7 @@ void bindFilm(CLI::App& app, FilmSource& source) {
       ->capture_default_str();
   app.add_option("--cutoff", source.foreground.cutoff,
                  "Of the low-pass that takes noise away, as a share of the highest frequency")
-      ->check(CLI::Range(0.01, 1.0))
+      ->check(numberIn(0.01, 1.0))
       ->capture_default_str();
 }
 
@@ -32,22 +33,24 @@ void bindThreshold(CLI::App& app, double& threshold) {
          "--threshold", threshold,
          "A frame is a key frame if its outline differs from the one before by more than this share of "
          "the largest difference")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(numberIn(0.0, 1.0))
       ->capture_default_str();
 }
 
 void bindCoding(CLI::App& app, SparseCodingOptions& options) {
   app.add_option("-k,--components", options.components, "Parts that poses are made of")
-      ->check(CLI::Range(1, 34))
+      ->check(numberIn(1, 34))
       ->capture_default_str();
   app.add_option("--sparsity", options.sparsity,
                  "How few of them a pose should use: 0 for as many as it likes")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(numberIn(0.0, 1e6))
       ->capture_default_str();
   app.add_option("--iterations", options.max_iterations, "Of the factorisation, at most")
-      ->check(CLI::Range(1, 1000000))
+      ->check(numberIn(1, 1000000))
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "Of where the factorisation begins")->capture_default_str();
+  app.add_option("--seed", options.seed, "Of where the factorisation begins")
+      ->check(seedNumber())
+      ->capture_default_str();
 }
 
 void bindLoop(CLI::App& app, std::string& loop) {
@@ -58,7 +61,7 @@ void bindLoop(CLI::App& app, std::string& loop) {
 
 void bindStyle(CLI::App& app, StyleRequest& request) {
   app.add_option("--amount", request.amount, "Of the style: 0 none, 1 all, more is more")
-      ->check(CLI::Range(-4.0, 4.0))
+      ->check(numberIn(-4.0, 4.0))
       ->capture_default_str();
   app.add_option("--mirror", request.mirror,
                  "The style as in a mirror; auto: where the two look to different sides")
@@ -82,12 +85,12 @@ void bindPerform(CLI::App& app, PerformRequest& request) {
                  "keep (that of the drawing), white, grey, black, none (transparent), #rrggbb, or a picture")
       ->capture_default_str();
   app.add_option("--size", request.size_px, "Of the film's long side, px")
-      ->check(CLI::Range(16, 4096))
+      ->check(numberIn(16, 4096))
       ->capture_default_str();
   app.add_option("--rate", request.frame_rate, "Frames a second of the film (default: the motion's)")
-      ->check(CLI::Range(0.1, 240.0));
+      ->check(numberIn(0.1, 240.0));
   app.add_option("--duration", request.duration_s, "In seconds; the motion repeats (default: once)")
-      ->check(CLI::Range(0.0, 3600.0));
+      ->check(numberIn(0.0, 3600.0));
   app.add_flag("--in-place", request.in_place, "The figure stays where it is, but for ups and downs");
 }
 
@@ -111,7 +114,7 @@ void bindKeypoints(CLI::App& app, KeypointsCommandOptions& options) {
   bindLoop(app, options.find.loop);
   app.add_option("--smooth", options.find.track.smoothness,
                  "How much key points are smoothed over time; 0: not")
-      ->check(CLI::Range(0.0, 1000.0))
+      ->check(numberIn(0.0, 1000.0))
       ->capture_default_str();
   app.add_flag("--force", options.force, "Also over joints that were placed by hand");
 }
@@ -133,7 +136,7 @@ void bindFit(CLI::App& app, FitOptions& options) {
   app.add_option("-o,--output", options.output, "The .style.json")->type_name("FILE")->capture_default_str();
   bindCoding(app, options.coding);
   app.add_option("--ridge", options.semantic.ridge, "Of the semantic term")
-      ->check(CLI::Range(1e-12, 1e6))
+      ->check(numberIn(1e-12, 1e6))
       ->capture_default_str();
   app.add_flag("--all-frames", options.all_frames, "Not the key frames alone");
 }

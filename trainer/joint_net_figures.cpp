@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libskel/cli/number.h"
 #include "libskel/core/files.h"
 #include "libskel/image/write_image.h"
 #include "trainer/figures/figure.h"
@@ -14,11 +15,13 @@ void bindFigureSheetOptions(CLI::App& command, FigureSheetOptions& options) {
   command.add_option("--template", options.body_plan, "Body plan, by the name of its template")
       ->capture_default_str();
   command.add_option("-o,--output", options.output, "Picture to write (PNG)")->capture_default_str();
-  command.add_option("--seed", options.seed, "Of the random numbers")->capture_default_str();
-  command.add_option("--columns", options.columns)->check(CLI::Range(1, 100))->capture_default_str();
-  command.add_option("--rows", options.rows)->check(CLI::Range(1, 100))->capture_default_str();
+  command.add_option("--seed", options.seed, "Of the random numbers")
+      ->check(seedNumber())
+      ->capture_default_str();
+  command.add_option("--columns", options.columns)->check(numberIn(1, 100))->capture_default_str();
+  command.add_option("--rows", options.rows)->check(numberIn(1, 100))->capture_default_str();
   command.add_option("--others", options.other_share, "Share of figures that are not whole")
-      ->check(CLI::Range(0., 1.))
+      ->check(numberIn(0., 1.))
       ->capture_default_str();
   command.add_option("--drawings", options.drawings, "Instead: warped ones of these annotated drawings")
       ->type_name("DIR");

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "libskel/cli/number.h"
 #include "libskel/core/check.h"
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
@@ -419,9 +420,11 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
   command
       .add_option("--hourglasses", options.hourglasses,
                   "Of the net, one behind another; what the net of --start lacks of them is added")
-      ->check(CLI::Range(1, kMaxHourglasses))
+      ->check(numberIn(1, kMaxHourglasses))
       ->default_str("1, with --start as many as that has");
-  command.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
+  command.add_option("--seed", options.seed, "Of all random numbers")
+      ->check(seedNumber())
+      ->capture_default_str();
   const auto preset = [](auto Schedule::*value) {
     std::ostringstream text;
     text << kFromNothing.*value << ", with --start " << kGoingOn.*value;
@@ -429,33 +432,35 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
     return text.str();
   };
   command.add_option("--steps", options.steps)
-      ->check(CLI::Range(1, 10'000'000))
+      ->check(numberIn(1, 10'000'000))
       ->default_str(preset(&Schedule::steps));
   command.add_option("--batch", options.batch, "Figures a step")
-      ->check(CLI::Range(4, 1024))
+      ->check(numberIn(4, 1024))
       ->capture_default_str();
   command.add_option("--rate", options.peak_rate, "Highest learning rate")
+      ->check(numberIn(1e-9, 1.))
       ->default_str(preset(&Schedule::peak_rate));
-  command.add_option("--weight-decay", options.weight_decay)->capture_default_str();
+  command.add_option("--weight-decay", options.weight_decay)->check(numberIn(0., 1.))->capture_default_str();
   command.add_option("--averaging", options.averaging, "Of the weights over steps")
+      ->check(numberIn(0., .999999))
       ->default_str(preset(&Schedule::averaging));
   command.add_option("--figures", options.figures_per_round, "Figures drawn anew each round")
-      ->check(CLI::Range(64, 1'000'000))
+      ->check(numberIn(64, 1'000'000))
       ->capture_default_str();
   command.add_option("--passes", options.passes, "Passes over them")
-      ->check(CLI::Range(1, 100))
+      ->check(numberIn(1, 100))
       ->capture_default_str();
   command.add_option("--others", options.other_share, "Share of figures that are not whole")
-      ->check(CLI::Range(0., .9))
+      ->check(numberIn(0., .9))
       ->capture_default_str();
   command
       .add_option("--no-look", options.no_look_share,
                   "Share of figures of which only the silhouette is shown")
-      ->check(CLI::Range(0., 1.))
+      ->check(numberIn(0., 1.))
       ->capture_default_str();
   command
       .add_option("--no-colours", options.no_colours_share, "Share of the others that show only their lines")
-      ->check(CLI::Range(0., 1.))
+      ->check(numberIn(0., 1.))
       ->capture_default_str();
   command
       .add_option("--drawings", options.drawings,
@@ -472,29 +477,29 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
       ->take_all();
   command
       .add_option("--drawn", options.drawn_share, "Share of figures that come from --drawings and --rehearse")
-      ->check(CLI::Range(0., 1.))
+      ->check(numberIn(0., 1.))
       ->default_str(preset(&Schedule::drawn_share));
   command
       .add_option("--hard", options.hard_copies,
                   "How often a drawing counts of which the net of --start gets a joint wrong by 10 %")
-      ->check(CLI::Range(1, 100))
+      ->check(numberIn(1, 100))
       ->capture_default_str();
   command
       .add_option("--left-out", options.left_out, "Share of the drawings that only measure, before and after")
-      ->check(CLI::Range(0., .9))
+      ->check(numberIn(0., .9))
       ->default_str(preset(&Schedule::left_out));
   command
       .add_option("--hold-back", options.held_back, "Body kinds to validate on instead of training on them")
-      ->check(CLI::NonNegativeNumber);
+      ->check(numberIn(0, 99));
   command.add_option("--threads", options.threads, "0: one a core")
-      ->check(CLI::Range(0, 256))
+      ->check(numberIn(0, 256))
       ->capture_default_str();
   command
       .add_option("--validation", options.validation_figures, "Generated figures that a report measures on")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(numberIn(1, 1'000'000))
       ->capture_default_str();
   command.add_option("--report-every", options.report_every, "Steps")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(numberIn(1, 1'000'000))
       ->capture_default_str();
 }
 

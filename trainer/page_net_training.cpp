@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
+#include "libskel/cli/number.h"
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
@@ -113,28 +114,32 @@ void bindPageTrainingOptions(CLI::App& command, PageTrainingOptions& options) {
   command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report");
   command.add_option("--sheet", options.sheet, "Picture of generated pages to write, instead of training")
       ->type_name("FILE");
-  command.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
-  command.add_option("--steps", options.steps)->check(CLI::Range(1, 10'000'000))->capture_default_str();
-  command.add_option("--batch", options.batch, "Pages a step")
-      ->check(CLI::Range(4, 1024))
+  command.add_option("--seed", options.seed, "Of all random numbers")
+      ->check(seedNumber())
       ->capture_default_str();
-  command.add_option("--rate", options.peak_rate, "Highest learning rate")->capture_default_str();
+  command.add_option("--steps", options.steps)->check(numberIn(1, 10'000'000))->capture_default_str();
+  command.add_option("--batch", options.batch, "Pages a step")
+      ->check(numberIn(4, 1024))
+      ->capture_default_str();
+  command.add_option("--rate", options.peak_rate, "Highest learning rate")
+      ->check(numberIn(1e-9, 1.))
+      ->capture_default_str();
   command
       .add_option("--drawings", options.drawings,
                   "Drawings that some pages show: *.joints.json and *.mask.png, or what skel-label saves")
       ->type_name("DIR")
       ->take_all();
   command.add_option("--drawn", options.drawn_share, "Share of figures that come from them")
-      ->check(CLI::Range(0., 1.))
+      ->check(numberIn(0., 1.))
       ->capture_default_str();
   command.add_option("--threads", options.threads, "0: one a core")
-      ->check(CLI::Range(0, 256))
+      ->check(numberIn(0, 256))
       ->capture_default_str();
   command.add_option("--validation", options.validation_pages, "Pages that a report measures on")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(numberIn(1, 1'000'000))
       ->capture_default_str();
   command.add_option("--report-every", options.report_every, "Steps")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(numberIn(1, 1'000'000))
       ->capture_default_str();
 }
 

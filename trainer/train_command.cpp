@@ -7,6 +7,7 @@
 #include <map>
 
 #include "libskel/classifier/weights_file.h"
+#include "libskel/cli/number.h"
 #include "libskel/core/files.h"
 #include "libskel/core/progress.h"
 #include "libskel/labels/annotated_image.h"
@@ -43,18 +44,6 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Value& value,
       ->transform(CLI::CheckedTransformer(choices).description(""))
       ->type_name(list)
       ->default_str(preset);
-}
-
-// As CLI::Range, which lets "nan" pass.
-CLI::Validator numberBetween(double low, double high) {
-  const std::string range = "[" + trim(low) + " - " + trim(high) + "]";
-  return CLI::Validator(
-      [=](std::string& text) {
-        double number;
-        const bool good = CLI::detail::lexical_cast(text, number) && number >= low && number <= high;
-        return good ? std::string() : text + " is not a number in " + range;
-      },
-      range);
 }
 
 std::vector<int> parseLayers(const std::string& text) {
@@ -144,31 +133,31 @@ void bindTrainOptions(CLI::App& app, TrainOptions& options) {
   app.add_option("--layers", options.layers, "Sizes of the layers")->capture_default_str();
   addChoice(app, "--method", training.method, kMethods, "How the net is trained");
   app.add_option("--batch", training.optimizer.batch, "gradient: samples a step; 0: all of them; 1: online")
-      ->check(CLI::Range(0, 1'000'000))
+      ->check(numberIn(0, 1'000'000))
       ->capture_default_str();
   app.add_option("--learning-rate", training.optimizer.learning_rate, "gradient: 0: to suit the batch")
-      ->check(numberBetween(0, 100.))
+      ->check(numberIn(0., 100.))
       ->capture_default_str();
   app.add_option("--momentum", training.optimizer.momentum, "gradient: share of a step kept for the next")
-      ->check(numberBetween(0, 0.999))
+      ->check(numberIn(0., 0.999))
       ->capture_default_str();
   app.add_option("--weight-decay", training.optimizer.weight_decay,
                  "Adds this times the weights' squares to the loss")
-      ->check(numberBetween(0, 1.))
+      ->check(numberIn(0., 1.))
       ->capture_default_str();
   app.add_option("--epochs", training.epochs, "Passes over the samples, at most")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(numberIn(1, 1'000'000))
       ->capture_default_str();
   app.add_option("--restarts", training.restarts, "Trainings from other first weights; the best is kept")
-      ->check(CLI::Range(1, 1000))
+      ->check(numberIn(1, 1000))
       ->capture_default_str();
   app.add_option("--validation", training.validation,
                  "Share of the characters held out to stop early; 0: none")
-      ->check(numberBetween(0, 0.9))
+      ->check(numberIn(0., 0.9))
       ->capture_default_str();
   app.add_option("--patience", training.patience,
                  "Epochs without gain on the held-out characters before stopping")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(numberIn(1, 1'000'000))
       ->capture_default_str();
   app.add_option("--class-weights", options.class_weights, "balanced: each class counts the same in sum")
       ->check(CLI::IsMember({"none", "balanced"}))
@@ -176,32 +165,32 @@ void bindTrainOptions(CLI::App& app, TrainOptions& options) {
   app.add_flag("--no-mirror", options.no_mirror, "Do not train on the mirror images as well");
   app.add_option("--warps", training.samples.warps,
                  "Also train on so many copies of each character with other proportions")
-      ->check(CLI::Range(0, 100))
+      ->check(numberIn(0, 100))
       ->capture_default_str();
   app.add_option("--warp", training.samples.warp, "How far proportions are bent")
-      ->check(numberBetween(0, 0.7))
+      ->check(numberIn(0., 0.7))
       ->capture_default_str();
   app.add_option("--generated", options.generated,
                  "Also train on so many figures that the program draws itself (skel-train figures)")
-      ->check(CLI::Range(0, 100'000))
+      ->check(numberIn(0, 100'000))
       ->capture_default_str();
   addChoice(app, "--candidates", options.candidates, kCandidateMethods,
             "strict, discs: not those of the label files, but found anew and labelled from *.joints.json");
   app.add_option("--seed", training.seed, "Same data, seed and options: same bytes")
-      ->check(CLI::Range(0, 2'000'000'000))
+      ->check(numberIn(0, 2'000'000'000))
       ->capture_default_str();
   app.add_option("--threads", training.threads, "0: one a core")
-      ->check(CLI::Range(0, 1024))
+      ->check(numberIn(0, 1024))
       ->capture_default_str();
   app.add_option("--folds", options.folds, "Groups of characters for cross-validation; 0: none")
-      ->check(CLI::Range(0, 1'000'000))
+      ->check(numberIn(0, 1'000'000))
       ->capture_default_str();
   app.add_flag("--leave-one-out", options.leave_one_out, "As many folds as there are characters");
   app.add_option("--draws", options.draws, "Also train on so many random draws of --drawn characters")
-      ->check(CLI::Range(0, 10'000))
+      ->check(numberIn(0, 10'000))
       ->capture_default_str();
   app.add_option("--drawn", options.drawn, "Characters of a draw (the paper: 17)")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(numberIn(1, 1'000'000))
       ->capture_default_str();
   app.add_option("--json", options.json, "Writes accuracy and confusion of the cross-validation")
       ->type_name("FILE");

@@ -10,6 +10,7 @@
 
 #include "libskel/animation/clip_library.h"
 #include "libskel/classifier/weights_file.h"
+#include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
@@ -58,10 +59,8 @@ val saying(const std::string& file, const Work& work) {
   std::string message;
   try {
     return work();
-  } catch (const std::bad_alloc&) {
-    message = file + ": needs more memory than there is";
-  } catch (const std::exception& error) {
-    message = error.what();
+  } catch (...) {
+    message = caughtError(file).what();
   }
   val said = val::object();
   said.set("error", message);

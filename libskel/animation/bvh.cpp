@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "libskel/animation/clip_limits.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/number_chars.h"
@@ -201,6 +202,7 @@ struct Reader {
     words.expect("Time:");
     const double frame_s = words.number();
     if (!(frame_s > 0 && frame_s <= kMaxFrameTime_s)) words.fail("has a frame time outside 0 to 100 s");
+    if (double(count - 1) * frame_s > kMaxClip_s) words.fail("lasts more than an hour; cut it into parts");
     std::size_t numbers = 0;
     for (std::size_t j = 0; j < channels.size(); ++j) {
       motion.clip.tracks.emplace_back().joint = motion.skeleton.joints[j].name;

@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "libskel/animation/clip_keys.h"
+#include "libskel/animation/clip_limits.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/check.h"
 #include "libskel/core/files.h"
@@ -44,6 +46,9 @@ struct Key {
 };
 using Keys = std::vector<Key>;
 
+// A pair of eased keys becomes as many as the time between them asks for.
+constexpr std::size_t kMaxSamples = 1'000'000, kMaxContacts = 1000;
+
 // The key's slope: the straight line between its neighbours, or level at the ends.
 Eigen::Vector3d slope(const Keys& keys, std::size_t i, Ease ease) {
   const std::size_t last = keys.size() - 1;
@@ -56,8 +61,9 @@ Eigen::Vector3d slope(const Keys& keys, std::size_t i, Ease ease) {
 
 Eigen::Vector3d eased(const Keys& keys, double time_s, Ease ease) {
   if (keys.size() == 1) return keys[0].value;
-  std::size_t next = 1;
-  while (next + 1 < keys.size() && keys[next].time_s < time_s) ++next;
+  const auto later = std::lower_bound(keys.begin() + 1, keys.end() - 1, time_s,
+                                      [](const Key& key, double time) { return key.time_s < time; });
+  const auto next = std::size_t(later - keys.begin());
   const Key &a = keys[next - 1], &b = keys[next];
   const double length = b.time_s - a.time_s, t = std::clamp((time_s - a.time_s) / length, 0.0, 1.0);
   if (ease == Ease::kRest)
@@ -68,11 +74,22 @@ Eigen::Vector3d eased(const Keys& keys, double time_s, Ease ease) {
          (3 * t2 - 2 * t3) * b.value + (t3 - t2) * length * slope(keys, next, ease);
 }
 
+// How the keys of a file ease, and how many there are by now that take the place of eased ones.
+struct Easing {
+  Ease ease = Ease::kNone;
+  std::size_t samples = 0;
+};
+
 // Even keys in place of eased ones.
-Keys sampled(const Keys& keys, Ease ease) {
+Keys sampled(const Keys& keys, const JsonValue& list, Easing& easing) {
+  const Ease ease = easing.ease;
   if (ease == Ease::kNone || keys.size() < 2) return keys;
   Keys result;
   const int last = int(std::lround(keys.back().time_s * kEasedRate_hz));
+  easing.samples += std::size_t(last) + 1;
+  if (easing.samples > kMaxSamples)
+    list.fail("makes more than " + std::to_string(kMaxSamples) +
+              " keys of eased ones; cut the clip into parts");
   for (int i = 0; i <= last; ++i) {
     const double time_s = i / kEasedRate_hz;
     result.push_back({time_s, eased(keys, time_s, ease)});
@@ -94,9 +111,9 @@ Keys keysAt(const JsonValue& list, double limit) {
   return keys;
 }
 
-void vectorKeys(const JsonValue& list, double limit, Ease ease, std::vector<float>& times,
+void vectorKeys(const JsonValue& list, double limit, Easing& easing, std::vector<float>& times,
                 std::vector<Eigen::Vector3f>& values) {
-  for (const Key& key : sampled(keysAt(list, limit), ease)) {
+  for (const Key& key : sampled(keysAt(list, limit), list, easing)) {
     times.push_back(float(key.time_s));
     values.push_back(key.value.cast<float>());
   }
@@ -116,16 +133,16 @@ void quaternionKeys(const JsonValue& list, JointTrack& track) {
   if (track.times_s.empty()) list.fail("is empty");
 }
 
-void angleKeys(const JsonValue& list, Ease ease, JointTrack& track) {
-  for (const Key& key : sampled(keysAt(list, kMaxAngle_deg), ease)) {
+void angleKeys(const JsonValue& list, Easing& easing, JointTrack& track) {
+  for (const Key& key : sampled(keysAt(list, kMaxAngle_deg), list, easing)) {
     const Eigen::Vector3f angles = (key.value * kDegree).cast<float>();
     track.times_s.push_back(float(key.time_s));
     track.rotations.push_back(rotationOfAngles(angles));
-    if (ease == Ease::kNone) track.angles_rad.push_back(angles);
+    if (easing.ease == Ease::kNone) track.angles_rad.push_back(angles);
   }
 }
 
-JointTrack trackAt(const JsonValue& value, Ease ease) {
+JointTrack trackAt(const JsonValue& value, Easing& easing) {
   value.allowOnly({"joint", "bone", "slack_deg", "rotations", "angles_deg", "translations_m", "scales"});
   JointTrack track;
   track.joint = value.at("joint").asString();
@@ -143,11 +160,11 @@ JointTrack trackAt(const JsonValue& value, Ease ease) {
   const auto rotations = value.find("rotations"), angles = value.find("angles_deg");
   if (rotations && angles) angles->fail("stands beside \"rotations\"; give one of them");
   if (rotations) quaternionKeys(*rotations, track);
-  if (angles) angleKeys(*angles, ease, track);
+  if (angles) angleKeys(*angles, easing, track);
   if (const auto places = value.find("translations_m"))
-    vectorKeys(*places, kMaxPlace, ease, track.translation_times_s, track.translations_m);
+    vectorKeys(*places, kMaxPlace, easing, track.translation_times_s, track.translations_m);
   if (const auto scales = value.find("scales"))
-    vectorKeys(*scales, kMaxPlace, ease, track.scale_times_s, track.scales);
+    vectorKeys(*scales, kMaxPlace, easing, track.scale_times_s, track.scales);
   if (track.times_s.empty() && track.translation_times_s.empty() && track.scale_times_s.empty())
     value.fail("has no keys; give \"rotations\", \"angles_deg\", \"translations_m\" or \"scales\"");
   return track;
@@ -157,8 +174,8 @@ FootContact contactAt(const JsonValue& value, const Clip& clip) {
   value.allowOnly({"joint", "from_s", "to_s"});
   FootContact contact;
   contact.joint = value.at("joint").asString();
-  contact.from_s = float(value.at("from_s").asNumber(0, kMaxTime_s));
-  contact.to_s = float(value.at("to_s").asNumber(0, kMaxTime_s));
+  contact.from_s = float(value.at("from_s").asNumber(0, kMaxClip_s));
+  contact.to_s = float(value.at("to_s").asNumber(0, kMaxClip_s));
   if (!(contact.to_s > contact.from_s)) value.at("to_s").fail("must be later than from_s");
   if (!(contact.to_s <= clip.duration_s() + 1e-3f)) value.at("to_s").fail("lies beyond the clip's end");
   return contact;
@@ -287,23 +304,27 @@ Clip parseClip(std::string_view text, const std::string& file) {
     if (name == "body") clip.frame = ClipFrame::kBody;
   }
   if (const auto duration = root.find("duration_s"))
-    clip.least_duration_s = float(duration->asNumber(0, kMaxTime_s));
-  const Ease ease = easeAt(root.find("ease"));
+    clip.least_duration_s = float(duration->asNumber(0, kMaxClip_s));
+  Easing easing{easeAt(root.find("ease"))};
   if (const auto path = root.find("root"))
-    vectorKeys(*path, kMaxPlace, ease, clip.root_times_s, clip.root_translations);
+    vectorKeys(*path, kMaxPlace, easing, clip.root_times_s, clip.root_translations);
+  std::set<std::string> joints;
   for (const JsonValue& item : root.at("tracks").items()) {
-    JointTrack track = trackAt(item, ease);
-    if (std::any_of(clip.tracks.begin(), clip.tracks.end(),
-                    [&](const JointTrack& other) { return other.joint == track.joint; }))
+    JointTrack track = trackAt(item, easing);
+    if (!joints.insert(track.joint).second)
       item.at("joint").fail("\"" + track.joint + "\" has a track already");
     clip.tracks.push_back(std::move(track));
   }
   if (const auto lead = root.find("lead_s")) {
-    clip.lead_s = float(lead->asNumber(0, kMaxTime_s));
+    clip.lead_s = float(lead->asNumber(0, kMaxClip_s));
     if (2 * clip.lead_s > clip.duration_s()) lead->fail("must be at most half of the clip");
   }
-  if (const auto contacts = root.find("contacts"))
-    for (const JsonValue& item : contacts->items()) clip.contacts.push_back(contactAt(item, clip));
+  if (const auto contacts = root.find("contacts")) {
+    const std::vector<JsonValue> items = contacts->items();
+    if (items.size() > kMaxContacts)
+      contacts->fail("holds more than " + std::to_string(kMaxContacts) + " contacts");
+    for (const JsonValue& item : items) clip.contacts.push_back(contactAt(item, clip));
+  }
   return clip;
 }
 

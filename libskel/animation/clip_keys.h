@@ -4,17 +4,17 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "libskel/animation/clip_limits.h"
 #include "libskel/core/json.h"
 
 namespace skel {
 
-inline constexpr double kMaxTime_s = 1e5;
 inline constexpr double kMaxAngle_deg = 3600;
 inline constexpr double kMaxPlace = 1e6;  // of translations and scales, each way
 
 // Refuses a time that does not come after the ones before; `times` grows by it.
 inline void takeTime(const JsonValue& value, double time_s, std::vector<float>& times) {
-  if (!(time_s >= 0 && time_s <= kMaxTime_s)) value.fail("must be a time of 0 to 100000 seconds");
+  if (!(time_s >= 0 && time_s <= kMaxClip_s)) value.fail("must be a time of 0 to 3600 seconds");
   if (!times.empty() && !(float(time_s) > times.back())) value.fail("must be later than the key before");
   times.push_back(float(time_s));
 }

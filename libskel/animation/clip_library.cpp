@@ -14,7 +14,9 @@ namespace {
 template <class HasJoint>
 bool fitsJoints(const Clip& clip, const std::string& template_name, const HasJoint& has_joint) {
   const bool moves_all = std::all_of(clip.tracks.begin(), clip.tracks.end(),
-                                     [&](const JointTrack& track) { return has_joint(track.joint); });
+                                     [&](const JointTrack& track) { return has_joint(track.joint); }) &&
+                         std::all_of(clip.contacts.begin(), clip.contacts.end(),
+                                     [&](const FootContact& contact) { return has_joint(contact.joint); });
   if (!moves_all || clip.template_name.empty() || clip.template_name == template_name) return moves_all;
   const std::vector<std::string> known = builtinTemplates();
   if (std::find(known.begin(), known.end(), clip.template_name) == known.end()) return false;

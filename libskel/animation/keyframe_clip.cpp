@@ -1,11 +1,11 @@
 #include "libskel/animation/keyframe_clip.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "libskel/animation/clip_keys.h"
 #include "libskel/animation/sample_pose.h"
+#include "libskel/core/error.h"
 #include "libskel/core/files.h"
 
 namespace skel {
@@ -65,7 +65,7 @@ Clip parseKeyframeClip(std::string_view text, const std::string& file, const Ske
   clip.name = root.at("name").asString();
   clip.interpolation = options.interpolation;
   if (const auto duration = root.find("duration"))
-    clip.least_duration_s = float(duration->asNumber(0, kMaxTime_s));
+    clip.least_duration_s = float(duration->asNumber(0, kMaxClip_s));
   const JsonValue keyframes = root.at("keyframes");
   for (const std::string& joint : keyframes.keys()) {
     const JsonValue list = keyframes.at(joint);
@@ -80,8 +80,13 @@ Clip parseKeyframeClip(std::string_view text, const std::string& file, const Ske
 }
 
 bool isKeyframeClip(std::string_view text) {
-  const auto json = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
-  return json.is_object() && json.contains("keyframes");
+  try {
+    const JsonDocument document = JsonDocument::parse(text, "");
+    const JsonValue root = document.root();
+    return root.isObject() && root.find("keyframes");
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 Clip readKeyframeClip(const std::string& path, const Skeleton& skeleton, const KeyframeClipOptions& options) {

@@ -6,8 +6,10 @@
 #include <numbers>
 #include <string>
 
+#include "libskel/animation/clip_limits.h"
 #include "libskel/animation/plant_feet.h"
 #include "libskel/animation/sample_pose.h"
+#include "libskel/core/error.h"
 #include "libskel/core/segment.h"
 
 namespace skel {
@@ -71,6 +73,18 @@ struct Retargeter {
 
 std::vector<Vector3d> positions(const Skeleton& skeleton, const std::vector<Quaterniond>& globals) {
   return jointPositions(skeleton, {0, globals, Vector3d::Zero(), 1});
+}
+
+// What the clip puts on the ground must end a limb of two bones.
+void checkContacts(const Clip& clip, const Skeleton& skeleton) {
+  for (const FootContact& contact : clip.contacts) {
+    const int foot = skeleton.find(contact.joint);
+    const int knee = foot < 0 ? -1 : skeleton.joints[foot].parent;
+    if (knee < 0 || skeleton.joints[knee].parent < 0)
+      throw Error(ExitCode::kInput, "the clip \"" + clip.name + "\" puts \"" + contact.joint +
+                                        "\" on the ground, which " +
+                                        (foot < 0 ? "this skeleton lacks" : "ends no limb of two bones"));
+  }
 }
 
 double outwards(const Skeleton& skeleton, int joint) {
@@ -305,13 +319,14 @@ void swingClearOfHead(Retargeter& retargeter, const std::vector<std::pair<Pose, 
 }  // namespace
 
 Vector3d restBone(const Skeleton& skeleton, int joint) {
-  Vector3d sum = Vector3d::Zero();
-  for (const Joint& child : skeleton.joints)
-    if (child.parent == joint) sum += child.position - skeleton.joints[joint].position;
-  const double length = sum.norm();
-  if (length > 1e-9) return sum / length;
-  const int parent = skeleton.joints[joint].parent;
-  return parent < 0 ? Vector3d(0, 1, 0) : restBone(skeleton, parent);
+  for (; joint >= 0; joint = skeleton.joints[joint].parent) {
+    Vector3d sum = Vector3d::Zero();
+    for (const Joint& child : skeleton.joints)
+      if (child.parent == joint) sum += child.position - skeleton.joints[joint].position;
+    const double length = sum.norm();
+    if (length > 1e-9) return sum / length;
+  }
+  return {0, 1, 0};
 }
 
 Quaterniond BoneTurn::share(double weight) const {
@@ -358,6 +373,7 @@ FigureShape shapeOfBones(const Skeleton& skeleton) {
 
 Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOptions& options) {
   const std::size_t count = skeleton.joints.size();
+  checkContacts(clip, skeleton);
   const FigureShape shape = options.shape ? *options.shape : shapeOfBones(skeleton);
   Quaterniond figure_from_clip = Quaterniond::Identity();
   if (clip.frame == ClipFrame::kBody && shape.yaw_rad != 0)
@@ -387,6 +403,7 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
 
   const float duration = clip.duration_s();
   const int keys = int(std::ceil(duration * options.rate_hz - 1e-3f)) + 1;
+  checkMoments(clip, keys, count);
   std::vector<std::pair<Pose, double>> moments;
   std::vector<ModelPose> poses(keys);
   for (int k = 0; k < keys; ++k) {

@@ -40,7 +40,7 @@ struct RetargetOptions {
 // added to the drawn pose; joints without a track keep the drawn pose. Limbs are taken out of the drawn pose
 // by the way round the outside of the body, never through it, and arms that are folded or on the hips stay
 // there. Feet that stand, stay (plant_feet.h). Throws UsageError if the clip moves a joint that the skeleton
-// lacks.
+// lacks, Error (refused input) if it puts one on the ground that is no foot, or is too long.
 Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOptions& options = {});
 
 // Where the joint's bone points in the rest pose: to its child, or to the middle of its children; that of its

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libskel/animation/clip_limits.h"
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
 
@@ -87,6 +88,8 @@ Clip withSlerp(const Clip& clip, float rate_hz) {
   if (clip.interpolation == RotationInterpolation::kSlerp) return result;
   for (JointTrack& track : result.tracks) {
     if (track.angles_rad.empty()) continue;
+    checkMoments(clip, double(track.times_s.back()) * double(rate_hz) + double(track.times_s.size()),
+                 clip.tracks.size());
     // The keys themselves, and as many even ones between each two as the rate asks for.
     std::vector<float> times;
     for (std::size_t k = 0; k < track.times_s.size(); ++k) {

@@ -11,6 +11,8 @@
 #include <memory>
 #include <string>
 
+#include "libskel/cli/number.h"
+#include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 
 namespace skel {
@@ -25,11 +27,31 @@ void addCommand(CLI::App& app, std::function<ExitCode()>& chosen, const std::str
   command->callback([=, &chosen] { chosen = [=] { return run(*options); }; });
 }
 
-// Parses argv into `app`, then calls run(), which returns the exit code. CLI11's own codes become 1 (wrong
-// usage). SKEL_VERSION is the project's, given to every tool (cmake/SkelBuild.cmake).
+// What the command works on, for complaints about nothing in particular: its first file that is there, those
+// without an option's name first.
+inline std::string mainInput(const CLI::App& app) {
+  std::string with_name;
+  for (const CLI::Option* option : app.get_options([](const CLI::Option* o) { return o->count() > 0; })) {
+    if (option->check_sname("o")) continue;
+    for (const std::string& value : option->results()) {
+      std::error_code unknown;
+      if (!std::filesystem::exists(value, unknown)) continue;
+      if (option->get_positional()) return value;
+      if (with_name.empty()) with_name = value;
+    }
+  }
+  for (const CLI::App* command : app.get_subcommands())
+    if (const std::string input = mainInput(*command); !input.empty()) return input;
+  return with_name;
+}
+
+// Parses argv into `app`, then calls run(), which returns the exit code. The one place where all that a tool
+// may throw becomes one line and an exit code; CLI11's own codes become 1 (wrong usage). SKEL_VERSION is the
+// project's, given to every tool (cmake/SkelBuild.cmake).
 inline int runTool(CLI::App& app, int argc, char** argv, const std::function<ExitCode()>& run) {
   std::setlocale(LC_ALL, "C");
   app.set_version_flag("--version", app.get_name() + " " SKEL_VERSION, "Print the version and exit");
+  requireNumberChecks(app);
   const auto say = [&](const std::exception& error, ExitCode code) {
     std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.what());
     return static_cast<int>(code);
@@ -41,13 +63,9 @@ inline int runTool(CLI::App& app, int argc, char** argv, const std::function<Exi
     return app.exit(done);
   } catch (const CLI::Error& error) {
     return say(error, ExitCode::kUsage);
-  } catch (const Error& error) {
+  } catch (...) {
+    const Error error = caughtError(mainInput(app));
     return say(error, error.exitCode());
-  } catch (const std::filesystem::filesystem_error& error) {
-    return say(InputError(error.path1().string(), "cannot be looked at: " + error.code().message()),
-               ExitCode::kInput);
-  } catch (const std::bad_alloc& error) {
-    return say(error, ExitCode::kUnavailable);
   }
 }
 

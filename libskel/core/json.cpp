@@ -23,6 +23,8 @@ std::string show(double number) {
 
 // Objects keep the order of their keys and so search them one by one.
 constexpr std::size_t kMostKeys = 1000;
+// Of lists and objects in one another: what reads, walks or frees them goes as deep as they do.
+constexpr std::size_t kMostDepth = 100;
 
 // Follows the parser: looks at the keys, and knows where it stands.
 struct Follower {
@@ -39,6 +41,8 @@ struct Follower {
     switch (event) {
       case Json::parse_event_t::object_start:
       case Json::parse_event_t::array_start:
+        if (open.size() == kMostDepth)
+          throw InputError(file, "is nested deeper than " + std::to_string(kMostDepth) + " levels");
         open.push_back({event == Json::parse_event_t::array_start, 0, {}, {}});
         break;
       case Json::parse_event_t::object_end:

@@ -67,7 +67,7 @@ class JsonValue {
 
 class JsonDocument {
  public:
-  // Throws InputError: cannot be read, not JSON (with line and column), an object with the same key twice.
+  // Throws InputError: cannot be read, not JSON (with line and column), too deep, a key twice in one object.
   static JsonDocument readFile(const std::string& path);
   // `file` is the name that complaints use.
   static JsonDocument parse(std::string_view text, const std::string& file);

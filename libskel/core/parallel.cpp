@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -33,7 +34,12 @@ void parallelFor(std::size_t count, int threads, const std::function<void(std::s
         for (std::thread& thread : *this) thread.join();
       }
     } pool;
-    for (std::size_t i = 0; i < helpers; ++i) pool.emplace_back(run);
+    pool.reserve(helpers);
+    try {
+      for (std::size_t i = 0; i < helpers; ++i) pool.emplace_back(run);
+    } catch (const std::system_error&) {
+      // There are no more threads to be had: those that there are do the work.
+    }
     run();
   }
   if (failure) std::rethrow_exception(failure);

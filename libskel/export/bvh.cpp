@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "libskel/animation/clip_limits.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/export/formats.h"
 #include "libskel/export/joint_names.h"
@@ -26,37 +27,57 @@ void appendVector(std::string& text, const Vector3d& v) {
   }
 }
 
-// Joints in the file's order: each before its children, branch by branch.
-// `moved`: joints that the clip moves out of their places.
+// Nobody reads a line that begins beyond this.
+constexpr int kDeepestIndent = 40;
+
+// Joints in the file's order: each before its children, branch by branch. Not by recursion: the depth is the
+// character's. `moved`: joints that the clip moves out of their places.
 void appendHierarchy(std::string& text, std::vector<int>& order, const ExportInput& input,
-                     const std::vector<bool>& moved, int joint, int depth) {
+                     const std::vector<bool>& moved) {
   const Skeleton& skeleton = input.character.skeleton;
-  const Joint& self = skeleton.joints[joint];
-  const std::string indent(std::size_t(depth) * 2, ' ');
-  const bool root = self.parent < 0;
-  text += indent + (root ? "ROOT " : "JOINT ") + exportedJointName(self.name, input.options.naming) + "\n";
-  text += indent + "{\n" + indent + "  OFFSET";
-  // The root's place is in its position channels.
-  const Vector3d offset =
-      root ? Vector3d::Zero() : Vector3d(self.position - skeleton.joints[self.parent].position);
-  appendVector(text, kCentimetres * offset);
-  text += "\n" + indent +
-          (moved[joint] ? "  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"
-                        : "  CHANNELS 3 Zrotation Xrotation Yrotation\n");
-  order.push_back(joint);
-  bool leaf = true;
-  for (std::size_t child = 0; child < skeleton.joints.size(); ++child)
-    if (skeleton.joints[child].parent == joint) {
-      leaf = false;
-      appendHierarchy(text, order, input, moved, int(child), depth + 1);
+  const std::size_t count = skeleton.joints.size();
+  std::vector<std::vector<int>> children(count);
+  for (std::size_t j = count; j-- > 1;) children[std::size_t(skeleton.joints[j].parent)].push_back(int(j));
+  std::vector<Vector3d> tips(count, Vector3d::Zero());  // of leaves
+  for (const Bone& bone : skeletonBones(skeleton))
+    tips[std::size_t(bone.joint)] = (bone.to - bone.from).cast<double>();
+  std::vector<int> open;  // from the root to the joint at hand
+  const auto indent = [&](int deeper) {
+    return std::string(std::size_t(2 * std::min(int(open.size()) + deeper, kDeepestIndent)), ' ');
+  };
+  const auto begin = [&](int joint) {
+    const Joint& self = skeleton.joints[joint];
+    const bool root = self.parent < 0;
+    text +=
+        indent(0) + (root ? "ROOT " : "JOINT ") + exportedJointName(self.name, input.options.naming) + "\n";
+    text += indent(0) + "{\n" + indent(1) + "OFFSET";
+    // The root's place is in its position channels.
+    appendVector(text,
+                 root ? Vector3d::Zero()
+                      : Vector3d(kCentimetres * (self.position - skeleton.joints[self.parent].position)));
+    text += "\n" + indent(1) +
+            (moved[joint] ? "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"
+                          : "CHANNELS 3 Zrotation Xrotation Yrotation\n");
+    if (children[joint].empty()) {
+      text += indent(1) + "End Site\n" + indent(1) + "{\n" + indent(2) + "OFFSET";
+      appendVector(text, kCentimetres * tips[joint]);
+      text += "\n" + indent(1) + "}\n";
     }
-  if (leaf) {
-    text += indent + "  End Site\n" + indent + "  {\n" + indent + "    OFFSET";
-    for (const Bone& bone : skeletonBones(skeleton))
-      if (bone.joint == joint) appendVector(text, kCentimetres * (bone.to - bone.from).cast<double>());
-    text += "\n" + indent + "  }\n";
+    order.push_back(joint);
+    open.push_back(joint);
+  };
+  begin(0);
+  while (!open.empty()) {
+    std::vector<int>& left = children[open.back()];
+    if (left.empty()) {
+      open.pop_back();
+      text += indent(0) + "}\n";
+    } else {
+      const int next = left.back();
+      left.pop_back();
+      begin(next);
+    }
   }
-  text += indent + "}\n";
 }
 
 // Rz(z) · Rx(x) · Ry(y) = rotation, as (z, x, y) in degrees.
@@ -75,8 +96,9 @@ std::string encodeBvh(const ExportInput& input, const Clip& clip) {
   moved[0] = true;
   for (const JointTrack& track : clip.tracks)
     if (!track.translation_times_s.empty()) moved[skeleton.index(track.joint)] = true;
-  appendHierarchy(text, order, input, moved, 0, 0);
+  appendHierarchy(text, order, input, moved);
   const int frames = int(std::lround(clip.duration_s() * kRate_hz)) + 1;
+  checkMoments(clip, frames, order.size());
   text += "MOTION\nFrames: " + std::to_string(frames) + "\nFrame Time: ";
   appendNumber(text, 1 / kRate_hz, 7);
   text += '\n';

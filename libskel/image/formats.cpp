@@ -68,7 +68,7 @@ Format formatOf(std::string_view bytes) {
 
 void checkSize(std::int64_t width, std::int64_t height, const std::string& file) {
   if (width <= 0 || height <= 0) throw InputError(file, "is a picture without pixels");
-  if (width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels) {
+  if (width > kLongestSide_px || height > kLongestSide_px || width * height > kMaxPixels) {
     throw InputError(file, "is too large: " + std::to_string(width) + "x" + std::to_string(height) +
                                " px; make it smaller than 10000x10000");
   }

@@ -10,7 +10,7 @@ namespace skel {
 
 // Reads PNG and JPEG directly; WebP, BMP, TIFF and GIF (first frame) through a plugin that is loaded when
 // such a file comes. Throws InputError (missing, empty, truncated, not a picture, CMYK, HEIC, more than
-// kMaxPixels) and UnavailableError (the plugin is not there).
+// kMaxPixels or kLongestSide_px) and UnavailableError (the plugin is not there).
 Image readImage(const std::string& path);
 
 // `file` is the name that complaints use.
@@ -20,7 +20,9 @@ Image decodeImage(std::string_view bytes, const std::string& file);
 Plane8 readMask(const std::string& path);
 Plane8 decodeMask(std::string_view bytes, const std::string& file);
 
-// Larger pictures are refused: they would need more than 1 GB.
+// Larger pictures are refused: they would need more than 1 GB, or are longer than what turns and bends
+// pictures can count.
 inline constexpr long kMaxPixels = 100'000'000;
+inline constexpr int kLongestSide_px = 32'766;
 
 }  // namespace skel

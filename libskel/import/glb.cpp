@@ -7,11 +7,13 @@
 #include <optional>
 #include <set>
 
+#include "libskel/animation/clip_limits.h"
 #include "libskel/core/files.h"
 #include "libskel/image/read_image.h"
 #include "libskel/import/glb_container.h"
 #include "libskel/import/read_character.h"
 #include "libskel/mesh/split_seams.h"
+#include "libskel/skeleton/rig_file.h"
 #include "libskel/skeleton/template.h"
 
 namespace skel {
@@ -135,7 +137,7 @@ Joints readJoints(const Nodes& nodes, const JsonValue& skin) {
   const JsonValue list = skin.at("joints");
   const std::vector<JsonValue> items = list.items();
   if (items.empty()) list.fail("is empty");
-  if (items.size() > 65535) list.fail("has more than 65535 joints");
+  if (items.size() > kMostJoints) list.fail("has more than " + std::to_string(kMostJoints) + " joints");
   Joints joints;
   std::vector<int> place(nodes.values.size(), -1);  // in the skin's list
   for (std::size_t k = 0; k < items.size(); ++k) {
@@ -336,6 +338,8 @@ std::vector<float> readTimes(const GlbContainer& glb, const JsonValue& index) {
     if (times[i] < 0 || (i > 0 && times[i] <= times[i - 1]))
       index.fail("time " + std::to_string(i) +
                  (times[i] < 0 ? " is negative" : " is not later than the one before"));
+  if (!times.empty() && times.back() > static_cast<float>(kMaxClip_s))
+    index.fail("ends after more than an hour; cut the animation into parts");
   return times;
 }
 

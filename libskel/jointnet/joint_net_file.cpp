@@ -15,15 +15,16 @@ constexpr std::string_view kFormat = "skel-joint-net";
 constexpr int kVersion = 3;
 
 std::vector<std::string> jointsAt(const JsonValue& list) {
+  const std::vector<JsonValue> items = list.items();
+  if (items.empty() || items.size() > kMaxNetJoints)
+    list.fail("has " + std::to_string(items.size()) + " joints, must have 1 to " +
+              std::to_string(kMaxNetJoints));
   std::vector<std::string> joints;
-  for (const JsonValue& item : list.items()) {
+  for (const JsonValue& item : items) {
     joints.push_back(item.asString());
     if (std::count(joints.begin(), joints.end(), joints.back()) > 1)
       item.fail("is the second joint named \"" + joints.back() + "\"");
   }
-  if (joints.empty() || joints.size() > kMaxNetJoints)
-    list.fail("has " + std::to_string(joints.size()) + " joints, must have 1 to " +
-              std::to_string(kMaxNetJoints));
   return joints;
 }
 

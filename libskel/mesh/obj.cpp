@@ -6,8 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -125,13 +127,17 @@ std::string besides(const std::string& path, std::string name) {
 }
 
 struct Material {
-  std::string name;
   Eigen::Array3f color = Eigen::Array3f::Ones();  // Kd
   std::string picture;                            // a path; empty: none
 };
 
-// Adds to `materials`; of two with one name the first counts.
-void readMaterials(const std::string& mtl, std::vector<Material>& materials) {
+// In the order of their files; of two with one name the first counts.
+struct Materials {
+  std::deque<Material> all;
+  std::map<std::string, const Material*> by_name;
+};
+
+void readMaterials(const std::string& mtl, Materials& materials) {
   Lines lines(mtl);
   Material* material = nullptr;
   Material ignored;
@@ -141,13 +147,11 @@ void readMaterials(const std::string& mtl, std::vector<Material>& materials) {
     if (word.empty()) continue;
     if (word[0] == "newmtl") {
       const std::string name = remainder(line, "newmtl");
-      const bool known =
-          std::any_of(materials.begin(), materials.end(), [&](const Material& m) { return m.name == name; });
-      if (known) {
+      if (materials.by_name.contains(name)) {
         material = &ignored;
       } else {
-        material = &materials.emplace_back();
-        material->name = name;
+        material = &materials.all.emplace_back();
+        materials.by_name.emplace(name, material);
       }
     } else if (material && word[0] == "Kd") {
       material->color = numbers<3>(lines, word).array().max(0.0f).min(1.0f);
@@ -172,13 +176,15 @@ struct Obj {
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector2f> coordinates;
   std::vector<Triangle> triangles;
-  std::vector<std::string> libraries, used;  // files of materials; names of materials
+  std::vector<std::string> libraries, used;  // files of materials; names of materials; each once
 };
 
 Obj parseObj(const std::string& path) {
   Lines lines(path);
   Obj obj;
   int material = -1;
+  std::set<std::string> libraries;
+  std::map<std::string, int> used;
   std::vector<std::string_view> word;
   std::vector<Corner> polygon;
   std::vector<Eigen::Vector3f> places;
@@ -197,12 +203,13 @@ Obj parseObj(const std::string& path) {
       const Eigen::Vector2f uv = numbers<2>(lines, word);
       obj.coordinates.emplace_back(uv.x(), 1 - uv.y());  // OBJ's v goes up
     } else if (word[0] == "mtllib") {
-      obj.libraries.push_back(remainder(line, "mtllib"));
+      std::string library = remainder(line, "mtllib");
+      if (libraries.insert(library).second) obj.libraries.push_back(std::move(library));
     } else if (word[0] == "usemtl") {
       const std::string name = remainder(line, "usemtl");
-      const auto known = std::find(obj.used.begin(), obj.used.end(), name);
-      material = static_cast<int>(known - obj.used.begin());
-      if (known == obj.used.end()) obj.used.push_back(name);
+      const auto [known, is_new] = used.emplace(name, static_cast<int>(obj.used.size()));
+      material = known->second;
+      if (is_new) obj.used.push_back(name);
     } else if (word[0] == "f") {
       if (word.size() < 4) lines.fail("a face needs at least 3 corners");
       if (word.size() > kMostCorners + 1)
@@ -239,25 +246,38 @@ struct Looks {
   std::vector<bool> plain;  // tiles of one colour
 };
 
+InputError texturesDoNotFit(const std::string& path) {
+  return InputError(path, "its textures do not fit into one of " + std::to_string(kMaxAtlas_px) +
+                              " px a side; make them smaller, or repeat less often");
+}
+
+// One file has many paths: ./a.png, b/../a.png, links.
+std::string sameForAllNames(const std::string& path) {
+  std::error_code unknown;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(path, unknown);
+  return unknown ? path : whole.string();
+}
+
 bool hasCoordinates(const Triangle& triangle) {
   return std::all_of(triangle.corners.begin(), triangle.corners.end(),
                      [](const Corner& c) { return c[1] >= 0; });
 }
 
 Looks looksOf(const Obj& obj, const std::string& path) {
-  std::vector<Material> materials;
+  Materials materials;
   for (const std::string& library : obj.libraries) readMaterials(besides(path, library), materials);
   const Material none;
   const auto named = [&](int used) -> const Material& {
     // A file that never says which is meant means the first picture.
     if (obj.used.empty())
-      for (const Material& material : materials)
+      for (const Material& material : materials.all)
         if (!material.picture.empty()) return material;
-    for (const Material& material : materials)
-      if (used >= 0 && material.name == obj.used[static_cast<std::size_t>(used)]) return material;
-    return none;
+    if (used < 0) return none;
+    const auto known = materials.by_name.find(obj.used[static_cast<std::size_t>(used)]);
+    return known == materials.by_name.end() ? none : *known->second;
   };
   Looks looks;
+  double pixels = 0;  // of all pictures
   std::map<std::string, int> by_look;
   std::vector<std::array<int, 2>> of_material(obj.used.size() + 1,
                                               {-1, -1});  // with coordinates, and without
@@ -269,7 +289,7 @@ Looks looksOf(const Obj& obj, const std::string& path) {
       const bool picture = coordinates && !material.picture.empty();
       const Eigen::Array3i rgb = (255 * material.color + 0.5f).cast<int>();
       const std::string key =
-          picture ? "picture " + material.picture
+          picture ? "picture " + sameForAllNames(material.picture)
                   : std::to_string(rgb[0]) + " " + std::to_string(rgb[1]) + " " + std::to_string(rgb[2]);
       const auto [known, added] = by_look.emplace(key, static_cast<int>(looks.tiles.size()));
       look = known->second;
@@ -277,6 +297,7 @@ Looks looksOf(const Obj& obj, const std::string& path) {
         AtlasTile tile;
         if (picture) {
           tile.image = readImage(material.picture);
+          pixels += static_cast<double>(tile.image.width) * tile.image.height;
         } else {
           tile.image = Image(4, 4);
           for (Eigen::Index i = 0; i < 16; ++i)
@@ -285,6 +306,8 @@ Looks looksOf(const Obj& obj, const std::string& path) {
         }
         looks.tiles.push_back(std::move(tile));
         looks.plain.push_back(!picture);
+        // Not all are read before that is said.
+        if (looks.tiles.size() > 1 && pixels > 1. * kMaxAtlas_px * kMaxAtlas_px) throw texturesDoNotFit(path);
       }
     }
     looks.of_triangle.push_back(look);
@@ -367,9 +390,7 @@ TriangleMesh readObj(const std::string& path) {
     return mesh;
   }
   TextureAtlas atlas = packAtlas(looks.tiles);
-  if (atlas.image.empty())
-    throw InputError(path, "its textures do not fit into one of " + std::to_string(kMaxAtlas_px) +
-                               " px a side; make them smaller, or repeat less often");
+  if (atlas.image.empty()) throw texturesDoNotFit(path);
   for (std::size_t v = 0; v < rows.rows.size(); ++v) {
     const auto look = static_cast<std::size_t>(rows.rows[v].look);
     const auto row = static_cast<Eigen::Index>(v);

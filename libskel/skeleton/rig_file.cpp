@@ -11,8 +11,6 @@
 namespace skel {
 namespace {
 
-constexpr std::size_t kMostJoints = 4096;
-
 Eigen::Vector3d pointAt(const JsonValue& value) {
   const std::vector<double> numbers = value.asNumbers(3);
   for (const double number : numbers)

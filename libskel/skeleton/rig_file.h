@@ -15,6 +15,9 @@ namespace skel {
 // parents that disagree.
 Skeleton readRigFile(const std::string& path);
 
+// More are read from no file: what looks at all pairs of them stays quick.
+inline constexpr std::size_t kMostJoints = 4096;
+
 // Whether the JSON file at `path` is one of skel's own (has a "format"), not such a one. Throws InputError.
 bool isSkelFile(const std::string& path);
 

@@ -58,7 +58,10 @@ class FilmReader : public VideoReader {
       if (count_ == 0) throw InputError(path_, "holds a film without frames");
       return false;
     }
-    if (count_ == 0) width_ = frame_->width, height_ = frame_->height;
+    if (count_ == 0) {
+      width_ = frame_->width, height_ = frame_->height;
+      checkSize(width_, height_, path_);
+    }
     if (frame_->width != width_ || frame_->height != height_)
       throw InputError(path_, "changes the size of its frames at frame " + std::to_string(count_ + 1));
     // What there was is freed or used again.

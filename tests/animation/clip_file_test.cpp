@@ -113,7 +113,7 @@ TEST_CASE("a clip file that makes no sense is refused with the place in it") {
   checkRefused(head(R"("rotations": [[0, 0, 0, 0, 1], [0, 0, 0, 0, 1]])"),
                "tracks[0].rotations[1]: must be later than the key before");
   checkRefused(head(R"("rotations": [[-1, 0, 0, 0, 1]])"),
-               "tracks[0].rotations[0]: must be a time of 0 to 100000 seconds");
+               "tracks[0].rotations[0]: must be a time of 0 to 3600 seconds");
   checkRefused(head(R"("rotations": [[0, 0, 0, 0, 2]])"),
                "tracks[0].rotations[0]: is no rotation: its last four numbers must have length 1");
   checkRefused(head(R"("rotations": [[0, 0, 0, 1]])"), "tracks[0].rotations[0]: has 4 numbers, must have 5");
@@ -139,6 +139,39 @@ TEST_CASE("a clip file that makes no sense is refused with the place in it") {
                "contacts[0].to_s: must be later than from_s");
   checkRefused("\"tracks\": [" + one + R"(], "contacts": [{"joint": "left_foot", "from_s": 1, "to_s": 3}])",
                "contacts[0].to_s: lies beyond the clip's end");
+}
+
+TEST_CASE("a few bytes do not ask for endless work: long clips, eased keys, contacts") {
+  checkRefused(R"("tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0]]}], "duration_s": 100000)",
+               "duration_s: is 100000, must be between 0 and 3600");
+  std::string tracks;
+  for (int i = 0; i < 10; ++i)
+    tracks += (i ? ", " : "") + ("{\"joint\": \"j" + std::to_string(i)) +
+              "\", \"angles_deg\": [[0, 0, 0, 0], [3600, 1, 0, 0]]}";
+  checkRefused("\"ease\": \"flow\", \"tracks\": [" + tracks + "]",
+               "tracks[9].angles_deg: makes more than 1000000 keys of eased ones; cut the clip into parts");
+  const std::string one = R"({"joint": "head", "angles_deg": [[0, 0, 0, 0], [2, 0, 0, 0]]})";
+  std::string contacts;
+  for (int i = 0; i < 1001; ++i)
+    contacts += std::string(i ? ", " : "") + R"({"joint": "left_foot", "from_s": 0, "to_s": 1})";
+  checkRefused("\"tracks\": [" + one + "], \"contacts\": [" + contacts + "]",
+               "contacts: holds more than 1000 contacts");
+}
+
+TEST_CASE("many eased keys and many tracks are read in time") {
+  // Linear searches would take minutes.
+  std::string keys, tracks;
+  for (int i = 0; i < 100'000; ++i)
+    keys += (i ? ",[" : "[") + std::to_string(i * .03) + "," + std::to_string(i % 7) + ",0,0]";
+  for (int i = 0; i < 100'000; ++i)
+    tracks += ",{\"joint\":\"" + std::to_string(i) + "\",\"angles_deg\":[[0,0,0,0]]}";
+  const Clip clip =
+      parseClip(R"({"format": "skel-clip", "version": 1, "name": "long", "ease": "flow", "tracks": [)"
+                R"({"joint": "head", "angles_deg": [)" +
+                    keys + "]}" + tracks + "]}",
+                "a.clip.json");
+  CHECK(clip.tracks.size() == 100'001);
+  CHECK(clip.tracks[0].times_s.size() == 90'000);
 }
 
 TEST_CASE("each body plan has clips of its own") {

@@ -166,3 +166,28 @@ TEST_CASE("turns are taken the asked way round, also to the opposite direction")
   const Eigen::Vector3d slanted = Eigen::Vector3d(0.3, 0.5, 0.4).normalized();
   CHECK((boneTurn(down, slanted, 1).share(1) * down - slanted).norm() < 1e-9);
 }
+
+TEST_CASE("a clip that puts the pelvis, the body, a hip or an unknown joint on the ground is refused") {
+  const Skeleton skeleton = figureSkeleton();
+  Clip clip = clipNamed(builtinClips(), "walk");
+  for (const std::string joint : {"pelvis", "body", "left_hip"}) {
+    clip.contacts = {{joint, 0, .5f}};
+    CHECK_THROWS_WITH(
+        retargetToRest(clip, skeleton),
+        "the clip \"walk\" puts \"" + joint + "\" on the ground, which ends no limb of two bones");
+  }
+  clip.contacts = {{"tail", 0, .5f}};
+  CHECK_THROWS_WITH(retargetToRest(clip, skeleton),
+                    "the clip \"walk\" puts \"tail\" on the ground, which this skeleton lacks");
+  CHECK_FALSE(fits(clip, skeleton));
+  clip.contacts = {{"left_foot", 0, .5f}};
+  CHECK(fits(clip, skeleton));
+  CHECK_NOTHROW(retargetToRest(clip, skeleton));
+}
+
+TEST_CASE("a clip of too many poses is refused before they are made") {
+  Clip clip = clipNamed(builtinClips(), "wave");
+  clip.least_duration_s = 3600;
+  CHECK_THROWS_WITH(retargetToRest(clip, figureSkeleton(), {.rate_hz = 60}),
+                    "the clip \"wave\" is too long: 216001 poses of 17 joints; cut it into parts");
+}

@@ -74,6 +74,17 @@ TEST_CASE("objects of endless length are refused before they cost time") {
                     "f.json: has an object with more than 1000 keys");
 }
 
+TEST_CASE("lists in lists without end are refused before they cost memory") {
+  const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+  CHECK_NOTHROW(JsonDocument::parse(nested(100), "f.json"));
+  CHECK_THROWS_WITH(JsonDocument::parse(nested(101), "f.json"), "f.json: is nested deeper than 100 levels");
+  CHECK_THROWS_WITH(JsonDocument::parse(std::string(20'000'000, '['), "f.json"),
+                    "f.json: is nested deeper than 100 levels");
+  std::string objects;
+  for (int i = 0; i < 101; ++i) objects += "{\"a\":";
+  CHECK_THROWS_WITH(JsonDocument::parse(objects, "f.json"), "f.json: is nested deeper than 100 levels");
+}
+
 TEST_CASE("format and version are checked") {
   const auto check = [](const JsonValue& root) { root.checkFormat("skel-x", 2); };
   CHECK(complaint(R"({"format": "skel-x", "version": 2})", check) == "none");

@@ -210,3 +210,19 @@ TEST_CASE("a character folder for AnimatedDrawings holds sixteen joints in the c
   fixture.input.mask = nullptr;
   CHECK_THROWS_AS(exportCharCfg(fixture.input), UsageError);
 }
+
+TEST_CASE("a chain of 30000 joints becomes a BVH without depth or size running away") {
+  RiggedCharacter character = figure();
+  std::vector<Joint>& joints = character.skeleton.joints;
+  for (int i = 0; i < 30'000; ++i) {
+    Joint joint;
+    joint.name = "link" + std::to_string(i);
+    joint.parent = static_cast<int>(joints.size()) - 1;
+    joint.position = joints.back().position + Eigen::Vector3d(0, .01, 0);
+    joints.push_back(joint);
+  }
+  const std::string text = exportBvh({character, {}, {"chain"}})[0].bytes;
+  CHECK(text.size() < 40'000'000);
+  CHECK(std::count(text.begin(), text.end(), '{') == std::count(text.begin(), text.end(), '}'));
+  CHECK(text.find("JOINT link29999\n") != std::string::npos);
+}

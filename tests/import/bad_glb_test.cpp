@@ -214,3 +214,15 @@ TEST_CASE("GLB files that mean something else are refused with their place") {
     CHECK(said.find('\n') == std::string::npos);
   }
 }
+
+TEST_CASE("an animation of 1e8 s, which became a film of one frame, is refused") {
+  const std::string bytes = changed([](json& document, std::string& binary) {
+    const json& accessor =
+        document["accessors"][document["animations"][0]["samplers"][0]["input"].get<std::size_t>()];
+    const json& view = document["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    const float late = 1e8f;
+    std::memcpy(binary.data() + view.value("byteOffset", 0) + accessor.value("byteOffset", 0) + 4, &late, 4);
+  });
+  CHECK(complaint(bytes).find("ends after more than an hour; cut the animation into parts") !=
+        std::string::npos);
+}

@@ -99,6 +99,15 @@ TEST_CASE("Damaged weights files are refused with a reason") {
   CHECK_THAT(complaint(version), Contains("version"));
 }
 
+TEST_CASE("A net of a million joints is refused before they are compared with each other") {
+  std::string names;
+  for (int i = 0; i < 1'000'000; ++i) names += (i ? ",\"" : "\"") + std::to_string(i) + "\"";
+  CHECK(
+      complaint(
+          R"({"format":"skel-joint-net","version":1,"provenance":"","convolutions":[],"sha256":"","joints":[)" +
+          names + "]}\n") == "net.bin: joints: has 1000000 joints, must have 1 to 63");
+}
+
 TEST_CASE("A net that is ready to run says what it said before") {
   JointNet net = makeJointNet("spider", {"head", "left_leg", "right_leg"}, 2);
   Rng rng(2);

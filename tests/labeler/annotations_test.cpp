@@ -7,6 +7,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
+#include "libskel/image/write_image.h"
 #include "tests/labeler/drawing_folder.h"
 #include "tests/support/catch.h"
 #include "tests/support/locked_folder.h"
@@ -203,4 +204,31 @@ TEST_CASE("a brush is round, leaves no gaps, and may lie outside") {
   CHECK(paintLine(one, {0, 0}, {0, 0}, 0, 255));
   Plane8 none(0, 0);
   CHECK_FALSE(paintLine(none, {0, 0}, {1, 1}, 5, 255));
+}
+
+TEST_CASE("COCO: places of huge numbers, which became pixels without bounds, are refused") {
+  const TempDir dir;
+  writeFile(dir.file("a.png"), encodePng(Image(8, 8)));
+  const auto complaint = [&](const std::string& segmentation, const std::string& x) {
+    writeFile(
+        dir.file("coco.json"),
+        R"({"images": [{"id": 1, "file_name": "a.png"}], "categories": [{"id": 1, "keypoints": ["nose"]}],)"
+        R"("annotations": [{"image_id": 1, "category_id": 1, "keypoints": [)" +
+            x + R"(, 1, 2], "segmentation": )" + segmentation + "}]}");
+    try {
+      readCoco(dir.file("coco.json"), loadTemplate("biped"));
+    } catch (const InputError& error) {
+      return error.problem();
+    }
+    return std::string("none");
+  };
+  CHECK(complaint("[[0, 0, 8, 0, 8, 8]]", "4") == "none");
+  CHECK(complaint("[[-1e308, 1e308, 1e308, -1e308, 0, 1]]", "4") ==
+        "annotations[0].segmentation[0]: holds a place that lies in no picture");
+  CHECK(complaint("[[0, 0, 8, 0, 8, 8]]", "1e300") ==
+        "annotations[0].keypoints: holds a place that lies in no picture");
+  std::string long_way = "0, 0";
+  for (int i = 0; i < 30; ++i) long_way += ", 1, 900000, 1, 0";
+  CHECK(complaint("[[" + long_way + "]]", "4") ==
+        "annotations[0].segmentation: outlines no figure: its lines are too long");
 }

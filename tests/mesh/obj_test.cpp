@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <ctime>
+#include <filesystem>
 #include <iostream>
 
 #include "libskel/core/error.h"
@@ -210,4 +211,54 @@ TEST_CASE("bad models are refused with the line") {
   CHECK(complaint(face) ==
         "line 5: a face has 10001 corners, at most 10000 are read; export the model as triangles");
   CHECK_THROWS_AS(readObj("/nowhere/a.obj"), InputError);
+}
+
+namespace {
+
+// A square for each of these pictures, each by a material of its own.
+std::string squaresOf(const std::vector<std::string>& pictures, const TempDir& dir) {
+  std::string obj = "mtllib a.mtl\n" + kSquare + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n", mtl;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    obj += "usemtl m" + std::to_string(i) + "\nf 1/1 2/2 3/3 4/4\n";
+    mtl += "newmtl m" + std::to_string(i) + "\nmap_Kd " + pictures[i] + "\n";
+  }
+  writeFile(dir.file("a.mtl"), mtl);
+  writeFile(dir.file("a.obj"), obj);
+  return dir.file("a.obj");
+}
+
+}  // namespace
+
+TEST_CASE("one picture under many names is one texture") {
+  const TempDir dir;
+  Image image(64, 32);
+  image.rgba.setConstant(200);
+  writeFile(dir.file("a.png"), encodePng(image));
+  std::filesystem::create_symlink("a.png", dir.file("b.png"));
+  const TriangleMesh mesh = readObj(squaresOf({"a.png", "./a.png", "././a.png", "x/../a.png", "b.png"}, dir));
+  CHECK(mesh.texture.width == 64);
+  CHECK(mesh.texture.height == 32);
+}
+
+TEST_CASE("textures that do not fit are refused before all of them are read") {
+  const TempDir dir;
+  Image image(6000, 6000);
+  image.rgba.setConstant(255);
+  const std::string png = encodePng(image);
+  writeFile(dir.file("a.png"), png);
+  writeFile(dir.file("b.png"), png);
+  CHECK_THROWS_WITH(readObj(squaresOf({"a.png", "b.png", "not-there.png"}, dir)),
+                    Catch::Matchers::Contains("its textures do not fit into one of 8192 px a side"));
+}
+
+TEST_CASE("many materials, and one library named many times, are read in time") {
+  const TempDir dir;
+  std::string obj = kSquare, mtl;
+  for (int i = 0; i < 100'000; ++i) {
+    obj += "mtllib a.mtl\nusemtl m" + std::to_string(i) + "\nf 1 2 3\n";
+    mtl += "newmtl m" + std::to_string(i) + "\nKd 1 0 0\n";
+  }
+  writeFile(dir.file("a.mtl"), mtl);
+  writeFile(dir.file("a.obj"), obj);
+  CHECK(readObj(dir.file("a.obj")).triangles.rows() == 100'000);
 }

@@ -1,0 +1,49 @@
+#include "libskel/core/caught_error.h"
+
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+
+namespace skel {
+namespace {
+
+std::string oneLine(const char* text) {
+  std::istringstream words(text);
+  std::string line;
+  for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
+}  // namespace
+
+Error caughtError(const std::string& source) {
+  const std::string start = source.empty() ? "" : source + ": ";
+  const Error no_memory(ExitCode::kUnavailable, start + "needs more memory than there is");
+  try {
+    throw;
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::string path = error.path1().string();
+    return InputError(path.empty() ? source : path, "cannot be looked at: " + error.code().message());
+  } catch (const std::bad_alloc&) {
+    return no_memory;
+  } catch (const std::length_error&) {
+    return no_memory;
+  } catch (const std::system_error& error) {
+    return Error(ExitCode::kUnavailable,
+                 start + "the system refuses what is needed: " + error.code().message());
+  } catch (const std::exception& error) {
+    const std::string what = oneLine(error.what());
+    // This room does not know OpenCV's type, which says so by -4.
+    if (what.find("(-4:Insufficient memory)") != std::string::npos) return no_memory;
+    return Error(ExitCode::kInput, start + "cannot be worked on, please report it: " + what);
+  } catch (...) {
+    return Error(ExitCode::kInput, start + "cannot be worked on, please report it");
+  }
+}
+
+}  // namespace skel

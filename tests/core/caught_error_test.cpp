@@ -1,0 +1,46 @@
+#include "libskel/core/caught_error.h"
+
+#include <filesystem>
+#include <future>
+#include <new>
+#include <system_error>
+
+#include "tests/support/catch.h"
+
+using namespace skel;
+
+namespace {
+
+// "code: line"
+template <class Throw>
+std::string caught(const Throw& work) {
+  try {
+    work();
+  } catch (...) {
+    const Error error = caughtError("a.png");
+    return std::to_string(static_cast<int>(error.exitCode())) + ": " + error.what();
+  }
+  return "nothing";
+}
+
+}  // namespace
+
+TEST_CASE("whatever is thrown becomes one line that names the input, and a code") {
+  CHECK(caught([] { throw OutputError("b.glb", "is full"); }) == "4: b.glb: is full");
+  CHECK(caught([] { throw std::bad_alloc(); }) == "3: a.png: needs more memory than there is");
+  CHECK(caught([] { std::vector<int>().resize(std::size_t(-1)); }) ==
+        "3: a.png: needs more memory than there is");
+  CHECK(caught([] {
+          throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
+        }) == "3: a.png: the system refuses what is needed: Resource temporarily unavailable");
+  CHECK(caught([] {
+          throw std::filesystem::filesystem_error("stat", "dir/c",
+                                                  std::make_error_code(std::errc::filename_too_long));
+        }) == "2: dir/c: cannot be looked at: File name too long");
+  CHECK(caught([] {
+          throw std::runtime_error("OpenCV(4.6.0) alloc.cpp:73: error: (-4:Insufficient memory)\n x");
+        }) == "3: a.png: needs more memory than there is");
+  CHECK(caught([] { throw std::runtime_error("two\nlines\n"); }) ==
+        "2: a.png: cannot be worked on, please report it: two lines");
+  CHECK(caught([] { throw 1; }) == "2: a.png: cannot be worked on, please report it");
+}

@@ -1,0 +1,105 @@
+// What is thrown where nobody expects it: one line that names the input, a code, and the others go on.
+#include <filesystem>
+
+#include "libskel/core/files.h"
+#include "libskel/draw/canvas.h"
+#include "libskel/image/write_image.h"
+#include "tests/support/catch.h"
+#include "tests/support/run_tool.h"
+
+using namespace skel;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kDrawing = SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png";
+
+// With at most so much address space. The sanitizers' own memory is more than any such limit.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kLimitsWork = false;
+#else
+constexpr bool kLimitsWork = true;
+#endif
+
+ToolRun limited(const TempDir& dir, int mb, const std::string& command) {
+  return runTool("cd '" + dir.path() + "' && ulimit -v " + std::to_string(mb * 1024) + " && " SKEL_TOOLS "/" +
+                 command);
+}
+
+void writeDrawing(const std::string& path, int size) {
+  Image image = blankImage(size, size);
+  drawDisc(image, {size * .5, size * .3}, size * .12, {30, 30, 30});
+  drawDisc(image, {size * .5, size * .6}, size * .2, {30, 30, 30});
+  writeFile(path, encodePng(image));
+}
+
+}  // namespace
+
+TEST_CASE("a drawing that needs more memory than there is does not take the others with it") {
+  if (!kLimitsWork) return;
+  const TempDir dir;
+  writeDrawing(dir.file("huge.png"), 9000);
+  fs::copy_file(kDrawing, dir.file("small.png"));
+  const ToolRun run = limited(dir, 700, "skel-infer huge.png small.png --formats glb");
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 3);
+  CHECK(run.err.find("skel-infer: huge.png: needs more memory than there is\n") == 0);
+  CHECK(fs::exists(dir.file("out/small.glb")));
+}
+
+TEST_CASE("wherever memory ends, there is one line and no abort") {
+  if (!kLimitsWork) return;
+  const TempDir dir;
+  writeDrawing(dir.file("a.png"), 2500);
+  bool failed = false, done = false;
+  for (int mb = 40; mb <= 600; mb += 28) {
+    const ToolRun run = limited(dir, mb, "skel-infer a.png --formats glb --force");
+    CAPTURE(mb, run.exit_code, run.err);
+    // Below, the loader itself finds no room for the libraries.
+    if (run.exit_code == 127) continue;
+    CHECK((run.exit_code == 0 || run.exit_code == 3));
+    if (run.exit_code == 3) {
+      failed = true;
+      CHECK(run.err.find("skel-infer: ") == 0);
+      CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+    } else {
+      done = true;
+    }
+  }
+  CHECK(failed);
+  CHECK(done);
+}
+
+TEST_CASE("threads that cannot be had end no tool") {
+  if (!kLimitsWork) return;
+  const TempDir dir;
+  std::string drawings;
+  for (int i = 0; i < 12; ++i) {
+    const std::string name = "a" + std::to_string(i) + ".png";
+    fs::copy_file(kDrawing, dir.file(name));
+    drawings += " " + name;
+  }
+  // Each thread's stack takes 1 GB.
+  const ToolRun run = runTool("cd '" + dir.path() +
+                              "' && ulimit -s 1000000 && ulimit -v 2500000 && " SKEL_TOOLS
+                              "/skel-infer --jobs 12 --formats glb" +
+                              drawings);
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(fs::exists(dir.file("out/a11.glb")));
+}
+
+TEST_CASE("a command without a batch names what it worked on when memory ends") {
+  if (!kLimitsWork) return;
+  const TempDir dir;
+  std::string obj;
+  for (int i = 0; i < 400'000; ++i)
+    obj += "v " + std::to_string(i % 1000) + " " + std::to_string(i / 1000) + " 0\n";
+  for (int i = 1; i < 390'000; ++i)
+    obj += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 1001) + "\n";
+  writeFile(dir.file("plane.obj"), obj);
+  const ToolRun run = limited(dir, 90, "skel-animate info plane.obj");
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 3);
+  CHECK(run.err == "skel-animate: plane.obj: needs more memory than there is\n");
+}
