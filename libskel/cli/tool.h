@@ -3,17 +3,22 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <clocale>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <memory>
 #include <string>
 
 #include "libskel/cli/number.h"
+#include "libskel/cli/outputs.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
+#include "libskel/core/temporary_file.h"
 
 namespace skel {
 
@@ -45,6 +50,12 @@ inline std::string mainInput(const CLI::App& app) {
   return with_name;
 }
 
+// Whether all that was printed has arrived; errno says why not.
+inline bool printed() {
+  std::cout.flush();
+  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+}
+
 // Parses argv into `app`, then calls run(), which returns the exit code. The one place where all that a tool
 // may throw becomes one line and an exit code; CLI11's own codes become 1 (wrong usage). SKEL_VERSION is the
 // project's, given to every tool (cmake/SkelBuild.cmake).
@@ -56,11 +67,19 @@ inline int runTool(CLI::App& app, int argc, char** argv, const std::function<Exi
     std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.what());
     return static_cast<int>(code);
   };
+  const auto finish = [&](int code) {
+    if (printed() || code != 0) return code;
+    return say(OutputError("standard output", std::string("cannot be written: ") + std::strerror(errno)),
+               ExitCode::kOutput);
+  };
   try {
     app.parse(argc, argv);
-    return static_cast<int>(run());
+    guardInputs();
+    removeTemporaryFilesOnSignals();
+    noteFiles(app);
+    return finish(static_cast<int>(run()));
   } catch (const CLI::Success& done) {
-    return app.exit(done);
+    return finish(app.exit(done));
   } catch (const CLI::Error& error) {
     return say(error, ExitCode::kUsage);
   } catch (...) {

@@ -1,11 +1,18 @@
 #include "libskel/core/files.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <atomic>
+#include <csignal>
 #include <fstream>
 #include <thread>
 #include <vector>
 
 #include "libskel/core/error.h"
+#include "libskel/core/temporary_file.h"
 #include "tests/support/catch.h"
 #include "tests/support/locked_folder.h"
 #include "tests/support/temp_dir.h"
@@ -109,4 +116,166 @@ TEST_CASE("a path as seen from another file's folder") {
   CHECK(pathSeenFrom("not/there/yet/a.json", "x.png") == "../../../x.png");
   CHECK(pathSeenFrom("a.json", "x.png") == "x.png");
   CHECK(pathSeenFrom("/tmp/a/b.json", "/tmp/a/c/x.png") == "c/x.png");
+}
+
+TEST_CASE("a device is written into and stays a device") {
+  struct stat before, after;
+  REQUIRE(stat("/dev/null", &before) == 0);
+  writeFile("/dev/null", "gone");
+  REQUIRE(stat("/dev/null", &after) == 0);
+  CHECK(S_ISCHR(after.st_mode));
+  CHECK(after.st_ino == before.st_ino);
+  CHECK_THROWS_WITH(writeFile("/dev/full", "x"), "/dev/full: cannot be written: No space left on device");
+}
+
+TEST_CASE("a FIFO is written into, and read twice gives the same bytes") {
+  const TempDir dir;
+  const std::string path = dir.file("pipe"), bytes(200'000, 'x');
+  REQUIRE(mkfifo(path.c_str(), 0600) == 0);
+  std::thread writer([&] { writeFile(path, bytes); });
+  CHECK(readFile(path) == bytes);
+  writer.join();
+  CHECK(readFile(path) == bytes);
+  CHECK(std::filesystem::is_fifo(path));
+}
+
+TEST_CASE("writing through links leaves the links and replaces what they lead to") {
+  namespace fs = std::filesystem;
+  const TempDir dir;
+  writeFile(dir.file("there/file"), "old");
+  fs::create_directories(dir.file("here"));
+  fs::create_symlink("../there/file", dir.file("here/link"));
+  fs::create_symlink("link", dir.file("here/second"));
+  fs::create_symlink("../there/new", dir.file("here/dangling"));
+  fs::create_symlink("loop", dir.file("here/loop"));
+  writeFile(dir.file("here/second"), "new");
+  CHECK(fs::is_symlink(dir.file("here/second")));
+  CHECK(fs::is_symlink(dir.file("here/link")));
+  CHECK(readFile(dir.file("there/file")) == "new");
+  writeFile(dir.file("here/dangling"), "made");
+  CHECK(fs::is_symlink(dir.file("here/dangling")));
+  CHECK(readFile(dir.file("there/new")) == "made");
+  CHECK_THROWS_AS(writeFile(dir.file("here/loop"), "x"), OutputError);
+  CHECK(filesBelow(dir.path()).size() == 6);  // no temporary file
+}
+
+TEST_CASE("a file that is replaced keeps its mode") {
+  const TempDir dir;
+  for (const mode_t mode : {0600u, 0640u, 0755u, 0666u}) {
+    const std::string path = dir.file(std::to_string(mode));
+    writeFile(path, "old");
+    REQUIRE(chmod(path.c_str(), mode) == 0);
+    writeFile(path, "new");
+    struct stat status;
+    REQUIRE(stat(path.c_str(), &status) == 0);
+    CHECK((status.st_mode & 07777) == mode);
+  }
+}
+
+TEST_CASE("a file that its owner has protected is not replaced") {
+  const TempDir dir;
+  writeFile(dir.file("a/kept"), "kept");
+  REQUIRE(chmod(dir.file("a/kept").c_str(), 0444) == 0);
+  REQUIRE(chmod(dir.file("a").c_str(), 0777) == 0);
+  writeFile(dir.file("locked/x"), "");
+  const LockedFolder somebody_else(dir, "locked");
+  CHECK_THROWS_WITH(writeFile(dir.file("a/kept"), "lost"),
+                    dir.file("a/kept") + ": cannot be written: Permission denied");
+  CHECK(readFile(dir.file("a/kept")) == "kept");
+}
+
+// While it lives, signals do what they do in a tool: without Catch's handlers.
+struct UsualSignals {
+  UsualSignals() {
+    for (const int signal : kAll) before.push_back(std::signal(signal, SIG_DFL));
+  }
+  ~UsualSignals() {
+    for (std::size_t i = 0; i < before.size(); ++i) std::signal(kAll[i], before[i]);
+  }
+  static constexpr int kAll[] = {SIGHUP, SIGINT, SIGTERM};
+  std::vector<void (*)(int)> before;
+};
+
+TEST_CASE("SIGINT, SIGTERM and SIGHUP take temporary files with them and kill") {
+  const UsualSignals usual;
+  for (const int signal : UsualSignals::kAll)
+    for (int round = 0; round < 10; ++round) {
+      const TempDir dir;
+      const pid_t child = fork();
+      if (child == 0) {
+        removeTemporaryFilesOnSignals();
+        const std::string bytes(3'000'000, 'x');
+        std::vector<std::thread> writers;
+        for (int w = 0; w < 3; ++w)
+          writers.emplace_back([&, w] {
+            for (;;) writeFile(dir.file(std::to_string(w)), bytes);
+          });
+        for (std::thread& writer : writers) writer.join();
+      }
+      while (!std::filesystem::exists(dir.file("0"))) usleep(1000);
+      usleep(static_cast<useconds_t>(1000 * round));
+      REQUIRE(kill(child, signal) == 0);
+      int status = 0;
+      REQUIRE(waitpid(child, &status, 0) == child);
+      CHECK(WIFSIGNALED(status));
+      CHECK(WTERMSIG(status) == signal);
+      for (const std::string& file : filesBelow(dir.path())) {
+        CAPTURE(file);
+        CHECK_FALSE(file.ends_with(".skel-tmp"));
+        CHECK(std::filesystem::file_size(file) == 3'000'000);
+      }
+    }
+}
+
+TEST_CASE("a signal leaves the temporary file that another process is writing") {
+  const UsualSignals usual;
+  const TempDir dir;
+  const std::string path = dir.file("x");
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    removeTemporaryFilesOnSignals();
+    char go;
+    while (read(ends[0], &go, 1) != 1) {
+    }
+    writeFile(path, "theirs");  // waits
+    _exit(0);
+  }
+  TemporaryFile ours(path);
+  REQUIRE(ours.fd() >= 0);
+  REQUIRE(write(ends[1], "!", 1) == 1);
+  usleep(50'000);
+  REQUIRE(kill(child, SIGTERM) == 0);
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK(WIFSIGNALED(status));
+  CHECK(std::filesystem::exists(path + ".skel-tmp"));
+  CHECK(ours.becomeTarget());
+  CHECK(std::filesystem::exists(path));
+  close(ends[0]);
+  close(ends[1]);
+}
+
+TEST_CASE("a locked folder makes others wait") {
+  const TempDir dir;
+  const std::string path = dir.file("count");
+  writeFile(path, "0");
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&] {
+      for (int i = 0; i < 25; ++i) {
+        const FolderLock lock(dir.path());
+        writeFile(path, std::to_string(std::stoi(readFile(path)) + 1));
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(readFile(path) == "100");
+  CHECK_THROWS_AS(FolderLock(dir.file("nowhere")), OutputError);
+}
+
+TEST_CASE("a pipe as seen from another file keeps its own path") {
+  const TempDir dir;
+  REQUIRE(mkfifo(dir.file("pipe").c_str(), 0600) == 0);
+  CHECK(pathSeenFrom(dir.file("out/a.json"), dir.file("pipe")) == dir.file("pipe"));
 }

@@ -1,0 +1,43 @@
+#include "libskel/core/file_names.h"
+
+#include <filesystem>
+
+#include "libskel/core/error.h"
+
+namespace skel {
+namespace fs = std::filesystem;
+
+std::string safeFileName(std::string_view text) {
+  constexpr std::size_t kMostBytes = 120;  // of the 255 that a name may have: endings and numbers follow
+  std::string name(text.substr(0, kMostBytes));
+  // Not in the middle of a character of UTF-8.
+  if (text.size() > name.size())
+    while (!name.empty() && (static_cast<unsigned char>(text[name.size()]) & 0xC0) == 0x80) name.pop_back();
+  for (char& c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F || c == '/' || c == '\\' || c == ':') c = '_';
+  }
+  if (name.empty()) name = '_';
+  for (const char c : {'.', '-', ' '})
+    if (name.front() == c) name.front() = '_';
+  if (name.back() == ' ') name.back() = '_';
+  return name;
+}
+
+std::string pathInside(const std::string& dir, const std::string& named, const std::string& file) {
+  const fs::path folder = dir.empty() ? "." : dir, path = folder / named;
+  const auto refuse = [&] {
+    throw InputError(file,
+                     "names \"" + named + "\", which lies outside of its folder; move the files together");
+  };
+  std::error_code failure;
+  // The file itself may be a link: it is read, and what belongs to it is written beside the link.
+  const fs::path below = fs::weakly_canonical(path.parent_path(), failure)
+                             .lexically_relative(fs::weakly_canonical(folder, failure));
+  if (fs::path(named).is_absolute() || failure || below.empty() || *below.begin() == "..") refuse();
+  const fs::path last = path.filename();
+  if (last.empty() || last == "." || last == "..") refuse();
+  return path.string();
+}
+
+}  // namespace skel

@@ -1,0 +1,17 @@
+// Names out of files, on their way to become names of files.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace skel {
+
+// A name for a file made of any text, such as a clip's: of one folder, not hidden, on one line, at most 120
+// bytes. What is not allowed becomes '_'; a name that is fine stays as it is.
+std::string safeFileName(std::string_view text);
+
+// The file that `named` in a file of the folder `dir` means. Throws InputError(`file`) if it lies outside of
+// `dir`: an absolute path, or one that leads out by `..` or by a link to another folder.
+std::string pathInside(const std::string& dir, const std::string& named, const std::string& file);
+
+}  // namespace skel

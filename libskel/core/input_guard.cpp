@@ -1,0 +1,101 @@
+#include "libskel/core/input_guard.h"
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <set>
+#include <utility>
+
+#include "libskel/core/error.h"
+
+namespace skel {
+namespace {
+namespace fs = std::filesystem;
+
+using Identity = std::pair<dev_t, ino_t>;
+
+struct Lists {
+  std::mutex mutex;
+  bool on = false;
+  std::map<Identity, std::string> inputs, outputs;
+  std::set<Identity> own;
+  std::map<std::string, std::string> named;  // outputs by their canonical paths
+};
+
+// Never destroyed: threads may still write while the program ends.
+Lists& lists() {
+  static Lists& all = *new Lists;
+  return all;
+}
+
+thread_local int looks = 0;
+
+bool identify(const std::string& path, Identity& identity) {
+  struct stat status;
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return false;
+  identity = {status.st_dev, status.st_ino};
+  return true;
+}
+
+[[noreturn]] void refuse(const std::string& output, const std::string& input) {
+  throw UsageError(output + " would be written over, but it is an input" +
+                   (input == output ? "" : " (" + input + ")") + "; name another output");
+}
+
+}  // namespace
+
+void guardInputs() {
+  const std::lock_guard lock(lists().mutex);
+  lists().on = true;
+}
+
+void noteInput(const std::string& path) {
+  Lists& all = lists();
+  const std::lock_guard lock(all.mutex);
+  Identity file;
+  if (!all.on || looks > 0 || !identify(path, file) || all.own.contains(file)) return;
+  if (const auto output = all.outputs.find(file); output != all.outputs.end()) refuse(output->second, path);
+  all.inputs.emplace(file, path);
+}
+
+void noteOutput(const std::string& path) {
+  Lists& all = lists();
+  const std::lock_guard lock(all.mutex);
+  Identity file;
+  if (!all.on || !identify(path, file) || all.own.contains(file)) return;
+  if (const auto input = all.inputs.find(file); input != all.inputs.end()) refuse(path, input->second);
+  all.outputs.emplace(file, path);
+}
+
+void noteNamedOutput(const std::string& path) {
+  noteOutput(path);
+  std::error_code failure;
+  const fs::path canonical = fs::weakly_canonical(path, failure);
+  const fs::file_type type = fs::status(path, failure).type();
+  // Several things may go to one folder or one device.
+  if (type != fs::file_type::regular && type != fs::file_type::not_found) return;
+  Lists& all = lists();
+  const std::lock_guard lock(all.mutex);
+  if (!all.on) return;
+  if (const auto [other, is_new] = all.named.emplace(canonical.string(), path); !is_new)
+    throw UsageError(path + " is to be written twice" +
+                     (other->second == path ? "" : ", also as " + other->second) +
+                     "; name two different outputs");
+}
+
+void noteReplaced(const struct stat* before, const struct stat& after) {
+  Lists& all = lists();
+  const std::lock_guard lock(all.mutex);
+  if (!all.on) return;
+  // The system gives a number that has become free to the next new file.
+  if (before && before->st_nlink <= 1) {
+    const Identity gone{before->st_dev, before->st_ino};
+    all.inputs.erase(gone), all.outputs.erase(gone), all.own.erase(gone);
+  }
+  all.own.insert({after.st_dev, after.st_ino});
+}
+
+LookAtOutputs::LookAtOutputs() { ++looks; }
+LookAtOutputs::~LookAtOutputs() { --looks; }
+
+}  // namespace skel

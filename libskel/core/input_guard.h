@@ -1,0 +1,39 @@
+// What a program reads is not written over by it. readFile() and writeFile() keep the lists themselves, so
+// that no tool can forget a file that another one names (a skeleton's mask, the pictures of an OBJ, the
+// frames of a film); a tool that says early what it is going to write is refused before any work. Files are
+// told apart by device and inode: neither `./x`, a link nor another spelling of a folder hides one.
+#pragma once
+
+#include <sys/stat.h>
+
+#include <string>
+
+namespace skel {
+
+// From now on. Tools call it (libskel/cli/tool.h); a program that uses the library may.
+void guardInputs();
+
+// `path` is read. Does nothing where there is no such file, or where this program has written it. Throws
+// UsageError if noteOutput() has been told of it.
+void noteInput(const std::string& path);
+
+// `path` is going to be written. Throws UsageError if it is an input.
+void noteOutput(const std::string& path);
+
+// The same, and refuses two outputs that are one file, also one that is not there yet.
+void noteNamedOutput(const std::string& path);
+
+// For writeFile(): `before` has been replaced by `after`, which is this program's own.
+void noteReplaced(const struct stat* before, const struct stat& after);
+
+// While it lives, files that this thread reads are looked at because they are to be replaced (does this
+// motion hold joints that somebody has placed?): they do not become inputs.
+class LookAtOutputs {
+ public:
+  LookAtOutputs();
+  ~LookAtOutputs();
+  LookAtOutputs(const LookAtOutputs&) = delete;
+  LookAtOutputs& operator=(const LookAtOutputs&) = delete;
+};
+
+}  // namespace skel

@@ -1,0 +1,32 @@
+// A file under a name of its own until it is whole.
+#pragma once
+
+#include <string>
+
+namespace skel {
+
+// <target>.skel-tmp, open for writing and locked: one writer of `target` at a time, in all processes.
+class TemporaryFile {
+ public:
+  // Waits until no other writer is at it. What a killed one has left is thrown away. fd() < 0: it cannot be
+  // made, errno says why.
+  explicit TemporaryFile(std::string target);
+  // Gone, unless it has become the target.
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  int fd() const { return fd_; }
+  // Gives it the target's name. False: errno says why.
+  bool becomeTarget();
+
+ private:
+  std::string target_, path_;
+  int fd_ = -1, slot_ = -1;
+};
+
+// SIGHUP, SIGINT and SIGTERM, unless they are ignored, take the temporary files with them: the process dies
+// by the signal, as it would have.
+void removeTemporaryFilesOnSignals();
+
+}  // namespace skel

@@ -1,0 +1,106 @@
+// Run in a child process each: the guard stays on for good.
+#include "libskel/core/input_guard.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <functional>
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "tests/support/catch.h"
+#include "tests/support/temp_dir.h"
+
+using namespace skel;
+namespace fs = std::filesystem;
+
+namespace {
+
+// What `work` is refused with under the guard, "": nothing.
+std::string refusal(const std::function<void()>& work) {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    std::string message;
+    try {
+      guardInputs();
+      work();
+    } catch (const UsageError& error) {
+      message = error.what();
+    } catch (const std::exception& error) {
+      message = std::string("another error: ") + error.what();
+    }
+    (void)!write(ends[1], message.data(), message.size());
+    _exit(0);
+  }
+  close(ends[1]);
+  std::string message;
+  char block[4096];
+  for (ssize_t count; (count = read(ends[0], block, sizeof block)) > 0;)
+    message.append(block, static_cast<size_t>(count));
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
+  return message;
+}
+
+}  // namespace
+
+TEST_CASE("what was read is not written over, by whatever name") {
+  const TempDir dir;
+  const std::string in = dir.file("in"), link = dir.file("link"), twin = dir.file("twin");
+  writeFile(in, "precious");
+  fs::create_symlink("in", link);
+  fs::create_hard_link(in, twin);
+  for (const std::string& out : {in, dir.file("./in"), link, twin}) {
+    CAPTURE(out);
+    const std::string message = out + " would be written over, but it is an input" +
+                                (out == in ? "" : " (" + in + ")") + "; name another output";
+    CHECK(refusal([&] { readFile(in), writeFile(out, "lost"); }) == message);
+    CHECK(refusal([&] { readFile(in), noteOutput(out); }) == message);
+    CHECK(refusal([&] { noteOutput(out), readFile(in); }) == message);
+    CHECK(refusal([&] { noteNamedOutput(out), noteInput(in); }) == message);
+    CHECK(readFile(in) == "precious");
+  }
+}
+
+TEST_CASE("a document is edited in place, and what was looked at only is replaced") {
+  const TempDir dir;
+  const std::string path = dir.file("x");
+  writeFile(path, "1");
+  CHECK(refusal([&] {
+          readFile(path), replaceFile(path, "2");
+          readFile(path), writeFile(path, "3");  // its own by now
+        }).empty());
+  CHECK(readFile(path) == "3");
+  CHECK(refusal([&] {
+          {
+            const LookAtOutputs look;
+            readFile(path);
+          }
+          writeFile(path, "4");
+        }).empty());
+  CHECK(readFile(path) == "4");
+}
+
+TEST_CASE("what a program has written it reads and writes again, whatever number the file gets") {
+  const TempDir dir;
+  CHECK(refusal([&] {
+          for (int i = 0; i < 50; ++i) {
+            const std::string path = dir.file(std::to_string(i % 3));
+            noteOutput(path);
+            writeFile(path, std::to_string(i));
+            readFile(path);
+          }
+        }).empty());
+}
+
+TEST_CASE("two outputs that are one file are refused, folders and devices are not") {
+  const TempDir dir;
+  fs::create_directories(dir.file("a"));
+  CHECK(refusal([&] { noteNamedOutput(dir.file("x")), noteNamedOutput(dir.file("a/../x")); }) ==
+        dir.file("a/../x") + " is to be written twice, also as " + dir.file("x") +
+            "; name two different outputs");
+  CHECK(refusal([&] { noteNamedOutput(dir.file("a")), noteNamedOutput(dir.file("a")); }).empty());
+  CHECK(refusal([&] { noteNamedOutput("/dev/null"), noteNamedOutput("/dev/null"); }).empty());
+}
