@@ -18,16 +18,11 @@ namespace {
 FigureShape measureByRoles(const RiggedCharacter& character, const RoleFigure& figure) {
   TriangleMesh mesh = character.mesh;
   mesh.vertices = (mesh.vertices * figure.to_ours.toRotationMatrix().transpose().cast<float>()).eval();
-  // A drawing stands on y = 0; a model stands where it was made.
-  const float ground = mesh.vertices.rows() > 0 ? mesh.vertices.col(1).minCoeff() : 0;
   SkinWeights weights = character.weights;
   for (Eigen::Index v = 0; v < weights.joints.rows(); ++v)
     for (Eigen::Index k = 0; k < weights.joints.cols(); ++k)
       weights.joints(v, k) = static_cast<std::uint16_t>(figure.carriers[std::size_t(weights.joints(v, k))]);
-  FigureShape shape = measureFigure(mesh, weights, figure.skeleton);
-  for (std::size_t j = 0; j < shape.sole_y_m.size(); ++j)
-    if (shape.sole_y_m[j] != 0) shape.sole_y_m[j] -= double(ground);
-  return shape;
+  return measureFigure(mesh, weights, figure.skeleton);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ struct FootPlanting {
   // then.
   std::vector<double> standing_y_m;
   std::vector<Eigen::Quaterniond> standing_turn;
+  double pelvis_m = 0;  // how high the root was drawn above the lowest sole
   // The way in which knees bend that are drawn straight.
   Eigen::Vector3d forwards = Eigen::Vector3d::UnitZ();
   double ramp_s = 0.12;  // a foot comes down to its place and leaves it in so much time

@@ -182,20 +182,43 @@ FootPlanting footPlanting(const Retargeter& retargeter, const Clip& clip, const 
   planting.standing_turn.assign(count, Quaterniond::Identity());
   planting.forwards = retargeter.figure_from_clip *
                       (clip.template_name == "quadruped" ? Vector3d(-1, 0, 0) : Vector3d(0, 0, 1));
-  double lowest = 1e9;
-  for (const FootContact& contact : clip.contacts)
-    lowest = std::min(lowest, skeleton.joints[skeleton.index(contact.joint)].position.y());
+  const auto drawnAt = [&](int joint) { return skeleton.joints[joint].position.y(); };
+  double ground = 1e9;
+  for (const FootContact& contact : clip.contacts) {
+    const int foot = skeleton.index(contact.joint);
+    ground = std::min(ground, drawnAt(foot) + soleBelow(shape, foot, Quaterniond::Identity()));
+  }
   for (const FootContact& contact : clip.contacts) {
     const int foot = skeleton.index(contact.joint), knee = skeleton.joints[foot].parent;
-    const double y = skeleton.joints[foot].position.y();
     // One that was drawn in the air comes down, if the clip has a say in how the leg is held.
-    const double air = shape.sole_y_m.empty() ? y - lowest : shape.sole_y_m[foot];
-    const int turned = retargeter.pointed[foot] ? foot : knee;
-    planting.standing_y_m[foot] = retargeter.pointed[turned] && air > 0.06 * shape.height_m ? y - air : y;
-    if (retargeter.pointed[turned])
+    double sole_y = drawnAt(foot) + soleBelow(shape, foot, Quaterniond::Identity());
+    if (const int turned = retargeter.pointed[foot] ? foot : knee; retargeter.pointed[turned]) {
       planting.standing_turn[foot] = retargeter.turns[turned].share(1).conjugate();
+      if (sole_y > ground + 0.06 * shape.height_m) sole_y = ground;
+    }
+    planting.standing_y_m[foot] = sole_y - soleBelow(shape, foot, planting.standing_turn[foot]);
   }
+  planting.pelvis_m = drawnAt(0) - ground;
   return planting;
+}
+
+// How much higher than drawn the root stands when the legs are as the clips' figure holds them: as high as
+// the leg of least reach lets it. A leg that was drawn much shorter than the other does not pull it down: it
+// hangs.
+double standing(const Skeleton& skeleton, const std::vector<Vector3d>& still,
+                const std::vector<FootContact>& contacts, FootPlanting& planting) {
+  constexpr double kLeast = 0.02;  // of the pelvis' height
+  double stand = 1e9;
+  for (const FootContact& contact : contacts) {
+    const int foot = skeleton.index(contact.joint);
+    stand = std::min(stand, planting.standing_y_m[foot] - still[foot].y());
+  }
+  stand = std::max(stand, -kLeast * std::max(0.0, planting.pelvis_m));
+  for (const FootContact& contact : contacts) {
+    const int foot = skeleton.index(contact.joint);
+    planting.standing_y_m[foot] = std::max(planting.standing_y_m[foot], still[foot].y() + stand);
+  }
+  return stand;
 }
 
 // How long the legs are, in those of the figure that the clips were made for.
@@ -362,6 +385,13 @@ std::vector<BoneTurn> turnsFromCanonical(const Skeleton& skeleton, const std::ve
   return turns;
 }
 
+double soleBelow(const FigureShape& shape, int foot, const Quaterniond& turn) {
+  double lowest = 0;
+  if (!shape.feet_m.empty())
+    for (const Vector3d& point : shape.feet_m[foot]) lowest = std::min(lowest, (turn * point).y());
+  return lowest;
+}
+
 FigureShape shapeOfBones(const Skeleton& skeleton) {
   FigureShape shape;
   const int head = skeleton.find("head");
@@ -418,15 +448,9 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
   if (!clip.contacts.empty()) {
     planting = footPlanting(retargeter, clip, shape);
     stride = steps * legShare(skeleton, clip.contacts, shape.height_m);
-    // The root is as high as the shortest leg lets it.
     Pose still;
     still.rotations.assign(count, Eigen::Quaternionf::Identity());
-    const std::vector<Vector3d> at = positions(skeleton, retargeter.globals(still, 1));
-    stand = 1e9;
-    for (const FootContact& contact : clip.contacts) {
-      const int foot = skeleton.index(contact.joint);
-      stand = std::min(stand, planting.standing_y_m[foot] - at[foot].y());
-    }
+    stand = standing(skeleton, positions(skeleton, retargeter.globals(still, 1)), clip.contacts, planting);
   }
   for (int k = 0; k < keys; ++k) {
     const auto& [pose, share] = moments[k];

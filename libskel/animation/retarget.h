@@ -19,14 +19,17 @@ struct FigureShape {
   std::vector<double> hang_rad;
   // Half of the head's width, as far as most of it goes, m; 0: by the bones.
   double head_half_width_m = 0;
-  // One a joint, or empty. Of a foot: the height of its lowest point, m. 0 for the others.
-  std::vector<double> sole_y_m;
+  // One a joint, or empty. Of a foot: points around what it carries, from the joint, m; a skirt's hem, a cape
+  // or a shadow far from it is no foot's. Nothing for the others, and for feet that carry nothing.
+  std::vector<std::vector<Eigen::Vector3d>> feet_m;
   // One a joint, or empty; 0…1. Of arms: the share of the forearm that hangs on the body. Of legs: how far
   // down they are one piece, 0 for trousers, 1 for a gown. 0 for the others.
   std::vector<double> joined;
 };
 // As much as the bones alone tell.
 FigureShape shapeOfBones(const Skeleton& skeleton);
+// The y of the foot's lowest point from its joint, m, when the foot is turned so: 0 or less.
+double soleBelow(const FigureShape& shape, int foot, const Eigen::Quaterniond& turn);
 
 struct RetargetOptions {
   float rate_hz = 30;         // most keys a second of the result; fewer where that shows nowhere

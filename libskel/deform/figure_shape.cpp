@@ -1,6 +1,7 @@
 #include "libskel/deform/figure_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -105,13 +106,37 @@ double headHalfWidth(const Flesh& flesh) {
   return *most;
 }
 
-void measureSoles(const Flesh& flesh, FigureShape& shape) {
+// The length of the leg that ends there.
+double legLength(const Flesh& flesh, int foot) {
+  double length = 0;
+  for (int joint = foot, bones = 0; bones < 2 && flesh.skeleton.joints[joint].parent >= 0; ++bones) {
+    const int above = flesh.skeleton.joints[joint].parent;
+    length += (flesh.joint(joint) - flesh.joint(above)).norm();
+    joint = above;
+  }
+  return length;
+}
+
+// Of what each foot carries, the outermost points in so many directions of the picture.
+void measureFeet(const Flesh& flesh, FigureShape& shape) {
+  constexpr int kDirections = 16;
+  constexpr double kReach = 0.6;  // of the leg's length; what is farther from the joint is not the foot
   for (std::size_t j = 0; j < flesh.skeleton.joints.size(); ++j) {
     if (!flesh.skeleton.joints[j].name.ends_with("foot")) continue;
-    double lowest = flesh.joint(int(j)).y();
-    for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v)
-      if (flesh.share(v, {int(j)}) > 0.5) lowest = std::min(lowest, double(flesh.mesh.vertices(v, 1)));
-    shape.sole_y_m[j] = lowest;
+    const double reach = kReach * legLength(flesh, int(j));
+    std::array<double, kDirections> farthest;
+    farthest.fill(-1e9);
+    std::vector<Vector3d> points(kDirections);
+    for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v) {
+      const Vector3d point = flesh.at(v) - flesh.joint(int(j));
+      if (point.head<2>().norm() > reach || flesh.share(v, {int(j)}) <= 0.5) continue;
+      for (int k = 0; k < kDirections; ++k) {
+        const double angle = 2 * std::numbers::pi * k / kDirections;
+        const double far = point.x() * std::cos(angle) + point.y() * std::sin(angle);
+        if (far > farthest[k]) farthest[k] = far, points[k] = point;
+      }
+    }
+    if (farthest[0] > -1e9) shape.feet_m[j] = std::move(points);
   }
 }
 
@@ -135,24 +160,38 @@ constexpr LegPair kBipedLegs = {"hip", "knee", "foot", "pelvis"};
 constexpr LegPair kFrontLegs = {"shoulder", "elbow", "front_foot", "neck"};
 constexpr LegPair kHindLegs = {"hip", "knee", "hind_foot", "pelvis"};
 
-// How far down two legs are one piece: there, what lies between them goes with the trunk.
+// How far down the leg the place is that is nearest to `p`: 0 at its top, 1 at its end.
+double placeOnLeg(const std::array<Vector2d, 3>& leg, const Vector2d& p) {
+  const double upper = (leg[1] - leg[0]).norm(), lower = (leg[2] - leg[1]).norm();
+  const Vector2d on_upper = nearestOnSegment(p, leg[0], leg[1]),
+                 on_lower = nearestOnSegment(p, leg[1], leg[2]);
+  const double way = (on_upper - p).norm() < (on_lower - p).norm() ? (on_upper - leg[0]).norm()
+                                                                   : upper + (on_lower - leg[1]).norm();
+  return way / std::max(1e-9, upper + lower);
+}
+
+// How far down two legs are one piece: there, what lies between them goes with the trunk. However they are
+// held: a raised leg reaches no less far down than the other.
 void measureLegs(const Flesh& flesh, const LegPair& pair, FigureShape& shape) {
   const Skeleton& skeleton = flesh.skeleton;
   std::vector<int> joints;
-  double top = 0, bottom = 0;
-  for (const std::string side : {"left_", "right_"}) {
-    for (const char* joint : {pair.top, pair.middle, pair.end}) joints.push_back(skeleton.find(side + joint));
-    if (joints.back() < 0 || joints[joints.size() - 3] < 0) return;
-    top += flesh.joint(joints[joints.size() - 3]).y() / 2;
-    bottom += flesh.joint(joints.back()).y() / 2;
-  }
+  std::array<std::array<Vector2d, 3>, 2> legs;
+  for (int side = 0; side < 2; ++side)
+    for (int k = 0; k < 3; ++k) {
+      joints.push_back(skeleton.find((side == 0 ? "left_" : "right_") +
+                                     std::string(std::array{pair.top, pair.middle, pair.end}[k])));
+      if (joints.back() < 0) return;
+      legs[side][k] = flesh.joint(joints.back()).head<2>();
+    }
   const int trunk = skeleton.find(pair.trunk);
-  if (trunk < 0 || !(top > bottom)) return;
-  double lowest = top;
+  if (trunk < 0) return;
+  double joined = 0;
   for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v)
-    if (flesh.share(v, {trunk}) > 0.6) lowest = std::min(lowest, double(flesh.mesh.vertices(v, 1)));
-  for (const int joint : joints)
-    if (joint >= 0) shape.joined[joint] = std::min(1.0, (top - lowest) / (top - bottom));
+    if (flesh.share(v, {trunk}) > 0.6) {
+      const Vector2d p = flesh.at(v).head<2>();
+      joined = std::max(joined, std::min(placeOnLeg(legs[0], p), placeOnLeg(legs[1], p)));
+    }
+  for (const int joint : joints) shape.joined[joint] = joined;
 }
 
 // How far to the right of the picture the middle joint of a limb lies from the straight line between the
@@ -195,12 +234,12 @@ FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, 
   SKEL_CHECK_EQ(vertices.rows(), weights.joints.rows());
   FigureShape shape = shapeOfBones(skeleton);
   shape.hang_rad.assign(skeleton.joints.size(), 0);
-  shape.sole_y_m.assign(skeleton.joints.size(), 0);
+  shape.feet_m.resize(skeleton.joints.size());
   shape.joined.assign(skeleton.joints.size(), 0);
   if (vertices.rows() == 0) return shape;
   shape.height_m = double(vertices.col(1).maxCoeff() - vertices.col(1).minCoeff());
   const Flesh flesh{mesh, weights, skeleton};
-  measureSoles(flesh, shape);
+  measureFeet(flesh, shape);
   if (skeleton.find("left_front_foot") < 0) {
     measureArms(flesh, shape);
     shape.head_half_width_m = headHalfWidth(flesh);
