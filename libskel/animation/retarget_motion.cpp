@@ -1,6 +1,8 @@
 #include "libskel/animation/retarget_motion.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -13,57 +15,9 @@ namespace skel {
 namespace {
 
 using Eigen::Matrix3d;
+using Eigen::Matrix4d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-// Which joint of theirs moves each of ours, -1: none; and whether all names are ours.
-struct Mapping {
-  std::vector<int> theirs;
-  bool same_names = false, by_shape = false;
-};
-
-Mapping mapJoints(const BvhMotion& motion, const std::string& file, const Skeleton& target) {
-  Mapping mapping;
-  for (const Joint& joint : target.joints) mapping.theirs.push_back(motion.skeleton.find(joint.name));
-  mapping.same_names = std::count(mapping.theirs.begin(), mapping.theirs.end(), -1) == 0;
-  if (mapping.same_names) return mapping;
-  const JointRoles ours = findJointRoles(target), theirs = findJointRoles(motion.skeleton, motion.tips);
-  if (ours.joint("left_hip") < 0)
-    throw UsageError(
-        "the character has no arms and legs that could be told by their names or their shape; "
-        "only a motion with the names of its joints fits it");
-  if (theirs.joint("left_hip") < 0)
-    throw InputError(file,
-                     "has no joints that could be told to be arms and legs, by name or by the shape of "
-                     "the tree");
-  std::fill(mapping.theirs.begin(), mapping.theirs.end(), -1);
-  for (std::size_t role = 0; role < kJointRoles.size(); ++role)
-    if (ours.joints[role] >= 0 && theirs.joints[role] >= 0)
-      mapping.theirs[std::size_t(ours.joints[role])] = theirs.joints[role];
-  mapping.by_shape = theirs.by_shape;
-  return mapping;
-}
-
-struct Limb {
-  int upper, middle, end;  // in one skeleton
-};
-
-std::vector<Limb> legsOf(const JointRoles& roles) {
-  std::vector<Limb> legs;
-  for (const std::string side : {"left_", "right_"})
-    if (const Limb leg = {roles.joint(side + "hip"), roles.joint(side + "knee"), roles.joint(side + "foot")};
-        leg.upper >= 0 && leg.middle >= 0 && leg.end >= 0)
-      legs.push_back(leg);
-  return legs;
-}
-
-double legLength(const Skeleton& skeleton, const std::vector<Limb>& legs) {
-  const auto at = [&](int joint) -> const Vector3d& { return skeleton.joints[std::size_t(joint)].position; };
-  double sum = 0;
-  for (const Limb& leg : legs)
-    sum += (at(leg.middle) - at(leg.upper)).norm() + (at(leg.end) - at(leg.middle)).norm();
-  return legs.empty() ? 0 : sum / double(legs.size());
-}
 
 // The whole source at one moment.
 struct SourcePose {
@@ -94,6 +48,27 @@ SourcePose sourcePose(const BvhMotion& motion, const std::vector<const JointTrac
   return pose;
 }
 
+// A file's motion with nothing of its rest pose: how the figure stands at each moment.
+struct Source {
+  const BvhMotion& motion;
+  std::vector<float> times_s;
+  std::vector<SourcePose> poses;
+  JointRoles roles;                             // as the first moment tells them
+  Vector3d up = Vector3d::UnitY();              // the axis along which it stands on the whole
+  Quaterniond first = Quaterniond::Identity();  // how it stands at the first moment
+
+  Vector3d at(const SourcePose& pose, std::string_view role) const {
+    return pose.positions[std::size_t(roles.joint(role))];
+  }
+  bool has(std::string_view role) const { return roles.joint(role) >= 0; }
+  Vector3d shoulders(const SourcePose& pose) const {
+    return (at(pose, "left_shoulder") + at(pose, "right_shoulder")) / 2;
+  }
+  Vector3d hips(const SourcePose& pose) const { return (at(pose, "left_hip") + at(pose, "right_hip")) / 2; }
+  // From the hips to the shoulders: necks differ in where they begin.
+  Vector3d trunk(const SourcePose& pose) const { return shoulders(pose) - hips(pose); }
+};
+
 // The axis of the coordinates that is nearest, if it is near.
 Vector3d nearestAxis(const Vector3d& direction) {
   int axis = 0;
@@ -103,7 +78,8 @@ Vector3d nearestAxis(const Vector3d& direction) {
 }
 
 // Columns: to the left, up, forwards, for one who stands along `up` and has that left.
-Quaterniond standingFrame(const Vector3d& up, Vector3d left) {
+Quaterniond standingFrame(Vector3d up, Vector3d left) {
+  up.normalize();
   left -= left.dot(up) * up;
   if (!(left.norm() > 1e-9)) left = up.unitOrthogonal();
   left.normalize();
@@ -112,13 +88,100 @@ Quaterniond standingFrame(const Vector3d& up, Vector3d left) {
   return Quaterniond(frame);
 }
 
-Vector3d leftOf(const JointRoles& roles, const std::vector<Vector3d>& at) {
-  Vector3d left = Vector3d::Zero();
-  for (const std::string joint : {"hip", "shoulder"}) {
-    const int l = roles.joint("left_" + joint), r = roles.joint("right_" + joint);
-    if (l >= 0 && r >= 0) left += (at[std::size_t(l)] - at[std::size_t(r)]).normalized();
+Source readSource(const BvhMotion& motion, const std::string& file) {
+  Source source{motion, {}, {}, {}};
+  std::vector<const JointTrack*> tracks(motion.skeleton.joints.size(), nullptr);
+  for (const JointTrack& track : motion.clip.tracks) {
+    tracks[std::size_t(motion.skeleton.index(track.joint))] = &track;
+    source.times_s = track.times_s.empty() ? track.translation_times_s : track.times_s;
   }
-  return left;
+  for (std::size_t f = 0; f < source.times_s.size(); ++f)
+    source.poses.push_back(sourcePose(motion, tracks, f));
+  if (source.poses.empty()) throw InputError(file, "has no motion");
+
+  const SourcePose& start = source.poses[0];
+  Skeleton as_it_begins = motion.skeleton;
+  std::vector<Vector3d> tips = motion.tips;
+  for (std::size_t j = 0; j < tips.size(); ++j) {
+    as_it_begins.joints[j].position = start.positions[j];
+    tips[j] = start.globals[j] * tips[j];
+  }
+  source.roles = findJointRoles(as_it_begins, tips);
+  if (!source.has("left_hip")) return source;
+  Vector3d standing = Vector3d::Zero();
+  for (const SourcePose& pose : source.poses)
+    standing += source.shoulders(pose) - (source.at(pose, "left_foot") + source.at(pose, "right_foot")) / 2;
+  source.up = nearestAxis(standing);
+  source.first = standingFrame(
+      source.up, (source.at(start, "left_hip") - source.at(start, "right_hip")).normalized() +
+                     (source.at(start, "left_shoulder") - source.at(start, "right_shoulder")).normalized());
+  return source;
+}
+
+// Which joint of theirs moves each of ours, -1: none; and whether all names are ours.
+struct Mapping {
+  std::vector<int> theirs;
+  bool same_names = false;
+};
+
+Mapping mapJoints(const Source& source, const std::string& file, const Skeleton& target) {
+  Mapping mapping;
+  for (const Joint& joint : target.joints) mapping.theirs.push_back(source.motion.skeleton.find(joint.name));
+  mapping.same_names = std::count(mapping.theirs.begin(), mapping.theirs.end(), -1) == 0;
+  if (mapping.same_names) return mapping;
+  const JointRoles ours = findJointRoles(target);
+  if (ours.joint("left_hip") < 0)
+    throw UsageError(
+        "the character has no arms and legs that could be told by their names or their shape; "
+        "only a motion with the names of its joints fits it");
+  if (!source.has("left_hip"))
+    throw InputError(file,
+                     "has no joints that could be told to be arms and legs, by name or by the shape of "
+                     "the tree");
+  std::fill(mapping.theirs.begin(), mapping.theirs.end(), -1);
+  for (std::size_t role = 0; role < kJointRoles.size(); ++role)
+    if (ours.joints[role] >= 0 && source.roles.joints[role] >= 0)
+      mapping.theirs[std::size_t(ours.joints[role])] = source.roles.joints[role];
+  return mapping;
+}
+
+JointMatch matchOf(const Mapping& mapping, const Source& source, const Skeleton& target) {
+  JointMatch match;
+  match.by_shape = !mapping.same_names && source.roles.by_shape;
+  const std::vector<Joint>& joints = source.motion.skeleton.joints;
+  std::set<int> used;
+  for (std::size_t j = 0; j < target.joints.size(); ++j) {
+    if (mapping.theirs[j] < 0) {
+      match.ours_left.push_back(target.joints[j].name);
+      continue;
+    }
+    used.insert(mapping.theirs[j]);
+    match.joints.emplace_back(target.joints[j].name, joints[std::size_t(mapping.theirs[j])].name);
+  }
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (!used.count(int(j))) match.theirs_left.push_back(joints[j].name);
+  return match;
+}
+
+struct Limb {
+  int upper, middle, end;  // in one skeleton
+};
+
+std::vector<Limb> legsOf(const JointRoles& roles) {
+  std::vector<Limb> legs;
+  for (const std::string side : {"left_", "right_"})
+    if (const Limb leg = {roles.joint(side + "hip"), roles.joint(side + "knee"), roles.joint(side + "foot")};
+        leg.upper >= 0 && leg.middle >= 0 && leg.end >= 0)
+      legs.push_back(leg);
+  return legs;
+}
+
+double legLength(const std::vector<Vector3d>& at, const std::vector<Limb>& legs) {
+  double sum = 0;
+  for (const Limb& leg : legs)
+    sum += (at[std::size_t(leg.middle)] - at[std::size_t(leg.upper)]).norm() +
+           (at[std::size_t(leg.end)] - at[std::size_t(leg.middle)]).norm();
+  return legs.empty() ? 0 : sum / double(legs.size());
 }
 
 std::vector<Vector3d> restPositions(const Skeleton& skeleton) {
@@ -127,122 +190,252 @@ std::vector<Vector3d> restPositions(const Skeleton& skeleton) {
   return at;
 }
 
-// Where their bone points in their rest pose: to the next joint that moves one of ours, as our bone does;
-// else to its first child or to its tip. Zero: nowhere.
-Vector3d theirBone(const BvhMotion& motion, const Mapping& mapping, const Skeleton& target, int ours) {
-  const int theirs = mapping.theirs[std::size_t(ours)];
+// The rotation that all of them are nearest to: the largest eigenvector of their outer products, which does
+// not ask for their signs (F. Markley et al., "Averaging quaternions", 2007).
+Quaterniond mean(const std::vector<Quaterniond>& rotations) {
+  Matrix4d sum = Matrix4d::Zero();
+  for (const Quaterniond& q : rotations) sum += q.coeffs() * q.coeffs().transpose();
+  const Eigen::SelfAdjointEigenSolver<Matrix4d> solver(sum);
+  return Quaterniond(Eigen::Vector4d(solver.eigenvectors().col(3)));
+}
+
+// Without what turns about `axis`.
+Quaterniond withoutTwist(const Quaterniond& q, const Vector3d& axis) {
+  Quaterniond twist(q.w(), 0, 0, 0);
+  twist.vec() = q.vec().dot(axis) * axis;
+  if (!(twist.norm() > 1e-6)) return q;
+  return q * twist.normalized().conjugate();
+}
+
+const Vector3d kDown = -Vector3d::UnitY();
+
+// Turns of the canonical figure (upright, arms and legs straight down, towards +z) to the model frame, one a
+// role and moment: its bones point where theirs do. About its own axis a bone of a limb turns no more than it
+// must, for a drawn limb shows nothing of that.
+using RoleTurns = std::array<std::vector<Quaterniond>, kJointRoles.size()>;
+
+std::size_t roleIndex(std::string_view role) {
+  return std::size_t(std::find(kJointRoles.begin(), kJointRoles.end(), role) - kJointRoles.begin());
+}
+
+// What ends a limb, or the trunk, and where it looks, its joint's place does not tell: on the whole it is
+// held as what carries it.
+std::vector<Quaterniond> turnsOfEnd(const Source& source, std::string_view role,
+                                    const std::vector<Quaterniond>& carriers, bool twists) {
+  if (!source.has(role)) return carriers;
+  std::vector<Quaterniond> locals;
+  for (std::size_t f = 0; f < carriers.size(); ++f)
+    locals.push_back(carriers[f].conjugate() * source.first.conjugate() *
+                     source.poses[f].globals[std::size_t(source.roles.joint(role))]);
+  const Quaterniond rest = mean(locals).conjugate();
+  std::vector<Quaterniond> turns;
+  for (std::size_t f = 0; f < carriers.size(); ++f) {
+    const Quaterniond local = locals[f] * rest;
+    turns.push_back(carriers[f] * (twists ? local : withoutTwist(local, kDown)));
+  }
+  return turns;
+}
+
+RoleTurns roleTurns(const Source& source) {
+  RoleTurns turns;
+  const auto of = [&](std::string_view role) -> std::vector<Quaterniond>& { return turns[roleIndex(role)]; };
+  const Quaterniond to_ours = source.first.conjugate();
+  for (const SourcePose& pose : source.poses) {
+    const Vector3d trunk = source.trunk(pose);
+    of("pelvis").push_back(to_ours *
+                           standingFrame(trunk, source.at(pose, "left_hip") - source.at(pose, "right_hip")));
+    of("body").push_back(
+        to_ours * standingFrame(trunk, source.at(pose, "left_shoulder") - source.at(pose, "right_shoulder")));
+  }
+  of("neck") = of("body");
+  of("head") = turnsOfEnd(source, "head", of("body"), true);
+  struct LimbRoles {
+    std::string_view trunk, upper, middle, end;
+    Vector3d eased;  // an upper bone hardly ever points against it
+  };
+  for (const std::string side : {"left_", "right_"}) {
+    const double out = side == "left_" ? 1 : -1;
+    const std::string arm[3] = {side + "shoulder", side + "elbow", side + "hand"},
+                      leg[3] = {side + "hip", side + "knee", side + "foot"};
+    for (const LimbRoles& limb :
+         {LimbRoles{"body", arm[0], arm[1], arm[2], Vector3d(out, -1, 0).normalized()},
+          LimbRoles{"pelvis", leg[0], leg[1], leg[2], kDown}}) {
+      const Quaterniond ease = Quaterniond::FromTwoVectors(kDown, limb.eased);
+      const bool ends = source.has(limb.end);
+      for (std::size_t f = 0; f < source.poses.size(); ++f) {
+        const SourcePose& pose = source.poses[f];
+        const Quaterniond trunk = of(limb.trunk)[f];
+        const Vector3d upper =
+            (to_ours * (source.at(pose, limb.middle) - source.at(pose, limb.upper))).normalized();
+        const std::size_t middle = std::size_t(source.roles.joint(limb.middle));
+        const Vector3d along = ends ? Vector3d(source.at(pose, limb.end) - pose.positions[middle])
+                                    : Vector3d(pose.globals[middle] * source.motion.tips[middle]);
+        Quaterniond turn = trunk * Quaterniond::FromTwoVectors(limb.eased, trunk.conjugate() * upper) * ease;
+        of(limb.upper).push_back(turn);
+        if (along.norm() > 1e-9) turn = Quaterniond::FromTwoVectors(upper, to_ours * along) * turn;
+        of(limb.middle).push_back(turn);
+      }
+      of(limb.end) = turnsOfEnd(source, limb.end, of(limb.middle), false);
+    }
+  }
+  return turns;
+}
+
+// Where their bone points in their rest pose, which is our drawn one: to the next joint that moves one of
+// ours, as our bone does; of a hand or a foot, as the bone before. Zero: nowhere.
+Vector3d restBoneOf(const BvhMotion& motion, const Mapping& mapping, const Skeleton& target, int ours) {
   const std::vector<Joint>& joints = motion.skeleton.joints;
-  const Vector3d& from = joints[std::size_t(theirs)].position;
+  const Vector3d& from = joints[std::size_t(mapping.theirs[std::size_t(ours)])].position;
   for (std::size_t j = 0; j < target.joints.size(); ++j)
-    if (target.joints[j].parent == ours && mapping.theirs[j] >= 0)
-      return joints[std::size_t(mapping.theirs[j])].position - from;
-  // Beyond hands and feet: a foot's own direction says nothing about how ours was drawn, the limb's does.
+    if (target.joints[j].parent == ours) return joints[std::size_t(mapping.theirs[j])].position - from;
   const int parent = target.joints[std::size_t(ours)].parent;
-  if (parent >= 0 && mapping.theirs[std::size_t(parent)] >= 0)
-    return from - joints[std::size_t(mapping.theirs[std::size_t(parent)])].position;
-  return Vector3d::Zero();
+  return parent < 0 ? Vector3d::Zero()
+                    : Vector3d(from - joints[std::size_t(mapping.theirs[std::size_t(parent)])].position);
 }
 
 bool isLimb(const std::string& name) { return name.starts_with("left_") || name.starts_with("right_"); }
 
-// A hand or a foot.
-bool isLeaf(const Skeleton& skeleton, int joint) {
-  return std::none_of(skeleton.joints.begin(), skeleton.joints.end(),
-                      [&](const Joint& other) { return other.parent == joint; });
+// A motion for our own joints: its turns are ours.
+void takeTurns(const Source& source, const Mapping& mapping, const Skeleton& target, Clip& clip) {
+  clip.frame = ClipFrame::kPicture;
+  for (std::size_t j = 0; j < target.joints.size(); ++j) {
+    JointTrack track;
+    track.joint = target.joints[j].name;
+    track.times_s = source.times_s;
+    if (isLimb(track.joint)) {
+      const Vector3d bone = restBoneOf(source.motion, mapping, target, int(j));
+      if (bone.norm() > 1e-9) track.bone = bone.normalized().cast<float>();
+    }
+    const int parent = target.joints[j].parent;
+    for (const SourcePose& pose : source.poses) {
+      Quaterniond local = pose.globals[std::size_t(mapping.theirs[j])];
+      if (parent >= 0)
+        local = pose.globals[std::size_t(mapping.theirs[std::size_t(parent)])].conjugate() * local;
+      track.rotations.push_back(local.normalized().cast<float>());
+    }
+    clip.tracks.push_back(std::move(track));
+  }
 }
 
-double lowestOf(const std::vector<Limb>& legs, const std::vector<Vector3d>& at, const Vector3d& up) {
+// A motion for joints of other names, other lengths and another rest pose: where bones point is ours.
+void takeDirections(const Source& source, const Mapping& mapping, const Skeleton& target, Clip& clip) {
+  clip.frame = ClipFrame::kBody;
+  const RoleTurns turns = roleTurns(source);
+  const JointRoles ours = findJointRoles(target);
+  std::vector<int> role_of(target.joints.size(), -1);
+  for (std::size_t role = 0; role < kJointRoles.size(); ++role)
+    if (ours.joints[role] >= 0) role_of[std::size_t(ours.joints[role])] = int(role);
+  for (std::size_t j = 0; j < target.joints.size(); ++j) {
+    if (mapping.theirs[j] < 0) continue;
+    const std::size_t role = std::size_t(role_of[j]);
+    JointTrack track;
+    track.joint = target.joints[j].name;
+    track.times_s = source.times_s;
+    if (!kJointRoles[role].ends_with("hand") && !kJointRoles[role].ends_with("foot") &&
+        isLimb(std::string(kJointRoles[role])))
+      track.bone = kDown.cast<float>();
+    // The nearest above that is moved too.
+    int above = target.joints[j].parent;
+    while (above >= 0 && mapping.theirs[std::size_t(above)] < 0)
+      above = target.joints[std::size_t(above)].parent;
+    for (std::size_t f = 0; f < source.poses.size(); ++f) {
+      Quaterniond local = turns[role][f];
+      if (above >= 0) local = turns[std::size_t(role_of[std::size_t(above)])][f].conjugate() * local;
+      track.rotations.push_back(local.normalized().cast<float>());
+    }
+    clip.tracks.push_back(std::move(track));
+  }
+}
+
+// How high their lowest foot is above the ground, toes included, one a moment. The ground is where it is
+// lowest, but for a few moments: recorded feet sink into it now and then.
+std::vector<double> heightsAboveGround(const Source& source, const std::vector<Limb>& legs) {
+  const std::vector<Joint>& joints = source.motion.skeleton.joints;
+  std::vector<char> foot(joints.size(), 0);
+  for (const Limb& leg : legs) foot[std::size_t(leg.end)] = 1;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints[j].parent >= 0 && foot[std::size_t(joints[j].parent)]) foot[j] = 1;
+  std::vector<double> heights;
+  for (const SourcePose& pose : source.poses) {
+    double lowest = 1e300;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      if (foot[j])
+        lowest = std::min({lowest, pose.positions[j].dot(source.up),
+                           (pose.positions[j] + pose.globals[j] * source.motion.tips[j]).dot(source.up)});
+    heights.push_back(lowest);
+  }
+  std::vector<double> sorted = heights;
+  const auto few = sorted.begin() + std::ptrdiff_t(sorted.size() / 20);
+  std::nth_element(sorted.begin(), few, sorted.end());
+  const double ground = *few;
+  for (double& height : heights) height = std::max(0.0, height - ground);
+  return heights;
+}
+
+double lowestSole(const std::vector<Limb>& legs, const FigureShape& shape, const std::vector<Vector3d>& at,
+                  const std::vector<Quaterniond>& turns) {
   double lowest = 1e300;
-  for (const Limb& leg : legs) lowest = std::min(lowest, at[std::size_t(leg.end)].dot(up));
+  for (const Limb& leg : legs)
+    lowest = std::min(lowest,
+                      at[std::size_t(leg.end)].y() + soleBelow(shape, leg.end, turns[std::size_t(leg.end)]));
   return lowest;
+}
+
+// Our lowest foot is as far from the ground as theirs.
+void standOnGround(const Source& source, const Skeleton& target, const FigureShape& shape, double scale,
+                   Clip& clip) {
+  const std::vector<Limb> legs = legsOf(source.roles), our_legs = legsOf(findJointRoles(target));
+  if (legs.empty() || our_legs.empty()) return;
+  const std::vector<double> heights = heightsAboveGround(source, legs);
+  const std::vector<float>& times = source.times_s;
+  const double ground = lowestSole(our_legs, shape, restPositions(target),
+                                   std::vector<Quaterniond>(target.joints.size(), Quaterniond::Identity()));
+  for (std::size_t k = 0; k < clip.root_times_s.size(); ++k) {
+    const float time_s = clip.root_times_s[k];
+    const std::size_t after =
+        std::size_t(std::lower_bound(times.begin(), times.end(), time_s) - times.begin());
+    const std::size_t next = std::min(after, times.size() - 1), before = next > 0 ? next - 1 : 0;
+    const double step = double(times[next]) - double(times[before]);
+    const double t = step > 0 ? std::clamp((double(time_s) - double(times[before])) / step, 0.0, 1.0) : 0;
+    const double air = scale * ((1 - t) * heights[before] + t * heights[next]);
+    const Pose pose = samplePose(clip, target, time_s);
+    ModelPose ours;
+    for (std::size_t j = 0; j < target.joints.size(); ++j) {
+      const int parent = target.joints[j].parent;
+      const Quaterniond local = pose.rotations[j].cast<double>();
+      ours.globals.push_back(parent < 0 ? local : ours.globals[std::size_t(parent)] * local);
+    }
+    const double lowest = lowestSole(our_legs, shape, jointPositions(target, ours), ours.globals);
+    clip.root_translations[k].y() = float((ground + air - lowest) / shape.height_m);
+  }
 }
 
 }  // namespace
 
 RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file, const Skeleton& target,
                                 const FigureShape& shape) {
-  const Mapping mapping = mapJoints(motion, file, target);
-  const JointRoles our_roles = findJointRoles(target), roles = findJointRoles(motion.skeleton, motion.tips);
+  const Source source = readSource(motion, file);
+  const Mapping mapping = mapJoints(source, file, target);
   RetargetedMotion result;
-  result.match.by_shape = mapping.by_shape;
-  std::set<int> used;
-  for (std::size_t j = 0; j < target.joints.size(); ++j) {
-    if (mapping.theirs[j] < 0) {
-      result.match.ours_left.push_back(target.joints[j].name);
-      continue;
-    }
-    used.insert(mapping.theirs[j]);
-    result.match.joints.emplace_back(target.joints[j].name,
-                                     motion.skeleton.joints[std::size_t(mapping.theirs[j])].name);
-  }
-  for (std::size_t j = 0; j < motion.skeleton.joints.size(); ++j)
-    if (!used.count(int(j))) result.match.theirs_left.push_back(motion.skeleton.joints[j].name);
+  result.match = matchOf(mapping, source, target);
 
-  // Their frames of reference: how they stand in the rest pose, and how they do at the first moment.
-  std::vector<const JointTrack*> tracks(motion.skeleton.joints.size(), nullptr);
-  std::vector<float> times;
-  for (const JointTrack& track : motion.clip.tracks) {
-    tracks[std::size_t(motion.skeleton.index(track.joint))] = &track;
-    times = track.times_s.empty() ? track.translation_times_s : track.times_s;
-  }
-  std::vector<SourcePose> poses;
-  for (std::size_t f = 0; f < times.size(); ++f) poses.push_back(sourcePose(motion, tracks, f));
-  if (poses.empty()) throw InputError(file, "has no motion");
-  const int their_root = mapping.theirs[0] >= 0 ? mapping.theirs[0] : 0;
-  Quaterniond rest_frame = Quaterniond::Identity(), first_frame = Quaterniond::Identity();
-  Vector3d up = Vector3d::UnitY();
-  if (!mapping.same_names) {
-    const std::vector<Vector3d> rest = restPositions(motion.skeleton);
-    const int top = roles.joint("neck") >= 0 ? roles.joint("neck") : roles.joint("left_shoulder");
-    up = nearestAxis(rest[std::size_t(top)] - rest[std::size_t(their_root)]);
-    rest_frame = standingFrame(up, leftOf(roles, rest));
-    first_frame = standingFrame(up, leftOf(roles, poses[0].positions));
-  }
-
-  // As a motion for the canonical pose, whose bones are theirs at rest.
   Clip clip;
   clip.name = motion.clip.name;
-  clip.frame = mapping.same_names ? ClipFrame::kPicture : ClipFrame::kBody;
-  for (std::size_t j = 0; j < target.joints.size(); ++j) {
-    if (mapping.theirs[j] < 0) continue;
-    JointTrack track;
-    track.joint = target.joints[j].name;
-    track.times_s = times;
-    const bool points =
-        mapping.same_names
-            ? isLimb(track.joint)
-            : std::any_of(kJointRoles.begin() + 4, kJointRoles.end(),
-                          [&](std::string_view role) { return our_roles.joint(role) == int(j); });
-    if (points && !(isLeaf(target, int(j)) && !mapping.same_names)) {
-      const Vector3d bone = theirBone(motion, mapping, target, int(j));
-      if (bone.norm() > 1e-9) track.bone = (rest_frame.conjugate() * bone.normalized()).cast<float>();
-    }
-    clip.tracks.push_back(std::move(track));
-  }
-  const auto motionOf = [&](const SourcePose& pose, int theirs) {
-    return first_frame.conjugate() * pose.globals[std::size_t(theirs)] * rest_frame;
-  };
-  for (const SourcePose& pose : poses)
-    for (JointTrack& track : clip.tracks) {
-      const int joint = target.index(track.joint);
-      // The nearest above that is moved too.
-      int above = target.joints[std::size_t(joint)].parent;
-      while (above >= 0 && mapping.theirs[std::size_t(above)] < 0)
-        above = target.joints[std::size_t(above)].parent;
-      Quaterniond local = motionOf(pose, mapping.theirs[std::size_t(joint)]);
-      if (above >= 0) local = motionOf(pose, mapping.theirs[std::size_t(above)]).conjugate() * local;
-      track.rotations.push_back(local.normalized().cast<float>());
-    }
+  if (mapping.same_names)
+    takeTurns(source, mapping, target, clip);
+  else
+    takeDirections(source, mapping, target, clip);
 
   // Ways on the ground, in heights of ours.
-  const std::vector<Limb> legs = legsOf(roles), our_legs = legsOf(our_roles);
-  const double length = legLength(motion.skeleton, legs);
-  const double scale = length > 1e-9 ? legLength(target, our_legs) / length : 1;
-  clip.root_times_s = times;
-  for (const SourcePose& pose : poses) {
-    const Vector3d way =
-        pose.positions[std::size_t(their_root)] - poses[0].positions[std::size_t(their_root)];
-    clip.root_translations.push_back((first_frame.conjugate() * way * scale / shape.height_m).cast<float>());
+  const double length = legLength(source.poses[0].positions, legsOf(source.roles)),
+               our_length = legLength(restPositions(target), legsOf(findJointRoles(target)));
+  const double scale = length > 1e-9 && our_length > 0 ? our_length / length : 1;
+  const Quaterniond to_ours = mapping.same_names ? Quaterniond::Identity() : source.first.conjugate();
+  const std::size_t root = mapping.theirs[0] >= 0 ? std::size_t(mapping.theirs[0]) : 0;
+  clip.root_times_s = source.times_s;
+  for (const SourcePose& pose : source.poses) {
+    const Vector3d way = pose.positions[root] - source.poses[0].positions[root];
+    clip.root_translations.push_back((to_ours * way * scale / shape.height_m).cast<float>());
   }
   // Sampled as densely as the tool plays, with the target's own rest pose.
   RetargetOptions options;
@@ -250,32 +443,7 @@ RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file
   options.shape = shape;
   options.thin_keys = false;
   result.clip = retargetToRest(clip, target, options);
-
-  // Our feet are as far from the ground as theirs.
-  if (!legs.empty() && !our_legs.empty()) {
-    double ground = 1e300;
-    for (const SourcePose& pose : poses) ground = std::min(ground, lowestOf(legs, pose.positions, up));
-    const double our_ground = lowestOf(our_legs, restPositions(target), Vector3d::UnitY());
-    for (std::size_t k = 0; k < result.clip.root_times_s.size(); ++k) {
-      const float time_s = result.clip.root_times_s[k];
-      const std::size_t after =
-          std::size_t(std::lower_bound(times.begin(), times.end(), time_s) - times.begin());
-      const std::size_t next = std::min(after, times.size() - 1), before = next > 0 ? next - 1 : 0;
-      const double step = double(times[next]) - double(times[before]);
-      const double t = step > 0 ? std::clamp((double(time_s) - double(times[before])) / step, 0.0, 1.0) : 0;
-      const double air = scale * ((1 - t) * lowestOf(legs, poses[before].positions, up) +
-                                  t * lowestOf(legs, poses[next].positions, up) - ground);
-      const Pose pose = samplePose(result.clip, target, time_s);
-      ModelPose ours;
-      for (std::size_t j = 0; j < target.joints.size(); ++j) {
-        const int parent = target.joints[j].parent;
-        const Quaterniond local = pose.rotations[j].cast<double>();
-        ours.globals.push_back(parent < 0 ? local : ours.globals[std::size_t(parent)] * local);
-      }
-      const double lowest = lowestOf(our_legs, jointPositions(target, ours), Vector3d::UnitY());
-      result.clip.root_translations[k].y() = float((our_ground + air - lowest) / shape.height_m);
-    }
-  }
+  standOnGround(source, target, shape, scale, result.clip);
   return result;
 }
 

@@ -21,10 +21,12 @@ struct RetargetedMotion {
   JointMatch match;
 };
 
-// Bones of arms and legs point where theirs do, whatever either rest pose is; the trunk leans as theirs does
-// from upright. The figure starts where it stands, looking where it was drawn to look; ways are scaled by the
-// length of the legs, and its feet come as near to the ground as theirs. Joints are matched by equal names or
-// by findJointRoles(). Throws InputError (of `file`) if that finds no arms and legs on either side.
+// Where their bones point in the world decides, the trunk and the ground included; their rest pose says
+// nothing, nor which axis is up, nor how a bone is turned about itself. The figure starts where it stands,
+// looking where it was drawn to look; ways are scaled by the length of the legs, and its feet come as near to
+// the ground as theirs. A motion whose joints are all named like the target's is one of its own: its turns
+// are taken as they are. Else joints are matched by findJointRoles(). Throws InputError (of `file`) if that
+// finds no arms and legs on either side.
 RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file, const Skeleton& target,
                                 const FigureShape& shape);
 
