@@ -47,6 +47,44 @@ Vector3f bone(std::map<std::string, Vector3f>& at, const std::string& from, cons
   return (at[to] - at[from]).normalized();
 }
 
+// The same motion with another rest pose: every joint's axes are turned by `turns` beforehand.
+BvhMotion withRestPose(BvhMotion motion, const std::vector<Eigen::Quaterniond>& turns) {
+  const Skeleton rest = motion.skeleton;
+  std::vector<JointTrack*> tracks(rest.joints.size(), nullptr);
+  for (JointTrack& track : motion.clip.tracks) tracks[std::size_t(rest.index(track.joint))] = &track;
+  for (std::size_t j = 0; j < rest.joints.size(); ++j) {
+    const int parent = rest.joints[j].parent;
+    Joint& joint = motion.skeleton.joints[j];
+    motion.tips[j] = turns[j].conjugate() * motion.tips[j];
+    const Eigen::Quaterniond back =
+        parent < 0 ? Eigen::Quaterniond::Identity() : turns[std::size_t(parent)].conjugate();
+    if (parent >= 0)
+      joint.position = motion.skeleton.joints[std::size_t(parent)].position +
+                       back * (joint.position - rest.joints[std::size_t(parent)].position);
+    if (!tracks[j]) continue;
+    for (Eigen::Quaternionf& rotation : tracks[j]->rotations)
+      rotation = (back * rotation.cast<double>() * turns[j]).cast<float>();
+    for (Vector3f& place : tracks[j]->translations_m) place = (back * place.cast<double>()).cast<float>();
+  }
+  return motion;
+}
+
+// Five rest poses that nobody stands in: all bones along x (as Rokoko's), all along -y, all along z, each
+// bone somewhere, and each bone where it was but turned about itself.
+std::vector<Eigen::Quaterniond> oddRestPose(const Skeleton& skeleton, int kind) {
+  std::vector<Eigen::Quaterniond> turns;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const Eigen::Vector3d bone = restBone(skeleton, int(j));
+    const Eigen::Vector3d goals[] = {
+        Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(),
+        Eigen::Vector3d(std::sin(3.0 * double(j)), std::cos(5.0 * double(j)), std::sin(7.0 * double(j) + 1))
+            .normalized()};
+    turns.push_back(kind < 4 ? Eigen::Quaterniond::FromTwoVectors(goals[kind], bone)
+                             : Eigen::Quaterniond(Eigen::AngleAxisd(1.0 + double(j), bone)));
+  }
+  return turns;
+}
+
 const char kTiny[] =
     "HIERARCHY\nROOT hips\n{\n OFFSET 0 0 0\n CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation "
     "Yrotation\n JOINT leg\n {\n  OFFSET 0 -1 0\n  CHANNELS 1 Xrotation\n  End Site\n  {\n   OFFSET 0 -1 0\n "
@@ -141,6 +179,27 @@ TEST_CASE("one motion looks the same from every family, on every rest pose") {
       CHECK(bone(end, "pelvis", "neck").z() > 0.15);
       // The standing foot stands.
       CHECK(end["right_foot"].y() == Approx(start["right_foot"].y()).margin(0.02));
+    }
+  }
+}
+
+TEST_CASE("rest poses never count: a motion whose bones rest along x curled figures into a ball") {
+  for (const std::string& family : kFamilies) {
+    const std::string path = kMotions + family + ".bvh";
+    const BvhMotion motion = readBvh(path);
+    const Skeleton target = figureSkeleton({.right_arm = 60, .left_arm = 150, .leg = 15});
+    const FigureShape shape = shapeOfBones(target);
+    const Clip expected = retargetMotion(motion, path, target, shape).clip;
+    for (int kind = 0; kind < 5; ++kind) {
+      CAPTURE(family, kind);
+      const BvhMotion odd = withRestPose(motion, oddRestPose(motion.skeleton, kind));
+      const Clip clip = retargetMotion(odd, path, target, shape).clip;
+      for (float time_s = 0; time_s <= motion.clip.duration_s(); time_s += 0.1f) {
+        const Pose a = samplePose(clip, target, time_s), b = samplePose(expected, target, time_s);
+        CHECK((a.root_translation - b.root_translation).norm() < 1e-4f);
+        for (std::size_t j = 0; j < target.joints.size(); ++j)
+          CHECK(a.rotations[j].angularDistance(b.rotations[j]) < 2e-3f);
+      }
     }
   }
 }
