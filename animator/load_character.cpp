@@ -50,8 +50,11 @@ void bindCharacterSource(CLI::App& app, CharacterSource& source) {
 }
 
 CharacterFile loadCharacter(const CharacterSource& source) {
-  if (isDrawing(source.path))
-    return {rigDrawing(source.path, source.body_plan).character, {}, stemOf(source.path)};
+  if (isDrawing(source.path)) {
+    RigOptions options;
+    options.body_plan = loadTemplate(source.body_plan);
+    return {rigDrawing(source.path, options).character, {}, stemOf(source.path)};
+  }
   const bool rigged = endingOf(source.path) == ".glb";
   if (rigged && source.skeleton.empty()) return readGlb(source.path);
   if (!rigged && source.skeleton.empty())

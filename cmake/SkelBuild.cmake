@@ -20,14 +20,22 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
 endif()
 
+# What who uses the library gets: nothing but what its headers need.
+add_library(skel_usage INTERFACE)
+target_include_directories(skel_usage INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                                $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_compile_features(skel_usage INTERFACE cxx_std_20)
+# Eigen's fast square roots start from the CPU's own approximation, which differs between makers. Where two parts of a
+# program disagree about it, the linker chooses.
+target_compile_definitions(skel_usage INTERFACE EIGEN_FAST_MATH=0)
+
+# And what only our own files are compiled with.
 add_library(skel_options INTERFACE)
-target_include_directories(skel_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_link_libraries(skel_options INTERFACE skel_usage)
 # No fused multiply-add unless written: results do not depend on the machine's instruction set.
 target_compile_options(skel_options INTERFACE -Wall -Wextra -Wpedantic -ffp-contract=off)
 # GCC sees uninitialised members in every moved std::optional of a struct of matrices.
 target_compile_options(skel_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-# Eigen's fast square roots start from the CPU's own approximation, which differs between makers.
-target_compile_definitions(skel_options INTERFACE EIGEN_FAST_MATH=0)
 if(PROJECT_IS_TOP_LEVEL)
   target_compile_options(skel_options INTERFACE -Werror)
 endif()
@@ -49,7 +57,10 @@ function(skel_room name)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES;ROOMS;PRIVATE")
   add_library(skel_${name} STATIC ${ARG_SOURCES})
   list(TRANSFORM ARG_ROOMS PREPEND skel_)
-  target_link_libraries(skel_${name} PUBLIC skel_options Eigen3::Eigen ${ARG_ROOMS} PRIVATE ${ARG_PRIVATE})
+  # Headers alone: whoever links the room does not need it.
+  list(TRANSFORM ARG_PRIVATE REPLACE "^nlohmann_json::nlohmann_json$" "$<BUILD_INTERFACE:nlohmann_json::nlohmann_json>")
+  target_link_libraries(skel_${name} PUBLIC skel_usage Eigen3::Eigen ${ARG_ROOMS}
+                        PRIVATE $<BUILD_INTERFACE:skel_options> ${ARG_PRIVATE})
 endfunction()
 
 # skel_tool(NAME SOURCES file... [ROOMS room...] [PRIVATE lib...]): an executable of build/<preset>/bin.
@@ -59,6 +70,9 @@ function(skel_tool name)
   list(TRANSFORM ARG_ROOMS PREPEND skel_)
   target_link_libraries(${name} PRIVATE skel_options ${ARG_ROOMS} ${ARG_PRIVATE})
   target_compile_definitions(${name} PRIVATE SKEL_VERSION="${PROJECT_VERSION}")
+  if(name MATCHES "^skel-") # not the tools of the tests
+    install(TARGETS ${name})
+  endif()
 endfunction()
 
 # skel_test(NAME SOURCES file... [ROOMS room...] [PRIVATE lib...] [TIMEOUT s]): Catch2 tests of one room, test_NAME.

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "libskel/classifier/weights_file.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/progress.h"
@@ -108,7 +107,6 @@ Keypoints findKeypoints(const KeypointOptions& options) {
   Image background;
   const FilmInfo info = lookAtFilm(options.film, background);
   RigOptions rig;
-  rig.mlp = defaultMlp();
   rig.body_plan = plan;
   rig.upright = true;
 

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "libskel/animation/clip_library.h"
-#include "libskel/classifier/weights_file.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
@@ -87,7 +86,6 @@ Character current;
 RigOptions optionsFor(const std::string& body_plan, int figure) {
   RigOptions options;
   options.body_plan = loadTemplate(body_plan);
-  options.mlp = defaultMlp();
   options.clips = clipsFor(builtinClips(), options.body_plan);
   options.joint_nets = nets.joints;
   options.silhouette.page_net = nets.page;

@@ -10,6 +10,7 @@
 #include "libskel/animation/clip.h"
 #include "libskel/candidates/candidates.h"
 #include "libskel/classifier/mlp.h"
+#include "libskel/classifier/weights_file.h"
 #include "libskel/export/rest_pose.h"
 #include "libskel/export/write_character.h"
 #include "libskel/image/image.h"
@@ -48,8 +49,8 @@ enum class Recognizer {
 struct RigOptions {
   SilhouetteOptions silhouette;
   CandidateOptions candidates;
-  Mlp mlp;  // tells the classes of candidates apart
-  SkeletonTemplate body_plan;
+  Mlp mlp = defaultMlp();  // tells the classes of candidates apart
+  SkeletonTemplate body_plan = loadTemplate("biped");
   Recognizer recognizer = Recognizer::kTree;
   bool upright = false;                         // the figure is not turned: try no other orientations
   std::shared_ptr<const JointNets> joint_nets;  // of body plans; null: the built-in ones

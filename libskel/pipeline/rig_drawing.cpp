@@ -2,20 +2,24 @@
 
 #include <filesystem>
 
-#include "libskel/classifier/weights_file.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/core/error.h"
 #include "libskel/image/read_image.h"
 #include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
 
-RiggedDrawing rigDrawing(const std::string& path, const std::string& body_plan) {
+RigOptions rigOptions(const std::string& body_plan) {
+  RigOptions options;
+  options.body_plan = loadTemplate(body_plan);
+  options.clips = clipsFor(builtinClips(), options.body_plan);
+  return options;
+}
+
+RiggedDrawing rigDrawing(const std::string& path, const RigOptions& options) {
   RigInput input;
-  RigOptions rig;
-  rig.mlp = defaultMlp();
-  rig.body_plan = loadTemplate(body_plan);
   if (path.ends_with(".skeleton.json")) {
-    const SkeletonFile file = readSkeletonFile(path, rig.body_plan);
+    const SkeletonFile file = readSkeletonFile(path, options.body_plan);
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     input.image = readImage((folder / file.image_file).string());
     input.skeleton = file.skeleton;
@@ -23,7 +27,7 @@ RiggedDrawing rigDrawing(const std::string& path, const std::string& body_plan) 
   } else {
     input.image = readImage(path);
   }
-  RiggedDrawing drawing = rigCharacter(std::move(input), rig);
+  RiggedDrawing drawing = rigCharacter(std::move(input), options);
   if (!drawing.found()) throw InputError(path, drawing.silhouette.reason);
   return drawing;
 }

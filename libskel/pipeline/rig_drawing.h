@@ -7,8 +7,11 @@
 
 namespace skel {
 
-// With the built-in nets, from a picture, or from the .skeleton.json of one (with its mask, if it names one).
-// `body_plan`: a name or a file. Throws InputError: cannot be read, no figure in it.
-RiggedDrawing rigDrawing(const std::string& path, const std::string& body_plan);
+// The defaults, with all built-in clips that fit the body plan (a name or a file).
+RigOptions rigOptions(const std::string& body_plan = "biped");
+
+// From a picture, or from the .skeleton.json of one (with its mask, if it names one). encodeGlb() makes a
+// file of the result's character and clips. Throws InputError: cannot be read, no figure in it.
+RiggedDrawing rigDrawing(const std::string& path, const RigOptions& options = rigOptions());
 
 }  // namespace skel

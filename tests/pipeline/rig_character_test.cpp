@@ -1,6 +1,5 @@
 #include "libskel/pipeline/rig_character.h"
 
-#include "libskel/classifier/weights_file.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/image/read_image.h"
@@ -27,7 +26,6 @@ TEST_CASE("a model in parts is bound by its whole front view, not by its largest
   mesh.texture = Image();
 
   RigOptions options;
-  options.mlp = defaultMlp();
   options.body_plan = loadTemplate("biped");
   const RiggedDrawing drawing = rigCharacter(std::move(input), options);
   REQUIRE(drawing.found());
@@ -48,7 +46,6 @@ TEST_CASE("a biped is 1.7 m high, an animal 1.2 m long or high, and both as high
     RigInput input;
     input.image = readImage(SKEL_SOURCE_DIR "/datasets/" + drawing);
     RigOptions options;
-    options.mlp = defaultMlp();
     options.body_plan = loadTemplate(body_plan);
     options.height_m = height_m;
     return rigCharacter(std::move(input), options).character.mesh;
@@ -76,7 +73,6 @@ TEST_CASE("nets that are handed over do what those do that are compiled in") {
   RigInput input;
   input.image = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");
   RigOptions options;
-  options.mlp = defaultMlp();
   options.body_plan = loadTemplate("biped");
   const RiggedDrawing expected = rigCharacter(input, options);
   options.silhouette.page_net = std::make_shared<const PageNet>(readyToRun(parsePageNet(page, "page")));
@@ -101,7 +97,6 @@ TEST_CASE("a drawing that stands on its head gives an upright model; its joints 
   for (int i = 0; i < input.image.width * input.image.height; ++i)
     input.image.rgba.row(i) = upright.rgba.row(upright.width * upright.height - 1 - i);
   RigOptions options;
-  options.mlp = defaultMlp();
   options.body_plan = loadTemplate("biped");
   const RiggedDrawing drawing = rigCharacter(std::move(input), options);
   REQUIRE(drawing.found());
