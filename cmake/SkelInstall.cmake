@@ -14,7 +14,7 @@ foreach(room ${SKEL_LIBRARY_ROOMS})
   target_link_libraries(skel INTERFACE skel_${room})
   install(TARGETS skel_${room} EXPORT skelTargets)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/libskel/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/libskel
-          FILES_MATCHING PATTERN "*.h" PATTERN plugin EXCLUDE)
+          FILES_MATCHING PATTERN "*.h" PATTERN plugin EXCLUDE PATTERN "*_impl.h" EXCLUDE) # the latter are included several times, for several processors
 endforeach()
 set_target_properties(skel_usage PROPERTIES EXPORT_NAME usage)
 install(TARGETS skel skel_usage EXPORT skelTargets)
