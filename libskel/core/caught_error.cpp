@@ -17,6 +17,10 @@ std::string oneLine(const char* text) {
   return line;
 }
 
+Error refusal(const std::string& start, const std::string& why) {
+  return {ExitCode::kUnavailable, start + "the system refuses what is needed: " + why};
+}
+
 }  // namespace
 
 Error caughtError(const std::string& source) {
@@ -34,12 +38,13 @@ Error caughtError(const std::string& source) {
   } catch (const std::length_error&) {
     return no_memory;
   } catch (const std::system_error& error) {
-    return Error(ExitCode::kUnavailable,
-                 start + "the system refuses what is needed: " + error.code().message());
+    return refusal(start, error.code().message());
   } catch (const std::exception& error) {
+    // OpenCV and its threads, whose types this room does not know, say it in words.
     const std::string what = oneLine(error.what());
-    // This room does not know OpenCV's type, which says so by -4.
     if (what.find("(-4:Insufficient memory)") != std::string::npos) return no_memory;
+    const std::string no_thread = std::make_error_code(std::errc::resource_unavailable_try_again).message();
+    if (what.ends_with(": " + no_thread)) return refusal(start, no_thread);
     return Error(ExitCode::kInput, start + "cannot be worked on, please report it: " + what);
   } catch (...) {
     return Error(ExitCode::kInput, start + "cannot be worked on, please report it");

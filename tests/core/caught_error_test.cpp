@@ -40,6 +40,9 @@ TEST_CASE("whatever is thrown becomes one line that names the input, and a code"
   CHECK(caught([] {
           throw std::runtime_error("OpenCV(4.6.0) alloc.cpp:73: error: (-4:Insufficient memory)\n x");
         }) == "3: a.png: needs more memory than there is");
+  CHECK(caught([] {
+          throw std::runtime_error("pthread_create has failed: Resource temporarily unavailable");
+        }) == "3: a.png: the system refuses what is needed: Resource temporarily unavailable");
   CHECK(caught([] { throw std::runtime_error("two\nlines\n"); }) ==
         "2: a.png: cannot be worked on, please report it: two lines");
   CHECK(caught([] { throw 1; }) == "2: a.png: cannot be worked on, please report it");

@@ -81,9 +81,8 @@ TEST_CASE("threads that cannot be had end no tool") {
   }
   // Each thread's stack takes 1 GB.
   const ToolRun run = runTool("cd '" + dir.path() +
-                              "' && ulimit -s 1000000 && ulimit -v 2500000 && " SKEL_TOOLS
-                              "/skel-infer --jobs 12 --formats glb" +
-                              drawings);
+                              "' && ulimit -s 1000000 && ulimit -v 2500000 && " SKEL_TOOLS "/skel-infer" +
+                              drawings + " --jobs 12 --formats glb");
   CAPTURE(run.err);
   CHECK(run.exit_code == 0);
   CHECK(fs::exists(dir.file("out/a11.glb")));
@@ -98,8 +97,15 @@ TEST_CASE("a command without a batch names what it worked on when memory ends") 
   for (int i = 1; i < 390'000; ++i)
     obj += "f " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 1001) + "\n";
   writeFile(dir.file("plane.obj"), obj);
-  const ToolRun run = limited(dir, 90, "skel-animate info plane.obj");
-  CAPTURE(run.err);
-  CHECK(run.exit_code == 3);
-  CHECK(run.err == "skel-animate: plane.obj: needs more memory than there is\n");
+  bool failed = false;
+  for (int mb = 60; mb <= 600 && !failed; mb += 20) {
+    const ToolRun run = limited(dir, mb, "skel-animate info plane.obj");
+    // The loader itself finds no room for the libraries.
+    if (run.exit_code == 127) continue;
+    CAPTURE(mb, run.err);
+    REQUIRE(run.exit_code == 3);
+    CHECK(run.err == "skel-animate: plane.obj: needs more memory than there is\n");
+    failed = true;
+  }
+  CHECK(failed);
 }
