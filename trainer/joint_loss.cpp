@@ -13,10 +13,10 @@ JointTarget jointTarget(const Figure& figure, const FramePlacement& placement, c
   for (int j = 0; j < joints.count(); ++j) {
     const int from = placement.mirrored ? joints.mirrored[j] : j;
     target.joints.push_back({cellFromFrame(placement.frameFromGrid(figure.joints[from])),
-                             !figure.whole          ? 0
-                             : figure.absent[from]  ? kAbsentWeight
-                             : figure.visible[from] ? 1
-                                                    : kHiddenWeight,
+                             !figure.whole || figure.unknown[from] ? 0
+                             : figure.absent[from]                 ? kAbsentWeight
+                             : figure.visible[from]                ? 1
+                                                                   : kHiddenWeight,
                              static_cast<bool>(figure.absent[from])});
   }
   return target;

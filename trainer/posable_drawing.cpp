@@ -32,9 +32,12 @@ PosableDrawing posable(const JointedDrawing& drawing, const std::vector<std::str
   for (const std::string& name : names) {
     const auto found = std::find_if(drawing.joints.begin(), drawing.joints.end(),
                                     [&](const auto& joint) { return joint.first == name; });
-    if (found == drawing.joints.end() || !found->second)
-      throw InputError(drawing.joints_file, "joints: has no \"" + name + "\"; training needs all");
+    if (found == drawing.joints.end())
+      throw InputError(drawing.joints_file,
+                       "joints: has no \"" + name + "\"; training needs all, null where one cannot be seen");
     out.joints.push_back(skeleton.index(name));
+    out.unknown.push_back(!found->second);
+    if (!found->second) continue;
     skeleton.joints[static_cast<std::size_t>(out.joints.back())].image = *found->second;
     placed[static_cast<std::size_t>(out.joints.back())] = true;
   }
@@ -132,7 +135,9 @@ AnnotatedDrawing annotated(const PosableDrawing& drawing, const Image& picture, 
     const double px_a_m = kPictureSize / camera.view_height_m;
     places.emplace_back(kPictureSize / 2.0 - .5 + px_a_m * p.x(), kPictureSize / 2.0 - .5 - px_a_m * p.y());
   }
-  return annotatedDrawing(picture, mask, places, drawing.view);
+  AnnotatedDrawing out = annotatedDrawing(picture, mask, places, drawing.view);
+  out.unknown = drawing.unknown;
+  return out;
 }
 
 AnnotatedDrawing drawn(const PosableDrawing& drawing, const PosedDrawing& pose) {
@@ -161,14 +166,17 @@ double lengthOf(const PosableDrawing& drawing, const std::vector<int>& chain) {
   return length;
 }
 
-// Whether a limb is drawn beside the trunk, so that it can be taken off without a hole: its joints lie
-// farther from where it hangs than its root does, and from all other joints by a fifth of its length at
+// Whether a limb is drawn beside the trunk, so that it can be taken off without a hole: its joints are known,
+// lie farther from where it hangs than its root does, and from all other joints by a fifth of its length at
 // least.
 bool standsFree(const PosableDrawing& drawing, const std::vector<int>& chain) {
   const Skeleton& skeleton = drawing.character.skeleton;
   const int parent = skeleton.joints[static_cast<std::size_t>(chain.front())].parent;
   const Eigen::Vector2d from = inModel(drawing, parent), root = inModel(drawing, chain.front());
   const double apart = .2 * lengthOf(drawing, chain);
+  for (std::size_t j = 0; j < drawing.joints.size(); ++j)
+    if (drawing.unknown[j] && std::find(chain.begin(), chain.end(), drawing.joints[j]) != chain.end())
+      return false;
   for (std::size_t k = 1; k < chain.size(); ++k) {
     const Eigen::Vector2d at = inModel(drawing, chain[k]);
     if ((at - from).norm() < 1.1 * (root - from).norm()) return false;

@@ -17,9 +17,11 @@ struct PosableDrawing {
   std::vector<double> deviations;  // rad, of each joint of the skeleton: by how much it is turned
   std::vector<int> limbs;  // of each joint of the skeleton: 1 + its limb in the template, 0: the trunk
   FigureView view = FigureView::kFront;
+  std::vector<bool> unknown = {};  // of each joint of the net: completed from the others, not to be learned
 };
 
-// Throws InputError: a drawing without one of the joints called `names`, files that cannot be read.
+// Of the joints called `names` those that nobody could place (null) are completed from the others. Throws
+// InputError: a drawing whose file does not speak of one of them, files that cannot be read.
 std::vector<PosableDrawing> posableDrawings(const std::vector<JointedDrawing>& drawings,
                                             const std::vector<std::string>& names,
                                             const SkeletonTemplate& body_plan, int threads);

@@ -1,5 +1,7 @@
 #include "trainer/posable_drawing.h"
 
+#include <algorithm>
+
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/sha256.h"
@@ -10,13 +12,14 @@
 #include "tests/support/marked_figure.h"
 #include "tests/support/temp_dir.h"
 #include "trainer/figures/drawing.h"
+#include "trainer/joint_loss.h"
 
 namespace skel {
 namespace {
 
 const std::vector<std::string> kNames = jointNames(figurePlan("biped"));
 
-void write(const TempDir& dir, const std::string& left_out = "") {
+void write(const TempDir& dir, const std::string& left_out = "", const std::string& unseen = "") {
   const MarkedFigure figure = markedFigure(kNames);
   Image mask(figure.image.width, figure.image.height);
   mask.rgba.leftCols(3) = figure.mask.reshaped<Eigen::RowMajor>().replicate(1, 3);
@@ -26,8 +29,10 @@ void write(const TempDir& dir, const std::string& left_out = "") {
   std::string joints;
   for (std::size_t j = 0; j < kNames.size(); ++j) {
     if (kNames[j] == left_out) continue;
-    joints += (joints.empty() ? "\"" : ", \"") + kNames[j] + "\": [" + std::to_string(figure.joints[j].x()) +
-              ", " + std::to_string(figure.joints[j].y()) + "]";
+    joints += (joints.empty() ? "\"" : ", \"") + kNames[j] + "\": ";
+    joints += kNames[j] == unseen ? "null"
+                                  : "[" + std::to_string(figure.joints[j].x()) + ", " +
+                                        std::to_string(figure.joints[j].y()) + "]";
   }
   writeFile(dir.file("a.joints.json"), "{\"view\": \"front\", \"joints\": {" + joints + "}}");
 }
@@ -91,7 +96,29 @@ TEST_CASE("drawings to be posed need all joints") {
   const TempDir dir;
   CHECK(complaint(dir).find("has no drawing with known joints") != std::string::npos);
   write(dir, "left_knee");
-  CHECK(complaint(dir) == dir.file("a.joints.json") + ": joints: has no \"left_knee\"; training needs all");
+  CHECK(complaint(dir) ==
+        dir.file("a.joints.json") +
+            ": joints: has no \"left_knee\"; training needs all, null where one cannot be seen");
+}
+
+TEST_CASE("a joint that cannot be seen is completed and not learned") {
+  const TempDir dir;
+  write(dir, "", "left_knee");
+  const std::vector<PosableDrawing> drawings = read(dir);
+  const auto knee =
+      static_cast<std::size_t>(std::find(kNames.begin(), kNames.end(), "left_knee") - kNames.begin());
+  FigureOptions options;
+  options.drawings = {asDrawn(drawings[0])};
+  options.drawn_share = 1;
+  Rng rng(4);
+  const Figure figure = generateFigure(rng, options);
+  const NetJoints joints = netJoints(kNames, loadTemplate("biped"));
+  for (const bool mirrored : {false, true}) {
+    const JointTarget target = jointTarget(figure, FramePlacement::centred(figure.mask, mirrored), joints);
+    for (std::size_t j = 0; j < kNames.size(); ++j)
+      CHECK((target.joints[j].weight == 0) ==
+            (j == (mirrored ? static_cast<std::size_t>(joints.mirrored[knee]) : knee)));
+  }
 }
 
 TEST_CASE("a skeleton counts once a person has placed a joint of it, labels before skeletons") {

@@ -316,6 +316,7 @@ void sortSides(Figure& figure, const NetJoints& joints) {
       std::swap(figure.joints[k], figure.joints[other]);
       std::vector<bool>::swap(figure.visible[k], figure.visible[other]);
       std::vector<bool>::swap(figure.absent[k], figure.absent[other]);
+      std::vector<bool>::swap(figure.unknown[k], figure.unknown[other]);
     }
   }
 }
@@ -325,7 +326,7 @@ bool isReadable(const Figure& figure, const FigurePlan& plan) {
   constexpr double kLeastVisible = .42;
   constexpr int kReach = 6;
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
-    if (!plan.joints[j].end || figure.absent[j]) continue;
+    if (!plan.joints[j].end || figure.absent[j] || figure.unknown[j]) continue;
     const int x = static_cast<int>(std::lround(figure.joints[j].x())),
               y = static_cast<int>(std::lround(figure.joints[j].y()));
     const int x0 = std::max(0, x - kReach),
@@ -344,7 +345,7 @@ struct Canvas {
   Bits solid;
   std::function<Colour(int x, int y)> colour;
   std::vector<Vec> joints;
-  std::vector<bool> visible, absent;
+  std::vector<bool> visible, absent, unknown;
   FigureView view;
   int kind;
   bool whole;
@@ -478,6 +479,7 @@ std::optional<Figure> finished(Rng& rng, const FigurePlan& plan, Canvas canvas, 
   figure.look = figureLook(colours, figure.mask);
   figure.visible = std::move(canvas.visible);
   figure.absent = std::move(canvas.absent);
+  figure.unknown = std::move(canvas.unknown);
   for (const Vec& p : canvas.joints) figure.joints.push_back((p - Vec(x0, y0)) / step - Vec::Constant(.5));
   if (figure.whole && !isReadable(figure, plan)) return std::nullopt;
   if (figure.view == FigureView::kSide) sortSides(figure, jointsOf(plan));
@@ -493,9 +495,10 @@ std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& dr
   const Vec low = box.low - Vec::Constant(kMargin / scale);
   const Raster raster = rasterize(drawing.scene, low, scale, width, height);
 
-  Canvas canvas{width,        height,       Bits(raster.part.size()), {}, {}, {}, {}, drawing.view,
+  Canvas canvas{width,        height,       Bits(raster.part.size()), {}, {}, {}, {}, {}, drawing.view,
                 drawing.kind, drawing.whole};
   canvas.absent.assign(plan.joints.size(), false);
+  canvas.unknown = canvas.absent;
   for (const int j : drawing.absent) canvas.absent[static_cast<std::size_t>(j)] = true;
   for (std::size_t i = 0; i < canvas.solid.size(); ++i) canvas.solid[i] = raster.part[i] != 0;
   canvas.colour = [&](int x, int y) { return raster.colour(x, y); };
@@ -529,9 +532,10 @@ std::optional<Figure> renderDrawn(Rng& rng, const FigurePlan& plan, const Annota
   if (pasted.neighbour) pasteNeighbour(rng, *pasted.neighbour, kSide, warped);
   const int width = warped.width, height = warped.height;
   const bool whole = turn == 0 && !pasted.neighbour;
-  Canvas canvas{width,        height, warped.solid, {}, warped.joints, std::move(visible), {},
-                drawing.view, 0,      whole};
+  Canvas canvas{width, height,          warped.solid, {}, warped.joints, std::move(visible),
+                {},    drawing.unknown, drawing.view, 0,  whole};
   canvas.absent.assign(plan.joints.size(), false);
+  if (canvas.unknown.empty()) canvas.unknown = canvas.absent;
   canvas.colour = [&](int x, int y) { return warped.colours[static_cast<std::size_t>(y) * width + x]; };
   return finished(rng, plan, std::move(canvas), cut);
 }

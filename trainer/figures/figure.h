@@ -20,6 +20,7 @@ struct Figure {
       joints;                 // as FigurePlan::joints; px of the mask, the origin at the first px's centre
   std::vector<bool> visible;  // of each joint: not covered by another part
   std::vector<bool> absent;   // of each joint: the figure has none (an animal without a tail)
+  std::vector<bool> unknown;  // of each joint: nobody knows where it is; where it lies means nothing
   FigureView view = FigureView::kFront;
   int kind = 0;
 };
@@ -30,6 +31,7 @@ struct AnnotatedDrawing {
   Plane8 mask;                          // not 0 on the figure
   std::vector<Eigen::Vector2d> joints;  // as FigurePlan::joints; px of the image, corner of the first px at 0
   FigureView view = FigureView::kFront;
+  std::vector<bool> unknown = {};       // of each joint: nobody knows where it is. Empty: all are known
 };
 inline constexpr int kAnnotatedLongSide = 320;
 
