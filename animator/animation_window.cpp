@@ -14,6 +14,7 @@
 #include "animator/stage_view.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/core/caught_error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/draw/color.h"
 #include "libskel/window/keys.h"
 #include "libskel/window/window.h"
@@ -210,14 +211,14 @@ class AnimationWindow {
   }
   void askFilm() {
     film_size_ = {2 * std::max(8, stage_.width() * 256 / std::max(1, stage_.height())), 512};
-    const std::string name = document_.clip() ? "-" + document_.clip()->name : "";
+    const std::string name = document_.clip() ? "-" + safeFileName(document_.clip()->name) : "";
     dialog_.ask(
         "Write a film of what is seen (" + videoFormatNames() + ")", "Write", suggestion(name + ".mp4"),
         [&](const std::string& p) { return startFilm(p); }, true);
   }
   void askSaveClip() {
     dialog_.ask("Save the clip", "Save",
-                "out/" + (document_.clip() ? document_.clip()->name : "clip") + kClipFileEnding,
+                "out/" + (document_.clip() ? safeFileName(document_.clip()->name) : "clip") + kClipFileEnding,
                 [&](const std::string& p) { return document_.saveClip(p); });
   }
 

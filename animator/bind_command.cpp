@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 
+#include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/export/formats.h"
 #include "libskel/import/read_weights.h"
@@ -41,10 +42,14 @@ void bindBindOptions(CLI::App& app, BindOptions& options) {
       ->check(CLI::IsMember({"skel", "vrm", "mixamo"}))
       ->capture_default_str();
   app.add_option("-o,--output", options.output, "The .glb to write; without: out/<model>.glb")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(outputFile());
 }
 
 ExitCode runBind(const BindOptions& options) {
+  const std::string path =
+      options.output.empty() ? "out/" + stemOf(options.source.model) + ".glb" : options.output;
+  noteOutput(path);
   CharacterFile file;
   if (options.weights.empty()) {
     file = boundModel(options.source, options.skin);
@@ -54,8 +59,6 @@ ExitCode runBind(const BindOptions& options) {
     file = std::move(model.file);
     file.character.weights = readWeights(options.weights, file.character);
   }
-  const std::string path =
-      options.output.empty() ? "out/" + stemOf(options.source.model) + ".glb" : options.output;
   writeFile(path, encodeGlb(file.character, file.clips, {file.name, kNamings.at(options.naming)}));
   std::printf("wrote %s\n", path.c_str());
   return ExitCode::kDone;
@@ -66,13 +69,15 @@ void bindWeightsOptions(CLI::App& app, WeightsOptions& options) {
   bindSkinRequest(app, options.skin);
   app.add_option("-o,--output", options.output,
                  "The .weights.json to write; without: out/<model>.weights.json")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(outputFile());
 }
 
 ExitCode runWeights(const WeightsOptions& options) {
-  const CharacterFile file = boundModel(options.source, options.skin);
   const std::string path =
       options.output.empty() ? "out/" + stemOf(options.source.model) + ".weights.json" : options.output;
+  noteOutput(path);
+  const CharacterFile file = boundModel(options.source, options.skin);
   writeFile(path, exportWeights({file.character, file.clips, {stemOf(path)}})[0].bytes);
   std::printf("wrote %s\n", path.c_str());
   return ExitCode::kDone;

@@ -56,6 +56,11 @@ bool isEmpty(const JointTrack& track) {
   return track.times_s.empty() && track.translation_times_s.empty() && track.scale_times_s.empty();
 }
 
+// A document of its kind is edited in place; nothing else that was read is written over.
+void save(const std::string& path, std::string_view ending, std::string_view bytes) {
+  path.ends_with(ending) ? replaceFile(path, bytes) : writeFile(path, bytes);
+}
+
 bool sameTurn(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
   return std::abs(a.dot(b)) > 1 - 1e-7f;
 }
@@ -360,7 +365,7 @@ bool AnimationDocument::saveModel(const std::string& path) {
                  [](const Clip& clip) { return !clip.tracks.empty() || !clip.root_times_s.empty(); });
     ExportOptions options;
     options.name = name_;
-    writeFile(path, encodeGlb(character(), clips, options));
+    save(path, ".glb", encodeGlb(character(), clips, options));
     return "saved " + path;
   });
 }
@@ -377,7 +382,7 @@ bool AnimationDocument::loadPose(const std::string& path) {
 
 bool AnimationDocument::savePose(const std::string& path) {
   return attempt([&] {
-    writeFile(path, formatPose(state_.pose, skeleton()));
+    save(path, kPoseFileEnding, formatPose(state_.pose, skeleton()));
     return "saved " + path;
   });
 }
@@ -405,7 +410,7 @@ bool AnimationDocument::loadClip(const std::string& path) {
 bool AnimationDocument::saveClip(const std::string& path) {
   return attempt([&] {
     if (!clip()) throw UsageError("there is no clip to save: choose one, or make a new one");
-    writeFile(path, formatClip(*clip()));
+    save(path, kClipFileEnding, formatClip(*clip()));
     return "saved " + path;
   });
 }
@@ -431,7 +436,7 @@ bool AnimationDocument::loadSkeleton(const std::string& path) {
 
 bool AnimationDocument::saveSkeleton(const std::string& path) {
   return attempt([&] {
-    writeFile(path, formatRig(skeleton()));
+    save(path, ".json", formatRig(skeleton()));
     return "saved " + path;
   });
 }
@@ -448,7 +453,7 @@ bool AnimationDocument::loadWeights(const std::string& path) {
 
 bool AnimationDocument::saveWeights(const std::string& path) {
   return attempt([&] {
-    writeFile(path, exportWeights({character(), clips(), {}}).front().bytes);
+    save(path, ".weights.json", exportWeights({character(), clips(), {}}).front().bytes);
     return "saved " + path;
   });
 }

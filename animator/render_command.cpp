@@ -8,6 +8,7 @@
 #include "animator/film.h"
 #include "animator/load_character.h"
 #include "libskel/cli/number.h"
+#include "libskel/cli/outputs.h"
 #include "libskel/core/progress.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/image/read_image.h"
@@ -51,7 +52,8 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
       ->required();
   app.add_option("-o,--output", options.output,
                  "The film: " + videoFormatNames() + " (a name that ends with /) of PNG files")
-      ->required();
+      ->required()
+      ->check(outputFile());
   app.add_option("--fps", options.frame_rate, "Frames a second")
       ->check(numberIn(0.1, 240.0))
       ->capture_default_str();

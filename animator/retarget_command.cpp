@@ -7,6 +7,7 @@
 #include "animator/load_character.h"
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_file.h"
+#include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/core/text.h"
 #include "libskel/export/formats.h"
@@ -55,7 +56,8 @@ void bindRetargetOptions(CLI::App& app, RetargetCommandOptions& options) {
   app.add_option("-o,--output", options.output,
                  "What to write: the character with the motion among its clips (.glb), or the motion alone "
                  "(.clip.json, .bvh); without: out/<motion>.glb")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(outputFile());
   app.add_option("--name", options.name, "Of the clip; without: that of the motion");
   bindClipSource(app, options.clips);
 }
@@ -64,6 +66,7 @@ ExitCode runRetarget(const RetargetCommandOptions& options) {
   const std::string path = options.output.empty() ? "out/" + stemOf(options.motion) + ".glb" : options.output;
   if (!path.ends_with(".glb") && !path.ends_with(".bvh") && !path.ends_with(kClipFileEnding))
     throw UsageError(path + ": must end in .glb, .clip.json or .bvh");
+  noteOutput(path);
   CharacterFile file = readGlb(options.target);
   Clip clip = motionFor(options, file);
   if (!options.name.empty()) clip.name = options.name;

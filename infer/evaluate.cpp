@@ -9,6 +9,7 @@
 #include "infer/annotation.h"
 #include "infer/rig_request.h"
 #include "libskel/cli/number.h"
+#include "libskel/cli/outputs.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json_names.h"
@@ -90,7 +91,8 @@ void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
                  "<name>.joints.json, at any depth")
       ->required();
   app.add_option("--json", options.json_file, "Write the figures to this file, too")
-      ->always_capture_default(false);
+      ->always_capture_default(false)
+      ->check(outputFile());
   app.add_option("--overlays", options.overlays, "Folder for a picture of each drawing with its skeleton")
       ->always_capture_default(false);
   app.add_flag("--given-mask", options.given_mask,

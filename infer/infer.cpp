@@ -8,6 +8,7 @@
 #include "infer/outputs.h"
 #include "infer/rig_request.h"
 #include "libskel/cli/number.h"
+#include "libskel/cli/outputs.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
@@ -131,8 +132,8 @@ void checkUsage(const InferOptions& options) {
 
 std::string sizeText(long width, long height) { return std::to_string(width) + "x" + std::to_string(height); }
 
-std::optional<SkeletonFile::Mask> useMask(const InferOptions& options,
-                                          const std::optional<SkeletonFile>& given, RigInput& input) {
+// The mask that is used, "": none.
+std::string useMask(const InferOptions& options, const std::optional<SkeletonFile>& given, RigInput& input) {
   std::string path = options.mask_file;
   if (path.empty() && given && given->mask) {
     path = (fs::path(options.skeleton_file).parent_path() / given->mask->file).string();
@@ -140,12 +141,12 @@ std::optional<SkeletonFile::Mask> useMask(const InferOptions& options,
       throw InputError(path, "has changed since " + options.skeleton_file +
                                  " was made with it; name it by --mask if that is meant");
   }
-  if (path.empty()) return std::nullopt;
+  if (path.empty()) return path;
   input.mask = readMask(path);
   if (input.mask->cols() != input.image.width || input.mask->rows() != input.image.height)
     throw InputError(path, "is a mask of " + sizeText(input.mask->cols(), input.mask->rows()) +
                                " px, the image has " + sizeText(input.image.width, input.image.height));
-  return SkeletonFile::Mask{pathSeenFrom(options.out_dir + "/", path), sha256(readFile(path))};
+  return path;
 }
 
 // The skeleton says which figure it belongs to; a number that was asked for must be that one.
@@ -166,6 +167,13 @@ std::string stemOf(const InferOptions& options, const Job& job, int figure) {
   const std::string number = from.substr(start.size(), from.size() - start.size() - kEnding.size());
   const bool numbered = !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
   return numbered ? start + number : job.stem;
+}
+
+// An input among the files that are to be written is told of before any work.
+void noteResults(const InferOptions& options, const Job& job, const std::vector<Clip>& clips) {
+  constexpr int kMostFigures = 99;
+  for (int figure = 1; figure <= (options.figure == "all" ? kMostFigures : 1); ++figure)
+    noteOutputs(options, stemOf(options, job, figure), clips);
 }
 
 // The joints must be this figure's.
@@ -259,20 +267,20 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
     input.skeleton = given->skeleton;
     input.turned_deg = given->figure.turned_deg;
   }
-  const auto mask = useMask(options, given, input);
+  const std::string mask = useMask(options, given, input);
   if (isLayerMap(options.layers)) input.layers = {readImage(options.layers), options.layers};
   if (isPicture(options.back)) input.back = readImage(options.back);
 
   RigOptions figure_rig = rig;
   figure_rig.silhouette.figure = std::max(figure, 1);
   RiggedDrawing drawing = rigCharacter(std::move(input), figure_rig);
-  if (!drawing.found()) throw InputError(job.source, drawing.silhouette.reason);
+  if (!drawing.found()) throw InputError(mask.empty() ? job.source : mask, drawing.silhouette.reason);
   std::vector<std::string> warnings = drawing.silhouette.warnings;
   if (given) {
     checkJoints(options, *given, drawing.silhouette.mask);
     drawing.recognition.confidence = given->confidence;
     drawing.recognition.missing = given->missing;
-    warnings = warningsOf(*given, drawing, mask.has_value());
+    warnings = warningsOf(*given, drawing, !mask.empty());
   } else {
     warnings.insert(warnings.end(), drawing.recognition.warnings.begin(), drawing.recognition.warnings.end());
   }
@@ -286,11 +294,11 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
   file.confidence = drawing.recognition.confidence;
   file.missing = drawing.recognition.missing;
   file.warnings = std::move(warnings);
-  file.mask = mask;
+  if (!mask.empty()) file.mask = {pathSeenFrom(skeleton_path, mask), sha256(readFile(mask))};
 
   const std::vector<std::string> written = writeOutputs(options, stem, drawing, file);
   if (!options.trace_dir.empty()) {
-    const bool given_mask = mask.has_value() || options.images.empty();
+    const bool given_mask = !mask.empty() || options.images.empty();
     writeTrace(drawing, given_mask ? SilhouetteSteps{} : silhouetteSteps(drawing.image),
                options.images.size() > 1 || options.figure == "all" ? options.trace_dir + "/" + stem
                                                                     : options.trace_dir);
@@ -358,7 +366,8 @@ void bindRecognitionOptions(CLI::App& app, InferOptions& options) {
 void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.option_defaults()->always_capture_default();
   app.add_option("IMAGE", options.images, "Drawings: PNG, JPEG, WebP, BMP, TIFF, GIF")
-      ->always_capture_default(false);
+      ->always_capture_default(false)
+      ->check(pickedFiles());
   app.add_option("-o,--out", options.out_dir, "Folder for the results");
   app.add_option("--mask", options.mask_file, "The figure, white on black, instead of finding it")
       ->always_capture_default(false);
@@ -413,6 +422,8 @@ ExitCode runInfer(const InferOptions& asked) {
   const std::vector<Job> jobs = jobsOf(options);
   const RigOptions rig = rigOptions(options);
   noteUnusedWeights(options);
+  for (const Job& job : jobs) noteInput(job.source);
+  for (const Job& job : jobs) noteResults(options, job, rig.clips);
   ensureWritableFolder(options.out_dir);
   std::vector<Outcome> outcomes(jobs.size());
   {

@@ -9,6 +9,7 @@
 
 #include "infer/rig_request.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/text.h"
 #include "libskel/draw/draw_skeleton.h"
 #include "libskel/export/formats.h"
@@ -32,25 +33,32 @@ struct OutputFile {
   std::string bytes;
 };
 
+using Suffixes = std::vector<std::string>;
+
 struct Format {
   std::string_view name;
+  std::function<Suffixes(const std::string& stem, const std::vector<Clip>& clips)> suffixes;
   std::function<std::vector<OutputFile>(const Request&)> make;
 };
 
-std::vector<OutputFile> makeSkeletonJson(const Request& r) {
-  return {{r.path(".skeleton.json"), formatSkeletonFile(r.file)}};
+// A format of one file.
+Format single(std::string_view name, const std::string& suffix, std::string (*make)(const Request&)) {
+  return {name, [=](const std::string&, const std::vector<Clip>&) { return Suffixes{suffix}; },
+          [=](const Request& r) {
+            return std::vector<OutputFile>{{r.path(suffix), make(r)}};
+          }};
 }
 
-std::vector<OutputFile> makeSilhouette(const Request& r) {
-  return {{r.path(".silhouette.png"), encodePng(r.drawing.silhouette.mask)}};
-}
+std::string makeSkeletonJson(const Request& r) { return formatSkeletonFile(r.file); }
 
-std::vector<OutputFile> makeLayers(const Request& r) {
-  return {{r.path(".layers.png"), encodePng(layerPicture(r.drawing.layers, r.drawing.silhouette.mask))}};
+std::string makeSilhouette(const Request& r) { return encodePng(r.drawing.silhouette.mask); }
+
+std::string makeLayers(const Request& r) {
+  return encodePng(layerPicture(r.drawing.layers, r.drawing.silhouette.mask));
 }
 
 // One row a candidate: where it is, what the net saw, what it took it for, whether the rules saw it.
-std::vector<OutputFile> makeFeatures(const Request& r) {
+std::string makeFeatures(const Request& r) {
   std::string csv = "grid_x,grid_y,radius,x,y,D,head,body,hand,leg,kept\n";
   const CandidateSet& candidates = r.drawing.candidates;
   for (size_t i = 0; i < candidates.maxima.size(); ++i) {
@@ -65,24 +73,23 @@ std::vector<OutputFile> makeFeatures(const Request& r) {
                   std::binary_search(candidates.kept.begin(), candidates.kept.end(), static_cast<int>(i)));
     csv += line;
   }
-  return {{r.path(".features.csv"), csv}};
+  return csv;
 }
 
-std::vector<OutputFile> makeOverlay(const Request& r) {
+std::string makeOverlay(const Request& r) {
   Image picture = r.drawing.image;
   drawSkeleton(picture, r.drawing.character.skeleton);
-  return {{r.path(".overlay.png"), encodePng(picture)}};
+  return encodePng(picture);
 }
 
 // The pictures and lists of this tool, then what the library exports of a character.
 std::vector<Format> makeFormats() {
-  std::vector<Format> all = {{"json", makeSkeletonJson},
-                             {"overlay", makeOverlay},
-                             {"silhouette", makeSilhouette},
-                             {"layers", makeLayers},
-                             {"features", makeFeatures}};
+  std::vector<Format> all = {
+      single("json", ".skeleton.json", makeSkeletonJson), single("overlay", ".overlay.png", makeOverlay),
+      single("silhouette", ".silhouette.png", makeSilhouette), single("layers", ".layers.png", makeLayers),
+      single("features", ".features.csv", makeFeatures)};
   for (const ExportFormat& format : exportFormats())
-    all.push_back({format.name, [&format](const Request& r) {
+    all.push_back({format.name, format.suffixes, [&format](const Request& r) {
                      std::vector<OutputFile> files;
                      const ExportOptions options{.name = r.stem, .naming = kNamingNames.at(r.options.naming)};
                      for (ExportedFile& file : format.encode({r.drawing.character, r.drawing.clips, options,
@@ -98,6 +105,16 @@ const std::vector<Format>& formats() {
   return all;
 }
 
+const Format& formatNamed(const std::string& name) {
+  return *std::find_if(formats().begin(), formats().end(), [&](const Format& f) { return f.name == name; });
+}
+
+// The skeleton that was handed in is the one that is gone on from: it is edited in place.
+bool goesOnFrom(const InferOptions& options, const std::string& path) {
+  std::error_code not_there;
+  return fs::equivalent(path, options.skeleton_file, not_there);
+}
+
 }  // namespace
 
 std::vector<std::string> allFormats() {
@@ -108,27 +125,22 @@ std::vector<std::string> allFormats() {
 
 std::string formatNames() { return joined(allFormats()); }
 
+void noteOutputs(const InferOptions& options, const std::string& stem, const std::vector<Clip>& clips) {
+  for (const std::string& name : options.formats)
+    for (const std::string& suffix : formatNamed(name).suffixes(stem, clips))
+      if (const std::string path = options.out_dir + "/" + stem + suffix; !goesOnFrom(options, path))
+        noteOutput(path);
+}
+
 std::vector<std::string> writeOutputs(const InferOptions& options, const std::string& stem,
                                       const RiggedDrawing& drawing, const SkeletonFile& file) {
   const Request request{options, stem, drawing, file};
   std::vector<OutputFile> files;
-  for (const std::string& name : options.formats) {
-    const auto format =
-        std::find_if(formats().begin(), formats().end(), [&](const Format& f) { return f.name == name; });
-    for (OutputFile& made : format->make(request)) files.push_back(std::move(made));
-  }
-  std::vector<std::string> inputs = options.images;
-  for (const std::string& other :
-       {options.mask_file, options.layers, options.model_file, options.weights_file, options.joint_net_file})
-    inputs.push_back(other);
-  for (const OutputFile& made : files)
-    for (const std::string& input : inputs)
-      if (std::error_code none; fs::equivalent(made.path, input, none))
-        throw UsageError(made.path +
-                         " would be written over, but it is an input; name another folder with -o");
+  for (const std::string& name : options.formats)
+    for (OutputFile& made : formatNamed(name).make(request)) files.push_back(std::move(made));
   std::vector<std::string> paths;
   for (const OutputFile& made : files) {
-    writeFile(made.path, made.bytes);
+    goesOnFrom(options, made.path) ? replaceFile(made.path, made.bytes) : writeFile(made.path, made.bytes);
     paths.push_back(made.path);
   }
   return paths;

@@ -14,6 +14,10 @@ std::vector<std::string> allFormats();
 // All of them, for --help.
 std::string formatNames();
 
+// Notes these files (input_guard.h) for a character that gets `clips`. Throws UsageError: one is an input, a
+// format cannot name files by this stem.
+void noteOutputs(const InferOptions& options, const std::string& stem, const std::vector<Clip>& clips);
+
 // Writes options.out_dir/<stem>.* in the formats asked for and returns the paths in that order. Nothing is
 // written before all of them are ready. Throws OutputError.
 std::vector<std::string> writeOutputs(const InferOptions& options, const std::string& stem,

@@ -34,7 +34,9 @@ RigOptions rigOptions(const InferOptions& options) {
   if (options.clips.empty())
     rig.clips = clips;
   else if (options.clips != std::vector<std::string>{"none"})
-    for (const std::string& name : options.clips) rig.clips.push_back(clipNamed(clips, name));
+    for (std::size_t i = 0; i < options.clips.size(); ++i)
+      if (const auto asked = options.clips.begin(); std::find(asked, asked + i, asked[i]) == asked + i)
+        rig.clips.push_back(clipNamed(clips, asked[i]));
   return rig;
 }
 

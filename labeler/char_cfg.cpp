@@ -128,6 +128,8 @@ class Reader {
         fail("expected loc, name and parent of a joint");
       }
       if (!loc || name.empty()) fail("a joint needs loc and name");
+      for (const auto& [other, place] : cfg_.joints)
+        if (other == name) fail("the joint '" + name + "' is there twice");
       cfg_.joints.emplace_back(name, *loc);
     }
   }

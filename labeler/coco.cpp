@@ -9,6 +9,7 @@
 
 #include "labeler/annotated_drawing.h"
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/json.h"
 #include "libskel/core/json_names.h"
 
@@ -118,9 +119,10 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTe
   std::map<double, std::string> file_of;  // by image
   for (const JsonValue& image : root.at("images").items()) {
     const JsonValue name = image.at("file_name");
-    const fs::path file = fs::path(path).parent_path() / name.asFileName();
-    if (!fs::is_regular_file(file)) name.fail("there is no " + file.string());
-    file_of[image.at("id").asNumber()] = file.string();
+    // Masks are written beside the pictures.
+    const std::string file = pathInside(fs::path(path).parent_path().string(), name.asFileName(), path);
+    if (!fs::is_regular_file(file)) name.fail("there is no " + file);
+    file_of[image.at("id").asNumber()] = file;
   }
 
   std::map<std::string, std::pair<double, AnnotatedDrawing>> largest;  // by picture

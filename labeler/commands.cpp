@@ -9,6 +9,7 @@
 #include "labeler/make_motion.h"
 #include "libskel/classifier/weights_file.h"
 #include "libskel/cli/number.h"
+#include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/skeleton/motion_file.h"
 
@@ -65,6 +66,7 @@ ExitCode exportLabels(const LabelerOptions& options) {
   const std::string output = !options.output.empty() ? options.output
                              : options.coco          ? "out/labels.coco.json"
                                                      : "out/labels.csv";
+  noteOutput(output);
   writeFile(output, options.coco ? labelsAsCoco(options.dir, loadTemplate(options.body_plan))
                                  : labelsAsCsv(options.dir));
   print(output + "\n");
@@ -102,7 +104,8 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
       });
   import->add_option("-o,--output", options.import.output,
                      "Copy pictures and masks here, with their label files");
-  import->add_flag("--force", options.import.force, "Make label files anew that exist already");
+  import->add_flag("--force", options.import.force,
+                   "Make label files anew that exist already, also over masks and copies of other content");
   command("check", "Name every inconsistency of the label files", [&] { return check(options); });
   command("stats", "Count drawings, candidates and labels", [&] {
     print(labelStats(options.dir));
@@ -110,7 +113,8 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
   });
   CLI::App* motion_of = command("motion", "Find the joints in every frame of a video (a folder of pictures)",
                                 [&] { return motion(options); });
-  motion_of->add_option("-o,--output", options.output, "File (default: out/<folder>.motion.json)");
+  motion_of->add_option("-o,--output", options.output, "File (default: out/<folder>.motion.json)")
+      ->check(outputFile());
   motion_of->add_option("--frame-rate", options.frame_rate, "Frames a second")
       ->check(numberIn(kMinFrameRate, kMaxFrameRate))
       ->capture_default_str();
@@ -119,8 +123,9 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
       command("export", "Write labels for other programs", [&] { return exportLabels(options); });
   exported->add_flag("--coco", options.coco, "COCO keypoints: joints and outline of every drawing");
   exported->add_flag("--csv", options.csv, "A table: a row a candidate with features and label");
-  exported->add_option("-o,--output", options.output,
-                       "File (default: out/labels.coco.json or out/labels.csv)");
+  exported
+      ->add_option("-o,--output", options.output, "File (default: out/labels.coco.json or out/labels.csv)")
+      ->check(outputFile());
 }
 
 }  // namespace skel

@@ -761,14 +761,14 @@ void Document::writeSkeletonFile() {
   if (std::any_of(file.skeleton.joints.begin(), file.skeleton.joints.end(),
                   [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; }))
     file.warnings.clear();
-  writeFile(path_, formatSkeletonFile(file));
+  replaceFile(path_, formatSkeletonFile(file));
 }
 
 void Document::writeLayers() {
   if (state_.layers == saved_layers_) return;
   const std::string path = layersPath();
   if (state_.layers)
-    writeFile(path, encodePng(layerPicture(*state_.layers, figure_->silhouette.mask)));
+    replaceFile(path, encodePng(layerPicture(*state_.layers, figure_->silhouette.mask)));
   else
     removeFile(path);
   saved_layers_ = state_.layers;
@@ -776,7 +776,7 @@ void Document::writeLayers() {
 
 void Document::writeMotionFile() {
   motion_file_->frames[static_cast<size_t>(current_)].joints = state_.joints;
-  writeFile(path_, formatMotionFile(*motion_file_, options_.body_plan));
+  replaceFile(path_, formatMotionFile(*motion_file_, options_.body_plan));
 }
 
 int Document::mostUnsure() const {

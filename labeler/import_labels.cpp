@@ -6,6 +6,7 @@
 #include "labeler/drawing_list.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/progress.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
@@ -17,6 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string peek(const std::string& path) {
+  const LookAtOutputs look;
+  return readFile(path);
+}
+
 // `file` in the output folder, where there is one.
 std::string destination(const std::string& file, const std::string& dir, const ImportOptions& options) {
   if (options.output.empty()) return file;
@@ -27,8 +33,17 @@ std::string destination(const std::string& file, const std::string& dir, const I
   return (fs::path(options.output) / below).string();
 }
 
-void copyFile(const std::string& from, const std::string& to) {
-  if (from != to) writeFile(to, readFile(from));
+// What is there already may be somebody's work.
+void writeNew(const std::string& path, const std::string& bytes, const ImportOptions& options) {
+  const bool there = fs::symlink_status(path).type() != fs::file_type::not_found;
+  if (there && fs::exists(path) && peek(path) == bytes) return;
+  if (there && !options.force)
+    throw InputError(path, "is there already, with other content; take it away, or give --force to lose it");
+  writeFile(path, bytes);
+}
+
+void copyFile(const std::string& from, const std::string& to, const ImportOptions& options) {
+  if (from != to) writeNew(to, readFile(from), options);
 }
 
 void checkJoints(const AnnotatedDrawing& drawing, const Image& image) {
@@ -48,14 +63,14 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
   const Image image = readImage(drawing.image);
   checkJoints(drawing, image);
   if (drawing.mask) readMaskOf(image, *drawing.mask);  // before anything is copied
-  copyFile(drawing.image, image_path);
+  copyFile(drawing.image, image_path, options);
   std::optional<std::string> mask;
   if (drawing.mask) {
     mask = destination(*drawing.mask, dir, options);
-    copyFile(*drawing.mask, *mask);
+    copyFile(*drawing.mask, *mask, options);
   } else if (!drawing.mask_polygons.empty()) {
     mask = drawingFiles(image_path, {}).mask;
-    writeFile(*mask, encodePng(maskFromPolygons(drawing.mask_polygons, image.width, image.height)));
+    writeNew(*mask, encodePng(maskFromPolygons(drawing.mask_polygons, image.width, image.height)), options);
   }
   writeLabelFile(label_path, labelImage(image_path, mask, drawing.joints, body_plan));
   return true;

@@ -12,7 +12,7 @@ namespace skel {
 struct ImportOptions {
   std::string
       output;  // folder that pictures and masks are copied to; empty: label files go beside the pictures
-  bool force = false;  // make label files anew that exist already
+  bool force = false;  // make label files anew that exist already, also over masks and copies that are there
 };
 
 struct ImportCounts {

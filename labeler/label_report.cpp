@@ -10,6 +10,7 @@
 #include "labeler/save_drawing.h"
 #include "libskel/classifier/features.h"
 #include "libskel/core/error.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/labels/label_folder.h"
@@ -141,6 +142,8 @@ std::string labelsAsCsv(const std::string& dir) {
   std::string text = "file,candidate,x,y,radius,feature_x,feature_y,feature_radius,label\n";
   for (const std::string& path : labelFiles(dir)) {
     const LabelFile labels = readLabelFile(path);
+    noteInput(besideLabelFile(path, labels.image.file));
+    if (const auto mask = maskOf(path, labels)) noteInput(*mask);
     CandidateSet candidates;
     candidates.maxima = labels.candidates;
     const Features rows = features(candidates);

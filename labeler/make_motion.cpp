@@ -7,6 +7,7 @@
 #include "labeler/drawing_list.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/natural_order.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
@@ -54,6 +55,8 @@ MotionCounts makeMotion(const std::string& dir, const MotionOptions& given, cons
   std::vector<DrawingFiles> drawings = findDrawings(dir);
   std::sort(drawings.begin(), drawings.end(),
             [](const DrawingFiles& a, const DrawingFiles& b) { return comesBefore(a.name, b.name); });
+  noteOutput(options.output);
+  for (const DrawingFiles& drawing : drawings) noteInput(drawing.image);
   if (!options.force) requireNoEdits(options.output, options.body_plan);
 
   MotionFile motion;

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "libskel/cli/number.h"
+#include "libskel/cli/outputs.h"
 #include "stylizer/commands.h"
 
 namespace skel {
@@ -108,7 +109,8 @@ void bindKeyframes(CLI::App& app, KeyframesOptions& options) {
 void bindKeypoints(CLI::App& app, KeypointsCommandOptions& options) {
   bindFilmPath(app, options.find.film);
   app.add_option("-o,--output", options.find.output, "The motion file (default: out/<film>.motion.json)")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(outputFile());
   app.add_option("--action", options.find.action, "Its class: walk, run, jump, ...");
   bindThreshold(app, options.find.threshold);
   bindLoop(app, options.find.loop);
@@ -133,7 +135,10 @@ void bindFit(CLI::App& app, FitOptions& options) {
   app.add_option("motions", options.motions, "Motion files, or databases")
       ->required()
       ->type_name("MOTION...");
-  app.add_option("-o,--output", options.output, "The .style.json")->type_name("FILE")->capture_default_str();
+  app.add_option("-o,--output", options.output, "The .style.json")
+      ->type_name("FILE")
+      ->capture_default_str()
+      ->check(outputFile());
   bindCoding(app, options.coding);
   app.add_option("--ridge", options.semantic.ridge, "Of the semantic term")
       ->check(numberIn(1e-12, 1e6))
@@ -146,7 +151,8 @@ void bindTransfer(CLI::App& app, TransferCommandOptions& options) {
   app.add_option("--style", options.style, "How: a motion file, or a database")->required();
   app.add_option("-o,--output", options.output, "The motion file to write")
       ->type_name("FILE")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(outputFile());
   bindStyle(app, options.request);
 }
 
@@ -156,9 +162,11 @@ void bindRender(CLI::App& app, RenderOptions2D& options) {
   app.add_option("--motion", options.motion, "A motion file")->required()->type_name("FILE");
   app.add_option("-o,--output", options.output,
                  "The film: " + videoFormatNames() + " (a name that ends with /) of PNG files")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(outputFile());
   app.add_option("--to-clip", options.to_clip, "A .clip.json for 3D characters, to be played by skel-animate")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(outputFile());
   bindLoop(app, options.loop);
   bindPerform(app, options.perform);
 }
@@ -167,7 +175,8 @@ void bindInspect(CLI::App& app, InspectOptions& options) {
   app.add_option("motion", options.motion, "A motion file")->required()->type_name("MOTION");
   app.add_option("-o,--output", options.output, "The picture (.png)")
       ->type_name("FILE")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(outputFile());
   bindCoding(app, options.coding);
 }
 
@@ -180,7 +189,8 @@ void bindMake(CLI::App& app, MakeOptions& options) {
   app.add_option("--style", options.style, "How: a film, a folder of frames, or a .motion.json")->required();
   app.add_option("-o,--output", options.output, "The film: " + videoFormatNames())
       ->type_name("FILE")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(outputFile());
   app.add_option("--work", options.work,
                  "A folder for what lies between; what is there already is taken (default: <output>.work)")
       ->type_name("DIR");

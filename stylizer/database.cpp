@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
 #include "libskel/core/json_names.h"
@@ -53,6 +54,7 @@ std::vector<DatabaseEntry> readDatabase(const std::string& dir) {
                        item.at("keys").asInt(0, kMaxFrames), item.at("sha256").asString()});
     if (fs::path(entries.back().file).has_parent_path())
       item.at("file").fail("must lie in the folder itself");
+    pathInside(dir, entries.back().file, indexOf(dir));
   }
   return entries;
 }
@@ -64,6 +66,9 @@ DatabaseEntry addToDatabase(const std::string& dir, const std::string& path, con
   if (!action.empty()) motion.action = action;
   if (motion.action.empty())
     throw InputError(path, "has no action class; name it by --action walk, run, jump ...");
+  // Others may add at the same time.
+  ensureWritableFolder(dir);
+  const FolderLock lock(dir);
   std::vector<DatabaseEntry> entries = readDatabase(dir);
   DatabaseEntry entry{fs::path(path).filename().string(), motion.action,  motion.source,
                       int(motion.frames.size()),          keysOf(motion), ""};
@@ -78,8 +83,10 @@ DatabaseEntry addToDatabase(const std::string& dir, const std::string& path, con
   entries.push_back(entry);
   std::sort(entries.begin(), entries.end(),
             [](const DatabaseEntry& a, const DatabaseEntry& b) { return a.file < b.file; });
-  writeFile(to, text);
-  writeFile(indexOf(dir), formatIndex(entries));
+  // A motion of the database itself may be added anew.
+  std::error_code not_there;
+  fs::equivalent(path, to, not_there) ? replaceFile(to, text) : writeFile(to, text);
+  replaceFile(indexOf(dir), formatIndex(entries));
   return entry;
 }
 

@@ -8,8 +8,8 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/progress.h"
-#include "libskel/image/write_image.h"
 #include "libskel/pipeline/rig_character.h"
+#include "libskel/video/frame_file.h"
 #include "libskel/video/outline_distance.h"
 
 namespace skel {
@@ -121,6 +121,8 @@ Keypoints findKeypoints(const KeypointOptions& options) {
   const fs::path file = options.output;
   std::string stem = file.filename().string();
   if (stem.ends_with(kMotionFileEnding)) stem.resize(stem.size() - std::string(kMotionFileEnding).size());
+  const fs::path pictures = file.parent_path() / (stem + ".frames");
+  checkFrames(pictures.string(), "frame-");
   {
     ProgressBar bar("key points", std::size_t(info.frames));
     forEachFrame(options.film, info, background, [&](std::size_t i, FilmFrame& frame) {
@@ -129,8 +131,8 @@ Keypoints findKeypoints(const KeypointOptions& options) {
       if (picture.empty()) {
         char name[32];
         std::snprintf(name, sizeof name, "frame-%04d.png", int(i) + 1);
-        picture = (file.parent_path() / (stem + ".frames") / name).string();
-        writeFile(picture, encodePng(frame.video.image));
+        picture = (pictures / name).string();
+        writeFile(picture, encodeFrame(frame.video.image));
       }
       out.image_file = pathSeenFrom(options.output, picture);
       out.image_width = frame.video.image.width;

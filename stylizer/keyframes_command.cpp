@@ -4,11 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/json_names.h"
 #include "libskel/core/progress.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/image/write_image.h"
 #include "libskel/skeleton/joint_json.h"
+#include "libskel/video/frame_file.h"
 #include "libskel/video/normalize_figure.h"
 #include "stylizer/commands.h"
 
@@ -29,7 +31,11 @@ double meanArea(const std::vector<FrameOutline>& outlines, const std::vector<int
 }  // namespace
 
 ExitCode runKeyframes(const KeyframesOptions& options) {
+  namespace fs = std::filesystem;
   ensureWritableFolder(options.output);
+  checkFrames(options.output, "key-");
+  for (const char* name : {"keyframes.json", "distances.json", "distances.png"})
+    noteOutput((fs::path(options.output) / name).string());
   Image background;
   const FilmInfo info = lookAtFilm(options.film, background);
   std::vector<FrameOutline> outlines(static_cast<std::size_t>(info.frames));
@@ -58,7 +64,6 @@ ExitCode runKeyframes(const KeyframesOptions& options) {
   const std::vector<int> keys = keyFrames(successive, options.threshold, largest);
   const double area_px = meanArea(outlines, keys);
 
-  namespace fs = std::filesystem;
   using Json = nlohmann::ordered_json;
   Json root = {{"format", "skel-keyframes"},
                {"version", 1},
@@ -91,7 +96,7 @@ ExitCode runKeyframes(const KeyframesOptions& options) {
       for (int x = 0; x < image.width; ++x)
         if (frame.figure(y, x) == 0) image.pixel(x, y)[3] = 0;
     writeFile(names[std::size_t(at - keys.begin())],
-              encodePng(transformed(image, normalizeFigure(outlines[i], area_px))));
+              encodeFrame(transformed(image, normalizeFigure(outlines[i], area_px))));
   });
   writeFile((fs::path(options.output) / "keyframes.json").string(), root.dump(1) + "\n");
   if (options.matrix) {

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "stylizer/commands.h"
 
 namespace skel {
@@ -14,6 +15,7 @@ ExitCode runKeypoints(const KeypointsCommandOptions& given) {
     if (!film.has_filename()) film = film.parent_path();
     options.output = "out/" + film.stem().string() + kMotionFileEnding;
   }
+  noteOutput(options.output);
   if (!given.force) requireNoEdits(options.output, loadTemplate("biped"));
   const Keypoints found = findKeypoints(options);
   writeFile(options.output, formatMotionFile(found.motion, loadTemplate("biped")));

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "stylizer/commands.h"
 
 namespace skel {
@@ -17,6 +18,7 @@ NamedMotion motionOf(const std::string& path, const std::string& name, const Mak
     std::printf("%s: taken as it is\n", file.c_str());
     return {file, readMotionFile(file, plan)};
   }
+  noteOutput(file);
   KeypointOptions find;
   find.film = options.film;
   find.film.path = path;
@@ -38,12 +40,13 @@ ExitCode runMake(const MakeOptions& given) {
     while (stem.ends_with('/')) stem.pop_back();
     options.work = stem + ".work";
   }
+  const std::string file = (fs::path(options.work) / (std::string("transfer") + kMotionFileEnding)).string();
+  noteOutput(file);
   const SkeletonTemplate plan = loadTemplate("biped");
   const Stage stage = setStage(options.character, options.perform, options.output);
   const NamedMotion content = motionOf(options.content, "content", options);
   const NamedMotion style = motionOf(options.style, "style", options);
   const MotionTransferReport report = transferMotion({content}, {style}, transferOptions(options.request));
-  const std::string file = (fs::path(options.work) / (std::string("transfer") + kMotionFileEnding)).string();
   writeFile(file, formatMotionFile(report.motion, plan));
   std::printf("%s: mean pose %.0f %% of the way, phase correlation %.3f%s\n", file.c_str(),
               100 * report.mean_pose_moved, report.phase_correlation,

@@ -1,5 +1,6 @@
 #include "trainer/average_nets.h"
 
+#include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/jointnet/joint_net.h"
 
@@ -10,7 +11,9 @@ void bindAverageNetsOptions(CLI::App& command, AverageNetsOptions& options) {
       ->required()
       ->expected(2, 100)
       ->type_name("FILE");
-  command.add_option("-o,--output", options.output, "Weights file to write")->capture_default_str();
+  command.add_option("-o,--output", options.output, "Weights file to write")
+      ->capture_default_str()
+      ->check(outputFile());
 }
 
 ExitCode runAverageNets(const AverageNetsOptions& options) {

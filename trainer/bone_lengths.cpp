@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
 #include "libskel/image/read_image.h"
@@ -54,7 +55,8 @@ void bindBoneLengthsOptions(CLI::App& command, BoneLengthsOptions& options) {
       ->required()
       ->type_name("DIR")
       ->take_all();
-  command.add_option("-o,--output", options.output, "Weights file to write (default: that of the net)");
+  command.add_option("-o,--output", options.output, "Weights file to write (default: that of the net)")
+      ->check(outputFile());
 }
 
 ExitCode runBoneLengths(const BoneLengthsOptions& options) {
@@ -95,7 +97,10 @@ ExitCode runBoneLengths(const BoneLengthsOptions& options) {
       std::printf("%-16s log length %.2f ± %.2f  to the bone before %.2f ± %.2f\n", joints.names[j].c_str(),
                   lengths[j].mean(), lengths[j].deviation(), ratios[j].mean(), ratios[j].deviation());
   }
-  writeFile(options.output.empty() ? options.net : options.output, formatJointNet(net));
+  if (options.output.empty())
+    replaceFile(options.net, formatJointNet(net));
+  else
+    writeFile(options.output, formatJointNet(net));
   return ExitCode::kDone;
 }
 

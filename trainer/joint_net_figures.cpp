@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libskel/cli/number.h"
+#include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/image/write_image.h"
 #include "trainer/figures/figure.h"
@@ -14,7 +15,9 @@ namespace skel {
 void bindFigureSheetOptions(CLI::App& command, FigureSheetOptions& options) {
   command.add_option("--template", options.body_plan, "Body plan, by the name of its template")
       ->capture_default_str();
-  command.add_option("-o,--output", options.output, "Picture to write (PNG)")->capture_default_str();
+  command.add_option("-o,--output", options.output, "Picture to write (PNG)")
+      ->capture_default_str()
+      ->check(outputFile());
   command.add_option("--seed", options.seed, "Of the random numbers")
       ->check(seedNumber())
       ->capture_default_str();

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "libskel/cli/number.h"
+#include "libskel/cli/outputs.h"
 #include "libskel/core/check.h"
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
@@ -228,6 +229,7 @@ class Training {
 
   void run() {
     if (!options_.checkpoint.empty() && std::filesystem::exists(options_.checkpoint)) {
+      const LookAtOutputs look;
       trainer_.restore(readFile(options_.checkpoint), options_.checkpoint);
     }
     const int steps_per_round = options_.figures_per_round * options_.passes / options_.batch;
@@ -410,13 +412,16 @@ class Training {
 void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) {
   command.add_option("--template", options.body_plan, "Body plan, by the name of its template")
       ->capture_default_str();
-  command.add_option("-o,--output", options.output, "Weights file to write")->capture_default_str();
+  command.add_option("-o,--output", options.output, "Weights file to write")
+      ->capture_default_str()
+      ->check(outputFile());
   command
       .add_option(
           "--start", options.start,
           "Net to go on from, with drawings of your own: few steps, a low rate, every fifth drawing measures")
       ->type_name("FILE");
-  command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report");
+  command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report")
+      ->check(outputFile());
   command
       .add_option("--hourglasses", options.hourglasses,
                   "Of the net, one behind another; what the net of --start lacks of them is added")

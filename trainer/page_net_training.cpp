@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "libskel/cli/number.h"
+#include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
@@ -109,11 +110,15 @@ void writeSheet(const PageTrainingOptions& options, const PageOptions& page_opti
 }  // namespace
 
 void bindPageTrainingOptions(CLI::App& command, PageTrainingOptions& options) {
-  command.add_option("-o,--output", options.output, "Weights file to write")->capture_default_str();
+  command.add_option("-o,--output", options.output, "Weights file to write")
+      ->capture_default_str()
+      ->check(outputFile());
   command.add_option("--start", options.start, "Net to go on from")->type_name("FILE");
-  command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report");
+  command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report")
+      ->check(outputFile());
   command.add_option("--sheet", options.sheet, "Picture of generated pages to write, instead of training")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(outputFile());
   command.add_option("--seed", options.seed, "Of all random numbers")
       ->check(seedNumber())
       ->capture_default_str();
@@ -162,8 +167,10 @@ ExitCode runPageTraining(const PageTrainingOptions& options) {
   schedule.peak_rate = options.peak_rate;
   schedule.threads = options.threads;
   ConvNetTrainer trainer(net, schedule);
-  if (!options.checkpoint.empty() && std::filesystem::exists(options.checkpoint))
+  if (!options.checkpoint.empty() && std::filesystem::exists(options.checkpoint)) {
+    const LookAtOutputs look;
     trainer.restore(readFile(options.checkpoint), options.checkpoint);
+  }
   const std::vector<Page> validation =
       drawPages(options, page_options, kValidationStream, options.validation_pages);
   std::vector<Page> pages(static_cast<std::size_t>(options.batch));

@@ -8,6 +8,7 @@
 
 #include "libskel/classifier/weights_file.h"
 #include "libskel/cli/number.h"
+#include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/core/progress.h"
 #include "libskel/labels/annotated_image.h"
@@ -129,7 +130,9 @@ void bindTrainOptions(CLI::App& app, TrainOptions& options) {
   TrainingOptions& training = options.training;
   app.add_option("dir", options.dir, "Folder of label files (*.labels.json), searched at any depth")
       ->type_name("DIR");
-  app.add_option("-o,--output", options.output, "The weights file to write")->type_name("FILE");
+  app.add_option("-o,--output", options.output, "The weights file to write")
+      ->type_name("FILE")
+      ->check(outputFile());
   app.add_option("--layers", options.layers, "Sizes of the layers")->capture_default_str();
   addChoice(app, "--method", training.method, kMethods, "How the net is trained");
   app.add_option("--batch", training.optimizer.batch, "gradient: samples a step; 0: all of them; 1: online")
@@ -193,7 +196,8 @@ void bindTrainOptions(CLI::App& app, TrainOptions& options) {
       ->check(numberIn(1, 1'000'000))
       ->capture_default_str();
   app.add_option("--json", options.json, "Writes accuracy and confusion of the cross-validation")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(outputFile());
   app.add_option("--report", options.report, "Writes loss curve and confusion matrix, as pictures and JSON")
       ->type_name("DIR");
 }
@@ -256,7 +260,7 @@ void bindEvaluateWeightsOptions(CLI::App& app, EvaluateWeightsOptions& options) 
       ->required()
       ->type_name("DIR");
   app.add_option("--weights", options.weights, "Weights file; without: those built in")->type_name("FILE");
-  app.add_option("--json", options.json, "Writes the figures")->type_name("FILE");
+  app.add_option("--json", options.json, "Writes the figures")->type_name("FILE")->check(outputFile());
   addChoice(app, "--candidates", options.candidates, kCandidateMethods,
             "strict, discs: found anew in the pictures");
 }

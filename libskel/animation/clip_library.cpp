@@ -33,7 +33,20 @@ std::vector<Clip> fittingClips(const std::vector<Clip>& library, const Target& t
   return fitting;
 }
 
-bool sameName(const Clip& a, const Clip& b) { return a.name == b.name && a.template_name == b.template_name; }
+// Whether a body plan that `other` was made for can do `clip` under the same name.
+bool takesThePlaceOf(const Clip& clip, const Clip& other) {
+  if (clip.name != other.name) return false;
+  if (clip.template_name == other.template_name) return true;
+  const std::vector<std::string> known = builtinTemplates();
+  return clip.template_name.empty() &&
+         std::find(known.begin(), known.end(), other.template_name) != known.end() &&
+         fits(clip, loadTemplate(other.template_name));
+}
+
+std::string templateOf(const Clip& a, const Clip& b) {
+  const std::string& name = a.template_name.empty() ? b.template_name : a.template_name;
+  return name.empty() ? "any template" : "the template \"" + name + "\"";
+}
 
 }  // namespace
 
@@ -54,20 +67,20 @@ std::vector<Clip> clipsWithFolder(const std::string& dir) {
     if (!path.ends_with(kClipFileEnding)) continue;
     Clip clip = readClipFile(path);
     for (const Clip& other : own)
-      if (sameName(clip, other))
-        throw InputError(path, "is the second clip \"" + clip.name + "\" for the template \"" +
-                                   clip.template_name + "\" in " + dir);
+      if (takesThePlaceOf(clip, other) || takesThePlaceOf(other, clip))
+        throw InputError(
+            path, "is the second clip \"" + clip.name + "\" for " + templateOf(clip, other) + " in " + dir);
     own.push_back(std::move(clip));
   }
   if (own.empty())
     throw InputError(dir, "holds no clip; the files must end in " + std::string(kClipFileEnding));
   for (Clip& clip : own) {
+    // One clip may stand for those of several body plans.
     const auto known = std::find_if(library.begin(), library.end(),
-                                    [&](const Clip& other) { return sameName(clip, other); });
-    if (known == library.end())
-      library.push_back(std::move(clip));
-    else
-      *known = std::move(clip);
+                                    [&](const Clip& other) { return takesThePlaceOf(clip, other); });
+    const auto place = known - library.begin();
+    std::erase_if(library, [&](const Clip& other) { return takesThePlaceOf(clip, other); });
+    library.insert(library.begin() + place, std::move(clip));
   }
   return library;
 }

@@ -13,8 +13,9 @@ namespace skel {
 // All that come with skel, for the canonical pose: the files of libskel/animation/clips.
 const std::vector<Clip>& builtinClips();
 
-// These, and the clip files (kClipFileEnding) of `dir`, at any depth; one of the same name and template takes
-// the place of a built-in one. Throws InputError: no folder, a file that is no clip, two of the same name.
+// These, and the clip files (kClipFileEnding) of `dir`, at any depth; one of the same name takes the place of
+// the built-in one for its template, or, without a template, of those for all that have its joints. Throws
+// InputError: no folder, a file that is no clip, two of the same name.
 std::vector<Clip> clipsWithFolder(const std::string& dir);
 
 // Whether the joints are there that the clip moves, and all those of its template.

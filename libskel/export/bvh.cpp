@@ -6,6 +6,7 @@
 
 #include "libskel/animation/clip_limits.h"
 #include "libskel/animation/sample_pose.h"
+#include "libskel/core/file_names.h"
 #include "libskel/export/formats.h"
 #include "libskel/export/joint_names.h"
 #include "libskel/export/number_text.h"
@@ -128,10 +129,26 @@ std::string encodeBvh(const ExportInput& input, const Clip& clip) {
 
 }  // namespace
 
+std::vector<std::string> bvhSuffixes(const std::string&, const std::vector<Clip>& clips) {
+  if (clips.empty()) return {".bvh"};
+  std::vector<std::string> suffixes;
+  for (const Clip& clip : clips) {
+    const std::string name = safeFileName(clip.name);
+    std::string suffix = "-" + name + ".bvh";
+    // Two clips may come to one name.
+    for (int number = 2; std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end(); ++number)
+      suffix = "-" + name + "-" + std::to_string(number) + ".bvh";
+    suffixes.push_back(std::move(suffix));
+  }
+  return suffixes;
+}
+
 std::vector<ExportedFile> exportBvh(const ExportInput& input) {
-  if (input.clips.empty()) return {{".bvh", encodeBvh(input, Clip())}};
+  const std::vector<std::string> suffixes = bvhSuffixes(input.options.name, input.clips);
+  if (input.clips.empty()) return {{suffixes[0], encodeBvh(input, Clip())}};
   std::vector<ExportedFile> files;
-  for (const Clip& clip : input.clips) files.push_back({"-" + clip.name + ".bvh", encodeBvh(input, clip)});
+  for (std::size_t i = 0; i < input.clips.size(); ++i)
+    files.push_back({suffixes[i], encodeBvh(input, input.clips[i])});
   return files;
 }
 

@@ -5,9 +5,18 @@
 namespace skel {
 
 const std::vector<ExportFormat>& exportFormats() {
+  using Suffixes = std::vector<std::string>;
+  using Clips = std::vector<Clip>;
   static const std::vector<ExportFormat> formats = {
-      {"glb", exportGlb}, {"obj", exportObj},          {"weights", exportWeights},
-      {"bvh", exportBvh}, {"char_cfg", exportCharCfg},
+      {"glb", [](const std::string&, const Clips&) { return Suffixes{".glb"}; }, exportGlb},
+      {"obj", objSuffixes, exportObj},
+      {"weights", [](const std::string&, const Clips&) { return Suffixes{".weights.json"}; }, exportWeights},
+      {"bvh", bvhSuffixes, exportBvh},
+      {"char_cfg",
+       [](const std::string&, const Clips&) {
+         return Suffixes{"/mask.png", "/texture.png", "/char_cfg.yaml"};
+       },
+       exportCharCfg},
   };
   return formats;
 }

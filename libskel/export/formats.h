@@ -26,6 +26,9 @@ struct ExportedFile {
 
 struct ExportFormat {
   std::string_view name;
+  // At least those of the files that encode() gives for these clips, a cheap answer before any work. Throws
+  // UsageError where files cannot have this stem.
+  std::vector<std::string> (*suffixes)(const std::string& stem, const std::vector<Clip>& clips);
   std::vector<ExportedFile> (*encode)(const ExportInput&);
 };
 
@@ -36,13 +39,16 @@ const ExportFormat& exportFormat(std::string_view name);
 
 // glb: see encodeGlb().
 std::vector<ExportedFile> exportGlb(const ExportInput& input);
-// obj: the mesh with normals, and its texture, as .obj, .mtl and .png.
+// obj: the mesh with normals, and its texture, as .obj, .mtl and .png. Throws UsageError where OBJ and MTL
+// cannot name these (objSuffixes() as well).
 std::vector<ExportedFile> exportObj(const ExportInput& input);
+std::vector<std::string> objSuffixes(const std::string& stem, const std::vector<Clip>& clips);
 // weights: the skin as .weights.json, vertices in the order of the .obj and the .glb.
 std::vector<ExportedFile> exportWeights(const ExportInput& input);
 // bvh: hierarchy and motion, one file a clip (-<clip>.bvh), or the rest pose if there is none (.bvh).
 // Centimetres, degrees, y up.
 std::vector<ExportedFile> exportBvh(const ExportInput& input);
+std::vector<std::string> bvhSuffixes(const std::string& stem, const std::vector<Clip>& clips);
 // char_cfg: a folder as AnimatedDrawings reads it, with char_cfg.yaml, mask.png and texture.png. Throws
 // UsageError without drawing and mask, or if the skeleton is not a biped.
 std::vector<ExportedFile> exportCharCfg(const ExportInput& input);

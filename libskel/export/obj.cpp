@@ -1,4 +1,6 @@
 // Wavefront OBJ, for programs that want the shape alone.
+#include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/export/formats.h"
 #include "libskel/export/number_text.h"
 #include "libskel/image/write_image.h"
@@ -18,15 +20,30 @@ void appendRow(std::string& text, const char* keyword, const Row& row) {
   text += '\n';
 }
 
+// The stem as OBJ and MTL can name it.
+std::string nameable(const std::string& stem) {
+  for (const char c : stem)
+    if (const auto byte = static_cast<unsigned char>(c); byte < 0x20 || byte == 0x7F || c == '#' || c == '\\')
+      throw UsageError("the format obj cannot name \"" + safeFileName(stem) +
+                       ".png\" as it is: rename the drawing, without #, \\ and line breaks");
+  // Blanks before a name are lost, and a dash would begin an option.
+  return stem.starts_with(' ') || stem.starts_with('-') ? "./" + stem : stem;
+}
+
 }  // namespace
+
+std::vector<std::string> objSuffixes(const std::string& stem, const std::vector<Clip>&) {
+  nameable(stem);
+  return {".obj", ".mtl", ".png"};
+}
 
 std::vector<ExportedFile> exportObj(const ExportInput& input) {
   const TriangleMesh& mesh = input.character.mesh;
-  const std::string& name = input.options.name;
+  const std::string name = nameable(input.options.name);
   const bool textured = !mesh.texture.empty() && mesh.uv.rows() == mesh.vertices.rows();
   const Eigen::MatrixX3f normals = vertexNormals(mesh.vertices, mesh.triangles);
 
-  std::string obj = "# skel\nmtllib " + name + ".mtl\no " + name + "\n";
+  std::string obj = "# skel\nmtllib " + name + ".mtl\no " + input.options.name + "\n";
   for (Eigen::Index i = 0; i < mesh.vertices.rows(); ++i) appendRow(obj, "v", mesh.vertices.row(i));
   if (textured)
     for (Eigen::Index i = 0; i < mesh.uv.rows(); ++i)

@@ -120,6 +120,39 @@ int webpOrientation(std::string_view bytes) {
   return 1;
 }
 
+std::optional<WebpFrame> firstWebpFrame(std::string_view bytes) {
+  constexpr std::uint32_t kAnimated = 0x02, kFrameHeader = 16;
+  const Bytes little(bytes, false);
+  if (bytes.substr(12, 4) != "VP8X" || !(little.integer(20, 1) & kAnimated)) return std::nullopt;
+  const auto chunkSize = [&](std::size_t at) {
+    const std::size_t size = little.integer(at + 4, 4);
+    return 8 + size + size % 2;
+  };
+  std::size_t at = 12;
+  while (at + 8 <= bytes.size() && bytes.substr(at, 4) != "ANMF") at += chunkSize(at);
+  if (at + 8 + kFrameHeader > bytes.size()) return std::nullopt;
+  const std::size_t header = at + 8, end = std::min(at + chunkSize(at), bytes.size());
+  std::string alpha, pixels;
+  for (at = header + kFrameHeader; at + 8 <= end; at += chunkSize(at)) {
+    const std::string_view name = bytes.substr(at, 4),
+                           chunk = bytes.substr(at, std::min(chunkSize(at), end - at));
+    if (name == "ALPH") alpha = chunk;
+    if (name == "VP8 " || name == "VP8L") pixels = chunk;
+  }
+  if (pixels.empty()) return std::nullopt;
+  WebpFrame frame;
+  frame.x = static_cast<int>(2 * little.integer(header, 3));
+  frame.y = static_cast<int>(2 * little.integer(header + 3, 3));
+  std::string content = "WEBP";
+  if (!alpha.empty())  // goes with an extended header: a flag that there is alpha, and the size
+    content += std::string("VP8X\x0A\0\0\0\x10\0\0\0", 12) + std::string(bytes.substr(header + 6, 6)) + alpha;
+  content += pixels;
+  frame.bytes = "RIFF";
+  for (int i = 0; i < 4; ++i) frame.bytes += static_cast<char>(content.size() >> 8 * i & 0xFF);
+  frame.bytes += content;
+  return frame;
+}
+
 Image oriented(Image image, int orientation) {
   if (orientation <= 1 || orientation > 8) return image;
   const int w = image.width, h = image.height;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,14 @@ HeaderSize headerSize(std::string_view bytes, Format format);
 int tiffOrientation(std::string_view tiff);
 // The same for the EXIF chunk of a WebP file.
 int webpOrientation(std::string_view bytes);
+
+// The first frame of an animated WebP, as a WebP of its own, and where it lies on the canvas, px. Nothing
+// where the file is not animated, or damaged.
+struct WebpFrame {
+  std::string bytes;
+  int x = 0, y = 0;
+};
+std::optional<WebpFrame> firstWebpFrame(std::string_view bytes);
 
 // The picture as it is meant to be seen, given its Orientation tag.
 Image oriented(Image image, int orientation);

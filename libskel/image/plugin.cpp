@@ -1,5 +1,6 @@
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -29,6 +30,18 @@ SkelDecode loadDecoder() {
 Image decodeByPlugin(std::string_view bytes, Format format, const std::string& file) {
   const HeaderSize size = headerSize(bytes, format);
   checkSize(size.width, size.height, file);
+
+  // OpenCV reads still ones alone.
+  if (const auto frame = format == Format::kWebp ? firstWebpFrame(bytes) : std::nullopt) {
+    const Image part = decodeByPlugin(frame->bytes, format, file);
+    if (frame->x + part.width > size.width || frame->y + part.height > size.height)
+      throw InputError(file, "is a broken picture (its first frame lies outside of it); export it again");
+    Image canvas(static_cast<int>(size.width), static_cast<int>(size.height));
+    canvas.rgba.setZero();
+    for (int y = 0; y < part.height; ++y)
+      std::copy_n(part.pixel(0, y), 4 * part.width, canvas.pixel(frame->x, frame->y + y));
+    return oriented(std::move(canvas), webpOrientation(bytes));
+  }
 
   static const SkelDecode decode = loadDecoder();
   if (decode == nullptr) {

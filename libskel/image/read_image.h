@@ -8,9 +8,9 @@
 
 namespace skel {
 
-// Reads PNG and JPEG directly; WebP, BMP, TIFF and GIF (first frame) through a plugin that is loaded when
-// such a file comes. Throws InputError (missing, empty, truncated, not a picture, CMYK, HEIC, more than
-// kMaxPixels or kLongestSide_px) and UnavailableError (the plugin is not there).
+// Reads PNG and JPEG directly; WebP and GIF (of animated ones the first frame), BMP and TIFF through a plugin
+// that is loaded when such a file comes. Throws InputError (missing, empty, truncated, not a picture, CMYK,
+// HEIC, more than kMaxPixels or kLongestSide_px) and UnavailableError (the plugin is not there).
 Image readImage(const std::string& path);
 
 // `file` is the name that complaints use.

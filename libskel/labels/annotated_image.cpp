@@ -62,10 +62,18 @@ NamedJoints readJointsFile(const std::string& path) {
   for (const std::string& name : list.keys()) {
     const JsonValue place = list.at(name);
     const std::string ours = name == "torso" ? "body" : name == "hip" ? "pelvis" : name;
-    joints.emplace_back(ours, std::nullopt);
-    if (place.isNull()) continue;
-    const auto xy = place.asNumbers(2);
-    joints.back().second = Eigen::Vector2d(xy[0], xy[1]);
+    std::optional<Eigen::Vector2d> point;
+    if (!place.isNull()) {
+      const auto xy = place.asNumbers(2);
+      point = Eigen::Vector2d(xy[0], xy[1]);
+    }
+    // Some name a joint by both names: ours counts, unless it is open.
+    const auto known =
+        std::find_if(joints.begin(), joints.end(), [&](const auto& joint) { return joint.first == ours; });
+    if (known == joints.end())
+      joints.emplace_back(ours, point);
+    else if (point && (name == ours || !known->second))
+      known->second = point;
   }
   if (joints.empty()) list.fail("is empty");
   return joints;

@@ -237,7 +237,7 @@ std::string formatLabelFile(const LabelFile& labels) {
 }
 
 void writeLabelFile(const std::string& path, const LabelFile& labels) {
-  writeFile(path, formatLabelFile(labels));
+  replaceFile(path, formatLabelFile(labels));
 }
 
 }  // namespace skel

@@ -18,17 +18,18 @@ RigOptions rigOptions(const std::string& body_plan) {
 
 RiggedDrawing rigDrawing(const std::string& path, const RigOptions& options) {
   RigInput input;
+  std::string source = path;  // of the figure's outline
   if (path.ends_with(".skeleton.json")) {
     const SkeletonFile file = readSkeletonFile(path, options.body_plan);
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     input.image = readImage((folder / file.image_file).string());
     input.skeleton = file.skeleton;
-    if (file.mask) input.mask = readMask((folder / file.mask->file).string());
+    if (file.mask) input.mask = readMask(source = (folder / file.mask->file).string());
   } else {
     input.image = readImage(path);
   }
   RiggedDrawing drawing = rigCharacter(std::move(input), options);
-  if (!drawing.found()) throw InputError(path, drawing.silhouette.reason);
+  if (!drawing.found()) throw InputError(source, drawing.silhouette.reason);
   return drawing;
 }
 

@@ -6,6 +6,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/json_names.h"
 #include "libskel/skeleton/joint_json.h"
 
@@ -115,6 +116,7 @@ MotionFile readMotionFile(const std::string& path, const SkeletonTemplate& body_
 
 void requireNoEdits(const std::string& path, const SkeletonTemplate& body_plan) {
   if (!std::filesystem::exists(path)) return;
+  const LookAtOutputs look;
   for (const MotionFrame& frame : readMotionFile(path, body_plan).frames)
     for (const auto& joint : frame.joints)
       if (joint && joint->origin == JointOrigin::kEdited)

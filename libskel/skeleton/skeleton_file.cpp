@@ -5,6 +5,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/json.h"
 #include "libskel/core/json_names.h"
 #include "libskel/skeleton/joint_json.h"
@@ -146,6 +147,7 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
 
 bool hasEditedJoint(const std::string& path) {
   if (!std::filesystem::exists(path)) return false;
+  const LookAtOutputs look;
   const JsonDocument document = JsonDocument::readFile(path);
   const auto joints = document.root().find("joints");
   if (!joints) return false;

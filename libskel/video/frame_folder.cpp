@@ -5,16 +5,18 @@
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
-#include "libskel/image/write_image.h"
 #include "libskel/video/formats.h"
+#include "libskel/video/frame_file.h"
 
 namespace skel {
 namespace {
 namespace fs = std::filesystem;
 
+constexpr const char* kPrefix = "frame-";
+
 std::string frameName(int number) {
   char name[32];
-  std::snprintf(name, sizeof name, "frame-%04d.png", number);
+  std::snprintf(name, sizeof name, "%s%04d.png", kPrefix, number);
   return name;
 }
 
@@ -22,6 +24,7 @@ class FrameFolder : public VideoWriter {
  public:
   FrameFolder(std::string dir, const VideoOptions& options) : dir_(std::move(dir)), options_(options) {
     ensureWritableFolder(dir_);
+    checkFrames(dir_, kPrefix);
     // What is left of a longer film would be taken for the end of this one.
     const std::string next = dir_ / frameName(options.frames + 1);
     if (options.frames > 0 && fs::exists(next))
@@ -32,10 +35,10 @@ class FrameFolder : public VideoWriter {
     SKEL_CHECK_EQ(frame.width, options_.width);
     SKEL_CHECK_EQ(frame.height, options_.height);
     const std::string path = dir_ / frameName(++count_);
-    if (options_.transparent) return writeFile(path, encodePng(frame));
+    if (options_.transparent) return writeFile(path, encodeFrame(frame));
     Image opaque = frame;
     opaque.rgba.col(3).setConstant(255);
-    writeFile(path, encodePng(opaque));
+    writeFile(path, encodeFrame(opaque));
   }
 
   void finish() override { SKEL_CHECK(count_ > 0); }

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "libskel/core/error.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/image/formats.h"
 #include "libskel/image/read_image.h"
 #include "libskel/video/formats.h"
@@ -18,6 +19,10 @@ namespace skel {
 namespace {
 
 constexpr double kUsualFrameRate = 25;
+
+// Containers of films. The others that FFmpeg knows are play lists and devices, which open other things.
+constexpr const char* kContainers =
+    "apng,asf,avi,flv,gif,h264,hevc,ivf,m4v,matroska,mov,mpeg,mpegts,mpegvideo,mxf,nut,obu,ogg,yuv4mpegpipe";
 
 struct Free {
   void operator()(AVFormatContext* file) const { avformat_close_input(&file); }
@@ -34,8 +39,17 @@ class FilmReader : public VideoReader {
   explicit FilmReader(const std::string& path) : path_(path) {
     av_log_set_level(AV_LOG_QUIET);
     AVFormatContext* file = nullptr;
-    require(avformat_open_input(&file, path.c_str(), nullptr, nullptr));
+    AVDictionary* only = nullptr;
+    av_dict_set(&only, "protocol_whitelist", "file", 0);
+    av_dict_set(&only, "format_whitelist", kContainers, 0);
+    // Without the protocol, "take:1.mp4" would be an address.
+    const int opened = avformat_open_input(&file, ("file:" + path).c_str(), nullptr, &only);
+    av_dict_free(&only);
+    if (opened == AVERROR_INVALIDDATA)
+      throw InputError(path_, "is no film that can be read (MP4, WebM, MKV, AVI, GIF ...), or a damaged one");
+    require(opened);
     file_.reset(file);
+    noteInput(path);
     require(avformat_find_stream_info(file, nullptr));
     const AVCodec* codec = nullptr;
     stream_ = av_find_best_stream(file, AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);

@@ -7,6 +7,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/natural_order.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/result_picture.h"
@@ -37,6 +38,7 @@ class FolderReader : public VideoReader {
       if (isPicture(file)) files_.push_back(std::move(file));
     if (files_.empty()) throw InputError(dir, "holds no pictures");
     std::sort(files_.begin(), files_.end(), comesBefore);
+    for (const std::string& file : files_) noteInput(file);
     frame_rate_ = frame_rate;
     frame_count_ = static_cast<int>(files_.size());
   }
@@ -70,6 +72,9 @@ std::unique_ptr<VideoReader> readFrameFolder(const std::string& dir, double fram
 std::unique_ptr<VideoReader> readVideo(const std::string& path, double folder_frame_rate) {
   if (fs::is_directory(path)) return readFrameFolder(path, folder_frame_rate);
   if (!fs::exists(path)) throw InputError(path, "does not exist");
+  if (!fs::is_regular_file(path))
+    throw InputError(path,
+                     "is a pipe or a device; films are read from files, and more than once: save it first");
   if (endingOf(path) == ".webp") {
 #ifdef SKEL_VIDEO_WEBP
     return readWebp(path);

@@ -213,6 +213,30 @@ TEST_CASE("a folder of clips adds to those that come with skel and takes their p
                         ": is the second clip \"nod\" for the template \"biped\" in " + dir.path());
 }
 
+TEST_CASE("an own clip without a template takes the place of those that have its joints") {
+  const TempDir dir;
+  const auto write = [&](const std::string& name, Clip clip) {
+    std::ofstream(dir.file(name)) << formatClip(clip);
+  };
+  Clip own = parsed(R"("tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [9, 0, 0, 0]]}])");
+  own.name = "walk";
+  write("walk.clip.json", own);
+  const auto walks = [&](const char* body_plan) {
+    std::vector<float> durations_s;
+    for (const Clip& clip : clipsFor(clipsWithFolder(dir.path()), loadTemplate(body_plan)))
+      if (clip.name == "walk") durations_s.push_back(clip.duration_s());
+    return durations_s;
+  };
+  CHECK(walks("biped") == std::vector<float>{9});
+  CHECK(walks("quadruped") == std::vector<float>{9});
+  own.tracks[0].joint = "left_hand";  // which an animal has not
+  write("walk.clip.json", own);
+  CHECK(walks("biped") == std::vector<float>{9});
+  const std::vector<float> animals = walks("quadruped");
+  REQUIRE(animals.size() == 1);
+  CHECK(animals[0] != 9);
+}
+
 TEST_CASE("key-frame clips turn by angles, move and scale; what has no key rests") {
   const std::string text = R"({"name": "trot", "duration": 3, "keyframes": {
       "head": [{"time": 0, "rotation": [0, 0, 0]}, {"time": 2, "rotation": [0, 0, 6]}],

@@ -1,5 +1,6 @@
 #include "libskel/export/formats.h"
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -55,7 +56,9 @@ TEST_CASE("every format writes files of its own, the same bytes each time") {
     const auto files = bySuffix(format.encode(fixture.input));
     CHECK_FALSE(files.empty());
     CHECK(files == bySuffix(format.encode(fixture.input)));
+    const std::vector<std::string> told = format.suffixes("bob", fixture.clips);
     for (const auto& [suffix, bytes] : files) {
+      CHECK(std::find(told.begin(), told.end(), suffix) != told.end());
       CHECK_FALSE(bytes.empty());
       CHECK(all.emplace(suffix, bytes).second);
     }
@@ -70,6 +73,33 @@ TEST_CASE("every format writes a character without texture and clips") {
   fixture.character.mesh.uv.resize(0, 2);
   fixture.clips.clear();
   for (const ExportFormat& format : exportFormats()) CHECK_FALSE(format.encode(fixture.input).empty());
+}
+
+TEST_CASE("two clips whose names come to one name of a file are two files") {
+  Fixture fixture;
+  fixture.clips = {fixture.clips[0], fixture.clips[0], fixture.clips[0]};
+  fixture.clips[0].name = "a/b";
+  fixture.clips[1].name = "a_b";
+  fixture.clips[2].name = "../a";
+  const auto files = bySuffix(exportBvh(fixture.input));
+  CHECK(files.contains("-a_b.bvh"));
+  CHECK(files.contains("-a_b-2.bvh"));
+  CHECK(files.contains("-_._a.bvh"));
+}
+
+TEST_CASE(
+    "an OBJ of a drawing named with # or backslash is refused, one with a blank or a dash before it is not") {
+  Fixture fixture;
+  for (const std::string stem : {"a#b", "a\\b", "a\nb", "a\rb"}) {
+    fixture.input.options.name = stem;
+    CHECK_THROWS_AS(exportObj(fixture.input), UsageError);
+    CHECK_THROWS_AS(objSuffixes(stem, {}), UsageError);
+  }
+  for (const std::string stem : {" a", "-a"}) {
+    fixture.input.options.name = stem;
+    CHECK(bySuffix(exportObj(fixture.input)).at(".obj").find("mtllib ./" + stem + ".mtl\n") !=
+          std::string::npos);
+  }
 }
 
 TEST_CASE("an OBJ holds the mesh, and names its material and texture by the stem") {

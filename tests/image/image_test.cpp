@@ -397,6 +397,33 @@ TEST_CASE("BMP, TIFF, GIF and WebP come through the plugin") {
   CHECK(webp.height == 1);
 }
 
+// One frame of kWebp's picture at (2, 0) of a canvas of 3x2 px, behind a chunk that says nothing.
+std::string animatedWebp() {
+  const std::string pixels = kWebp.substr(12) + std::string(kWebp.size() % 2, '\0');
+  const std::string frame = little(1, 3) + little(0, 3) + little(0, 3) + little(0, 3) + little(100, 3) +
+                            std::string(1, '\0') + pixels;
+  const std::string content = "WEBPVP8X" + little(10, 4) + std::string("\x02\0\0\0", 4) + little(2, 3) +
+                              little(1, 3) + "ANIM" + little(6, 4) + std::string(6, '\0') + "ANMF" +
+                              little(static_cast<std::uint32_t>(frame.size()), 4) + frame;
+  return "RIFF" + little(static_cast<std::uint32_t>(content.size()), 4) + content;
+}
+
+TEST_CASE("an animated WebP as a drawing gives its first frame, on its canvas") {
+  const std::string bytes = animatedWebp();
+  const Image image = decodeImage(bytes, "x"), still = decodeImage(kWebp, "x");
+  REQUIRE(image.width == 3);
+  REQUIRE(image.height == 2);
+  CHECK(pixel(image, 2, 0) == pixel(still, 0, 0));
+  CHECK(pixel(image, 0, 0) == Bytes{0, 0, 0, 0});
+  CHECK(pixel(image, 2, 1) == Bytes{0, 0, 0, 0});
+  for (size_t size = 16; size + 3 < bytes.size(); ++size)
+    CHECK_THAT(complaint(bytes.substr(0, size), "cut"), Contains("cut: "));
+  std::string outside = bytes;
+  outside[bytes.find("ANMF") + 8] = 2;
+  CHECK_THAT(complaint(outside, "x"),
+             Contains("x: is a broken picture (its first frame lies outside of it)"));
+}
+
 TEST_CASE("broken BMP, TIFF, GIF and WebP are refused") {
   for (const std::string& whole : {makeBmp(), makeTiff(), makeGif(0), kWebp}) {
     for (size_t size = 14; size + 3 < whole.size(); ++size) {

@@ -127,7 +127,7 @@ TEST_CASE("masks, weights, templates and models that do not fit are refused") {
          "small.png: is a layer map of 30x20 px, the image has 600x600");
   expect(infer(dir, "a.png --layers a.png"), 2, "which is no limb's; paint with the colours that --formats");
   writeFile(dir.file("blank.png"), plainPng(600, 600, 0));
-  expect(infer(dir, "a.png --mask blank.png"), 2, "a.png: ");
+  expect(infer(dir, "a.png --mask blank.png"), 2, "blank.png: the mask is blank");
   expect(infer(dir, "a.png --template centaur"), 2, "centaur: is no template; use one of: biped, quadruped");
   std::string weights = readFile(SKEL_SOURCE_DIR "/weights/default.json");
   const size_t at = weights.find("\"layers\"");

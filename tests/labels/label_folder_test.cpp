@@ -187,3 +187,22 @@ TEST_CASE("a folder that may not be read is named") {
   CHECK_THROWS_WITH(checkLabelFolder(dir.path()), line);
   CHECK_THROWS_WITH(labelAnnotatedImages(dir.path()), line);
 }
+
+TEST_CASE("torso and body, or hip and pelvis, are one joint: ours counts unless it is open") {
+  const TempDir dir;
+  const auto read = [&](const std::string& joints) {
+    writeFile(dir.file("x.joints.json"), R"({"joints": {)" + joints + "}}");
+    return readJointsFile(dir.file("x.joints.json"));
+  };
+  for (const std::string text : {R"("torso": [1, 2], "body": [3, 4])", R"("body": [3, 4], "torso": [1, 2])",
+                                 R"("body": null, "torso": [3, 4])", R"("torso": [3, 4], "body": null)",
+                                 R"("torso": null, "body": [3, 4])"}) {
+    CAPTURE(text);
+    const NamedJoints joints = read(text);
+    REQUIRE(joints.size() == 1);
+    CHECK(joints[0].first == "body");
+    REQUIRE(joints[0].second);
+    CHECK(*joints[0].second == Eigen::Vector2d(3, 4));
+  }
+  CHECK(read(R"("hip": [1, 2], "pelvis": [3, 4])").size() == 1);
+}

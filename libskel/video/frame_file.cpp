@@ -1,0 +1,60 @@
+#include "libskel/video/frame_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "libskel/core/check.h"
+#include "libskel/core/error.h"
+#include "libskel/core/input_guard.h"
+#include "libskel/image/write_image.h"
+
+namespace skel {
+namespace {
+namespace fs = std::filesystem;
+using namespace std::string_view_literals;
+
+// The chunk of PNG that tells the program: length, type, key and text, CRC.
+constexpr std::string_view kMark = "\0\0\0\x0DtEXtSoftware\0skel[)>\xA9"sv;
+constexpr std::size_t kMarkAt = 33;  // behind signature and IHDR, which are always of the same size
+
+bool isOurs(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string head(kMarkAt + kMark.size(), '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return file.good() && std::string_view(head).substr(kMarkAt) == kMark;
+}
+
+bool isFrame(const std::string& name, const std::string& prefix) {
+  constexpr std::string_view kEnding = ".png";
+  if (!name.starts_with(prefix) || !name.ends_with(kEnding)) return false;
+  const std::string_view number =
+      std::string_view(name).substr(prefix.size(), name.size() - prefix.size() - kEnding.size());
+  return !number.empty() && number.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+}  // namespace
+
+std::string encodeFrame(const Image& frame) {
+  std::string png = encodePng(frame);
+  SKEL_CHECK(png.size() > kMarkAt);
+  return png.insert(kMarkAt, kMark);
+}
+
+void checkFrames(const std::string& dir, const std::string& prefix) {
+  std::error_code failure;
+  std::vector<fs::path> frames;
+  for (fs::directory_iterator entry(dir, failure); !failure && entry != fs::directory_iterator();
+       entry.increment(failure))
+    if (isFrame(entry->path().filename().string(), prefix)) frames.push_back(entry->path());
+  std::sort(frames.begin(), frames.end());
+  for (const fs::path& frame : frames) {
+    noteOutput(frame.string());
+    if (!isOurs(frame))
+      throw OutputError(frame.string(),
+                        "is not one of skel's pictures; move it away, or name another folder with -o");
+  }
+}
+
+}  // namespace skel

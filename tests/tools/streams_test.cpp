@@ -1,0 +1,85 @@
+// Pipes, devices, links, modes, signals.
+#include <sys/stat.h>
+
+#include <csignal>
+
+#include "tests/tools/tools.h"
+
+using namespace skel;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+TEST_CASE("a drawing comes through /dev/stdin") {
+  const TempDir dir;
+  writeFigure(dir.file("cat.png"));
+  done(dir, "skel-infer cat.png && cat cat.png | skel-infer /dev/stdin");
+  CHECK(readFile(dir.file("out/stdin.overlay.png")) == readFile(dir.file("out/cat.overlay.png")));
+  done(dir, "cat out/cat.silhouette.png | skel-infer cat.png --mask /dev/stdin -o masked");
+  refused(dir, "cat cat.png | skel-style keyframes /dev/stdin", 2,
+          "/dev/stdin: is a pipe or a device; films are read from files");
+}
+
+TEST_CASE("what is printed and does not arrive is an output error") {
+  const TempDir dir;
+  writeFigure(dir.file("cat.png"));
+  for (const char* command :
+       {"skel-infer cat.png", "skel-infer --help", "skel-infer --version", "skel-animate list",
+        "skel-train --help", "skel-label --help", "skel-style make --help"})
+    refused(dir, std::string(command) + " > /dev/full", 4,
+            "standard output: cannot be written: No space left on device");
+}
+
+TEST_CASE("devices and pipes are written into and stay what they are") {
+  const TempDir dir;
+  writeFigure(dir.file("cat.png"));
+  fs::create_directories(dir.file("set"));
+  for (const char* name : {"cap_boy.png", "cap_boy.labels.json", "cap_boy.mask.png"})
+    if (const std::string from = std::string(SKEL_SOURCE_DIR "/datasets/characters/") + name;
+        fs::exists(from))
+      fs::copy_file(from, dir.file(std::string("set/") + name));
+  const std::string write = "skel-label export set --csv -o ";
+  done(dir, write + "/dev/null");
+  refused(dir, write + "/dev/full", 4, "/dev/full: cannot be written: No space left on device");
+  CHECK(fs::is_character_file("/dev/null"));
+  CHECK(fs::is_character_file("/dev/full"));
+  done(dir, write + "table.csv");
+  const std::string table = readFile(dir.file("table.csv"));
+  done(dir, "mkfifo pipe && { cat pipe > read & } && " + write + "pipe && wait");
+  CHECK(readFile(dir.file("read")) == table);
+  CHECK(fs::is_fifo(dir.file("pipe")));
+  CHECK(done(dir, write + "/dev/stdout | cat").out == table + "/dev/stdout\n");
+  CHECK(done(dir, write + "/dev/stdout > both && cat both").out == table + "/dev/stdout\n");
+  done(dir, "ln -s there/table.csv link.csv && " + write + "link.csv");
+  CHECK(fs::is_symlink(dir.file("link.csv")));
+  CHECK(readFile(dir.file("there/table.csv")) == table);
+  done(dir, "echo old > private.csv && chmod 600 private.csv && " + write + "private.csv");
+  struct stat status;
+  REQUIRE(stat(dir.file("private.csv").c_str(), &status) == 0);
+  CHECK((status.st_mode & 0777) == 0600);
+}
+
+TEST_CASE("a blank mask is blamed, not the drawing") {
+  const TempDir dir;
+  writeFigure(dir.file("cat.png"));
+  Image blank = blankImage(160, 200);
+  blank.rgba.leftCols(3).setZero();
+  writeFile(dir.file("blank.png"), encodePng(blank));
+  refused(dir, "skel-infer cat.png --mask blank.png", 2, "skel-infer: blank.png: the mask is blank");
+}
+
+TEST_CASE("tools die by the signal and leave no temporary file") {
+  const TempDir dir;
+  writeFigure(dir.file("cat.png"));
+  for (const char* signal : {"TERM", "HUP"}) {
+    // It waits for the pipe.
+    const ToolRun run =
+        runIn(dir, "rm -f pipe; mkfifo pipe; skel-infer cat.png --mask pipe & tool=$!; sleep 1; kill -" +
+                       std::string(signal) + " $tool; wait $tool");
+    CHECK(run.exit_code == 128 + (std::string(signal) == "TERM" ? SIGTERM : SIGHUP));
+  }
+  done(dir,
+       "for i in 1 2 3 4 5 6 7 8 9; do cp cat.png $i.png; done; for wait in 0.05 0.1 0.2 0.4; do "
+       "skel-infer [1-9].png --jobs 4 2>/dev/null & tool=$!; sleep $wait; kill -TERM $tool 2>/dev/null; "
+       "wait $tool; done; true");
+  for (const std::string& file : filesBelow(dir.path())) CHECK_FALSE(file.ends_with(".skel-tmp"));
+}
