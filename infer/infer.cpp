@@ -421,9 +421,9 @@ ExitCode runInfer(const InferOptions& asked) {
   options.images = drawingsAmong(asked.images);
   const std::vector<Job> jobs = jobsOf(options);
   const RigOptions rig = rigOptions(options);
-  noteUnusedWeights(options);
   for (const Job& job : jobs) noteInput(job.source);
   for (const Job& job : jobs) noteResults(options, job, rig.clips);
+  noteUnusedWeights(options);
   ensureWritableFolder(options.out_dir);
   std::vector<Outcome> outcomes(jobs.size());
   {
