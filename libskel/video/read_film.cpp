@@ -1,4 +1,5 @@
 // Films through FFmpeg's libraries.
+#include <cerrno>
 #include <cmath>
 #include <memory>
 #include <new>
@@ -45,8 +46,8 @@ class FilmReader : public VideoReader {
     // Without the protocol, "take:1.mp4" would be an address.
     const int opened = avformat_open_input(&file, ("file:" + path).c_str(), nullptr, &only);
     av_dict_free(&only);
-    if (opened == AVERROR_INVALIDDATA)
-      throw InputError(path_, "is no film that can be read (MP4, WebM, MKV, AVI, GIF ...), or a damaged one");
+    if (opened == AVERROR(EINVAL))  // a format that is not on the list
+      throw InputError(path_, "cannot be read as a film: it is no MP4, WebM, MKV, AVI, GIF ...");
     require(opened);
     file_.reset(file);
     noteInput(path);
