@@ -70,7 +70,7 @@ void noteOutput(const std::string& path) {
 void noteNamedOutput(const std::string& path) {
   noteOutput(path);
   std::error_code failure;
-  const fs::path canonical = fs::weakly_canonical(path, failure);
+  const fs::path canonical = fs::weakly_canonical(fs::absolute(path), failure);
   const fs::file_type type = fs::status(path, failure).type();
   // Several things may go to one folder or one device.
   if (type != fs::file_type::regular && type != fs::file_type::not_found) return;

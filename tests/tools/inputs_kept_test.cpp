@@ -92,7 +92,7 @@ TEST_CASE("films, frames and motions that skel-style is given are kept") {
         make + "w/transfer.motion.json --style a.motion.json -o b.gif --work w");
   keeps(dir, "a.motion.json",
         "skel-style transfer --content a.motion.json --style a.motion.json -o a.motion.json");
-  keeps(dir, "film/frame-0002.png", "skel-style keypoints film -o film/frame-0002.png");
+  keeps(dir, "film/frame-0002.png", "skel-style keypoints film -o film/frame-0002.png --force");
   keeps(dir, "a.motion.json", "skel-style inspect a.motion.json -o a.motion.json");
   refused(dir, "skel-style render --motion a.motion.json --character cat.png -o x.gif --to-clip ./x.gif", 1,
           "is to be written twice");
