@@ -111,3 +111,22 @@ TEST_CASE("a BVH of ours comes back as it was") {
     CHECK(worst < 0.1);
   }
 }
+
+TEST_CASE("a clip file that puts the pelvis on the ground, or lasts 1e5 s, is one line") {
+  const TempDir dir;
+  const std::string to = " --to " + figureFile(dir) + " -o " + dir.file("a.glb");
+  const auto write = [&](const std::string& more) {
+    writeFile(dir.file("a.clip.json"),
+              R"({"format": "skel-clip", "version": 1, "name": "a", )" + more +
+                  R"("tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [2, 9, 0, 0]]}]})");
+  };
+  write(R"("contacts": [{"joint": "pelvis", "from_s": 0, "to_s": 1}], )");
+  checkFails("retarget " + dir.file("a.clip.json") + to, 2,
+             "the clip \"a\" puts \"pelvis\" on the ground, which ends no limb of two bones");
+  write(R"("contacts": [{"joint": "tail", "from_s": 0, "to_s": 1}], )");
+  checkFails("retarget " + dir.file("a.clip.json") + to, 2,
+             dir.file("a.clip.json") + ": puts \"tail\" on the ground, which this character lacks");
+  write(R"("duration_s": 100000, )");
+  checkFails("retarget " + dir.file("a.clip.json") + to, 2,
+             dir.file("a.clip.json") + ": duration_s: is 100000, must be between 0 and 3600");
+}

@@ -1,4 +1,5 @@
 // skel-infer evaluate against the scorer that comes with the real drawings. Both need those drawings.
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -53,4 +54,19 @@ TEST_CASE("evaluate draws what it found and writes the figures") {
   const skel::JsonDocument figures = skel::JsonDocument::readFile(dir.path() + "/figures.json");
   CHECK(figures.root().at("characters").at("cap_boy").at("pck10").asNumber() == 1);
   CHECK_FALSE(figures.root().at("characters").at("cap_boy").at("worst_joint").asString().empty());
+}
+
+TEST_CASE("evaluate goes on after a drawing that cannot be read, and says so") {
+  const skel::TempDir dir;
+  for (const char* end : {".png", ".mask.png", ".joints.json"})
+    for (const std::string name : {"good", "broken"})
+      std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/cap_boy") + end,
+                                 dir.file(name + end));
+  std::filesystem::resize_file(dir.file("broken.png"), 5000);
+  const auto run = skel::runTool("'" SKEL_INFER "' evaluate '" + dir.path() + "' --given-mask");
+  CAPTURE(run.out, run.err);
+  CHECK(run.exit_code == 2);
+  CHECK(run.err.find("broken.png: ") != std::string::npos);
+  CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+  CHECK(run.out.find("mean over 1 characters") != std::string::npos);
 }
