@@ -129,14 +129,20 @@ int roleIndex(std::string_view role) {
 std::vector<int> limbByNames(const Tree& tree, const std::vector<PlainName>& names,
                              const std::initializer_list<std::string_view> (&wanted)[3], Side side) {
   std::vector<int> limb;
+  // A joint at its parent's place begins no limb ("LHipJoint" above "LeftHip"), if another can.
+  const auto begins = [&](int joint) {
+    return tree.parent(joint) < 0 || (tree.at(joint) - tree.at(tree.parent(joint))).norm() > 1e-9;
+  };
   // From the end inwards: hand and foot are called so by everyone.
   for (int part = 2; part >= 0; --part) {
     int found = -1;
     for (const std::string_view name : wanted[part]) {
-      for (std::size_t j = 0; j < names.size() && found < 0; ++j)
-        if (names[j].side == side && names[j].base == name && (limb.empty() || int(j) != limb.front()) &&
-            (limb.empty() || tree.isAbove(int(j), limb.front())))
-          found = int(j);
+      for (int j = 0; j < int(names.size()); ++j) {
+        if (names[std::size_t(j)].side != side || names[std::size_t(j)].base != name ||
+            (!limb.empty() && (j == limb.front() || !tree.isAbove(j, limb.front()))))
+          continue;
+        if (found < 0 || (!begins(found) && begins(j))) found = j;
+      }
       if (found >= 0) break;
     }
     if (found < 0) return {};
