@@ -36,6 +36,8 @@ struct JointTrack {
   std::vector<Eigen::Vector3f> translations_m = {};
   std::vector<float> scale_times_s = {};
   std::vector<Eigen::Vector3f> scales = {};  // along the joint's own axes, before it is turned
+
+  bool operator==(const JointTrack&) const = default;
 };
 
 // While a foot stands on the ground.
@@ -73,6 +75,7 @@ struct Clip {
   std::vector<FootContact> contacts;  // retargetToRest() keeps these feet on the ground, and spends them
 
   float duration_s() const;
+  bool operator==(const Clip&) const = default;
 };
 
 }  // namespace skel

@@ -5,11 +5,13 @@
 #include <limits>
 #include <numbers>
 
+#include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/classifier/features.h"
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
+#include "libskel/deform/bound_stretch.h"
 #include "libskel/deform/figure_shape.h"
 #include "libskel/deform/limb_depth.h"
 #include "libskel/jointnet/net_joints.h"
@@ -116,6 +118,19 @@ InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawin
   return inflate;
 }
 
+// Weights are the same whatever clips are asked for: those that come with skel decide.
+void boundStretchOfClips(const std::vector<Clip>& made, const RetargetOptions& retarget,
+                         const RigOptions& options, RiggedCharacter& character) {
+  std::vector<Clip> clips;
+  for (const Clip& clip : clipsFor(builtinClips(), options.body_plan)) {
+    const auto same = std::find_if(options.clips.begin(), options.clips.end(),
+                                   [&](const Clip& asked) { return asked == clip; });
+    clips.push_back(same == options.clips.end() ? retargetToRest(clip, character.skeleton, retarget)
+                                                : made[std::size_t(same - options.clips.begin())]);
+  }
+  boundStretch(character.mesh, character.skeleton, clips, character.weights);
+}
+
 }  // namespace
 
 RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
@@ -212,13 +227,13 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   if (options.rest_pose != RestPose::kDrawn)
     drawing.character = timed("rest pose", [&] { return poseToRest(drawing.character, options.rest_pose); });
   drawing.clips = timed("clips", [&] {
-    std::vector<Clip> clips;
-    if (options.clips.empty()) return clips;
     const RiggedCharacter& character = drawing.character;
     RetargetOptions retarget;
     retarget.shape = measureFigure(character.mesh, character.weights, character.skeleton);
+    std::vector<Clip> clips;
     for (const Clip& clip : options.clips)
       clips.push_back(retargetToRest(clip, character.skeleton, retarget));
+    if (inflated) boundStretchOfClips(clips, retarget, options, drawing.character);
     return clips;
   });
   return drawing;

@@ -17,6 +17,7 @@
 #include "libskel/animation/clip_library.h"
 #include "libskel/core/error.h"
 #include "libskel/core/parallel.h"
+#include "libskel/deform/bound_stretch.h"
 #include "libskel/deform/stretch.h"
 #include "tests/support/clips_on_drawings.h"
 
@@ -26,6 +27,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kFrames = 8;
+constexpr int kMoments = 11;
 constexpr int kLimbPoints = 150;
 constexpr double kAbove_m = 0.003 * kModelHeight_m;
 
@@ -81,6 +83,7 @@ struct Quality {
 
 struct Measured {
   std::map<std::string, Quality> clips;
+  int beyond = 0;  // triangles that some moment stretches above kMostStretch
   bool layered = false;
 };
 
@@ -118,6 +121,15 @@ Measured measure(const std::string& path, const Request& request) {
         if (inside[i] && !inside_at_rest[i]) quality.inside += 1. / double(limbs.size()) / kFrames;
     }
   }
+  std::vector<char> beyond(rest.size(), 0);
+  for (const Clip& clip : drawing.clips)
+    for (int moment = 0; moment < kMoments; ++moment) {
+      const Eigen::MatrixX3f posed =
+          posedVertices(character, clip, clip.duration_s() * float(moment) / kMoments);
+      for (std::size_t t = 0; t < rest.size(); ++t)
+        if (!beyond[t] && stretchOf(rest[t], mesh, posed) > kMostStretch) beyond[t] = 1;
+    }
+  result.beyond = int(std::count(beyond.begin(), beyond.end(), 1));
   return result;
 }
 
@@ -150,6 +162,16 @@ void run(int argc, char** argv) {
   std::printf("%d of %d drawings in layers\n",
               int(std::count_if(all.begin(), all.end(), [](const Measured& m) { return m.layered; })),
               int(all.size()));
+  std::vector<int> beyond;
+  for (const Measured& m : all) beyond.push_back(m.beyond);
+  std::sort(beyond.begin(), beyond.end());
+  const auto share = [&](int most) {
+    return double(std::count_if(beyond.begin(), beyond.end(), [&](int n) { return n <= most; })) /
+           double(beyond.size());
+  };
+  std::printf(
+      "no triangle above %.1f in any clip: %.3f of the drawings; at most 5: %.3f, 20: %.3f, 100: %.3f\n",
+      kMostStretch, share(0), share(5), share(20), share(100));
   std::printf("clip       area stretched > 3: mean  worst     limbs inside others: mean  worst\n");
   for (const auto& [clip, qualities] : by_clip) {
     Quality mean, most;

@@ -1,0 +1,321 @@
+#include "libskel/deform/bound_stretch.h"
+
+#include <algorithm>
+#include <array>
+
+#include "libskel/animation/sample_pose.h"
+#include "libskel/deform/skin_vertices.h"
+#include "libskel/deform/stretch.h"
+#include "libskel/skin/bones.h"
+#include "libskel/skin/edges.h"
+
+namespace skel {
+namespace {
+
+using Eigen::Index;
+using Eigen::RowVector3f;
+using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr int kMoments = 16;          // of each clip, to choose from
+constexpr std::size_t kTelling = 56;  // of all clips
+constexpr float kAlike = 0.02f;       // squared, of turns: 6°; nearer moments stretch alike
+constexpr int kSweeps = 4;            // of smoothing between two looks at what is stretched
+constexpr int kRounds = 60;           // of such looks
+constexpr int kWiden = 5;             // after so many rounds, what moves reaches an edge farther
+constexpr int kPatience = 4;          // so many rounds without progress
+constexpr std::size_t kFew = 60;      // triangles that may ride rigidly without being seen
+constexpr double kSpare =
+    0.9;  // of the bound: between the moments that are looked at it may be a little more
+constexpr float kSame = 0.05f;  // weights that differ by less, in sum, stretch nothing
+
+// A number at each moment.
+using Moments = Eigen::Array<float, 1, Eigen::Dynamic>;
+using MomentRows = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// So many moments of all clips as differ most, each from those before it: first the one farthest from the
+// rest pose. Far is by the joint whose turn differs most.
+std::vector<JointTransforms> tellingMoments(const TriangleMesh& mesh, const Skeleton& skeleton,
+                                            const std::vector<Clip>& clips) {
+  const float height_m = mesh.vertices.col(1).maxCoeff() - mesh.vertices.col(1).minCoeff();
+  std::vector<JointTransforms> all;
+  for (const Clip& clip : clips)
+    for (int k = 0; k < kMoments; ++k) {
+      const float time_s = clip.duration_s() * float(k) / kMoments;
+      all.push_back(posedFromRest(skeleton, samplePose(clip, skeleton, time_s), height_m));
+    }
+  const JointTransforms rest(skeleton.joints.size(), Eigen::Affine3f::Identity());
+  const auto apart = [](const JointTransforms& a, const JointTransforms& b) {
+    float most = 0;
+    for (std::size_t j = 0; j < a.size(); ++j)
+      most = std::max(most, (a[j].linear() - b[j].linear()).squaredNorm());
+    return most;
+  };
+  std::vector<float> nearest;
+  for (const JointTransforms& moment : all) nearest.push_back(apart(moment, rest));
+  std::vector<JointTransforms> chosen;
+  while (chosen.size() < kTelling) {
+    const std::size_t next = std::size_t(std::max_element(nearest.begin(), nearest.end()) - nearest.begin());
+    if (nearest[next] < kAlike) break;
+    chosen.push_back(all[next]);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      nearest[i] = std::min(nearest[i], apart(all[i], chosen.back()));
+  }
+  return chosen;
+}
+
+// Of each joint, rows: the upper three rows of its matrix, number by number; columns: the moments.
+std::vector<MomentRows> byJoint(const std::vector<JointTransforms>& moments, std::size_t joint_count) {
+  std::vector<MomentRows> joints(joint_count, MomentRows(12, Index(moments.size())));
+  for (std::size_t m = 0; m < moments.size(); ++m)
+    for (std::size_t j = 0; j < joint_count; ++j)
+      for (int i = 0; i < 12; ++i) joints[j](i, Index(m)) = moments[m][j].matrix()(i / 4, i % 4);
+  return joints;
+}
+
+// What is stretched, looked at again only where weights have changed.
+class Stretched {
+ public:
+  Stretched(const TriangleMesh& mesh, std::vector<MomentRows> joints)
+      : mesh_(mesh), joints_(std::move(joints)), rest_(restTriangles(mesh)) {
+    const std::size_t vertices = std::size_t(mesh.vertices.rows());
+    posed_.resize(3 * Index(vertices), joints_[0].cols());
+    first_.assign(vertices + 1, 0);
+    for (Index t = 0; t < mesh.triangles.rows(); ++t)
+      for (int k = 0; k < 3; ++k) ++first_[std::size_t(mesh.triangles(t, k)) + 1];
+    for (std::size_t v = 0; v < vertices; ++v) first_[v + 1] += first_[v];
+    triangles_.resize(std::size_t(first_.back()));
+    std::vector<int> next(first_.begin(), first_.end() - 1);
+    for (Index t = 0; t < mesh.triangles.rows(); ++t)
+      for (int k = 0; k < 3; ++k) triangles_[std::size_t(next[std::size_t(mesh.triangles(t, k))]++)] = int(t);
+  }
+
+  // Those at the `changed` vertices that any moment stretches too far, ascending.
+  std::vector<int> among(const std::vector<int>& changed, const Rows& weights) {
+    std::vector<int> near;
+    for (const int v : changed)
+      near.insert(near.end(), triangles_.begin() + first_[std::size_t(v)],
+                  triangles_.begin() + first_[std::size_t(v) + 1]);
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    std::erase_if(near, [&](int t) { return isRigid(t, weights); });
+    std::vector<char> corner(std::size_t(mesh_.vertices.rows()), 0);
+    for (const int t : near)
+      for (int k = 0; k < 3; ++k)
+        if (char& seen = corner[std::size_t(mesh_.triangles(t, k))]; !seen)
+          seen = 1, pose(mesh_.triangles(t, k), weights);
+    std::erase_if(near, [&](int t) { return !isStretched(t); });
+    return near;
+  }
+
+ private:
+  bool isRigid(int t, const Rows& weights) const {
+    const auto a = weights.row(mesh_.triangles(t, 0)), b = weights.row(mesh_.triangles(t, 1)),
+               c = weights.row(mesh_.triangles(t, 2));
+    return (a - b).cwiseAbs().sum() < kSame && (a - c).cwiseAbs().sum() < kSame;
+  }
+
+  void pose(int v, const Rows& weights) {
+    auto to = posed_.middleRows(3 * v, 3);
+    to.setZero();
+    for (Index j = 0; j < weights.cols(); ++j) {
+      const float w = weights(v, j);
+      if (w <= 0) continue;
+      const RowVector3f at = w * mesh_.vertices.row(v);
+      for (int i = 0; i < 3; ++i)
+        to.row(i) +=
+            at.x() * joints_[std::size_t(j)].row(4 * i) + at.y() * joints_[std::size_t(j)].row(4 * i + 1) +
+            at.z() * joints_[std::size_t(j)].row(4 * i + 2) + w * joints_[std::size_t(j)].row(4 * i + 3);
+    }
+  }
+
+  // The largest singular value of J is above b exactly if b² − JᵀJ is not positive definite.
+  bool isStretched(int t) {
+    const RestTriangle& rest = rest_[std::size_t(t)];
+    if (rest.inverse.isZero(0)) return false;
+    const Eigen::Matrix2f inverse = rest.inverse.cast<float>();
+    const float p = inverse(0, 0), q = inverse(0, 1), s = inverse(1, 1);  // below the diagonal there is zero
+    constexpr float kMost2 = float(kSpare * kMostStretch * kSpare * kMostStretch);
+    const auto at = [&](int corner) { return posed_.middleRows(3 * mesh_.triangles(t, corner), 3); };
+    u_ = at(1) - at(0);
+    v_ = at(2) - at(0);
+    uu_ = u_.square().colwise().sum();
+    uv_ = (u_ * v_).colwise().sum();
+    vv_ = v_.square().colwise().sum();
+    a_ = kMost2 - p * p * uu_;
+    b_ = p * (q * uu_ + s * uv_);
+    c_ = kMost2 - (q * q * uu_ + 2 * q * s * uv_ + s * s * vv_);
+    return (a_ <= 0).any() || (a_ * c_ <= b_.square()).any();
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<MomentRows> joints_;
+  std::vector<RestTriangle> rest_;
+  MomentRows posed_;                    // three rows a vertex
+  std::vector<int> first_, triangles_;  // of each vertex
+  Eigen::Array<float, 3, Eigen::Dynamic, Eigen::RowMajor> u_, v_;
+  Moments uu_, uv_, vv_, a_, b_, c_;
+};
+
+// The four heaviest, with the sum 1.
+void keepFour(Eigen::Ref<Eigen::RowVectorXf> row) {
+  int count = int((row.array() > 0).count());
+  for (; count > 4; --count) {
+    Index least = -1;
+    for (Index j = 0; j < row.size(); ++j)
+      if (row[j] > 0 && (least < 0 || row[j] <= row[least])) least = j;
+    row[least] = 0;
+  }
+  row = (row.array() < 1e-3f).select(0, row);
+  row /= row.sum();
+}
+
+void takeRow(const Rows& weights, Index v, SkinWeights& result) {
+  std::array<int, 4> order{};
+  int count = 0;
+  for (Index j = 0; j < weights.cols() && count < 4; ++j)
+    if (weights(v, j) > 0) order[std::size_t(count++)] = int(j);
+  std::stable_sort(order.begin(), order.begin() + count,
+                   [&](int a, int b) { return weights(v, a) > weights(v, b); });
+  result.joints.row(v).setZero();
+  result.weights.row(v).setZero();
+  for (int k = 0; k < count; ++k) {
+    result.joints(v, k) = std::uint16_t(order[std::size_t(k)]);
+    result.weights(v, k) = weights(v, order[std::size_t(k)]);
+  }
+}
+
+// The triangles' vertices and those up to so many edges away, ascending.
+std::vector<int> around(const TriangleMesh& mesh, const Edges& edges, const std::vector<int>& triangles,
+                        int rings) {
+  std::vector<char> seen(std::size_t(mesh.vertices.rows()), 0);
+  std::vector<int> vertices;
+  const auto add = [&](int v) {
+    if (!seen[std::size_t(v)]) seen[std::size_t(v)] = 1, vertices.push_back(v);
+  };
+  for (const int t : triangles)
+    for (int k = 0; k < 3; ++k) add(mesh.triangles(t, k));
+  for (std::size_t begin = 0; rings > 0; --rings) {
+    const std::size_t end = vertices.size();
+    for (; begin < end; ++begin) {
+      const std::size_t v = std::size_t(vertices[begin]);
+      for (int i = edges.first[v]; i < edges.first[v + 1]; ++i) add(edges.to[std::size_t(i)]);
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+// Most of the way to the mean of the neighbours, all at once.
+void smoothRows(const Edges& edges, const std::vector<int>& vertices, Rows& rows) {
+  Rows smooth(Index(vertices.size()), rows.cols());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const std::size_t v = std::size_t(vertices[i]);
+    Eigen::RowVectorXf sum = Eigen::RowVectorXf::Zero(rows.cols());
+    const int begin = edges.first[v], end = edges.first[v + 1];
+    for (int k = begin; k < end; ++k) sum += rows.row(edges.to[std::size_t(k)]);
+    Eigen::RowVectorXf row = 0.25f * rows.row(Index(v)) + 0.75f / float(std::max(1, end - begin)) * sum;
+    keepFour(row);
+    smooth.row(Index(i)) = row;
+  }
+  for (std::size_t i = 0; i < vertices.size(); ++i) rows.row(vertices[i]) = smooth.row(Index(i));
+}
+
+// The triangle rides rigidly.
+void evenOut(const TriangleMesh& mesh, int triangle, Rows& rows) {
+  Eigen::RowVectorXf mean = Eigen::RowVectorXf::Zero(rows.cols());
+  for (int k = 0; k < 3; ++k) mean += rows.row(mesh.triangles(triangle, k));
+  mean /= 3;
+  keepFour(mean);
+  for (int k = 0; k < 3; ++k) rows.row(mesh.triangles(triangle, k)) = mean;
+}
+
+// An arm that is one piece with the body and would tear it rides with what it hangs on: in the bodies of the
+// mesh where it takes part in much of what is stretched. Returns the vertices that it moved, ascending.
+std::vector<int> holdArms(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<int>& limbs,
+                          const std::vector<int>& stretched, Rows& rows) {
+  constexpr float kMuch = 0.1f;
+  std::vector<int> held;
+  const auto layerOf = [&](int v) { return mesh.layer.size() > 0 ? mesh.layer[v] : 0; };
+  for (int layer = 0; layer <= (mesh.layer.size() > 0 ? mesh.layer.maxCoeff() : 0); ++layer) {
+    Eigen::RowVectorXf shares = Eigen::RowVectorXf::Zero(rows.cols());  // of limbs
+    float all = 0;
+    for (const int t : stretched)
+      for (int k = 0; k < 3; ++k) {
+        const int v = mesh.triangles(t, k);
+        if (layerOf(v) != layer) continue;
+        for (Index j = 0; j < rows.cols(); ++j) {
+          if (const int limb = limbs[std::size_t(j)]; limb >= 0) shares[limb] += rows(v, j);
+        }
+        ++all;
+      }
+    for (int limb = 0; limb < int(rows.cols()); ++limb) {
+      if (!skeleton.joints[std::size_t(limb)].name.ends_with("hand") || shares[limb] <= kMuch * all ||
+          shares[limb] >= 0.99f * all)
+        continue;
+      int root = limb;
+      while (limbs[std::size_t(skeleton.joints[std::size_t(root)].parent)] == limb)
+        root = skeleton.joints[std::size_t(root)].parent;
+      const int carrier = skeleton.joints[std::size_t(root)].parent;
+      for (int v = 0; v < int(rows.rows()); ++v) {
+        if (layerOf(v) != layer) continue;
+        float moved = 0;
+        for (int j = limb; j != carrier; j = skeleton.joints[std::size_t(j)].parent)
+          moved += rows(v, j), rows(v, j) = 0;
+        if (moved <= 0) continue;
+        rows(v, carrier) += moved;
+        held.push_back(v);
+      }
+    }
+  }
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  return held;
+}
+
+}  // namespace
+
+int boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<Clip>& clips,
+                 SkinWeights& weights) {
+  const int vertices = int(mesh.vertices.rows());
+  if (vertices == 0 || clips.empty()) return 0;
+  Rows rows = Rows::Zero(vertices, Index(skeleton.joints.size()));
+  for (int v = 0; v < vertices; ++v)
+    for (int k = 0; k < 4; ++k) rows(v, weights.joints(v, k)) += weights.weights(v, k);
+  const std::vector<JointTransforms> moments = tellingMoments(mesh, skeleton, clips);
+  if (moments.empty()) return 0;
+  Stretched stretched(mesh, byJoint(moments, skeleton.joints.size()));
+  std::vector<int> all(static_cast<std::size_t>(vertices));
+  for (int v = 0; v < vertices; ++v) all[std::size_t(v)] = v;
+  std::vector<int> found = stretched.among(all, rows);
+  if (found.empty()) return 0;
+  const Edges edges = edgesOf(vertices, mesh.triangles);
+  std::vector<char> changed(static_cast<std::size_t>(vertices), 0);
+  const std::vector<int> limbs = jointLimbs(skeleton);
+  std::size_t best = found.size();
+  int stalled = 0;
+  for (int round = 0; round < kRounds && !found.empty(); ++round) {
+    std::vector<int> moving = around(mesh, edges, found, 1 + round / kWiden);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) smoothRows(edges, moving, rows);
+    // What is stretched lies at what has moved.
+    found = stretched.among(moving, rows);
+    for (const int v : moving) changed[std::size_t(v)] = 1;
+    if (found.size() < kFew) {
+      for (const int t : found) evenOut(mesh, t, rows);
+      found = stretched.among(around(mesh, edges, found, 0), rows);
+    }
+    stalled = 20 * found.size() < 19 * best ? 0 : stalled + 1;
+    best = std::min(best, found.size());
+    if (stalled < kPatience || found.size() < kFew) continue;
+    moving = holdArms(mesh, skeleton, limbs, found, rows);
+    if (moving.empty()) break;
+    for (const int v : moving) changed[std::size_t(v)] = 1;
+    found = stretched.among(all, rows);
+    best = found.size();
+    stalled = 0;
+  }
+  for (int v = 0; v < vertices; ++v)
+    if (changed[std::size_t(v)]) takeRow(rows, v, weights);
+  return int(found.size());
+}
+
+}  // namespace skel
