@@ -38,6 +38,11 @@ void bindClipSource(CLI::App& app, ClipSource& source) {
   app.add_option("--clip-up", source.clip_up, "The axis of a key-frame clip that points up")
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();
+  app.add_option("--into-picture", source.into_picture,
+                 "How far limbs that point at the viewer turn into the picture, of figures drawn from the "
+                 "front: 0 not at all, 1 all the way")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
 }
 
 std::vector<Clip> clipLibrary(const ClipSource& source) {
@@ -52,24 +57,27 @@ std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharact
   return fitting;
 }
 
-Clip fitted(const Clip& clip, const RiggedCharacter& character) {
+Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource& source) {
   if (!fits(clip, character.skeleton))
     if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton);
         figure && fits(clip, *figure))
       return retargetByRoles(clip, *figure, character.skeleton, measureByRoles(character, *figure));
   RetargetOptions options;
   options.shape = measureFigure(character.mesh, character.weights, character.skeleton);
+  options.into_picture = source.into_picture;
   return retargetToRest(clip, character.skeleton, options);
 }
 
-RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& character) {
+RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& character,
+                            const ClipSource& source) {
   return retargetMotion(readBvh(path), path, character.skeleton,
-                        measureFigure(character.mesh, character.weights, character.skeleton));
+                        measureFigure(character.mesh, character.weights, character.skeleton),
+                        source.into_picture);
 }
 
 Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source) {
   const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending == ".bvh" || ending == ".BVH") return loadBvhFor(path, character).clip;
+  if (ending == ".bvh" || ending == ".BVH") return loadBvhFor(path, character, source).clip;
   const std::string text = readFile(path);
   if (isKeyframeClip(text)) {
     KeyframeClipOptions options;
@@ -84,7 +92,7 @@ Clip loadClipFor(const std::string& path, const RiggedCharacter& character, cons
   for (const FootContact& contact : clip.contacts)
     if (character.skeleton.find(contact.joint) < 0)
       throw InputError(path, "puts \"" + contact.joint + "\" on the ground, which this character lacks");
-  return fitted(clip, character);
+  return fitted(clip, character, source);
 }
 
 }  // namespace skel

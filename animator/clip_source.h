@@ -17,8 +17,9 @@ struct ClipSource {
   std::string clips_dir;                // a folder of clip files beside those that come with skel
   std::string interpolation = "slerp";  // of files of the elk system: slerp, or linear on the angles
   std::string clip_up = "z";            // of files of the elk system: the axis that points up
+  double into_picture = RetargetOptions().into_picture;
 };
-// --clips-dir, --interpolation, --clip-up.
+// --clips-dir, --interpolation, --clip-up, --into-picture.
 void bindClipSource(CLI::App& app, ClipSource& source);
 
 // Those that come with skel, and those of the folder.
@@ -29,10 +30,11 @@ std::vector<Clip> clipLibrary(const ClipSource& source);
 std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharacter& character);
 
 // Made for the canonical pose; the result is for the character's rest pose.
-Clip fitted(const Clip& clip, const RiggedCharacter& character);
+Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource& source = {});
 
 // The motion of a .bvh, fitted to the character, and which joints were matched. Throws InputError.
-RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& character);
+RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& character,
+                            const ClipSource& source = {});
 
 // A clip file, ours or of the elk system, or a .bvh, fitted to the character. Throws InputError.
 Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source = {});

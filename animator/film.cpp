@@ -36,15 +36,16 @@ JointTransforms posedAt(const RiggedCharacter& character, const Clip& clip, doub
                        heightOf(character));
 }
 
-Camera filmCamera(const RiggedCharacter& character, const Clip& clip, double yaw_rad, double pitch_rad,
-                  double width_over_height) {
-  const Eigen::Index count = character.mesh.vertices.rows();
-  Eigen::MatrixX3f all((kMoments + 1) * count, 3);
+Camera filmCamera(const RiggedCharacter& character, const std::vector<Clip>& clips, double yaw_rad,
+                  double pitch_rad, double width_over_height) {
+  const Eigen::Index count = character.mesh.vertices.rows(), moments = Eigen::Index(clips.size()) * kMoments;
+  Eigen::MatrixX3f all((moments + 1) * count, 3);
   all.topRows(count) = character.mesh.vertices;
-  parallelFor(kMoments, 0, [&](std::size_t i) {
+  parallelFor(std::size_t(moments), 0, [&](std::size_t i) {
+    const Clip& clip = clips[i / kMoments];
     all.middleRows((Eigen::Index(i) + 1) * count, count) =
         skinVertices(character.mesh.vertices, character.weights,
-                     posedAt(character, clip, double(clip.duration_s()) * double(i) / kMoments));
+                     posedAt(character, clip, double(clip.duration_s()) * double(i % kMoments) / kMoments));
   });
   return framingCamera(all, yaw_rad, pitch_rad, width_over_height);
 }

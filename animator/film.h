@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "libskel/animation/clip.h"
 #include "libskel/scene/scene.h"
@@ -19,9 +20,9 @@ struct FilmOptions {
 // Whole frames, at least one. The last one comes a frame before the end, so that films that loop do not stop.
 int frameCount(const Clip& clip, const FilmOptions& options);
 
-// Shows all of the clip, from one side: the eye does not move.
-Camera filmCamera(const RiggedCharacter& character, const Clip& clip, double yaw_rad, double pitch_rad,
-                  double width_over_height);
+// Shows all of the clips, from one side: the eye does not move.
+Camera filmCamera(const RiggedCharacter& character, const std::vector<Clip>& clips, double yaw_rad,
+                  double pitch_rad, double width_over_height);
 
 // All frames into `video`, which is not finished: `clip` is relative to the character's rest pose. Frames are
 // painted on all cores while others are encoded. `on_frame` is called for each.

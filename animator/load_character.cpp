@@ -76,7 +76,7 @@ CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSo
 
 std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource& source) {
   std::vector<Clip> clips = clipsFor(clipLibrary(source), character);
-  for (Clip& clip : clips) clip = fitted(clip, character);
+  for (Clip& clip : clips) clip = fitted(clip, character, source);
   return clips;
 }
 
@@ -84,7 +84,7 @@ Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const C
   for (const Clip& clip : file.clips)
     if (clip.name == name_or_path) return clip;
   std::vector<Clip> fitting = clipsFor(clipLibrary(source), file.character);
-  if (hasClip(fitting, name_or_path)) return fitted(clipNamed(fitting, name_or_path), file.character);
+  if (hasClip(fitting, name_or_path)) return fitted(clipNamed(fitting, name_or_path), file.character, source);
   if (name_or_path.find_first_of("./") != std::string::npos)
     return loadClipFor(name_or_path, file.character, source);
   fitting.insert(fitting.begin(), file.clips.begin(), file.clips.end());

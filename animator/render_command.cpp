@@ -1,6 +1,7 @@
 #include "animator/render_command.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <numbers>
@@ -68,6 +69,11 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
   app.add_option("--pitch", options.pitch_deg, "How far from above, degrees")
       ->check(numberIn(-89.0, 89.0))
       ->capture_default_str();
+  app.add_option("--frame", options.frame,
+                 "What the camera shows all of: this clip, or all clips of the character, so that films of "
+                 "one have one scale and one ground")
+      ->check(CLI::IsMember({"clip", "clips"}))
+      ->capture_default_str();
   app.add_option("--background", options.background,
                  "white, grey, black, #rrggbb, none (transparent), or a picture")
       ->capture_default_str();
@@ -116,8 +122,15 @@ ExitCode runRender(const RenderCommandOptions& options) {
   video_options.frames = frames;
   const auto video = openVideo(options.output, video_options);
   const Scene scene(file.character, painterFor(options.painter, file.character.mesh));
+  std::vector<Clip> shown = {clip};
+  if (options.frame == "clips") {
+    for (const Clip& other : file.clips) shown.push_back(other);
+    for (Clip& other : libraryFor(file.character, options.clips))
+      if (std::none_of(shown.begin(), shown.end(), [&](const Clip& c) { return c.name == other.name; }))
+        shown.push_back(std::move(other));
+  }
   const Camera camera =
-      filmCamera(file.character, clip, options.angle_deg * std::numbers::pi / 180,
+      filmCamera(file.character, shown, options.angle_deg * std::numbers::pi / 180,
                  options.pitch_deg * std::numbers::pi / 180, double(size.width) / size.height);
   {
     ProgressBar bar("frames", std::size_t(frames));

@@ -22,6 +22,7 @@ struct RenderCommandOptions {
   std::string size = "512x512";
   double angle_deg = 0, pitch_deg = 5;
   std::string background = "white";
+  std::string frame = "clip";  // or clips: what the camera shows all of
   std::string painter = "auto";
   std::string blend = "linear";
   bool wireframe = false, translucent = false, skeleton = false, no_shadow = false;

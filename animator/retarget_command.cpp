@@ -27,7 +27,7 @@ void report(const JointMatch& match) {
 
 Clip motionFor(const RetargetCommandOptions& options, const CharacterFile& file) {
   if (!options.motion.ends_with(".bvh")) return clipFor(options.motion, file, options.clips);
-  RetargetedMotion result = loadBvhFor(options.motion, file.character);
+  RetargetedMotion result = loadBvhFor(options.motion, file.character, options.clips);
   report(result.match);
   return std::move(result.clip);
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "libskel/animation/clip_limits.h"
+#include "libskel/animation/mirror_clip.h"
 #include "libskel/animation/plant_feet.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/error.h"
@@ -48,6 +49,8 @@ struct Retargeter {
   std::vector<Vector3d> raised;         // a bone whose swing grows as it points up; zero: swings always
   std::vector<double> share_of_motion;  // 1: as the clip says, 0: the joint does not turn
   Quaterniond figure_from_clip = Quaterniond::Identity();  // about the vertical
+  std::vector<Vector3d> bones;                             // of pointed joints, canonical
+  std::vector<Vector3d> into_picture;                      // where what points at the viewer turns to
 
   // Rotations to the model frame.
   std::vector<Quaterniond> globals(const Pose& canonical, double share) const {
@@ -62,9 +65,12 @@ struct Retargeter {
       motion[j] = parent < 0 ? local : motion[parent] * local;
       const double up = raised[j].isZero() ? 1 : smoothStep(-0.2, 0.6, (motion[j] * raised[j]).y());
       swung[j] = up * swing[j] + (parent < 0 ? 0 : swung[parent]);
-      if (pointed[j])
-        result[j] = aboutZ(swung[j] * share) * motion[j] * turns[j].share(share).conjugate();
-      else
+      if (pointed[j]) {
+        const Quaterniond turn = aboutZ(swung[j] * share) * motion[j];
+        const Vector3d bone = turn * bones[j];
+        const Vector3d seen = bone + share * bone.z() * into_picture[j];
+        result[j] = Quaterniond::FromTwoVectors(bone, seen) * turn * turns[j].share(share).conjugate();
+      } else
         result[j] = parent < 0 ? local : result[parent] * local;
     }
     return result;
@@ -173,6 +179,57 @@ double holdLegs(Retargeter& retargeter, const FigureShape& shape, const std::vec
   return least;
 }
 
+// What is added to a direction for each unit that it points at the viewer. All to one side, as if the limbs
+// were seen aslant: so steps stay steps.
+Vector3d wayIntoPicture(const FigureShape& shape, double share) {
+  share *= std::abs(shape.looks * std::cos(shape.yaw_rad));
+  return {shape.looks * share, 0, -share};
+}
+
+std::vector<Vector3d> waysIntoPicture(const Skeleton& skeleton, const FigureShape& shape, double share) {
+  std::vector<Vector3d> ways(skeleton.joints.size(), Vector3d::Zero());
+  if (skeleton.find("left_front_foot") < 0 && share > 0)
+    std::fill(ways.begin(), ways.end(), wayIntoPicture(shape, share));
+  return ways;
+}
+
+// How far the limb's joints go in the clip, rad, all together.
+double motionOf(const Clip& clip, const std::string& side) {
+  double sum = 0;
+  for (const JointTrack& track : clip.tracks)
+    if (track.joint == side + "shoulder" || track.joint == side + "elbow")
+      for (std::size_t k = 1; k < track.rotations.size(); ++k)
+        sum += double(track.rotations[k].angularDistance(track.rotations[k - 1]));
+  return sum;
+}
+
+// A clip that is one arm's, for a figure that cannot move this one: by the other, or, if it has none to move,
+// by the trunk.
+Clip asItCan(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
+  constexpr double kOneArm = 3, kGrown = 0.6, kTrunk = 3;
+  const auto canMove = [&](const std::string& side) {
+    const int elbow = skeleton.find(side + "elbow");
+    return elbow >= 0 && joinedAt(shape, elbow) < kGrown;
+  };
+  for (const std::string side : {"left_", "right_"}) {
+    const std::string other = side == "left_" ? "right_" : "left_";
+    if (canMove(side) || motionOf(clip, side) <= kOneArm * motionOf(clip, other)) continue;
+    if (canMove(other)) return mirrored(clip);
+    Clip swaying = clip;
+    for (JointTrack& track : swaying.tracks)
+      if (!track.joint.starts_with("left_") && !track.joint.starts_with("right_")) {
+        for (Eigen::Quaternionf& rotation : track.rotations) {
+          Eigen::AngleAxisf turn(rotation);
+          turn.angle() *= float(kTrunk);
+          rotation = turn;
+        }
+        for (Eigen::Vector3f& angles : track.angles_rad) angles *= float(kTrunk);
+      }
+    return swaying;
+  }
+  return clip;
+}
+
 // How the feet stand that the clip puts on the ground.
 FootPlanting footPlanting(const Retargeter& retargeter, const Clip& clip, const FigureShape& shape) {
   const Skeleton& skeleton = retargeter.skeleton;
@@ -182,6 +239,7 @@ FootPlanting footPlanting(const Retargeter& retargeter, const Clip& clip, const 
   planting.standing_turn.assign(count, Quaterniond::Identity());
   planting.forwards = retargeter.figure_from_clip *
                       (clip.template_name == "quadruped" ? Vector3d(-1, 0, 0) : Vector3d(0, 0, 1));
+  planting.forwards += planting.forwards.z() * retargeter.into_picture[0];
   const auto drawnAt = [&](int joint) { return skeleton.joints[joint].position.y(); };
   double ground = 1e9;
   for (const FootContact& contact : clip.contacts) {
@@ -401,10 +459,11 @@ FigureShape shapeOfBones(const Skeleton& skeleton) {
   return shape;
 }
 
-Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOptions& options) {
+Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetOptions& options) {
   const std::size_t count = skeleton.joints.size();
-  checkContacts(clip, skeleton);
+  checkContacts(asked, skeleton);
   const FigureShape shape = options.shape ? *options.shape : shapeOfBones(skeleton);
+  const Clip clip = asItCan(asked, skeleton, shape);
   Quaterniond figure_from_clip = Quaterniond::Identity();
   if (clip.frame == ClipFrame::kBody && shape.yaw_rad != 0)
     figure_from_clip = Quaterniond(Eigen::AngleAxisd(shape.yaw_rad, Vector3d::UnitY()));
@@ -422,7 +481,9 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
                         std::vector<double>(count, 0),
                         std::vector<Vector3d>(count, Vector3d::Zero()),
                         std::vector<double>(count, 1),
-                        figure_from_clip};
+                        figure_from_clip,
+                        canonical,
+                        waysIntoPicture(skeleton, shape, options.into_picture)};
   for (std::size_t j = 0; j < count; ++j) retargeter.pointed[j] = !canonical[j].isZero();
   // Seen from the side, limbs swing where they could else stay away.
   if (clip.frame == ClipFrame::kBody)
@@ -442,6 +503,7 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
   }
   if (options.clear_of_head) swingClearOfHead(retargeter, moments, canonical, shape.head_half_width_m);
 
+  const bool points = std::count(retargeter.pointed.begin(), retargeter.pointed.end(), true) > 0;
   const bool moves_root = !clip.contacts.empty() || !clip.root_times_s.empty();
   double stride = 1, stand = 0;
   FootPlanting planting;
@@ -462,7 +524,9 @@ Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOp
     offset.x() *= stride;
     offset.z() *= stride;
     if (offset.y() < 0) offset.y() *= stride;
-    poses[k].root_offset_m = retargeter.figure_from_clip * offset + share * stand * Vector3d::UnitY();
+    offset = retargeter.figure_from_clip * offset;
+    if (points) offset += share * offset.z() * wayIntoPicture(shape, options.into_picture);
+    poses[k].root_offset_m = offset + share * stand * Vector3d::UnitY();
   }
   plantFeet(skeleton, clip.contacts, planting, poses);
 

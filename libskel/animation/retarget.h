@@ -22,8 +22,10 @@ struct FigureShape {
   // One a joint, or empty. Of a foot: points around what it carries, from the joint, m; a skirt's hem, a cape
   // or a shadow far from it is no foot's. Nothing for the others, and for feet that carry nothing.
   std::vector<std::vector<Eigen::Vector3d>> feet_m;
-  // One a joint, or empty; 0…1. Of arms: the share of the forearm that hangs on the body. Of legs: how far
-  // down they are one piece, 0 for trousers, 1 for a gown. 0 for the others.
+  // Of a drawing: the side of the picture to which it rather looks, 1 right, -1 left. 0: no drawing.
+  double looks = 0;
+  // One a joint, or empty; 0…1. Of arms: the share of the forearm that hangs on the body; 1 for one that
+  // moves nothing. Of legs: how far down they are one piece, 0 for trousers, 1 for a gown. 0 for the others.
   std::vector<double> joined;
 };
 // As much as the bones alone tell.
@@ -34,7 +36,10 @@ double soleBelow(const FigureShape& shape, int foot, const Eigen::Quaterniond& t
 struct RetargetOptions {
   float rate_hz = 30;         // most keys a second of the result; fewer where that shows nowhere
   bool clear_of_head = true;  // raised arms that would pass through the head swing out until they do not
-  bool thin_keys = true;      // where `rate_hz` is more than shows
+  // Limbs that point at the viewer are stumps in the picture. So much of that way turns into the picture, of
+  // a figure in front view: 0 nothing, 1 all of it.
+  double into_picture = 0;
+  bool thin_keys = true;                            // where `rate_hz` is more than shows
   std::optional<FigureShape> shape = std::nullopt;  // nothing: shapeOfBones()
 };
 

@@ -413,7 +413,7 @@ void standOnGround(const Source& source, const Skeleton& target, const FigureSha
 }  // namespace
 
 RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file, const Skeleton& target,
-                                const FigureShape& shape) {
+                                const FigureShape& shape, double into_picture) {
   const Source source = readSource(motion, file);
   const Mapping mapping = mapJoints(source, file, target);
   RetargetedMotion result;
@@ -441,6 +441,7 @@ RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file
   RetargetOptions options;
   options.clear_of_head = false;
   options.shape = shape;
+  options.into_picture = mapping.same_names ? 0 : into_picture;
   options.thin_keys = false;
   result.clip = retargetToRest(clip, target, options);
   standOnGround(source, target, shape, scale, result.clip);

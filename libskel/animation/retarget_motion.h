@@ -28,6 +28,7 @@ struct RetargetedMotion {
 // are taken as they are. Else joints are matched by findJointRoles(). Throws InputError (of `file`) if that
 // finds no arms and legs on either side.
 RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file, const Skeleton& target,
-                                const FigureShape& shape);
+                                const FigureShape& shape,
+                                double into_picture = RetargetOptions().into_picture);
 
 }  // namespace skel

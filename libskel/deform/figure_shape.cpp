@@ -8,6 +8,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/segment.h"
+#include "libskel/skin/bones.h"
 
 namespace skel {
 namespace {
@@ -70,7 +71,7 @@ double joinedArm(const Flesh& flesh, int elbow, int hand) {
     ++arm;
     if (own < 0.8 && (flesh.at(v).head<2>() - from).dot(along) > 0.3 * along.squaredNorm()) ++joined;
   }
-  return arm ? double(joined) / arm : 0;
+  return arm ? double(joined) / arm : 1;
 }
 
 void measureArms(const Flesh& flesh, FigureShape& shape) {
@@ -205,7 +206,7 @@ double bend(const Flesh& flesh, int from, int middle, int to) {
 // A figure in side view is narrow, its feet and knees point the way it looks, its elbows and the nape the
 // other way; in front view left and right cancel out. The limits separate the drawings of
 // datasets/characters.
-double bipedYaw(const Flesh& flesh, double height_m) {
+double bipedYaw(const Flesh& flesh, double height_m, double& side) {
   const Skeleton& skeleton = flesh.skeleton;
   const int pelvis = skeleton.find("pelvis"), neck = skeleton.find("neck"), head = skeleton.find("head");
   if (pelvis < 0 || neck < 0 || head < 0) return 0;
@@ -221,7 +222,7 @@ double bipedYaw(const Flesh& flesh, double height_m) {
     shoulders += (side == "left_" ? 1 : -1) * flesh.joint(shoulder).x();
   }
   const double width = std::abs(shoulders) / std::max(1e-6, (flesh.joint(neck) - flesh.joint(pelvis)).norm());
-  const double side = looks > 0 ? 1 : -1;
+  side = looks > 0 ? 1 : -1;
   if (width < 0.55 && std::abs(looks) > 0.1) return side * std::numbers::pi / 2;
   if (width < 1 && std::abs(looks) > 0.12) return side * std::numbers::pi / 4;
   return 0;
@@ -243,7 +244,9 @@ FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, 
   if (skeleton.find("left_front_foot") < 0) {
     measureArms(flesh, shape);
     shape.head_half_width_m = headHalfWidth(flesh);
-    shape.yaw_rad = bipedYaw(flesh, shape.height_m);
+    double side = 1;
+    shape.yaw_rad = bipedYaw(flesh, shape.height_m, side);
+    if (nearlyFlat(skeletonBones(skeleton))) shape.looks = side;
   }
   for (const LegPair& pair : {kBipedLegs, kFrontLegs, kHindLegs}) measureLegs(flesh, pair, shape);
   return shape;

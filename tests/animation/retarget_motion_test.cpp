@@ -204,6 +204,28 @@ TEST_CASE("rest poses never count: a motion whose bones rest along x curled figu
   }
 }
 
+TEST_CASE("a joint at its parent's place is no hip: the jumping jack turned its hips about") {
+  std::string text = readFile(kMotions + "cmu.bvh");
+  for (const auto& [from, to] : {std::pair("LeftUpLeg", "LeftHip"),
+                                 {"RightUpLeg", "RightHip"},
+                                 {"LeftLeg", "LeftKnee"},
+                                 {"RightLeg", "RightKnee"}}) {
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, std::string(from).size(), to);
+  }
+  BvhMotion motion = parseBvh(text, "jack.bvh");
+  Skeleton& theirs = motion.skeleton;
+  for (const char* joint : {"LHipJoint", "RHipJoint"})
+    theirs.joints[std::size_t(theirs.index(joint))].position = theirs.joints[0].position;
+  const Skeleton target = figureSkeleton();
+  for (const auto& [ours, found] :
+       retargetMotion(motion, "jack.bvh", target, shapeOfBones(target)).match.joints) {
+    if (ours == "left_hip") CHECK(found == "LeftHip");
+    if (ours == "right_hip") CHECK(found == "RightHip");
+  }
+}
+
 TEST_CASE("what is no figure is refused") {
   CHECK_THROWS_WITH(
       retargetMotion(parseBvh(kTiny, "tiny.bvh"), "tiny.bvh", figureSkeleton(), {}),

@@ -191,3 +191,107 @@ TEST_CASE("a clip of too many poses is refused before they are made") {
   CHECK_THROWS_WITH(retargetToRest(clip, figureSkeleton(), {.rate_hz = 60}),
                     "the clip \"wave\" is too long: 216001 poses of 17 joints; cut it into parts");
 }
+
+namespace {
+
+// The mean height of the pelvis in idle, in that of the rest pose.
+double idlePelvis(const Skeleton& skeleton, const FigureShape& shape) {
+  RetargetOptions options;
+  options.shape = shape;
+  const Clip clip = retargetToRest(clipNamed(builtinClips(), "idle"), skeleton, options);
+  double sum = 0;
+  for (int k = 0; k < 20; ++k)
+    sum += shape.height_m *
+           double(samplePose(clip, skeleton, clip.duration_s() * float(k) / 20).root_translation.y());
+  return 1 + sum / 20 / skeleton.joints[0].position.y();
+}
+
+FigureShape withFeet(const Skeleton& skeleton) {
+  FigureShape shape = shapeOfBones(skeleton);
+  shape.joined.assign(skeleton.joints.size(), 0);
+  shape.feet_m.resize(skeleton.joints.size());
+  for (const char* foot : {"left_foot", "right_foot"})
+    shape.feet_m[std::size_t(skeleton.index(foot))] = {{-0.03, -0.03, 0}, {0.06, -0.03, 0}, {0, 0.03, 0}};
+  return shape;
+}
+
+}  // namespace
+
+TEST_CASE("the pelvis stays where it was drawn: no leg that is raised, folded or short pulls it down") {
+  const Skeleton drawn = figureSkeleton();
+  CHECK(idlePelvis(drawn, withFeet(drawn)) == Approx(1).margin(0.03));
+
+  // All that lies below the feet (a cape, a shadow) is no ground.
+  Skeleton floating = drawn;
+  for (Joint& joint : floating.joints) joint.position.y() += 0.4;
+  CHECK(idlePelvis(floating, withFeet(floating)) == Approx(1).margin(0.03));
+
+  const auto withLeg = [&](double knee_x, double knee_y, double foot_x, double foot_y) {
+    Skeleton skeleton = drawn;
+    const Eigen::Vector3d hip = skeleton.joints[std::size_t(skeleton.index("left_hip"))].position;
+    skeleton.joints[std::size_t(skeleton.index("left_knee"))].position =
+        hip + Eigen::Vector3d(knee_x, knee_y, 0);
+    skeleton.joints[std::size_t(skeleton.index("left_foot"))].position =
+        hip + Eigen::Vector3d(foot_x, foot_y, 0);
+    return skeleton;
+  };
+  const Skeleton raised = withLeg(0.38, 0, 0.74, 0.05), folded = withLeg(0.3, -0.23, 0.05, 0.03),
+                 stub = withLeg(0, -0.15, 0, -0.3);
+  for (const Skeleton& skeleton : {raised, folded, stub}) {
+    const double height = idlePelvis(skeleton, withFeet(skeleton));
+    CHECK(height > 0.95);
+    CHECK(height < 1.05);
+  }
+  // The raised leg is put down.
+  RetargetOptions options;
+  options.shape = withFeet(raised);
+  const Clip idle = retargetToRest(clipNamed(builtinClips(), "idle"), raised, options);
+  const auto at = positions(idle, raised, 1);
+  CHECK(bone(at, raised, "left_hip", "left_foot").y() < -0.8f);
+}
+
+TEST_CASE("a wave by an arm that is grown to the body is the other arm's, or the trunk's") {
+  const Skeleton skeleton = figureSkeleton();
+  const Clip& wave = clipNamed(builtinClips(), "wave");
+  RetargetOptions options;
+  options.shape = withFeet(skeleton);
+  const auto hand = [&](const char* side) {
+    const auto at = positions(retargetToRest(wave, skeleton, options), skeleton, 1.2f);
+    return double(at[std::size_t(skeleton.index(std::string(side) + "hand"))].y() -
+                  at[std::size_t(skeleton.index(std::string(side) + "shoulder"))].y());
+  };
+  CHECK(hand("right_") > 0.1);
+  CHECK(hand("left_") < 0);
+  options.shape->joined[std::size_t(skeleton.index("right_elbow"))] = 1;
+  CHECK(hand("right_") < 0);
+  CHECK(hand("left_") > 0.1);
+  options.shape->joined[std::size_t(skeleton.index("left_elbow"))] = 1;
+  const Clip swaying = retargetToRest(wave, skeleton, options);
+  const Eigen::Quaternionf head =
+      samplePose(swaying, skeleton, 0.7f).rotations[std::size_t(skeleton.index("head"))];
+  CHECK(head.angularDistance(Eigen::Quaternionf::Identity()) > 0.2f);
+}
+
+TEST_CASE("limbs that point at the viewer turn into the picture, as far as asked for") {
+  const Skeleton skeleton = figureSkeleton();
+  RetargetOptions options;
+  options.shape = withFeet(skeleton);
+  const auto swing = [&](double looks, double share) {
+    options.shape->looks = looks;
+    options.into_picture = share;
+    const Clip walk = retargetToRest(clipNamed(builtinClips(), "walk"), skeleton, options);
+    Vector3f low = Vector3f::Constant(1e9f), high = -low;
+    for (int k = 0; k < 20; ++k) {
+      const auto at = positions(walk, skeleton, walk.duration_s() * float(k) / 20);
+      const Vector3f leg = bone(at, skeleton, "left_hip", "left_foot");
+      low = low.cwiseMin(leg), high = high.cwiseMax(leg);
+    }
+    return Vector3f(high - low);
+  };
+  const Vector3f ahead = swing(1, 0), half = swing(1, 0.5), flat = swing(1, 1), model = swing(0, 1);
+  CHECK(ahead.z() > 5 * ahead.x());
+  CHECK(flat.x() > 5 * flat.z());
+  CHECK(half.x() > 2 * ahead.x());
+  CHECK(half.z() < 0.8f * ahead.z());
+  CHECK(model.isApprox(ahead));
+}

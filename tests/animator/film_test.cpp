@@ -31,7 +31,7 @@ TEST_CASE("a film has the clip's frames in their order, and repeats it") {
   CHECK(frameCount(nodClip(), options) == 20);
   CHECK(frameCount(Clip(), options) == 1);
   options.duration_s = 2.5;
-  const Camera camera = filmCamera(character, nodClip(), 0.4, 0.1, 80.0 / 96);
+  const Camera camera = filmCamera(character, {nodClip()}, 0.4, 0.1, 80.0 / 96);
   Frames film;
   int told = 0;
   writeFilm(scene, nodClip(), camera, options, film, [&] { ++told; });
@@ -66,7 +66,7 @@ TEST_CASE("the film's camera sees every moment of the clip") {
   options.look.background = kClear;
   options.look.shadow = false;
   Frames film;
-  writeFilm(scene, jump, filmCamera(character, jump, 0, 0, 80.0 / 96), options, film, [] {});
+  writeFilm(scene, jump, filmCamera(character, {jump}, 0, 0, 80.0 / 96), options, film, [] {});
   for (const Image& frame : film.frames)
     for (int y = 0; y < frame.height; ++y)
       for (int x = 0; x < frame.width; ++x)

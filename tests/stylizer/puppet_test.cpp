@@ -36,7 +36,7 @@ Filmed filmed(const CharacterFile& file, const std::string& clip_name, double ya
               bool paint) {
   constexpr int kWidth = 320, kHeight = 400;
   const Clip clip = clipFor(clip_name, file);
-  const Camera camera = filmCamera(file.character, clip, yaw_rad, 0, double(kWidth) / kHeight);
+  const Camera camera = filmCamera(file.character, {clip}, yaw_rad, 0, double(kWidth) / kHeight);
   const Projection projection(camera, kWidth, kHeight);
   const Scene scene(file.character, softwarePainter(file.character.mesh));
   Look look;
