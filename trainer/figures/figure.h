@@ -31,7 +31,7 @@ struct AnnotatedDrawing {
   Plane8 mask;                          // not 0 on the figure
   std::vector<Eigen::Vector2d> joints;  // as FigurePlan::joints; px of the image, corner of the first px at 0
   FigureView view = FigureView::kFront;
-  std::vector<bool> unknown = {};       // of each joint: nobody knows where it is. Empty: all are known
+  std::vector<bool> unknown = {};  // of each joint: nobody knows where it is. Empty: all are known
 };
 inline constexpr int kAnnotatedLongSide = 320;
 
