@@ -4,6 +4,7 @@
 #include "trainer/joint_net_figures.h"
 #include "trainer/joint_net_training.h"
 #include "trainer/page_net_training.h"
+#include "trainer/part_net_training.h"
 #include "trainer/train_command.h"
 
 int main(int argc, char** argv) {
@@ -26,6 +27,9 @@ int main(int argc, char** argv) {
   skel::PageTrainingOptions page_training;
   CLI::App* pages = app.add_subcommand("pages", "Trains the net that tells the figure from its page");
   skel::bindPageTrainingOptions(*pages, page_training);
+  skel::PartTrainingOptions part_training;
+  CLI::App* parts = app.add_subcommand("parts", "Trains the net that tells a figure's parts");
+  skel::bindPartTrainingOptions(*parts, part_training);
   skel::AverageNetsOptions average;
   CLI::App* averaging =
       app.add_subcommand("average", "Averages joint nets that were trained on from one another");
@@ -40,6 +44,7 @@ int main(int argc, char** argv) {
     if (*bones) return skel::runBoneLengths(bone_lengths);
     if (*averaging) return skel::runAverageNets(average);
     if (*pages) return skel::runPageTraining(page_training);
+    if (*parts) return skel::runPartTraining(part_training);
     return skel::runTrain(train);
   });
 }

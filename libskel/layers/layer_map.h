@@ -1,4 +1,4 @@
-// Which limb each pixel of a drawing belongs to.
+// Which part of the figure each pixel of a drawing is, and which limbs are bodies of their own.
 #pragma once
 
 #include <array>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libskel/image/image.h"
+#include "libskel/layers/part_net.h"
 #include "libskel/mesh/figure_piece.h"
 #include "libskel/mesh/triangle_mesh.h"
 #include "libskel/silhouette/silhouette.h"
@@ -20,17 +21,20 @@ struct LayerMap {
   // Of the image's size: 0 outside of the figure, on its trunk and its head, else the limb, numbered from 1
   // in the template's order. Empty: one skin.
   Plane8 limb;
-  // Arms of which nothing is seen: no layer, against the rest of the figure all along, and the net is unsure
-  // where they end. They would only tear the body; its pixels stay with it, and these limbs move nothing.
+  // Arms of which nothing is seen, and the net is unsure where they end. They would only tear the body; its
+  // pixels stay with it, and these limbs move nothing.
   std::vector<int> hidden = {};
+  // Of the image's size: a Part on the figure. Empty: not known.
+  Plane8 part = {};
 
   bool any() const { return limb.size() != 0; }
 };
 
-// From the lines and colours across each limb's bones. Conservative: a limb becomes a layer where most of
-// what divides it from the body is drawn. `skeleton` has the template's joints, in image px.
+// As the net sees it, borders on the drawing's own lines. A limb becomes a layer where it lies against the
+// rest of the figure and most of what divides it from that is drawn. `skeleton` has the template's joints, in
+// image px. Nothing for a body plan that the net does not know (knowsParts()).
 LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
-                    const SkeletonTemplate& body_plan);
+                    const SkeletonTemplate& body_plan, const PartNet& net);
 
 // The bodies that the figure is made of, the farthest first: what each shows and what others hide of it, and
 // where it hangs on the trunk, which there has the same pixels. Empty: the map has no limb, or none that is
@@ -45,11 +49,14 @@ std::vector<int> jointLayers(const Skeleton& skeleton, const SkeletonTemplate& b
 
 // The colour of a limb in such pictures; grey for 0.
 std::array<std::uint8_t, 3> layerColor(int limb);
+// The colour of a part that is no limb.
+std::array<std::uint8_t, 3> partColor(Part part);
 
 // "left arm" for a limb that ends in left_hand, "right hind leg" for one that ends in right_hind_foot.
 std::string limbName(const SkeletonTemplate& body_plan, int limb);
 
-// As a picture, one colour a limb: the figure's other pixels grey, the rest clear.
+// As a picture, one colour a limb: the figure's other pixels grey or in the colour of their part, the rest
+// clear.
 Image layerPicture(const LayerMap& layers, const Plane8& mask);
 
 // The map of such a picture. Throws InputError: another size than the figure's picture, a colour that is no

@@ -13,6 +13,9 @@ namespace {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
+// Those that are neither limbs nor grey.
+constexpr std::array kColoured = {Part::kHair, Part::kSkirt, Part::kAppendix, Part::kThing};
+
 }  // namespace
 
 // Far apart for the first limbs; no two alike.
@@ -20,6 +23,21 @@ Rgb layerColor(int limb) {
   constexpr Rgb kFirst[] = {{150, 150, 150}, {230, 60, 60}, {50, 110, 230}, {240, 160, 30}, {40, 170, 80}};
   if (limb <= 4) return kFirst[limb];
   return {static_cast<std::uint8_t>(limb), static_cast<std::uint8_t>(255 - limb / 2), 255};
+}
+
+Rgb partColor(Part part) {
+  switch (part) {
+    case Part::kHair:
+      return {130, 80, 40};
+    case Part::kSkirt:
+      return {200, 110, 200};
+    case Part::kAppendix:
+      return {90, 210, 210};
+    case Part::kThing:
+      return {60, 60, 100};
+    default:
+      return layerColor(0);
+  }
 }
 
 std::string limbName(const SkeletonTemplate& body_plan, int limb) {
@@ -39,7 +57,8 @@ Image layerPicture(const LayerMap& layers, const Plane8& mask) {
     for (int x = 0; x < width; ++x) {
       if (mask(y, x) == 0) continue;
       const int limb = layers.any() ? layers.limb(y, x) : 0;
-      const Rgb color = layerColor(limb);
+      const Rgb color = limb == 0 && layers.part.size() != 0 ? partColor(static_cast<Part>(layers.part(y, x)))
+                                                             : layerColor(limb);
       std::copy(color.begin(), color.end(), picture.pixel(x, y));
       picture.pixel(x, y)[3] = 255;
     }
@@ -61,7 +80,9 @@ LayerMap layersOfPicture(const Image& picture, const Silhouette& silhouette,
     for (int x = 0; x < picture.width; ++x) {
       const std::uint8_t* p = picture.pixel(x, y);
       const bool grey = p[0] == p[1] && p[1] == p[2];
-      if (p[3] < 128 || grey || mask(y, x) == 0) continue;
+      const auto is = [&](Part part) { return partColor(part) == Rgb{p[0], p[1], p[2]}; };
+      if (p[3] < 128 || grey || mask(y, x) == 0 || std::any_of(kColoured.begin(), kColoured.end(), is))
+        continue;
       int limb = 0;
       for (int k = 1; k <= static_cast<int>(body_plan.limbs.size()) && limb == 0; ++k)
         if (layerColor(k) == Rgb{p[0], p[1], p[2]}) limb = k;

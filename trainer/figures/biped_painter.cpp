@@ -154,7 +154,7 @@ class Painter {
       const Vec hem = p_.pelvis - p_.up * L * in(-.2, 1);
       const bool wind = chance(.35);
       const double w = p_.top * in(1.1, 2.6), skew = wind ? sign() * in(.6, 1.8) * w : gauss(0, .4) * w;
-      scene_.begin(ink(accent_));
+      scene_.begin(ink(accent_), PartOwner::kAppendix);
       scene_.polygon({p_.neck + p_.chest_right * p_.top * .8, p_.neck - p_.chest_right * p_.top * .8,
                       hem + p_.right * (skew - w), hem - p_.up * in(-.05, .05) + p_.right * skew,
                       hem + p_.right * (skew + w)});
@@ -184,14 +184,14 @@ class Painter {
     if (chance(.17)) {  // long hair
       const double l = in(.2, 1.1) * T + H * .3, w = p_.head_width * in(.43, .6), tip = w * in(.4, 1.4);
       const Vec end = p_.head - p_.head_up * (H * .3 + l) + p_.head_right * gauss(0, .12) * w;
-      scene_.begin(ink(hair_), PartOwner::kHead);
+      scene_.begin(ink(hair_), PartOwner::kHair);
       scene_.polygon({p_.head + p_.head_right * w, p_.head - p_.head_right * w, end - p_.head_right * tip,
                       end - p_.head_up * in(0, .3) * l * .3, end + p_.head_right * tip});
     }
     if (chance(.08)) {  // pony tail, hair in the wind
       const Vec d = rotated(p_.head_right * -p_.face, in(-.9, .9));
       const double l = H * in(.5, 1.7);
-      scene_.begin(ink(hair_), PartOwner::kHead);
+      scene_.begin(ink(hair_), PartOwner::kHair);
       scene_.path(flowing(p_.head + p_.head_up * H * .2 + d * p_.head_width * .4,
                           p_.head + d * (p_.head_width * .5 + l * .5) + p_.head_up * H * in(-.1, .3),
                           p_.head + d * (p_.head_width * .5 + l) + p_.head_up * H * in(-.8, .2)),
@@ -200,7 +200,7 @@ class Painter {
     if (chance(.03)) {  // ends of a scarf
       const Vec d = rotated(p_.chest_right * sign(), in(-.5, .9));
       const double l = T * in(.4, 1.3);
-      scene_.begin(ink(accent_));
+      scene_.begin(ink(accent_), PartOwner::kAppendix);
       scene_.path(flowing(p_.neck, p_.neck + d * l * .5 + p_.chest_up * l * gauss(0, .2),
                           p_.neck + d * l + p_.chest_up * l * gauss(0, .3)),
                   radiiThrough(limb_radius_ * .6, limb_radius_ * in(.5, 1.3), limb_radius_ * in(.5, 1.6)));
@@ -244,7 +244,7 @@ class Painter {
     const double T = p_.torso;
     const Vec d = rotated(p_.right * sign(), in(-.9, .9)), a = p_.pelvis + p_.up * T * in(0, .2);
     const double l = T * in(.4, 1.8);
-    scene_.begin(ink(skin_));
+    scene_.begin(ink(skin_), PartOwner::kAppendix);
     if (chance(.25)) {  // as a lizard's: as thick as the hips, down to the ground
       const double side = p_.view == FigureView::kFront ? sign() : -p_.face;
       const Vec tip =
@@ -272,7 +272,7 @@ class Painter {
     const Colour colour = randomColour(120, 250);
     for (const double s : {-1., 1.}) {
       if (p_.view == FigureView::kSide && s == p_.face) continue;
-      scene_.begin(ink(colour));
+      scene_.begin(ink(colour), PartOwner::kAppendix);
       for (int k = 0; k < n; ++k) {
         const Vec d = rotated(p_.chest_right * s, -s * (from - k * in(.45, 1)));
         const Vec side = leftOf(d);
@@ -650,7 +650,7 @@ class Painter {
       const double from = chance(.3) ? in(.6, 1) : in(.05, .5);
       const Vec top = spine(from), hem = p_.pelvis + down * l;
       const double w0 = std::max(p_.waist, p_.bottom) * in(.75, 1.05);
-      scene_.begin(ink(robe || chance(.5) ? top_ : accent_), PartOwner::kTorso);
+      scene_.begin(ink(robe || chance(.5) ? top_ : accent_), PartOwner::kSkirt);
       const double sag = in(-.05, .12) * w;
       scene_.polygon({top - p_.right * w0, top + p_.right * w0, hem + across * w,
                       hem + down * sag + across * w * .4, hem + down * sag - across * w * .4,
@@ -661,7 +661,7 @@ class Painter {
       const Vec hem = p_.pelvis + down * l;
       for (const double s : {-1., 1.}) {
         const double gap = w * in(.05, .7);
-        scene_.begin(ink(colour), PartOwner::kTorso);
+        scene_.begin(ink(colour), PartOwner::kSkirt);
         scene_.polygon({p_.neck + p_.chest_right * s * p_.top * .3, p_.neck + p_.chest_right * s * p_.top,
                         p_.pelvis + p_.right * s * p_.bottom * in(1, 1.25), hem + across * s * w,
                         hem + across * s * gap, p_.middle + p_.chest_right * s * p_.waist * in(.1, .5)});

@@ -508,7 +508,7 @@ std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& dr
               y = std::clamp(static_cast<int>(p.y()), 0, height - 1);
     canvas.joints.push_back(p);
     // Inside a limb that is drawn as an outline there is nothing.
-    canvas.visible.push_back(!raster.solid(x, y) || raster.owner(x, y) == plan.joints[j].owner);
+    canvas.visible.push_back(!raster.solid(x, y) || bearer(raster.owner(x, y)) == plan.joints[j].owner);
   }
   return finished(rng, plan, std::move(canvas), cut);
 }

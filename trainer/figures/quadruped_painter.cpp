@@ -278,7 +278,7 @@ class Painter {
   void paintWing() {
     const double l = p_.height * in(.6, 2.4);
     const Vec base = p_.middle + p_.up * p_.height * .3, d = rotated(p_.up, gauss(-.4, .6));
-    scene_.begin(ink(accent_));
+    scene_.begin(ink(accent_), PartOwner::kAppendix);
     scene_.ellipse(base + d * l * .5, {l * .5, l * in(.15, .35)}, angleOf(d));
   }
 

@@ -27,6 +27,19 @@ const std::array<Vec, kCircleCorners>& circleDirections() {
 
 }  // namespace
 
+PartOwner bearer(PartOwner owner) {
+  switch (owner) {
+    case PartOwner::kHair:
+      return PartOwner::kHead;
+    case PartOwner::kSkirt:
+      return PartOwner::kTorso;
+    case PartOwner::kAppendix:
+      return PartOwner::kNone;
+    default:
+      return owner;
+  }
+}
+
 void Scene::begin(const Ink& ink, PartOwner owner) {
   SKEL_CHECK(parts_.size() < 60000);
   parts_.push_back({ink, owner});
@@ -138,6 +151,15 @@ void Scene::ring(const Vec& centre, double radius, double half_width) {
 
 void Scene::transform(const std::function<Vec(const Vec&)>& move) {
   for (Vec& p : corners_) p = move(p);
+}
+
+Scene Scene::withoutDetails() const {
+  Scene out = *this;
+  std::erase_if(out.pieces_, [&](const Piece& piece) {
+    const Part& part = parts_[piece.part];
+    return part.ink.inside_only && part.owner == PartOwner::kNone;
+  });
+  return out;
 }
 
 void Scene::append(const Scene& front) {

@@ -23,8 +23,23 @@ struct Ink {
   bool stripes_upright = false;
 };
 
-// What a part belongs to, to tell whether a joint is covered by something else.
-enum class PartOwner : std::uint8_t { kNone, kHead, kTorso, kLeftArm, kRightArm, kLeftLeg, kRightLeg, kTail };
+// What a part belongs to, to tell whether a joint is covered by something else. kNone: things, and what is
+// painted onto other parts.
+enum class PartOwner : std::uint8_t {
+  kNone,
+  kHead,
+  kTorso,
+  kLeftArm,
+  kRightArm,
+  kLeftLeg,
+  kRightLeg,
+  kTail,
+  kHair,      // that hangs from the head
+  kSkirt,     // skirt, robe, coat, from where it leaves the torso or above
+  kAppendix,  // cape, wings, tail of somebody on two legs
+};
+// Whose joints it does not cover: hair is the head's, a skirt the torso's.
+PartOwner bearer(PartOwner owner);
 
 struct Raster;
 
@@ -48,6 +63,8 @@ class Scene {
 
   // Moves every corner.
   void transform(const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& move);
+  // Without what is painted onto other parts and belongs to none of its own.
+  Scene withoutDetails() const;
   // Puts the parts of another scene in front.
   void append(const Scene& front);
 

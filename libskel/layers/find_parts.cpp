@@ -1,0 +1,209 @@
+#include "libskel/layers/find_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "libskel/core/check.h"
+
+namespace skel {
+namespace {
+
+using Vec = Eigen::Vector2d;
+
+constexpr int kLookSize = 400;  // px, the long side of the figure when borders are looked for
+// Lengths as shares of the figure's long side.
+constexpr double kLineWidth = .02;    // lines are no wider
+constexpr double kInkReach = .0125;   // how far a limb takes the ink that it is drawn with
+constexpr double kInkContrast = .15;  // of the range of brightness
+constexpr float kCertain = .9f;       // probability of what borders do not move through
+constexpr double kIsland = .25;       // of a limb's area: smaller parts apart are not of it
+
+PartSkeleton scaled(const PartSkeleton& skeleton, const Vec& corner, double scale) {
+  PartSkeleton out = skeleton;
+  const auto move = [&](Vec& p) { p = (p - corner) * scale; };
+  move(out.head), move(out.body), move(out.tail_root), move(out.tail);
+  for (auto& limb : out.limbs)
+    for (Vec& p : limb) move(p);
+  return out;
+}
+
+// The box of the image, over white, where it is no figure white.
+void cut(const Image& image, const Plane8& mask, PartPicture& picture) {
+  const PixelBox& box = picture.box;
+  cv::Mat rgb(box.height(), box.width(), CV_8UC3), inside(box.height(), box.width(), CV_8U);
+  for (int y = 0; y < box.height(); ++y)
+    for (int x = 0; x < box.width(); ++x) {
+      const std::uint8_t* p = image.pixel(x + box.x0, y + box.y0);
+      auto& o = rgb.at<cv::Vec3b>(y, x);
+      for (int c = 0; c < 3; ++c)
+        o[c] = static_cast<std::uint8_t>((p[c] * p[3] + 255 * (255 - p[3]) + 127) / 255);
+      inside.at<std::uint8_t>(y, x) = mask(y + box.y0, x + box.x0) != 0 ? 255 : 0;
+    }
+  const int long_side = std::max(box.width(), box.height());
+  picture.scale = std::min(1., static_cast<double>(kLookSize) / long_side);
+  const cv::Size size(std::max(1, cvRound(box.width() * picture.scale)),
+                      std::max(1, cvRound(box.height() * picture.scale)));
+  cv::resize(rgb, picture.rgb, size, 0, 0, cv::INTER_AREA);
+  cv::resize(inside, picture.mask, size, 0, 0, cv::INTER_AREA);
+  picture.mask = picture.mask > 127;
+}
+
+// The net's probabilities, one plane a part, of the picture's size; also fills `before` and `sure`.
+std::vector<cv::Mat> ask(const PartNet& net, const PartSkeleton& skeleton, PartPicture& picture) {
+  const cv::Size full = picture.rgb.size();
+  const double scale = static_cast<double>(kPartNetSize) / std::max(full.width, full.height);
+  const cv::Size size(std::clamp(cvRound(full.width * scale), 1, kPartNetSize),
+                      std::clamp(cvRound(full.height * scale), 1, kPartNetSize));
+  cv::Mat rgb, mask;
+  cv::resize(picture.rgb, rgb, size, 0, 0, scale < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  cv::resize(picture.mask, mask, size, 0, 0, cv::INTER_AREA);
+  mask = mask > 127;
+  ConvNetMaps maps(net);
+  encodeParts(rgb, mask, scaled(skeleton, Vec::Zero(), scale), maps.maps[0]);
+  forward(net, bestInstructionSet(), maps);
+  const std::vector<float>& logits = maps.maps.back();
+  std::vector<cv::Mat> planes(kPartCount);
+  for (cv::Mat& plane : planes) plane = cv::Mat(size, CV_32F);
+  std::array<double, 4> weight{};
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const float* z = logits.data() + partLogitIndex(y, x, 0);
+      const float most = *std::max_element(z, z + kPartCount);
+      std::array<float, kPartCount> p;
+      float sum = 0;
+      for (std::size_t k = 0; k < kPartCount; ++k) sum += p[k] = std::exp(z[k] - most);
+      for (std::size_t k = 0; k < kPartCount; ++k) planes[k].at<float>(y, x) = p[k] / sum;
+      if (mask.at<std::uint8_t>(y, x) == 0) continue;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double mine =
+            static_cast<double>(p[static_cast<std::size_t>(limbPart(static_cast<int>(k)))] / sum);
+        if (mine < .5) continue;
+        weight[k] += 1;
+        picture.sure[k] += mine;
+        picture.before[k] += 1 / (1 + std::exp(-static_cast<double>(z[kPartCount])));
+      }
+    }
+  for (std::size_t k = 0; k < 4; ++k)
+    if (weight[k] > 0) picture.sure[k] /= weight[k], picture.before[k] /= weight[k];
+  for (cv::Mat& plane : planes) cv::resize(plane, plane, full, 0, 0, cv::INTER_LINEAR);
+  return planes;
+}
+
+cv::Mat disc(int radius) {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * radius + 1, 2 * radius + 1));
+}
+
+int px(const PartPicture& picture, double share) {
+  return std::max(1, cvRound(share * std::max(picture.rgb.cols, picture.rgb.rows)));
+}
+
+cv::Mat inkOf(const PartPicture& picture) {
+  cv::Mat grey, closed;
+  cv::cvtColor(picture.rgb, grey, cv::COLOR_RGB2GRAY);
+  // What is not the figure lets no line of it end.
+  grey.setTo(255, picture.mask == 0);
+  cv::morphologyEx(grey, closed, cv::MORPH_CLOSE, disc(px(picture, kLineWidth / 2)));
+  double low = 0, high = 0;
+  cv::minMaxLoc(grey, &low, &high, nullptr, nullptr, picture.mask);
+  return ((closed - grey) > kInkContrast * std::max(40., high - low)) & picture.mask;
+}
+
+// Borders move onto the drawing's edges where the net is not certain: parts flood what lies between them,
+// flat colours first (F. Meyer, "Color image segmentation", 1992).
+void snap(const std::vector<cv::Mat>& probabilities, PartPicture& picture) {
+  const cv::Size size = picture.rgb.size();
+  cv::Mat markers(size, CV_32S, cv::Scalar(0)), most(size, CV_32F), best(size, CV_8U);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      int part = 0;
+      for (int k = 1; k < kPartCount; ++k)
+        if (probabilities[static_cast<std::size_t>(k)].at<float>(y, x) >
+            probabilities[static_cast<std::size_t>(part)].at<float>(y, x))
+          part = k;
+      best.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(part);
+      const float p = probabilities[static_cast<std::size_t>(part)].at<float>(y, x);
+      markers.at<int>(y, x) = picture.mask.at<std::uint8_t>(y, x) == 0 ? kPartCount + 1
+                              : p >= kCertain                          ? part + 1
+                                                                       : 0;
+    }
+  cv::Mat smooth;
+  cv::GaussianBlur(picture.rgb, smooth, cv::Size(3, 3), 0);
+  cv::watershed(smooth, markers);
+  picture.part = cv::Mat(size, CV_8U, cv::Scalar(0));
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const int label = markers.at<int>(y, x);
+      picture.part.at<std::uint8_t>(y, x) = label >= 1 && label <= kPartCount
+                                                ? static_cast<std::uint8_t>(label - 1)
+                                                : best.at<std::uint8_t>(y, x);
+    }
+}
+
+// A limb in front takes the lines that it is drawn with.
+void takeInk(PartPicture& picture) {
+  for (int k = 0; k < 4; ++k) {
+    if (picture.before[static_cast<std::size_t>(k)] < .5) continue;
+    cv::Mat limb = picture.of(limbPart(k));
+    cv::Mat others = cv::Mat::zeros(limb.size(), CV_8U);
+    for (int j = 0; j < 4; ++j)
+      if (j != k &&
+          picture.before[static_cast<std::size_t>(j)] >= picture.before[static_cast<std::size_t>(k)])
+        others |= picture.of(limbPart(j));
+    for (int step = px(picture, kInkReach); step > 0; --step) {
+      cv::Mat grown;
+      cv::dilate(limb, grown, cv::Mat::ones(3, 3, CV_8U));
+      limb |= grown & picture.ink & ~others;
+    }
+    picture.part.setTo(static_cast<int>(limbPart(k)), limb);
+  }
+}
+
+// Small pieces of a part apart from its largest go to what surrounds them.
+void removeIslands(PartPicture& picture) {
+  cv::Mat moved = cv::Mat::zeros(picture.part.size(), CV_8U);
+  for (int part = 0; part < kPartCount; ++part) {
+    cv::Mat labels, stats, centres;
+    const int count =
+        cv::connectedComponentsWithStats(picture.of(static_cast<Part>(part)), labels, stats, centres, 4);
+    int largest = 0;
+    for (int i = 1; i < count; ++i) largest = std::max(largest, stats.at<int>(i, cv::CC_STAT_AREA));
+    for (int i = 1; i < count; ++i)
+      if (stats.at<int>(i, cv::CC_STAT_AREA) < kIsland * largest) moved.setTo(255, labels == i);
+  }
+  if (cv::countNonZero(moved) == 0) return;
+  cv::Mat distance, labels;
+  const cv::Mat open = moved | ~picture.mask;
+  cv::distanceTransform(open, distance, labels, cv::DIST_L2, 3, cv::DIST_LABEL_PIXEL);
+  double last = 0;
+  cv::minMaxLoc(labels, nullptr, &last);
+  std::vector<std::uint8_t> of(static_cast<std::size_t>(last) + 1, 0);
+  for (int y = 0; y < open.rows; ++y)
+    for (int x = 0; x < open.cols; ++x)
+      if (open.at<std::uint8_t>(y, x) == 0)
+        of[static_cast<std::size_t>(labels.at<int>(y, x))] = picture.part.at<std::uint8_t>(y, x);
+  for (int y = 0; y < open.rows; ++y)
+    for (int x = 0; x < open.cols; ++x)
+      if (moved.at<std::uint8_t>(y, x) != 0)
+        picture.part.at<std::uint8_t>(y, x) = of[static_cast<std::size_t>(labels.at<int>(y, x))];
+}
+
+}  // namespace
+
+PartPicture findParts(const Image& image, const Plane8& mask, const PartSkeleton& skeleton,
+                      const PartNet& net) {
+  PartPicture picture;
+  picture.box = figureBox(mask);
+  SKEL_CHECK(picture.box.width() > 0);
+  cut(image, mask, picture);
+  const std::vector<cv::Mat> probabilities =
+      ask(net, scaled(skeleton, Vec(picture.box.x0, picture.box.y0), picture.scale), picture);
+  picture.ink = inkOf(picture);
+  snap(probabilities, picture);
+  takeInk(picture);
+  removeIslands(picture);
+  return picture;
+}
+
+}  // namespace skel
