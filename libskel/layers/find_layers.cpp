@@ -15,11 +15,11 @@ namespace {
 using Vec = Eigen::Vector2d;
 
 constexpr double kLeastLimb = .004;  // of the figure's pixels
-constexpr double kRoot = .06;  // of the figure's long side: nearer to its root a limb is one with the body
 constexpr double kLeastContact = .1;  // of a limb's border, beyond its root: less is free
-constexpr double kLeastDrawn = .6;    // of that contact
+constexpr double kLeastDrawn = .55;   // of that contact
 constexpr double kContrast = .12;     // of the range of colours: what is drawn
 constexpr double kLeastSure = .7;     // mean probability of its pixels
+constexpr double kGrown = .4;         // of a limb's border against the body: it is hidden where it is a guess
 constexpr double kSeen = .25;         // of an arm's bones beyond its root: of less nothing is seen
 constexpr double kSure = .75;         // confidence in the end of a limb that is not hidden
 
@@ -42,41 +42,57 @@ std::optional<PartSkeleton> partSkeleton(const Skeleton& skeleton, const Skeleto
   return complete ? std::optional(out) : std::nullopt;
 }
 
-// How strongly colours change within two px of each, 0…255.
-cv::Mat edges(const PartPicture& picture) {
-  cv::Mat gradient, channels[3];
-  cv::morphologyEx(picture.rgb, gradient, cv::MORPH_GRADIENT, cv::Mat::ones(5, 5, CV_8U));
-  cv::split(gradient, channels);
+// How strongly colours change within two px of each, 0…255, `others` and their outlines apart.
+cv::Mat edges(const PartPicture& picture, const cv::Mat& others) {
+  cv::Mat high = picture.rgb.clone(), low = picture.rgb.clone(), apart, channels[3];
+  cv::dilate(others, apart, cv::Mat::ones(5, 5, CV_8U));
+  high.setTo(cv::Scalar::all(0), apart), low.setTo(cv::Scalar::all(255), apart);
+  cv::dilate(high, high, cv::Mat::ones(5, 5, CV_8U));
+  cv::erode(low, low, cv::Mat::ones(5, 5, CV_8U));
+  cv::split(high - low, channels);
   return cv::max(channels[0], cv::max(channels[1], channels[2]));
 }
 
-// Whether the limb lies against the rest of the figure, beyond its root, with a border that is drawn.
-bool standsOut(const PartPicture& picture, const PartSkeleton& skeleton, int limb, const cv::Mat& edge,
-               double range) {
+// Of a limb's border, px.
+struct Border {
+  int all = 0, against = 0,
+      drawn = 0;  // of it against the rest of the figure; of that with a line or an edge
+};
+
+// What `others` hold is no border of this limb but of those: a hand on the hip.
+Border borderOf(const PartPicture& picture, int limb, const cv::Mat& others, const cv::Mat& edge,
+                double range) {
   const cv::Mat own = picture.of(limbPart(limb));
-  const int area = cv::countNonZero(own);
-  if (area < kLeastLimb * cv::countNonZero(picture.mask)) return false;
-  if (picture.sure[static_cast<std::size_t>(limb)] < kLeastSure) return false;
-  const double unit = std::max(own.rows, own.cols);
-  const Vec root = picture.scale *
-                   (skeleton.limbs[static_cast<std::size_t>(limb)][0] - Vec(picture.box.x0, picture.box.y0));
-  int border = 0, contact = 0, drawn = 0;
+  Border border;
   for (int y = 0; y < own.rows; ++y)
     for (int x = 0; x < own.cols; ++x) {
-      if (own.at<std::uint8_t>(y, x) == 0 || (Vec(x + .5, y + .5) - root).norm() < kRoot * unit) continue;
+      if (own.at<std::uint8_t>(y, x) == 0) continue;
       bool outside = false, against = false;
       for (const cv::Point& step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
         const cv::Point q = cv::Point(x, y) + step;
         if (q.x < 0 || q.y < 0 || q.x >= own.cols || q.y >= own.rows || picture.mask.at<std::uint8_t>(q) == 0)
           outside = true;
-        else if (own.at<std::uint8_t>(q) == 0)
+        else if (own.at<std::uint8_t>(q) == 0 && others.at<std::uint8_t>(q) == 0)
           against = true;
       }
-      border += outside || against;
-      contact += against;
-      drawn += against && edge.at<std::uint8_t>(y, x) > kContrast * range;
+      border.all += outside || against;
+      border.against += against;
+      border.drawn += against && edge.at<std::uint8_t>(y, x) > kContrast * range;
     }
-  return contact > 0 && contact >= kLeastContact * border && drawn >= kLeastDrawn * contact;
+  return border;
+}
+
+// Whether it is better off as a body of its own: it lies against the rest of the figure, so that it would
+// drag that along, and what divides the two is drawn, so that neither is torn.
+bool standsOut(const PartPicture& picture, int limb, const Border& border) {
+  return cv::countNonZero(picture.of(limbPart(limb))) >= kLeastLimb * cv::countNonZero(picture.mask) &&
+         picture.sure[static_cast<std::size_t>(limb)] >= kLeastSure && border.against > 0 &&
+         border.against >= kLeastContact * border.all && border.drawn >= kLeastDrawn * border.against;
+}
+
+// Grown to the body all along, and nothing tells the two apart.
+bool isGrown(const Border& border) {
+  return border.against >= kGrown * border.all && border.drawn < kLeastDrawn * border.against;
 }
 
 // Of the points on an arm's bones beyond its root, the share that shows the arm.
@@ -132,14 +148,16 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
   const std::optional<PartSkeleton> bones = partSkeleton(skeleton, body_plan);
   if (!bones) return map;
   const PartPicture picture = findParts(image, silhouette.mask, *bones, net);
-  const cv::Mat edge = edges(picture);
   double low = 0, high = 0;
   cv::Mat grey;
   cv::cvtColor(picture.rgb, grey, cv::COLOR_RGB2GRAY);
   cv::minMaxLoc(grey, &low, &high, nullptr, nullptr, picture.mask);
   cv::Mat limbs(picture.part.size(), CV_8U, cv::Scalar(0)), parts(picture.part.size(), CV_8U, cv::Scalar(0));
+  cv::Mat arms = cv::Mat::zeros(limbs.size(), CV_8U), edge = edges(picture, arms);  // arms that are layers
   for (int k = 0; k < 4; ++k) {
-    if (standsOut(picture, *bones, k, edge, std::max(40., high - low))) {
+    if (k == 2 && cv::countNonZero(limbs) != 0) arms = limbs != 0, edge = edges(picture, arms);
+    const Border border = borderOf(picture, k, arms, edge, std::max(40., high - low));
+    if (standsOut(picture, k, border)) {
       limbs.setTo(k + 1, picture.of(limbPart(k)));
       continue;
     }
@@ -147,7 +165,7 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
     const int end = skeleton.find(body_plan.joints[static_cast<std::size_t>(limb.joints[2])].name);
     if (limb.limb_class == JointClass::kHand &&
         skeleton.joints[static_cast<std::size_t>(end)].confidence < kSure &&
-        seenAlong(picture, *bones, k) < kSeen)
+        (seenAlong(picture, *bones, k) < kSeen || isGrown(border)))
       map.hidden.push_back(k + 1);
   }
   map.part = Plane8::Zero(image.height, image.width);

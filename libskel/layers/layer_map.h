@@ -21,8 +21,9 @@ struct LayerMap {
   // Of the image's size: 0 outside of the figure, on its trunk and its head, else the limb, numbered from 1
   // in the template's order. Empty: one skin.
   Plane8 limb;
-  // Arms of which nothing is seen, and the net is unsure where they end. They would only tear the body; its
-  // pixels stay with it, and these limbs move nothing.
+  // Arms of which nothing is seen, or which nothing tells from the body that they are against, and of which
+  // it is a guess where they end. They would only tear the body; its pixels stay with it, and these limbs
+  // move nothing.
   std::vector<int> hidden = {};
   // Of the image's size: a Part on the figure. Empty: not known.
   Plane8 part = {};

@@ -60,7 +60,7 @@ struct Drawing {
   double toBone(int x, int y, const std::string& from, const std::string& to) const {
     return distanceToSegment<Vector2d>(Vector2d(x, y), at(from), at(to));
   }
-  LayerMap layers() const { return findLayers(image, silhouette, skeleton, body_plan); }
+  LayerMap layers() const { return findLayers(image, silhouette, skeleton, body_plan, builtInPartNet()); }
   std::vector<FigurePiece> pieces() const { return figurePieces(layers(), silhouette, skeleton, body_plan); }
   TriangleMesh mesh() const { return inflate(image, silhouette, {.back = Back::kPlain}, pieces()); }
 };
@@ -256,7 +256,7 @@ TEST_CASE("what two limbs cut off goes to the nearer of them: the rim of shoes t
   Skeleton skeleton = presetSkeleton(body_plan, {0, 0}, {1, 1});
   for (const auto& [name, place] : readJointsFile(character + ".joints.json"))
     skeleton.joints[std::size_t(skeleton.index(name))].image = *place;
-  const LayerMap layers = findLayers(image, silhouette, skeleton, body_plan);
+  const LayerMap layers = findLayers(image, silhouette, skeleton, body_plan, builtInPartNet());
   REQUIRE(layers.any());
   for (const auto& [foot, limb] : {std::pair("right_foot", 3), std::pair("left_foot", 4)}) {
     const Vector2d& p = skeleton.joints[std::size_t(skeleton.index(foot))].image;
@@ -331,6 +331,35 @@ TEST_CASE("a map of layers survives its picture; what is no map is refused") {
                     "map.png: pixel (" + pixel +
                         ") has the colour (7, 150, 150), which is no limb's; paint with the colours that "
                         "--formats layers writes");
+}
+
+TEST_CASE(
+    "a picture of layers shows skirts, hair, capes and things in colours of their own, which are no limbs") {
+  const Drawing drawing;
+  LayerMap layers = drawing.layers();
+  layers.part = Plane8::Zero(drawing.figure.size, drawing.figure.size);
+  const Vector2d body = drawing.at("body"), head = drawing.at("head");
+  layers.part(int(body.y()), int(body.x())) = std::uint8_t(Part::kSkirt);
+  layers.part(int(head.y()), int(head.x())) = std::uint8_t(Part::kThing);
+  const Image picture = layerPicture(layers, drawing.silhouette.mask);
+  const auto colorAt = [&](const Vector2d& p) {
+    const std::uint8_t* c = picture.pixel(int(p.x()), int(p.y()));
+    return std::array<std::uint8_t, 3>{c[0], c[1], c[2]};
+  };
+  CHECK(colorAt(body) == std::array<std::uint8_t, 3>{200, 110, 200});
+  CHECK(colorAt(head) == std::array<std::uint8_t, 3>{60, 60, 100});
+  CHECK(
+      (layersOfPicture(picture, drawing.silhouette, drawing.body_plan, "map.png").limb == layers.limb).all());
+}
+
+TEST_CASE("a body plan with other limbs than two arms and two legs is one skin") {
+  const Drawing drawing;
+  SkeletonTemplate three = drawing.body_plan;
+  three.limbs.pop_back();
+  const LayerMap layers =
+      findLayers(drawing.image, drawing.silhouette, drawing.skeleton, three, builtInPartNet());
+  CHECK_FALSE(layers.any());
+  CHECK(layers.hidden.empty());
 }
 
 TEST_CASE("what is hidden takes the colours around it") {
