@@ -8,7 +8,9 @@
 namespace skel {
 namespace {
 
-constexpr double kLimbWeight = 2, kBeforeWeight = .2;
+// What is seldom seen must not become a limb.
+constexpr std::array<double, kPartCount> kWeights = {1, 1, 3, 2, 2, 2, 2, 4, 3, 3};
+constexpr double kBeforeWeight = .2;
 
 int limbOf(int part) {
   const int limb = part - static_cast<int>(Part::kRightArm);
@@ -23,7 +25,7 @@ double partLoss(const std::vector<float>& logits, const cv::Mat& part, const std
   const auto beforeAt = [&](int is) {
     return limbOf(is) < 0 ? -1 : before[static_cast<std::size_t>(limbOf(is))];
   };
-  const auto weightOf = [](int is) { return limbOf(is) < 0 ? 1 : kLimbWeight; };
+  const auto weightOf = [](int is) { return kWeights[static_cast<std::size_t>(is)]; };
   for (int y = 0; y < part.rows; ++y)
     for (int x = 0; x < part.cols; ++x) {
       const int is = part.at<std::uint8_t>(y, x);

@@ -15,10 +15,10 @@ namespace {
 using Vec = Eigen::Vector2d;
 
 constexpr double kLeastLimb = .004;  // of the figure's pixels
-constexpr double kLeastContact = .1;  // of a limb's border, beyond its root: less is free
+constexpr double kLeastContact = .06;  // of a limb's border: less is free
 constexpr double kLeastDrawn = .55;   // of that contact
 constexpr double kContrast = .12;     // of the range of colours: what is drawn
-constexpr double kLeastSure = .7;     // mean probability of its pixels
+constexpr double kLeastSure = .55;    // mean probability of its pixels
 constexpr double kGrown = .4;         // of a limb's border against the body: it is hidden where it is a guess
 constexpr double kSeen = .25;         // of an arm's bones beyond its root: of less nothing is seen
 constexpr double kSure = .75;         // confidence in the end of a limb that is not hidden

@@ -26,6 +26,7 @@ constexpr std::array<float, kPartCount> kCorrection = {0, 0, 1, -.7f, -.7f, -.7f
 // A limb is about its bones: log-odds less for each px of the net's beyond so many.
 constexpr float kFartherLess = .15f, kReach = 14;
 constexpr float kLeastSeen = .3f;  // probability somewhere, of a part that is there
+constexpr float kPossible = .12f;  // probability of what may flood a px
 constexpr double kIsland = .25;    // of a limb's area: smaller parts apart are not of it
 
 PartSkeleton scaled(const PartSkeleton& skeleton, const Vec& corner, double scale) {
@@ -167,10 +168,11 @@ void snap(const std::vector<cv::Mat>& probabilities, PartPicture& picture) {
   picture.part = cv::Mat(size, CV_8U, cv::Scalar(0));
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
-      const int label = markers.at<int>(y, x);
-      picture.part.at<std::uint8_t>(y, x) = label >= 1 && label <= kPartCount
-                                                ? static_cast<std::uint8_t>(label - 1)
-                                                : best.at<std::uint8_t>(y, x);
+      const int part = markers.at<int>(y, x) - 1, guess = best.at<std::uint8_t>(y, x);
+      // Not along a line to where the net sees nothing of it.
+      const bool possible = part >= 0 && part < kPartCount &&
+                            probabilities[static_cast<std::size_t>(part)].at<float>(y, x) >= kPossible;
+      picture.part.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(possible ? part : guess);
     }
 }
 
