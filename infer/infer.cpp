@@ -352,6 +352,11 @@ void bindRecognitionOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--weights", options.weights_file, "Weights of the candidates' net (default: built in)")
       ->always_capture_default(false);
   app.add_option("--template", options.body_plan, "Body plan: biped, quadruped, or a .json file");
+  app.add_option("--part-net", options.part_net_file,
+                 "Net that tells the figure's parts (weights/part_net.bin), and with them the layers, "
+                 "instead of the\n"
+                 "lines along each limb's bones")
+      ->type_name("FILE");
   app.add_option("--joint-net", options.joint_net_file,
                  "Weights of the net that finds the joints (default: built in)")
       ->always_capture_default(false);

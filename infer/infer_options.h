@@ -14,6 +14,7 @@ struct InferOptions {
   std::vector<std::string> images;
   std::string out_dir = "out";
   std::string weights_file, joint_net_file;  // empty: the built-in ones
+  std::string part_net_file;                 // empty: none
   std::string mask_file, model_file, skeleton_file;
   std::string body_plan = "biped";
   std::string recognizer = "tree";

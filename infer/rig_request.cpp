@@ -29,6 +29,9 @@ RigOptions rigOptions(const InferOptions& options) {
   if (!options.joint_net_file.empty())
     rig.joint_net = std::make_shared<const JointNet>(
         readyToRun(parseJointNet(readFile(options.joint_net_file), options.joint_net_file)));
+  if (!options.part_net_file.empty())
+    rig.part_net = std::make_shared<const PartNet>(
+        readyToRun(parsePartNet(readFile(options.part_net_file), options.part_net_file)));
   const std::vector<Clip> clips = clipsFor(
       options.clips_dir.empty() ? builtinClips() : clipsWithFolder(options.clips_dir), rig.body_plan);
   if (options.clips.empty())

@@ -15,7 +15,6 @@
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
-#include "libskel/layers/part_net.h"
 #include "libskel/pipeline/rig_character.h"
 #include "libskel/silhouette/page_net.h"
 #include "libskel/skeleton/outside_figure.h"
@@ -72,7 +71,6 @@ struct Nets {
   std::vector<std::string> files;
   std::shared_ptr<const JointNets> joints;
   std::shared_ptr<const PageNet> page;
-  std::shared_ptr<const PartNet> parts;
 };
 Nets nets;
 
@@ -91,7 +89,6 @@ RigOptions optionsFor(const std::string& body_plan, int figure) {
   options.clips = clipsFor(builtinClips(), options.body_plan);
   options.joint_nets = nets.joints;
   options.silhouette.page_net = nets.page;
-  options.part_net = nets.parts;
   options.silhouette.figure = figure;
   return options;
 }
@@ -149,13 +146,12 @@ val described() {
   return said;
 }
 
-// Request: the bytes of {page: of the page net, parts: of the part net, biped, quadruped: of the joint nets}. Returns {} or {error}.
+// Request: the bytes of {page: of the page net, biped, quadruped: of the joint nets}. Returns {} or {error}.
 val useNets(const val& request) {
   return saying("the nets", [&] {
     Nets given;
-    for (const char* name : {"page", "biped", "quadruped", "parts"}) given.files.push_back(bytesOf(request[name]));
+    for (const char* name : {"page", "biped", "quadruped"}) given.files.push_back(bytesOf(request[name]));
     given.page = std::make_shared<const PageNet>(readyToRun(parsePageNet(given.files[0], "page net")));
-    given.parts = std::make_shared<const PartNet>(readyToRun(parsePartNet(given.files[3], "part net")));
     given.joints = std::make_shared<const JointNets>(
         std::vector<JointNets::File>{{"biped", given.files[1], "joint net of the biped"},
                                      {"quadruped", given.files[2], "joint net of the quadruped"}});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -29,6 +30,17 @@ constexpr float kLeastSeen = .3f;  // probability somewhere, of a part that is t
 constexpr float kPossible = .12f;  // probability of what may flood a px
 constexpr double kIsland = .25;    // of a limb's area: smaller parts apart are not of it
 
+// What becomes the PartPicture.
+struct Sketch {
+  PixelBox box;
+  double scale = 1;
+  cv::Mat rgb, mask, part, ink;  // ink: 255 where a line is drawn, darker than what is on both sides of it
+  // Of each limb: probability that it lies before what it overlaps, mean probability of its pixels.
+  std::array<double, 4> before{}, sure{};
+
+  cv::Mat of(Part which) const { return (part == static_cast<int>(which)) & mask; }
+};
+
 PartSkeleton scaled(const PartSkeleton& skeleton, const Vec& corner, double scale) {
   PartSkeleton out = skeleton;
   const auto move = [&](Vec& p) { p = (p - corner) * scale; };
@@ -44,7 +56,7 @@ double toLimb(const PartSkeleton& skeleton, std::size_t limb, const Vec& p) {
 }
 
 // The box of the image, over white, where it is no figure white.
-void cut(const Image& image, const Plane8& mask, PartPicture& picture) {
+void cut(const Image& image, const Plane8& mask, Sketch& picture) {
   const PixelBox& box = picture.box;
   cv::Mat rgb(box.height(), box.width(), CV_8UC3), inside(box.height(), box.width(), CV_8U);
   for (int y = 0; y < box.height(); ++y)
@@ -66,7 +78,7 @@ void cut(const Image& image, const Plane8& mask, PartPicture& picture) {
 
 // The net's probabilities, one plane a part, of the picture's size, empty for parts that are not there; also
 // fills `before` and `sure`.
-std::vector<cv::Mat> ask(const PartNet& net, const PartSkeleton& skeleton, PartPicture& picture) {
+std::vector<cv::Mat> ask(const PartNet& net, const PartSkeleton& skeleton, Sketch& picture) {
   const cv::Size full = picture.rgb.size();
   const double scale = static_cast<double>(kPartNetSize) / std::max(full.width, full.height);
   const cv::Size size(std::clamp(cvRound(full.width * scale), 1, kPartNetSize),
@@ -126,11 +138,11 @@ cv::Mat disc(int radius) {
   return cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * radius + 1, 2 * radius + 1));
 }
 
-int px(const PartPicture& picture, double share) {
+int px(const Sketch& picture, double share) {
   return std::max(1, cvRound(share * std::max(picture.rgb.cols, picture.rgb.rows)));
 }
 
-cv::Mat inkOf(const PartPicture& picture) {
+cv::Mat inkOf(const Sketch& picture) {
   cv::Mat grey, closed;
   cv::cvtColor(picture.rgb, grey, cv::COLOR_RGB2GRAY);
   // What is not the figure lets no line of it end.
@@ -143,7 +155,7 @@ cv::Mat inkOf(const PartPicture& picture) {
 
 // Borders move onto the drawing's edges where the net is not certain: parts flood what lies between them,
 // flat colours first (F. Meyer, "Color image segmentation", 1992).
-void snap(const std::vector<cv::Mat>& probabilities, PartPicture& picture) {
+void snap(const std::vector<cv::Mat>& probabilities, Sketch& picture) {
   const cv::Size size = picture.rgb.size();
   cv::Mat best(size, CV_8U, cv::Scalar(0)), most(size, CV_32F, cv::Scalar(-1));
   for (int k = 0; k < kPartCount; ++k) {
@@ -177,7 +189,7 @@ void snap(const std::vector<cv::Mat>& probabilities, PartPicture& picture) {
 }
 
 // A limb in front takes the lines that it is drawn with.
-void takeInk(PartPicture& picture) {
+void takeInk(Sketch& picture) {
   for (int k = 0; k < 4; ++k) {
     if (picture.before[static_cast<std::size_t>(k)] < .5) continue;
     cv::Mat limb = picture.of(limbPart(k));
@@ -196,7 +208,7 @@ void takeInk(PartPicture& picture) {
 }
 
 // Small pieces of a part apart from its largest go to what surrounds them.
-void removeIslands(PartPicture& picture) {
+void removeIslands(Sketch& picture) {
   cv::Mat moved = cv::Mat::zeros(picture.part.size(), CV_8U);
   for (int part = 0; part < kPartCount; ++part) {
     const cv::Mat own = picture.of(static_cast<Part>(part));
@@ -234,16 +246,22 @@ void removeIslands(PartPicture& picture) {
 
 PartPicture findParts(const Image& image, const Plane8& mask, const PartSkeleton& skeleton,
                       const PartNet& net) {
-  PartPicture picture;
-  picture.box = figureBox(mask);
-  SKEL_CHECK(picture.box.width() > 0);
-  cut(image, mask, picture);
+  Sketch sketch;
+  sketch.box = figureBox(mask);
+  SKEL_CHECK(sketch.box.width() > 0);
+  cut(image, mask, sketch);
   const std::vector<cv::Mat> probabilities =
-      ask(net, scaled(skeleton, Vec(picture.box.x0, picture.box.y0), picture.scale), picture);
-  picture.ink = inkOf(picture);
-  snap(probabilities, picture);
-  takeInk(picture);
-  removeIslands(picture);
+      ask(net, scaled(skeleton, Vec(sketch.box.x0, sketch.box.y0), sketch.scale), sketch);
+  sketch.ink = inkOf(sketch);
+  snap(probabilities, sketch);
+  takeInk(sketch);
+  removeIslands(sketch);
+  PartPicture picture{sketch.box, sketch.scale, {}, {}, {}, sketch.sure};
+  const auto plane = [](const cv::Mat& of) {
+    return Plane8(Eigen::Map<const Plane8>(of.ptr<std::uint8_t>(), of.rows, of.cols));
+  };
+  picture.mask = plane(sketch.mask), picture.part = plane(sketch.part);
+  picture.rgb.assign(sketch.rgb.ptr<std::uint8_t>(), sketch.rgb.ptr<std::uint8_t>() + 3 * sketch.rgb.total());
   return picture;
 }
 

@@ -60,7 +60,7 @@ struct Drawing {
   double toBone(int x, int y, const std::string& from, const std::string& to) const {
     return distanceToSegment<Vector2d>(Vector2d(x, y), at(from), at(to));
   }
-  LayerMap layers() const { return findLayers(image, silhouette, skeleton, body_plan, builtInPartNet()); }
+  LayerMap layers() const { return findLayers(image, silhouette, skeleton, body_plan); }
   std::vector<FigurePiece> pieces() const { return figurePieces(layers(), silhouette, skeleton, body_plan); }
   TriangleMesh mesh() const { return inflate(image, silhouette, {.back = Back::kPlain}, pieces()); }
 };
@@ -256,7 +256,7 @@ TEST_CASE("what two limbs cut off goes to the nearer of them: the rim of shoes t
   Skeleton skeleton = presetSkeleton(body_plan, {0, 0}, {1, 1});
   for (const auto& [name, place] : readJointsFile(character + ".joints.json"))
     skeleton.joints[std::size_t(skeleton.index(name))].image = *place;
-  const LayerMap layers = findLayers(image, silhouette, skeleton, body_plan, builtInPartNet());
+  const LayerMap layers = findLayers(image, silhouette, skeleton, body_plan);
   REQUIRE(layers.any());
   for (const auto& [foot, limb] : {std::pair("right_foot", 3), std::pair("left_foot", 4)}) {
     const Vector2d& p = skeleton.joints[std::size_t(skeleton.index(foot))].image;
@@ -350,16 +350,6 @@ TEST_CASE(
   CHECK(colorAt(head) == std::array<std::uint8_t, 3>{60, 60, 100});
   CHECK(
       (layersOfPicture(picture, drawing.silhouette, drawing.body_plan, "map.png").limb == layers.limb).all());
-}
-
-TEST_CASE("a body plan with other limbs than two arms and two legs is one skin") {
-  const Drawing drawing;
-  SkeletonTemplate three = drawing.body_plan;
-  three.limbs.pop_back();
-  const LayerMap layers =
-      findLayers(drawing.image, drawing.silhouette, drawing.skeleton, three, builtInPartNet());
-  CHECK_FALSE(layers.any());
-  CHECK(layers.hidden.empty());
 }
 
 TEST_CASE("what is hidden takes the colours around it") {

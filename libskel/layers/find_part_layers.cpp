@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <vector>
+
+#include "libskel/core/segment.h"
+#include "libskel/layers/find_parts.h"
+#include "libskel/layers/layer_map.h"
+
+namespace skel {
+namespace {
+
+using Vec = Eigen::Vector2d;
+
+constexpr double kLeastLimb = .004;    // of the figure's pixels
+constexpr double kLeastContact = .06;  // of a limb's border: less is free
+constexpr double kLeastDrawn = .55;    // of that contact
+constexpr double kContrast = .12;      // of the range of colours: what is drawn
+constexpr double kLeastSure = .55;     // mean probability of its pixels
+constexpr double kGrown = .4;  // of a limb's border against the body: it is hidden where it is a guess
+constexpr double kSeen = .25;  // of an arm's bones beyond its root: of less nothing is seen
+constexpr double kSure = .75;  // confidence in the end of a limb that is not hidden
+
+// The picture for OpenCV; it must live as long.
+struct Look {
+  const PixelBox box;
+  const double scale;
+  const std::array<double, 4> sure;
+  const cv::Mat rgb, mask, part;
+
+  explicit Look(PartPicture& p)
+      : box(p.box),
+        scale(p.scale),
+        sure(p.sure),
+        rgb(static_cast<int>(p.mask.rows()), static_cast<int>(p.mask.cols()), CV_8UC3, p.rgb.data()),
+        mask(rgb.rows, rgb.cols, CV_8U, p.mask.data()),
+        part(rgb.rows, rgb.cols, CV_8U, p.part.data()) {}
+  cv::Mat of(Part which) const { return (part == static_cast<int>(which)) & mask; }
+};
+
+std::optional<PartSkeleton> partSkeleton(const Skeleton& skeleton, const SkeletonTemplate& body_plan) {
+  bool complete = knowsParts(body_plan);
+  const auto at = [&](int joint) -> Vec {
+    const int found = joint < 0 ? -1 : skeleton.find(body_plan.joints[static_cast<std::size_t>(joint)].name);
+    complete = complete && found >= 0;
+    return found < 0 ? Vec(Vec::Zero())
+                     : Vec(skeleton.joints[static_cast<std::size_t>(found)].image + Vec(.5, .5));
+  };
+  if (!complete) return std::nullopt;
+  PartSkeleton out;
+  out.head = at(body_plan.head), out.body = at(body_plan.body);
+  for (std::size_t k = 0; k < out.limbs.size(); ++k)
+    for (std::size_t i = 0; i < 3; ++i) out.limbs[k][i] = at(body_plan.limbs[k].joints[i]);
+  const int root = body_plan.find("tail_root"), tail = body_plan.find("tail");
+  out.animal = body_plan.from_side && root >= 0 && tail >= 0;
+  if (out.animal) out.tail_root = at(root), out.tail = at(tail);
+  return complete ? std::optional(out) : std::nullopt;
+}
+
+// How strongly colours change within two px of each, 0…255, `others` and their outlines apart.
+cv::Mat edges(const Look& picture, const cv::Mat& others) {
+  cv::Mat high = picture.rgb.clone(), low = picture.rgb.clone(), apart, channels[3];
+  cv::dilate(others, apart, cv::Mat::ones(5, 5, CV_8U));
+  high.setTo(cv::Scalar::all(0), apart), low.setTo(cv::Scalar::all(255), apart);
+  cv::dilate(high, high, cv::Mat::ones(5, 5, CV_8U));
+  cv::erode(low, low, cv::Mat::ones(5, 5, CV_8U));
+  cv::split(high - low, channels);
+  return cv::max(channels[0], cv::max(channels[1], channels[2]));
+}
+
+// Of a limb's border, px.
+struct Border {
+  int all = 0, against = 0,
+      drawn = 0;  // of it against the rest of the figure; of that with a line or an edge
+};
+
+// What `others` hold is no border of this limb but of those: a hand on the hip.
+Border borderOf(const Look& picture, int limb, const cv::Mat& others, const cv::Mat& edge, double range) {
+  const cv::Mat own = picture.of(limbPart(limb));
+  Border border;
+  for (int y = 0; y < own.rows; ++y)
+    for (int x = 0; x < own.cols; ++x) {
+      if (own.at<std::uint8_t>(y, x) == 0) continue;
+      bool outside = false, against = false;
+      for (const cv::Point& step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+        const cv::Point q = cv::Point(x, y) + step;
+        if (q.x < 0 || q.y < 0 || q.x >= own.cols || q.y >= own.rows || picture.mask.at<std::uint8_t>(q) == 0)
+          outside = true;
+        else if (own.at<std::uint8_t>(q) == 0 && others.at<std::uint8_t>(q) == 0)
+          against = true;
+      }
+      border.all += outside || against;
+      border.against += against;
+      border.drawn += against && edge.at<std::uint8_t>(y, x) > kContrast * range;
+    }
+  return border;
+}
+
+// Whether it is better off as a body of its own: it lies against the rest of the figure, so that it would
+// drag that along, and what divides the two is drawn, so that neither is torn.
+bool standsOut(const Look& picture, int limb, const Border& border) {
+  return cv::countNonZero(picture.of(limbPart(limb))) >= kLeastLimb * cv::countNonZero(picture.mask) &&
+         picture.sure[static_cast<std::size_t>(limb)] >= kLeastSure && border.against > 0 &&
+         border.against >= kLeastContact * border.all && border.drawn >= kLeastDrawn * border.against;
+}
+
+// Grown to the body all along, and nothing tells the two apart.
+bool isGrown(const Border& border) {
+  return border.against >= kGrown * border.all && border.drawn < kLeastDrawn * border.against;
+}
+
+// Of the points on an arm's bones beyond its root, the share that shows the arm.
+double seenAlong(const Look& picture, const PartSkeleton& skeleton, int limb) {
+  const auto& [a, b, c] = skeleton.limbs[static_cast<std::size_t>(limb)];
+  constexpr int kSamples = 16;
+  int seen = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const double t = .4 + 1.6 * i / (kSamples - 1);
+    const Vec p = picture.scale * ((t < 1 ? Vec(a + t * (b - a)) : Vec(b + (t - 1) * (c - b))) -
+                                   Vec(picture.box.x0, picture.box.y0));
+    const cv::Point q(static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())));
+    if (!cv::Rect(cv::Point(), picture.mask.size()).contains(q)) continue;
+    seen += picture.mask.at<std::uint8_t>(q) != 0 &&
+            picture.part.at<std::uint8_t>(q) == static_cast<int>(limbPart(limb));
+  }
+  return static_cast<double>(seen) / kSamples;
+}
+
+// To the image's size, borders as smooth as its pixels allow: of each pixel the number that most of its
+// neighbours in `small` have, nearer ones more.
+void enlarge(const Look& picture, const cv::Mat& small, Plane8& whole) {
+  const PixelBox& box = picture.box;
+  const auto weigh = [&](int x, int y) {
+    const double u = (x + .5) * picture.scale - .5, v = (y + .5) * picture.scale - .5;
+    const int u0 = static_cast<int>(std::floor(u)), v0 = static_cast<int>(std::floor(v));
+    const double fu = u - u0, fv = v - v0;
+    std::array<std::uint8_t, 4> value{};
+    std::array<double, 4> weight{};
+    for (int i = 0; i < 4; ++i) {
+      const int a = std::clamp(u0 + i % 2, 0, small.cols - 1), b = std::clamp(v0 + i / 2, 0, small.rows - 1);
+      value[static_cast<std::size_t>(i)] = small.at<std::uint8_t>(b, a);
+      weight[static_cast<std::size_t>(i)] = (i % 2 ? fu : 1 - fu) * (i / 2 ? fv : 1 - fv);
+    }
+    std::uint8_t best = value[0];
+    double most = -1;
+    for (std::size_t i = 0; i < 4; ++i) {
+      double sum = 0;
+      for (std::size_t j = 0; j < 4; ++j) sum += value[j] == value[i] ? weight[j] : 0;
+      if (sum > most) most = sum, best = value[i];
+    }
+    return best;
+  };
+  for (int y = 0; y < box.height(); ++y)
+    for (int x = 0; x < box.width(); ++x) whole(y + box.y0, x + box.x0) = weigh(x, y);
+}
+
+}  // namespace
+
+LayerMap findPartLayers(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
+                        const SkeletonTemplate& body_plan, const PartNet& net) {
+  LayerMap map;
+  const std::optional<PartSkeleton> bones = partSkeleton(skeleton, body_plan);
+  if (!bones) return map;
+  PartPicture found = findParts(image, silhouette.mask, *bones, net);
+  const Look picture(found);
+  double low = 0, high = 0;
+  cv::Mat grey;
+  cv::cvtColor(picture.rgb, grey, cv::COLOR_RGB2GRAY);
+  cv::minMaxLoc(grey, &low, &high, nullptr, nullptr, picture.mask);
+  cv::Mat limbs(picture.part.size(), CV_8U, cv::Scalar(0)), parts(picture.part.size(), CV_8U, cv::Scalar(0));
+  cv::Mat arms = cv::Mat::zeros(limbs.size(), CV_8U), edge = edges(picture, arms);  // arms that are layers
+  for (int k = 0; k < 4; ++k) {
+    if (k == 2 && cv::countNonZero(limbs) != 0) arms = limbs != 0, edge = edges(picture, arms);
+    const Border border = borderOf(picture, k, arms, edge, std::max(40., high - low));
+    if (standsOut(picture, k, border)) {
+      limbs.setTo(k + 1, picture.of(limbPart(k)));
+      continue;
+    }
+    const TemplateLimb& limb = body_plan.limbs[static_cast<std::size_t>(k)];
+    const int end = skeleton.find(body_plan.joints[static_cast<std::size_t>(limb.joints[2])].name);
+    if (limb.limb_class == JointClass::kHand &&
+        skeleton.joints[static_cast<std::size_t>(end)].confidence < kSure &&
+        (seenAlong(picture, *bones, k) < kSeen || isGrown(border)))
+      map.hidden.push_back(k + 1);
+  }
+  map.part = Plane8::Zero(image.height, image.width);
+  enlarge(picture, picture.part, map.part);
+  if (cv::countNonZero(limbs) == 0) return map;
+  map.limb = Plane8::Zero(image.height, image.width);
+  enlarge(picture, limbs, map.limb);
+  map.limb = (silhouette.mask != 0).select(map.limb, Plane8::Zero(image.height, image.width));
+  return map;
+}
+
+}  // namespace skel
