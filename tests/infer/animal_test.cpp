@@ -51,6 +51,16 @@ TEST_CASE("a joint net can be given as a file") {
   CHECK(other.err.find("the template \"quadruped\" has no joint \"left_hand\"") != std::string::npos);
 }
 
+TEST_CASE("a part net can be given as a file, and no other net in its place") {
+  const TempDir dir;
+  const std::string base = "'" + kAnimals + "/crayon_pig.png' --template quadruped --formats layers -o '" +
+                           dir.path() + "' --part-net '" SKEL_SOURCE_DIR "/weights/";
+  CHECK(infer(base + "part_net.bin'").exit_code == 0);
+  const ToolRun other = infer(base + "joint_net.bin' --force");
+  CHECK(other.exit_code == 2);
+  CHECK(other.err.find("joint_net.bin") != std::string::npos);
+}
+
 // Also: drawings side by side in a folder are evaluated like those in folders of their own.
 TEST_CASE("the drawn animals are found, from the picture alone") {
   const TempDir dir;

@@ -52,7 +52,8 @@ struct Drawing {
   LayerMap layers() const { return findPartLayers(image, silhouette, skeleton, body_plan, net()); }
 };
 
-TEST_CASE("an arm drawn before the chest is a layer by the part net, its outline with it; nothing else is") {
+TEST_CASE(
+    "an arm drawn before the chest is a layer by the part net, its outline with it, and nothing else is") {
   const Drawing drawing(true);
   const LayerMap layers = drawing.layers();
   REQUIRE(layers.any());

@@ -66,7 +66,7 @@ TEST_CASE("what is far from all bones but at the hand is a thing, a button is of
   CHECK(painting.at(160, 122) == Part::kTrunk);
 }
 
-TEST_CASE("a drawing in one shape is divided along its bones; none has no parts") {
+TEST_CASE("a drawing in one shape is divided along its bones, an empty one has no parts") {
   Painting painting;
   cv::Mat& shapes = painting.shapes;
   for (int y = 0; y < shapes.rows; ++y)
