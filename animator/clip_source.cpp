@@ -7,6 +7,7 @@
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/keyframe_clip.h"
 #include "libskel/animation/role_figure.h"
+#include "libskel/cli/number.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/deform/figure_shape.h"
@@ -41,7 +42,7 @@ void bindClipSource(CLI::App& app, ClipSource& source) {
   app.add_option("--into-picture", source.into_picture,
                  "How far limbs that point at the viewer turn into the picture, of figures drawn from the "
                  "front: 0 not at all, 1 all the way")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(numberIn(0.0, 1.0))
       ->capture_default_str();
 }
 

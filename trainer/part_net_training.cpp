@@ -8,6 +8,8 @@
 #include <optional>
 #include <sstream>
 
+#include "libskel/cli/number.h"
+#include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
@@ -256,24 +258,35 @@ void writeTruth(const PartTrainingOptions& options) {
 }  // namespace
 
 void bindPartTrainingOptions(CLI::App& command, PartTrainingOptions& options) {
-  command.add_option("-o,--output", options.output, "Weights file to write")->capture_default_str();
+  command.add_option("-o,--output", options.output, "Weights file to write")
+      ->capture_default_str()
+      ->check(outputFile());
   command.add_option("--start", options.start, "Net to go on from")->type_name("FILE");
-  command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report");
+  command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report")
+      ->check(outputFile());
   command
       .add_option("--sheet", options.sheet,
                   "Picture of samples to write, instead of training; with --start what that net says of them")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(outputFile());
   command
       .add_option("--truth", options.truth,
                   "Folder to write the parts of --held-out to, for rulers, instead of training")
-      ->type_name("DIR");
-  command.add_option("--seed", options.seed, "Of all random numbers")->capture_default_str();
-  command.add_option("--steps", options.steps)->check(CLI::Range(1, 10'000'000))->capture_default_str();
-  command.add_option("--batch", options.batch, "Figures a step")
-      ->check(CLI::Range(4, 1024))
+      ->type_name("DIR")
+      ->check(outputFile());
+  command.add_option("--seed", options.seed, "Of all random numbers")
+      ->check(seedNumber())
       ->capture_default_str();
-  command.add_option("--rate", options.peak_rate, "Highest learning rate")->capture_default_str();
-  command.add_option("--averaging", options.averaging, "Of the weights over steps")->capture_default_str();
+  command.add_option("--steps", options.steps)->check(numberIn(1, 10'000'000))->capture_default_str();
+  command.add_option("--batch", options.batch, "Figures a step")
+      ->check(numberIn(4, 1024))
+      ->capture_default_str();
+  command.add_option("--rate", options.peak_rate, "Highest learning rate")
+      ->check(numberIn(1e-9, 1.))
+      ->capture_default_str();
+  command.add_option("--averaging", options.averaging, "Of the weights over steps")
+      ->check(numberIn(0., .999999))
+      ->capture_default_str();
   command.add_option("--shapes", options.shapes, "What script/shape-maps has written")->type_name("DIR");
   command.add_option("--drawings", options.drawings, "Drawings to learn from: *.joints.json with --shapes")
       ->type_name("DIR")
@@ -282,16 +295,16 @@ void bindPartTrainingOptions(CLI::App& command, PartTrainingOptions& options) {
       ->type_name("DIR")
       ->take_all();
   command.add_option("--drawn", options.drawn_share, "Share of figures that come from --drawings")
-      ->check(CLI::Range(0., 1.))
+      ->check(numberIn(0., 1.))
       ->capture_default_str();
   command.add_option("--animals", options.animal_share, "Share of generated figures that go on four feet")
-      ->check(CLI::Range(0., 1.))
+      ->check(numberIn(0., 1.))
       ->capture_default_str();
   command.add_option("--threads", options.threads, "0: one a core")
-      ->check(CLI::Range(0, 256))
+      ->check(numberIn(0, 256))
       ->capture_default_str();
   command.add_option("--report-every", options.report_every, "Steps")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(numberIn(1, 1'000'000))
       ->capture_default_str();
 }
 
@@ -327,8 +340,10 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
   schedule.averaging = options.averaging;
   schedule.threads = options.threads;
   ConvNetTrainer trainer(net, schedule);
-  if (!options.checkpoint.empty() && fs::exists(options.checkpoint))
+  if (!options.checkpoint.empty() && fs::exists(options.checkpoint)) {
+    const LookAtOutputs look;
     trainer.restore(readFile(options.checkpoint), options.checkpoint);
+  }
   std::vector<Lesson> lessons(static_cast<std::size_t>(options.batch));
   ProgressBar bar("training", static_cast<std::size_t>(options.steps));
   bar.advance(static_cast<std::size_t>(trainer.steps()));
