@@ -166,16 +166,18 @@ std::optional<PartSample> readPartSample(const JointedDrawing& drawing, const st
       if (joint == name && at) return &*at;
     return nullptr;
   };
+  bool placed = true;  // all joints
   const auto joint = [&](const std::string& name) -> Vec {
     const Vec* p = find(name);
-    if (p == nullptr) throw InputError(drawing.joints_file, "has no joint " + name);
-    return *p + Vec(.5, .5);
+    placed = placed && p != nullptr;
+    return p != nullptr ? *p + Vec(.5, .5) : Vec(Vec::Zero());
   };
   PartSample sample;
   sample.side_view = drawing.side_view;
   sample.rgb = colours;
   sample.mask = cv::Mat(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(mask.data())).clone();
   sample.skeleton = partSkeleton(find("tail") != nullptr, joint);
+  if (!placed) return std::nullopt;
   const double scale = double(map.cols) / image.width;
   const std::optional<PartTruth> truth =
       partTruth(map, moved(sample.skeleton, [&](const Vec& p) { return Vec(scale * p); }));
