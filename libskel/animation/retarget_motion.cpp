@@ -348,8 +348,8 @@ void takeDirections(const Source& source, const Mapping& mapping, const Skeleton
 }
 
 // How high their lowest foot is above the ground, toes included, one a moment. The ground is where it is
-// lowest, but for a few moments: recorded feet sink into it now and then.
-std::vector<double> heightsAboveGround(const Source& source, const std::vector<Limb>& legs) {
+// lowest, but for a few moments of what was recorded: such feet sink into it now and then.
+std::vector<double> heightsAboveGround(const Source& source, const std::vector<Limb>& legs, bool recorded) {
   const std::vector<Joint>& joints = source.motion.skeleton.joints;
   std::vector<char> foot(joints.size(), 0);
   for (const Limb& leg : legs) foot[std::size_t(leg.end)] = 1;
@@ -365,7 +365,7 @@ std::vector<double> heightsAboveGround(const Source& source, const std::vector<L
     heights.push_back(lowest);
   }
   std::vector<double> sorted = heights;
-  const auto few = sorted.begin() + std::ptrdiff_t(sorted.size() / 20);
+  const auto few = sorted.begin() + std::ptrdiff_t(recorded ? sorted.size() / 20 : 0);
   std::nth_element(sorted.begin(), few, sorted.end());
   const double ground = *few;
   for (double& height : heights) height = std::max(0.0, height - ground);
@@ -382,11 +382,11 @@ double lowestSole(const std::vector<Limb>& legs, const FigureShape& shape, const
 }
 
 // Our lowest foot is as far from the ground as theirs.
-void standOnGround(const Source& source, const Skeleton& target, const FigureShape& shape, double scale,
-                   Clip& clip) {
+void standOnGround(const Source& source, bool recorded, const Skeleton& target, const FigureShape& shape,
+                   double scale, Clip& clip) {
   const std::vector<Limb> legs = legsOf(source.roles), our_legs = legsOf(findJointRoles(target));
   if (legs.empty() || our_legs.empty()) return;
-  const std::vector<double> heights = heightsAboveGround(source, legs);
+  const std::vector<double> heights = heightsAboveGround(source, legs, recorded);
   const std::vector<float>& times = source.times_s;
   const double ground = lowestSole(our_legs, shape, restPositions(target),
                                    std::vector<Quaterniond>(target.joints.size(), Quaterniond::Identity()));
@@ -444,7 +444,7 @@ RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file
   options.into_picture = mapping.same_names ? 0 : into_picture;
   options.thin_keys = false;
   result.clip = retargetToRest(clip, target, options);
-  standOnGround(source, target, shape, scale, result.clip);
+  standOnGround(source, !mapping.same_names, target, shape, scale, result.clip);
   return result;
 }
 

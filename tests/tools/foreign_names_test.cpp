@@ -128,8 +128,9 @@ TEST_CASE("an annotation of torso and body is one joint, and passes the check") 
       R"({"joints": {"torso": [10, 10], "body": [80, 90], "head": [80, 40], "hip": [80, 120], "pelvis": null}})");
   done(dir, "skel-label import set");
   const std::string labels = readFile(dir.file("set/cat.labels.json"));
-  CHECK(countOf(labels, "\"body\"") == 1);
-  CHECK(countOf(labels, "\"pelvis\"") == 1);
+  const std::string joints = labels.substr(labels.find("\"joints\""));
+  CHECK(countOf(joints, "\"body\"") == 1);
+  CHECK(countOf(joints, "\"pelvis\"") == 1);
   done(dir, "skel-label check set");
 }
 
