@@ -1,10 +1,11 @@
 #include "libskel/core/error.h"
-#include "libskel/layers/find_parts.h"
+#include "libskel/layers/layer_map.h"
 
 namespace skel {
 
 // Looking for parts takes more of OpenCV than the build for browsers has.
-PartPicture findParts(const Image&, const Plane8&, const PartSkeleton&, const PartNet&) {
+LayerMap findPartLayers(const Image&, const Silhouette&, const Skeleton&, const SkeletonTemplate&,
+                        const PartNet&) {
   throw UnavailableError("parts cannot be told here");
 }
 
