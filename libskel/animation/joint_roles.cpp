@@ -121,10 +121,6 @@ struct Tree {
   }
 };
 
-int roleIndex(std::string_view role) {
-  return int(std::find(kJointRoles.begin(), kJointRoles.end(), role) - kJointRoles.begin());
-}
-
 // The limb's three joints, each above the next. Empty if the names do not tell.
 std::vector<int> limbByNames(const Tree& tree, const std::vector<PlainName>& names,
                              const std::initializer_list<std::string_view> (&wanted)[3], Side side) {
@@ -343,7 +339,11 @@ std::vector<int> legOf(const Tree& tree, const std::vector<PlainName>& names, st
 
 }  // namespace
 
-int JointRoles::joint(std::string_view role) const { return joints[std::size_t(roleIndex(role))]; }
+std::size_t roleIndex(std::string_view role) {
+  return std::size_t(std::find(kJointRoles.begin(), kJointRoles.end(), role) - kJointRoles.begin());
+}
+
+int JointRoles::joint(std::string_view role) const { return joints[roleIndex(role)]; }
 
 JointRoles findJointRoles(const Skeleton& skeleton, const std::vector<Vector3d>& tips) {
   JointRoles roles;
@@ -356,9 +356,7 @@ JointRoles findJointRoles(const Skeleton& skeleton, const std::vector<Vector3d>&
     roles.by_shape = true;
   }
   if (!limbs.complete()) return roles;
-  const auto set = [&](std::string_view role, int joint) {
-    roles.joints[std::size_t(roleIndex(role))] = joint;
-  };
+  const auto set = [&](std::string_view role, int joint) { roles.joints[roleIndex(role)] = joint; };
   const auto limb = [&](const std::vector<int>& joints, std::array<std::string_view, 3> names) {
     for (std::size_t k = 0; k < 3; ++k) set(names[k], joints[k]);
   };

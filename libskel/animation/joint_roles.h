@@ -16,6 +16,9 @@ inline constexpr std::array<std::string_view, 16> kJointRoles = {
     "left_hand", "right_shoulder", "right_elbow", "right_hand", "left_hip",      "left_knee",
     "left_foot", "right_hip",      "right_knee",  "right_foot"};
 
+// Its place among them.
+std::size_t roleIndex(std::string_view role);
+
 struct JointRoles {
   std::array<int, kJointRoles.size()> joints;  // one a role: an index, or -1
   bool by_shape = false;                       // the names said nothing

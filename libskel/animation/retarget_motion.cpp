@@ -214,10 +214,6 @@ const Vector3d kDown = -Vector3d::UnitY();
 // must, for a drawn limb shows nothing of that.
 using RoleTurns = std::array<std::vector<Quaterniond>, kJointRoles.size()>;
 
-std::size_t roleIndex(std::string_view role) {
-  return std::size_t(std::find(kJointRoles.begin(), kJointRoles.end(), role) - kJointRoles.begin());
-}
-
 // What ends a limb, or the trunk, and where it looks, its joint's place does not tell: on the whole it is
 // held as what carries it.
 std::vector<Quaterniond> turnsOfEnd(const Source& source, std::string_view role,

@@ -16,14 +16,14 @@ using Eigen::Index;
 using Eigen::RowVector3f;
 using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr int kMoments = 16;          // of each clip, to choose from
-constexpr std::size_t kTelling = 56;  // of all clips
-constexpr float kAlike = 0.02f;       // squared, of turns: 6°; nearer moments stretch alike
-constexpr int kSweeps = 4;            // of smoothing between two looks at what is stretched
-constexpr int kRounds = 60;           // of such looks
-constexpr int kWiden = 5;             // after so many rounds, what moves reaches an edge farther
-constexpr int kPatience = 4;          // so many rounds without progress
-constexpr std::size_t kFew = 60;      // triangles that may ride rigidly without being seen
+constexpr int kCandidateMoments = 16;  // of each clip, to choose from
+constexpr std::size_t kTelling = 56;   // of all clips
+constexpr float kAlike = 0.02f;        // squared, of turns: 6°; nearer moments stretch alike
+constexpr int kSweeps = 4;             // of smoothing between two looks at what is stretched
+constexpr int kRounds = 60;            // of such looks
+constexpr int kWiden = 5;              // after so many rounds, what moves reaches an edge farther
+constexpr int kPatience = 4;           // so many rounds without progress
+constexpr std::size_t kFew = 60;       // triangles that may ride rigidly without being seen
 constexpr double kSpare =
     0.9;  // of the bound: between the moments that are looked at it may be a little more
 constexpr float kSame = 0.05f;  // weights that differ by less, in sum, stretch nothing
@@ -39,8 +39,8 @@ std::vector<JointTransforms> tellingMoments(const TriangleMesh& mesh, const Skel
   const float height_m = mesh.vertices.col(1).maxCoeff() - mesh.vertices.col(1).minCoeff();
   std::vector<JointTransforms> all;
   for (const Clip& clip : clips)
-    for (int k = 0; k < kMoments; ++k) {
-      const float time_s = clip.duration_s() * float(k) / kMoments;
+    for (int k = 0; k < kCandidateMoments; ++k) {
+      const float time_s = clip.duration_s() * float(k) / kCandidateMoments;
       all.push_back(posedFromRest(skeleton, samplePose(clip, skeleton, time_s), height_m));
     }
   const JointTransforms rest(skeleton.joints.size(), Eigen::Affine3f::Identity());
