@@ -1,39 +1,19 @@
 // Weights files of the page net.
-#include <nlohmann/json.hpp>
-
-#include "libskel/core/error.h"
-#include "libskel/core/json.h"
-#include "libskel/core/sha256.h"
+#include "libskel/convnet/fixed_net_file.h"
 #include "libskel/silhouette/page_net.h"
 
 namespace skel {
 namespace {
 
-constexpr std::string_view kFormat = "skel-page-net";
-constexpr int kVersion = 1;
+constexpr FixedNetFormat kFormat = {"skel-page-net", "page net"};
 
 }  // namespace
 
-std::string formatPageNet(const PageNet& net) {
-  const std::string payload = formatWeights(net);
-  const nlohmann::ordered_json header = {{"format", kFormat},
-                                         {"version", kVersion},
-                                         {"provenance", net.provenance},
-                                         {"convolutions", convolutionSizes(net)},
-                                         {"sha256", sha256(payload)}};
-  return header.dump() + "\n" + payload;
-}
+std::string formatPageNet(const PageNet& net) { return formatFixedNet(net, net.provenance, kFormat); }
 
 PageNet parsePageNet(std::string_view bytes, const std::string& file, bool check_hash) {
-  const std::size_t end = bytes.find('\n');
-  if (end == std::string_view::npos) throw InputError(file, "not a page net: it has no header line");
-  const JsonDocument document = JsonDocument::parse(bytes.substr(0, end), file);
-  const JsonValue root = document.root();
-  root.checkFormat(kFormat, kVersion);
-  root.allowOnly({"format", "version", "provenance", "convolutions", "sha256"});
   PageNet net = makePageNet();
-  net.provenance = root.at("provenance").asString();
-  parseWeights(bytes.substr(end + 1), root, file, net, check_hash);
+  net.provenance = parseFixedNet(bytes, file, kFormat, net, check_hash);
   return net;
 }
 
