@@ -18,6 +18,7 @@
 #include "trainer/conv_net_trainer.h"
 #include "trainer/part_loss.h"
 #include "trainer/part_samples.h"
+#include "trainer/posed_parts.h"
 
 namespace skel {
 namespace {
@@ -69,10 +70,12 @@ struct Lesson {
 
 Lesson lesson(Rng& rng, const PartTrainingOptions& options, const std::vector<PartSample>& drawings) {
   Lesson out;
-  if (!drawings.empty() && rng.chance(options.drawn_share))
-    out.sample = warpedPartSample(rng, drawings[rng.below(static_cast<std::uint32_t>(drawings.size()))]);
-  else
+  if (!drawings.empty() && rng.chance(options.drawn_share)) {
+    const PartSample& drawn = drawings[rng.below(static_cast<std::uint32_t>(drawings.size()))];
+    out.sample = warpedPartSample(rng, rng.chance(options.posed_share) ? posedPartSample(rng, drawn) : drawn);
+  } else {
     out.sample = generatedPartSample(rng, rng.chance(options.animal_share) ? "quadruped" : "biped");
+  }
   out.before = limbsBefore(out.sample);
   repaintPartSample(rng, out.sample);
   out.seen = withNoise(rng, out.sample.skeleton, kPartNetSize);
@@ -258,9 +261,7 @@ void writeTruth(const PartTrainingOptions& options) {
 }  // namespace
 
 void bindPartTrainingOptions(CLI::App& command, PartTrainingOptions& options) {
-  command.add_option("-o,--output", options.output, "Weights file to write")
-      ->capture_default_str()
-      ->check(outputFile());
+  command.add_option("-o,--output", options.output, "Weights file to write")->check(outputFile());
   command.add_option("--start", options.start, "Net to go on from")->type_name("FILE");
   command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report")
       ->check(outputFile());
@@ -297,6 +298,9 @@ void bindPartTrainingOptions(CLI::App& command, PartTrainingOptions& options) {
   command.add_option("--drawn", options.drawn_share, "Share of figures that come from --drawings")
       ->check(numberIn(0., 1.))
       ->capture_default_str();
+  command.add_option("--posed", options.posed_share, "Share of these whose limbs are turned")
+      ->check(numberIn(0., 1.))
+      ->capture_default_str();
   command.add_option("--animals", options.animal_share, "Share of generated figures that go on four feet")
       ->check(numberIn(0., 1.))
       ->capture_default_str();
@@ -318,6 +322,7 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
     writeSheet(options, drawings);
     return ExitCode::kDone;
   }
+  if (options.output.empty()) throw UsageError("-o is missing: the weights file to write");
   std::vector<Lesson> validation;
   for (const PartSample& sample : readSamples(options.held_out, options.shapes, options.threads)) {
     Rng rng(options.seed, kValidationStream + validation.size());

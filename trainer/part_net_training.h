@@ -11,7 +11,7 @@
 namespace skel {
 
 struct PartTrainingOptions {
-  std::string output = "weights/part_net.bin";
+  std::string output;      // weights file to write; needed to train
   std::string start;       // net to go on from; "": from nothing
   std::string checkpoint;  // "": none
   std::string sheet;       // picture of samples to write instead of training; "": none
@@ -25,6 +25,7 @@ struct PartTrainingOptions {
   std::vector<std::string> drawings;  // folders of drawings with joints, see findJointedDrawings()
   std::vector<std::string> held_out;  // the same, which only measure
   double drawn_share = .7;            // of samples that come from drawings
+  double posed_share = .5;            // of these whose limbs are turned
   double animal_share = .2;           // of the others that go on four feet
   int threads = 0;                    // 0: one a core. The result does not depend on it.
   int report_every = 500;             // steps

@@ -17,16 +17,6 @@ namespace {
 
 using Vec = Eigen::Vector2d;
 
-// Every point of a skeleton anew.
-PartSkeleton moved(const PartSkeleton& skeleton, const std::function<Vec(const Vec&)>& move) {
-  PartSkeleton out = skeleton;
-  out.head = move(out.head), out.body = move(out.body);
-  out.tail_root = move(out.tail_root), out.tail = move(out.tail);
-  for (auto& limb : out.limbs)
-    for (Vec& p : limb) p = move(p);
-  return out;
-}
-
 // By the names of a plan's joints.
 PartSkeleton partSkeleton(bool animal, const std::function<Vec(const std::string&)>& joint) {
   PartSkeleton out;
@@ -121,6 +111,15 @@ PartSample transformed(const PartSample& sample, const Eigen::Matrix2d& linear, 
 }
 
 }  // namespace
+
+PartSkeleton moved(const PartSkeleton& skeleton, const std::function<Vec(const Vec&)>& move) {
+  PartSkeleton out = skeleton;
+  out.head = move(out.head), out.body = move(out.body);
+  out.tail_root = move(out.tail_root), out.tail = move(out.tail);
+  for (auto& limb : out.limbs)
+    for (Vec& p : limb) p = move(p);
+  return out;
+}
 
 std::array<int, 4> limbsBefore(const PartSample& sample) {
   constexpr int kLeastBorder = 8;

@@ -1,6 +1,8 @@
 // What the part net learns from: figures of which each pixel's part is known.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -12,6 +14,10 @@
 #include "trainer/part_truth.h"
 
 namespace skel {
+
+// Every point of a skeleton anew.
+PartSkeleton moved(const PartSkeleton& skeleton,
+                   const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& move);
 
 // All of one size; the figure's box.
 struct PartSample {

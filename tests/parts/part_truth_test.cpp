@@ -1,10 +1,12 @@
 // What is known of the parts of painted and generated figures.
 #include "trainer/part_truth.h"
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 #include "tests/support/catch.h"
 #include "trainer/part_samples.h"
+#include "trainer/posed_parts.h"
 
 namespace skel {
 namespace {
@@ -48,6 +50,40 @@ TEST_CASE("a shape along a limb's bones is that limb, also where it lies before 
   CHECK(painting.at(145, 230) == Part::kRightLeg);
   CHECK(painting.at(175, 230) == Part::kLeftLeg);
   CHECK(static_cast<int>(painting.at(10, 10)) == kNoPart);
+}
+
+TEST_CASE(
+    "a figure posed anew has its limbs' pixels along their turned bones, before the body or behind it") {
+  const Painting painting;
+  const auto truth = partTruth(painting.shapes, painting.skeleton);
+  REQUIRE(truth.has_value());
+  PartSample drawn;
+  drawn.rgb = cv::Mat(320, 320, CV_8UC3, cv::Scalar::all(200));
+  drawn.part = truth->part, drawn.order = truth->order, drawn.mask = truth->part != kNoPart;
+  drawn.skeleton = painting.skeleton;
+  int turned = 0, bare = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Rng rng(seed, 1), again(seed, 1);
+    const PartSample posed = posedPartSample(rng, drawn), twin = posedPartSample(again, drawn);
+    CHECK(cv::norm(posed.part, twin.part, cv::NORM_INF) == 0);
+    CHECK(cv::countNonZero((posed.part == kNoPart) != (posed.mask == 0)) == 0);
+    for (int k = 0; k < 4; ++k) {
+      CAPTURE(seed, k);
+      const auto& bones = posed.skeleton.limbs[std::size_t(k)];
+      for (const Eigen::Vector2d& joint : {Eigen::Vector2d((bones[0] + bones[1]) / 2), bones[1], bones[2]}) {
+        const int is = posed.part.at<std::uint8_t>(int(joint.y()), int(joint.x()));
+        bare += is == kNoPart;
+        // Nobody but another part that lies before it may stand there.
+        const bool own = is == int(limbPart(k));
+        CHECK((own || posed.order.at<std::uint16_t>(int(joint.y()), int(joint.x())) > 0));
+        turned += own;
+      }
+    }
+    const auto across = limbsBefore(posed);
+    CHECK(*std::max_element(across.begin(), across.end()) == 1);
+  }
+  CHECK(bare == 0);
+  CHECK(turned > 12 * 4 * 3 / 2);
 }
 
 TEST_CASE("a shape over both legs and what is between them is a skirt, no leg") {
