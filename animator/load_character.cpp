@@ -40,7 +40,7 @@ void bindCharacterSource(CLI::App& app, CharacterSource& source) {
          "A rigged character (.glb), a drawing, which is rigged first, or a model (.obj) with --skeleton")
       ->required()
       ->type_name("FILE");
-  app.add_option("--template", source.body_plan, "Body plan of a drawing: a name or a file")
+  app.add_option("--template", source.body_plan, "Body plan of a drawing: a name, a file, or auto: the one that it fits")
       ->capture_default_str();
   app.add_option("--skeleton", source.skeleton, "The skeleton of a model: see skel-animate bind")
       ->type_name("FILE");
@@ -51,8 +51,9 @@ void bindCharacterSource(CLI::App& app, CharacterSource& source) {
 
 CharacterFile loadCharacter(const CharacterSource& source) {
   if (isDrawing(source.path)) {
-    RigOptions options;
-    options.body_plan = loadTemplate(source.body_plan);
+    RigOptions options = rigOptions(source.body_plan);
+    options.clips.clear();  // they are made as they are asked for
+    if (options.otherwise) options.otherwise->clips.clear();
     return {rigDrawing(source.path, options).character, {}, stemOf(source.path)};
   }
   const bool rigged = endingOf(source.path) == ".glb";

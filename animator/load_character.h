@@ -15,7 +15,7 @@ namespace skel {
 
 struct CharacterSource {
   std::string path;                 // a .glb, a drawing, or a model with a skeleton of its own
-  std::string body_plan = "biped";  // of a drawing
+  std::string body_plan = "auto";  // of a drawing
   std::string skeleton = {};        // of a model (.obj): see readRigModel()
   std::string up = "auto";
 };

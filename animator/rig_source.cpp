@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "libskel/core/error.h"
+#include "libskel/core/files.h"
 #include "libskel/core/json.h"
 #include "libskel/mesh/read_mesh.h"
 #include "libskel/skeleton/place_in_mesh.h"
@@ -51,8 +52,8 @@ std::string stemOf(const std::string& path) { return std::filesystem::path(path)
 Skeleton readSkeletonFor(const TriangleMesh& mesh, const std::string& path, const std::string& up,
                          std::string* note) {
   if (isSkelFile(path)) {
-    const JsonDocument document = JsonDocument::readFile(path);
-    return readSkeletonFile(path, loadTemplate(document.root().at("template").asString())).skeleton;
+    const std::string text = readFile(path);
+    return parseSkeletonFile(text, path, loadTemplate(templateOfSkeleton(text, path))).skeleton;
   }
   const Skeleton as_is = readRigFile(path), turned = yUpFromZUp(as_is);
   const double y = shareInside(as_is, mesh), z = shareInside(turned, mesh);

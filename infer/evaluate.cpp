@@ -86,6 +86,7 @@ std::string interval(const std::vector<Row>& rows, const std::function<double(co
 
 void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
   app.option_defaults()->always_capture_default();
+  options.infer.body_plan = "biped";
   app.add_option("DIR", options.dir,
                  "Folders of image.png, mask.png and joints.json, or files <name>.png, <name>.mask.png and\n"
                  "<name>.joints.json, at any depth")
@@ -104,6 +105,8 @@ void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
 }
 
 ExitCode runEvaluate(const EvaluateOptions& options) {
+  if (options.infer.body_plan == "auto")
+    throw UsageError("joints are measured against those of one body plan: name it by --template");
   const RigOptions rig = rigOptions(options.infer);
   noteUnusedWeights(options.infer);
   if (!options.overlays.empty()) ensureWritableFolder(options.overlays);

@@ -19,6 +19,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/image/result_picture.h"
 #include "libskel/mesh/read_mesh.h"
+#include "libskel/pipeline/rig_drawing.h"
 #include "libskel/pipeline/trace.h"
 #include "libskel/skeleton/outside_figure.h"
 
@@ -243,7 +244,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
               Outcome& outcome) {
   std::optional<SkeletonFile> given;
   if (!options.skeleton_file.empty()) {
-    given = readSkeletonFile(options.skeleton_file, rig.body_plan);
+    const std::string text = readFile(options.skeleton_file);
+    given = parseSkeletonFile(text, options.skeleton_file, planOfSkeleton(text, options.skeleton_file, rig));
     figure = figureOf(options, *given, figure);
   }
   const std::string stem = stemOf(options, job, figure);
@@ -305,14 +307,19 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
   }
 
   char line[64];
-  std::snprintf(line, sizeof line, "  confidence %.2f\n", file.confidence);
+  std::snprintf(line, sizeof line, "  confidence %.2f", file.confidence);
   const std::string source =
       options.figure == "all" ? job.source + ", figure " + std::to_string(figure) : job.source;
-  outcome.report += source + ": " + (written.empty() ? "nothing to write" : written.front()) + line;
+  outcome.report += source + ": " + (written.empty() ? "nothing to write" : written.front()) + line +
+                    (rig.otherwise ? "  " + drawing.body_plan.name : "") + "\n";
   std::vector<std::string> notes = file.warnings;
+  for (const std::string& name : options.clips)
+    if (name != "none" && std::none_of(drawing.clips.begin(), drawing.clips.end(),
+                                       [&](const Clip& clip) { return clip.name == name; }))
+      notes.push_back("there is no clip \"" + name + "\" for a " + drawing.body_plan.name + ": left out");
   if (options.model_file.empty() && rig.layers && file.confidence >= .5) {
     const std::vector<std::string> of_limbs =
-        limbWarnings(drawing, rig.body_plan, figure > 1 ? skeleton_path : job.source);
+        limbWarnings(drawing, drawing.body_plan, figure > 1 ? skeleton_path : job.source);
     notes.insert(notes.end(), of_limbs.begin(), of_limbs.end());
   }
   for (const std::string& note : notes) outcome.complaints += source + ": note: " + note + "\n";
@@ -351,7 +358,9 @@ Outcome rigDrawing(const InferOptions& options, const RigOptions& rig, const Job
 void bindRecognitionOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--weights", options.weights_file, "Weights of the candidates' net (default: built in)")
       ->always_capture_default(false);
-  app.add_option("--template", options.body_plan, "Body plan: biped, quadruped, or a .json file");
+  app.add_option(
+      "--template", options.body_plan,
+      "Body plan: biped, quadruped, a .json file, or auto: the\nbiped or quadruped that a figure fits");
   app.add_option("--part-net", options.part_net_file,
                  "Net that tells the figure's parts (weights/part_net.bin), and with them the layers, "
                  "instead of the\n"
@@ -393,6 +402,10 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
                  "A folder of clip files (.clip.json) beside the built-in ones")
       ->type_name("DIR")
       ->always_capture_default(false);
+  app.add_option("--into-picture", options.into_picture,
+                 "How far limbs that point at the viewer turn into the picture, of figures drawn from the\n"
+                 "front: 0 not at all, 1 all the way")
+      ->check(numberIn(0.0, 1.0));
   app.add_option("--rest-pose", options.rest_pose, "How the character stands when nothing moves it")
       ->check(namesOf(kRestPoseNames));
   app.add_option("--names", options.naming, "What exported joints are called")->check(namesOf(kNamingNames));
@@ -427,7 +440,10 @@ ExitCode runInfer(const InferOptions& asked) {
   const std::vector<Job> jobs = jobsOf(options);
   const RigOptions rig = rigOptions(options);
   for (const Job& job : jobs) noteInput(job.source);
-  for (const Job& job : jobs) noteResults(options, job, rig.clips);
+  for (const Job& job : jobs) {
+    noteResults(options, job, rig.clips);
+    if (rig.otherwise) noteResults(options, job, rig.otherwise->clips);
+  }
   noteUnusedWeights(options);
   ensureWritableFolder(options.out_dir);
   std::vector<Outcome> outcomes(jobs.size());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "libskel/animation/retarget.h"
 #include "libskel/core/error.h"
 
 namespace skel {
@@ -16,7 +17,7 @@ struct InferOptions {
   std::string weights_file, joint_net_file;  // empty: the built-in ones
   std::string part_net_file;                 // empty: none
   std::string mask_file, model_file, skeleton_file;
-  std::string body_plan = "biped";
+  std::string body_plan = "auto";
   std::string recognizer = "tree";
   bool upright = false;
   std::string candidates = "maxima";
@@ -24,6 +25,7 @@ struct InferOptions {
   int max_influences = 4;
   std::vector<std::string> clips;  // empty: the built-in ones that fit the body plan
   std::string clips_dir;           // more of them
+  double into_picture = RetargetOptions().into_picture;
   std::string rest_pose = "drawn";
   std::string naming = "skel";
   std::string back;             // "same", "plain", a picture, or nothing: the body plan's own

@@ -8,14 +8,13 @@
 #include <optional>
 #include <string>
 
-#include "libskel/animation/clip_library.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
-#include "libskel/pipeline/rig_character.h"
+#include "libskel/pipeline/rig_drawing.h"
 #include "libskel/silhouette/page_net.h"
 #include "libskel/skeleton/outside_figure.h"
 #include "libskel/skeleton/skeleton_file.h"
@@ -83,26 +82,13 @@ struct Character {
 };
 Character current;
 
+// `body_plan`: "": the one that the figure fits.
 RigOptions optionsFor(const std::string& body_plan, int figure) {
-  RigOptions options;
-  options.body_plan = loadTemplate(body_plan);
-  options.clips = clipsFor(builtinClips(), options.body_plan);
+  RigOptions options = rigOptions(body_plan.empty() ? "auto" : body_plan);
   options.joint_nets = nets.joints;
   options.silhouette.page_net = nets.page;
   options.silhouette.figure = figure;
   return options;
-}
-
-// Where one body plan leaves doubt, another that the figure fits.
-RiggedDrawing rigByAnyPlan(const RigInput& input, int figure) {
-  constexpr double kSure = 0.5;
-  std::optional<RiggedDrawing> first;
-  for (const char* name : {"biped", "quadruped"}) {
-    RiggedDrawing drawing = rigCharacter(input, optionsFor(name, figure));
-    if (!drawing.found() || drawing.recognition.confidence >= kSure) return drawing;
-    if (!first) first = std::move(drawing);
-  }
-  return std::move(*first);
 }
 
 SkeletonFile skeletonFileOf(const std::string& text, const std::string& name) {
@@ -229,7 +215,7 @@ val rig(const val& request) {
       figure = given->figure.number;
     }
     const auto plan = given ? given->skeleton.template_name : request["plan"].as<std::string>();
-    made.drawing = plan.empty() ? rigByAnyPlan(input, figure) : rigCharacter(input, optionsFor(plan, figure));
+    made.drawing = rigCharacter(input, optionsFor(plan, figure));
     RiggedDrawing& drawing = made.drawing;
     if (!drawing.found()) throw InputError(file, drawing.silhouette.reason);
     made.file.warnings = drawing.silhouette.warnings;

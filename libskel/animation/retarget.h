@@ -37,8 +37,9 @@ struct RetargetOptions {
   float rate_hz = 30;         // most keys a second of the result; fewer where that shows nowhere
   bool clear_of_head = true;  // raised arms that would pass through the head swing out until they do not
   // Limbs that point at the viewer are stumps in the picture. So much of that way turns into the picture, of
-  // a figure in front view: 0 nothing, 1 all of it.
-  double into_picture = 0;
+  // a figure in front view: 0 nothing, 1 all of it. By eye on 29 drawings (0, .4 and .8 in hidden order; no
+  // difference on 9), .4 was the best of 14 and the worst of 1, 0 the best of 1 and the worst of 12.
+  double into_picture = .4;
   bool thin_keys = true;                            // where `rate_hz` is more than shows
   std::optional<FigureShape> shape = std::nullopt;  // nothing: shapeOfBones()
 };

@@ -51,16 +51,17 @@ const JointNets& jointNetsOf(const RigOptions& options) {
   return options.joint_nets ? *options.joint_nets : builtInJointNets();
 }
 
-const JointNet& jointNetOf(const RigOptions& options) {
-  const JointNet* net =
-      options.joint_net ? options.joint_net.get() : jointNetFor(options.body_plan, jointNetsOf(options));
+const JointNet& jointNetOf(const RigOptions& options, const SkeletonTemplate& body_plan) {
+  const JointNet* net = options.joint_net && body_plan.name == options.body_plan.name
+                            ? options.joint_net.get()
+                            : jointNetFor(body_plan, jointNetsOf(options));
   if (!net)
-    throw UsageError("no net is built in that knows the joints of the template \"" + options.body_plan.name +
+    throw UsageError("no net is built in that knows the joints of the template \"" + body_plan.name +
                      "\"; name one by --joint-net, or use --recognizer paper");
   return *net;
 }
 
-// Another body plan that the figure fits where the one in use leaves doubt.
+// Another body plan that the figure fits where the one that was asked for leaves doubt.
 std::optional<std::string> betterBodyPlan(const Image& image, const Silhouette& silhouette,
                                           const RigOptions& options) {
   const JointNets& nets = jointNetsOf(options);
@@ -71,6 +72,34 @@ std::optional<std::string> betterBodyPlan(const Image& image, const Silhouette& 
     if (other.confidence >= 0.5) return std::string(name);
   }
   return std::nullopt;
+}
+
+bool isOfOther(const Skeleton& given, const RigOptions& options) {
+  return options.otherwise && given.template_name == options.otherwise->body_plan.name;
+}
+
+// By the net of the body plan, or of the other one where the first leaves doubt and the other hardly any.
+// Fills drawing.body_plan, too.
+Recognition recognizeByNet(const RigOptions& options, RiggedDrawing& drawing) {
+  constexpr double kSure = .8, kFits = .5;
+  TreeRecognizerOptions recognizer;
+  recognizer.try_orientations = !options.upright;
+  const auto recognize = [&](const SkeletonTemplate& body_plan) {
+    return recognizeByTree(drawing.image, drawing.silhouette, body_plan, jointNetOf(options, body_plan),
+                           recognizer);
+  };
+  Recognition found = recognize(options.body_plan);
+  if (options.otherwise) {
+    if (found.confidence >= kSure) return found;
+    Recognition other = recognize(options.otherwise->body_plan);
+    if (other.confidence < kFits || other.confidence <= found.confidence) return found;
+    drawing.body_plan = options.otherwise->body_plan;
+    return other;
+  }
+  if (found.confidence < kFits)
+    if (const auto better = betterBodyPlan(drawing.image, drawing.silhouette, options))
+      found.warnings.push_back("it looks like a " + *better + ": try --template " + *better);
+  return found;
 }
 
 Image picture(const Plane8& mask) {
@@ -100,14 +129,14 @@ std::optional<HeadDisc> headDisc(const Skeleton& skeleton, const SkeletonTemplat
 InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawing,
                               const RigOptions& options) {
   InflateOptions inflate = options.inflate;
-  inflate.back = options.back.value_or(options.body_plan.from_side ? Back::kSame : Back::kPlain);
+  inflate.back = options.back.value_or(drawing.body_plan.from_side ? Back::kSame : Back::kPlain);
   if (options.height_m > 0)
     inflate.height_m = options.height_m;
   else
-    inflate.length_m = options.body_plan.length_m;
+    inflate.length_m = drawing.body_plan.length_m;
   inflate.turned_rad = drawing.recognition.turned_deg * std::numbers::pi / 180;
   inflate.head =
-      headDisc(drawing.recognition.skeleton, options.body_plan, drawing.silhouette, inflate.turned_rad);
+      headDisc(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, inflate.turned_rad);
   if (input.back) {
     SilhouetteOptions silhouette;
     silhouette.page_net = options.silhouette.page_net;
@@ -120,13 +149,13 @@ InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawin
 
 // Weights are the same whatever clips are asked for: those that come with skel decide.
 void boundStretchOfClips(const std::vector<Clip>& made, const RetargetOptions& retarget,
-                         const RigOptions& options, RiggedCharacter& character) {
+                         const std::vector<Clip>& asked, const SkeletonTemplate& body_plan,
+                         RiggedCharacter& character) {
   std::vector<Clip> clips;
-  for (const Clip& clip : clipsFor(builtinClips(), options.body_plan)) {
-    const auto same = std::find_if(options.clips.begin(), options.clips.end(),
-                                   [&](const Clip& asked) { return asked == clip; });
-    clips.push_back(same == options.clips.end() ? retargetToRest(clip, character.skeleton, retarget)
-                                                : made[std::size_t(same - options.clips.begin())]);
+  for (const Clip& clip : clipsFor(builtinClips(), body_plan)) {
+    const auto same = std::find(asked.begin(), asked.end(), clip);
+    clips.push_back(same == asked.end() ? retargetToRest(clip, character.skeleton, retarget)
+                                        : made[std::size_t(same - asked.begin())]);
   }
   boundStretch(character.mesh, character.skeleton, clips, character.weights);
 }
@@ -135,6 +164,7 @@ void boundStretchOfClips(const std::vector<Clip>& made, const RetargetOptions& r
 
 RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   RiggedDrawing drawing;
+  drawing.body_plan = options.body_plan;
   Stopwatch timed(drawing.times);
 
   const bool inflated = !input.model;
@@ -163,40 +193,37 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   drawing.recognition = timed("recognition", [&] {
     Recognition found;
     if (input.skeleton) {
+      if (isOfOther(*input.skeleton, options)) drawing.body_plan = options.otherwise->body_plan;
       found.skeleton = *input.skeleton;
       found.turned_deg = input.turned_deg;
     } else if (options.recognizer == Recognizer::kPaper) {
       found = recognizeByRules(silhouette, drawing.candidates, drawing.classes, options.body_plan);
     } else {
-      TreeRecognizerOptions recognizer;
-      recognizer.try_orientations = !options.upright;
-      found = recognizeByTree(drawing.image, silhouette, options.body_plan, jointNetOf(options), recognizer);
-      if (found.confidence < 0.5)
-        if (const auto better = betterBodyPlan(drawing.image, silhouette, options))
-          found.warnings.push_back("it looks like a " + *better + ": try --template " + *better);
+      found = recognizeByNet(options, drawing);
     }
     return found;
   });
   roundToFile(drawing.recognition.skeleton);
 
+  const SkeletonTemplate& body_plan = drawing.body_plan;
+  const std::vector<Clip>& asked_clips =
+      body_plan.name == options.body_plan.name ? options.clips : options.otherwise->clips;
   const Skeleton& skeleton = drawing.recognition.skeleton;
   std::vector<FigurePiece> pieces;
   if (inflated && options.layers) {
     drawing.layers = timed("layers", [&] {
-      LayerMap found = options.part_net ? findPartLayers(drawing.image, silhouette, skeleton,
-                                                         options.body_plan, *options.part_net)
-                                        : findLayers(drawing.image, silhouette, skeleton, options.body_plan);
+      LayerMap found = options.part_net
+                           ? findPartLayers(drawing.image, silhouette, skeleton, body_plan, *options.part_net)
+                           : findLayers(drawing.image, silhouette, skeleton, body_plan);
       // Only the net's confidence tells a guess.
       if (options.recognizer == Recognizer::kPaper) found.hidden.clear();
       if (!input.layers) return found;
-      LayerMap given =
-          layersOfPicture(input.layers->image, silhouette, options.body_plan, input.layers->file);
+      LayerMap given = layersOfPicture(input.layers->image, silhouette, body_plan, input.layers->file);
       for (const int limb : found.hidden)
         if (!(given.limb == limb).any()) given.hidden.push_back(limb);
       return given;
     });
-    pieces = timed("pieces",
-                   [&] { return figurePieces(drawing.layers, silhouette, skeleton, options.body_plan); });
+    pieces = timed("pieces", [&] { return figurePieces(drawing.layers, silhouette, skeleton, body_plan); });
   }
   drawing.character.mesh = timed("mesh", [&] {
     if (!input.model)
@@ -206,7 +233,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   });
   std::vector<int> joint_layers;
   if (!pieces.empty() || !drawing.layers.hidden.empty())
-    joint_layers = jointLayers(skeleton, options.body_plan, drawing.character.mesh, drawing.layers);
+    joint_layers = jointLayers(skeleton, body_plan, drawing.character.mesh, drawing.layers);
   drawing.recognition.skeleton = timed("lift", [&] {
     Skeleton lifted = drawing.recognition.skeleton;
     liftToModel(lifted, drawing.character.mesh, joint_layers);
@@ -221,7 +248,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     drawing.character = timed("depth", [&] {
       RiggedCharacter parted = std::move(drawing.character);
       const double yaw_rad = measureFigure(parted.mesh, parted.weights, parted.skeleton).yaw_rad;
-      partLimbsInDepth(parted.mesh, parted.skeleton, parted.weights, options.body_plan, yaw_rad);
+      partLimbsInDepth(parted.mesh, parted.skeleton, parted.weights, body_plan, yaw_rad);
       return parted;
     });
     drawing.recognition.skeleton = drawing.character.skeleton;
@@ -231,11 +258,11 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   drawing.clips = timed("clips", [&] {
     const RiggedCharacter& character = drawing.character;
     RetargetOptions retarget;
+    retarget.into_picture = options.into_picture;
     retarget.shape = measureFigure(character.mesh, character.weights, character.skeleton);
     std::vector<Clip> clips;
-    for (const Clip& clip : options.clips)
-      clips.push_back(retargetToRest(clip, character.skeleton, retarget));
-    if (inflated) boundStretchOfClips(clips, retarget, options, drawing.character);
+    for (const Clip& clip : asked_clips) clips.push_back(retargetToRest(clip, character.skeleton, retarget));
+    if (inflated) boundStretchOfClips(clips, retarget, asked_clips, body_plan, drawing.character);
     return clips;
   });
   return drawing;

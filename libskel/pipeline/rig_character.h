@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libskel/animation/clip.h"
+#include "libskel/animation/retarget.h"
 #include "libskel/candidates/candidates.h"
 #include "libskel/classifier/mlp.h"
 #include "libskel/classifier/weights_file.h"
@@ -41,6 +42,12 @@ struct RigInput {
   std::optional<Skeleton> skeleton;    // go on from these joints (image px) instead of recognising any
 };
 
+// A body plan and the clips that fit it, for the canonical pose.
+struct PlannedClips {
+  SkeletonTemplate body_plan;
+  std::vector<Clip> clips;
+};
+
 enum class Recognizer {
   kTree,   // a net that sees the whole figure, and a tree search (tree_recognition.h)
   kPaper,  // the rules of the paper (paper_recognizer.h)
@@ -51,6 +58,9 @@ struct RigOptions {
   CandidateOptions candidates;
   Mlp mlp = defaultMlp();  // tells the classes of candidates apart
   SkeletonTemplate body_plan = loadTemplate("biped");
+  // Of a figure that fits this body plan better, or whose given skeleton is of it: instead of `body_plan` and
+  // `clips`. Of drawings that nobody has learned from the nets mistake 2 people of 322 and 3 animals of 62.
+  std::optional<PlannedClips> otherwise;
   Recognizer recognizer = Recognizer::kTree;
   bool upright = false;                         // the figure is not turned: try no other orientations
   std::shared_ptr<const JointNets> joint_nets;  // of body plans; null: the built-in ones
@@ -63,7 +73,8 @@ struct RigOptions {
   SkinMethod skin_method = SkinMethod::kGeodesic;
   SkinOptions skin;
   RestPose rest_pose = RestPose::kDrawn;
-  std::vector<Clip> clips;  // for the canonical pose
+  std::vector<Clip> clips;                               // for the canonical pose
+  double into_picture = RetargetOptions().into_picture;  // of the clips' limbs, see retarget.h
 };
 
 struct StageTime {
@@ -78,10 +89,11 @@ struct RiggedDrawing {
   CandidateSet candidates;
   Features features;
   ClassProbabilities classes;
-  Recognition recognition;    // with positions in the model as it is drawn, whatever the rest pose
-  LayerMap layers;            // empty for a model of a user's own
-  RiggedCharacter character;  // empty if the silhouette has not been found
-  std::vector<Clip> clips;    // retargeted to the rest pose
+  SkeletonTemplate body_plan;  // that it was rigged by
+  Recognition recognition;     // with positions in the model as it is drawn, whatever the rest pose
+  LayerMap layers;             // empty for a model of a user's own
+  RiggedCharacter character;   // empty if the silhouette has not been found
+  std::vector<Clip> clips;     // retargeted to the rest pose
   std::vector<StageTime> times;
 
   bool found() const { return silhouette.found(); }

@@ -4,6 +4,7 @@
 
 #include "libskel/animation/clip_library.h"
 #include "libskel/core/error.h"
+#include "libskel/core/files.h"
 #include "libskel/image/read_image.h"
 #include "libskel/skeleton/skeleton_file.h"
 
@@ -11,16 +12,29 @@ namespace skel {
 
 RigOptions rigOptions(const std::string& body_plan) {
   RigOptions options;
-  options.body_plan = loadTemplate(body_plan);
-  options.clips = clipsFor(builtinClips(), options.body_plan);
+  const bool any = body_plan == "auto";
+  const auto clipsOf = [](const SkeletonTemplate& plan) { return clipsFor(builtinClips(), plan); };
+  options.body_plan = loadTemplate(any ? "biped" : body_plan);
+  options.clips = clipsOf(options.body_plan);
+  if (any) {
+    const SkeletonTemplate other = loadTemplate("quadruped");
+    options.otherwise = {other, clipsOf(other)};
+  }
   return options;
+}
+
+const SkeletonTemplate& planOfSkeleton(std::string_view text, const std::string& path,
+                                       const RigOptions& options) {
+  const bool other = options.otherwise && templateOfSkeleton(text, path) == options.otherwise->body_plan.name;
+  return other ? options.otherwise->body_plan : options.body_plan;
 }
 
 RiggedDrawing rigDrawing(const std::string& path, const RigOptions& options) {
   RigInput input;
   std::string source = path;  // of the figure's outline
   if (path.ends_with(".skeleton.json")) {
-    const SkeletonFile file = readSkeletonFile(path, options.body_plan);
+    const std::string text = readFile(path);
+    const SkeletonFile file = parseSkeletonFile(text, path, planOfSkeleton(text, path, options));
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     input.image = readImage((folder / file.image_file).string());
     input.skeleton = file.skeleton;

@@ -2,13 +2,19 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "libskel/pipeline/rig_character.h"
 
 namespace skel {
 
-// The defaults, with all built-in clips that fit the body plan (a name or a file).
-RigOptions rigOptions(const std::string& body_plan = "biped");
+// The defaults, with all built-in clips that fit the body plan: a name, a file, or "auto": biped or
+// quadruped, whichever a figure fits.
+RigOptions rigOptions(const std::string& body_plan = "auto");
+
+// Which of the options' body plans a skeleton file belongs to; the first if to none of them.
+const SkeletonTemplate& planOfSkeleton(std::string_view text, const std::string& path,
+                                       const RigOptions& options);
 
 // From a picture, or from the .skeleton.json of one (with its mask, if it names one). encodeGlb() makes a
 // file of the result's character and clips. Throws InputError: cannot be read, no figure in it.

@@ -103,6 +103,12 @@ std::string formatSkeletonFile(const SkeletonFile& file) {
   return text + "\n  ]\n}\n";
 }
 
+std::string templateOfSkeleton(std::string_view text, const std::string& path) {
+  const JsonDocument document = JsonDocument::parse(text, path);
+  document.root().checkFormat("skel-skeleton", 2);
+  return document.root().at("template").asString();
+}
+
 SkeletonFile readSkeletonFile(const std::string& path, const SkeletonTemplate& body_plan) {
   return parseSkeletonFile(readFile(path), path, body_plan);
 }

@@ -44,6 +44,9 @@ SkeletonFile readSkeletonFile(const std::string& path, const SkeletonTemplate& b
 SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
                                const SkeletonTemplate& body_plan);
 
+// The name of the template that a skeleton file belongs to. Throws InputError: no skeleton file.
+std::string templateOfSkeleton(std::string_view text, const std::string& path);
+
 // Whether a person has moved a joint in the skeleton file at `path`, said so or not. False where there is no
 // file.
 bool hasEditedJoint(const std::string& path);

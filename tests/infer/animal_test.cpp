@@ -15,6 +15,10 @@ namespace {
 
 const std::string kAnimals = SKEL_SOURCE_DIR "/datasets/animals";
 
+bool contains(const std::string& text, const std::string& what) {
+  return text.find(what) != std::string::npos;
+}
+
 ToolRun infer(const std::string& arguments) { return runTool("'" SKEL_INFER "' " + arguments); }
 
 }  // namespace
@@ -34,11 +38,33 @@ TEST_CASE("a child's pig is rigged as a quadruped, with a motion of its own") {
   CHECK(readFile(dir.file("crayon_pig.glb")).find("\"wag\"") != std::string::npos);
 }
 
-TEST_CASE("an animal that is taken for a biped comes with the hint which template fits") {
+TEST_CASE("the body plan is the one that the figure fits, unless one is named") {
   const TempDir dir;
-  const ToolRun run = infer("'" + kAnimals + "/walking_dog.png' -o '" + dir.path() + "'");
+  const std::string both = "'" + kAnimals + "/walking_dog.png' '" + kAnimals +
+                           "/../characters/cap_boy.png' --clips idle,gallop,none -o '" + dir.path() + "'";
+  CHECK(infer(both).exit_code == 1);  // "none" is no clip
+  const ToolRun run = infer("'" + kAnimals + "/walking_dog.png' '" + kAnimals +
+                            "/../characters/cap_boy.png' --clips wave,gallop -o '" + dir.path() + "'");
   CHECK(run.exit_code == 0);
-  CHECK(run.err.find("it looks like a quadruped: try --template quadruped") != std::string::npos);
+  CHECK(contains(run.out, "walking_dog.glb  confidence 0.9"));
+  CHECK(contains(run.out, "  quadruped\n"));
+  CHECK(contains(run.out, "  biped\n"));
+  CHECK(contains(run.err, "walking_dog.png: note: there is no clip \"wave\" for a quadruped: left out"));
+  CHECK(contains(run.err, "cap_boy.png: note: there is no clip \"gallop\" for a biped: left out"));
+  CHECK(readSkeletonFile(dir.file("walking_dog.skeleton.json"), loadTemplate("quadruped")).confidence > .8);
+
+  // What was found is gone on from, whatever the plan.
+  const ToolRun again = infer("'" + kAnimals + "/walking_dog.png' --skeleton '" +
+                              dir.file("walking_dog.skeleton.json") + "' -o '" + dir.file("again") + "'");
+  CHECK(again.exit_code == 0);
+  CHECK(contains(again.out, "  quadruped\n"));
+  CHECK(readFile(dir.file("again/walking_dog.glb")).find("\"gallop\"") != std::string::npos);
+
+  const ToolRun named =
+      infer("'" + kAnimals + "/walking_dog.png' --template biped -o '" + dir.file("named") + "'");
+  CHECK(named.exit_code == 0);
+  CHECK(contains(named.err, "it looks like a quadruped: try --template quadruped"));
+  CHECK(!contains(named.out, "biped"));
 }
 
 TEST_CASE("a joint net can be given as a file") {
