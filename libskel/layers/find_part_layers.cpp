@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <vector>
@@ -15,7 +16,8 @@ namespace {
 using Vec = Eigen::Vector2d;
 
 constexpr double kLeastLimb = .004;    // of the figure's pixels
-constexpr double kLeastContact = .06;  // of a limb's border: less is free
+constexpr double kRoot = .5;           // of a limb's first bone: so far it is grown to the body
+constexpr double kLeastContact = .06;  // of a limb's border, beyond its root: less is free
 constexpr double kLeastDrawn = .55;    // of that contact
 constexpr double kContrast = .12;      // of the range of colours: what is drawn
 constexpr double kLeastSure = .55;     // mean probability of its pixels
@@ -72,12 +74,26 @@ cv::Mat edges(const Look& picture, const cv::Mat& others) {
 
 // Of a limb's border, px.
 struct Border {
-  int all = 0, against = 0,
-      drawn = 0;  // of it against the rest of the figure; of that with a line or an edge
+  // Of it against the rest of the figure; of that with a line or an edge; the same beyond the limb's root.
+  int all = 0, against = 0, drawn = 0, beside = 0, beside_drawn = 0;
 };
 
+// How far along the limb's bones the nearest point to `p` is: 0 at its root, 1 at the middle joint, 2 at its
+// end.
+double alongLimb(const std::array<Vec, 3>& bones, const Vec& p) {
+  double best = std::numeric_limits<double>::infinity(), along = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vec bone = bones[i + 1] - bones[i];
+    const double t = std::clamp((p - bones[i]).dot(bone) / std::max(1e-9, bone.squaredNorm()), 0., 1.),
+                 d = (bones[i] + t * bone - p).norm();
+    if (d < best) best = d, along = double(i) + t;
+  }
+  return along;
+}
+
 // What `others` hold is no border of this limb but of those: a hand on the hip.
-Border borderOf(const Look& picture, int limb, const cv::Mat& others, const cv::Mat& edge, double range) {
+Border borderOf(const Look& picture, const PartSkeleton& skeleton, int limb, const cv::Mat& others,
+                const cv::Mat& edge, double range) {
   const cv::Mat own = picture.of(limbPart(limb));
   Border border;
   for (int y = 0; y < own.rows; ++y)
@@ -92,8 +108,12 @@ Border borderOf(const Look& picture, int limb, const cv::Mat& others, const cv::
           against = true;
       }
       border.all += outside || against;
-      border.against += against;
-      border.drawn += against && edge.at<std::uint8_t>(y, x) > kContrast * range;
+      if (!against) continue;
+      const bool drawn = edge.at<std::uint8_t>(y, x) > kContrast * range;
+      ++border.against, border.drawn += drawn;
+      const Vec at = Vec(x + .5, y + .5) / picture.scale + Vec(picture.box.x0, picture.box.y0);
+      if (alongLimb(skeleton.limbs[static_cast<std::size_t>(limb)], at) < kRoot) continue;
+      ++border.beside, border.beside_drawn += drawn;
     }
   return border;
 }
@@ -102,8 +122,8 @@ Border borderOf(const Look& picture, int limb, const cv::Mat& others, const cv::
 // drag that along, and what divides the two is drawn, so that neither is torn.
 bool standsOut(const Look& picture, int limb, const Border& border) {
   return cv::countNonZero(picture.of(limbPart(limb))) >= kLeastLimb * cv::countNonZero(picture.mask) &&
-         picture.sure[static_cast<std::size_t>(limb)] >= kLeastSure && border.against > 0 &&
-         border.against >= kLeastContact * border.all && border.drawn >= kLeastDrawn * border.against;
+         picture.sure[static_cast<std::size_t>(limb)] >= kLeastSure && border.beside > 0 &&
+         border.beside >= kLeastContact * border.all && border.beside_drawn >= kLeastDrawn * border.beside;
 }
 
 // Grown to the body all along, and nothing tells the two apart.
@@ -173,7 +193,7 @@ LayerMap findPartLayers(const Image& image, const Silhouette& silhouette, const 
   cv::Mat arms = cv::Mat::zeros(limbs.size(), CV_8U), edge = edges(picture, arms);  // arms that are layers
   for (int k = 0; k < 4; ++k) {
     if (k == 2 && cv::countNonZero(limbs) != 0) arms = limbs != 0, edge = edges(picture, arms);
-    const Border border = borderOf(picture, k, arms, edge, std::max(40., high - low));
+    const Border border = borderOf(picture, *bones, k, arms, edge, std::max(40., high - low));
     if (standsOut(picture, k, border)) {
       limbs.setTo(k + 1, picture.of(limbPart(k)));
       continue;
