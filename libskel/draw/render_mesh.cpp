@@ -7,6 +7,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/draw/canvas.h"
+#include "libskel/draw/paper.h"
 #include "libskel/mesh/vertex_normals.h"
 
 namespace skel {
@@ -166,7 +167,7 @@ Image renderMesh(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, con
             (pa * normals.row(v[0]) + pb * normals.row(v[1]) + pc * normals.row(v[2])).normalized();
         // Full light on what faces it within 45°, so that most of the front shows the drawing's own colours.
         const float lit = std::clamp(normal.dot(light) + 0.3f, 0.0f, 1.0f);
-        color *= 1 - options.shading * (1 - lit);
+        color *= shadeOf(1 - options.shading * (1 - lit), color.minCoeff());
         std::uint8_t* pixel = samples.pixel(x, y);
         for (int k = 0; k < 3; ++k) pixel[k] = std::uint8_t(std::lround(color[k]));
         pixel[3] = 255;

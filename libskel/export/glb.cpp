@@ -161,6 +161,9 @@ int addJointIndices(GlbBuilder& glb, const SkinWeights& weights,
   return glb.addAccessor(values, 4, TINYGLTF_TYPE_VEC4, TINYGLTF_TARGET_ARRAY_BUFFER);
 }
 
+// The share of the drawing's colours that is there without light.
+constexpr double kGlow = 0.25;
+
 int addMaterial(GlbBuilder& glb, const TriangleMesh& mesh, const std::string& name) {
   tinygltf::Material material;
   material.name = name;
@@ -184,6 +187,10 @@ int addMaterial(GlbBuilder& glb, const TriangleMesh& mesh, const std::string& na
     texture.source = 0;
     glb.model.textures.push_back(texture);
     material.pbrMetallicRoughness.baseColorTexture.index = 0;
+    // So that the light of others does not turn white paper grey.
+    material.pbrMetallicRoughness.baseColorFactor = {1 - kGlow, 1 - kGlow, 1 - kGlow, 1};
+    material.emissiveTexture.index = 0;
+    material.emissiveFactor = {kGlow, kGlow, kGlow};
   }
   glb.model.materials.push_back(material);
   return 0;

@@ -230,14 +230,28 @@ void readTriangles(const GlbContainer& glb, const JsonValue& primitive, Triangle
   }
 }
 
+// What glb.cpp of the export room writes: a share of the texture shines, light gives the rest.
+bool shinesInPart(const JsonValue& material, const JsonValue& pbr, const std::vector<double>& factor) {
+  const std::optional<JsonValue> shine = material.find("emissiveTexture"),
+                                 base = pbr.find("baseColorTexture");
+  const auto share = numbersAt(material, "emissiveFactor", 3);
+  if (!shine || !base || !share ||
+      shine->at("index").asInt(0, 1 << 20) != base->at("index").asInt(0, 1 << 20))
+    return false;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (std::abs(factor[k] + (*share)[k] - 1) > 1e-6) return false;
+  return factor[3] == 1;
+}
+
 void readTexture(const GlbContainer& glb, const JsonValue& primitive, const std::string& file,
                  TriangleMesh& mesh) {
   const std::optional<JsonValue> material_index = primitive.find("material");
   if (!material_index) return;
-  const std::optional<JsonValue> pbr = glb.element("materials", *material_index).find("pbrMetallicRoughness");
+  const JsonValue material = glb.element("materials", *material_index);
+  const std::optional<JsonValue> pbr = material.find("pbrMetallicRoughness");
   if (!pbr) return;
   if (const auto factor = numbersAt(*pbr, "baseColorFactor", 4))
-    if (*factor != std::vector<double>(4, 1))
+    if (*factor != std::vector<double>(4, 1) && !shinesInPart(material, *pbr, *factor))
       pbr->at("baseColorFactor").fail("is not read; put the colour into a texture");
   const std::optional<JsonValue> found = pbr->find("baseColorTexture");
   if (!found) return;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "libskel/core/check.h"
+#include "libskel/mesh/ink.h"
 
 namespace skel {
 namespace {
@@ -20,12 +21,17 @@ constexpr int kWorkSize = 200;   // long side of the small picture that decides,
 constexpr int kRim_px = 3;       // of it: how near to the outline an area comes that lies at the rim
 constexpr double kAtRim = 0.75;  // the least length of it along the rim, as a share of the root of its size
 constexpr double kLine = 0.022;  // half the width of what counts as a line, as a share of that long side
-constexpr double kLeastCore = 0.3;    // of an area: the blurred edges of lines have less
-constexpr double kLeastArea = 0.003;  // as a share of the figure's
-constexpr int kLineContrast = 40;     // of 255
-constexpr int kSameColor = 14;        // the most that neighbours of one area differ in any channel
-constexpr int kLikeArea = 45;         // and that a px differs from its area
-constexpr double kHatched = 0.5;      // share of lines from which on they are a colour
+constexpr double kLeastCore = 0.5;              // of an area: the blurred edges of lines have less
+constexpr double kLeastArea = 0.003;            // as a share of the figure's
+constexpr double kInk = 70;                     // of 255, the lightest
+constexpr double kStroke = 1.5;                 // half widths of a line: a narrower area is a stroke
+constexpr int kLineContrast = 40;               // of 255
+constexpr int kSameColor = 14;                  // the most that neighbours of one area differ in any channel
+constexpr int kLikeArea = 45;                   // and that a px differs from its area
+constexpr float kPaper = 185, kPaperTint = 40;  // all channels of paper are more, and differ by less
+constexpr double kAlone =
+    0.5;  // px of areas around a thing that is drawn by lines alone, as a share of the others
+constexpr double kHatched = 0.4;  // share of lines from which on they are a colour
 // As shares of the head's radius.
 constexpr double kInsideHead = 0.8;  // all of it may be face
 constexpr double kHeadReach = 2;     // hair, ears and cheeks
@@ -33,6 +39,7 @@ constexpr double kBelowHead = 1.1;   // and how far down
 constexpr double kMostOf = 0.5;      // of the rim or the middle of the head
 // What a step of the spreading colours costs, sideways 1.
 constexpr double kDown = 1.5, kUp = 3;
+constexpr double kFromHatch = 12;  // half widths of a line: so much nearer is what is no hatching
 
 constexpr int kNeighbours[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 
@@ -154,19 +161,25 @@ Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
       // The middle of five: strokes of crayon are no lines.
       float five[5];
       int count = 0;
-      for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-        if (small.holds(x + dx, y + dy))
-          five[count++] =
-              small.color[small.index(x + dx, y + dy)].dot(Eigen::Vector3f(0.299f, 0.587f, 0.114f));
+      for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        if (!small.holds(x + dx, y + dy)) continue;
+        const Eigen::Vector3f& c = small.color[small.index(x + dx, y + dy)];
+        five[count++] = float(inkLightness(c[0], c[1], c[2]));
+      }
       std::nth_element(five, five + count / 2, five + count);
       light[small.index(x, y)] = five[count / 2];
     }
   const auto closed = extreme(small, extreme(small, light, radius, true), radius, false);
   const auto opened = extreme(small, extreme(small, light, radius, false), radius, true);
+  // A line at the rim has what it is drawn around on one side alone.
+  const int wide = (3 * radius + 1) / 2;
+  const auto closed_wide = extreme(small, extreme(small, light, wide, true), wide, false);
   std::vector<char> thin(light.size(), 0);
-  for (std::size_t i = 0; i < thin.size(); ++i)
+  for (std::size_t i = 0; i < thin.size(); ++i) {
+    const float closing = rim[i] <= 2.0f * float(radius) ? closed_wide[i] : closed[i];
     thin[i] =
-        small.figure[i] && (closed[i] - light[i] > kLineContrast || light[i] - opened[i] > 2 * kLineContrast);
+        small.figure[i] && (closing - light[i] > kLineContrast || light[i] - opened[i] > 2 * kLineContrast);
+  }
   Lines lines{std::vector<char>(thin.size(), 0), std::vector<char>(thin.size(), 0)};
   // The outline is no hatching.
   std::vector<char> deep = small.figure, deep_thin = thin;
@@ -179,6 +192,7 @@ Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
       const int i = small.index(x, y), reach = 3 * radius;
       lines.hatch[i] =
           !is_face(x, y) && thin_sums.around(x, y, reach)[3] > kHatched * figure_sums.around(x, y, reach)[3];
+      if (thin[i] && rim[i] <= float(radius)) lines.hatch[i] = 0;  // nor is its inner edge
       if (lines.hatch[i]) continue;
       lines.line[i] = thin[i];
       for (const auto& step : kNeighbours)
@@ -188,7 +202,8 @@ Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
   return lines;
 }
 
-// Without the grain of crayon and paper, so that areas hold together.
+// Without the grain of crayon and paper, so that areas hold together, and without mixing them: the mean of
+// what is like the pixel (J.-S. Lee, "Digital image smoothing and the sigma filter", 1983).
 std::vector<Eigen::Vector3f> smoothed(const Small& small, const Lines& lines, int radius) {
   std::vector<char> plain = small.figure;
   for (std::size_t i = 0; i < plain.size(); ++i) plain[i] &= !lines.line[i];
@@ -198,8 +213,21 @@ std::vector<Eigen::Vector3f> smoothed(const Small& small, const Lines& lines, in
     for (int x = 0; x < small.width; ++x) {
       const int i = small.index(x, y);
       if (!plain[i]) continue;
-      const Eigen::Vector4d sum = sums.around(x, y, lines.hatch[i] ? 2 * radius : 2);
-      result[i] = (sum.head<3>() / sum[3]).cast<float>();
+      if (lines.hatch[i]) {
+        const Eigen::Vector4d sum = sums.around(x, y, 2 * radius);
+        result[i] = (sum.head<3>() / sum[3]).cast<float>();
+        continue;
+      }
+      constexpr int kReach = 2;
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      int count = 0;
+      for (int v = std::max(0, y - kReach); v <= std::min(small.height - 1, y + kReach); ++v)
+        for (int u = std::max(0, x - kReach); u <= std::min(small.width - 1, x + kReach); ++u) {
+          const int j = small.index(u, v);
+          if (!plain[j] || (small.color[j] - small.color[i]).cwiseAbs().maxCoeff() > kLikeArea) continue;
+          sum += small.color[j], ++count;
+        }
+      result[i] = sum / float(count);
     }
   return result;
 }
@@ -218,6 +246,7 @@ class BackPainter {
     findAreas();
     keepAreas();
     fill();
+    keepLines();
     soften();
   }
 
@@ -229,9 +258,14 @@ class BackPainter {
         const int u = x / shrink, v = y / shrink;
         if (!small_.holds(u, v)) continue;
         const int i = small_.index(u, v);
-        if (kept_[i] || outline_[i]) continue;
-        const Eigen::Vector3f color = filledAt((x + 0.5) / shrink - 0.5, (y + 0.5) / shrink - 0.5);
+        if (drawn_[i]) continue;
         std::uint8_t* p = back.pixel(x, y);
+        const Eigen::Vector3f own(p[0], p[1], p[2]);
+        const Eigen::Vector3f color =
+            kept_[i] ? likest(u, v, own) : filledAt((x + 0.5) / shrink - 0.5, (y + 0.5) / shrink - 0.5);
+        // The grain of what stays stays; the edge of a line beside it does not.
+        if (kept_[i] && ((color - own).cwiseAbs().maxCoeff() <= kLikeArea || own.sum() > color.sum()))
+          continue;
         for (int c = 0; c < 3; ++c) p[c] = std::uint8_t(std::lround(std::clamp(color[c], 0.0f, 255.0f)));
       }
     return back;
@@ -308,6 +342,7 @@ class BackPainter {
       area.color /= float(area.size);
       areas_.push_back(area);
     }
+    core_.assign(area_.size(), 0);
     for (int i = 0; i < int(area_.size()); ++i) {
       if (area_[i] < 0) continue;
       bool core = true;
@@ -316,6 +351,7 @@ class BackPainter {
         core &= small_.holds(u, v) && area_[small_.index(u, v)] == area_[i];
       }
       areas_[area_[i]].core += core;
+      core_[i] = core;
     }
   }
 
@@ -342,18 +378,27 @@ class BackPainter {
       kept_[i] = area.size >= kLeastArea * figure_area && area.core >= kLeastCore * area.size &&
                  area.at_rim >= kAtRim * kRim_px * std::sqrt(double(area.size)) &&
                  fromHead(place(i)) > kInsideHead && !(area_[i] == face_area && nearHead(place(i)));
-      any |= kept_[i];
+      any |= kept_[i] && !isStroke(area_[i]);
     }
     if (any || areas_.empty()) return;
-    const auto largest = std::max_element(areas_.begin(), areas_.end(),
-                                          [](const Area& a, const Area& b) { return a.size < b.size; });
-    for (int i = 0; i < int(kept_.size()); ++i) kept_[i] = area_[i] == int(largest - areas_.begin());
+    const auto largest = std::max_element(areas_.begin(), areas_.end(), [&](const Area& a, const Area& b) {
+      return std::pair(!isStroke(a), a.size) < std::pair(!isStroke(b), b.size);
+    });
+    for (int i = 0; i < int(kept_.size()); ++i) kept_[i] |= area_[i] == int(largest - areas_.begin());
   }
 
+  // Narrow and dark like a line: it wears its own colour, but gives it to nothing around it.
+  bool isStroke(const Area& area) const {
+    return inkLightness(area.color[0], area.color[1], area.color[2]) < kInk &&
+           2 * area.size < kStroke * line_radius_ * std::max(1, area.size - area.core);
+  }
+  bool isStroke(int area) const { return isStroke(areas_[area]); }
+
   // What went takes the nearest colour that stays, from the sides rather than from above, and from there
-  // rather than from below.
+  // rather than from below. Colours come out of the areas' inside: their edges may be mixed with lines.
   void fill() {
     filled_ = color_;
+    source_ = area_;
     const Eigen::Vector2d up = head_ ? head_->up : Eigen::Vector2d(0, -1);
     double costs[8];
     for (int k = 0; k < 8; ++k) {
@@ -365,7 +410,8 @@ class BackPainter {
     using Entry = std::pair<double, int>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
     for (int i = 0; i < int(kept_.size()); ++i)
-      if (kept_[i]) cost[i] = 0, filled_[i] = areas_[area_[i]].color, open.emplace(0, i);
+      if (kept_[i] && core_[i] && !isStroke(area_[i]))
+        cost[i] = lines_.hatch[i] ? kFromHatch * line_radius_ : 0, open.emplace(cost[i], i);
     while (!open.empty()) {
       const auto [reached, i] = open.top();
       open.pop();
@@ -377,11 +423,44 @@ class BackPainter {
         if (reached + costs[k] >= cost[j]) continue;
         cost[j] = reached + costs[k];
         filled_[j] = filled_[i];
+        source_[j] = source_[i];
         open.emplace(cost[j], j);
       }
     }
-    for (int i = 0; i < int(kept_.size()); ++i)
-      if (kept_[i]) filled_[i] = color_[i];
+  }
+
+  // Hatching stays as it is drawn, and lines do where they are all there is (the limbs of a stick figure) and
+  // where they tell paper from paper: around and between white parts.
+  void keepLines() {
+    drawn_.assign(kept_.size(), 0);
+    std::vector<char> plain = small_.figure;
+    for (int i = 0; i < int(plain.size()); ++i)
+      plain[i] &= area_[i] >= 0 && areas_[area_[i]].core >= kLeastCore * areas_[area_[i]].size;
+    BoxSums plain_sums(small_, plain), all_sums(small_, small_.figure);
+    for (int y = 0; y < small_.height; ++y)
+      for (int x = 0; x < small_.width; ++x) {
+        const int i = small_.index(x, y);
+        if (kept_[i] && (lines_.hatch[i] || isStroke(area_[i]))) drawn_[i] = 1;
+        if (!small_.figure[i] || kept_[i]) continue;
+        const int reach = 4 * line_radius_;
+        const double plain_px = plain_sums.around(x, y, reach)[3], all_px = all_sums.around(x, y, reach)[3];
+        const bool alone = rim_[i] <= 2.0f * float(line_radius_) && plain_px < kAlone * (all_px - plain_px);
+        drawn_[i] = alone || ((lines_.line[i] || area_[i] < 0) && isPaper(filled_[i]) &&
+                              (outline_[i] || isBorder(x, y)));
+      }
+  }
+
+  static bool isPaper(const Eigen::Vector3f& color) {
+    return color.minCoeff() > kPaper && color.maxCoeff() - color.minCoeff() < kPaperTint;
+  }
+
+  // Whether parts of two areas meet near by.
+  bool isBorder(int x, int y) const {
+    const int own = source_[small_.index(x, y)];
+    for (int step = -line_radius_; step <= line_radius_; ++step)
+      for (const auto& [u, v] : {std::pair{x + step, y}, {x, y + step}})
+        if (small_.holds(u, v) && source_[small_.index(u, v)] != own) return true;
+    return false;
   }
 
   // So that colours that met have no stairs between them.
@@ -400,6 +479,17 @@ class BackPainter {
           filled_[small_.index(x, y)] = sum / float(count);
         }
     }
+  }
+
+  // Of the colours around, so that edges are as sharp as they are drawn.
+  Eigen::Vector3f likest(int x, int y, const Eigen::Vector3f& color) const {
+    Eigen::Vector3f best = filled_[small_.index(x, y)];
+    for (const auto& [dx, dy] : kNeighbours) {
+      if (!small_.holds(x + dx, y + dy) || !kept_[small_.index(x + dx, y + dy)]) continue;
+      const Eigen::Vector3f& other = filled_[small_.index(x + dx, y + dy)];
+      if ((other - color).squaredNorm() < (best - color).squaredNorm()) best = other;
+    }
+    return best;
   }
 
   // Bilinear, over the figure's px alone.
@@ -427,7 +517,10 @@ class BackPainter {
   std::vector<Eigen::Vector3f> color_, filled_;
   std::vector<int> area_;  // of each px; -1: none
   std::vector<Area> areas_;
+  std::vector<char> core_;  // not at its area's edge
   std::vector<char> kept_;
+  std::vector<int> source_;  // the area that a px takes its colour from
+  std::vector<char> drawn_;  // stays as it is drawn
 };
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "libskel/mesh/outline.h"
 #include "libskel/mesh/outline_band.h"
 #include "libskel/mesh/planar_mesh.h"
+#include "libskel/mesh/shoes.h"
 #include "libskel/mesh/texture.h"
 #include "libskel/mesh/texture_atlas.h"
 #include "libskel/silhouette/outline.h"
@@ -24,11 +25,6 @@ namespace skel {
 namespace {
 
 constexpr double kVertexCount = 3500;
-
-// −Δu of the Poisson equation. A long strip of width w gets z² = c/2·(w²/4 − x²), as thick as wide for c = 2;
-// a disc of diameter d gets z² = c/4·(d²/4 − r²), a ball for c = 4. Limbs end, and so are a little thinner
-// than a long strip: 2.5 makes drawn limbs round and heads and bodies four fifths as thick as wide.
-constexpr double kSource = 2.5;
 
 // Two sheets share the rim: A / cell² nodes twice, and the rim's crossings with the grid's lines, 4/π·L /
 // cell of them for an outline of length L in no special direction.
@@ -54,19 +50,30 @@ VertexEstimate estimateVertices(const std::vector<Polygon>& outline) {
   return result;
 }
 
-// The flange that a drawn outline becomes rises from the rim to this share of the outline's width.
-constexpr double kFlange = 0.3;
+// The flange that a drawn outline becomes rises from the rim to this share of the outline's width: seen from
+// the side it is next to nothing.
+constexpr double kFlange = 0.06;
+
+// −Δu + u / range² = c of each inner vertex. A long strip of width w gets z² = c/2·(w²/4 − x²), as thick as
+// wide for c = 2; a disc of diameter d gets z² = c/4·(d²/4 − r²), a ball for c = 4; what is wider than the
+// range levels out at sqrt(c)·range.
+std::vector<DepthThere> depthsOf(const PlanarMesh& mesh, const std::vector<DepthBone>& bones) {
+  std::vector<DepthThere> depths;
+  for (int v = 0; v < mesh.inner_count; ++v) depths.push_back(depthAt(bones, mesh.vertices[v]));
+  return depths;
+}
 
 // z of the inner vertices, px. Those within the drawn outline (`band`, its width there, else 0) lie on its
 // flange; the body rises behind it.
-Eigen::VectorXd inflatedHeights(const PlanarMesh& mesh, const std::vector<double>& band) {
+Eigen::VectorXd inflatedHeights(const PlanarMesh& mesh, const std::vector<DepthThere>& depths,
+                                const std::vector<double>& band) {
   const int count = mesh.inner_count;
   // Obtuse triangles at the rim could let u touch zero inside.
   const double floor = 0.05 * mesh.cell_px;
   const auto flange = [&](int v) { return std::pow(std::max(kFlange * band[v], floor), 2); };
   const auto free = [&](int v) { return v < count && band[v] == 0; };
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(9 * mesh.triangles.size());
+  entries.reserve(12 * mesh.triangles.size());
   Eigen::VectorXd source = Eigen::VectorXd::Zero(count);
   for (const auto& t : mesh.triangles) {
     const Eigen::Vector2d p[3] = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
@@ -75,7 +82,12 @@ Eigen::VectorXd inflatedHeights(const PlanarMesh& mesh, const std::vector<double
     for (int k = 0; k < 3; ++k) {
       const int a = t[(k + 1) % 3], b = t[(k + 2) % 3];
       const double half_cotangent = 0.5 * (p[(k + 1) % 3] - p[k]).dot(p[(k + 2) % 3] - p[k]) / double_area;
-      if (free(t[k])) source[t[k]] += kSource * double_area / 6;
+      if (free(t[k])) {
+        const DepthThere& there = depths[t[k]];
+        source[t[k]] += there.source * double_area / 6;
+        if (there.most_px > 0)
+          entries.emplace_back(t[k], t[k], there.source / (there.most_px * there.most_px) * double_area / 6);
+      }
       if (free(a)) entries.emplace_back(a, a, half_cotangent);
       if (free(b)) entries.emplace_back(b, b, half_cotangent);
       // The solver reads the lower triangle alone.
@@ -149,7 +161,9 @@ struct Sheet {
   PixelBox box;  // of the image
   std::vector<Polygon> outline;
   PlanarMesh planar;
-  Eigen::VectorXd z;           // px, of the inner vertices
+  OutlineBand outline_band;
+  std::vector<Eigen::Vector2d> place;  // of all vertices, image px: where they stand
+  Heights z;
   std::vector<double> offset;  // px, of all vertices
   DrawingTexture front;
   std::optional<BackTexture> back;
@@ -246,13 +260,12 @@ int shareOf(int max_texture_px, const PixelBox& piece, const PixelBox& figure) {
       static_cast<int>(std::ceil(std::max(piece.width(), piece.height()) / shrink)) + 2 * kTextureMargin);
 }
 
-// Its thickness and what its front wears. `mask`: the piece; `colored`: where it shows its own colours; both
-// of the size of `image`.
+// What its front wears, and where a drawn outline lies. `mask`: the piece; `colored`: where it shows its own
+// colours; both of the size of `image`.
 void dress(const Image& image, const Plane8& mask, const Plane8& colored, bool thin_outline,
            int max_texture_px, Sheet& sheet) {
-  std::vector<double> band(sheet.inner(), 0);
-  if (thin_outline) band = outlineBand(sheet.planar, drawnOutline(image, mask, sheet.outline));
-  sheet.z = inflatedHeights(sheet.planar, band);
+  sheet.outline_band = {std::vector<double>(sheet.inner(), 0), sheet.planar.vertices};
+  if (thin_outline) sheet.outline_band = outlineBand(sheet.planar, drawnOutline(image, mask, sheet.outline));
   sheet.front = drawingTexture(image, colored, figureBox(mask), max_texture_px);
 }
 
@@ -270,8 +283,55 @@ void dressPiece(const Image& image, const FigurePiece& piece, const Plane8& draw
                  Plane8((colored != 0 && piece.hidden != 0).cast<std::uint8_t>()));
   dress(filled, piece.mask, colored, thin_outline, max_texture_px, sheet);
   const Eigen::Vector2d corner(box.x0, box.y0);
-  for (Eigen::Vector2d& p : sheet.planar.vertices) p += corner;
+  for (std::vector<Eigen::Vector2d>* points : {&sheet.planar.vertices, &sheet.outline_band.drawn})
+    for (Eigen::Vector2d& p : *points) p += corner;
   sheet.front.corner_px += corner;
+}
+
+// The bones and feet of a piece of a figure; of one in one piece all.
+BodyDepth depthOf(const BodyDepth& body, const std::vector<FigurePiece>& pieces, std::size_t piece) {
+  if (pieces.empty()) return body;
+  const auto isOf = [&](int limb) {
+    // What is no piece of its own belongs to the trunk.
+    const bool apart =
+        std::any_of(pieces.begin(), pieces.end(), [&](const FigurePiece& p) { return p.layer == limb; });
+    return pieces[piece].layer == (apart ? limb : 0);
+  };
+  BodyDepth own;
+  for (const DepthBone& bone : body.bones)
+    if (isOf(bone.layer)) own.bones.push_back(bone);
+  for (const DepthFoot& foot : body.feet)
+    if (isOf(foot.layer)) own.feet.push_back(foot);
+  return own;
+}
+
+// Of the band of the front's outline what the back shows as well.
+std::vector<double> bandBehind(const Sheet& sheet) {
+  std::vector<double> band = sheet.outline_band.width_px;
+  if (!sheet.back) return band;
+  const Image &front = sheet.front.image, &back = sheet.back->image;
+  for (int v = 0; v < sheet.inner(); ++v) {
+    if (band[v] == 0) continue;
+    const Eigen::Vector2d p = sheet.planar.vertices[v], inwards = sheet.outline_band.drawn[v] - p;
+    const Eigen::Vector2d at = sheet.front.uvFromImage(p - 0.5 * band[v] * inwards.normalized())
+                                   .cwiseProduct(Eigen::Vector2d(front.width, front.height));
+    const int x = std::clamp(static_cast<int>(at.x()), 0, front.width - 1),
+              y = std::clamp(static_cast<int>(at.y()), 0, front.height - 1);
+    if (!std::equal(front.pixel(x, y), front.pixel(x, y) + 3, back.pixel(x, y))) band[v] = 0;
+  }
+  return band;
+}
+
+// How thick it is, and where its points stand.
+void giveDepth(const BodyDepth& body, bool own_back, Sheet& sheet) {
+  const std::vector<DepthThere> depths = depthsOf(sheet.planar, body.bones);
+  const std::vector<double>& band = sheet.outline_band.width_px;
+  sheet.z.front = inflatedHeights(sheet.planar, depths, band);
+  // A back that shows no outline is round up to the rim.
+  const std::vector<double> behind = own_back ? bandBehind(sheet) : band;
+  sheet.z.back = behind == band ? sheet.z.front : inflatedHeights(sheet.planar, depths, behind);
+  sheet.place = sheet.planar.vertices;
+  putOnShoes(sheet.planar, body.feet, band, sheet.z, sheet.place);
 }
 
 // Brings each piece before those behind it.
@@ -281,8 +341,8 @@ void layPieces(std::vector<Sheet>& sheets, const std::vector<FigurePiece>& piece
   const double cell_px = sheets.front().planar.cell_px, margin = 2 * cell_px + 2;
   Relief relief({box.x0 - margin, box.y0 - margin}, {box.x1 + margin, box.y1 + margin}, cell_px / 2);
   for (std::size_t i = 0; i < sheets.size(); ++i) {
-    if (i > 0) sheets[i].offset = layOver(relief, sheets[i].planar, sheets[i].z, pieces[i]);
-    relief.raise(sheets[i].planar, sheets[i].z, sheets[i].offset);
+    if (i > 0) sheets[i].offset = layOver(relief, sheets[i].planar, sheets[i].z.back, pieces[i]);
+    relief.raise(sheets[i].planar, sheets[i].z.front, sheets[i].offset);
   }
 }
 
@@ -339,6 +399,21 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
       dressPiece(image, pieces[i], drawn, options.thin_outline,
                  shareOf(max_texture_px / 2, pieces[i].box, box), sheets[i]);
   }
+  for (std::size_t i = 0; i < sheets.size() && !same_back; ++i) {
+    // A picture of the back has all pieces in it.
+    if (i > 0 && options.back_picture) break;
+    InflateOptions of_piece = options;
+    if (i > 0) of_piece.head.reset();
+    const DrawingTexture& front = sheets[i].front;
+    const int whole_px =
+        pieces.empty()
+            ? 0
+            : static_cast<int>(std::max(box.width(), box.height()) * front.image.width / front.size_px.x()) +
+                  2 * kTextureMargin;
+    sheets[i].back = backTexture(front, sheets[i].box, of_piece, whole_px);
+  }
+  for (std::size_t i = 0; i < sheets.size(); ++i)
+    giveDepth(depthOf(options.body, pieces, i), !same_back && !options.back_picture, sheets[i]);
   layPieces(sheets, pieces, box);
 
   Eigen::Vector2d low = upright(sheets.front().planar.vertices.front()), high = low;
@@ -354,21 +429,8 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
 
   std::vector<const Image*> textures;
   for (const Sheet& sheet : sheets) textures.push_back(&sheet.front.image);
-  if (!same_back) {
-    for (std::size_t i = 0; i < sheets.size(); ++i) {
-      // A picture of the back has all pieces in it.
-      if (i > 0 && options.back_picture) continue;
-      InflateOptions of_piece = options;
-      if (i > 0) of_piece.head.reset();
-      const DrawingTexture& front = sheets[i].front;
-      const int whole_px = pieces.empty() ? 0
-                                          : static_cast<int>(std::max(box.width(), box.height()) *
-                                                             front.image.width / front.size_px.x()) +
-                                                2 * kTextureMargin;
-      sheets[i].back = backTexture(front, sheets[i].box, of_piece, whole_px);
-      textures.push_back(&sheets[i].back->image);
-    }
-  }
+  for (const Sheet& sheet : sheets)
+    if (sheet.back) textures.push_back(&sheet.back->image);
   JoinedTexture texture = joinTextures(textures);
 
   int vertices = 0, triangles = 0;
@@ -394,9 +456,11 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
         same_back ? front_place : texture.places[sheets.size() + (options.back_picture ? 0 : i)];
     for (int v = 0; v < sheet.meshVertices(); ++v) {
       const int drawn_vertex = v < size ? v : v - size;
-      const Eigen::Vector2d& q = sheet.planar.vertices[drawn_vertex];
-      const Eigen::Vector2d p = mesh.model_from_image(q);
-      const double z = drawn_vertex >= inner ? 0 : v < size ? sheet.z[drawn_vertex] : -sheet.z[drawn_vertex];
+      const Eigen::Vector2d& q = sheet.outline_band.drawn[drawn_vertex];
+      const Eigen::Vector2d p = mesh.model_from_image(sheet.place[drawn_vertex]);
+      const double z = drawn_vertex >= inner ? 0
+                       : v < size            ? sheet.z.front[drawn_vertex]
+                                             : -sheet.z.back[drawn_vertex];
       mesh.vertices.row(first + v) << p.cast<float>().transpose(),
           static_cast<float>((z + sheet.offset[drawn_vertex]) * px_depth);
       mesh.uv.row(first + v) = sheet.front.uvFromImage(q).cast<float>();

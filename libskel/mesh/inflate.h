@@ -1,7 +1,8 @@
 // Stage 6: a solid body from a silhouette.
 //
 // L. Feng, X. Yang et al., "MagicToon" (2017): height z = sqrt(u), −Δu = const on the silhouette, u = 0 on
-// its outline, scaled so that a limb comes out about as thick as it is wide.
+// its outline, scaled so that a limb comes out about as thick as it is wide; by the bones, where they are
+// known (body_depth.h), so that each part is as deep as such parts are.
 #pragma once
 
 #include <memory>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "libskel/mesh/back_colors.h"
+#include "libskel/mesh/body_depth.h"
 #include "libskel/mesh/figure_piece.h"
 #include "libskel/mesh/triangle_mesh.h"
 #include "libskel/silhouette/silhouette.h"
@@ -36,6 +38,7 @@ struct InflateOptions {
   double length_m = 0;    // of the model's longer side, up or across; 0: height_m counts instead
   double turned_rad = 0;  // how far the figure is turned clockwise in the drawing: the model stands upright
   bool thin_outline = false;  // a dark outline is a thin flange instead of a part of the round body
+  BodyDepth body = {};        // what is known of its parts
   Back back = Back::kSame;
   std::optional<HeadDisc> head = std::nullopt;                // image px; for a back without a face
   std::shared_ptr<const BackPicture> back_picture = nullptr;  // if there is one, instead of `back`

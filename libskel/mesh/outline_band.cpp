@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "libskel/mesh/ink.h"
 #include "libskel/mesh/outline.h"
 
 namespace skel {
@@ -14,16 +15,18 @@ using Eigen::Vector2d;
 // As shares of the figure's long side.
 constexpr double kWidest = 0.045;   // of a line
 constexpr double kSpacing = 0.006;  // from sample to sample
-// Brightness, 0…255.
+// inkLightness().
 constexpr double kDarkest = 150;      // a line is darker
-constexpr double kContrast = 45;      // and what it encloses lighter by this
+constexpr double kContrast = 28;      // and what it encloses lighter by this
 constexpr double kLeastShape = 0.12;  // of a triangle, 1 for an equilateral one
+// How far a line's inner edge is blurred: a share of its width and px, at most a share of a cell.
+constexpr double kSoft = 0.15, kSoftPx = 1.5, kMostSoft = 0.35;
 
-double brightness(const Image& image, const Vector2d& p) {
+double lightnessAt(const Image& image, const Vector2d& p) {
   const int x = std::clamp(static_cast<int>(std::lround(p.x())), 0, image.width - 1);
   const int y = std::clamp(static_cast<int>(std::lround(p.y())), 0, image.height - 1);
   const std::uint8_t* c = image.pixel(x, y);
-  return 0.299 * c[0] + 0.587 * c[1] + 0.114 * c[2];
+  return inkLightness(c[0], c[1], c[2]);
 }
 
 bool inside(const Plane8& mask, const Vector2d& p) {
@@ -40,7 +43,7 @@ double lineWidth(const Image& image, const Plane8& mask, const Vector2d& p, cons
   for (double t = step; t <= 1.6 * widest_px; t += step) {
     const Vector2d at = p + t * inwards;
     if (!inside(mask, at)) break;
-    light.push_back(brightness(image, at));
+    light.push_back(lightnessAt(image, at));
   }
   const auto reach = static_cast<std::size_t>(widest_px / step);
   if (light.size() < 4) return 0;
@@ -102,11 +105,14 @@ std::vector<OutlineSample> drawnOutline(const Image& image, const Plane8& mask,
   return samples;
 }
 
-std::vector<double> outlineBand(PlanarMesh& mesh, const std::vector<OutlineSample>& outline) {
-  std::vector<double> band(mesh.inner_count, 0);
+OutlineBand outlineBand(PlanarMesh& mesh, const std::vector<OutlineSample>& outline) {
+  OutlineBand band{std::vector<double>(mesh.inner_count, 0), {}};
   double widest = 0;
   for (const OutlineSample& sample : outline) widest = std::max(widest, sample.width_px);
-  if (widest == 0) return band;
+  if (widest == 0) {
+    band.drawn = mesh.vertices;
+    return band;
+  }
   // Samples by cells, so that each vertex looks at its neighbourhood alone.
   const double reach = widest + 1.5 * mesh.cell_px, cell = std::max(reach, 1.0);
   Vector2d low = mesh.vertices.front(), high = low;
@@ -135,6 +141,7 @@ std::vector<double> outlineBand(PlanarMesh& mesh, const std::vector<OutlineSampl
     }
     return result;
   };
+  std::vector<Vector2d> inwards(mesh.inner_count, Vector2d::Zero());
   for (int v = 0; v < mesh.inner_count; ++v) {
     const Vector2d p = mesh.vertices[v];
     const auto [ci, cj] = cellOf(p);
@@ -159,8 +166,13 @@ std::vector<double> outlineBand(PlanarMesh& mesh, const std::vector<OutlineSampl
         mesh.vertices[v] = p;
       }
     }
-    if (distance <= width + 0.08 * mesh.cell_px) band[v] = width;
+    if (distance > width + 0.08 * mesh.cell_px) continue;
+    band.width_px[v] = width;
+    const double soft = std::min(kSoft * width + kSoftPx, kMostSoft * mesh.cell_px);
+    inwards[v] = (p - outline[nearest].point).normalized() * (soft * std::min(1.0, distance / width));
   }
+  band.drawn = mesh.vertices;
+  for (int v = 0; v < mesh.inner_count; ++v) band.drawn[v] += inwards[v];
   return band;
 }
 

@@ -16,13 +16,19 @@ struct OutlineSample {
 };
 
 // `outline`: closed curves of points about one px apart, the figure to the right of the way round as seen on
-// the screen (sideMiddles() of a silhouette's). Looks inwards from every sample at the picture's brightness.
+// the screen (sideMiddles() of a silhouette's). Looks inwards from every sample at the picture's
+// inkLightness().
 std::vector<OutlineSample> drawnOutline(const Image& image, const Plane8& mask,
                                         const std::vector<std::vector<Eigen::Vector2d>>& outline);
 
+struct OutlineBand {
+  std::vector<double> width_px;  // of the line, of each inner vertex that lies within it; 0 for all others
+  std::vector<Eigen::Vector2d> drawn;  // of all vertices, image px: the point of the drawing that they show
+};
+
 // Moves inner vertices that lie about a line's width from the rim onto the line's inner edge, as far as the
-// triangles stay well shaped, and returns which inner vertices lie within the line: each one's width in px, 0
-// for all others. From the side the line then is as thin as the mesh is at these vertices.
-std::vector<double> outlineBand(PlanarMesh& mesh, const std::vector<OutlineSample>& outline);
+// triangles stay well shaped. From the side the line then is as thin as the mesh is at these vertices. They
+// show the drawing a little further inwards, so that the blurred edge of the line stays on the band as well.
+OutlineBand outlineBand(PlanarMesh& mesh, const std::vector<OutlineSample>& outline);
 
 }  // namespace skel

@@ -16,6 +16,7 @@
 #include "libskel/deform/limb_depth.h"
 #include "libskel/jointnet/net_joints.h"
 #include "libskel/mesh/front_view.h"
+#include "libskel/pipeline/body_depth.h"
 #include "libskel/recognition/paper_recognizer.h"
 #include "libskel/recognition/tree_recognition.h"
 #include "libskel/skeleton/lift.h"
@@ -135,6 +136,7 @@ InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawin
   else
     inflate.length_m = drawing.body_plan.length_m;
   inflate.turned_rad = drawing.recognition.turned_deg * std::numbers::pi / 180;
+  inflate.body = bodyDepth(drawing.recognition.skeleton, options.body_plan, drawing.silhouette);
   inflate.head =
       headDisc(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, inflate.turned_rad);
   if (input.back) {
@@ -145,6 +147,19 @@ InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawin
     inflate.back_picture = std::make_shared<const BackPicture>(BackPicture{*input.back, behind.mask});
   }
   return inflate;
+}
+
+// A shoe reaches further before the ankle than behind it.
+void putAnklesBelowKnees(Skeleton& skeleton, const SkeletonTemplate& body_plan) {
+  if (body_plan.from_side) return;
+  for (const TemplateLimb& limb : body_plan.limbs) {
+    if (limb.limb_class != JointClass::kLeg) continue;
+    const auto joint = [&](int i) {
+      return skeleton.find(body_plan.joints[std::size_t(limb.joints[std::size_t(i)])].name);
+    };
+    if (const int knee = joint(1), foot = joint(2); knee >= 0 && foot >= 0)
+      skeleton.joints[std::size_t(foot)].position.z() = skeleton.joints[std::size_t(knee)].position.z();
+  }
 }
 
 // Weights are the same whatever clips are asked for: those that come with skel decide.
@@ -237,6 +252,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   drawing.recognition.skeleton = timed("lift", [&] {
     Skeleton lifted = drawing.recognition.skeleton;
     liftToModel(lifted, drawing.character.mesh, joint_layers);
+    if (inflated) putAnklesBelowKnees(lifted, options.body_plan);
     return lifted;
   });
   drawing.character.skeleton = drawing.recognition.skeleton;

@@ -13,6 +13,7 @@
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
 #include "libskel/draw/canvas.h"
+#include "libskel/draw/paper.h"
 #include "libskel/mesh/vertex_normals.h"
 #include "libskel/scene/gl_painter.h"
 #include "libskel/scene/shading.h"
@@ -96,11 +97,13 @@ in float v_lit;
 noperspective in vec3 v_corner;
 uniform sampler2D picture;
 uniform bool textured, fill, wires;
-uniform float opacity, wire_px;
+uniform float opacity, wire_px, pale_from, shade_on_white;
 uniform vec4 wire_color;
 out vec4 result;  // alpha multiplied in
 void main() {
-  vec3 rgb = v_lit * (textured ? texture(picture, v_color.xy, -0.3).rgb : v_color);
+  vec3 rgb = textured ? texture(picture, v_color.xy, -0.3).rgb : v_color;
+  float pale = clamp((min(rgb.r, min(rgb.g, rgb.b)) - pale_from) / (1 - pale_from), 0, 1);
+  rgb *= 1 - (1 - v_lit) * (1 - (1 - shade_on_white) * pale);  // shadeOf()
   vec4 seen = fill ? vec4(rgb, 1) * opacity : vec4(0);
   if (wires) {
     vec3 px = v_corner / max(fwidth(v_corner), 1e-6);
@@ -191,6 +194,8 @@ class GlPainter : public MeshPainter {
     glUniform1i(place("wires"), surface.wires);
     glUniform1f(place("opacity"), surface.opacity);
     glUniform1f(place("wire_px"), surface.wire_px);
+    glUniform1f(place("pale_from"), kPaleFrom / 255);
+    glUniform1f(place("shade_on_white"), kShadeOnWhite);
     const Color& ink = surface.wire_color;
     glUniform4f(place("wire_color"), float(ink.r) / 255, float(ink.g) / 255, float(ink.b) / 255,
                 float(ink.a) / 255);

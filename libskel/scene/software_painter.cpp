@@ -11,6 +11,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/draw/canvas.h"
+#include "libskel/draw/paper.h"
 #include "libskel/mesh/split_seams.h"
 #include "libskel/mesh/vertex_normals.h"
 #include "libskel/scene/mesh_painter.h"
@@ -88,11 +89,11 @@ Pixel texel(const Image& texture, float x, float y, float lit, unsigned alpha) {
   const auto fx = unsigned((x - float(x0)) * 256), fy = unsigned((y - float(y0)) * 256);
   const std::uint8_t *p = texture.pixel(x0, y0), *q = p + below;
   const unsigned a = (256 - fx) * (256 - fy), b = fx * (256 - fy), c = (256 - fx) * fy, d = fx * fy;
-  const auto light = unsigned(lit * 256 + 0.5f);
-  const auto mixed = [&](int k) {
-    return (((a * p[k] + b * p[k + right] + c * q[k] + d * q[k + right]) >> 16) * light + 128) >> 8;
-  };
-  return packed(mixed(0), mixed(1), mixed(2), alpha);
+  const auto mixed = [&](int k) { return (a * p[k] + b * p[k + right] + c * q[k] + d * q[k + right]) >> 16; };
+  const unsigned red = mixed(0), green = mixed(1), blue = mixed(2);
+  const auto light = unsigned(shadeOf(lit, float(std::min({red, green, blue}))) * 256 + 0.5f);
+  const auto shaded = [&](unsigned value) { return (value * light + 128) >> 8; };
+  return packed(shaded(red), shaded(green), shaded(blue), alpha);
 }
 
 // Whether each part of the mesh is closed and its triangles look outwards: then those that look away are
@@ -333,7 +334,8 @@ class SoftwarePainter : public MeshPainter {
                 unsigned alpha) const {
     const float lit = s0 * c[0]->lit + s1 * c[1]->lit + s2 * c[2]->lit;
     if (!texture) {
-      const Vector3f rgb = lit * (s0 * c[0]->rgb + s1 * c[1]->rgb + s2 * c[2]->rgb);
+      Vector3f rgb = s0 * c[0]->rgb + s1 * c[1]->rgb + s2 * c[2]->rgb;
+      rgb *= shadeOf(lit, rgb.minCoeff());
       return packed(byte(rgb[0]), byte(rgb[1]), byte(rgb[2]), alpha);
     }
     float u = s0 * c[0]->u + s1 * c[1]->u + s2 * c[2]->u, v = s0 * c[0]->v + s1 * c[1]->v + s2 * c[2]->v;

@@ -47,6 +47,34 @@ TEST_CASE("a square has its size and its texture the right way round") {
   CHECK(renderMesh(mesh.vertices, mesh, camera, options).pixel(28, 50)[0] > 225);
 }
 
+TEST_CASE("shade keeps the hue, and white paper does not turn dirty grey") {
+  TriangleMesh mesh = square();
+  mesh.texture.rgba.setConstant(255);
+  Camera camera;
+  camera.target = {0, 0.5, 0};
+  mesh.vertices.col(2) += 0.8f * mesh.vertices.col(1);  // faces the ground, the light comes from above
+  const RenderOptions options{.width = 100, .height = 100};
+  const auto seen = [&](int r, int g, int b) {
+    for (Eigen::Index i = 0; i < mesh.texture.rgba.rows(); ++i) mesh.texture.rgba.row(i) << r, g, b, 255;
+    const Image image = renderMesh(mesh.vertices, mesh, camera, options);
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    int count = 0;
+    for (Eigen::Index i = 0; i < image.rgba.rows(); ++i)
+      if (image.rgba(i, 3) == 255) {
+        for (int c = 0; c < 3; ++c) mean[c] += image.rgba(i, c);
+        ++count;
+      }
+    REQUIRE(count > 50);
+    return Eigen::Vector3d(mean / count);
+  };
+  const Eigen::Vector3d red = seen(200, 60, 30), white = seen(255, 255, 255);
+  REQUIRE(red[0] < 180);  // in the shade
+  CHECK(red[1] / red[0] == Approx(60.0 / 200).margin(0.01));
+  CHECK(red[2] / red[0] == Approx(30.0 / 200).margin(0.01));
+  CHECK(white.minCoeff() > 200);
+  CHECK(255 - white[0] < 0.6 * (255 - 255 * red[0] / 200));
+}
+
 TEST_CASE("what is nearer hides what is farther, whatever comes first") {
   TriangleMesh mesh = square();
   mesh.uv.resize(0, 2);

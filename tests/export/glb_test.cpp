@@ -7,6 +7,7 @@
 #include "libskel/animation/retarget.h"
 #include "libskel/export/joint_names.h"
 #include "libskel/export/write_character.h"
+#include "libskel/mesh/split_seams.h"
 #include "tests/support/catch.h"
 #include "tests/support/figure.h"
 
@@ -173,6 +174,14 @@ TEST_CASE("a GLB holds the mesh, its skin, its texture and its clips") {
   checkStructure(glb, character);
 
   CHECK(glb.document["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] == 0);
+  // A share of the texture shines, so that no light turns white paper grey; together they are the texture.
+  const json& material = glb.document["materials"][0];
+  CHECK(material["emissiveTexture"]["index"] ==
+        material["pbrMetallicRoughness"]["baseColorTexture"]["index"]);
+  for (int k = 0; k < 3; ++k)
+    CHECK(material["emissiveFactor"][k].get<double>() +
+              material["pbrMetallicRoughness"]["baseColorFactor"][k].get<double>() ==
+          Approx(1));
   CHECK(glb.document["images"][0]["mimeType"] == "image/png");
   const json& view = glb.document["bufferViews"][glb.document["images"][0]["bufferView"].get<int>()];
   CHECK(glb.buffer.substr(view.value("byteOffset", 0) + 1, 3) == "PNG");
@@ -190,6 +199,24 @@ TEST_CASE("a GLB holds the mesh, its skin, its texture and its clips") {
     CHECK(numbers(glb, sampler["output"]).size() == 4 * times.size());
   }
   CHECK(bytes == encodeGlb(character, {wave}, {"figure"}));
+}
+
+TEST_CASE("no crease shows where front and back are parted: their vertices have one normal") {
+  RiggedCharacter character = figure();
+  TriangleMesh& mesh = character.mesh;
+  mesh.texture = Image(2, 2);
+  mesh.uv = Eigen::MatrixX2f::Constant(mesh.vertices.rows(), 2, 0.75f);
+  mesh.back_uv = 0.5f * mesh.uv;
+  mesh.first_back = mesh.triangles.rows() / 2 + 3;  // through a limb
+  const Glb glb = parseGlb(encodeGlb(character, {}, {"figure"}));
+  const json& attributes = glb.document["meshes"][0]["primitives"][0]["attributes"];
+  const std::vector<double> positions = numbers(glb, attributes["POSITION"]),
+                            normals = numbers(glb, attributes["NORMAL"]);
+  REQUIRE(positions.size() > 3 * std::size_t(mesh.vertices.rows()));
+  const std::vector<int> source = splitSeams(mesh).source;
+  REQUIRE(normals.size() == 3 * source.size());
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    REQUIRE(normals[i] == normals[3 * std::size_t(source[i / 3]) + i % 3]);
 }
 
 TEST_CASE("a GLB says where joints go and how large they are, and lasts as long as the clip") {

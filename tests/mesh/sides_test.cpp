@@ -1,4 +1,5 @@
 // The model from behind, from the side and of a drawing that was turned.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -113,6 +114,63 @@ TEST_CASE("the back of the head is hair where hair is at its rim, and the head's
     for (int x = 60; x < 140; ++x) REQUIRE(std::abs(back.pixel(x, y)[0] - (has_hair ? 90 : 240)) < 10);
 }
 
+TEST_CASE("the back of clothes in red or blue that are drawn by black lines holds no black") {
+  Image image = outlinedBall(300, 120, 9);
+  const std::array<int, 3> color =
+      GENERATE(std::array{250, 0, 0}, std::array{0, 0, 250}, std::array{30, 40, 130});
+  paintDisc(image, {149.5, 149.5}, 111, color);
+  // A pocket.
+  for (int y = 150; y < 190; ++y)
+    for (int x = 120; x < 160; ++x)
+      if (y < 155 || y >= 185 || x < 125 || x >= 155) std::fill_n(image.pixel(x, y), 3, std::uint8_t(0));
+  Plane8 mask = Plane8::Zero(300, 300);
+  for (int y = 0; y < 300; ++y)
+    for (int x = 0; x < 300; ++x) mask(y, x) = image.pixel(x, y)[0] + image.pixel(x, y)[1] < 510;
+  const Image back = backColors(image, mask, std::nullopt);
+  for (int y = 0; y < 300; ++y)
+    for (int x = 0; x < 300; ++x)
+      if (mask(y, x))
+        for (int c = 0; c < 3; ++c)
+          REQUIRE(std::abs(back.pixel(x, y)[c] - color[static_cast<size_t>(c)]) < 12);
+}
+
+TEST_CASE("lines that tell paper from paper stay on the back, and what is drawn by lines alone does") {
+  // A white head in a black ring, on a black line.
+  Image image(300, 300);
+  image.rgba.setConstant(255);
+  paintDisc(image, {150, 100}, 70, {0, 0, 0});
+  paintDisc(image, {150, 100}, 65, {255, 255, 254});
+  paintDisc(image, {130, 90}, 6, {0, 0, 0});
+  for (int y = 165; y < 290; ++y)
+    for (int x = 147; x < 153; ++x) std::fill_n(image.pixel(x, y), 3, std::uint8_t(0));
+  const Plane8 mask = notWhite(image);
+  const Image back = backColors(image, mask, HeadDisc{{150, 100}, 70});
+  CHECK(back.pixel(130, 90)[0] > 240);   // no eye
+  CHECK(back.pixel(150, 100)[0] > 240);  // and no black skull
+  CHECK(back.pixel(82, 100)[0] < 15);    // the ring
+  CHECK(back.pixel(150, 240)[0] < 15);   // the body
+}
+
+TEST_CASE("the back of outlined clothes is round up to the rim, the front has its line on a flat band") {
+  Image image = outlinedBall(400, 180, 11);
+  const Silhouette silhouette = silhouetteFromMask(notWhite(image));
+  InflateOptions options;
+  options.thin_outline = true;
+  options.back = Back::kPlain;
+  const TriangleMesh mesh = inflate(image, silhouette, options);
+  CHECK(checkMesh(mesh).problem == "");
+  CHECK(darkFromTheSide(mesh) < 0.05);
+  // 5 % of the ball within the rim: a ball's slope behind, next to nothing before.
+  float front = 0, back = 0;
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    const float away = std::hypot(mesh.vertices(v, 0), mesh.vertices(v, 1) - 0.85f) / 0.85f;
+    if (away < 0.94f || away > 0.97f) continue;
+    front = std::max(front, mesh.vertices(v, 2)), back = std::min(back, mesh.vertices(v, 2));
+  }
+  CHECK(front < 0.02f);
+  CHECK(back < -0.1f);
+}
+
 TEST_CASE("stripes of a shirt stay on the back") {
   Image image = outlinedBall(200, 80, 4);
   for (int y = 30; y < 170; ++y)
@@ -206,7 +264,7 @@ TEST_CASE("a dark outline is no broad black band from the side, and the front st
   const TriangleMesh before = inflate(image, silhouette), after = inflate(image, silhouette, thin);
   CHECK(checkMesh(after).problem == "");
   CHECK(darkFromTheSide(before) > 0.3);
-  CHECK(darkFromTheSide(after) < 0.2);
+  CHECK(darkFromTheSide(after) < 0.05);
   // From the front: the rim is where it was, and every point of the drawing lies where it is drawn.
   REQUIRE(after.vertices.rows() == before.vertices.rows());
   const Eigen::Vector2d texels(after.texture.width, after.texture.height);
@@ -216,10 +274,14 @@ TEST_CASE("a dark outline is no broad black band from the side, and the front st
   const auto pixelOf = [&](Eigen::Index v) {
     return after.model_from_image.inverse(after.vertices.row(v).head<2>().transpose().cast<double>());
   };
-  const Eigen::Vector2d margin = texelOf(0) - pixelOf(0);
   int rim = 0;
+  // But for the line's blurred inner edge, which the flange takes along.
+  const Eigen::Index first = std::find_if(after.vertices.col(2).begin(), after.vertices.col(2).end(),
+                                          [](float z) { return z == 0; }) -
+                             after.vertices.col(2).begin();
+  const Eigen::Vector2d margin = texelOf(first) - pixelOf(first);
   for (Eigen::Index v = 0; v < after.vertices.rows(); ++v) {
-    REQUIRE((texelOf(v) - pixelOf(v) - margin).norm() < 0.1);
+    REQUIRE((texelOf(v) - pixelOf(v) - margin).norm() < 0.15 * 14 + 1.6);
     if (before.vertices(v, 2) != 0) continue;
     ++rim;
     REQUIRE(after.vertices.row(v) == before.vertices.row(v));

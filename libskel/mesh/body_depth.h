@@ -1,0 +1,40 @@
+// How deep the parts of a drawn body are: what the silhouette alone cannot tell.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace skel {
+
+// What is around a bone. The height z of the inflated body is sqrt(u) with −Δu + (source / most²)·u = source:
+// a tube of radius r comes out about sqrt(source / 2)·r high, a ball of it sqrt(source / 4)·r, and nothing
+// higher than `most`.
+struct DepthBone {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = Eigen::Vector2d::Zero();  // image px
+  double radius_px = 1;                                                          // of the flesh around it
+  double source = 2.5;
+  double most_px = 1;
+  int layer = 0;  // FigurePiece::layer of the limb that it is in, 0 of trunk and head
+};
+
+// A foot that stands, drawn from the front: it becomes a shoe with a flat sole.
+struct DepthFoot {
+  Eigen::Vector2d knee = Eigen::Vector2d::Zero(), foot = Eigen::Vector2d::Zero();  // joints, image px
+  double radius_px = 1;                                                            // of the shin
+  int layer = 0;
+};
+
+struct BodyDepth {
+  std::vector<DepthBone> bones;  // none: all of the body is as round as its outline
+  std::vector<DepthFoot> feet;
+};
+
+// The bones' `source` and most half depth at one point, blended from bone to bone; beyond the flesh of all
+// (brims, capes, the width of a skirt) the body gets thin.
+struct DepthThere {
+  double source = 2.5;
+  double most_px = 0;  // 0: no bound
+};
+DepthThere depthAt(const std::vector<DepthBone>& bones, const Eigen::Vector2d& p);
+
+}  // namespace skel

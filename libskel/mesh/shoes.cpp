@@ -1,0 +1,91 @@
+#include "libskel/mesh/shoes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace skel {
+namespace {
+
+using Eigen::Vector2d;
+
+// In radii of the shin.
+constexpr double kReach = 3.5;  // of a foot to either side
+constexpr double kAbove = 0.5;  // of the ankle
+// The length of a shoe, in widths of the foot as it is drawn: if that lies evenly to both sides of the shin,
+// and if it lies to one side alone (drawn from the side, or turned out).
+constexpr double kLong = 1.6, kShort = 0.6;
+constexpr double kMostByShin = 1.2;        // of the shin's length
+constexpr double kToe = 0.7, kHeel = 0.3;  // before and behind the drawing, as shares of the length
+constexpr double kHigh = 0.5;              // half as deep as high is the least
+constexpr int kColumns = 12;               // across the foot, each with a sole of its own
+
+// Across and down the shin, from the foot's joint.
+struct FootFrame {
+  Vector2d origin, down, across;
+  explicit FootFrame(const DepthFoot& foot)
+      : origin(foot.foot), down((foot.foot - foot.knee).normalized()), across(-down.y(), down.x()) {}
+  Vector2d operator()(const Vector2d& p) const { return {(p - origin).dot(across), (p - origin).dot(down)}; }
+};
+
+}  // namespace
+
+void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, const std::vector<double>& band,
+                Heights& heights, std::vector<Vector2d>& place) {
+  for (const DepthFoot& foot : feet) {
+    if (foot.foot == foot.knee) continue;
+    const FootFrame frame(foot);
+    const double r = std::max(foot.radius_px, mesh.cell_px);
+    std::vector<std::pair<int, Vector2d>> own;
+    double sole = -std::numeric_limits<double>::infinity();
+    for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v) {
+      const Vector2d& p = mesh.vertices[v];
+      const Vector2d at = frame(p);
+      if (std::abs(at.x()) > kReach * r || at.y() < -kAbove * r || at.y() > kReach * r) continue;
+      const bool nearer = std::any_of(feet.begin(), feet.end(), [&](const DepthFoot& other) {
+        return (p - other.foot).squaredNorm() < (p - foot.foot).squaredNorm();
+      });
+      if (nearer) continue;
+      own.emplace_back(v, at);
+      sole = std::max(sole, at.y());
+    }
+    const double height = sole + kAbove * r;
+    if (own.size() < 6 || height < 2 * mesh.cell_px) continue;
+    double left = std::numeric_limits<double>::infinity(), right = -left;
+    for (const auto& [v, at] : own)
+      if (at.y() > sole - 0.6 * height) left = std::min(left, at.x()), right = std::max(right, at.x());
+    const double width = right - left, middle = (left + right) / 2;
+    if (width < 2 * mesh.cell_px) continue;
+    const double aside = std::min(1.0, 2 * std::abs(middle) / width);
+    const double long_px =
+        std::min((kLong + aside * (kShort - kLong)) * width, kMostByShin * (foot.foot - foot.knee).norm());
+    const double least = kHigh * std::min(width, height);
+    const double toe = std::max(kToe * long_px, least);
+    const double heel = std::max(kHeel * long_px, least);
+    std::array<double, kColumns> soles;
+    soles.fill(-std::numeric_limits<double>::infinity());
+    const auto columnOf = [&](double x) {
+      return std::clamp(static_cast<int>((x - left) / width * kColumns), 0, kColumns - 1);
+    };
+    for (const auto& [v, at] : own) {
+      double& there = soles[static_cast<std::size_t>(columnOf(at.x()))];
+      there = std::max(there, at.y());
+    }
+    for (const auto& [v, at] : own) {
+      if (v >= mesh.inner_count) continue;
+      const double half = width / 2 - band[static_cast<std::size_t>(v)];
+      const double across = (at.x() - middle) / std::max(half, 1.0);
+      const double round = std::sqrt(std::max(0.0, 1 - across * across));
+      const double up = std::clamp((sole - at.y()) / height, 0.0, 1.0);
+      const double instep = std::sqrt(1 - up * up), counter = std::sqrt(1 - std::pow(up, 4));
+      heights.front[v] = std::max(heights.front[v], round * toe * instep);
+      heights.back[v] = std::max(heights.back[v], round * heel * counter);
+      const double drop = soles[static_cast<std::size_t>(columnOf(at.x()))] - at.y();
+      if (drop > 0 && drop < 1.2 * mesh.cell_px && round > 0)
+        place[static_cast<std::size_t>(v)] += 0.9 * drop * frame.down;
+    }
+  }
+}
+
+}  // namespace skel

@@ -1,0 +1,129 @@
+// A chest is shallower than wide, a head is a ball on a narrower neck, limbs are tubes, an animal is narrower
+// than high: proportions as in A. Loomis, "Figure drawing for all it's worth" (1943), and by eye.
+#include "libskel/pipeline/body_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "libskel/core/segment.h"
+
+namespace skel {
+namespace {
+
+using Eigen::Vector2d;
+
+// Of a part of the body: DepthBone::source, and the most half depth in radii of its flesh.
+struct Build {
+  double source, most;
+};
+constexpr Build kHeadBuild{5, 1.6}, kNeckBuild{1.2, 0.35}, kChestBuild{2.4, 1}, kLimbBuild{2.5, 2};
+constexpr Build kSideChestBuild{2.5, 1.4};                                // of a person drawn from the side
+constexpr Build kAnimalTrunkBuild{2, 1.05}, kAnimalHeadBuild{2.2, 1.2};  // drawn from the side, always
+constexpr double kLimbRadius = 0.4;  // at most, as a share of a bone's length: where it lies on the body
+constexpr double kNeckReach = 0.45;  // of the head's radius
+// The distance of the shoulders as a share of the trunk's length: below the first it is seen from the side,
+// above the second from the front.
+constexpr double kSideShoulders = 0.2, kFrontShoulders = 0.5;
+
+class DepthFinder {
+ public:
+  DepthFinder(const Skeleton& skeleton, const SkeletonTemplate& body_plan, const Silhouette& silhouette)
+      : skeleton_(skeleton), body_plan_(body_plan), silhouette_(silhouette) {}
+
+  BodyDepth operator()() {
+    const auto pelvis = at("pelvis"), body = at("body"), neck = at("neck"), head = at("head"),
+               top = at("head_top");
+    if (!pelvis || !body || !neck || !head) return {};
+    const Build trunk = trunkBuild(*pelvis, *neck);
+    const double trunk_px = radius(*body);
+    addBone(*pelvis, *body, trunk_px, trunk);
+    addBone(*body, *neck, trunk_px, trunk);
+    const Vector2d up = top ? Vector2d(*top - *head) : Vector2d(*head - *neck);
+    const double head_px = radius(*head);
+    addBone(*head, *head + 0.5 * up.normalized() * std::min(up.norm(), head_px), head_px,
+            body_plan_.from_side ? kAnimalHeadBuild : kHeadBuild);
+    if (!body_plan_.from_side) addNeck(*neck, *head, head_px);
+    for (std::size_t k = 0; k < body_plan_.limbs.size(); ++k)
+      addLimb(body_plan_.limbs[k], static_cast<int>(k) + 1, trunk, trunk_px);
+    if (const auto root = at("tail_root"), tail = at("tail"); root && tail)
+      addBone(*root, *tail, std::min(radius((*root + *tail) / 2), kLimbRadius * (*root - *tail).norm()),
+              kLimbBuild);
+    return depth_;
+  }
+
+ private:
+  std::optional<Vector2d> at(const std::string& name) const {
+    const int joint = skeleton_.find(name);
+    if (joint < 0) return std::nullopt;
+    return skeleton_.joints[static_cast<std::size_t>(joint)].image;
+  }
+  std::optional<Vector2d> at(int of_plan) const {
+    return at(body_plan_.joints[static_cast<std::size_t>(of_plan)].name);
+  }
+
+  // Of the disc around the point that touches the outline first.
+  double radius(const Vector2d& p) const {
+    double result = std::numeric_limits<double>::infinity();
+    for (const Polygon& polygon : silhouette_.outline)
+      for (std::size_t i = 0; i < polygon.size(); ++i)
+        result =
+            std::min(result, distanceToSegment<Vector2d>(p, polygon[i], polygon[(i + 1) % polygon.size()]));
+    return std::max(result, 1.0);
+  }
+
+  void addBone(const Vector2d& from, const Vector2d& to, double radius_px, const Build& build,
+               int layer = 0) {
+    radius_px = std::max(radius_px, 1.0);
+    depth_.bones.push_back({from, to, radius_px, build.source, build.most * radius_px, layer});
+  }
+
+  Build trunkBuild(const Vector2d& pelvis, const Vector2d& neck) const {
+    if (body_plan_.from_side) return kAnimalTrunkBuild;
+    const auto left = at("left_shoulder"), right = at("right_shoulder");
+    if (!left || !right) return kChestBuild;
+    const double wide = (*left - *right).norm() / std::max((pelvis - neck).norm(), 1.0);
+    const double front = std::clamp((wide - kSideShoulders) / (kFrontShoulders - kSideShoulders), 0.0, 1.0);
+    return {kSideChestBuild.source + front * (kChestBuild.source - kSideChestBuild.source),
+            kSideChestBuild.most + front * (kChestBuild.most - kSideChestBuild.most)};
+  }
+
+  // Between the chin and the shoulders.
+  void addNeck(const Vector2d& neck, const Vector2d& head, double head_px) {
+    const Vector2d down = neck - head;
+    if (down.norm() < head_px) return;  // the head sits on the shoulders
+    const Vector2d chin = head + down.normalized() * std::min(1.15 * head_px, down.norm());
+    const double reach = kNeckReach * head_px;
+    depth_.bones.push_back({chin, chin, reach, kNeckBuild.source, kNeckBuild.most * head_px, 0});
+  }
+
+  void addLimb(const TemplateLimb& limb, int layer, const Build& trunk, double trunk_px) {
+    const auto root = at(limb.joints[0]), middle = at(limb.joints[1]), end = at(limb.joints[2]);
+    if (!root || !middle || !end) return;
+    // Where it hangs on the trunk it is as deep as that.
+    addBone(*root, *root, trunk_px / 2, {trunk.source, 2 * trunk.most});
+    const auto tube = [&](const Vector2d& a, const Vector2d& b) {
+      return std::min(radius((a + b) / 2), kLimbRadius * (a - b).norm());
+    };
+    addBone(*root + 0.3 * (*middle - *root), *middle, tube(*root, *middle), kLimbBuild, layer);
+    const double lower_px = tube(*middle, *end);
+    const bool stands = limb.limb_class == JointClass::kLeg && !body_plan_.from_side;
+    addBone(*middle, *end + 0.3 * (*end - *middle), lower_px, kLimbBuild, layer);
+    if (stands) depth_.feet.push_back({*middle, *end, lower_px, layer});
+  }
+
+  const Skeleton& skeleton_;
+  const SkeletonTemplate& body_plan_;
+  const Silhouette& silhouette_;
+  BodyDepth depth_;
+};
+
+}  // namespace
+
+BodyDepth bodyDepth(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
+                    const Silhouette& silhouette) {
+  return DepthFinder(skeleton, body_plan, silhouette)();
+}
+
+}  // namespace skel

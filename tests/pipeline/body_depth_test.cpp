@@ -1,0 +1,129 @@
+// Each part of a drawn body is as deep as such parts are.
+#include "libskel/pipeline/body_depth.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "libskel/image/read_image.h"
+#include "libskel/mesh/inflate.h"
+#include "libskel/pipeline/rig_character.h"
+#include "tests/support/catch.h"
+#include "tests/support/mesh_checks.h"
+#include "tests/support/synthetic_figure.h"
+
+using namespace skel;
+
+namespace {
+
+struct Extent {
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  void add(float value) { low = std::min(low, value), high = std::max(high, value); }
+  float length() const { return high - low; }
+};
+
+// Of the vertices at that height, across (axis 0) or in depth (2), up to `reach` beside x.
+Extent slice(const TriangleMesh& mesh, double y, int axis, double x = 0, double reach = 0.13) {
+  Extent extent;
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
+    if (std::abs(double(mesh.vertices(v, 1)) - y) < 0.025 &&
+        std::abs(double(mesh.vertices(v, 0)) - x) < reach)
+      extent.add(mesh.vertices(v, axis));
+  return extent;
+}
+
+struct Model {
+  Skeleton skeleton;
+  TriangleMesh mesh;
+  Eigen::Vector2d at(const std::string& joint) const {
+    return mesh.model_from_image(skeleton.joints[skeleton.index(joint)].image);
+  }
+};
+
+Model capsuleModel() {
+  CapsuleFigure figure;
+  figure.right_arm = figure.left_arm = figure.right_forearm = figure.left_forearm = 70;
+  const Silhouette silhouette = silhouetteFromMask(capsuleMask(figure));
+  InflateOptions options;
+  options.body = bodyDepth(capsuleSkeleton(figure), loadTemplate("biped"), silhouette);
+  return {capsuleSkeleton(figure), inflate(capsuleImage(figure), silhouette, options)};
+}
+
+}  // namespace
+
+TEST_CASE("a chest is shallower than wide, a head is round, the neck between them narrower") {
+  const Model model = capsuleModel();
+  CHECK(checkMesh(model.mesh).problem == "");
+  const double body = model.at("body").y(), head = model.at("head").y();
+  const float chest_width = slice(model.mesh, body, 0, 0, 0.3).length();
+  const float chest = slice(model.mesh, body, 2).length();
+  CHECK(chest < 0.85f * chest_width);
+  CHECK(chest > 0.4f * chest_width);
+  const float skull = slice(model.mesh, head, 2).length(), face = slice(model.mesh, head, 0, 0, 0.4).length();
+  CHECK(skull > 0.8f * face);
+  CHECK(skull < 1.1f * face);
+  float neck = skull;
+  for (double y = body; y < head; y += 0.01) neck = std::min(neck, slice(model.mesh, y, 2).length());
+  CHECK(neck < 0.8f * skull);
+  CHECK(neck < chest);
+}
+
+TEST_CASE("feet have a flat sole on the ground and a length to the front") {
+  const Model model = capsuleModel();
+  for (const std::string side : {"left", "right"}) {
+    const Eigen::Vector2d foot = model.at(side + "_foot"), knee = model.at(side + "_knee");
+    const Extent shin = slice(model.mesh, (foot.y() + knee.y()) / 2, 2, (foot.x() + knee.x()) / 2, 0.08);
+    Extent sole;
+    for (Eigen::Index v = 0; v < model.mesh.vertices.rows(); ++v)
+      if (model.mesh.vertices(v, 1) < 0.015f && std::abs(double(model.mesh.vertices(v, 0)) - foot.x()) < 0.08)
+        sole.add(model.mesh.vertices(v, 2));
+    CAPTURE(side);
+    CHECK(sole.length() > 0.9f * shin.length());  // not a point
+    CHECK(sole.high > 1.3f * shin.high);          // the toe
+    CHECK(sole.high > -1.3f * sole.low);          // further than the heel
+    CHECK(model.mesh.vertices.col(1).minCoeff() == Approx(0).margin(1e-6));
+  }
+}
+
+TEST_CASE("without bones a figure is as round as its outline, and without a head nothing is said") {
+  const CapsuleFigure figure;
+  const Silhouette silhouette = silhouetteFromMask(capsuleMask(figure));
+  Skeleton headless = capsuleSkeleton(figure);
+  for (Joint& joint : headless.joints)
+    if (joint.name == "head") joint.name = "lamp";
+  const BodyDepth none = bodyDepth(headless, loadTemplate("biped"), silhouette);
+  CHECK(none.bones.empty());
+  CHECK(none.feet.empty());
+  CHECK(depthAt({}, {10, 10}).most_px == 0);
+}
+
+TEST_CASE("what lies beyond the flesh of all bones is thin") {
+  DepthBone bone;
+  bone.to = {100, 0};
+  bone.radius_px = 10, bone.most_px = 20;
+  CHECK(depthAt({bone}, {50, 5}).most_px == Approx(20));
+  CHECK(depthAt({bone}, {50, 40}).most_px < 6);
+  CHECK(depthAt({bone}, {50, 80}).most_px < depthAt({bone}, {50, 40}).most_px);
+}
+
+TEST_CASE("an animal's trunk is no wider than three quarters of its height") {
+  const std::string name = GENERATE("walking_dog", "cloud_sheep", "trumpeting_elephant", "walking_fox");
+  CAPTURE(name);
+  RigInput input;
+  input.image = readImage(SKEL_SOURCE_DIR "/datasets/animals/" + name + ".png");
+  RigOptions options;
+  options.body_plan = loadTemplate("quadruped");
+  const RiggedDrawing drawing = rigCharacter(std::move(input), options);
+  REQUIRE(drawing.found());
+  const TriangleMesh& mesh = drawing.character.mesh;
+  const Skeleton& skeleton = drawing.character.skeleton;
+  const Eigen::Vector3d body = skeleton.joints[skeleton.index("body")].position;
+  Extent width, height;
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    if (std::abs(double(mesh.vertices(v, 0)) - body.x()) > 0.04) continue;
+    if (mesh.layer.size() > 0 && mesh.layer[v] != 0) continue;
+    width.add(mesh.vertices(v, 2)), height.add(mesh.vertices(v, 1));
+  }
+  CHECK(width.length() <= 0.75f * height.length());
+  CHECK(width.length() >= 0.3f * height.length());
+}
