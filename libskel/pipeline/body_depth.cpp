@@ -19,7 +19,7 @@ struct Build {
   double source, most;
 };
 constexpr Build kHeadBuild{5, 1.6}, kNeckBuild{1.2, 0.35}, kChestBuild{2.4, 1}, kLimbBuild{2.5, 2};
-constexpr Build kSideChestBuild{2.5, 1.4};                                // of a person drawn from the side
+constexpr Build kSideChestBuild{2.5, 1.4};                               // of a person drawn from the side
 constexpr Build kAnimalTrunkBuild{2, 1.05}, kAnimalHeadBuild{2.2, 1.2};  // drawn from the side, always
 constexpr double kLimbRadius = 0.4;  // at most, as a share of a bone's length: where it lies on the body
 constexpr double kNeckReach = 0.45;  // of the head's radius
