@@ -39,7 +39,8 @@ constexpr double kBelowHead = 1.1;   // and how far down
 constexpr double kMostOf = 0.5;      // of the rim or the middle of the head
 // What a step of the spreading colours costs, sideways 1.
 constexpr double kDown = 1.5, kUp = 3;
-constexpr double kFromHatch = 12;  // half widths of a line: so much nearer is what is no hatching
+constexpr double kBelowHair = 4;
+constexpr double kFromHatch = 10;  // half widths of a line: so much nearer is what is no hatching
 
 constexpr int kNeighbours[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 
@@ -153,7 +154,7 @@ struct Lines {
 };
 
 Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
-                const std::function<bool(int, int)>& is_face) {
+                const std::function<bool(int, int)>& is_face, const std::function<bool(int, int)>& is_head) {
   std::vector<float> light(small.color.size(), 0);
   for (int y = 0; y < small.height; ++y)
     for (int x = 0; x < small.width; ++x) {
@@ -176,7 +177,9 @@ Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
   const auto closed_wide = extreme(small, extreme(small, light, wide, true), wide, false);
   std::vector<char> thin(light.size(), 0);
   for (std::size_t i = 0; i < thin.size(); ++i) {
-    const float closing = rim[i] <= 2.0f * float(radius) ? closed_wide[i] : closed[i];
+    // Not at the head, where a narrow dark rim is hair.
+    const bool outer = rim[i] <= 2.0f * float(radius) && !is_head(int(i) % small.width, int(i) / small.width);
+    const float closing = outer ? closed_wide[i] : closed[i];
     thin[i] =
         small.figure[i] && (closing - light[i] > kLineContrast || light[i] - opened[i] > 2 * kLineContrast);
   }
@@ -240,7 +243,14 @@ class BackPainter {
         line_radius_(std::max(1, int(std::lround(kLine * ((whole_px + small_.shrink - 1) / small_.shrink))))),
         rim_(distanceToRim(small_)) {
     if (head_) head_->center /= small_.shrink, head_->radius /= small_.shrink;
-    lines_ = findLines(small_, line_radius_, rim_, [&](int x, int y) { return fromHead({x, y}) < 1; });
+    lines_ = findLines(
+        small_, line_radius_, rim_,
+        [&](int x, int y) {
+          return fromHead({x, y}) < 1;
+        },
+        [&](int x, int y) {
+          return fromHead({x, y}) < kHeadReach;
+        });
     color_ = smoothed(small_, lines_, line_radius_);
     findOutline();
     findAreas();
@@ -387,9 +397,12 @@ class BackPainter {
     for (int i = 0; i < int(kept_.size()); ++i) kept_[i] |= area_[i] == int(largest - areas_.begin());
   }
 
+  // Hair, a hat: its rim lies about the head.
+  bool isOfHead(const Area& area) const { return area.at_head_rim > kMostOf * area.at_rim; }
+
   // Narrow and dark like a line: it wears its own colour, but gives it to nothing around it.
   bool isStroke(const Area& area) const {
-    return inkLightness(area.color[0], area.color[1], area.color[2]) < kInk &&
+    return !isOfHead(area) && inkLightness(area.color[0], area.color[1], area.color[2]) < kInk &&
            2 * area.size < kStroke * line_radius_ * std::max(1, area.size - area.core);
   }
   bool isStroke(int area) const { return isStroke(areas_[area]); }
@@ -420,8 +433,11 @@ class BackPainter {
         const int u = i % small_.width + kNeighbours[k][0], v = i / small_.width + kNeighbours[k][1];
         if (!small_.holds(u, v)) continue;
         const int j = small_.index(u, v);
-        if (reached + costs[k] >= cost[j]) continue;
-        cost[j] = reached + costs[k];
+        // Hair covers the skull, not the back.
+        const bool runs = source_[i] >= 0 && isOfHead(areas_[source_[i]]) && !nearHead(place(j));
+        const double there = reached + costs[k] * (runs ? kBelowHair : 1);
+        if (there >= cost[j]) continue;
+        cost[j] = there;
         filled_[j] = filled_[i];
         source_[j] = source_[i];
         open.emplace(cost[j], j);
@@ -446,7 +462,7 @@ class BackPainter {
         const double plain_px = plain_sums.around(x, y, reach)[3], all_px = all_sums.around(x, y, reach)[3];
         const bool alone = rim_[i] <= 2.0f * float(line_radius_) && plain_px < kAlone * (all_px - plain_px);
         drawn_[i] = alone || ((lines_.line[i] || area_[i] < 0) && isPaper(filled_[i]) &&
-                              (outline_[i] || isBorder(x, y)));
+                              (outline_[i] || (fromHead(place(i)) > 1 && isBorder(x, y))));
       }
   }
 
