@@ -25,6 +25,11 @@ def complaint_about(*changes):
 
 assert complaint(OTHERS) == ""
 assert complaint_about({}) == ""
+# A file of every version is read for ever.
+SAMPLES = sorted((ROOT / "tests" / "data" / "formats").glob("skel-others-drawing-*.json"))
+assert SAMPLES
+for sample in SAMPLES:
+    assert complaint_about(json.loads(sample.read_text()) | {"set": "learn"}) == "", sample
 assert "this drawing is measured on elsewhere" in complaint_about({"sha256": EXCLUDED["files"][0]})
 assert f"drawings by {EXCLUDED['artists'][0]} are measured on elsewhere" in complaint_about({"artist": EXCLUDED["artists"][0]})
 assert "may be learned from, but not be measured on" in complaint_about({"artist": EXCLUDED["shared_artists"][0], "set": "measure"})
