@@ -49,27 +49,27 @@ struct Outcome {
 
 std::string stemOf(const std::string& path) { return fs::path(path).stem().string(); }
 
-// Whether `image`, one of several, is what skel-infer has written of a drawing (or the mask beside one)
-// rather than a drawing: its drawing is among the others, or its skeleton file lies beside it. So `*.png` in
-// a folder of results rigs the drawings alone.
-bool isResult(const std::string& image, const std::vector<std::string>& images) {
-  if (images.size() < 2) return false;
-  const std::string name = fs::path(image).filename().string();
-  for (const std::string_view ending : kResultPictureEndings) {
-    if (!name.ends_with(ending)) continue;
-    const std::string stem = name.substr(0, name.size() - ending.size());
-    return fs::exists(fs::path(image).replace_filename(stem + ".skeleton.json")) ||
-           std::any_of(images.begin(), images.end(), [&](const std::string& other) {
-             return fs::path(other).parent_path() == fs::path(image).parent_path() && stemOf(other) == stem;
-           });
-  }
-  return false;
-}
-
+// The images that are no results: not what skel-infer has written of a drawing (or the mask beside one),
+// whose drawing is among the others, or whose skeleton file lies beside it. So `*.png` in a folder of results
+// rigs the drawings alone.
 std::vector<std::string> drawingsAmong(const std::vector<std::string>& images) {
+  std::set<std::pair<std::string, std::string>> stems;  // and their folders
+  for (const std::string& image : images)
+    stems.emplace(fs::path(image).parent_path().string(), stemOf(image));
+  const auto isResult = [&](const std::string& image) {
+    if (images.size() < 2) return false;
+    const std::string name = fs::path(image).filename().string();
+    for (const std::string_view ending : kResultPictureEndings) {
+      if (!name.ends_with(ending)) continue;
+      const std::string stem = name.substr(0, name.size() - ending.size());
+      return stems.contains({fs::path(image).parent_path().string(), stem}) ||
+             fs::exists(fs::path(image).replace_filename(stem + ".skeleton.json"));
+    }
+    return false;
+  };
   std::vector<std::string> drawings;
   for (const std::string& image : images) {
-    if (isResult(image, images))
+    if (isResult(image))
       std::fprintf(stderr, "skel-infer: note: %s is no drawing but what was made of one: left out\n",
                    image.c_str());
     else

@@ -12,9 +12,7 @@ namespace {
 
 cv::Mat square(int radius) { return cv::Mat::ones(2 * radius + 1, 2 * radius + 1, CV_8U); }
 
-}  // namespace
-
-void trimToInk(const Image& image, int reach, cv::Mat& figure) {
+void trim(const cv::Mat& picture, int reach, cv::Mat& figure) {
   constexpr int kMargin = 1, kThick = 4;
   constexpr double kLeastContrast = 10, kDeviations = 4, kFullContrast = 50;
   constexpr int kCoarse = 4;     // px of the picture in one of what changes slowly
@@ -23,7 +21,7 @@ void trimToInk(const Image& image, int reach, cv::Mat& figure) {
   const cv::Rect place =
       cv::Rect(box.x - around, box.y - around, box.width + 2 * around, box.height + 2 * around) &
       cv::Rect(0, 0, figure.cols, figure.rows);
-  const cv::Mat rgba = rgbaOf(image)(place);
+  const cv::Mat rgba = picture(place);
   cv::Mat inside = figure(place);
 
   // What is outside, on the mean around each px, and how far each px is from that.
@@ -68,6 +66,23 @@ void trimToInk(const Image& image, int reach, cv::Mat& figure) {
   }
   cv::dilate(trimmed, trimmed, square(kMargin));
   inside &= trimmed;
+}
+
+}  // namespace
+
+void trimToInk(const Image& image, int reach, cv::Mat& figure) {
+  constexpr int kFinest = 4096;  // long side, px: the work is that of the pixels times the reach
+  const cv::Mat picture = rgbaOf(image);
+  const double scale = kFinest / static_cast<double>(std::max(picture.cols, picture.rows));
+  if (scale >= 1) return trim(picture, reach, figure);
+  const cv::Size size(std::max(1, cvRound(picture.cols * scale)), std::max(1, cvRound(picture.rows * scale)));
+  cv::Mat small, small_figure, trimmed;
+  cv::resize(picture, small, size, 0, 0, cv::INTER_AREA);
+  cv::resize(figure, small_figure, size, 0, 0, cv::INTER_AREA);
+  small_figure = small_figure >= 128;
+  trim(small, std::max(1, cvCeil(reach * scale)), small_figure);
+  cv::resize(small_figure, trimmed, figure.size(), 0, 0, cv::INTER_LINEAR);
+  figure &= trimmed >= 128;
 }
 
 }  // namespace skel

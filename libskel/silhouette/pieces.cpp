@@ -7,6 +7,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "libskel/image/mask_parts.h"
+
 namespace skel {
 namespace {
 
@@ -17,7 +19,8 @@ constexpr double kAsLarge = .12;  // and its area
 constexpr double kBeside = .35;   // the most that neighbours share of the narrower one's width
 
 struct Piece {
-  int label, area;
+  std::vector<MaskParts::Run> runs;
+  int area = 0;
   cv::Rect box;
 };
 
@@ -45,49 +48,77 @@ bool isGround(const Piece& figure, const Piece& b) {
 
 class Joiner {
  public:
-  Joiner(const cv::Mat& labels, std::vector<Piece> pieces, const PieceOptions& options)
-      : labels_(labels), pieces_(std::move(pieces)), options_(options), taken_(pieces_.size(), false) {
+  Joiner(cv::Size size, std::vector<Piece> pieces, const PieceOptions& options)
+      : picture_({}, size),
+        pieces_(std::move(pieces)),
+        options_(options),
+        taken_(pieces_.size(), false),
+        mask_(Plane8::Zero(size.height, size.width)) {
     far_ =
-        static_cast<int>(std::ceil(std::max(2., options.widest_gap * std::max(labels.cols, labels.rows)))) +
-        1;
+        static_cast<int>(std::ceil(std::max(2., options.widest_gap * std::max(size.width, size.height)))) + 1;
   }
 
   // The largest piece that is left, with all that belongs to it.
   JoinedFigure next() {
     const std::size_t first =
         static_cast<std::size_t>(std::find(taken_.begin(), taken_.end(), false) - taken_.begin());
-    Piece figure = pieces_[first];
+    Piece figure{{}, pieces_[first].area, pieces_[first].box};
     taken_[first] = true;
     JoinedFigure out;
-    out.mask = Plane8::Zero(labels_.rows, labels_.cols);
-    paint(out.mask, pieces_[first]);
-    distance_ = cv::Mat(labels_.size(), CV_32F, cv::Scalar(1e9));
-    measure(out.mask, figure.box);
+    paint(pieces_[first]);
+    unmeasured_ = figure.box;
     while (join(figure, out)) {
     }
+    // What is needed of a large picture is a box as large as the figure.
+    out.left = painted_.x;
+    out.top = painted_.y;
+    const auto cut = [&](Plane8& plane) {
+      auto block = plane.block(painted_.y, painted_.x, painted_.height, painted_.width);
+      Plane8 own = block;
+      block = 0;
+      return own;
+    };
+    out.mask = cut(mask_);
+    if (bridged_) out.bridges = cut(bridges_);
+    painted_ = {};
+    bridged_ = false;
+    distance_.release();
+    window_ = {};
     return out;
   }
   bool done() const { return std::find(taken_.begin(), taken_.end(), false) == taken_.end(); }
 
  private:
-  void paint(Plane8& mask, const Piece& piece) const {
-    for (int y = piece.box.y; y < piece.box.br().y; ++y) {
-      const int* row = labels_.ptr<int>(y);
-      for (int x = piece.box.x; x < piece.box.br().x; ++x)
-        if (row[x] == piece.label) mask(y, x) = 255;
-    }
+  void paint(const Piece& piece) {
+    for (const MaskParts::Run& run : piece.runs) mask_.row(run.y).segment(run.x0, run.x1 - run.x0) = 255;
+    painted_ |= piece.box;
   }
 
-  // Brings the distances to the figure up to date around what was added to it in `box`, as far as pieces are
-  // looked for.
-  void measure(Plane8& figure, const cv::Rect& box) {
-    const cv::Rect around = (box + cv::Size(2 * far_, 2 * far_) - cv::Point(far_, far_)) &
-                            cv::Rect(0, 0, labels_.cols, labels_.rows);
-    cv::Mat away, distance;
-    cv::bitwise_not(cv::Mat(labels_.size(), CV_8U, figure.data())(around), away);
-    cv::distanceTransform(away, distance, cv::DIST_L2, cv::DIST_MASK_5);
-    cv::Mat known = distance_(around);
-    cv::min(known, distance, known);
+  // Brings the distances to the figure up to date around what was added to it, as far as pieces are looked
+  // for.
+  void measure() {
+    if (unmeasured_.empty()) return;
+    const cv::Rect around = (unmeasured_ + cv::Size(2 * far_, 2 * far_) - cv::Point(far_, far_)) & picture_;
+    unmeasured_ = {};
+    cv::Mat distance;
+    {
+      cv::Mat away;
+      cv::bitwise_not(cv::Mat(picture_.size(), CV_8U, mask_.data())(around), away);
+      cv::distanceTransform(away, distance, cv::DIST_L2, cv::DIST_MASK_5);
+    }
+    const cv::Rect window = window_ | around;
+    if (window == around && window_.empty()) {
+      distance_ = distance;
+    } else {
+      if (window != window_) {
+        cv::Mat wider(window.size(), CV_32F, cv::Scalar(kFarAway));
+        distance_.copyTo(wider(window_ - window.tl()));
+        distance_ = wider;
+      }
+      cv::Mat known = distance_(around - window.tl());
+      cv::min(known, distance, known);
+    }
+    window_ = window;
   }
 
   // Takes in the nearest piece that belongs to the figure. False if there is none.
@@ -101,28 +132,33 @@ class Joiner {
       open.push_back(i);
     }
     if (open.empty()) return false;
+    measure();
     double least = 0;
     cv::Point at(-1, -1);
     std::size_t best = 0;
     for (const std::size_t i : open) {
       const Piece& p = pieces_[i];
-      for (int y = p.box.y; y < p.box.br().y; ++y) {
-        const int* label = labels_.ptr<int>(y);
-        const float* d = distance_.ptr<float>(y);
-        for (int x = p.box.x; x < p.box.br().x; ++x) {
-          if (label[x] != p.label || d[x] > reach(figure, p) || (at.x >= 0 && d[x] >= least)) continue;
-          least = d[x];
-          at = {x, y};
+      const double most = reach(figure, p);
+      for (const MaskParts::Run& run : p.runs) {
+        if (run.y < window_.y || run.y >= window_.br().y) continue;
+        const float* d = distance_.ptr<float>(run.y - window_.y);
+        const int end = std::min(run.x1, window_.br().x);
+        for (int x = std::max(run.x0, window_.x); x < end; ++x) {
+          const float away = d[x - window_.x];
+          if (away > most || (at.x >= 0 && away >= least)) continue;
+          least = away;
+          at = {x, run.y};
           best = i;
         }
       }
     }
     if (at.x < 0) return false;
     const Piece& piece = pieces_[best];
-    const cv::Point to = nearestPixel(out.mask, at, least);
-    paint(out.mask, piece);
-    const cv::Rect bridged = bridge(out, at, to, longSide(figure, piece));
-    measure(out.mask, bridged | piece.box);
+    const cv::Point to = nearestPixel(mask_, at, least);
+    paint(piece);
+    const cv::Rect bridged = bridge(at, to, longSide(figure, piece));
+    painted_ |= bridged;
+    unmeasured_ = bridged | piece.box;
     taken_[best] = true;
     ++out.pieces;
     figure.box |= piece.box;
@@ -162,9 +198,10 @@ class Joiner {
   }
 
   // Gives the box of what it painted.
-  static cv::Rect bridge(JoinedFigure& out, cv::Point a, cv::Point b, double long_side) {
+  cv::Rect bridge(cv::Point a, cv::Point b, double long_side) {
     const double radius = std::max(1., kBridgeHalfWidth * long_side);
-    if (out.bridges.size() == 0) out.bridges = Plane8::Zero(out.mask.rows(), out.mask.cols());
+    if (bridges_.size() == 0) bridges_ = Plane8::Zero(mask_.rows(), mask_.cols());
+    bridged_ = true;
     // It reaches into both pieces, so that no notch is left where they are round.
     const Eigen::Vector2d from(a.x, a.y), to(b.x, b.y);
     const Eigen::Vector2d along = (to - from).normalized() * std::min(radius, (to - from).norm());
@@ -173,28 +210,70 @@ class Joiner {
               x1 = static_cast<int>(std::ceil(std::max(p.x(), q.x()) + radius));
     const int y0 = static_cast<int>(std::floor(std::min(p.y(), q.y()) - radius)),
               y1 = static_cast<int>(std::ceil(std::max(p.y(), q.y()) + radius));
-    for (int y = std::max(0, y0); y <= std::min<int>(static_cast<int>(out.mask.rows()) - 1, y1); ++y) {
-      for (int x = std::max(0, x0); x <= std::min<int>(static_cast<int>(out.mask.cols()) - 1, x1); ++x) {
+    for (int y = std::max(0, y0); y <= std::min<int>(static_cast<int>(mask_.rows()) - 1, y1); ++y) {
+      for (int x = std::max(0, x0); x <= std::min<int>(static_cast<int>(mask_.cols()) - 1, x1); ++x) {
         const Eigen::Vector2d r = Eigen::Vector2d(x, y) - p;
         const double along_share = d.squaredNorm() > 0 ? r.dot(d) / d.squaredNorm() : 0;
         const double t = std::clamp(along_share, 0., 1.);
-        if ((r - t * d).norm() > radius || out.mask(y, x) != 0) continue;
-        out.mask(y, x) = out.bridges(y, x) = 255;
+        if ((r - t * d).norm() > radius || mask_(y, x) != 0) continue;
+        mask_(y, x) = bridges_(y, x) = 255;
       }
     }
     return cv::Rect(cv::Point(x0, y0), cv::Point(x1 + 1, y1 + 1)) &
-           cv::Rect(0, 0, static_cast<int>(out.mask.cols()), static_cast<int>(out.mask.rows()));
+           cv::Rect(0, 0, static_cast<int>(mask_.cols()), static_cast<int>(mask_.rows()));
   }
 
-  const cv::Mat& labels_;
+  static constexpr float kFarAway = 1e9f;
+
+  const cv::Rect picture_;
   std::vector<Piece> pieces_;
   PieceOptions options_;
   std::vector<bool> taken_;
-  int far_;           // px, beyond which no piece is looked for
-  cv::Mat distance_;  // of each pixel to the figure
+  int far_;                // px, beyond which no piece is looked for
+  Plane8 mask_, bridges_;  // of the figure that is being joined; 0 outside of painted_
+  bool bridged_ = false;
+  cv::Rect painted_, unmeasured_;
+  cv::Mat distance_;  // of each pixel of window_ to the figure; only where a second piece is looked for
+  cv::Rect window_;
 };
 
+// In order of area, those that are no specks.
+std::vector<Piece> piecesOf(const Plane8& foreground) {
+  MaskParts parts = maskParts(foreground);
+  std::vector<cv::Rect> boxes(parts.size.size());
+  for (const MaskParts::Run& run : parts.runs) boxes[run.part] |= cv::Rect(run.x0, run.y, run.x1 - run.x0, 1);
+  std::vector<Piece> pieces;
+  std::vector<int> parts_of_pieces;
+  for (std::size_t part = 0; part < boxes.size(); ++part) {
+    Piece piece{{}, static_cast<int>(parts.size[part]), boxes[part]};
+    if (!largeEnough(piece)) continue;
+    pieces.push_back(std::move(piece));
+    parts_of_pieces.push_back(static_cast<int>(part));
+  }
+  std::vector<std::size_t> order(pieces.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return pieces[a].area > pieces[b].area; });
+  if (order.size() > kMostPieces) order.resize(kMostPieces);
+  std::vector<int> place(boxes.size(), -1);  // of a part among the pieces
+  std::vector<Piece> largest;
+  for (const std::size_t i : order) {
+    place[parts_of_pieces[i]] = static_cast<int>(largest.size());
+    largest.push_back(std::move(pieces[i]));
+  }
+  for (const MaskParts::Run& run : parts.runs)
+    if (place[run.part] >= 0) largest[place[run.part]].runs.push_back(run);
+  return largest;
+}
+
 }  // namespace
+
+Plane8 JoinedFigure::inPicture(const Plane8& own, Eigen::Index height, Eigen::Index width) const {
+  if (own.size() == 0) return {};
+  Plane8 whole = Plane8::Zero(height, width);
+  whole.block(top, left, own.rows(), own.cols()) = own;
+  return whole;
+}
 
 double openShare(const Plane8& figure) {
   const cv::Mat mask(static_cast<int>(figure.rows()), static_cast<int>(figure.cols()), CV_8U,
@@ -209,26 +288,13 @@ double openShare(const Plane8& figure) {
 
 std::vector<JoinedFigure> joinPieces(const Plane8& foreground, int min_long_side_px,
                                      const PieceOptions& options) {
-  cv::Mat labels, stats, centroids;
-  const cv::Mat view(static_cast<int>(foreground.rows()), static_cast<int>(foreground.cols()), CV_8U,
-                     const_cast<std::uint8_t*>(foreground.data()));
-  const int count = cv::connectedComponentsWithStats(view, labels, stats, centroids, 4, CV_32S);
-  std::vector<Piece> pieces;
-  for (int label = 1; label < count; ++label) {
-    const int* s = stats.ptr<int>(label);
-    const Piece piece{label,
-                      s[cv::CC_STAT_AREA],
-                      {s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH], s[cv::CC_STAT_HEIGHT]}};
-    if (largeEnough(piece)) pieces.push_back(piece);
-  }
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const Piece& a, const Piece& b) { return a.area > b.area; });
-  if (pieces.size() > kMostPieces) pieces.resize(kMostPieces);
-  Joiner joiner(labels, pieces, options);
+  Joiner joiner(cv::Size(static_cast<int>(foreground.cols()), static_cast<int>(foreground.rows())),
+                piecesOf(foreground), options);
   std::vector<std::pair<int, JoinedFigure>> figures;  // by area
   while (!joiner.done()) {
     JoinedFigure figure = joiner.next();
-    cv::Mat mask(labels.size(), CV_8U, figure.mask.data());
+    const cv::Mat mask(static_cast<int>(figure.mask.rows()), static_cast<int>(figure.mask.cols()), CV_8U,
+                       figure.mask.data());
     const cv::Rect box = cv::boundingRect(mask);
     constexpr int kMinShortSide = 3, kMinArea = 16;
     if (std::max(box.width, box.height) < min_long_side_px ||

@@ -27,9 +27,13 @@ struct PieceOptions {
 
 // One figure of a picture: its pieces joined by bridges across the gaps.
 struct JoinedFigure {
-  Plane8 mask;     // 255 on the figure and on the bridges; 4-connected; size of the picture
-  Plane8 bridges;  // 255 on bridges alone; empty if there are none
+  Plane8 mask;            // 255 on the figure and on the bridges; 4-connected; of the figure's box alone
+  Plane8 bridges;         // the same, 255 on bridges alone; empty if there are none
+  int left = 0, top = 0;  // of that box in the picture
   int pieces = 1;
+
+  // `own`, one of these masks, at the size of the picture.
+  Plane8 inPicture(const Plane8& own, Eigen::Index height, Eigen::Index width) const;
 };
 
 // The figures of a picture, the largest first (but see `limbs_first`). `foreground`: not 0 on anything that

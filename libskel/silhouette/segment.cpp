@@ -229,8 +229,9 @@ Segmentation segment(const Image& image, const PageNet* page_net, bool keep_step
   }
   cv::Mat full = figures;
   if (const cv::Size full_size(image.width, image.height); figures.size() != full_size) {
-    cv::resize(figures, full, full_size, 0, 0, cv::INTER_LINEAR);
-    full = full >= 128;
+    cv::Mat shares;
+    cv::resize(figures, shares, full_size, 0, 0, cv::INTER_LINEAR);
+    full = shares >= 128;
   }
   // The edges of strokes on paper are soft: what is seen as a stroke is its core.
   if (drawn.soft) cv::dilate(full, full, cv::Mat::ones(3, 3, CV_8U));

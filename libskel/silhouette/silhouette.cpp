@@ -76,10 +76,11 @@ Silhouette finish(const Plane8& foreground, const SilhouetteOptions& options, in
         "there is no figure " + std::to_string(options.figure) + ", only " + std::to_string(out.figure_count);
     return out;
   }
-  JoinedFigure& figure = figures[static_cast<std::size_t>(options.figure - 1)];
+  const JoinedFigure figure = std::move(figures[static_cast<std::size_t>(options.figure - 1)]);
+  figures.clear();
   out.status = SilhouetteStatus::kFound;
-  out.mask = std::move(figure.mask);
-  out.bridges = std::move(figure.bridges);
+  out.mask = figure.inPicture(figure.mask, foreground.rows(), foreground.cols());
+  out.bridges = figure.inPicture(figure.bridges, foreground.rows(), foreground.cols());
   if (options.fill_holes) fillHoles(out.mask);
   if (out.figure_count > 1 && options.figure == 1) {
     out.warnings.push_back("the picture shows " + std::to_string(out.figure_count) +

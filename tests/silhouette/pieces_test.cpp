@@ -22,17 +22,21 @@ Plane8 headless() {
   return mask;
 }
 
+// Of figures in a picture of 300×300 px.
+Plane8 maskOf(const JoinedFigure& figure) { return figure.inPicture(figure.mask, 300, 300); }
+Plane8 bridgesOf(const JoinedFigure& figure) { return figure.inPicture(figure.bridges, 300, 300); }
+
 TEST_CASE("a head that floats above the neck belongs to the figure") {
   Plane8 mask = headless();
   addDisc(mask, 150, 40, 22);
   const auto figures = joinPieces(mask, 8);
   REQUIRE(figures.size() == 1);
   CHECK(figures[0].pieces == 2);
-  CHECK(((mask != 0) <= (figures[0].mask != 0)).all());
+  CHECK(((mask != 0) <= (maskOf(figures[0]) != 0)).all());
   // The gap between them is bridged, and known to be none of what was drawn.
-  CHECK(figures[0].mask(66, 150) == 255);
-  CHECK(figures[0].bridges(66, 150) == 255);
-  CHECK(((figures[0].bridges != 0) && (mask != 0)).count() == 0);
+  CHECK(maskOf(figures[0])(66, 150) == 255);
+  CHECK(bridgesOf(figures[0])(66, 150) == 255);
+  CHECK(((bridgesOf(figures[0]) != 0) && (mask != 0)).count() == 0);
   // What comes of it is one 4-connected figure.
   const Silhouette s = silhouetteFromMask(mask);
   CHECK(s.figure_count == 1);
@@ -48,14 +52,14 @@ TEST_CASE("hands like balls and a limb in two halves are joined, each to what is
   const auto figures = joinPieces(mask, 8);
   REQUIRE(figures.size() == 1);
   CHECK(figures[0].pieces == 3);
-  CHECK(figures[0].mask(95, 230) == 255);
-  CHECK(figures[0].bridges(95, 220) == 255);
+  CHECK(maskOf(figures[0])(95, 230) == 255);
+  CHECK(bridgesOf(figures[0])(95, 220) == 255);
 }
 
 TEST_CASE("a neighbour, a speck, a far ball and a shadow are no pieces of the figure") {
   Plane8 mask = headless();
   addDisc(mask, 150, 40, 28);
-  const Plane8 alone = joinPieces(mask, 8).front().mask;
+  const Plane8 alone = maskOf(joinPieces(mask, 8).front());
   SECTION("a neighbour as tall") {
     mask.block(30, 220, 250, 50) = 255;
     CHECK(joinPieces(mask, 8).size() == 2);
@@ -66,7 +70,7 @@ TEST_CASE("a neighbour, a speck, a far ball and a shadow are no pieces of the fi
   SECTION("a shadow under the feet") { mask.block(284, 100, 8, 100) = 255; }
   const auto figures = joinPieces(mask, 8);
   REQUIRE(figures.size() == 1);
-  CHECK((figures[0].mask == alone).all());
+  CHECK((maskOf(figures[0]) == alone).all());
 }
 
 TEST_CASE("without anything drawn there are no figures") {

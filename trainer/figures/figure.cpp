@@ -158,7 +158,7 @@ double joinFigure(Bits& solid, int width, int height) {
   options.leave_ground = false;
   const std::vector<JoinedFigure> figures = joinPieces(before, 8, options);
   if (figures.empty()) return 0;
-  const Plane8& mask = figures.front().mask;
+  const Plane8 mask = figures.front().inPicture(figures.front().mask, height, width);
   double all = 0, kept = 0;
   for (std::size_t i = 0; i < solid.size(); ++i) {
     all += solid[i] != 0;
