@@ -37,8 +37,7 @@ struct VertexEstimate {
   }
 };
 
-VertexEstimate estimateVertices(const std::vector<Polygon>& outline) {
-  VertexEstimate result;
+void addTo(VertexEstimate& result, const std::vector<Polygon>& outline) {
   for (const Polygon& curve : outline) {
     Eigen::Vector2d p = curve.back();
     for (const Eigen::Vector2d& q : curve) {
@@ -47,7 +46,6 @@ VertexEstimate estimateVertices(const std::vector<Polygon>& outline) {
       p = q;
     }
   }
-  return result;
 }
 
 // The flange that a drawn outline becomes rises from the rim to this share of the outline's width: seen from
@@ -358,10 +356,8 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
   const PixelBox box = figureBox(silhouette.mask);
   SKEL_CHECK(box.width() > 0);
   std::vector<Sheet> sheets = sheetsOf(pieces, silhouette, box);
-  std::vector<Polygon> outlines;
-  for (const Sheet& sheet : sheets)
-    outlines.insert(outlines.end(), sheet.outline.begin(), sheet.outline.end());
-  const VertexEstimate estimate = estimateVertices(outlines);
+  VertexEstimate estimate;
+  for (const Sheet& sheet : sheets) addTo(estimate, sheet.outline);
   const double px_per_grid_px = std::max(box.width(), box.height()) / double(kWorkingGridSize);
   double cell_px = options.spacing_px * px_per_grid_px;
   if (cell_px == 0) cell_px = estimate.cell(kVertexCount);

@@ -22,13 +22,43 @@ PixelBox figureBox(const Plane8& mask) {
   return box.y1 == 0 ? PixelBox{} : box;
 }
 
+namespace {
+
+int lengthOf(const Eigen::Vector2d& side) { return static_cast<int>(std::lround(side.lpNorm<1>())); }
+
+// Each point becomes the mean of those up to `radius` beside it along the loop. In place: an outline may have
+// millions of points.
+void evenOut(Polygon& curve, int radius) {
+  const int count = static_cast<int>(curve.size()), span = 2 * radius + 2;
+  const Polygon first(curve.begin(), curve.begin() + span);
+  Polygon around(span);  // what stood at i - radius to i + radius + 1, at the place of its number modulo span
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (int k = -radius; k <= radius; ++k) {
+    around[(k + span) % span] = curve[(k + count) % count];
+    sum += around[(k + span) % span];
+  }
+  for (int i = 0; i < count; ++i) {
+    const int next = i + radius + 1;
+    around[next % span] = next < count ? curve[next] : first[next - count];
+    curve[i] = sum / (2 * radius + 1);
+    sum += around[next % span] - around[(i - radius + span) % span];
+  }
+}
+
+}  // namespace
+
 Polygon sideMiddles(const Polygon& corners) {
+  const auto sideFrom = [&](std::size_t i) -> Eigen::Vector2d {
+    return corners[(i + 1) % corners.size()] - corners[i];
+  };
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) count += static_cast<std::size_t>(lengthOf(sideFrom(i)));
   Polygon middles;
+  middles.reserve(count);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector2d& a = corners[i];
-    const Eigen::Vector2d side = corners[(i + 1) % corners.size()] - a;
-    const int length = static_cast<int>(std::lround(side.lpNorm<1>()));
-    for (int k = 0; k < length; ++k) middles.push_back(a + side * ((k + 0.5) / length));
+    const Eigen::Vector2d side = sideFrom(i);
+    const int length = lengthOf(side);
+    for (int k = 0; k < length; ++k) middles.push_back(corners[i] + side * ((k + 0.5) / length));
   }
   return middles;
 }
@@ -37,16 +67,8 @@ void smoothOutline(Polygon& curve, int radius, double limit_px) {
   const int count = static_cast<int>(curve.size());
   radius = std::min(radius, count / 8);  // a small loop keeps its shape
   if (radius == 0) return;
-  Polygon mean = curve, source(count);
-  for (int pass = 0; pass < 2; ++pass) {
-    source.swap(mean);
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    for (int k = -radius; k <= radius; ++k) sum += source[(k + count) % count];
-    for (int i = 0; i < count; ++i) {
-      mean[i] = sum / (2 * radius + 1);
-      sum += source[(i + radius + 1) % count] - source[(i - radius + count) % count];
-    }
-  }
+  Polygon mean = curve;
+  for (int pass = 0; pass < 2; ++pass) evenOut(mean, radius);
   for (int i = 0; i < count; ++i) {
     Eigen::Vector2d move = mean[i] - curve[i];
     const double length = move.norm();

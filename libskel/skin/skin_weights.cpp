@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "libskel/core/check.h"
+#include "libskel/core/error.h"
 #include "libskel/skin/bones.h"
 #include "libskel/skin/methods.h"
 #include "libskel/skin/parts.h"
@@ -20,10 +21,13 @@ struct Method {
   SkinFunction* weights;
   bool soft;          // made to bend without creases (soften.h)
   bool parts_follow;  // parts of the mesh without a bone go with what they touch
+  Eigen::Index most_vertices = std::numeric_limits<Eigen::Index>::max();
 };
+// Factorising the system of a surface takes time as n^1.5: 5 s for so many.
+constexpr Eigen::Index kMostHeated = 200'000;
 constexpr Method kMethods[] = {
     {SkinMethod::kGeodesic, "geodesic", geodesicWeights, true, true},
-    {SkinMethod::kHeat, "heat", heatWeights, false, true},
+    {SkinMethod::kHeat, "heat", heatWeights, false, true, kMostHeated},
     {SkinMethod::kEuclidean, "euclidean", euclideanWeights, true, false},
     {SkinMethod::kIdw, "idw", idwWeights, false, false},
     {SkinMethod::kIdwRegion, "idw-region", idwRegionWeights, false, false},
@@ -194,6 +198,11 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
   SKEL_CHECK(mesh.vertices.allFinite());
 
   const Method& way = find(method);
+  if (mesh.vertices.rows() > way.most_vertices)
+    throw UsageError("weights by " + std::string(way.name) + " are for at most " +
+                     std::to_string(way.most_vertices) + " vertices, the model has " +
+                     std::to_string(mesh.vertices.rows()) +
+                     "; take --skin geodesic, whose time grows as their number");
   const std::vector<Bone> bones = skeletonBones(skeleton);
   const JointWeights weights = joint_layers.empty()
                                    ? meshWeights(mesh, skeleton, bones, way, options)

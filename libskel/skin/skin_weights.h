@@ -48,6 +48,8 @@ struct SkinOptions {
 // Of a mesh in layers (TriangleMesh::layer), the vertices of each follow the bones of its own joints alone:
 // `joint_layers`, one number a joint, each layer has one; empty: all follow all. A joint of layer -1 moves
 // nothing.
+//
+// Throws UsageError: more vertices than the method is for (kHeat: 200,000).
 SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleton, SkinMethod method,
                                const SkinOptions& options = {}, const std::vector<int>& joint_layers = {});
 

@@ -35,6 +35,10 @@ constexpr float kClear = 0.01f;          // of a triangle's area: thinner than t
 constexpr int kRounds = 16;              // of all limits in turn
 constexpr int kTries = 40, kSweeps = 60;  // of smoothing and cutting, of smoothing
 
+// Of a limb, and in all: each hinge looks at all vertices, several times. A chain of more joints bends a
+// little at each of them, which folds nothing.
+constexpr std::size_t kMostOfLimb = 32, kMostHinges = 256;
+
 // The joints each of which bends the middle of a limb.
 struct Hinge {
   int joint;
@@ -46,9 +50,14 @@ struct Hinge {
 std::vector<Hinge> hinges(const Skeleton& skeleton, const std::vector<int>& limbs) {
   const int count = static_cast<int>(skeleton.joints.size());
   std::vector<Hinge> result;
+  std::vector<std::size_t> length(count, 0);  // joints of each limb
+  for (int joint = 1; joint < count; ++joint)
+    if (limbs[joint] >= 0) ++length[limbs[joint]];
   for (int joint = 1; joint < count; ++joint) {
     const int parent = skeleton.joints[joint].parent;
     if (limbs[joint] < 0 || limbs[joint] == joint || limbs[parent] != limbs[joint]) continue;
+    if (length[limbs[joint]] > kMostOfLimb) continue;
+    if (result.size() == kMostHinges) return {};
     Hinge hinge{joint, skeleton.joints[joint].position.cast<float>().transpose(), {}, {}, {}};
     for (int other = 1; other < count; ++other) {
       if (limbs[other] == limbs[joint]) (other < joint ? hinge.above : hinge.moved).push_back(other);
@@ -235,20 +244,20 @@ void cutInfluences(const Skeleton& skeleton, const std::vector<Hinge>& bends, in
   const int joints = static_cast<int>(weights.cols());
   std::vector<float> worth(joints, 1);
   for (const Hinge& hinge : bends) worth[hinge.joint] = kHinge;
-  std::vector<int> cut;
+  std::vector<int> cut, left;  // of `left`: the joints that a row still has, ascending
   for (const int v : vertices) {
     float* row = weights.row(v).data();
-    int more = -max_influences;
+    left.clear();
     for (int j = 0; j < joints; ++j) {
       if (row[j] < kLeast) row[j] = 0;
-      more += row[j] > 0;
+      if (row[j] > 0) left.push_back(j);
     }
+    int more = static_cast<int>(left.size()) - max_influences;
     if (more > 0) cut.push_back(v);
     for (; more > 0; --more) {
       int least = -1, from = -1, to = -1;
       float lowest = std::numeric_limits<float>::infinity();
-      for (int j = 0; j < joints; ++j) {
-        if (row[j] == 0) continue;
+      for (const int j : left) {
         if (least < 0 || row[j] <= row[least]) least = j;
         const int parent = skeleton.joints[j].parent;
         if (!join || parent < 0 || row[parent] == 0) continue;
@@ -258,11 +267,12 @@ void cutInfluences(const Skeleton& skeleton, const std::vector<Hinge>& bends, in
         from = row[j] <= row[parent] ? j : parent, to = row[j] <= row[parent] ? parent : j;
       }
       if (from < 0) {
-        row[least] = 0;
+        from = least;
       } else {
         row[to] += row[from];
-        row[from] = 0;
       }
+      row[from] = 0;
+      left.erase(std::lower_bound(left.begin(), left.end(), from));
     }
     weights.row(v) /= weights.row(v).sum();
   }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -366,4 +367,45 @@ TEST_CASE("real drawings: foreign weight, edges, bends") {
   CHECK(quality.free_limbs > 30);
   CHECK(quality.turned > 0.98);
   CHECK(quality.least_turned > 0.7);
+}
+
+TEST_CASE("heat refuses more vertices than it is quick for, and names what takes them") {
+  TriangleMesh mesh;
+  mesh.vertices = Eigen::MatrixX3f::Random(200'001, 3);
+  mesh.triangles.resize(1, 3);
+  mesh.triangles << 0, 1, 2;
+  CHECK_THROWS_WITH(
+      computeSkinWeights(mesh, capsuleSkeleton({}), SkinMethod::kHeat, {}),
+      Catch::Matchers::Contains("at most 200000 vertices, the model has 200001; take --skin geodesic"));
+}
+
+// It took minutes: each joint looked at all vertices and all joints below it.
+TEST_CASE("a chain of a thousand joints binds a tube") {
+  constexpr int kJoints = 1000, kRings = 300, kSides = 16;
+  Skeleton chain;
+  for (int j = 0; j < kJoints; ++j) {
+    Joint joint;
+    joint.name = "j" + std::to_string(j);
+    joint.parent = j - 1;
+    joint.position = {0, double(j) / kJoints, 0};
+    joint.tail = Eigen::Vector3d(0, double(j + 1) / kJoints, 0);
+    chain.joints.push_back(joint);
+  }
+  TriangleMesh tube;
+  tube.vertices.resize(kRings * kSides, 3);
+  tube.triangles.resize(2 * (kRings - 1) * kSides, 3);
+  for (int ring = 0; ring < kRings; ++ring)
+    for (int side = 0; side < kSides; ++side) {
+      const float angle = 2 * std::numbers::pi_v<float> * float(side) / kSides;
+      const int a = ring * kSides + side, b = ring * kSides + (side + 1) % kSides;
+      tube.vertices.row(a) << 0.03f * std::cos(angle), float(ring) / (kRings - 1), 0.03f * std::sin(angle);
+      if (ring + 1 == kRings) continue;
+      tube.triangles.row(2 * a) << a, b, b + kSides;
+      tube.triangles.row(2 * a + 1) << a, b + kSides, a + kSides;
+    }
+  const SkinWeights weights = computeSkinWeights(tube, chain, SkinMethod::kGeodesic, {});
+  CHECK((weights.weights.rowwise().sum().array() - 1).abs().maxCoeff() < 1e-4f);
+  // What lies beside a joint follows joints near it.
+  for (int v = 0; v < tube.vertices.rows(); ++v)
+    CHECK(std::abs(float(weights.joints(v, 0)) / kJoints - tube.vertices(v, 1)) < 0.1f);
 }
