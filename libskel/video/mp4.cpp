@@ -19,31 +19,42 @@ extern "C" {
 namespace skel {
 namespace {
 
+// The callback's bytes became const with libavformat 61.
+#if LIBAVFORMAT_VERSION_MAJOR >= 61
+using Written = const std::uint8_t;
+#else
+using Written = std::uint8_t;
+#endif
+
+// Nothing is left to what an encoder takes for good on this machine, or to when its threads come by: one
+// thread, no others that look ahead, key frames where the numbers of the frames say, and a rate that follows
+// from the quality.
+constexpr int kFramesFromKeyToKey = 250, kLeastFramesFromKeyToKey = 25;
+constexpr const char* kX264 =
+    "threads=1:lookahead-threads=1:sliced-threads=0:sync-lookahead=0:non-deterministic=0:cpu-independent=1:"
+    "rc-lookahead=10";
+
 // What FFmpeg would write to a file, in memory: the muxer goes back to the beginning at the end.
 struct Memory {
   std::string bytes;
   std::int64_t at = 0;
 
-// The last argument of the callback became const with libavformat 61.
-#if LIBAVFORMAT_VERSION_MAJOR >= 61
-  static int write(void* opaque, const std::uint8_t* data, int size){
-#else
-  static int write(void* opaque, std::uint8_t* data, int size) {
-#endif
-      auto& self = *static_cast<Memory*>(opaque);
-  const auto at = static_cast<std::size_t>(self.at), count = static_cast<std::size_t>(size);
-  if (self.bytes.size() < at + count) self.bytes.resize(at + count);
-  std::memcpy(self.bytes.data() + at, data, count);
-  self.at += size;
-  return size;
-} static std::int64_t seek(void* opaque, std::int64_t offset, int whence) {
-  auto& self = *static_cast<Memory*>(opaque);
-  const auto size = static_cast<std::int64_t>(self.bytes.size());
-  if (whence & AVSEEK_SIZE) return size;
-  const std::int64_t to = offset + (whence == SEEK_CUR ? self.at : whence == SEEK_END ? size : 0);
-  return to < 0 || to > size ? -EINVAL : self.at = to;
-}
-};  // namespace
+  static int write(void* opaque, Written* data, int size) {
+    auto& self = *static_cast<Memory*>(opaque);
+    const auto at = static_cast<std::size_t>(self.at), count = static_cast<std::size_t>(size);
+    if (self.bytes.size() < at + count) self.bytes.resize(at + count);
+    std::memcpy(self.bytes.data() + at, data, count);
+    self.at += size;
+    return size;
+  }
+  static std::int64_t seek(void* opaque, std::int64_t offset, int whence) {
+    auto& self = *static_cast<Memory*>(opaque);
+    const auto size = static_cast<std::int64_t>(self.bytes.size());
+    if (whence & AVSEEK_SIZE) return size;
+    const std::int64_t to = offset + (whence == SEEK_CUR ? self.at : whence == SEEK_END ? size : 0);
+    return to < 0 || to > size ? -EINVAL : self.at = to;
+  }
+};
 
 class Mp4 : public VideoWriter {
  public:
@@ -135,12 +146,16 @@ class Mp4 : public VideoWriter {
     encoder_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_BITEXACT;
     // More threads would change the bytes; frames are drawn on the other cores meanwhile.
     encoder_->thread_count = 1;
+    encoder_->thread_type = 0;
+    encoder_->gop_size = kFramesFromKeyToKey;
+    encoder_->keyint_min = kLeastFramesFromKeyToKey;
     AVDictionary* settings = nullptr;
     if (name == "libx264") {
       // Twice as fast as the preset "medium" and no larger for drawings. The quality is what drawn lines need
       // to stay clean.
       av_dict_set(&settings, "preset", "veryfast", 0);
       av_dict_set(&settings, "crf", "19", 0);
+      av_dict_set(&settings, "x264-params", kX264, 0);
     } else {
       encoder_->bit_rate = std::int64_t{4} * options_.width * options_.height;
       encoder_->flags |= AV_CODEC_FLAG_QSCALE;
@@ -192,7 +207,7 @@ class Mp4 : public VideoWriter {
   int count_ = 0;
 };
 
-}  // namespace skel
+}  // namespace
 
 std::unique_ptr<VideoWriter> openMp4(const std::string& path, const VideoOptions& options,
                                      const std::vector<std::string>& encoders) {

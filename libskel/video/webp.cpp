@@ -3,6 +3,7 @@
 #include <webp/mux.h>
 
 #include <cmath>
+#include <limits>
 
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
@@ -20,8 +21,12 @@ class Webp : public VideoWriter {
       throw UnavailableError(path_ +
                              ": the libwebp that is installed is not the one that skel was built with");
     settings.anim_params.loop_count = 0;  // for ever
+    settings.minimize_size = settings.allow_mixed = 0;
+    settings.kmax = std::numeric_limits<int>::max();  // the first frame alone is a key frame
+    settings.kmin = settings.kmax - 1;
     config_.quality = 85;
     config_.method = 2;  // twice as fast as the default, files a tenth larger
+    config_.thread_level = 0;
     encoder_ = WebPAnimEncoderNew(options_.width, options_.height, &settings);
     if (!encoder_) throw std::bad_alloc();
   }
