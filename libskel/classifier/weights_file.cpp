@@ -121,6 +121,7 @@ std::string formatWeights(const WeightsFile& weights) {
   const auto& layers = weights.mlp.layers;
   for (const MlpLayer& layer : layers) SKEL_CHECK(layer.weights.allFinite() && layer.biases.allFinite());
   std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // else it swallows the end where memory ends
   out.imbue(std::locale::classic());
   const auto list = [&](const auto& numbers) {
     for (Eigen::Index i = 0; i < numbers.size(); ++i) out << (i ? ", " : "[") << show(numbers(i));

@@ -466,6 +466,7 @@ std::string encodeGlb(const RiggedCharacter& character, const std::vector<Clip>&
   glb.model.defaultScene = 0;
 
   std::ostringstream stream;
+  stream.exceptions(std::ios::badbit);  // else it swallows the end where memory ends
   tinygltf::TinyGLTF writer;
   const bool written =
       writer.WriteGltfSceneToStream(&glb.model, stream, /*prettyPrint=*/false, /*writeBinary=*/true);

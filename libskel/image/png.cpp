@@ -3,6 +3,7 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
+#include <new>
 #include <vector>
 
 #include "libskel/core/check.h"
@@ -106,13 +107,18 @@ std::string encode(const std::uint8_t* pixels, int width, int height, int channe
   std::string bytes;
   Session session;
   session.written = &bytes;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &session, onError, onWarning);
-  SKEL_CHECK(png != nullptr);
-  png_infop info = png_create_info_struct(png);
-  png_set_write_fn(png, &session, onWrite, onFlush);
-  const bool done = write(png, info, width, height, color_type, compression, filters, rows.data());
-  png_destroy_write_struct(&png, &info);
-  SKEL_CHECK(done);
+  struct Writer {
+    png_structp png = nullptr;
+    png_infop info = nullptr;
+    ~Writer() { png_destroy_write_struct(&png, &info); }
+  } writer;
+  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &session, onError, onWarning);
+  if (writer.png) writer.info = png_create_info_struct(writer.png);
+  if (!writer.info) throw std::bad_alloc();
+  png_set_write_fn(writer.png, &session, onWrite, onFlush);
+  // Pictures are right and strings take all bytes: memory alone can be missing.
+  if (!write(writer.png, writer.info, width, height, color_type, compression, filters, rows.data()))
+    throw std::bad_alloc();
   return bytes;
 }
 

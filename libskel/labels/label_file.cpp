@@ -199,6 +199,7 @@ std::string formatLabelFile(const LabelFile& labels) {
     return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   };
   std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // else it swallows the end where memory ends
   out.imbue(std::locale::classic());
   out << "{\n  \"format\": \"" << kFormat
       << "\",\n  \"version\": " << (labels.recognized.empty() ? 1 : kVersion)
