@@ -1,0 +1,226 @@
+// Every tool, while what it asks of the system fails: each call that changes files in turn, each large
+// allocation, a signal before each call, death at each call. What it was to write over is whole afterwards,
+// the old or the new; nothing else has changed; it says one line and gives the right code. script/chaos runs
+// the long way, with a thousand deaths.
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "tests/tools/tools.h"
+
+using namespace skel;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What a tool does, over what it has written before.
+struct Job {
+  std::string name, command;
+  void (*prepare)(const TempDir& dir);  // inputs
+  void (*change)(const TempDir& dir);   // so that the outputs become others
+};
+
+void writeJoints(const std::string& path, double swing) {
+  const auto at = [](double x, double y) { return "[" + std::to_string(x) + ", " + std::to_string(y) + "]"; };
+  writeFile(path, "{\"view\": \"front\", \"style\": \"flat\", \"joints\": {\"head\": " + at(80, 40) +
+                      ", \"body\": " + at(80, 92) + ", \"right_shoulder\": " + at(66, 80) +
+                      ", \"right_elbow\": " + at(48, 95 + swing / 2) +
+                      ", \"right_hand\": " + at(32, 108 + swing) + ", \"left_shoulder\": " + at(94, 80) +
+                      ", \"left_elbow\": " + at(112, 95 - swing / 2) +
+                      ", \"left_hand\": " + at(128, 108 - swing) + ", \"right_hip\": " + at(72, 120) +
+                      ", \"right_knee\": " + at(66, 150) + ", \"right_foot\": " + at(61 + swing, 182) +
+                      ", \"left_hip\": " + at(88, 120) + ", \"left_knee\": " + at(94, 150) +
+                      ", \"left_foot\": " + at(99 - swing, 182) + "}}\n");
+}
+
+void writeLabelled(const TempDir& dir, double swing) {
+  writeFigure(dir.file("set/a.png"), swing);
+  writeJoints(dir.file("set/a.joints.json"), swing);
+  done(dir, "skel-label import set --force");
+}
+
+void writeCharacter(const TempDir& dir, double swing) {
+  writeFigure(dir.file("a.png"), swing);
+  done(dir, "skel-infer a.png -o . --formats glb --clips wave --force");
+}
+
+void writeMotion(const TempDir& dir, const std::string& place) {
+  std::string motion = readFile(SKEL_SOURCE_DIR "/tests/data/formats/skel-motion-2.json");
+  motion.replace(motion.find("61.25"), 5, place);
+  writeFile(dir.file("walk.motion.json"), motion);
+}
+
+const std::vector<Job>& jobs() {
+  static const std::vector<Job> all = {
+      {"skel-infer",
+       "skel-infer a.png -o out --formats glb,json,overlay,silhouette,obj,weights,features --force",
+       [](const TempDir& dir) { writeFigure(dir.file("a.png")); },
+       [](const TempDir& dir) { writeFigure(dir.file("a.png"), 12); }},
+      {"skel-label", "skel-label import set --force",
+       [](const TempDir& dir) {
+         writeFigure(dir.file("set/a.png"));
+         writeJoints(dir.file("set/a.joints.json"), 0);
+       },
+       [](const TempDir& dir) { writeJoints(dir.file("set/a.joints.json"), 12); }},
+      {"skel-train", "skel-train set -o w.json --folds 0 --generated 0 --warps 0 --restarts 1 --epochs 3",
+       [](const TempDir& dir) { writeLabelled(dir, 0); }, [](const TempDir& dir) { writeLabelled(dir, 12); }},
+      {"skel-animate",
+       "skel-animate render a.glb --clip wave --size 48x48 --fps 8 --duration 0.3 -o film.gif",
+       [](const TempDir& dir) { writeCharacter(dir, 0); },
+       [](const TempDir& dir) { writeCharacter(dir, 12); }},
+      {"frames of skel-animate",
+       "skel-animate render a.glb --clip wave --size 48x48 --fps 8 --duration 0.3 -o frames/",
+       [](const TempDir& dir) { writeCharacter(dir, 0); },
+       [](const TempDir& dir) { writeCharacter(dir, 12); }},
+      {"skel-style", "skel-style database add db walk.motion.json --action walk --force",
+       [](const TempDir& dir) { writeMotion(dir, "61.25"); },
+       [](const TempDir& dir) { writeMotion(dir, "60.75"); }},
+  };
+  return all;
+}
+
+// All files below a folder, by their paths from there.
+using Files = std::map<std::string, std::string>;
+Files filesOf(const TempDir& dir) {
+  Files files;
+  for (const std::string& path : filesBelow(dir.path()))
+    files[fs::relative(path, dir.path())] = readFile(path);
+  return files;
+}
+
+void copyInto(const Files& files, const TempDir& dir) {
+  for (const auto& [path, bytes] : files) {
+    fs::create_directories(fs::path(dir.file(path)).parent_path());
+    writeFile(dir.file(path), bytes);
+  }
+}
+
+// A job before it is disturbed, and after it was not.
+class Stage {
+ public:
+  explicit Stage(const Job& job) : job_(job) {
+    const TempDir dir;
+    job.prepare(dir);
+    first_ = filesOf(dir);
+    done(dir, job.command);
+    job.change(dir);
+    before_ = filesOf(dir);
+    done(dir, job.command);
+    after_ = filesOf(dir);
+    CHECK(before_ != after_);
+  }
+
+  // How many calls, or allocations, there are to be spoiled.
+  long count(const std::string& plan) const {
+    const TempDir dir, other;
+    copyInto(before_, dir);
+    const ToolRun run =
+        runIn(dir, "export SKEL_CHAOS='" + plan + "' SKEL_CHAOS_COUNT='" + other.file("count") +
+                       "' && LD_PRELOAD='" SKEL_CHAOS_LAYER "' " + job_.command);
+    REQUIRE(run.exit_code == 0);
+    return std::stol(readFile(other.file("count")));
+  }
+
+  // `codes`: what it may say; 0 is always one of them, where the spoiled call did not matter.
+  void disturb(const std::string& plan, const std::vector<int>& codes) const {
+    const bool killed = plan.starts_with("kill");
+    const TempDir dir;
+    copyInto(before_, dir);
+    const ToolRun run = runIn(
+        dir, "export SKEL_CHAOS='" + plan + "' && LD_PRELOAD='" SKEL_CHAOS_LAYER "' exec " + job_.command);
+    INFO(job_.name << ", " << plan << ": code " << run.exit_code << "\n" << run.err);
+    CHECK((run.exit_code == 0 || std::count(codes.begin(), codes.end(), run.exit_code)));
+    Files now = filesOf(dir);
+    std::erase_if(now, [&](const auto& file) {
+      const bool temporary = file.first.ends_with(".skel-tmp");
+      if (temporary && !killed) FAIL_CHECK(file.first << " is left");
+      return temporary;
+    });
+    if (run.exit_code == 0) {
+      CHECK(now == after_);
+      return;
+    }
+    if (run.exit_code < 128) CHECK(complaints(run.err) == 1);
+    for (const auto& [path, bytes] : now) {
+      const auto old = before_.find(path), fresh = after_.find(path);
+      if (!(old != before_.end() && old->second == bytes) &&
+          !(fresh != after_.end() && fresh->second == bytes))
+        FAIL_CHECK(path << " is neither the old file nor the new one");
+    }
+    for (const auto& [path, bytes] : before_)
+      if (!now.contains(path)) FAIL_CHECK(path << " is lost");
+    if (!killed) return;
+    // Who comes next takes over what was left.
+    done(dir, job_.command);
+    CHECK(filesOf(dir) == after_);
+  }
+
+ private:
+  // Lines that are no notes.
+  static long complaints(const std::string& err) {
+    std::istringstream lines(err);
+    long count = 0;
+    for (std::string line; std::getline(lines, line);)
+      count += line.find("note: ") == std::string::npos && !line.empty();
+    return count;
+  }
+
+  Job job_;
+  Files first_, before_, after_;
+};
+
+constexpr int kOutput = 4, kUnavailable = 3;
+constexpr long kLargeBytes = 65536;
+
+// `every`: so many-th of the large allocations is refused.
+void disturbAll(const Job& job, long every) {
+  const Stage stage(job);
+  const long calls = stage.count("fail 0");
+  CHECK(calls >= 4);
+  for (long n = 1; n <= calls; ++n) {
+    const std::string at = std::to_string(n);
+    stage.disturb("fail " + at, {kOutput});
+    stage.disturb("full " + at, {kOutput});
+    stage.disturb("signal " + at + " " + std::to_string(n % 2 ? SIGTERM : SIGINT),
+                  {128 + (n % 2 ? SIGTERM : SIGINT)});
+    stage.disturb("kill " + at + " 8", {128 + SIGKILL});
+  }
+  const std::string size = std::to_string(kLargeBytes);
+  const long allocations = stage.count("alloc 0 " + size);
+  for (long n = 1; n <= allocations; n += every)
+    stage.disturb("alloc " + std::to_string(n) + " " + size, {kUnavailable, kOutput});
+  std::printf("%s: %ld calls, %ld large allocations\n", job.name.c_str(), calls, allocations);
+}
+
+}  // namespace
+
+// Every so many-th of the large allocations: script/chaos refuses them all.
+constexpr long kSome = 4;
+
+TEST_CASE("Each call of skel-infer that changes files fails, is interrupted or is the last one") {
+  disturbAll(jobs().front(), kSome);
+}
+
+TEST_CASE("Each call of the other tools that changes files fails, is interrupted or is the last one") {
+  for (std::size_t job = 1; job < jobs().size(); ++job) disturbAll(jobs()[job], kSome);
+}
+
+TEST_CASE("Every large allocation fails once", "[.whole]") {
+  for (const Job& job : jobs()) disturbAll(job, 1);
+}
+
+TEST_CASE("A thousand deaths while saving", "[.whole]") {
+  int deaths = 0;
+  std::vector<Stage> stages;
+  for (const Job& job : jobs()) stages.emplace_back(job);
+  for (int part = 0; deaths < 1000; part = (part + 3) % 17)
+    for (const Stage& stage : stages) {
+      const long calls = stage.count("fail 0");
+      for (long n = 1; n <= calls; ++n, ++deaths)
+        stage.disturb("kill " + std::to_string(n) + " " + std::to_string(part), {128 + SIGKILL});
+    }
+  std::printf("killed %d times\n", deaths);
+}
