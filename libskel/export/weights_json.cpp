@@ -14,7 +14,10 @@ std::vector<ExportedFile> exportWeights(const ExportInput& input) {
   auto& names = document["joints"] = nlohmann::ordered_json::array();
   for (const Joint& joint : input.character.skeleton.joints)
     names.push_back(exportedJointName(joint.name, input.options.naming));
-  auto& vertices = document["vertices"] = nlohmann::ordered_json::array();
+  // Vertex by vertex: a document of all of them takes many times the text, and memory even to go.
+  std::string text = document.dump();
+  text.back() = ',';
+  text += "\"vertices\":[";
   for (Eigen::Index i = 0; i < weights.weights.rows(); ++i) {
     nlohmann::ordered_json joints = nlohmann::ordered_json::array(), shares = joints;
     for (int k = 0; k < 4; ++k)
@@ -22,9 +25,10 @@ std::vector<ExportedFile> exportWeights(const ExportInput& input) {
         joints.push_back(weights.joints(i, k));
         shares.push_back(std::round(weights.weights(i, k) * 1e6) / 1e6);
       }
-    vertices.push_back({{"joints", std::move(joints)}, {"weights", std::move(shares)}});
+    const nlohmann::ordered_json vertex = {{"joints", std::move(joints)}, {"weights", std::move(shares)}};
+    text += (i ? "," : "") + vertex.dump();
   }
-  return {{".weights.json", document.dump() + "\n"}};
+  return {{".weights.json", text + "]}\n"}};
 }
 
 }  // namespace skel
