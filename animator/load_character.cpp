@@ -40,7 +40,8 @@ void bindCharacterSource(CLI::App& app, CharacterSource& source) {
          "A rigged character (.glb), a drawing, which is rigged first, or a model (.obj) with --skeleton")
       ->required()
       ->type_name("FILE");
-  app.add_option("--template", source.body_plan, "Body plan of a drawing: a name, a file, or auto: the one that it fits")
+  app.add_option("--template", source.body_plan,
+                 "Body plan of a drawing: a name, a file, or auto: the one that it fits")
       ->capture_default_str();
   app.add_option("--skeleton", source.skeleton, "The skeleton of a model: see skel-animate bind")
       ->type_name("FILE");

@@ -14,9 +14,9 @@ class App;
 namespace skel {
 
 struct CharacterSource {
-  std::string path;                 // a .glb, a drawing, or a model with a skeleton of its own
+  std::string path;                // a .glb, a drawing, or a model with a skeleton of its own
   std::string body_plan = "auto";  // of a drawing
-  std::string skeleton = {};        // of a model (.obj): see readRigModel()
+  std::string skeleton = {};       // of a model (.obj): see readRigModel()
   std::string up = "auto";
 };
 // FILE, --template, --skeleton, --up.
