@@ -3,15 +3,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "libskel/animation/clip_keys.h"
 #include "libskel/core/json.h"
 
 namespace skel {
 namespace {
-
-Eigen::Vector3f vectorOf(const JsonValue& value) {
-  const std::vector<double> numbers = value.asNumbers(3);
-  return {float(numbers[0]), float(numbers[1]), float(numbers[2])};
-}
 
 nlohmann::ordered_json numbers(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -44,7 +40,8 @@ Pose parsePose(std::string_view text, const std::string& file, const Skeleton& s
   root.checkFormat("skel-pose", 1);
   Pose pose;
   pose.rotations.assign(skeleton.joints.size(), Eigen::Quaternionf::Identity());
-  if (const auto moved = root.find("root_translation")) pose.root_translation = vectorOf(*moved);
+  if (const auto moved = root.find("root_translation"))
+    pose.root_translation = vectorAt(*moved, moved->asNumbers(3).data(), kMaxPlace);
   const JsonValue joints = root.at("joints");
   for (const std::string& name : joints.keys()) {
     const JsonValue joint = joints.at(name);
@@ -60,11 +57,11 @@ Pose parsePose(std::string_view text, const std::string& file, const Skeleton& s
     }
     if (const auto translation = joint.find("translation_m")) {
       pose.translations_m.resize(skeleton.joints.size(), Eigen::Vector3f::Zero());
-      pose.translations_m[j] = vectorOf(*translation);
+      pose.translations_m[j] = vectorAt(*translation, translation->asNumbers(3).data(), kMaxPlace);
     }
     if (const auto scale = joint.find("scale")) {
       pose.scales.resize(skeleton.joints.size(), Eigen::Vector3f::Ones());
-      pose.scales[j] = vectorOf(*scale);
+      pose.scales[j] = vectorAt(*scale, scale->asNumbers(3).data(), kMaxPlace);
     }
   }
   return pose;

@@ -230,6 +230,10 @@ TEST_CASE("what cannot be loaded or saved is said in one line, and changes nothi
   writeFile(dir.file("a.json"),
             R"({"format": "skel-pose", "version": 1, "joints": {"head": {"rotation": [1, 2, 3, 4]}}})");
   refused(document.loadPose(dir.file("a.json")), "joints.head.rotation: is no rotation");
+  // Infinite, as a float.
+  writeFile(dir.file("a.json"),
+            R"({"format": "skel-pose", "version": 1, "joints": {"head": {"scale": [1e39, 1, 1]}}})");
+  refused(document.loadPose(dir.file("a.json")), "joints.head.scale: holds a number that is too large");
   writeFile(dir.file("a.json"), R"({"format": "skel-pose", "version": 9, "joints": {}})");
   refused(document.loadPose(dir.file("a.json")), "version");
   writeFile(dir.file("a.json"),

@@ -6,6 +6,7 @@
 
 #include "libskel/classifier/weights_file.h"
 #include "libskel/export/write_character.h"
+#include "libskel/import/read_character.h"
 #include "libskel/pipeline/rig_character.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/mesh_checks.h"
@@ -36,7 +37,12 @@ inline void requireSound(const RiggedDrawing& drawing) {
           "weights of a vertex are not negative and sum to 1");
   require(character.weights.joints.maxCoeff() < static_cast<int>(character.skeleton.joints.size()),
           "weights name joints");
-  require(!encodeGlb(character, drawing.clips, {.name = "fuzz"}).empty(), "it can be written");
+  const CharacterFile again = decodeGlb(encodeGlb(character, drawing.clips, {.name = "fuzz"}), "fuzz.glb");
+  require(again.character.skeleton.joints.size() == character.skeleton.joints.size() &&
+              again.character.mesh.triangles.rows() == character.mesh.triangles.rows() &&
+              again.character.weights.weights.rows() == again.character.mesh.vertices.rows() &&
+              again.clips.size() == drawing.clips.size(),
+          "what is written is read with the same joints, faces and clips");
 }
 
 }  // namespace skel
