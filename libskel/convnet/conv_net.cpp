@@ -1,9 +1,11 @@
 #include "libskel/convnet/conv_net.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "libskel/convnet/winograd.h"
 #include "libskel/core/check.h"
+#include "libskel/core/error.h"
 
 namespace skel {
 namespace {
@@ -143,6 +145,10 @@ void forward(const ConvNet& net, InstructionSet set, ConvNetMaps& maps) {
         break;
     }
   }
+  // Who looks for the largest of them would find none.
+  if (!std::all_of(maps.maps.back().begin(), maps.maps.back().end(),
+                   [](float v) { return std::isfinite(v); }))
+    throw Error(ExitCode::kInput, "a net's answer is no number: its weights are damaged; train it anew");
 }
 
 }  // namespace skel

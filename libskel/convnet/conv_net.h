@@ -87,7 +87,7 @@ struct ConvNetMaps {
   explicit ConvNetMaps(const ConvNet& net);
 };
 
-// From maps[0] to maps.back().
+// From maps[0] to maps.back(). Throws Error where that becomes infinite.
 void forward(const ConvNet& net, InstructionSet set, ConvNetMaps& maps);
 
 // --- weights as bytes

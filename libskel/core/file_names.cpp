@@ -30,6 +30,8 @@ std::string pathInside(const std::string& dir, const std::string& named, const s
     throw InputError(file,
                      "names \"" + named + "\", which lies outside of its folder; move the files together");
   };
+  // What the system would take for the end of the name hides where it leads.
+  if (named.find('\0') != named.npos) refuse();
   std::error_code failure;
   // The file itself may be a link: it is read, and what belongs to it is written beside the link.
   const fs::path below = fs::weakly_canonical(path.parent_path(), failure)

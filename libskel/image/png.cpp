@@ -44,6 +44,18 @@ void onWrite(png_structp png, png_bytep data, std::size_t size) {
 
 void onFlush(png_structp) {}
 
+// Whether all chunks lie in the file: libpng takes the memory that one claims before it looks.
+bool hasAllChunks(std::string_view bytes) {
+  for (std::size_t at = 8; at + 12 <= bytes.size();) {  // length, type, content, checksum
+    const std::size_t left = bytes.size() - at - 12;
+    const std::size_t length = png_get_uint_32(reinterpret_cast<png_const_bytep>(bytes.data() + at));
+    if (length > left) return false;
+    if (bytes.substr(at + 4, 4) == "IEND") return true;
+    at += 12 + length;
+  }
+  return false;
+}
+
 struct Header {
   png_uint_32 width = 0, height = 0;
   std::size_t stored_bytes = 0;  // of the rows, as they are in the file
@@ -141,6 +153,7 @@ Image decodePng(std::string_view bytes, const std::string& file) {
   const auto broken = [&]() -> InputError {
     return {file, "is a broken PNG (" + std::string(session.message) + "); export it again"};
   };
+  if (!hasAllChunks(bytes)) throw InputError(file, "is a broken PNG (it ends too early); export it again");
   Header header;
   if (!readHeader(reader.png, reader.info, &header)) throw broken();
   checkSize(header.width, header.height, file);

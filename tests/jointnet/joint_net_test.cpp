@@ -108,6 +108,16 @@ TEST_CASE("A net of a million joints is refused before they are compared with ea
           names + "]}\n") == "net.bin: joints: has 1000000 joints, must have 1 to 63");
 }
 
+TEST_CASE("A net whose weights are so large that it answers no numbers is refused, and crashes nothing") {
+  JointNet net = randomNet();
+  for (float& parameter : net.parameters) parameter *= 1e30f;
+  net = parseJointNet(formatJointNet(net), "net.bin");
+  ConvNetMaps maps(net);
+  std::fill(maps.maps[0].begin(), maps.maps[0].end(), 1.f);
+  CHECK_THROWS_WITH(forward(net, bestInstructionSet(), maps),
+                    "a net's answer is no number: its weights are damaged; train it anew");
+}
+
 TEST_CASE("A net that is ready to run says what it said before") {
   JointNet net = makeJointNet("spider", {"head", "left_leg", "right_leg"}, 2);
   Rng rng(2);
