@@ -41,7 +41,8 @@ if(PROJECT_IS_TOP_LEVEL)
 endif()
 if(SKEL_SANITIZE)
   # Quick enough to run everything, with the lines of a report.
-  set(options $<$<CONFIG:Debug>:-O1> $<$<CONFIG:Debug>:-g1> -fsanitize=${SKEL_SANITIZE} -fno-omit-frame-pointer)
+  set(options $<$<CONFIG:Debug>:-O1> $<$<CONFIG:Debug>:-g1> -fsanitize=${SKEL_SANITIZE} -fno-sanitize-recover=all
+      -fno-omit-frame-pointer)
   target_link_options(skel_options INTERFACE -fsanitize=${SKEL_SANITIZE})
   if(SKEL_FUZZ)
     if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
