@@ -4,6 +4,7 @@
 #include <map>
 
 #include "libskel/animation/clip_library.h"
+#include "libskel/pipeline/rig_drawing.h"
 #include "tests/support/catch.h"
 #include "tests/support/clips_on_drawings.h"
 
@@ -118,9 +119,11 @@ TEST_CASE("feet that stand do not slide, loops close, on drawings of all views")
 }
 
 TEST_CASE("nothing is mirrored, and a figure in side view walks within the picture") {
-  const auto swing = [](const char* name, const char* clip_name) {
+  const auto swing = [](const char* name, const char* clip_name, double into_picture) {
+    RigOptions options = rigOptions("biped");
+    options.into_picture = into_picture;
     const RiggedDrawing drawing =
-        rigged(std::string(SKEL_SOURCE_DIR "/datasets/characters/") + name + ".png", "biped");
+        rigDrawing(std::string(SKEL_SOURCE_DIR "/datasets/characters/") + name + ".png", options);
     const Skeleton& skeleton = drawing.character.skeleton;
     const Clip& clip = clipNamed(drawing.clips, clip_name);
     const int foot = skeleton.index("left_foot"), hip = skeleton.index("left_hip");
@@ -132,8 +135,12 @@ TEST_CASE("nothing is mirrored, and a figure in side view walks within the pictu
     }
     return Vector3f(high - low);
   };
-  const Vector3f front = swing("cap_boy", "walk"), side = swing("runner", "walk");
-  CHECK(front.z() > 3 * front.x());
+  const double usual = RigOptions().into_picture;
+  const Vector3f ahead = swing("cap_boy", "walk", 0), front = swing("cap_boy", "walk", usual),
+                 side = swing("runner", "walk", usual);
+  CHECK(ahead.z() > 3 * ahead.x());
+  CHECK(front.z() > front.x());
+  CHECK(front.x() > 2 * ahead.x());
   CHECK(side.x() > 3 * side.z());
 
   // The right hand waves at the left of the picture, the left arm dances first at its right.
