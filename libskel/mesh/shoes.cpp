@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector2d;
 
 // In radii of the shin.
-constexpr double kReach = 3.5;  // of a foot to either side
+constexpr double kFootReach = 3.5;  // of a foot to either side
 constexpr double kAbove = 0.5;  // of the ankle
 // The length of a shoe, in widths of the foot as it is drawn: if that lies evenly to both sides of the shin,
 // and if it lies to one side alone (drawn from the side, or turned out).
@@ -42,7 +42,7 @@ void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, cons
     for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v) {
       const Vector2d& p = mesh.vertices[v];
       const Vector2d at = frame(p);
-      if (std::abs(at.x()) > kReach * r || at.y() < -kAbove * r || at.y() > kReach * r) continue;
+      if (std::abs(at.x()) > kFootReach * r || at.y() < -kAbove * r || at.y() > kFootReach * r) continue;
       const bool nearer = std::any_of(feet.begin(), feet.end(), [&](const DepthFoot& other) {
         return (p - other.foot).squaredNorm() < (p - foot.foot).squaredNorm();
       });
