@@ -135,7 +135,7 @@ PartSample posedPartSample(Rng& rng, const PartSample& sample) {
     const auto limb = static_cast<std::size_t>(k);
     const bool arm = k < 2 && !from.skeleton.animal;
     auto& bones = out.skeleton.limbs[limb];
-    const auto [root, middle, end] = bones;
+    const Vec root = bones[0], middle = bones[1], end = bones[2];
     const bool still = rng.chance(.25);
     const double wide = arm ? (rng.chance(.3) ? 1.4 : .5) : .25;
     const double swing = still ? 0 : rng.normal(0, wide), bend = still ? 0 : rng.normal(0, arm ? .7 : .25);
