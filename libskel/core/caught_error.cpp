@@ -17,6 +17,22 @@ std::string oneLine(const char* text) {
   return line;
 }
 
+// Text out of a file may neither begin a line of its own nor command a terminal.
+std::string printable(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte != 0x7f)
+      out += c;
+    else if (c == '\n')
+      out += "\\n";
+    else
+      out += {'\\', 'x', kDigits[byte / 16], kDigits[byte % 16]};
+  }
+  return out;
+}
+
 Error refusal(const std::string& start, const std::string& why) {
   return {ExitCode::kUnavailable, start + "the system refuses what is needed: " + why};
 }
@@ -29,7 +45,7 @@ Error caughtError(const std::string& source) {
   try {
     throw;
   } catch (const Error& error) {
-    return error;
+    return Error(error.exitCode(), printable(error.what()));
   } catch (const std::filesystem::filesystem_error& error) {
     const std::string path = error.path1().string();
     return InputError(path.empty() ? source : path, "cannot be looked at: " + error.code().message());

@@ -47,3 +47,8 @@ TEST_CASE("whatever is thrown becomes one line that names the input, and a code"
         "2: a.png: cannot be worked on, please report it: two lines");
   CHECK(caught([] { throw 1; }) == "2: a.png: cannot be worked on, please report it");
 }
+
+TEST_CASE("a name in a file that holds a line of ours, or commands for a terminal, stays within its line") {
+  CHECK(caught([] { throw InputError("c.json", "is \"a\nskel-infer: b\x1b[31m\x07\""); }) ==
+        "2: c.json: is \"a\\nskel-infer: b\\x1b[31m\\x07\"");
+}
