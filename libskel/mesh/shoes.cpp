@@ -12,7 +12,7 @@ using Eigen::Vector2d;
 
 // In radii of the shin.
 constexpr double kFootReach = 3.5;  // of a foot to either side
-constexpr double kAbove = 0.5;  // of the ankle
+constexpr double kAbove = 0.5;      // of the ankle
 // The length of a shoe, in widths of the foot as it is drawn: if that lies evenly to both sides of the shin,
 // and if it lies to one side alone (drawn from the side, or turned out).
 constexpr double kLong = 1.6, kShort = 0.6;
