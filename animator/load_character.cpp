@@ -52,9 +52,7 @@ void bindCharacterSource(CLI::App& app, CharacterSource& source) {
 
 CharacterFile loadCharacter(const CharacterSource& source) {
   if (isDrawing(source.path)) {
-    RigOptions options = rigOptions(source.body_plan);
-    options.clips.clear();  // they are made as they are asked for
-    if (options.otherwise) options.otherwise->clips.clear();
+    const RigOptions options = rigOptionsWithoutClips(source.body_plan);
     return {rigDrawing(source.path, options).character, {}, stemOf(source.path)};
   }
   const bool rigged = endingOf(source.path) == ".glb";

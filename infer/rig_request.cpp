@@ -11,39 +11,35 @@
 namespace skel {
 namespace {
 
-// Of the library, those that were asked for and fit the body plan, in the order of asking; all if none was.
-std::vector<Clip> askedClips(const std::vector<Clip>& library, const SkeletonTemplate& body_plan,
-                             const std::vector<std::string>& names) {
-  const std::vector<Clip> fitting = clipsFor(library, body_plan);
-  if (names.empty()) return fitting;
-  std::vector<Clip> asked;
-  const auto among = [](const std::vector<Clip>& clips, const std::string& name) {
-    return std::find_if(clips.begin(), clips.end(), [&](const Clip& clip) { return clip.name == name; });
-  };
-  for (const std::string& name : names)
-    if (const auto clip = among(fitting, name); clip != fitting.end() && among(asked, name) == asked.end())
-      asked.push_back(*clip);
-  return asked;
+const Clip* find(const std::vector<Clip>& clips, const std::string& name) {
+  const auto found =
+      std::find_if(clips.begin(), clips.end(), [&](const Clip& clip) { return clip.name == name; });
+  return found == clips.end() ? nullptr : &*found;
 }
 
-// Throws UsageError if the clip fits no body plan that is asked for.
-void requireClip(const std::vector<Clip>& library, const RigOptions& rig, const std::string& name) {
-  std::vector<Clip> fitting = clipsFor(library, rig.body_plan);
+// Those of these names, in their order, each once.
+std::vector<Clip> named(const std::vector<Clip>& clips, const std::vector<std::string>& names) {
+  std::vector<Clip> some;
+  for (const std::string& name : names)
+    if (const Clip* clip = find(clips, name); clip && !find(some, name)) some.push_back(*clip);
+  return some;
+}
+
+// Throws UsageError where a name is that of no clip of either body plan.
+void keepClips(const std::vector<std::string>& names, RigOptions& rig) {
+  std::vector<Clip> all = rig.clips;
   if (rig.otherwise)
-    for (const Clip& clip : clipsFor(library, rig.otherwise->body_plan))
-      if (std::none_of(fitting.begin(), fitting.end(),
-                       [&](const Clip& known) { return known.name == clip.name; }))
-        fitting.push_back(clip);
-  clipNamed(fitting, name);
+    for (const Clip& clip : rig.otherwise->clips)
+      if (!find(all, clip.name)) all.push_back(clip);
+  for (const std::string& name : names) clipNamed(all, name);
+  rig.clips = named(rig.clips, names);
+  if (rig.otherwise) rig.otherwise->clips = named(rig.otherwise->clips, names);
 }
 
 }  // namespace
 
 RigOptions rigOptions(const InferOptions& options) {
-  RigOptions rig;
-  const RigOptions plans = skel::rigOptions(options.body_plan);
-  rig.body_plan = plans.body_plan;
-  rig.otherwise = plans.otherwise;
+  RigOptions rig = rigOptionsWithoutClips(options.body_plan);
   rig.mlp = options.weights_file.empty() ? defaultMlp() : readMlp(options.weights_file);
   rig.recognizer = kRecognizerNames.at(options.recognizer);
   rig.upright = options.upright;
@@ -65,12 +61,13 @@ RigOptions rigOptions(const InferOptions& options) {
   if (!options.part_net_file.empty())
     rig.part_net = std::make_shared<const PartNet>(
         readyToRun(parsePartNet(readFile(options.part_net_file), options.part_net_file)));
-  const std::vector<Clip> library =
-      options.clips_dir.empty() ? builtinClips() : clipsWithFolder(options.clips_dir);
-  for (const std::string& name : options.clips)
-    if (name != "none" || options.clips.size() > 1) requireClip(library, rig, name);
-  rig.clips = askedClips(library, rig.body_plan, options.clips);
-  if (rig.otherwise) rig.otherwise->clips = askedClips(library, rig.otherwise->body_plan, options.clips);
+  if (options.clips != std::vector<std::string>{"none"}) {
+    const std::vector<Clip>& library =
+        options.clips_dir.empty() ? builtinClips() : clipsWithFolder(options.clips_dir);
+    rig.clips = clipsFor(library, rig.body_plan);
+    if (rig.otherwise) rig.otherwise->clips = clipsFor(library, rig.otherwise->body_plan);
+    if (!options.clips.empty()) keepClips(options.clips, rig);
+  }
   return rig;
 }
 

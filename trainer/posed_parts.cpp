@@ -92,19 +92,16 @@ void fillBehind(const cv::Mat_<int>& carrier, const std::array<int, 4>& before, 
   const auto [body_label, body_at] = nearest(body.mask);
   const auto [rim_label, rim_at] = nearest(rim);
   constexpr float kRim = 1.5F;  // px
-  PartSample filled = body;
-  for (cv::Mat* plane : {&filled.rgb, &filled.mask, &filled.part, &filled.order}) *plane = plane->clone();
   for (int y = 0; y < hole.rows; ++y)
     for (int x = 0; x < hole.cols; ++x) {
       if (hole(y, x) == 0) continue;
       const cv::Point p = body_at[static_cast<std::size_t>(body_label.at<int>(y, x))],
                       q = rim_at[static_cast<std::size_t>(rim_label.at<int>(y, x))];
-      filled.rgb.at<cv::Vec3b>(y, x) = body.rgb.at<cv::Vec3b>(from_outside.at<float>(y, x) < kRim ? q : p);
-      filled.part.at<std::uint8_t>(y, x) = body.part.at<std::uint8_t>(p);
-      filled.order.at<std::uint16_t>(y, x) = body.order.at<std::uint16_t>(p);
-      filled.mask.at<std::uint8_t>(y, x) = 255;
+      body.rgb.at<cv::Vec3b>(y, x) = body.rgb.at<cv::Vec3b>(from_outside.at<float>(y, x) < kRim ? q : p);
+      body.part.at<std::uint8_t>(y, x) = body.part.at<std::uint8_t>(p);
+      body.order.at<std::uint16_t>(y, x) = body.order.at<std::uint16_t>(p);
+      body.mask.at<std::uint8_t>(y, x) = 255;
     }
-  body = filled;
 }
 
 }  // namespace
@@ -146,8 +143,7 @@ PartSample posedPartSample(Rng& rng, const PartSample& sample) {
       const double share = std::clamp((p - middle).dot(along) / (2 * soft) + .5, 0., 1.);
       return turned(turned(p, middle, share * bend), root, swing);
     };
-    bool front = before[limb] == 1;
-    if (before[limb] < 0 ? rng.chance(arm ? .7 : .5) : rng.chance(.15)) front = !front || before[limb] < 0;
+    const bool front = before[limb] < 0 ? rng.chance(arm ? .7 : .5) : (before[limb] == 1) != rng.chance(.15);
     constexpr int kSamples = 3;  // a px and direction, so that bends leave no gaps
     for (int y = 0; y < carrier.rows; ++y)
       for (int x = 0; x < carrier.cols; ++x) {
@@ -167,7 +163,6 @@ PartSample posedPartSample(Rng& rng, const PartSample& sample) {
         }
       }
     for (Vec& joint : bones) joint = pose(joint);
-    bones[1] = turned(middle, root, swing);
   }
   return smallPartSample(out);
 }

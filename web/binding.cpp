@@ -10,7 +10,6 @@
 
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
-#include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
@@ -92,13 +91,11 @@ RigOptions optionsFor(const std::string& body_plan, int figure) {
 }
 
 SkeletonFile skeletonFileOf(const std::string& text, const std::string& name) {
-  const JsonDocument document = JsonDocument::parse(text, name);
-  document.root().checkFormat("skel-skeleton", 2);
-  const JsonValue plan = document.root().at("template");
+  const std::string plan = templateOfSkeleton(text, name);
   const auto known = builtinTemplates();
-  if (std::find(known.begin(), known.end(), plan.asString()) == known.end())
-    plan.fail("\"" + plan.asString() + "\" is no body plan that is known here");
-  return parseSkeletonFile(text, name, loadTemplate(plan.asString()));
+  if (std::find(known.begin(), known.end(), plan) == known.end())
+    throw InputError(name, "template: \"" + plan + "\" is no body plan that is known here");
+  return parseSkeletonFile(text, name, loadTemplate(plan));
 }
 
 SkeletonFile givenSkeleton(const std::string& text, const std::string& name, const std::string& image,

@@ -83,10 +83,11 @@ struct Border {
 double alongLimb(const std::array<Vec, 3>& bones, const Vec& p) {
   double best = std::numeric_limits<double>::infinity(), along = 0;
   for (std::size_t i = 0; i < 2; ++i) {
-    const Vec bone = bones[i + 1] - bones[i];
-    const double t = std::clamp((p - bones[i]).dot(bone) / std::max(1e-9, bone.squaredNorm()), 0., 1.),
-                 d = (bones[i] + t * bone - p).norm();
-    if (d < best) best = d, along = double(i) + t;
+    const Vec at = nearestOnSegment<Vec>(p, bones[i], bones[i + 1]);
+    const double d = (at - p).norm();
+    if (d >= best) continue;
+    best = d;
+    along = double(i) + (at - bones[i]).norm() / std::max(1e-9, (bones[i + 1] - bones[i]).norm());
   }
   return along;
 }
@@ -189,7 +190,7 @@ LayerMap findPartLayers(const Image& image, const Silhouette& silhouette, const 
   cv::Mat grey;
   cv::cvtColor(picture.rgb, grey, cv::COLOR_RGB2GRAY);
   cv::minMaxLoc(grey, &low, &high, nullptr, nullptr, picture.mask);
-  cv::Mat limbs(picture.part.size(), CV_8U, cv::Scalar(0)), parts(picture.part.size(), CV_8U, cv::Scalar(0));
+  cv::Mat limbs(picture.part.size(), CV_8U, cv::Scalar(0));
   cv::Mat arms = cv::Mat::zeros(limbs.size(), CV_8U), edge = edges(picture, arms);  // arms that are layers
   for (int k = 0; k < 4; ++k) {
     if (k == 2 && cv::countNonZero(limbs) != 0) arms = limbs != 0, edge = edges(picture, arms);

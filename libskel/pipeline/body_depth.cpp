@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
-#include "libskel/core/segment.h"
+#include "libskel/silhouette/outline.h"
 
 namespace skel {
 namespace {
@@ -64,14 +63,7 @@ class DepthFinder {
   }
 
   // Of the disc around the point that touches the outline first.
-  double radius(const Vector2d& p) const {
-    double result = std::numeric_limits<double>::infinity();
-    for (const Polygon& polygon : silhouette_.outline)
-      for (std::size_t i = 0; i < polygon.size(); ++i)
-        result =
-            std::min(result, distanceToSegment<Vector2d>(p, polygon[i], polygon[(i + 1) % polygon.size()]));
-    return std::max(result, 1.0);
-  }
+  double radius(const Vector2d& p) const { return std::max(distanceToOutline(silhouette_.outline, p), 1.0); }
 
   void addBone(const Vector2d& from, const Vector2d& to, double radius_px, const Build& build,
                int layer = 0) {

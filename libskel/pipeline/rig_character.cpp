@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <numbers>
 
 #include "libskel/animation/clip_library.h"
@@ -10,7 +9,6 @@
 #include "libskel/classifier/features.h"
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
-#include "libskel/core/segment.h"
 #include "libskel/deform/bound_stretch.h"
 #include "libskel/deform/figure_shape.h"
 #include "libskel/deform/limb_depth.h"
@@ -19,6 +17,7 @@
 #include "libskel/pipeline/body_depth.h"
 #include "libskel/recognition/paper_recognizer.h"
 #include "libskel/recognition/tree_recognition.h"
+#include "libskel/silhouette/outline.h"
 #include "libskel/skeleton/lift.h"
 
 namespace skel {
@@ -75,10 +74,6 @@ std::optional<std::string> betterBodyPlan(const Image& image, const Silhouette& 
   return std::nullopt;
 }
 
-bool isOfOther(const Skeleton& given, const RigOptions& options) {
-  return options.otherwise && given.template_name == options.otherwise->body_plan.name;
-}
-
 // By the net of the body plan, or of the other one where the first leaves doubt and the other hardly any.
 // Fills drawing.body_plan, too.
 Recognition recognizeByNet(const RigOptions& options, RiggedDrawing& drawing) {
@@ -118,13 +113,9 @@ std::optional<HeadDisc> headDisc(const Skeleton& skeleton, const SkeletonTemplat
   if (body_plan.head < 0) return std::nullopt;
   const int head = skeleton.find(body_plan.joints[static_cast<size_t>(body_plan.head)].name);
   if (head < 0) return std::nullopt;
-  HeadDisc disc{skeleton.joints[static_cast<size_t>(head)].image, std::numeric_limits<double>::infinity(),
-                Eigen::Rotation2Dd(turned_rad) * Eigen::Vector2d(0, -1)};
-  for (const Polygon& polygon : silhouette.outline)
-    for (std::size_t i = 0; i < polygon.size(); ++i)
-      disc.radius = std::min(disc.radius,
-                             distanceToSegment(disc.center, polygon[i], polygon[(i + 1) % polygon.size()]));
-  return disc;
+  const Eigen::Vector2d& center = skeleton.joints[static_cast<size_t>(head)].image;
+  return HeadDisc{center, distanceToOutline(silhouette.outline, center),
+                  Eigen::Rotation2Dd(turned_rad) * Eigen::Vector2d(0, -1)};
 }
 
 InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawing,
@@ -136,7 +127,7 @@ InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawin
   else
     inflate.length_m = drawing.body_plan.length_m;
   inflate.turned_rad = drawing.recognition.turned_deg * std::numbers::pi / 180;
-  inflate.body = bodyDepth(drawing.recognition.skeleton, options.body_plan, drawing.silhouette);
+  inflate.body = bodyDepth(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette);
   inflate.head =
       headDisc(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, inflate.turned_rad);
   if (input.back) {
@@ -177,6 +168,11 @@ void boundStretchOfClips(const std::vector<Clip>& made, const RetargetOptions& r
 
 }  // namespace
 
+const SkeletonTemplate& planNamed(std::string_view name, const RigOptions& options) {
+  const bool other = options.otherwise && name == options.otherwise->body_plan.name;
+  return other ? options.otherwise->body_plan : options.body_plan;
+}
+
 RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   RiggedDrawing drawing;
   drawing.body_plan = options.body_plan;
@@ -208,7 +204,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   drawing.recognition = timed("recognition", [&] {
     Recognition found;
     if (input.skeleton) {
-      if (isOfOther(*input.skeleton, options)) drawing.body_plan = options.otherwise->body_plan;
+      drawing.body_plan = planNamed(input.skeleton->template_name, options);
       found.skeleton = *input.skeleton;
       found.turned_deg = input.turned_deg;
     } else if (options.recognizer == Recognizer::kPaper) {
@@ -252,7 +248,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   drawing.recognition.skeleton = timed("lift", [&] {
     Skeleton lifted = drawing.recognition.skeleton;
     liftToModel(lifted, drawing.character.mesh, joint_layers);
-    if (inflated) putAnklesBelowKnees(lifted, options.body_plan);
+    if (inflated) putAnklesBelowKnees(lifted, body_plan);
     return lifted;
   });
   drawing.character.skeleton = drawing.recognition.skeleton;

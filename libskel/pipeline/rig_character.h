@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -76,6 +77,9 @@ struct RigOptions {
   std::vector<Clip> clips;                               // for the canonical pose
   double into_picture = RetargetOptions().into_picture;  // of the clips' limbs, see retarget.h
 };
+
+// The one of the options' body plans that is called so; the first if none is.
+const SkeletonTemplate& planNamed(std::string_view name, const RigOptions& options);
 
 struct StageTime {
   std::string stage;

@@ -10,23 +10,24 @@
 
 namespace skel {
 
-RigOptions rigOptions(const std::string& body_plan) {
+RigOptions rigOptionsWithoutClips(const std::string& body_plan) {
   RigOptions options;
   const bool any = body_plan == "auto";
-  const auto clipsOf = [](const SkeletonTemplate& plan) { return clipsFor(builtinClips(), plan); };
   options.body_plan = loadTemplate(any ? "biped" : body_plan);
-  options.clips = clipsOf(options.body_plan);
-  if (any) {
-    const SkeletonTemplate other = loadTemplate("quadruped");
-    options.otherwise = {other, clipsOf(other)};
-  }
+  if (any) options.otherwise = {loadTemplate("quadruped"), {}};
+  return options;
+}
+
+RigOptions rigOptions(const std::string& body_plan) {
+  RigOptions options = rigOptionsWithoutClips(body_plan);
+  options.clips = clipsFor(builtinClips(), options.body_plan);
+  if (options.otherwise) options.otherwise->clips = clipsFor(builtinClips(), options.otherwise->body_plan);
   return options;
 }
 
 const SkeletonTemplate& planOfSkeleton(std::string_view text, const std::string& path,
                                        const RigOptions& options) {
-  const bool other = options.otherwise && templateOfSkeleton(text, path) == options.otherwise->body_plan.name;
-  return other ? options.otherwise->body_plan : options.body_plan;
+  return options.otherwise ? planNamed(templateOfSkeleton(text, path), options) : options.body_plan;
 }
 
 RiggedDrawing rigDrawing(const std::string& path, const RigOptions& options) {

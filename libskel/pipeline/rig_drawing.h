@@ -11,6 +11,7 @@ namespace skel {
 // The defaults, with all built-in clips that fit the body plan: a name, a file, or "auto": biped or
 // quadruped, whichever a figure fits.
 RigOptions rigOptions(const std::string& body_plan = "auto");
+RigOptions rigOptionsWithoutClips(const std::string& body_plan);
 
 // Which of the options' body plans a skeleton file belongs to; the first if to none of them.
 const SkeletonTemplate& planOfSkeleton(std::string_view text, const std::string& path,

@@ -1,5 +1,10 @@
 #include "libskel/silhouette/outline.h"
 
+#include <algorithm>
+#include <limits>
+
+#include "libskel/core/segment.h"
+
 namespace skel {
 
 std::vector<Polygon> traceOutline(const Plane8& mask) {
@@ -43,6 +48,15 @@ std::vector<Polygon> traceOutline(const Plane8& mask) {
     }
   }
   return outline;
+}
+
+double distanceToOutline(const std::vector<Polygon>& outline, const Eigen::Vector2d& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Polygon& polygon : outline)
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      least = std::min(least,
+                       distanceToSegment<Eigen::Vector2d>(p, polygon[i], polygon[(i + 1) % polygon.size()]));
+  return least;
 }
 
 }  // namespace skel

@@ -11,4 +11,7 @@ namespace skel {
 // only, so that no three neighbouring points lie on one line.
 std::vector<Polygon> traceOutline(const Plane8& mask);
 
+// From `p` to the nearest side of a polygon; infinite if there are none.
+double distanceToOutline(const std::vector<Polygon>& outline, const Eigen::Vector2d& p);
+
 }  // namespace skel

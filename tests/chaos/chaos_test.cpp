@@ -104,7 +104,6 @@ class Stage {
   explicit Stage(const Job& job) : job_(job) {
     const TempDir dir;
     job.prepare(dir);
-    first_ = filesOf(dir);
     done(dir, job.command);
     job.change(dir);
     before_ = filesOf(dir);
@@ -169,7 +168,7 @@ class Stage {
   }
 
   Job job_;
-  Files first_, before_, after_;
+  Files before_, after_;
 };
 
 constexpr int kOutput = 4, kUnavailable = 3;

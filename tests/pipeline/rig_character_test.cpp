@@ -2,7 +2,9 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/export/write_character.h"
 #include "libskel/image/read_image.h"
+#include "libskel/pipeline/rig_drawing.h"
 #include "libskel/silhouette/page_net.h"
 #include "tests/support/catch.h"
 #include "tests/support/figure.h"
@@ -107,4 +109,14 @@ TEST_CASE("a drawing that stands on its head gives an upright model; its joints 
   CHECK(head.position.y() > pelvis.position.y() + 0.3);
   CHECK(head.image.y() > pelvis.image.y() + 50);
   CHECK(drawing.character.mesh.vertices.col(1).minCoeff() == Approx(0).margin(1e-5));
+}
+
+TEST_CASE("an animal whose body plan was chosen is rigged as one whose plan was named") {
+  const std::string dog = SKEL_SOURCE_DIR "/datasets/animals/walking_dog.png";
+  const RiggedDrawing chosen = rigDrawing(dog, rigOptions("auto")),
+                      named = rigDrawing(dog, rigOptions("quadruped"));
+  CHECK(chosen.body_plan.name == "quadruped");
+  const bool same =
+      encodeGlb(chosen.character, chosen.clips, {}) == encodeGlb(named.character, named.clips, {});
+  CHECK(same);
 }
