@@ -362,10 +362,8 @@ void bindRecognitionOptions(CLI::App& app, InferOptions& options) {
       "--template", options.body_plan,
       "Body plan: biped, quadruped, a .json file, or auto: the\nbiped or quadruped that a figure fits");
   app.add_option("--part-net", options.part_net_file,
-                 "Net that tells the figure's parts (weights/part_net.bin), and with them the layers, "
-                 "instead of the\n"
-                 "lines along each limb's bones")
-      ->type_name("FILE");
+                 "Weights of the net that tells the figure's parts (default: built in)")
+      ->always_capture_default(false);
   app.add_option("--joint-net", options.joint_net_file,
                  "Weights of the net that finds the joints (default: built in)")
       ->always_capture_default(false);

@@ -15,7 +15,7 @@ struct InferOptions {
   std::vector<std::string> images;
   std::string out_dir = "out";
   std::string weights_file, joint_net_file;  // empty: the built-in ones
-  std::string part_net_file;                 // empty: none
+  std::string part_net_file;                 // empty: the built-in one
   std::string mask_file, model_file, skeleton_file;
   std::string body_plan = "auto";
   std::string recognizer = "tree";

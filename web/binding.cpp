@@ -69,6 +69,7 @@ struct Nets {
   std::vector<std::string> files;
   std::shared_ptr<const JointNets> joints;
   std::shared_ptr<const PageNet> page;
+  std::shared_ptr<const PartNet> parts;
 };
 Nets nets;
 
@@ -86,6 +87,7 @@ RigOptions optionsFor(const std::string& body_plan, int figure) {
   RigOptions options = rigOptions(body_plan.empty() ? "auto" : body_plan);
   options.joint_nets = nets.joints;
   options.silhouette.page_net = nets.page;
+  options.part_net = nets.parts;
   options.silhouette.figure = figure;
   return options;
 }
@@ -129,15 +131,16 @@ val described() {
   return said;
 }
 
-// Request: the bytes of {page: of the page net, biped, quadruped: of the joint nets}. Returns {} or {error}.
+// Request: the bytes of {page, parts: of the nets so called, biped, quadruped: of the joint nets}. Returns {} or {error}.
 val useNets(const val& request) {
   return saying("the nets", [&] {
     Nets given;
-    for (const char* name : {"page", "biped", "quadruped"}) given.files.push_back(bytesOf(request[name]));
+    for (const char* name : {"page", "parts", "biped", "quadruped"}) given.files.push_back(bytesOf(request[name]));
     given.page = std::make_shared<const PageNet>(readyToRun(parsePageNet(given.files[0], "page net")));
+    given.parts = std::make_shared<const PartNet>(readyToRun(parsePartNet(given.files[1], "part net")));
     given.joints = std::make_shared<const JointNets>(
-        std::vector<JointNets::File>{{"biped", given.files[1], "joint net of the biped"},
-                                     {"quadruped", given.files[2], "joint net of the quadruped"}});
+        std::vector<JointNets::File>{{"biped", given.files[2], "joint net of the biped"},
+                                     {"quadruped", given.files[3], "joint net of the quadruped"}});
     nets = std::move(given);
     return val::object();
   });

@@ -10,7 +10,7 @@ import { textOfBytes } from './src/bytes_text.js';
 const [wasmDir, out] = process.argv.slice(2);
 const here = new URL('.', import.meta.url).pathname;
 const site = `${out}/site`;
-const weights = { page: 'page_net', biped: 'joint_net', quadruped: 'quadruped_joint_net' };
+const weights = { page: 'page_net', parts: 'part_net', biped: 'joint_net', quadruped: 'quadruped_joint_net' };
 const samples = { gingerbread: 'characters', box_robot: 'characters', walking_fox: 'animals' };
 
 async function bundle(entry, plugins = []) {

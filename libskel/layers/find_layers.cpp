@@ -1,314 +1,213 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <set>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <vector>
 
-#include "libskel/image/mask_parts.h"
+#include "libskel/core/segment.h"
+#include "libskel/layers/find_parts.h"
 #include "libskel/layers/layer_map.h"
-#include "libskel/layers/ribbon.h"
-#include "libskel/mesh/outline.h"
 
 namespace skel {
 namespace {
 
-using Eigen::Vector2d;
+using Vec = Eigen::Vector2d;
 
-constexpr int kFiner = 2;  // than the working grid
+constexpr double kLeastLimb = .004;    // of the figure's pixels
+constexpr double kRoot = .5;           // of a limb's first bone: so far it is grown to the body
+constexpr double kLeastContact = .06;  // of a limb's border, beyond its root: less is free
+constexpr double kLeastDrawn = .55;    // of that contact
+constexpr double kContrast = .12;      // of the range of colours: what is drawn
+constexpr double kLeastSure = .55;     // mean probability of its pixels
+constexpr double kGrown = .4;  // of a limb's border against the body: it is hidden where it is a guess
+constexpr double kSeen = .25;  // of an arm's bones beyond its root: of less nothing is seen
+constexpr double kSure = .75;  // confidence in the end of a limb that is not hidden
 
-// Of a limb's sections beyond its root.
-constexpr double kLeastContact = 0.2;  // with the body, as a share of one side: less is free
-constexpr double kLeastDrawn = 0.7;    // of the contact: what is drawn
-constexpr double kAboutBones = 0.7;    // that hold the bones
-constexpr double kLeastSeen = 0.7;     // of a limb: more of it hidden by others, and it is left to the body
-constexpr double kCutOff = 0.3;        // of a limb's area: larger parts that it cuts off stay the body's
-constexpr double kClearer = 1.6;       // the edges are, than what lies between them
-constexpr double kGrown = 0.6;         // in contact with the body, of a limb that is hidden
-constexpr double kSure = 0.75;         // confidence in the end of a limb that is not hidden
+// The picture for OpenCV; it must live as long.
+struct Look {
+  const PixelBox box;
+  const double scale;
+  const std::array<double, 4> sure;
+  const cv::Mat rgb, mask, part;
 
-LookGrid lookGrid(const Image& image, const Silhouette& silhouette) {
-  LookGrid look;
-  look.width = kFiner * silhouette.grid.width, look.height = kFiner * silhouette.grid.height;
-  look.scale = kFiner * silhouette.grid.scale;
-  look.corner_px = silhouette.grid.corner_px;
-  look.colours = gridColours(image, look.corner_px, look.scale, look.width, look.height);
-  look.mask = Plane8::Zero(look.height, look.width);
-  std::array<int, 256> histogram{};
-  int count = 0;
-  for (int y = 0; y < look.height; ++y)
-    for (int x = 0; x < look.width; ++x) {
-      const Vector2d p = look.toImage({x, y});
-      const auto u = std::clamp<Eigen::Index>(std::lround(p.x()), 0, image.width - 1),
-                 v = std::clamp<Eigen::Index>(std::lround(p.y()), 0, image.height - 1);
-      if (silhouette.mask(v, u) == 0) continue;
-      look.mask(y, x) = 255;
-      ++histogram[std::clamp(static_cast<int>(look.colours.row(std::int64_t{y} * look.width + x).mean()), 0,
-                             255)];
-      ++count;
-    }
-  const auto percentile = [&](double share) {
-    int left = static_cast<int>(share * count), value = 0;
-    while (value < 255 && left >= histogram[value]) left -= histogram[value++];
-    return value;
-  };
-  look.range = std::max(40, percentile(0.98) - percentile(0.02));
-  return look;
-}
-
-struct Limb {
-  Ribbon ribbon;
-  PixelBox box;  // of the image
-  Plane8 mask;   // of the box's size
-  bool layer = false;
-  int wins = 0;
-
-  bool holds(std::int64_t x, std::int64_t y) const {
-    return x >= box.x0 && x < box.x1 && y >= box.y0 && y < box.y1 && mask(y - box.y0, x - box.x0) != 0;
-  }
+  explicit Look(PartPicture& p)
+      : box(p.box),
+        scale(p.scale),
+        sure(p.sure),
+        rgb(static_cast<int>(p.mask.rows()), static_cast<int>(p.mask.cols()), CV_8UC3, p.rgb.data()),
+        mask(rgb.rows, rgb.cols, CV_8U, p.mask.data()),
+        part(rgb.rows, rgb.cols, CV_8U, p.part.data()) {}
+  cv::Mat of(Part which) const { return (part == static_cast<int>(which)) & mask; }
 };
 
-bool standsOut(const Ribbon& ribbon) {
-  int sections = 0, contact = 0, drawn = 0;
-  double strength = 0;
-  const auto see = [&](BandSide side, double how_strong) {
-    if (side == BandSide::kOutline) return;
-    ++contact;
-    drawn += side == BandSide::kDrawn;
-    strength += how_strong;
+std::optional<PartSkeleton> partSkeleton(const Skeleton& skeleton, const SkeletonTemplate& body_plan) {
+  bool complete = knowsParts(body_plan);
+  const auto at = [&](int joint) -> Vec {
+    const int found = joint < 0 ? -1 : skeleton.find(body_plan.joints[static_cast<std::size_t>(joint)].name);
+    complete = complete && found >= 0;
+    return found < 0 ? Vec(Vec::Zero())
+                     : Vec(skeleton.joints[static_cast<std::size_t>(found)].image + Vec(.5, .5));
   };
-  for (std::size_t s = 0; s < ribbon.sections.size(); ++s) {
-    if (static_cast<double>(s) < ribbon.root_radius) continue;
-    const Ribbon::Section& section = ribbon.sections[s];
-    ++sections;
-    see(section.left_side, section.left_strength);
-    see(section.right_side, section.right_strength);
+  if (!complete) return std::nullopt;
+  PartSkeleton out;
+  out.head = at(body_plan.head), out.body = at(body_plan.body);
+  for (std::size_t k = 0; k < out.limbs.size(); ++k)
+    for (std::size_t i = 0; i < 3; ++i) out.limbs[k][i] = at(body_plan.limbs[k].joints[i]);
+  const int root = body_plan.find("tail_root"), tail = body_plan.find("tail");
+  out.animal = body_plan.from_side && root >= 0 && tail >= 0;
+  if (out.animal) out.tail_root = at(root), out.tail = at(tail);
+  return complete ? std::optional(out) : std::nullopt;
+}
+
+// How strongly colours change within two px of each, 0…255, `others` and their outlines apart.
+cv::Mat edges(const Look& picture, const cv::Mat& others) {
+  cv::Mat high = picture.rgb.clone(), low = picture.rgb.clone(), apart, channels[3];
+  cv::dilate(others, apart, cv::Mat::ones(5, 5, CV_8U));
+  high.setTo(cv::Scalar::all(0), apart), low.setTo(cv::Scalar::all(255), apart);
+  cv::dilate(high, high, cv::Mat::ones(5, 5, CV_8U));
+  cv::erode(low, low, cv::Mat::ones(5, 5, CV_8U));
+  cv::split(high - low, channels);
+  return cv::max(channels[0], cv::max(channels[1], channels[2]));
+}
+
+// Of a limb's border, px.
+struct Border {
+  // Of it against the rest of the figure; of that with a line or an edge; the same beyond the limb's root.
+  int all = 0, against = 0, drawn = 0, beside = 0, beside_drawn = 0;
+};
+
+// How far along the limb's bones the nearest point to `p` is: 0 at its root, 1 at the middle joint, 2 at its
+// end.
+double alongLimb(const std::array<Vec, 3>& bones, const Vec& p) {
+  double best = std::numeric_limits<double>::infinity(), along = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vec at = nearestOnSegment<Vec>(p, bones[i], bones[i + 1]);
+    const double d = (at - p).norm();
+    if (d >= best) continue;
+    best = d;
+    along = double(i) + (at - bones[i]).norm() / std::max(1e-9, (bones[i + 1] - bones[i]).norm());
   }
-  if (ribbon.about_bones < kAboutBones || contact == 0 || contact < kLeastContact * sections) return false;
-  return drawn >= kLeastDrawn * contact && strength / contact >= kClearer * ribbon.inside_strength;
+  return along;
 }
 
-double cross(const Vector2d& u, const Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); }
-
-// Whether the segments from a to b and from c to d cross.
-bool segmentsCross(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
-  return cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
-}
-
-// Whether nearly all of it is against the body: no section ends at the outline on both sides, or it has taken
-// the body for a part of it. `spine`: the joints that it hangs on, up to the root, grid px.
-bool grownToBody(const Ribbon& ribbon, const std::vector<Vector2d>& spine) {
-  int sections = 0, grown = 0;
-  for (std::size_t s = 0; s < ribbon.sections.size(); ++s) {
-    if (static_cast<double>(s) < ribbon.root_radius) continue;
-    ++sections;
-    const Ribbon::Section& section = ribbon.sections[s];
-    bool against = section.left_side != BandSide::kOutline || section.right_side != BandSide::kOutline;
-    for (std::size_t k = 0; k + 1 < spine.size(); ++k)
-      against = against || segmentsCross(section.left, section.right, spine[k], spine[k + 1]);
-    grown += against;
-  }
-  return sections > 0 && grown >= kGrown * sections;
-}
-
-void fillTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, Plane8& mask) {
-  const double area = cross(b - a, c - a);
-  if (area == 0) return;
-  const Vector2d low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-  const auto first = [](double value) {
-    return std::max<Eigen::Index>(0, static_cast<Eigen::Index>(std::ceil(value)));
-  };
-  const auto last = [](double value, Eigen::Index count) {
-    return std::min(count - 1, static_cast<Eigen::Index>(std::floor(value)));
-  };
-  for (Eigen::Index y = first(low.y()); y <= last(high.y(), mask.rows()); ++y)
-    for (Eigen::Index x = first(low.x()); x <= last(high.x(), mask.cols()); ++x) {
-      const Vector2d p(static_cast<double>(x), static_cast<double>(y));
-      const double u = cross(b - p, c - p) / area, v = cross(c - p, a - p) / area;
-      if (u >= 0 && v >= 0 && u + v <= 1) mask(y, x) = 1;
+// What `others` hold is no border of this limb but of those: a hand on the hip.
+Border borderOf(const Look& picture, const PartSkeleton& skeleton, int limb, const cv::Mat& others,
+                const cv::Mat& edge, double range) {
+  const cv::Mat own = picture.of(limbPart(limb));
+  Border border;
+  for (int y = 0; y < own.rows; ++y)
+    for (int x = 0; x < own.cols; ++x) {
+      if (own.at<std::uint8_t>(y, x) == 0) continue;
+      bool outside = false, against = false;
+      for (const cv::Point& step : {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+        const cv::Point q = cv::Point(x, y) + step;
+        if (q.x < 0 || q.y < 0 || q.x >= own.cols || q.y >= own.rows || picture.mask.at<std::uint8_t>(q) == 0)
+          outside = true;
+        else if (own.at<std::uint8_t>(q) == 0 && others.at<std::uint8_t>(q) == 0)
+          against = true;
+      }
+      border.all += outside || against;
+      if (!against) continue;
+      const bool drawn = edge.at<std::uint8_t>(y, x) > kContrast * range;
+      ++border.against, border.drawn += drawn;
+      const Vec at = Vec(x + .5, y + .5) / picture.scale + Vec(picture.box.x0, picture.box.y0);
+      if (alongLimb(skeleton.limbs[static_cast<std::size_t>(limb)], at) < kRoot) continue;
+      ++border.beside, border.beside_drawn += drawn;
     }
+  return border;
 }
 
-void drawLimb(const LookGrid& look, const Plane8& figure, Limb& limb) {
-  std::vector<std::array<Vector2d, 2>> sections;
-  for (const Ribbon::Section& section : limb.ribbon.sections)
-    sections.push_back({look.toImage(section.left), look.toImage(section.right)});
-  for (const auto& [left, right] : limb.ribbon.cap)
-    sections.push_back({look.toImage(left), look.toImage(right)});
-  Vector2d low = sections.front()[0], high = low;
-  for (const auto& ends : sections)
-    for (const Vector2d& p : ends) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  limb.box.x0 = static_cast<int>(std::clamp(std::floor(low.x()), 0., static_cast<double>(figure.cols() - 1)));
-  limb.box.y0 = static_cast<int>(std::clamp(std::floor(low.y()), 0., static_cast<double>(figure.rows() - 1)));
-  limb.box.x1 =
-      static_cast<int>(std::clamp(std::ceil(high.x()), 0., static_cast<double>(figure.cols() - 1))) + 1;
-  limb.box.y1 =
-      static_cast<int>(std::clamp(std::ceil(high.y()), 0., static_cast<double>(figure.rows() - 1))) + 1;
-  limb.mask = Plane8::Zero(limb.box.height(), limb.box.width());
-  const Vector2d corner(limb.box.x0, limb.box.y0);
-  for (auto& [left, right] : sections) left -= corner, right -= corner;
-  for (std::size_t s = 0; s + 1 < sections.size(); ++s) {
-    const auto& [a, b] = sections[s];
-    const auto& [c, d] = sections[s + 1];
-    fillTriangle(a, b, c, limb.mask);
-    fillTriangle(b, c, d, limb.mask);
+// Whether it is better off as a body of its own: it lies against the rest of the figure, so that it would
+// drag that along, and what divides the two is drawn, so that neither is torn.
+bool standsOut(const Look& picture, int limb, const Border& border) {
+  return cv::countNonZero(picture.of(limbPart(limb))) >= kLeastLimb * cv::countNonZero(picture.mask) &&
+         picture.sure[static_cast<std::size_t>(limb)] >= kLeastSure && border.beside > 0 &&
+         border.beside >= kLeastContact * border.all && border.beside_drawn >= kLeastDrawn * border.beside;
+}
+
+// Grown to the body all along, and nothing tells the two apart.
+bool isGrown(const Border& border) {
+  return border.against >= kGrown * border.all && border.drawn < kLeastDrawn * border.against;
+}
+
+// Of the points on an arm's bones beyond its root, the share that shows the arm.
+double seenAlong(const Look& picture, const PartSkeleton& skeleton, int limb) {
+  const auto& [a, b, c] = skeleton.limbs[static_cast<std::size_t>(limb)];
+  constexpr int kSamples = 16;
+  int seen = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const double t = .4 + 1.6 * i / (kSamples - 1);
+    const Vec p = picture.scale * ((t < 1 ? Vec(a + t * (b - a)) : Vec(b + (t - 1) * (c - b))) -
+                                   Vec(picture.box.x0, picture.box.y0));
+    const cv::Point q(static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())));
+    if (!cv::Rect(cv::Point(), picture.mask.size()).contains(q)) continue;
+    seen += picture.mask.at<std::uint8_t>(q) != 0 &&
+            picture.part.at<std::uint8_t>(q) == static_cast<int>(limbPart(limb));
   }
-  limb.mask = (figure.block(limb.box.y0, limb.box.x0, limb.mask.rows(), limb.mask.cols()) != 0)
-                  .select(limb.mask, Plane8::Zero(limb.mask.rows(), limb.mask.cols()));
+  return static_cast<double>(seen) / kSamples;
 }
 
-// How clearly the limb is drawn where it lies within the other.
-double strengthWithin(const Limb& limb, const Limb& other, const LookGrid& look) {
-  double sum = 0;
-  int count = 0;
-  const auto see = [&](const Vector2d& grid_point, double strength) {
-    const Vector2d p = look.toImage(grid_point);
-    if (!other.holds(std::lround(p.x()), std::lround(p.y()))) return;
-    sum += strength, ++count;
-  };
-  for (const Ribbon::Section& section : limb.ribbon.sections) {
-    see(section.left, section.left_strength);
-    see(section.right, section.right_strength);
-  }
-  return count ? sum / count : 0;
-}
-
-// Grows the limbs into pixels that are `kFree`, each to the nearest, by steps to the four sides.
-constexpr std::uint8_t kFree = 255;
-void growInto(Plane8& limbs) {
-  std::vector<Eigen::Index> front;
-  const Eigen::Index columns = limbs.cols();
-  const auto eachBeside = [&](Eigen::Index i, const auto& see) {
-    if (i % columns > 0) see(i - 1);
-    if (i % columns + 1 < columns) see(i + 1);
-    if (i >= columns) see(i - columns);
-    if (i + columns < limbs.size()) see(i + columns);
-  };
-  for (Eigen::Index i = 0; i < limbs.size(); ++i)
-    if (limbs.data()[i] == kFree)
-      eachBeside(i, [&](Eigen::Index k) {
-        if (limbs.data()[k] != 0 && limbs.data()[k] != kFree) front.push_back(k);
-      });
-  for (std::size_t next = 0; next < front.size(); ++next) {
-    const std::uint8_t limb = limbs.data()[front[next]];
-    eachBeside(front[next], [&](Eigen::Index k) {
-      if (limbs.data()[k] != kFree) return;
-      limbs.data()[k] = limb;
-      front.push_back(k);
-    });
-  }
-}
-
-// Parts that the limbs cut off from the body go with them where they reach the outline: a thumb, the end of a
-// shoe, the rim of two shoes that touch. Parts with joints of others in them, and large ones without any,
-// stay the body's.
-void takeWhatIsCutOff(const Plane8& figure, const Skeleton& skeleton, const std::vector<int>& limb_of_joint,
-                      Plane8& limbs) {
-  const PixelBox box = figureBox(figure);
-  const MaskParts parts = maskParts((figure.block(box.y0, box.x0, box.height(), box.width()) != 0 &&
-                                     limbs.block(box.y0, box.x0, box.height(), box.width()) == 0)
-                                        .cast<std::uint8_t>());
-  const int body = parts.largest();
-  struct Part {
-    std::array<int, 256> beside{};  // how many sides of pixels each limb has in common with it
-    bool at_outline = false;
-    std::array<bool, 256> joints_of{};
-  };
-  std::map<int, Part> cut_off;
-  for (const MaskParts::Run& run : parts.runs) {
-    if (run.part == body) continue;
-    Part& part = cut_off[run.part];
-    const int y = run.y + box.y0, x0 = run.x0 + box.x0, x1 = run.x1 + box.x0;
-    const auto see = [&](int u, int v) {
-      if (u < 0 || v < 0 || u >= figure.cols() || v >= figure.rows() || figure(v, u) == 0)
-        part.at_outline = true;
-      else if (limbs(v, u) != 0)
-        ++part.beside[limbs(v, u)];
-    };
-    see(x0 - 1, y), see(x1, y);
-    for (int x = x0; x < x1; ++x) see(x, y - 1), see(x, y + 1);
-    for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-      const Vector2d& p = skeleton.joints[j].image;
-      if (std::lround(p.y()) == y && std::lround(p.x()) >= x0 && std::lround(p.x()) < x1)
-        part.joints_of[static_cast<std::size_t>(limb_of_joint[j])] = true;
+// To the image's size, borders as smooth as its pixels allow: of each pixel the number that most of its
+// neighbours in `small` have, nearer ones more.
+void enlarge(const Look& picture, const cv::Mat& small, Plane8& whole) {
+  const PixelBox& box = picture.box;
+  const auto weigh = [&](int x, int y) {
+    const double u = (x + .5) * picture.scale - .5, v = (y + .5) * picture.scale - .5;
+    const int u0 = static_cast<int>(std::floor(u)), v0 = static_cast<int>(std::floor(v));
+    const double fu = u - u0, fv = v - v0;
+    std::array<std::uint8_t, 4> value{};
+    std::array<double, 4> weight{};
+    for (int i = 0; i < 4; ++i) {
+      const int a = std::clamp(u0 + i % 2, 0, small.cols - 1), b = std::clamp(v0 + i / 2, 0, small.rows - 1);
+      value[static_cast<std::size_t>(i)] = small.at<std::uint8_t>(b, a);
+      weight[static_cast<std::size_t>(i)] = (i % 2 ? fu : 1 - fu) * (i / 2 ? fv : 1 - fv);
     }
-  }
-  if (cut_off.empty()) return;
-  std::array<std::int64_t, 256> areas{};
-  for (int i = 0; i < limbs.size(); ++i) ++areas[limbs.data()[i]];
-  std::set<int> taken;
-  for (const auto& [number, part] : cut_off) {
-    const auto limb = static_cast<std::size_t>(std::max_element(part.beside.begin(), part.beside.end()) -
-                                               part.beside.begin());
-    bool others = false;
-    for (std::size_t k = 0; k < part.joints_of.size(); ++k)
-      others = others || (part.beside[k] == 0 && part.joints_of[k]);
-    const bool large = static_cast<double>(parts.size[static_cast<std::size_t>(number)]) >
-                       kCutOff * static_cast<double>(areas[limb]);
-    if (part.at_outline && !others && (!large || part.joints_of[limb])) taken.insert(number);
-  }
-  if (taken.empty()) return;
-  for (const MaskParts::Run& run : parts.runs)
-    if (taken.contains(run.part))
-      limbs.row(run.y + box.y0).segment(run.x0 + box.x0, run.x1 - run.x0).setConstant(kFree);
-  growInto(limbs);
+    std::uint8_t best = value[0];
+    double most = -1;
+    for (std::size_t i = 0; i < 4; ++i) {
+      double sum = 0;
+      for (std::size_t j = 0; j < 4; ++j) sum += value[j] == value[i] ? weight[j] : 0;
+      if (sum > most) most = sum, best = value[i];
+    }
+    return best;
+  };
+  for (int y = 0; y < box.height(); ++y)
+    for (int x = 0; x < box.width(); ++x) whole(y + box.y0, x + box.x0) = weigh(x, y);
 }
 
 }  // namespace
 
 LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
-                    const SkeletonTemplate& body_plan) {
-  const LookGrid look = lookGrid(image, silhouette);
-  std::vector<Limb> limbs(std::min<std::size_t>(body_plan.limbs.size(), kFree - 1));
-  std::vector<int> limb_of_joint(skeleton.joints.size(), 0);
-  bool any = false;
+                    const SkeletonTemplate& body_plan, const PartNet& net) {
   LayerMap map;
-  for (std::size_t k = 0; k < limbs.size(); ++k) {
-    std::vector<Vector2d> bones;
-    std::vector<Vector2d> spine;
-    double confidence = 0;  // of the last joint
-    for (const int joint : body_plan.limbs[k].joints) {
-      const int found = skeleton.find(body_plan.joints[static_cast<std::size_t>(joint)].name);
-      if (found < 0) break;
-      limb_of_joint[static_cast<std::size_t>(found)] = static_cast<int>(k) + 1;
-      bones.push_back(look.fromImage(skeleton.joints[static_cast<std::size_t>(found)].image));
-      confidence = skeleton.joints[static_cast<std::size_t>(found)].confidence;
-      for (int up = skeleton.joints[static_cast<std::size_t>(found)].parent; up >= 0 && bones.size() == 1;
-           up = skeleton.joints[static_cast<std::size_t>(up)].parent)
-        spine.push_back(look.fromImage(skeleton.joints[static_cast<std::size_t>(up)].image));
+  const std::optional<PartSkeleton> bones = partSkeleton(skeleton, body_plan);
+  if (!bones) return map;
+  PartPicture found = findParts(image, silhouette.mask, *bones, net);
+  const Look picture(found);
+  cv::Mat limbs(picture.part.size(), CV_8U, cv::Scalar(0));
+  cv::Mat arms = cv::Mat::zeros(limbs.size(), CV_8U), edge = edges(picture, arms);  // arms that are layers
+  for (int k = 0; k < 4; ++k) {
+    if (k == 2 && cv::countNonZero(limbs) != 0) arms = limbs != 0, edge = edges(picture, arms);
+    const Border border = borderOf(picture, *bones, k, arms, edge, found.range);
+    if (standsOut(picture, k, border)) {
+      limbs.setTo(k + 1, picture.of(limbPart(k)));
+      continue;
     }
-    if (bones.size() < body_plan.limbs[k].joints.size()) continue;
-    limbs[k].ribbon = findRibbon(look, bones);
-    limbs[k].layer = standsOut(limbs[k].ribbon);
-    if (limbs[k].layer)
-      drawLimb(look, silhouette.mask, limbs[k]), any = true;
-    else if (body_plan.limbs[k].limb_class == JointClass::kHand && confidence < kSure &&
-             grownToBody(limbs[k].ribbon, spine))
-      map.hidden.push_back(static_cast<int>(k) + 1);
+    const TemplateLimb& limb = body_plan.limbs[static_cast<std::size_t>(k)];
+    const int end = skeleton.find(body_plan.joints[static_cast<std::size_t>(limb.joints[2])].name);
+    if (limb.limb_class == JointClass::kHand &&
+        skeleton.joints[static_cast<std::size_t>(end)].confidence < kSure &&
+        (seenAlong(picture, *bones, k) < kSeen || isGrown(border)))
+      map.hidden.push_back(k + 1);
   }
-  if (!any) return map;
-  for (std::size_t a = 0; a < limbs.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b) {
-      if (!limbs[a].layer || !limbs[b].layer) continue;
-      const bool second =
-          strengthWithin(limbs[b], limbs[a], look) >= strengthWithin(limbs[a], limbs[b], look);
-      ++limbs[second ? b : a].wins;
-    }
+  map.part = Plane8::Zero(image.height, image.width);
+  enlarge(picture, picture.part, map.part);
+  if (cv::countNonZero(limbs) == 0) return map;
   map.limb = Plane8::Zero(image.height, image.width);
-  std::vector<std::size_t> order;
-  for (std::size_t k = 0; k < limbs.size(); ++k)
-    if (limbs[k].layer) order.push_back(k);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return limbs[a].wins > limbs[b].wins; });
-  for (const std::size_t k : order) {
-    const Plane8& mask = limbs[k].mask;
-    auto there = map.limb.block(limbs[k].box.y0, limbs[k].box.x0, mask.rows(), mask.cols());
-    const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> seen = mask != 0 && there == 0;
-    if (static_cast<double>(seen.count()) < kLeastSeen * static_cast<double>((mask != 0).count())) continue;
-    there = Plane8(
-        seen.select(Plane8::Constant(mask.rows(), mask.cols(), static_cast<std::uint8_t>(k + 1)), there));
-  }
-  takeWhatIsCutOff(silhouette.mask, skeleton, limb_of_joint, map.limb);
-  if (!(map.limb != 0).any()) map.limb.resize(0, 0);
+  enlarge(picture, limbs, map.limb);
+  map.limb = (silhouette.mask != 0).select(map.limb, Plane8::Zero(image.height, image.width));
   return map;
 }
 

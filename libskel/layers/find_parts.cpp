@@ -37,6 +37,7 @@ struct Sketch {
   cv::Mat rgb, mask, part, ink;  // ink: 255 where a line is drawn, darker than what is on both sides of it
   // Of each limb: probability that it lies before what it overlaps, mean probability of its pixels.
   std::array<double, 4> before{}, sure{};
+  double range = 0;  // of brightness on the figure, at least 40
 
   cv::Mat of(Part which) const { return (part == static_cast<int>(which)) & mask; }
 };
@@ -142,15 +143,17 @@ int px(const Sketch& picture, double share) {
   return std::max(1, cvRound(share * std::max(picture.rgb.cols, picture.rgb.rows)));
 }
 
-cv::Mat inkOf(const Sketch& picture) {
+// Fills `range` and `ink`.
+void findInk(Sketch& picture) {
   cv::Mat grey, closed;
-  cv::cvtColor(picture.rgb, grey, cv::COLOR_RGB2GRAY);
+  cv::transform(picture.rgb, grey, cv::Matx13f(.299f, .587f, .114f));
+  double low = 0, high = 0;
+  cv::minMaxLoc(grey, &low, &high, nullptr, nullptr, picture.mask);
+  picture.range = std::max(40., high - low);
   // What is not the figure lets no line of it end.
   grey.setTo(255, picture.mask == 0);
   cv::morphologyEx(grey, closed, cv::MORPH_CLOSE, disc(px(picture, kLineWidth / 2)));
-  double low = 0, high = 0;
-  cv::minMaxLoc(grey, &low, &high, nullptr, nullptr, picture.mask);
-  return ((closed - grey) > kInkContrast * std::max(40., high - low)) & picture.mask;
+  picture.ink = ((closed - grey) > kInkContrast * picture.range) & picture.mask;
 }
 
 // Borders move onto the drawing's edges where the net is not certain: parts flood what lies between them,
@@ -252,11 +255,11 @@ PartPicture findParts(const Image& image, const Plane8& mask, const PartSkeleton
   cut(image, mask, sketch);
   const std::vector<cv::Mat> probabilities =
       ask(net, scaled(skeleton, Vec(sketch.box.x0, sketch.box.y0), sketch.scale), sketch);
-  sketch.ink = inkOf(sketch);
+  findInk(sketch);
   snap(probabilities, sketch);
   takeInk(sketch);
   removeIslands(sketch);
-  PartPicture picture{sketch.box, sketch.scale, {}, {}, {}, sketch.sure};
+  PartPicture picture{sketch.box, sketch.scale, {}, {}, {}, sketch.sure, sketch.range};
   const auto plane = [](const cv::Mat& of) {
     return Plane8(Eigen::Map<const Plane8>(of.ptr<std::uint8_t>(), of.rows, of.cols));
   };

@@ -20,6 +20,7 @@ struct PartPicture {
   Plane8 mask;                    // 255 on the figure
   Plane8 part;                    // a Part; on the figure alone
   std::array<double, 4> sure{};   // of each limb: mean probability of its pixels
+  double range = 0;               // of brightness on the figure, at least 40
 };
 
 // `mask`: 255 on the figure, somewhere; `skeleton` in image px, the corner of the first px at 0.

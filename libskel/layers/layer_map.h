@@ -31,15 +31,11 @@ struct LayerMap {
   bool any() const { return limb.size() != 0; }
 };
 
-// From the lines and colours across each limb's bones. Conservative: a limb becomes a layer where most of
-// what divides it from the body is drawn. `skeleton` has the template's joints, in image px.
+// By a net that tells all parts, their borders on the drawing's own lines: a limb becomes a layer where it
+// lies against the rest of the figure and most of what divides it from that is drawn. `skeleton` has the
+// template's joints, in image px. Nothing for a body plan that the net does not know (knowsParts()).
 LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
-                    const SkeletonTemplate& body_plan);
-// The same by a net that tells all parts, borders on the drawing's own lines: a limb becomes a layer where it
-// lies against the rest of the figure and most of what divides it from that is drawn. Nothing for a body plan
-// that the net does not know (knowsParts()).
-LayerMap findPartLayers(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
-                        const SkeletonTemplate& body_plan, const PartNet& net);
+                    const SkeletonTemplate& body_plan, const PartNet& net);
 
 // The bodies that the figure is made of, the farthest first: what each shows and what others hide of it, and
 // where it hangs on the trunk, which there has the same pixels. Empty: the map has no limb, or none that is

@@ -77,5 +77,7 @@ inline constexpr std::size_t partLogitIndex(int y, int x, int k) {
 // (formatWeights()). Throws InputError.
 PartNet parsePartNet(std::string_view bytes, const std::string& file, bool check_hash = true);
 std::string formatPartNet(const PartNet& net);
+// The net that is compiled in. Throws UsageError where the build leaves it out (SKEL_NETS).
+const PartNet& builtInPartNet();
 
 }  // namespace skel

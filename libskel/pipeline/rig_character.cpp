@@ -223,9 +223,8 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   std::vector<FigurePiece> pieces;
   if (inflated && options.layers) {
     drawing.layers = timed("layers", [&] {
-      LayerMap found = options.part_net
-                           ? findPartLayers(drawing.image, silhouette, skeleton, body_plan, *options.part_net)
-                           : findLayers(drawing.image, silhouette, skeleton, body_plan);
+      LayerMap found = findLayers(drawing.image, silhouette, skeleton, body_plan,
+                                  options.part_net ? *options.part_net : builtInPartNet());
       // Only the net's confidence tells a guess.
       if (options.recognizer == Recognizer::kPaper) found.hidden.clear();
       if (!input.layers) return found;

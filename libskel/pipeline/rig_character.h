@@ -67,7 +67,7 @@ struct RigOptions {
   std::shared_ptr<const JointNets> joint_nets;  // of body plans; null: the built-in ones
   std::shared_ptr<const JointNet> joint_net;    // null: the one of `joint_nets` that knows the body plan
   bool layers = true;  // limbs that are drawn over the body are bodies of their own; false: one skin
-  std::shared_ptr<const PartNet> part_net;  // tells them; null: the lines along their bones do
+  std::shared_ptr<const PartNet> part_net;  // tells them; null: the built-in one (part_net.h)
   InflateOptions inflate{.thin_outline = true};
   std::optional<Back> back;  // nothing: kPlain, or kSame for a body plan that is drawn from the side
   double height_m = 0;       // of the model; 0: the body plan's own

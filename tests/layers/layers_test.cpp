@@ -60,7 +60,9 @@ struct Drawing {
   double toBone(int x, int y, const std::string& from, const std::string& to) const {
     return distanceToSegment<Vector2d>(Vector2d(x, y), at(from), at(to));
   }
-  LayerMap layers() const { return findLayers(image, silhouette, skeleton, body_plan); }
+  LayerMap layers() const { 
+    return findLayers(image, silhouette, skeleton, body_plan, builtInPartNet());
+  }
   std::vector<FigurePiece> pieces() const { return figurePieces(layers(), silhouette, skeleton, body_plan); }
   TriangleMesh mesh() const { return inflate(image, silhouette, {.back = Back::kPlain}, pieces()); }
 };
@@ -142,7 +144,7 @@ Eigen::MatrixX3f raised(const TriangleMesh& mesh, const Skeleton& skeleton, cons
 
 }  // namespace
 
-TEST_CASE("an arm drawn before the chest is a layer, pixel by pixel; nothing else is") {
+TEST_CASE("an arm drawn before the chest is a layer, pixel by pixel, its outline with it; nothing else is") {
   const Drawing drawing;
   const LayerMap layers = drawing.layers();
   REQUIRE(layers.any());
@@ -151,6 +153,15 @@ TEST_CASE("an arm drawn before the chest is a layer, pixel by pixel; nothing els
   const double both = double((right_arm && truth).count()), either = double((right_arm || truth).count());
   CHECK(both / either > 0.85);
   CHECK((layers.limb > 1).count() == 0);
+  CHECK(((layers.limb != 0) && (drawing.silhouette.mask == 0)).count() == 0);
+}
+
+TEST_CASE("a body plan with other limbs than two arms and two legs is one skin") {
+  Drawing drawing;
+  drawing.body_plan.limbs.pop_back();
+  const LayerMap layers = drawing.layers();
+  CHECK_FALSE(layers.any());
+  CHECK(layers.hidden.empty());
 }
 
 TEST_CASE("free limbs, and those that nothing tells from the body, are no layers") {
@@ -256,7 +267,7 @@ TEST_CASE("what two limbs cut off goes to the nearer of them: the rim of shoes t
   Skeleton skeleton = presetSkeleton(body_plan, {0, 0}, {1, 1});
   for (const auto& [name, place] : readJointsFile(character + ".joints.json"))
     skeleton.joints[std::size_t(skeleton.index(name))].image = *place;
-  const LayerMap layers = findLayers(image, silhouette, skeleton, body_plan);
+  const LayerMap layers = findLayers(image, silhouette, skeleton, body_plan, builtInPartNet());
   REQUIRE(layers.any());
   for (const auto& [foot, limb] : {std::pair("right_foot", 3), std::pair("left_foot", 4)}) {
     const Vector2d& p = skeleton.joints[std::size_t(skeleton.index(foot))].image;

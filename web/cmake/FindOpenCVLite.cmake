@@ -6,7 +6,7 @@ set(_generated ${CMAKE_BINARY_DIR}/opencv)
 set(_core
   alloc arithm arithm.dispatch array buffer_area channels check convert.dispatch convert_scale.dispatch copy
   count_non_zero.dispatch datastructs lapack logger mathfuncs mathfuncs_core.dispatch matmul.dispatch matrix matrix_c
-  matrix_decomp matrix_expressions matrix_iterator matrix_operations matrix_transform matrix_wrap mean.dispatch
+  matrix_decomp matrix_expressions matrix_iterator matrix_operations matrix_transform matrix_wrap mean.dispatch minmax
   merge.dispatch parallel parallel/parallel rand softfloat split.dispatch sum.dispatch system tables types umatrix utils/logtagconfigparser
   utils/logtagmanager)
 set(_imgproc

@@ -12,7 +12,7 @@ globalThis.fetch = undefined; // node's is not for files
 const createSkel = createRequire(import.meta.url)(`${wasmDir}/skel.js`);
 const core = await createSkel({ wasmBinary: await readFile(`${wasmDir}/skel.wasm`) });
 const net = (name) => readFile(new URL(`../../weights/${name}.bin`, import.meta.url));
-core.useNets({ page: await net('page_net'), biped: await net('joint_net'), quadruped: await net('quadruped_joint_net') });
+core.useNets({ page: await net('page_net'), parts: await net('part_net'), biped: await net('joint_net'), quadruped: await net('quadruped_joint_net') });
 
 const kFloat = 5126, kShort = 5123; // glTF's names of them
 const kNumber = 1e-6, kWeight = 4; // of a glTF weight's 65535
