@@ -206,7 +206,7 @@ double motionOf(const Clip& clip, const std::string& side) {
 // A clip that is one arm's, for a figure that cannot move this one: by the other, or, if it has none to move,
 // by the trunk.
 Clip asItCan(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
-  constexpr double kOneArm = 3, kGrown = 0.6, kTrunk = 3;
+  constexpr double kOneArm = 3, kGrown = 0.6, kTrunk = 5;
   const auto canMove = [&](const std::string& side) {
     const int elbow = skeleton.find(side + "elbow");
     return elbow >= 0 && joinedAt(shape, elbow) < kGrown;

@@ -153,28 +153,37 @@ double seenAlong(const Look& picture, const PartSkeleton& skeleton, int limb) {
 // neighbours in `small` have, nearer ones more.
 void enlarge(const Look& picture, const cv::Mat& small, Plane8& whole) {
   const PixelBox& box = picture.box;
-  const auto weigh = [&](int x, int y) {
-    const double u = (x + .5) * picture.scale - .5, v = (y + .5) * picture.scale - .5;
-    const int u0 = static_cast<int>(std::floor(u)), v0 = static_cast<int>(std::floor(v));
-    const double fu = u - u0, fv = v - v0;
-    std::array<std::uint8_t, 4> value{};
-    std::array<double, 4> weight{};
-    for (int i = 0; i < 4; ++i) {
-      const int a = std::clamp(u0 + i % 2, 0, small.cols - 1), b = std::clamp(v0 + i / 2, 0, small.rows - 1);
-      value[static_cast<std::size_t>(i)] = small.at<std::uint8_t>(b, a);
-      weight[static_cast<std::size_t>(i)] = (i % 2 ? fu : 1 - fu) * (i / 2 ? fv : 1 - fv);
-    }
-    std::uint8_t best = value[0];
-    double most = -1;
-    for (std::size_t i = 0; i < 4; ++i) {
-      double sum = 0;
-      for (std::size_t j = 0; j < 4; ++j) sum += value[j] == value[i] ? weight[j] : 0;
-      if (sum > most) most = sum, best = value[i];
-    }
-    return best;
+  struct Between {
+    int first, second;
+    double share;  // of the second
   };
-  for (int y = 0; y < box.height(); ++y)
-    for (int x = 0; x < box.width(); ++x) whole(y + box.y0, x + box.x0) = weigh(x, y);
+  const auto between = [&](int at, int count) {
+    const double u = (at + .5) * picture.scale - .5, first = std::floor(u);
+    const auto clamped = [&](double k) { return static_cast<int>(std::clamp(k, 0., count - 1.)); };
+    return Between{clamped(first), clamped(first + 1), u - first};
+  };
+  std::vector<Between> columns;
+  for (int x = 0; x < box.width(); ++x) columns.push_back(between(x, small.cols));
+  for (int y = 0; y < box.height(); ++y) {
+    const Between row = between(y, small.rows);
+    const auto *upper = small.ptr<std::uint8_t>(row.first), *lower = small.ptr<std::uint8_t>(row.second);
+    std::uint8_t* out = &whole(y + box.y0, box.x0);
+    for (int x = 0; x < box.width(); ++x) {
+      const Between& column = columns[static_cast<std::size_t>(x)];
+      const std::array<std::uint8_t, 4> value = {upper[column.first], upper[column.second],
+                                                 lower[column.first], lower[column.second]};
+      out[x] = value[0];
+      if (value[0] == value[1] && value[0] == value[2] && value[0] == value[3]) continue;
+      const double v = row.share, u = column.share;
+      const std::array<double, 4> weight = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+      double most = -1;
+      for (std::size_t i = 0; i < 4; ++i) {
+        double sum = 0;
+        for (std::size_t j = 0; j < 4; ++j) sum += value[j] == value[i] ? weight[j] : 0;
+        if (sum > most) most = sum, out[x] = value[i];
+      }
+    }
+  }
 }
 
 }  // namespace
