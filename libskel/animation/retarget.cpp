@@ -206,25 +206,34 @@ double motionOf(const Clip& clip, const std::string& side) {
 // A clip that is one arm's, for a figure that cannot move this one: by the other, or, if it has none to move,
 // by the trunk.
 Clip asItCan(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
-  constexpr double kOneArm = 3, kGrown = 0.6, kTrunk = 5;
+  constexpr double kOneArm = 3, kSway_rad = 20 * kPi / 180;
   const auto canMove = [&](const std::string& side) {
     const int elbow = skeleton.find(side + "elbow");
-    return elbow >= 0 && joinedAt(shape, elbow) < kGrown;
+    return elbow >= 0 && joinedAt(shape, elbow) < kGrownArm;
   };
   for (const std::string side : {"left_", "right_"}) {
     const std::string other = side == "left_" ? "right_" : "left_";
     if (canMove(side) || motionOf(clip, side) <= kOneArm * motionOf(clip, other)) continue;
     if (canMove(other)) return mirrored(clip);
     Clip swaying = clip;
-    for (JointTrack& track : swaying.tracks)
-      if (!track.joint.starts_with("left_") && !track.joint.starts_with("right_")) {
-        for (Eigen::Quaternionf& rotation : track.rotations) {
-          Eigen::AngleAxisf turn(rotation);
-          turn.angle() *= float(kTrunk);
-          rotation = turn;
-        }
-        for (Eigen::Vector3f& angles : track.angles_rad) angles *= float(kTrunk);
+    std::vector<JointTrack*> trunk;
+    float most = 0;
+    for (JointTrack& track : swaying.tracks) {
+      if (track.joint.starts_with("left_") || track.joint.starts_with("right_")) continue;
+      trunk.push_back(&track);
+      for (const Eigen::Quaternionf& rotation : track.rotations)
+        most = std::max(most, Eigen::AngleAxisf(rotation).angle());
+      for (const Eigen::Vector3f& angles : track.angles_rad) most = std::max(most, angles.norm());
+    }
+    const float larger = most > 0 ? std::max(1.f, float(kSway_rad) / most) : 1;
+    for (JointTrack* track : trunk) {
+      for (Eigen::Quaternionf& rotation : track->rotations) {
+        Eigen::AngleAxisf turn(rotation);
+        turn.angle() *= larger;
+        rotation = turn;
       }
+      for (Eigen::Vector3f& angles : track->angles_rad) angles *= larger;
+    }
     return swaying;
   }
   return clip;

@@ -8,6 +8,9 @@
 
 namespace skel {
 
+// From this share of FigureShape::joined on, an arm is one piece with the body.
+inline constexpr double kGrownArm = 0.6;
+
 // What there is around the bones (measureFigure() in libskel/deform), as far as motions must know.
 struct FigureShape {
   double height_m = kModelHeight_m;

@@ -229,10 +229,11 @@ void evenOut(const TriangleMesh& mesh, int triangle, Rows& rows) {
   for (int k = 0; k < 3; ++k) rows.row(mesh.triangles(triangle, k)) = mean;
 }
 
-// An arm that is one piece with the body and would tear it rides with what it hangs on: in the bodies of the
-// mesh where it takes part in much of what is stretched. Returns the vertices that it moved, ascending.
+// An arm that is one piece with the body (`joined`) and would tear it rides with what it hangs on: in the
+// bodies of the mesh where it takes part in much of what is stretched. Returns the vertices that it moved,
+// ascending.
 std::vector<int> holdArms(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<int>& limbs,
-                          const std::vector<int>& stretched, Rows& rows) {
+                          const std::vector<double>& joined, const std::vector<int>& stretched, Rows& rows) {
   constexpr float kMuch = 0.1f;
   std::vector<int> held;
   const auto layerOf = [&](int v) { return mesh.layer.size() > 0 ? mesh.layer[v] : 0; };
@@ -249,8 +250,8 @@ std::vector<int> holdArms(const TriangleMesh& mesh, const Skeleton& skeleton, co
         ++all;
       }
     for (int limb = 0; limb < int(rows.cols()); ++limb) {
-      if (!skeleton.joints[std::size_t(limb)].name.ends_with("hand") || shares[limb] <= kMuch * all ||
-          shares[limb] >= 0.99f * all)
+      if (!skeleton.joints[std::size_t(limb)].name.ends_with("hand") ||
+          joined[std::size_t(limb)] < kGrownArm || shares[limb] <= kMuch * all || shares[limb] >= 0.99f * all)
         continue;
       int root = limb;
       while (limbs[std::size_t(skeleton.joints[std::size_t(root)].parent)] == limb)
@@ -274,8 +275,8 @@ std::vector<int> holdArms(const TriangleMesh& mesh, const Skeleton& skeleton, co
 
 }  // namespace
 
-int boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<Clip>& clips,
-                 SkinWeights& weights) {
+int boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<double>& joined,
+                 const std::vector<Clip>& clips, SkinWeights& weights) {
   const int vertices = int(mesh.vertices.rows());
   if (vertices == 0 || clips.empty()) return 0;
   Rows rows = Rows::Zero(vertices, Index(skeleton.joints.size()));
@@ -306,7 +307,7 @@ int boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton, const std::
     stalled = 20 * found.size() < 19 * best ? 0 : stalled + 1;
     best = std::min(best, found.size());
     if (stalled < kPatience || found.size() < kFew) continue;
-    moving = holdArms(mesh, skeleton, limbs, found, rows);
+    moving = holdArms(mesh, skeleton, limbs, joined, found, rows);
     if (moving.empty()) break;
     for (const int v : moving) changed[std::size_t(v)] = 1;
     found = stretched.among(all, rows);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "libskel/animation/clip.h"
+#include "libskel/animation/retarget.h"
 #include "libskel/mesh/triangle_mesh.h"
 #include "libskel/skeleton/skeleton.h"
 #include "libskel/skin/skin_weights.h"
@@ -15,9 +15,11 @@ inline constexpr double kMostStretch = 2.5;
 // Where one of the clips (of the rest pose) stretches a triangle above kMostStretch, weights change over a
 // longer way: vertices about it move towards the mean of their neighbours until nothing is stretched so far.
 // A single vertex that hangs on the wrong joint joins what is around it; where two parts merely touch, what
-// lies between them gives, as far as needed and no farther. Returns how many triangles are still stretched
-// above it. Weights stay as SkinWeights wants them; nothing changes where nothing is stretched.
-int boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<Clip>& clips,
-                 SkinWeights& weights);
+// lies between them gives, as far as needed and no farther. An arm that is one piece with the body
+// (FigureShape::joined, kGrownArm) and would tear it rides with the body. Returns how many triangles are
+// still stretched above it. Weights stay as SkinWeights wants them; nothing changes where nothing is
+// stretched.
+int boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<double>& joined,
+                 const std::vector<Clip>& clips, SkinWeights& weights);
 
 }  // namespace skel

@@ -163,7 +163,7 @@ void boundStretchOfClips(const std::vector<Clip>& made, const RetargetOptions& r
     clips.push_back(same == asked.end() ? retargetToRest(clip, character.skeleton, retarget)
                                         : made[std::size_t(same - asked.begin())]);
   }
-  boundStretch(character.mesh, character.skeleton, clips, character.weights);
+  boundStretch(character.mesh, character.skeleton, retarget.shape->joined, clips, character.weights);
 }
 
 }  // namespace
