@@ -180,10 +180,10 @@ TEST_CASE("each body plan has clips of its own") {
     for (const Clip& clip : clipsFor(builtinClips(), loadTemplate(body_plan))) list.push_back(clip.name);
     return list;
   };
-  CHECK(names("biped") ==
-        std::vector<std::string>{"idle", "walk", "run", "jump", "wave", "dance", "sit", "cheer"});
+  CHECK(names("biped") == std::vector<std::string>{"idle", "walk", "run", "jump", "wave", "dance", "sit",
+                                                   "cheer", "greet", "talk"});
   CHECK(names("quadruped") == std::vector<std::string>{"idle", "walk", "gallop", "graze", "nod", "wag"});
-  CHECK(clipsFor(builtinClips(), figureSkeleton()).size() == 8);
+  CHECK(clipsFor(builtinClips(), figureSkeleton()).size() == 10);
   CHECK_THROWS_WITH(
       clipNamed(clipsFor(builtinClips(), loadTemplate("quadruped")), "fly"),
       "there is no clip \"fly\" for this body plan; there are: idle, walk, gallop, graze, nod, wag");
@@ -204,7 +204,7 @@ TEST_CASE("a folder of clips adds to those that come with skel and takes their p
   idle.name = "idle";
   write("idle.clip.json", formatClip(idle));
   const std::vector<Clip> clips = clipsFor(clipsWithFolder(dir.path()), loadTemplate("biped"));
-  CHECK(clips.size() == 9);
+  CHECK(clips.size() == 11);
   CHECK(clipNamed(clips, "nod").duration_s() == 9);
   CHECK(clipNamed(clips, "idle").duration_s() == 9);
   write("second.clip.json", fileWith(bow));

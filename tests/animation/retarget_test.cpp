@@ -270,6 +270,15 @@ TEST_CASE("a wave by an arm that is grown to the body is the other arm's, or the
   const Eigen::Quaternionf head =
       samplePose(swaying, skeleton, 0.7f).rotations[std::size_t(skeleton.index("head"))];
   CHECK(head.angularDistance(Eigen::Quaternionf::Identity()) > 0.2f);
+
+  // A trunk that bows already bows no deeper.
+  const auto bow = [&](const FigureShape& shape) {
+    RetargetOptions as_shaped;
+    as_shaped.shape = shape;
+    const Clip greet = retargetToRest(clipNamed(builtinClips(), "greet"), skeleton, as_shaped);
+    return samplePose(greet, skeleton, 1.2f).rotations[std::size_t(skeleton.index("body"))];
+  };
+  CHECK(bow(*options.shape).angularDistance(bow(withFeet(skeleton))) < 0.05f);
 }
 
 TEST_CASE("limbs that point at the viewer turn into the picture, as far as asked for") {

@@ -63,7 +63,8 @@ TEST_CASE("a drawing at rest is the drawing, and no triangle is turned over in t
     const Eigen::MatrixX2d rest = posedVertices(puppet, puppet.rest.col(0));
     CHECK((rest - puppet.vertices).cwiseAbs().maxCoeff() < 0.01);
     const CharacterFile file = loadCharacter({.path = drawing(name)});
-    for (const char* clip : {"idle", "walk", "run", "jump", "wave", "dance", "sit", "cheer"}) {
+    for (const char* clip :
+         {"idle", "walk", "run", "jump", "wave", "dance", "sit", "cheer", "greet", "talk"}) {
       CAPTURE(clip);
       const PoseMatrix worn = wornBy(puppet.rest, filmed(file, clip, 0, 12, false).joints, biped());
       int flipped = 0;

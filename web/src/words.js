@@ -74,6 +74,7 @@ const words = {
   jointLabel: ['{0}, {1} % sure', '{0}, zu {1} % sicher'],
   clip_idle: ['idle', 'warten'], clip_walk: ['walk', 'gehen'], clip_run: ['run', 'rennen'], clip_jump: ['jump', 'hüpfen'],
   clip_wave: ['wave', 'winken'], clip_dance: ['dance', 'tanzen'], clip_sit: ['sit', 'sitzen'], clip_cheer: ['cheer', 'jubeln'],
+  clip_greet: ['greet', 'verbeugen'], clip_talk: ['talk', 'reden'],
   clip_gallop: ['gallop', 'galoppieren'], clip_graze: ['graze', 'grasen'], clip_nod: ['nod', 'nicken'], clip_wag: ['wag', 'wedeln'],
 };
 
