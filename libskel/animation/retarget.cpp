@@ -110,16 +110,6 @@ void giveSlack(const Skeleton& skeleton, const std::vector<double>& slack_rad,
   }
 }
 
-// Folded arms, hands on the hips or in pockets: they lie on the trunk and stay there. Found by a forearm that
-// points back to the middle.
-bool isFolded(const Skeleton& skeleton, int elbow, int hand) {
-  const Vector3d forearm = skeleton.joints[hand].position - skeleton.joints[elbow].position;
-  const double inwards = -outwards(skeleton, elbow) * forearm.x();
-  const double least = skeleton.joints[0].position.y() - 0.5 * forearm.norm();
-  return inwards > 0.5 * forearm.norm() && skeleton.joints[hand].position.y() > least &&
-         skeleton.joints[hand].position.y() < skeleton.joints[elbow].position.y() + 0.7 * forearm.norm();
-}
-
 // Lets the joints keep the share `kept` of how they were drawn, and move so much less.
 void hold(Retargeter& retargeter, std::initializer_list<int> joints, double kept,
           std::vector<double>& slack_rad) {
@@ -155,8 +145,8 @@ void holdArms(Retargeter& retargeter, const FigureShape& shape, std::vector<doub
     const int shoulder = skeleton.find(side + "shoulder"), elbow = skeleton.find(side + "elbow"),
               hand = skeleton.find(side + "hand");
     if (shoulder < 0 || elbow < 0 || hand < 0) continue;
-    const double kept =
-        isFolded(skeleton, elbow, hand) ? 1 : std::max(least, smoothStep(0.45, 0.6, joinedAt(shape, elbow)));
+    const double joined = shape.joined.empty() ? isFolded(skeleton, elbow, hand) : shape.joined[elbow];
+    const double kept = std::max(least, smoothStep(0.45, kGrownArm, joined));
     if (kept > 0) hold(retargeter, {shoulder, elbow, hand}, kept, slack_rad);
   }
 }
@@ -450,6 +440,14 @@ std::vector<BoneTurn> turnsFromCanonical(const Skeleton& skeleton, const std::ve
     turns[j] = boneTurn(canonical[j], restBone(skeleton, int(j)), near);
   }
   return turns;
+}
+
+bool isFolded(const Skeleton& skeleton, int elbow, int hand) {
+  const Vector3d forearm = skeleton.joints[hand].position - skeleton.joints[elbow].position;
+  const double inwards = -outwards(skeleton, elbow) * forearm.x();
+  const double least = skeleton.joints[0].position.y() - 0.5 * forearm.norm();
+  return inwards > 0.5 * forearm.norm() && skeleton.joints[hand].position.y() > least &&
+         skeleton.joints[hand].position.y() < skeleton.joints[elbow].position.y() + 0.7 * forearm.norm();
 }
 
 double soleBelow(const FigureShape& shape, int foot, const Quaterniond& turn) {

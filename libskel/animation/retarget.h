@@ -28,11 +28,15 @@ struct FigureShape {
   // Of a drawing: the side of the picture to which it rather looks, 1 right, -1 left. 0: no drawing.
   double looks = 0;
   // One a joint, or empty; 0…1. Of arms: the share of the forearm that hangs on the body; 1 for one that
-  // moves nothing. Of legs: how far down they are one piece, 0 for trousers, 1 for a gown. 0 for the others.
+  // moves nothing, or is folded and in one piece with the body. Of legs: how far down they are one piece, 0
+  // for trousers, 1 for a gown. 0 for the others.
   std::vector<double> joined;
 };
 // As much as the bones alone tell.
 FigureShape shapeOfBones(const Skeleton& skeleton);
+// Folded arms, hands on the hips or in pockets: they lie on the trunk. Found by a forearm that points back to
+// the middle.
+bool isFolded(const Skeleton& skeleton, int elbow, int hand);
 // The y of the foot's lowest point from its joint, m, when the foot is turned so: 0 or less.
 double soleBelow(const FigureShape& shape, int foot, const Eigen::Quaterniond& turn);
 

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 
 #include "libskel/core/check.h"
 #include "libskel/core/segment.h"
 #include "libskel/skin/bones.h"
+#include "libskel/skin/parts.h"
 
 namespace skel {
 namespace {
@@ -75,10 +77,22 @@ double joinedArm(const Flesh& flesh, int shoulder, int elbow, int hand) {
   return arm ? double(joined) / arm : 1;
 }
 
+// The separate body of the mesh in which most of what these joints carry lies.
+int bodyOf(const Flesh& flesh, const std::vector<int>& of_vertex, std::initializer_list<int> joints) {
+  std::map<int, double> shares;
+  for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v)
+    if (const double share = flesh.share(v, joints); share > 0) shares[of_vertex[std::size_t(v)]] += share;
+  const auto most = std::max_element(shares.begin(), shares.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == shares.end() ? -1 : most->first;
+}
+
 void measureArms(const Flesh& flesh, FigureShape& shape) {
   const Skeleton& skeleton = flesh.skeleton;
   const int pelvis = skeleton.find("pelvis"), body = skeleton.find("body"), neck = skeleton.find("neck");
   if (pelvis < 0 || body < 0 || neck < 0) return;
+  const std::vector<int> bodies = meshParts(flesh.mesh, Welding(flesh.mesh.vertices)).of_vertex;
+  const int trunk = bodyOf(flesh, bodies, {pelvis, body, neck});
   for (const std::string name : {"left_", "right_"}) {
     const int shoulder = skeleton.find(name + "shoulder"), elbow = skeleton.find(name + "elbow"),
               hand = skeleton.find(name + "hand");
@@ -89,7 +103,9 @@ void measureArms(const Flesh& flesh, FigureShape& shape) {
     const double width = halfWidth(flesh, elbow, hand);
     const double hang =
         hangBeside(flesh, {pelvis, body, neck}, flesh.joint(shoulder), upper + 1.2 * lower, width, side);
-    const double joined = joinedArm(flesh, shoulder, elbow, hand);
+    const bool apart = bodyOf(flesh, bodies, {elbow, hand}) != trunk;
+    const double joined =
+        !apart && isFolded(skeleton, elbow, hand) ? 1 : joinedArm(flesh, shoulder, elbow, hand);
     shape.joined[shoulder] = shape.joined[elbow] = shape.joined[hand] = joined;
     shape.hang_rad[shoulder] = shape.hang_rad[elbow] = shape.hang_rad[hand] = hang;
   }

@@ -8,6 +8,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
+#include "libskel/deform/figure_shape.h"
 #include "libskel/image/mask_parts.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
@@ -60,9 +61,7 @@ struct Drawing {
   double toBone(int x, int y, const std::string& from, const std::string& to) const {
     return distanceToSegment<Vector2d>(Vector2d(x, y), at(from), at(to));
   }
-  LayerMap layers() const { 
-    return findLayers(image, silhouette, skeleton, body_plan, builtInPartNet());
-  }
+  LayerMap layers() const { return findLayers(image, silhouette, skeleton, body_plan, builtInPartNet()); }
   std::vector<FigurePiece> pieces() const { return figurePieces(layers(), silhouette, skeleton, body_plan); }
   TriangleMesh mesh() const { return inflate(image, silhouette, {.back = Back::kPlain}, pieces()); }
 };
@@ -237,6 +236,19 @@ TEST_CASE("raising the arm stretches nothing: the chest stays where it is") {
   liftToModel(of_one, one_skin);
   const SkinWeights torn = computeSkinWeights(one_skin, of_one, SkinMethod::kGeodesic);
   CHECK(worstStretch(one_skin, raised(one_skin, of_one, torn, -120)) > 3);
+}
+
+TEST_CASE("an arm across the belly is free where it is a body of its own, else one piece with the body") {
+  const Drawing drawing;
+  const auto joined = [&](const TriangleMesh& mesh) {
+    Skeleton skeleton = drawing.skeleton;
+    const std::vector<int> joint_layers = jointLayers(skeleton, drawing.body_plan, mesh);
+    liftToModel(skeleton, mesh, joint_layers);
+    const SkinWeights weights = computeSkinWeights(mesh, skeleton, SkinMethod::kGeodesic, {}, joint_layers);
+    return measureFigure(mesh, weights, skeleton).joined[std::size_t(skeleton.index("right_elbow"))];
+  };
+  CHECK(joined(drawing.mesh()) < 0.2);
+  CHECK(joined(inflate(drawing.image, drawing.silhouette)) == 1);
 }
 
 TEST_CASE("an arm that nothing tells from the body, and whose hand is a guess, moves nothing") {
