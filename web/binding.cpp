@@ -131,11 +131,13 @@ val described() {
   return said;
 }
 
-// Request: the bytes of {page, parts: of the nets so called, biped, quadruped: of the joint nets}. Returns {} or {error}.
+// Request: the bytes of {page, parts: of the nets so called, biped, quadruped: of the joint nets}. Returns {}
+// or {error}.
 val useNets(const val& request) {
   return saying("the nets", [&] {
     Nets given;
-    for (const char* name : {"page", "parts", "biped", "quadruped"}) given.files.push_back(bytesOf(request[name]));
+    for (const char* name : {"page", "parts", "biped", "quadruped"})
+      given.files.push_back(bytesOf(request[name]));
     given.page = std::make_shared<const PageNet>(readyToRun(parsePageNet(given.files[0], "page net")));
     given.parts = std::make_shared<const PartNet>(readyToRun(parsePartNet(given.files[1], "part net")));
     given.joints = std::make_shared<const JointNets>(

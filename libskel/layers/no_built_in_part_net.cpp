@@ -3,8 +3,6 @@
 
 namespace skel {
 
-const PartNet& builtInPartNet() {
-  throw UsageError("no part net is built in; hand one over in RigOptions");
-}
+const PartNet& builtInPartNet() { throw UsageError("no part net is built in; hand one over in RigOptions"); }
 
 }  // namespace skel
