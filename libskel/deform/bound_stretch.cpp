@@ -23,6 +23,7 @@ constexpr int kSweeps = 4;             // of smoothing between two looks at what
 constexpr int kRounds = 60;            // of such looks
 constexpr int kWiden = 5;              // after so many rounds, what moves reaches an edge farther
 constexpr int kPatience = 4;           // so many rounds without progress
+constexpr float kTorn = 0.011f;        // of all triangles, that a limb may stretch
 constexpr std::size_t kFew = 60;       // triangles that may ride rigidly without being seen
 constexpr double kSpare =
     0.9;  // of the bound: between the moments that are looked at it may be a little more
@@ -229,12 +230,13 @@ void evenOut(const TriangleMesh& mesh, int triangle, Rows& rows) {
   for (int k = 0; k < 3; ++k) rows.row(mesh.triangles(triangle, k)) = mean;
 }
 
-// An arm that is one piece with the body (`joined`) and would tear it rides with what it hangs on: in the
-// bodies of the mesh where it takes part in much of what is stretched. Returns the vertices that it moved,
+// An arm rides with what it hangs on where it takes part in much of what is stretched in a body of the mesh,
+// if it is one piece with the body (`joined`) or tears much of all. Returns the vertices that it moved,
 // ascending.
 std::vector<int> holdArms(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<int>& limbs,
                           const std::vector<double>& joined, const std::vector<int>& stretched, Rows& rows) {
   constexpr float kMuch = 0.1f;
+  const float torn = 3 * kTorn * float(mesh.triangles.rows());  // corners
   std::vector<int> held;
   const auto layerOf = [&](int v) { return mesh.layer.size() > 0 ? mesh.layer[v] : 0; };
   for (int layer = 0; layer <= (mesh.layer.size() > 0 ? mesh.layer.maxCoeff() : 0); ++layer) {
@@ -251,7 +253,8 @@ std::vector<int> holdArms(const TriangleMesh& mesh, const Skeleton& skeleton, co
       }
     for (int limb = 0; limb < int(rows.cols()); ++limb) {
       if (!skeleton.joints[std::size_t(limb)].name.ends_with("hand") ||
-          joined[std::size_t(limb)] < kGrownArm || shares[limb] <= kMuch * all || shares[limb] >= 0.99f * all)
+          (joined[std::size_t(limb)] < kGrownArm && shares[limb] < torn) || shares[limb] <= kMuch * all ||
+          shares[limb] >= 0.99f * all)
         continue;
       int root = limb;
       while (limbs[std::size_t(skeleton.joints[std::size_t(root)].parent)] == limb)
@@ -275,25 +278,27 @@ std::vector<int> holdArms(const TriangleMesh& mesh, const Skeleton& skeleton, co
 
 }  // namespace
 
-int boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<double>& joined,
-                 const std::vector<Clip>& clips, SkinWeights& weights) {
+StretchBound boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton,
+                          const std::vector<double>& joined, const std::vector<Clip>& clips,
+                          SkinWeights& weights) {
   const int vertices = int(mesh.vertices.rows());
-  if (vertices == 0 || clips.empty()) return 0;
+  if (vertices == 0 || clips.empty()) return {};
   Rows rows = Rows::Zero(vertices, Index(skeleton.joints.size()));
   for (int v = 0; v < vertices; ++v)
     for (int k = 0; k < 4; ++k) rows(v, weights.joints(v, k)) += weights.weights(v, k);
   const std::vector<JointTransforms> moments = tellingMoments(mesh, skeleton, clips);
-  if (moments.empty()) return 0;
+  if (moments.empty()) return {};
   Stretched stretched(mesh, byJoint(moments, skeleton.joints.size()));
   std::vector<int> all(static_cast<std::size_t>(vertices));
   for (int v = 0; v < vertices; ++v) all[std::size_t(v)] = v;
   std::vector<int> found = stretched.among(all, rows);
-  if (found.empty()) return 0;
+  if (found.empty()) return {};
   const Edges edges = edgesOf(vertices, mesh.triangles);
   std::vector<char> changed(static_cast<std::size_t>(vertices), 0);
   const std::vector<int> limbs = jointLimbs(skeleton);
   std::size_t best = found.size();
   int stalled = 0;
+  bool held_arms = false;
   for (int round = 0; round < kRounds && !found.empty(); ++round) {
     std::vector<int> moving = around(mesh, edges, found, 1 + round / kWiden);
     for (int sweep = 0; sweep < kSweeps; ++sweep) smoothRows(edges, moving, rows);
@@ -309,6 +314,7 @@ int boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton, const std::
     if (stalled < kPatience || found.size() < kFew) continue;
     moving = holdArms(mesh, skeleton, limbs, joined, found, rows);
     if (moving.empty()) break;
+    held_arms = true;
     for (const int v : moving) changed[std::size_t(v)] = 1;
     found = stretched.among(all, rows);
     best = found.size();
@@ -316,7 +322,7 @@ int boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton, const std::
   }
   for (int v = 0; v < vertices; ++v)
     if (changed[std::size_t(v)]) takeRow(rows, v, weights);
-  return int(found.size());
+  return {int(found.size()), held_arms};
 }
 
 }  // namespace skel

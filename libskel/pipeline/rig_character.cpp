@@ -153,17 +153,24 @@ void putAnklesBelowKnees(Skeleton& skeleton, const SkeletonTemplate& body_plan) 
   }
 }
 
-// Weights are the same whatever clips are asked for: those that come with skel decide.
-void boundStretchOfClips(const std::vector<Clip>& made, const RetargetOptions& retarget,
-                         const std::vector<Clip>& asked, const SkeletonTemplate& body_plan,
-                         RiggedCharacter& character) {
-  std::vector<Clip> clips;
-  for (const Clip& clip : clipsFor(builtinClips(), body_plan)) {
-    const auto same = std::find(asked.begin(), asked.end(), clip);
-    clips.push_back(same == asked.end() ? retargetToRest(clip, character.skeleton, retarget)
-                                        : made[std::size_t(same - asked.begin())]);
-  }
-  boundStretch(character.mesh, character.skeleton, retarget.shape->joined, clips, character.weights);
+// The clips that were asked for, as this figure can do them, and weights that they do not stretch far. Those
+// are the same whatever is asked for: the clips that come with skel decide.
+std::vector<Clip> fitClips(const std::vector<Clip>& asked, const RigOptions& options,
+                           const SkeletonTemplate& body_plan, bool bound, RiggedCharacter& character) {
+  RetargetOptions retarget;
+  retarget.into_picture = options.into_picture;
+  const auto made = [&](const std::vector<Clip>& clips) {
+    retarget.shape = measureFigure(character.mesh, character.weights, character.skeleton);
+    std::vector<Clip> result;
+    for (const Clip& clip : clips) result.push_back(retargetToRest(clip, character.skeleton, retarget));
+    return result;
+  };
+  if (!bound) return made(asked);
+  const std::vector<Clip> own = clipsFor(builtinClips(), body_plan), trying = made(own);
+  const StretchBound stretch =
+      boundStretch(character.mesh, character.skeleton, retarget.shape->joined, trying, character.weights);
+  if (asked == own && !stretch.held_arms) return trying;
+  return made(asked);
 }
 
 }  // namespace
@@ -266,16 +273,8 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   }
   if (options.rest_pose != RestPose::kDrawn)
     drawing.character = timed("rest pose", [&] { return poseToRest(drawing.character, options.rest_pose); });
-  drawing.clips = timed("clips", [&] {
-    const RiggedCharacter& character = drawing.character;
-    RetargetOptions retarget;
-    retarget.into_picture = options.into_picture;
-    retarget.shape = measureFigure(character.mesh, character.weights, character.skeleton);
-    std::vector<Clip> clips;
-    for (const Clip& clip : asked_clips) clips.push_back(retargetToRest(clip, character.skeleton, retarget));
-    if (inflated) boundStretchOfClips(clips, retarget, asked_clips, body_plan, drawing.character);
-    return clips;
-  });
+  drawing.clips =
+      timed("clips", [&] { return fitClips(asked_clips, options, body_plan, inflated, drawing.character); });
   return drawing;
 }
 
