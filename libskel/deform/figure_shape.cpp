@@ -64,15 +64,14 @@ double halfWidth(const Flesh& flesh, int joint, int child) {
 
 // The share of the forearm, by its vertices, that hangs on the trunk or the legs: an arm that was drawn
 // against the body, a hand that holds a skirt.
-double joinedArm(const Flesh& flesh, int shoulder, int elbow, int hand) {
+double joinedArm(const Flesh& flesh, int elbow, int hand) {
   const Vector2d from = flesh.joint(elbow).head<2>(), along = flesh.joint(hand).head<2>() - from;
   int arm = 0, joined = 0;
   for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v) {
-    if (flesh.share(v, {elbow, hand}) < 0.2) continue;
+    const double own = flesh.share(v, {elbow, hand});
+    if (own < 0.2) continue;
     ++arm;
-    if (flesh.share(v, {shoulder, elbow, hand}) < 0.8 &&
-        (flesh.at(v).head<2>() - from).dot(along) > 0.3 * along.squaredNorm())
-      ++joined;
+    if (own < 0.8 && (flesh.at(v).head<2>() - from).dot(along) > 0.3 * along.squaredNorm()) ++joined;
   }
   return arm ? double(joined) / arm : 1;
 }
@@ -104,8 +103,7 @@ void measureArms(const Flesh& flesh, FigureShape& shape) {
     const double hang =
         hangBeside(flesh, {pelvis, body, neck}, flesh.joint(shoulder), upper + 1.2 * lower, width, side);
     const bool apart = bodyOf(flesh, bodies, {elbow, hand}) != trunk;
-    const double joined =
-        !apart && isFolded(skeleton, elbow, hand) ? 1 : joinedArm(flesh, shoulder, elbow, hand);
+    const double joined = !apart && isFolded(skeleton, elbow, hand) ? 1 : joinedArm(flesh, elbow, hand);
     shape.joined[shoulder] = shape.joined[elbow] = shape.joined[hand] = joined;
     shape.hang_rad[shoulder] = shape.hang_rad[elbow] = shape.hang_rad[hand] = hang;
   }
