@@ -77,7 +77,7 @@ function(skel_tool name)
   target_compile_definitions(${name} PRIVATE SKEL_VERSION="${PROJECT_VERSION}")
   set_target_properties(${name} PROPERTIES NOT_FUZZED ON)
   if(name MATCHES "^skel-") # not the tools of the tests
-    install(TARGETS ${name})
+    install(TARGETS ${name} COMPONENT skel)
   endif()
 endfunction()
 

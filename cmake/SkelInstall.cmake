@@ -25,4 +25,6 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/skelConfig.cmake.in ${
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/skelConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/skelConfig.cmake ${PROJECT_BINARY_DIR}/skelConfigVersion.cmake
               ${PROJECT_SOURCE_DIR}/cmake/FindOpenCVLite.cmake DESTINATION ${skel_config_dir})
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(NOT SKEL_PACKAGES) # which name it as Debian does
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+endif()
