@@ -43,7 +43,8 @@ TEST_CASE("listings show a clip's or a motion's name on one line, whatever it ho
   CHECK(clips.find('\x1b') == clips.npos);
 
   writeFigure(dir.file("film/1.png"));
-  done(dir, R"(skel-style keypoints film -o m.motion.json && skel-style database add db m.motion.json --action "$(printf 'a\033[31m')")");
+  done(dir, "skel-style keypoints film -o m.motion.json");
+  done(dir, R"~(skel-style database add db m.motion.json --action "$(printf 'a\033[31m')")~");
   const std::string motions = done(dir, "skel-style database list db").out;
   CHECK_THAT(motions, Contains(R"(a\x1b[31m)"));
   CHECK(motions.find('\x1b') == motions.npos);
