@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "animator/rig_source.h"
+#include "libskel/core/text.h"
 #include "libskel/mesh/read_mesh.h"
 #include "libskel/skin/bones.h"
 #include "libskel/skin/parts.h"
@@ -32,13 +33,13 @@ void printMesh(const TriangleMesh& mesh) {
 void printSkeleton(const Skeleton& skeleton) {
   std::printf("skeleton: %d joints, %d bones%s%s\n", static_cast<int>(skeleton.joints.size()),
               static_cast<int>(skeletonBones(skeleton).size()), skeleton.template_name.empty() ? "" : ", ",
-              skeleton.template_name.c_str());
+              printable(skeleton.template_name).c_str());
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     int depth = 1;
     for (int above = skeleton.joints[j].parent; above >= 0; above = skeleton.joints[above].parent) ++depth;
     const Eigen::Vector3d& at = skeleton.joints[j].position;
-    std::printf("%*s%s (%.3f, %.3f, %.3f)\n", 2 * depth, "", skeleton.joints[j].name.c_str(), at.x(), at.y(),
-                at.z());
+    std::printf("%*s%s (%.3f, %.3f, %.3f)\n", 2 * depth, "", printable(skeleton.joints[j].name).c_str(),
+                at.x(), at.y(), at.z());
   }
 }
 
@@ -71,12 +72,12 @@ ExitCode runInfo(const InfoOptions& options) {
   }
   const RigModel model = readRigModel({options.file, options.skeleton, "auto"});
   const RiggedCharacter& character = model.file.character;
-  if (!model.note.empty()) std::printf("%s\n", model.note.c_str());
+  if (!model.note.empty()) std::printf("%s\n", printable(model.note).c_str());
   printMesh(character.mesh);
   printSkeleton(character.skeleton);
   if (character.weights.weights.rows() > 0) printWeights(character.weights);
   for (const Clip& clip : model.file.clips)
-    std::printf("clip: %s, %.2f s, moves %d joints\n", clip.name.c_str(),
+    std::printf("clip: %s, %.2f s, moves %d joints\n", printable(clip.name).c_str(),
                 static_cast<double>(clip.duration_s()), static_cast<int>(clip.tracks.size()));
   return ExitCode::kDone;
 }

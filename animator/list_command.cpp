@@ -4,12 +4,13 @@
 #include <cstdio>
 
 #include "libskel/animation/clip_library.h"
+#include "libskel/core/text.h"
 
 namespace skel {
 namespace {
 
 void printClip(const Clip& clip, const char* note) {
-  std::printf("  %-12s %5.2f s  %2d joints  %s\n", clip.name.c_str(), double(clip.duration_s()),
+  std::printf("  %-12s %5.2f s  %2d joints  %s\n", printable(clip.name).c_str(), double(clip.duration_s()),
               int(clip.tracks.size()), note);
 }
 
@@ -18,7 +19,7 @@ void printJoints(const Skeleton& skeleton) {
   std::vector<int> depth;
   for (const Joint& joint : skeleton.joints) {
     depth.push_back(joint.parent < 0 ? 0 : depth[std::size_t(joint.parent)] + 1);
-    std::printf("  %*s%s\n", 2 * depth.back(), "", joint.name.c_str());
+    std::printf("  %*s%s\n", 2 * depth.back(), "", printable(joint.name).c_str());
   }
 }
 
@@ -36,7 +37,7 @@ ExitCode runList(const ListOptions& options) {
     std::string body_plan;
     for (const Clip& clip : library) {
       if (&clip == &library.front() || clip.template_name != body_plan)
-        std::printf("%s:\n", clip.template_name.empty() ? "any" : clip.template_name.c_str());
+        std::printf("%s:\n", clip.template_name.empty() ? "any" : printable(clip.template_name).c_str());
       body_plan = clip.template_name;
       printClip(clip, "");
     }

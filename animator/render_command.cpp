@@ -11,6 +11,7 @@
 #include "libskel/cli/number.h"
 #include "libskel/cli/outputs.h"
 #include "libskel/core/progress.h"
+#include "libskel/core/text.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/image/read_image.h"
 
@@ -138,7 +139,7 @@ ExitCode runRender(const RenderCommandOptions& options) {
     video->finish();
   }
   std::printf("%s: %d frames of %dx%d, %.2f s of \"%s\"\n", options.output.c_str(), frames, size.width,
-              size.height, frames / options.frame_rate, clip.name.c_str());
+              size.height, frames / options.frame_rate, printable(clip.name).c_str());
   return ExitCode::kDone;
 }
 

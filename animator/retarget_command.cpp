@@ -16,11 +16,14 @@
 namespace skel {
 namespace {
 
-std::string listed(const std::vector<std::string>& names) { return names.empty() ? "none" : joined(names); }
+std::string listed(const std::vector<std::string>& names) {
+  return names.empty() ? "none" : printable(joined(names));
+}
 
 void report(const JointMatch& match) {
   std::printf("matched %s:\n", match.by_shape ? "by the shape of the tree" : "by name");
-  for (const auto& [ours, theirs] : match.joints) std::printf("  %-16s %s\n", ours.c_str(), theirs.c_str());
+  for (const auto& [ours, theirs] : match.joints)
+    std::printf("  %-16s %s\n", printable(ours).c_str(), printable(theirs).c_str());
   std::printf("not matched, of the character: %s\n", listed(match.ours_left).c_str());
   std::printf("not matched, of the motion: %s\n", listed(match.theirs_left).c_str());
 }

@@ -16,6 +16,7 @@
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
 #include "libskel/core/rng.h"
+#include "libskel/core/text.h"
 #include "libskel/draw/draw_skeleton.h"
 #include "libskel/image/write_image.h"
 
@@ -138,8 +139,8 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
   std::printf("%-34s  PCK.05 PCK.10  error usable limbs inside   IoU  worst joint\n", "character");
   for (const Row& row : rows) {
     const Score& s = row.score;
-    std::printf("%-34s  %6.2f %6.2f %6.3f %6.0f %5.2f %6.2f %5.2f  %s\n", row.id.c_str(), s.pck05, s.pck10,
-                s.error, s.usable, s.limbs, s.inside, s.iou,
+    std::printf("%-34s  %6.2f %6.2f %6.3f %6.0f %5.2f %6.2f %5.2f  %s\n", printable(row.id).c_str(), s.pck05,
+                s.pck10, s.error, s.usable, s.limbs, s.inside, s.iou,
                 row.found ? s.worst_joint.c_str() : ("no skeleton: " + row.reason).c_str());
     json["characters"][jsonFromFileName(row.id)] = {
         {"pck05", s.pck05},   {"pck10", s.pck10},           {"error", s.error},
@@ -148,7 +149,7 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
   }
   for (const Row& row : hard)
     std::printf(
-        "hard case %s: %s\n", row.id.c_str(),
+        "hard case %s: %s\n", printable(row.id).c_str(),
         row.found ? ("confidence " + std::to_string(row.score.confidence)).c_str() : row.reason.c_str());
   if (!rows.empty()) {
     const auto of = [](double Score::*field) { return [field](const Row& row) { return row.score.*field; }; };

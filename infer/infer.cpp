@@ -71,7 +71,7 @@ std::vector<std::string> drawingsAmong(const std::vector<std::string>& images) {
   for (const std::string& image : images) {
     if (isResult(image))
       std::fprintf(stderr, "skel-infer: note: %s is no drawing but what was made of one: left out\n",
-                   image.c_str());
+                   printable(image).c_str());
     else
       drawings.push_back(image);
   }
@@ -271,7 +271,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
   }
   const std::string mask = useMask(options, given, input);
   if (isLayerMap(options.layers)) input.layers = {readImage(options.layers), options.layers};
-  if (isPicture(options.back)) input.back = readImage(options.back);
+  if (isPicture(options.back)) input.back = {readImage(options.back), options.back};
 
   RigOptions figure_rig = rig;
   figure_rig.silhouette.figure = std::max(figure, 1);
@@ -310,8 +310,9 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
   std::snprintf(line, sizeof line, "  confidence %.2f", file.confidence);
   const std::string source =
       options.figure == "all" ? job.source + ", figure " + std::to_string(figure) : job.source;
-  outcome.report += source + ": " + (written.empty() ? "nothing to write" : written.front()) + line +
-                    (rig.otherwise ? "  " + drawing.body_plan.name : "") + "\n";
+  outcome.report += printable(source + ": " + (written.empty() ? "nothing to write" : written.front()) +
+                              line + (rig.otherwise ? "  " + drawing.body_plan.name : "")) +
+                    "\n";
   std::vector<std::string> notes = file.warnings;
   for (const std::string& name : options.clips)
     if (name != "none" && std::none_of(drawing.clips.begin(), drawing.clips.end(),
@@ -322,7 +323,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
         limbWarnings(drawing, drawing.body_plan, figure > 1 ? skeleton_path : job.source);
     notes.insert(notes.end(), of_limbs.begin(), of_limbs.end());
   }
-  for (const std::string& note : notes) outcome.complaints += source + ": note: " + note + "\n";
+  for (const std::string& note : notes) outcome.complaints += printable(source + ": note: " + note) + "\n";
   if (options.timings) {
     double total = 0;
     for (const StageTime& time : drawing.times) {

@@ -103,7 +103,7 @@ void bindKeyframes(CLI::App& app, KeyframesOptions& options) {
       ->type_name("DIR")
       ->capture_default_str();
   bindThreshold(app, options.threshold);
-  app.add_flag("--matrix", options.matrix, "All distances between frames, also as a picture");
+  app.add_flag("--matrix", options.matrix, "All distances between frames (4000 at most), also as a picture");
 }
 
 void bindKeypoints(CLI::App& app, KeypointsCommandOptions& options) {

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "libskel/core/text.h"
 #include "stylizer/commands.h"
 
 namespace skel {
@@ -10,8 +11,8 @@ ExitCode runDatabase(const DatabaseOptions& options) {
     if (options.motions.empty()) throw UsageError("database add: name the motion files to add");
     for (const std::string& motion : options.motions) {
       const DatabaseEntry entry = addToDatabase(options.folder, motion, options.action, options.force);
-      std::printf("%s: %s, %d frames, %d key frames\n", entry.file.c_str(), entry.action.c_str(),
-                  entry.frames, entry.keys);
+      std::printf("%s: %s, %d frames, %d key frames\n", printable(entry.file).c_str(),
+                  printable(entry.action).c_str(), entry.frames, entry.keys);
     }
     return ExitCode::kDone;
   }
@@ -20,12 +21,12 @@ ExitCode runDatabase(const DatabaseOptions& options) {
   const std::vector<DatabaseEntry> entries = readDatabase(options.folder);
   if (options.task == "list") {
     for (const DatabaseEntry& e : entries)
-      std::printf("%-12s %-32s %5d frames %4d keys  %s\n", e.action.c_str(), e.file.c_str(), e.frames, e.keys,
-                  e.source.c_str());
+      std::printf("%-12s %-32s %5d frames %4d keys  %s\n", printable(e.action).c_str(),
+                  printable(e.file).c_str(), e.frames, e.keys, printable(e.source).c_str());
     return ExitCode::kDone;
   }
   const std::vector<std::string> problems = checkDatabase(options.folder);
-  for (const std::string& problem : problems) std::fprintf(stderr, "%s\n", problem.c_str());
+  for (const std::string& problem : problems) std::fprintf(stderr, "%s\n", printable(problem).c_str());
   std::printf("%d motions, %d problems\n", int(entries.size()), int(problems.size()));
   return problems.empty() ? ExitCode::kDone : ExitCode::kInput;
 }

@@ -94,6 +94,14 @@ JointSightings sideBySide(const std::vector<Sighting>& all, const SkeletonTempla
   return seen;
 }
 
+// Read once more rather than kept whole, or written before it is known that they show anything.
+void writePictures(const FilmSource& film, const std::vector<MotionFrame>& frames, const fs::path& beside) {
+  const auto reader = readVideo(film.path, film.frame_rate);
+  VideoFrame frame;
+  for (std::size_t i = 0; i < frames.size() && reader->next(frame) && frame.file.empty(); ++i)
+    writeFile((beside / frames[i].image_file).string(), encodeFrame(frame.image));
+}
+
 // By the outlines, which know nothing of limbs that are taken for each other.
 bool outlinesLoop(const std::vector<FrameOutline>& outlines, const Eigen::VectorXd& successive) {
   return outlines.size() >= 4 && successive.maxCoeff() > 0 &&
@@ -132,7 +140,6 @@ Keypoints findKeypoints(const KeypointOptions& options) {
         char name[32];
         std::snprintf(name, sizeof name, "frame-%04d.png", int(i) + 1);
         picture = (pictures / name).string();
-        writeFile(picture, encodeFrame(frame.video.image));
       }
       out.image_file = pathSeenFrom(options.output, picture);
       out.image_width = frame.video.image.width;
@@ -173,6 +180,7 @@ Keypoints findKeypoints(const KeypointOptions& options) {
                                                                   : JointOrigin::kRecognized});
     }
   }
+  writePictures(options.film, result.motion.frames, file.parent_path());
   return result;
 }
 

@@ -42,22 +42,29 @@ Image keyPicture(const MotionFrame& frame, const Eigen::VectorXd& pose, const st
   return fitted(image, kCell_px, kCell_px);
 }
 
-// Distances between the outlines of the frames' pictures, or between poses where there are none.
-Eigen::MatrixXd distances(const MotionFile& motion, const std::string& path, const PoseMatrix& poses) {
+// Distances between the outlines of the frames' pictures, or between poses where there are none; of a long
+// motion's, `most` frames.
+Eigen::MatrixXd distances(const MotionFile& motion, const std::string& path, const PoseMatrix& poses,
+                          std::size_t most) {
+  const std::size_t all = motion.frames.size(), count = std::min(all, most);
+  const auto frame = [&](std::size_t i) { return i * all / count; };
   const bool pictures = std::none_of(motion.frames.begin(), motion.frames.end(),
-                                     [](const MotionFrame& frame) { return frame.image_file.empty(); });
+                                     [](const MotionFrame& f) { return f.image_file.empty(); });
   if (pictures) {
-    std::vector<FrameOutline> outlines(motion.frames.size());
-    parallelFor(outlines.size(), 0, [&](std::size_t i) {
-      const Image image = readImage((fs::path(path).parent_path() / motion.frames[i].image_file).string());
+    std::vector<FrameOutline> outlines(count);
+    parallelFor(count, 0, [&](std::size_t i) {
+      const std::string& file = motion.frames[frame(i)].image_file;
+      const Image image = readImage((fs::path(path).parent_path() / file).string());
       const Silhouette figure = extractSilhouette(image);
       outlines[i] = outlineOf(figure.found() ? figure.mask : Plane8(Plane8::Zero(image.height, image.width)));
     });
     return distanceMatrix(outlines);
   }
-  Eigen::MatrixXd matrix(poses.cols(), poses.cols());
-  for (Eigen::Index a = 0; a < poses.cols(); ++a)
-    for (Eigen::Index b = 0; b < poses.cols(); ++b) matrix(a, b) = (poses.col(a) - poses.col(b)).norm();
+  Eigen::MatrixXd matrix(count, count);
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b < count; ++b)
+      matrix(Eigen::Index(a), Eigen::Index(b)) =
+          (poses.col(Eigen::Index(frame(a))) - poses.col(Eigen::Index(frame(b)))).norm();
   return matrix;
 }
 
@@ -101,7 +108,7 @@ ExitCode runInspect(const InspectOptions& options) {
   }
   const int side = 3 * kCell_px;
   const std::vector<Panel> maps = {
-      {heatPicture(distances(motion, options.motion, poses), side, side), "distance between frames"},
+      {heatPicture(distances(motion, options.motion, poses, side), side, side), "distance between frames"},
       {heatPicture(style.activations, 2 * side, side), "components over time"}};
   std::vector<Panel> rows;
   if (!key_panels.empty()) rows.push_back({montage(key_panels, {.columns = 6}), "key frames"});

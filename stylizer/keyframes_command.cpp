@@ -17,6 +17,8 @@
 namespace skel {
 namespace {
 
+constexpr int kMostInMatrix = 4000;
+
 // Light where frames are far apart.
 Image matrixPicture(const Eigen::MatrixXd& matrix) {
   return magnified(heatMap(matrix.cast<float>().array() + 1e-6f), matrix.rows() < 100 ? 6 : 2);
@@ -38,6 +40,9 @@ ExitCode runKeyframes(const KeyframesOptions& options) {
     noteOutput((fs::path(options.output) / name).string());
   Image background;
   const FilmInfo info = lookAtFilm(options.film, background);
+  if (options.matrix && info.frames > kMostInMatrix)
+    throw InputError(options.film.path, "has " + std::to_string(info.frames) + " frames; --matrix takes " +
+                                            std::to_string(kMostInMatrix) + " at most");
   std::vector<FrameOutline> outlines(static_cast<std::size_t>(info.frames));
   std::vector<double> times_s(outlines.size());
   {

@@ -48,12 +48,8 @@ Image withoutFigure(const Image& image, const Plane8& mask) {
 // The joints at even moments.
 PoseMatrix atRate(const PoseMatrix& worn, const std::vector<double>& times_s, double rate,
                   const PuppetFilmOptions& options) {
-  const std::size_t m = times_s.size();
-  const double first = times_s.front();
-  const double step = m > 1 ? (times_s.back() - first) / double(m - 1) : 1 / rate;
-  const double cycle_s = times_s.back() - first + step;
-  const int count =
-      std::max(1, int(std::lround((options.duration_s > 0 ? options.duration_s : cycle_s) * rate)));
+  const double first = times_s.front(), cycle_s = motionLength_s(times_s, rate);
+  const int count = std::max(1, int(std::lround(options.duration_s * rate)));
   std::vector<double> at;
   for (int i = 0; i < count; ++i) {
     const double t = std::fmod(i / rate + 1e-9, cycle_s) + first;
@@ -73,23 +69,33 @@ FilmBackground readBackground(const std::string& text) {
   return {false, kWhite, readImage(text)};
 }
 
+double motionLength_s(const std::vector<double>& times_s, double rate) {
+  const std::size_t m = times_s.size();
+  const double way_s = times_s.back() - times_s.front();
+  return way_s + (m > 1 ? way_s / double(m - 1) : 1 / rate);
+}
+
 PuppetFrames layOut(const Puppet& puppet, const Performer& performer, const PoseMatrix& worn,
                     const std::vector<double>& times_s, const PuppetFilmOptions& options) {
   PuppetFrames frames;
   frames.frame_rate = options.frame_rate;
-  const PoseMatrix poses = atRate(worn, times_s, frames.frame_rate, options);
-  frames.vertices.resize(std::size_t(poses.cols()));
-  std::vector<int> flipped(frames.vertices.size());
-  parallelFor(frames.vertices.size(), 0, [&](std::size_t i) {
-    frames.vertices[i] = posedVertices(puppet, poses.col(Eigen::Index(i)));
-    flipped[i] = flippedTriangles(puppet.vertices, frames.vertices[i], puppet.triangles);
+  frames.poses = atRate(worn, times_s, frames.frame_rate, options);
+  // What a frame needs is kept, not where its vertices are: films are long.
+  struct Extent {
+    Eigen::RowVector2d low, high;
+    int flipped = 0;
+  };
+  std::vector<Extent> extents(std::size_t(frames.poses.cols()));
+  parallelFor(extents.size(), 0, [&](std::size_t i) {
+    const Eigen::MatrixX2d vertices = posedVertices(puppet, frames.poses.col(Eigen::Index(i)));
+    extents[i] = {vertices.colwise().minCoeff(), vertices.colwise().maxCoeff(),
+                  flippedTriangles(puppet.vertices, vertices, puppet.triangles)};
   });
-  for (const int count : flipped) frames.flipped += count;
-  Eigen::RowVector2d low = frames.vertices[0].colwise().minCoeff(),
-                     high = frames.vertices[0].colwise().maxCoeff();
-  for (const Eigen::MatrixX2d& v : frames.vertices) {
-    low = low.cwiseMin(v.colwise().minCoeff());
-    high = high.cwiseMax(v.colwise().maxCoeff());
+  Eigen::RowVector2d low = extents[0].low, high = extents[0].high;
+  for (const Extent& extent : extents) {
+    low = low.cwiseMin(extent.low);
+    high = high.cwiseMax(extent.high);
+    frames.flipped += extent.flipped;
   }
   const double margin = kMargin * (high - low).maxCoeff();
   low.array() -= margin;
@@ -117,16 +123,18 @@ PuppetFrames layOut(const Puppet& puppet, const Performer& performer, const Pose
 
 Image paintFrame(const Puppet& puppet, const PuppetFrames& frames, std::size_t i) {
   Image image = frames.background;
+  const Eigen::MatrixX2d vertices = posedVertices(puppet, frames.poses.col(Eigen::Index(i)));
   const Eigen::MatrixX2d places =
-      ((frames.vertices[i].rowwise() - frames.corner.transpose()).array() * frames.scale).matrix();
+      ((vertices.rowwise() - frames.corner.transpose()).array() * frames.scale).matrix();
   drawTriangles(image, places, puppet.triangles, puppet.texture, puppet.texture_places);
   return image;
 }
 
 void writePuppetFilm(const Puppet& puppet, const PuppetFrames& frames, VideoWriter& video,
                      const std::function<void()>& on_frame) {
-  for (std::size_t first = 0; first < frames.vertices.size(); first += kBatch) {
-    std::vector<Image> batch(std::min(kBatch, frames.vertices.size() - first));
+  const std::size_t count = std::size_t(frames.poses.cols());
+  for (std::size_t first = 0; first < count; first += kBatch) {
+    std::vector<Image> batch(std::min(kBatch, count - first));
     parallelFor(batch.size(), 0, [&](std::size_t i) { batch[i] = paintFrame(puppet, frames, first + i); });
     for (const Image& image : batch) {
       video.add(image);

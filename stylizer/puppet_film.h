@@ -23,7 +23,7 @@ struct PuppetFilmOptions {
   FilmBackground background;
   int size_px = 480;      // of the film's long side, at most
   double frame_rate = 0;  // 1/s; 0: the motion's
-  double duration_s = 0;  // the motion repeats; 0: once
+  double duration_s = 0;  // the motion repeats, or is cut
   bool loops = false;     // the first frame follows the last
 };
 
@@ -32,10 +32,14 @@ struct PuppetFrames {
   double scale = 1;                                  // film px a px of the drawing
   Eigen::Vector2d corner = Eigen::Vector2d::Zero();  // of the film's first pixel, in px of the drawing
   Image background;                                  // of the film's size
-  std::vector<Eigen::MatrixX2d> vertices;            // of each frame, px of the drawing
+  PoseMatrix poses;                                  // one column a frame, px of the drawing
   double frame_rate = 0;
-  int flipped = 0;  // triangles that are turned over, in all frames
+  std::int64_t flipped = 0;  // triangles that are turned over, in all frames
 };
+
+// How long a motion of frames at these times lasts, the last one as long as the others in the mean, or,
+// alone, 1 / rate.
+double motionLength_s(const std::vector<double>& times_s, double rate);
 
 // `worn`: the motion as this body does it (wornBy()), one column a frame at `times_s`.
 PuppetFrames layOut(const Puppet& puppet, const Performer& performer, const PoseMatrix& worn,

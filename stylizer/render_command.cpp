@@ -12,6 +12,8 @@
 namespace skel {
 namespace {
 
+constexpr double kMaxFilm_s = 3600;
+
 std::vector<double> timesOf(const MotionFile& motion) {
   std::vector<double> times_s;
   for (const MotionFrame& frame : motion.frames) times_s.push_back(frame.time_s);
@@ -38,27 +40,37 @@ void perform(const Stage& stage, const MotionFile& motion, const std::string& pa
              const PerformRequest& request, const std::string& output) {
   const SkeletonTemplate plan = loadTemplate("biped");
   const Puppet& puppet = stage.puppet;
+  const std::vector<double> times_s = timesOf(motion);
+  VideoOptions video_options;
+  video_options.frame_rate = request.frame_rate > 0 ? request.frame_rate : motion.frame_rate;
+  video_options.transparent = request.background == "none";
+  openVideo(output, video_options);  // says what rate cannot be written
+  const double duration_s =
+      request.duration_s > 0 ? request.duration_s : motionLength_s(times_s, video_options.frame_rate);
+  if (duration_s > kMaxFilm_s)
+    throw InputError(path,
+                     "lasts more than an hour, the longest film; say by --duration how much is to be shown");
   const PoseMatrix worn =
       wornBy(puppet.rest, posesOf(motion, plan, path), plan, {.travels = !request.in_place});
   const PuppetFilmOptions film{.background = stage.background,
                                .size_px = request.size_px,
-                               .frame_rate = request.frame_rate > 0 ? request.frame_rate : motion.frame_rate,
-                               .duration_s = request.duration_s,
+                               .frame_rate = video_options.frame_rate,
+                               .duration_s = duration_s,
                                .loops = loops};
-  const PuppetFrames frames = layOut(puppet, stage.performer, worn, timesOf(motion), film);
-  VideoOptions video_options{.width = frames.width, .height = frames.height, .frame_rate = frames.frame_rate};
-  video_options.frames = int(frames.vertices.size());
-  video_options.transparent = request.background == "none";
+  const PuppetFrames frames = layOut(puppet, stage.performer, worn, times_s, film);
+  const int count = int(frames.poses.cols());
+  video_options.width = frames.width;
+  video_options.height = frames.height;
+  video_options.frames = count;
   const auto video = openVideo(output, video_options);
   {
-    ProgressBar bar("frames", frames.vertices.size());
+    ProgressBar bar("frames", std::size_t(count));
     writePuppetFilm(puppet, frames, *video, [&] { bar.advance(); });
     video->finish();
   }
-  std::printf("%s: %d frames of %dx%d, %.2f s; %d of %d triangles turned over\n", output.c_str(),
-              int(frames.vertices.size()), frames.width, frames.height,
-              double(frames.vertices.size()) / frames.frame_rate, frames.flipped,
-              int(frames.vertices.size()) * int(puppet.triangles.rows()));
+  std::printf("%s: %d frames of %dx%d, %.2f s; %lld of %lld triangles turned over\n", output.c_str(), count,
+              frames.width, frames.height, count / frames.frame_rate, static_cast<long long>(frames.flipped),
+              static_cast<long long>(count) * puppet.triangles.rows());
 }
 
 ExitCode runRender(const RenderOptions2D& options) {
@@ -70,16 +82,21 @@ ExitCode runRender(const RenderOptions2D& options) {
   const MotionFile motion = readMotionFile(options.motion, plan);
   const PoseMatrix poses = posesOf(motion, plan, options.motion);
   const bool loops = options.loop == "auto" ? isLoop(poses) : options.loop == "yes";
-  if (!options.output.empty()) {
-    perform(setStage(options.character, options.perform, options.output), motion, options.motion, loops,
-            options.perform, options.output);
-  }
+  // What is refused is refused before the film is made.
+  std::string clip_text;
+  double clip_s = 0;
   if (!options.to_clip.empty()) {
     const std::string file = std::filesystem::path(options.to_clip).filename().string();
-    const std::string name = file.substr(0, file.find('.'));
-    const Clip clip = clipOfMotion(poses, timesOf(motion), loops, plan, name);
-    writeFile(options.to_clip, formatClip(clip));
-    std::printf("%s: %.2f s\n", options.to_clip.c_str(), double(clip.duration_s()));
+    const Clip clip = clipOfMotion(poses, timesOf(motion), loops, plan, file.substr(0, file.find('.')));
+    clip_text = formatClip(clip);
+    clip_s = double(clip.duration_s());
+  }
+  if (!options.output.empty())
+    perform(setStage(options.character, options.perform, options.output), motion, options.motion, loops,
+            options.perform, options.output);
+  if (!options.to_clip.empty()) {
+    writeFile(options.to_clip, clip_text);
+    std::printf("%s: %.2f s\n", options.to_clip.c_str(), clip_s);
   }
   return ExitCode::kDone;
 }

@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "libskel/core/files.h"
+#include "libskel/core/text.h"
 #include "stylizer/commands.h"
 
 namespace skel {
@@ -22,8 +23,9 @@ ExitCode runTransfer(const TransferCommandOptions& options) {
   const MotionTransferReport report = transferMotion(content, style, transferOptions(options.request));
   writeFile(options.output, formatMotionFile(report.motion, loadTemplate("biped")));
   std::printf("%s: %s%s\n  factored to %.2f %%; mean pose %.0f %% of the way; phase correlation %.3f\n",
-              options.output.c_str(), report.motion.source.c_str(), report.mirrored ? ", mirrored" : "",
-              100 * report.error, 100 * report.mean_pose_moved, report.phase_correlation);
+              options.output.c_str(), printable(report.motion.source).c_str(),
+              report.mirrored ? ", mirrored" : "", 100 * report.error, 100 * report.mean_pose_moved,
+              report.phase_correlation);
   return ExitCode::kDone;
 }
 

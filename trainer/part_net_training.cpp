@@ -26,7 +26,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // Streams of random numbers of one seed. Samples have a stream each by number.
-enum Stream : std::uint64_t { kInitialStream = 1, kSampleStream = 1u << 20, kValidationStream = 1ull << 48 };
+enum PartStream : std::uint64_t {
+  kInitialPartStream = 1,
+  kSampleStream = 1u << 20,
+  kValidationPartStream = 1ull << 48
+};
 
 // DIR/characters/<name>.shapes.png or, of datasets/unseen/characters/<name>.png, DIR/unseen/characters/…
 std::string shapesOf(const std::string& image, const std::string& folder) {
@@ -325,7 +329,7 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
   if (options.output.empty()) throw UsageError("-o is missing: the weights file to write");
   std::vector<Lesson> validation;
   for (const PartSample& sample : readSamples(options.held_out, options.shapes, options.threads)) {
-    Rng rng(options.seed, kValidationStream + validation.size());
+    Rng rng(options.seed, kValidationPartStream + validation.size());
     Lesson& l = validation.emplace_back();
     l.sample = fittedPartSample(sample);
     l.before = limbsBefore(l.sample);
@@ -333,7 +337,7 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
   }
   PartNet net = makePartNet();
   if (options.start.empty()) {
-    Rng rng(options.seed, kInitialStream);
+    Rng rng(options.seed, kInitialPartStream);
     initialise(net, rng);
   } else {
     net = parsePartNet(readFile(options.start), options.start);

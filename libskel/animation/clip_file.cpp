@@ -248,6 +248,7 @@ void appendTrack(std::string& text, const JointTrack& track) {
 }  // namespace
 
 std::string formatClip(const Clip& clip) {
+  checkTimes(clip);
   const auto quoted = [](const std::string& name) {
     return nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   };

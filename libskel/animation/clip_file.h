@@ -13,6 +13,7 @@ namespace skel {
 inline constexpr const char* kClipFileEnding = ".clip.json";
 
 // Rotations as quaternions, or as angles to the thousandth of a degree where the clip has them.
+// Throws Error by checkTimes() (clip_limits.h).
 std::string formatClip(const Clip& clip);
 
 // Keys that ease are given at kEasedRate_hz. Throws InputError that names file, JSON path and reason: times

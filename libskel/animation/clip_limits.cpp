@@ -1,6 +1,8 @@
 #include "libskel/animation/clip_limits.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "libskel/core/error.h"
 
@@ -10,6 +12,24 @@ namespace {
 constexpr double kMaxTurns = 2e6;  // of single joints: an hour of a biped at 30 poses a second
 
 }  // namespace
+
+void checkTimes(const Clip& clip) {
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ExitCode::kInput, "the clip \"" + clip.name + "\" " + why);
+  };
+  if (static_cast<double>(clip.duration_s()) > kMaxClip_s)
+    refuse("lasts more than an hour; cut it into parts");
+  const auto check = [&](const std::vector<float>& times_s) {
+    if (std::adjacent_find(times_s.begin(), times_s.end(), std::greater_equal<>()) != times_s.end())
+      refuse("has keys that are nearer than times can tell; take frames away");
+  };
+  check(clip.root_times_s);
+  for (const JointTrack& track : clip.tracks) {
+    check(track.times_s);
+    check(track.translation_times_s);
+    check(track.scale_times_s);
+  }
+}
 
 void checkMoments(const Clip& clip, double moments, std::size_t joints) {
   if (moments * static_cast<double>(joints) <= kMaxTurns) return;

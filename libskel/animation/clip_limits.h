@@ -8,6 +8,10 @@ namespace skel {
 // Readers refuse what lasts longer.
 inline constexpr double kMaxClip_s = 3600;
 
+// Throws Error (refused input) if readers would refuse what is written of the clip: it lasts longer, or two
+// keys of a track are at the same time, as floats.
+void checkTimes(const Clip& clip);
+
 // Throws Error (refused input) if so many moments of the clip are too many poses of a skeleton of so many
 // joints to be computed at once.
 void checkMoments(const Clip& clip, double moments, std::size_t joints);

@@ -9,11 +9,10 @@ namespace skel {
 
 enum class ExitCode { kDone = 0, kUsage = 1, kInput = 2, kUnavailable = 3, kOutput = 4 };
 
-// what() is the whole line for the user: which file, where in it, what is wrong, what to do.
+// what() is the whole line for the user, printable(): which file, where in it, what is wrong, what to do.
 class Error : public std::runtime_error {
  public:
-  Error(ExitCode exit_code, const std::string& message)
-      : std::runtime_error(message), exit_code_(exit_code) {}
+  Error(ExitCode exit_code, const std::string& message);
   ExitCode exitCode() const { return exit_code_; }
 
  private:

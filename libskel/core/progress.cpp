@@ -1,4 +1,5 @@
 #include "libskel/core/progress.h"
+#include "libskel/core/text.h"
 
 #include <unistd.h>
 
@@ -41,7 +42,7 @@ void ProgressBar::draw() {
   const int left_s = share > 0 ? static_cast<int>(elapsed_s * (1 - share) / share + 0.5) : 0;
   std::fprintf(stderr, "\r\033[K%s [%s%s] %zu/%zu %d:%02d left  %s", title_.c_str(),
                std::string(filled, '=').c_str(), std::string(kWidth - filled, ' ').c_str(), done_, total_,
-               left_s / 60, left_s % 60, note_.c_str());
+               left_s / 60, left_s % 60, printable(note_).c_str());
   std::fflush(stderr);
   drawn_ = true;
 }

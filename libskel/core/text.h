@@ -2,15 +2,16 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace skel {
 
 // With commas in between.
-inline std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
+std::string joined(const std::vector<std::string>& words);
+
+// Text out of a file as people are shown it: it neither ends (\x00) nor begins a line of its own (\n) nor
+// commands a terminal (\x1b). Errors do so by themselves.
+std::string printable(std::string_view text);
 
 }  // namespace skel

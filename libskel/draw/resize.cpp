@@ -43,29 +43,35 @@ Image resized(const Image& image, int width, int height) {
   SKEL_CHECK(!image.empty() && width >= 1 && height >= 1);
   if (width == image.width && height == image.height) return image;
   const std::vector<Taps> across = tapsFor(image.width, width), down = tapsFor(image.height, height);
-  // Colours weighted by alpha, so that clear pixels do not bleed.
-  std::vector<Eigen::Array4f> narrow(std::size_t(image.height) * width);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < width; ++x) {
-      Eigen::Array4f sum = Eigen::Array4f::Zero();
-      for (std::size_t k = 0; k < across[x].weights.size(); ++k) {
-        const std::uint8_t* p = image.pixel(across[x].first + int(k), y);
-        const float alpha = p[3] * across[x].weights[k];
-        sum += Eigen::Array4f(p[0] * alpha, p[1] * alpha, p[2] * alpha, alpha);
-      }
-      narrow[std::size_t(y) * width + x] = sum;
-    }
+  // Colours weighted by alpha, so that clear pixels do not bleed. Source rows made narrow, as many as a
+  // target row needs: the next one takes the place of the oldest.
+  std::size_t most = 0;
+  for (const Taps& taps : down) most = std::max(most, taps.weights.size());
+  std::vector<Eigen::Array4f> narrow(most * std::size_t(width));
+  const auto narrowRow = [&](int y) { return narrow.data() + (std::size_t(y) % most) * std::size_t(width); };
+  int next = 0;
   Image result(width, height);
-  for (int y = 0; y < height; ++y)
+  for (int y = 0; y < height; ++y) {
+    for (; next < down[y].first + int(down[y].weights.size()); ++next)
+      for (int x = 0; x < width; ++x) {
+        Eigen::Array4f sum = Eigen::Array4f::Zero();
+        for (std::size_t k = 0; k < across[x].weights.size(); ++k) {
+          const std::uint8_t* p = image.pixel(across[x].first + int(k), next);
+          const float alpha = p[3] * across[x].weights[k];
+          sum += Eigen::Array4f(p[0] * alpha, p[1] * alpha, p[2] * alpha, alpha);
+        }
+        narrowRow(next)[x] = sum;
+      }
     for (int x = 0; x < width; ++x) {
       Eigen::Array4f sum = Eigen::Array4f::Zero();
       for (std::size_t k = 0; k < down[y].weights.size(); ++k)
-        sum += down[y].weights[k] * narrow[(down[y].first + k) * width + x];
+        sum += down[y].weights[k] * narrowRow(down[y].first + int(k))[x];
       std::uint8_t* p = result.pixel(x, y);
       for (int c = 0; c < 3; ++c)
         p[c] = sum[3] > 0 ? std::uint8_t(std::min(255l, std::lround(sum[c] / sum[3]))) : 0;
       p[3] = std::uint8_t(std::min(255l, std::lround(sum[3])));
     }
+  }
   return result;
 }
 

@@ -164,13 +164,13 @@ int addJointIndices(GlbBuilder& glb, const SkinWeights& weights,
 // The share of the drawing's colours that is there without light.
 constexpr double kGlow = 0.25;
 
-int addMaterial(GlbBuilder& glb, const TriangleMesh& mesh, const std::string& name) {
+int addMaterial(GlbBuilder& glb, const TriangleMesh& mesh, const Image& texture, const std::string& name) {
   tinygltf::Material material;
   material.name = name;
   material.pbrMetallicRoughness.metallicFactor = 0;
   material.pbrMetallicRoughness.roughnessFactor = 1;
-  if (!mesh.texture.empty() && mesh.uv.rows() > 0) {
-    const std::string png = encodePng(mesh.texture);
+  if (!texture.empty() && mesh.uv.rows() > 0) {
+    const std::string png = encodePng(texture);
     tinygltf::Image image;
     image.name = name;
     image.mimeType = "image/png";
@@ -182,10 +182,10 @@ int addMaterial(GlbBuilder& glb, const TriangleMesh& mesh, const std::string& na
     sampler.wrapS = sampler.wrapT =
         repeats(mesh) ? TINYGLTF_TEXTURE_WRAP_REPEAT : TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
     glb.model.samplers.push_back(sampler);
-    tinygltf::Texture texture;
-    texture.sampler = 0;
-    texture.source = 0;
-    glb.model.textures.push_back(texture);
+    tinygltf::Texture sampled;
+    sampled.sampler = 0;
+    sampled.source = 0;
+    glb.model.textures.push_back(sampled);
     material.pbrMetallicRoughness.baseColorTexture.index = 0;
     // So that the light of others does not turn white paper grey.
     material.pbrMetallicRoughness.baseColorFactor = {1 - kGlow, 1 - kGlow, 1 - kGlow, 1};
@@ -214,7 +214,7 @@ int addMesh(GlbBuilder& glb, const RiggedCharacter& character, const std::string
   constexpr int kVertices = TINYGLTF_TARGET_ARRAY_BUFFER;
   tinygltf::Primitive primitive;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  primitive.material = addMaterial(glb, mesh, name);
+  primitive.material = addMaterial(glb, mesh, character.mesh.texture, name);
   primitive.indices = addTriangles(glb, mesh);
   primitive.attributes["POSITION"] =
       glb.addBoundedAccessor(rowByRow(mesh.vertices), 3, TINYGLTF_TYPE_VEC3, kVertices);

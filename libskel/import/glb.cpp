@@ -343,6 +343,7 @@ void makeWhole(RiggedCharacter& character) {
   const Eigen::Index count = whole->vertices.rows();
   weights.joints.conservativeResize(count, Eigen::NoChange);
   weights.weights.conservativeResize(count, Eigen::NoChange);
+  whole->texture = std::move(character.mesh.texture);
   character.mesh = std::move(*whole);
 }
 

@@ -8,7 +8,9 @@ namespace skel {
 
 SplitMesh splitSeams(const TriangleMesh& mesh) {
   SplitMesh out;
-  out.mesh = mesh;
+  out.mesh.vertices = mesh.vertices;
+  out.mesh.triangles = mesh.triangles;
+  out.mesh.uv = mesh.uv;
   out.source.resize(static_cast<std::size_t>(mesh.vertices.rows()));
   std::iota(out.source.begin(), out.source.end(), 0);
   if (mesh.back_uv.rows() == 0) return out;
@@ -33,8 +35,6 @@ SplitMesh splitSeams(const TriangleMesh& mesh) {
     out.mesh.vertices.row(i) = mesh.vertices.row(v);
     out.mesh.uv.row(i) = behind[v] == i ? mesh.back_uv.row(v) : mesh.uv.row(v);
   }
-  out.mesh.back_uv.resize(0, 2);
-  out.mesh.first_back = 0;
   return out;
 }
 
@@ -48,7 +48,10 @@ std::optional<TriangleMesh> joinSeams(const TriangleMesh& split) {
   }
   const auto count = static_cast<Eigen::Index>(first.size());
   if (count == split.vertices.rows()) return std::nullopt;
-  TriangleMesh whole = split;
+  TriangleMesh whole;
+  whole.vertices = split.vertices;
+  whole.triangles = split.triangles;
+  whole.uv = split.uv;
   for (Eigen::Index t = 0; t < whole.triangles.rows(); ++t)
     for (int k = 0; k < 3; ++k)
       whole.triangles(t, k) = source[static_cast<std::size_t>(split.triangles(t, k))];

@@ -9,13 +9,15 @@
 namespace skel {
 
 struct SplitMesh {
-  TriangleMesh mesh;        // no back_uv; the vertices of the whole mesh first, then the copies
+  // Vertices, those of the whole mesh first, then the copies; triangles and uv. The texture stays where it
+  // is.
+  TriangleMesh mesh;
   std::vector<int> source;  // #V: of each vertex the one of the whole mesh that it is or copies
 };
 
 SplitMesh splitSeams(const TriangleMesh& mesh);
 
-// The whole mesh that splitSeams() made `split` of; none if that never was one.
+// The whole mesh that splitSeams() made `split` of, without its texture; none if that never was one.
 std::optional<TriangleMesh> joinSeams(const TriangleMesh& split);
 
 }  // namespace skel

@@ -133,9 +133,9 @@ InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawin
   if (input.back) {
     SilhouetteOptions silhouette;
     silhouette.page_net = options.silhouette.page_net;
-    const Silhouette behind = extractSilhouette(*input.back, silhouette);
-    if (!behind.found()) throw UsageError("the picture of the back shows no figure: " + behind.reason);
-    inflate.back_picture = std::make_shared<const BackPicture>(BackPicture{*input.back, behind.mask});
+    const Silhouette behind = extractSilhouette(input.back->image, silhouette);
+    if (!behind.found()) throw InputError(input.back->file, behind.reason);
+    inflate.back_picture = std::make_shared<const BackPicture>(BackPicture{input.back->image, behind.mask});
   }
   return inflate;
 }

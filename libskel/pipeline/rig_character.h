@@ -26,8 +26,8 @@
 
 namespace skel {
 
-// A mended picture of layers (layerPicture()) and the file that complaints name.
-struct LayerPicture {
+// A picture beside the drawing, and the file that complaints name.
+struct NamedPicture {
   Image image;
   std::string file;
 };
@@ -37,9 +37,9 @@ struct RigInput {
   Image image;
   std::optional<Plane8> mask;          // the figure, given by hand; of the image's size
   std::optional<TriangleMesh> model;   // take this mesh instead of inflating the silhouette
-  std::optional<Image> back;           // the figure seen from behind, for the back of the model
+  std::optional<NamedPicture> back;    // the figure seen from behind, for the back of the model
   int turned_deg = 0;                  // of the `skeleton`'s figure, clockwise against upright
-  std::optional<LayerPicture> layers;  // which limbs lie before the body, instead of finding out
+  std::optional<NamedPicture> layers;  // layerPicture(), mended: which limbs lie before the body
   std::optional<Skeleton> skeleton;    // go on from these joints (image px) instead of recognising any
 };
 
@@ -104,7 +104,8 @@ struct RiggedDrawing {
 };
 
 // Stages 2 to 8. Where there is no figure, `found()` is false and silhouette.reason says why. Throws
-// UsageError if no net knows the body plan, InputError if input.layers does not fit.
+// UsageError if no net knows the body plan, InputError if input.layers does not fit, or input.back shows no
+// figure.
 RiggedDrawing rigCharacter(RigInput input, const RigOptions& options);
 
 }  // namespace skel

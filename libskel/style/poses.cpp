@@ -30,10 +30,10 @@ PoseMatrix posesOf(const MotionFile& motion, const SkeletonTemplate& body_plan, 
   PoseMatrix poses(rowsOf(body_plan), Index(frames));
   for (std::size_t j = 0; j < body_plan.joints.size(); ++j) {
     const auto known = [&](std::size_t f) { return motion.frames[f].joints[j].has_value(); };
-    std::size_t before = frames;
+    std::size_t before = frames, after = 0;
     for (std::size_t f = 0; f < frames; ++f) {
       if (known(f)) before = f;
-      std::size_t after = f;
+      after = std::max(after, f);
       while (after < frames && !known(after)) ++after;
       if (before == frames && after == frames)
         throw InputError(path, "no frame knows the joint \"" + body_plan.joints[j].name +

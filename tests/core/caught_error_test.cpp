@@ -5,6 +5,7 @@
 #include <new>
 #include <system_error>
 
+#include "libskel/core/text.h"
 #include "tests/support/catch.h"
 
 using namespace skel;
@@ -51,4 +52,15 @@ TEST_CASE("whatever is thrown becomes one line that names the input, and a code"
 TEST_CASE("a name in a file that holds a line of ours, or commands for a terminal, stays within its line") {
   CHECK(caught([] { throw InputError("c.json", "is \"a\nskel-infer: b\x1b[31m\x07\""); }) ==
         "2: c.json: is \"a\\nskel-infer: b\\x1b[31m\\x07\"");
+}
+
+TEST_CASE("a zero byte in a name does not end the complaint about it") {
+  const InputError error("c.json", std::string("names \"a\0b\", which is no joint", 30));
+  CHECK(std::string(error.what()) == "c.json: names \"a\\x00b\", which is no joint");
+}
+
+TEST_CASE("what people are shown keeps letters of all languages and no command for a terminal") {
+  CHECK(printable("Bär 走 🦌") == "Bär 走 🦌");
+  CHECK(printable("\t\r\x7f\x1b[2J\n") == "\\x09\\x0d\\x7f\\x1b[2J\\n");
+  CHECK(printable("\xc2\x9b[2J") == "\\x9b[2J");
 }

@@ -86,6 +86,16 @@ TEST_CASE("resizing keeps the mean, lets nothing bleed out of clear pixels, and 
   CHECK(fitted(image, 20, 20).height == 12);
 }
 
+TEST_CASE("a row of a shrunk picture is the mean of the rows under it, however tall the picture") {
+  Image tall(2, 1000);
+  for (int y = 0; y < tall.height; ++y)
+    for (int x = 0; x < 2; ++x)
+      std::fill_n(tall.pixel(x, y), 4, std::uint8_t(y / 100 * 20 + (y % 2 ? 4 : 0))),
+          tall.pixel(x, y)[3] = 255;
+  const Image rows = resized(tall, 2, 10);
+  for (int y = 0; y < 10; ++y) CHECK(std::abs(rows.pixel(1, y)[0] - (y * 20 + 2)) <= 1);
+}
+
 TEST_CASE("text has the width that is said, in all of ASCII and beyond") {
   for (int c = 33; c < 256; ++c) {
     const std::string text(3, char(c));

@@ -176,7 +176,7 @@ TEST_CASE("script/build --help makes no folder") {
   }
 }
 
-TEST_CASE("option --back takes plain, same or a picture, and refuses what shows no figure") {
+TEST_CASE("option --back takes plain, same or a picture, and blames a blank one, which is no wrong usage") {
   const TempDir dir;
   for (const std::string back : {"plain", "same"})
     CHECK(infer(dir, kDrawing + " --formats glb -o " + back + " --back " + back).exit_code == 0);
@@ -187,7 +187,7 @@ TEST_CASE("option --back takes plain, same or a picture, and refuses what shows 
   white.rgba.setConstant(255);
   writeFile(dir.file("white.png"), encodePng(white));
   const ToolRun none = infer(dir, kDrawing + " -o none --back white.png");
-  CHECK(none.exit_code == 1);
-  CHECK(contains(none.err, "the picture of the back shows no figure"));
+  CHECK(none.exit_code == 2);
+  CHECK(contains(none.err, "white.png: "));
   CHECK(infer(dir, kDrawing + " --back nothing.png").exit_code == 2);
 }

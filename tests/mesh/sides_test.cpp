@@ -227,6 +227,20 @@ TEST_CASE("front and back share one texture, and the mesh stays closed") {
   CHECK_FALSE(joinSeams(same));
 }
 
+TEST_CASE("to part a mesh and to join it takes no second copy of its texture") {
+  const CapsuleFigure figure;
+  InflateOptions plain;
+  plain.back = Back::kPlain;
+  TriangleMesh mesh = inflate(withFace(figure), silhouetteFromMask(capsuleMask(figure)), plain);
+  REQUIRE_FALSE(mesh.texture.empty());
+  SplitMesh split = splitSeams(mesh);
+  CHECK(split.mesh.texture.empty());
+  split.mesh.texture = std::move(mesh.texture);
+  const std::optional<TriangleMesh> whole = joinSeams(split.mesh);
+  REQUIRE(whole);
+  CHECK(whole->texture.empty());
+}
+
 TEST_CASE("a picture of the back lies mirrored on the back") {
   const Image front = outlinedBall(200, 80, 6);
   // Seen from behind, its right half is red.

@@ -92,3 +92,20 @@ TEST_CASE("bones of length 0 point somewhere") {
   // All bones upwards: at the border of the box, not beyond it.
   CHECK(canonicalPoses(none, biped()).minCoeff() >= 0);
 }
+
+TEST_CASE("joints that only the first and the last of 100,000 frames know lie between") {
+  const PoseMatrix poses = walker({});
+  MotionFile motion;
+  motion.frames.resize(100'000);
+  for (std::size_t f = 0; f < motion.frames.size(); ++f) {
+    motion.frames[f].time_s = double(f);
+    motion.frames[f].joints.resize(17);
+  }
+  for (int j = 0; j < 17; ++j) {
+    motion.frames.front().joints[std::size_t(j)] = PlacedJoint{jointOf(poses, j, 0), 1};
+    motion.frames.back().joints[std::size_t(j)] = PlacedJoint{jointOf(poses, j, 1), 1};
+  }
+  const PoseMatrix all = posesOf(motion, biped(), "m");
+  CHECK((all.col(0) - poses.col(0)).norm() < 1e-9);
+  CHECK((all.col(25'000) - (0.75 * poses.col(0) + 0.25 * poses.col(1))).norm() < 0.01);
+}

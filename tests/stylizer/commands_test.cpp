@@ -5,6 +5,8 @@
 #include "libskel/draw/canvas.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
+#include "libskel/skeleton/motion_file.h"
+#include "libskel/video/video_writer.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 #include "tests/support/temp_dir.h"
@@ -35,6 +37,23 @@ std::string film(const TempDir& dir, const std::string& clip) {
               " --duration 0.8 --fps 10 --size 160x200 --angle 50 --background none -o " + folder);
   REQUIRE(run.exit_code == 0);
   return folder;
+}
+
+// The biped as its preset stands, in frames that go from 0 to `end_s`; none knows the joint `without`.
+std::string motionText(int frames, double end_s, double rate, const std::string& without = "") {
+  const SkeletonTemplate plan = loadTemplate("biped");
+  MotionFile motion;
+  motion.frame_rate = rate;
+  for (int f = 0; f < frames; ++f) {
+    MotionFrame& frame = motion.frames.emplace_back();
+    frame.image_width = frame.image_height = 200;
+    frame.time_s = end_s * f / (frames - 1);
+    for (const TemplateJoint& joint : plan.joints) {
+      frame.joints.emplace_back();
+      if (joint.name != without) frame.joints.back() = PlacedJoint{100 * joint.preset.array() + 20, 1};
+    }
+  }
+  return formatMotionFile(motion, plan);
 }
 
 }  // namespace
@@ -114,6 +133,57 @@ TEST_CASE("one frame, frames that are all the same, and frames without a figure"
   const ToolRun keys = style("keyframes " + dir.file("blank") + " -o " + dir.file("b"));
   CHECK(keys.exit_code == 2);
   CHECK_THAT(keys.err, Contains("shows no figure in any frame"));
+}
+
+TEST_CASE("a motion of more than an hour becomes no clip, and a film in part alone") {
+  const TempDir dir;
+  writeFile(dir.file("long.motion.json"), motionText(3, 1e6, 1));
+  writeFile(dir.file("fast.motion.json"), motionText(3, .001, 1000));
+  const std::string film = "render --character " + kDrawing + " --size 64 -o " + dir.file("x.gif") +
+                           " --motion ",
+                    both = film + dir.file("long.motion.json") + " --duration 1";
+  const auto refuses = [](const std::string& arguments, int exit_code, const std::string& message) {
+    CAPTURE(arguments);
+    const ToolRun run = style(arguments);
+    CHECK(run.exit_code == exit_code);
+    CHECK_THAT(run.err, Contains(message));
+  };
+  refuses(film + dir.file("long.motion.json"), 2, "long.motion.json: lasts more than an hour");
+  refuses(both + " --to-clip " + dir.file("x.clip.json"), 2, "the clip \"x\" lasts more than an hour");
+  refuses(film + dir.file("fast.motion.json"), 1, "a film cannot have 1000.000000 frames a second");
+  CHECK(filesBelow(dir.path()).size() == 2);
+  CHECK_THAT(done(both).out, Contains("1 frames"));
+  CHECK_THAT(done(film + dir.file("fast.motion.json") + " --rate 10").out, Contains("1 frames"));
+}
+
+TEST_CASE("a database takes no motion that no command could use") {
+  const TempDir dir;
+  writeFile(dir.file("m.motion.json"), motionText(2, 1, 1, "head"));
+  const ToolRun run =
+      style("database add " + dir.file("db") + " " + dir.file("m.motion.json") + " --action a");
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("m.motion.json: no frame knows the joint \"head\""));
+  CHECK_FALSE(fs::exists(dir.file("db")));
+}
+
+TEST_CASE("a film's pictures are written when a figure is found in it, and not before") {
+  const TempDir dir;
+  const auto video = openVideo(dir.file("blank.gif"), {.width = 64, .height = 64, .frame_rate = 10});
+  for (int i = 0; i < 3; ++i) video->add(blankImage(64, 64));
+  video->finish();
+  const ToolRun run = style("keypoints " + dir.file("blank.gif") + " -o " + dir.file("b.motion.json"));
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("shows no figure in any frame"));
+  CHECK(filesBelow(dir.path()).size() == 1);
+
+  REQUIRE(runTool(std::string(SKEL_ANIMATE) + " render " + kDrawing +
+                  " --clip walk --duration 0.3 --fps 10 --size "
+                  "160x200 -o " +
+                  dir.file("walk.gif"))
+              .exit_code == 0);
+  done("keypoints " + dir.file("walk.gif") + " -o " + dir.file("w.motion.json"));
+  CHECK(filesBelow(dir.file("w.frames")).size() == 3);
+  done("inspect " + dir.file("w.motion.json") + " -o " + dir.file("w.png"));
 }
 
 TEST_CASE("what cannot be done is said in one line, and nothing is written") {

@@ -35,6 +35,21 @@ TEST_CASE("a clip named ../../evil is written beside the others") {
   CHECK(filesBelow(dir.path()).size() == before.size() + 2);
 }
 
+TEST_CASE("listings show a clip's or a motion's name on one line, whatever it holds") {
+  const TempDir dir;
+  writeFile(dir.file("clips/x.clip.json"), clipFile(R"(a\nb\u0000\u001b[31m)"));
+  const std::string clips = done(dir, "skel-animate list --clips-dir clips").out;
+  CHECK_THAT(clips, Contains(R"(a\nb\x00\x1b[31m)"));
+  CHECK(clips.find('\x1b') == clips.npos);
+
+  writeFigure(dir.file("film/1.png"));
+  done(dir, "skel-style keypoints film -o m.motion.json");
+  done(dir, R"~(skel-style database add db m.motion.json --action "$(printf 'a\033[31m')")~");
+  const std::string motions = done(dir, "skel-style database list db").out;
+  CHECK_THAT(motions, Contains(R"(a\x1b[31m)"));
+  CHECK(motions.find('\x1b') == motions.npos);
+}
+
 TEST_CASE("a COCO file that names pictures outside of its folder is refused") {
   const TempDir dir;
   writeFigure(dir.file("outside/cat.png"));
