@@ -1,5 +1,7 @@
 #include "libskel/core/file_names.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "libskel/core/error.h"
@@ -40,6 +42,17 @@ std::string pathInside(const std::string& dir, const std::string& named, const s
   const fs::path last = path.filename();
   if (last.empty() || last == "." || last == "..") refuse();
   return path.string();
+}
+
+std::string shellWord(const std::string& path) {
+  const auto plain = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return std::isalnum(byte) || byte >= 0x80 || std::string_view("/._-+,:@%=").find(c) != std::string::npos;
+  };
+  if (!path.empty() && std::all_of(path.begin(), path.end(), plain)) return path;
+  std::string word = "'";
+  for (const char c : path) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
 }
 
 }  // namespace skel
