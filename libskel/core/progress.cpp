@@ -12,7 +12,7 @@ using namespace std::chrono;
 namespace {
 
 // "4:07"
-std::string minutes(double time_s) {
+std::string clockTime(double time_s) {
   const int whole_s = static_cast<int>(time_s + 0.5);
   char text[32];
   std::snprintf(text, sizeof text, "%d:%02d", whole_s / 60, whole_s % 60);
@@ -65,7 +65,7 @@ void ProgressBar::draw() {
   const auto filled = static_cast<std::size_t>(share * kWidth);
   std::fprintf(stderr, "\r\033[K%s [%s%s] %zu/%zu %s left  %s", title_.c_str(),
                std::string(filled, '=').c_str(), std::string(kWidth - filled, ' ').c_str(), done_, total_,
-               minutes(left_s(done_, total_, elapsed_s())).c_str(), note_.c_str());
+               clockTime(left_s(done_, total_, elapsed_s())).c_str(), note_.c_str());
   std::fflush(stderr);
   drawn_ = true;
 }
@@ -73,7 +73,7 @@ void ProgressBar::draw() {
 std::string progressLine(const std::string& title, std::size_t done, std::size_t total, double elapsed_s,
                          const std::string& note) {
   return title + ": " + std::to_string(done) + " of " + std::to_string(total) + ", " +
-         minutes(left_s(done, total, elapsed_s)) + " left" + (note.empty() ? "" : ", " + note);
+         clockTime(left_s(done, total, elapsed_s)) + " left" + (note.empty() ? "" : ", " + note);
 }
 
 double pauseBetweenLines_s(double elapsed_s) { return std::clamp(elapsed_s / 10, 5.0, 60.0); }
