@@ -45,13 +45,23 @@ std::string pathInside(const std::string& dir, const std::string& named, const s
 }
 
 std::string shellWord(const std::string& path) {
-  const auto plain = [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return std::isalnum(byte) || byte >= 0x80 || std::string_view("/._-+,:@%=").find(c) != std::string::npos;
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) || c >= 0x80 || std::string_view("/._-+,:@%=").find(char(c)) != std::string::npos;
   };
+  const auto unseen = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
   if (!path.empty() && std::all_of(path.begin(), path.end(), plain)) return path;
-  std::string word = "'";
-  for (const char c : path) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  const bool escapes = std::any_of(path.begin(), path.end(), unseen);
+  std::string word = escapes ? "$'" : "'";
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (unseen(byte)) {
+      word += {'\\', 'x', "0123456789abcdef"[byte >> 4], "0123456789abcdef"[byte & 15]};
+    } else if (escapes && (c == '\'' || c == '\\')) {
+      word += {'\\', c};
+    } else {
+      word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    }
+  }
   return word + "'";
 }
 

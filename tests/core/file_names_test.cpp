@@ -58,6 +58,7 @@ TEST_CASE("a path as a word of the shell is in quotes where it needs them, and c
   CHECK(shellWord("$(rm *).png") == "'$(rm *).png'");
   CHECK(shellWord("Eva's.png") == "'Eva'\\''s.png'");
   CHECK(shellWord("") == "''");
+  CHECK(shellWord("a\x1b[2J'\n") == "$'a\\x1b[2J\\'\\x0a'");
   for (const std::string path : {"a b", "it's; `x` \"y\" \\ $HOME ~ & | <", "-n"})
     CHECK(runTool("printf %s " + shellWord(path)).out == path);
 }

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "libskel/core/files.h"
+#include "libskel/core/sha256.h"
 #include "libskel/image/write_image.h"
 #include "tests/infer/run_infer.h"
 #include "tests/support/catch.h"
@@ -168,11 +169,13 @@ TEST_CASE("trace pictures show the steps that the picture needed") {
   CHECK_FALSE(fs::exists(dir.file("given/2-page-net.png")));
 }
 
-TEST_CASE("every tool has --version") {
+TEST_CASE("option --version names the version and the hashes of the nets") {
   const TempDir dir;
   const ToolRun run = infer(dir, "--version");
   CHECK(run.exit_code == 0);
-  CHECK(run.out == "skel-infer " SKEL_VERSION "\n");
+  CHECK(run.out.starts_with("skel-infer " SKEL_VERSION "\n"));
+  for (const std::string net : {"joint_net", "quadruped_joint_net", "part_net", "page_net"})
+    CHECK(contains(run.out, " " + net + " " + sha256(readFile(SKEL_SOURCE_DIR "/weights/" + net + ".bin"))));
 }
 
 TEST_CASE("script/build --help makes no folder") {
