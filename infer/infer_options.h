@@ -12,7 +12,7 @@
 namespace skel {
 
 struct InferOptions {
-  std::vector<std::string> images;
+  std::vector<std::string> images;  // and folders of them
   std::string out_dir = "out";
   std::string weights_file, joint_net_file;  // empty: the built-in ones
   std::string part_net_file;                 // empty: the built-in one
@@ -34,8 +34,8 @@ struct InferOptions {
   std::string figure = "1";     // a number, or "all"
   double mesh_spacing_px = 0;
   std::vector<std::string> formats = {"glb", "json", "overlay", "silhouette"};
-  std::string trace_dir;
-  bool timings = false;
+  std::string trace_dir, report_file;
+  bool timings = false, quiet = false;
   int jobs = 1;
   bool force = false;
 };

@@ -9,20 +9,7 @@
 #include "libskel/labels/label_file.h"
 
 namespace skel {
-namespace {
-
 namespace fs = std::filesystem;
-
-bool isDrawing(const fs::path& path) {
-  std::string name = path.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (isResultPicture(name) || name == "mask.png") return false;
-  for (const char* ending : {".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tif", ".tiff", ".gif"})
-    if (name.ends_with(ending)) return true;
-  return false;
-}
-
-}  // namespace
 
 DrawingFiles drawingFiles(const std::string& image, const std::string& name) {
   return {name, image, labelFileFor(image), fs::path(image).replace_extension().string() + ".mask.png"};
@@ -44,9 +31,9 @@ std::optional<std::string> givenMask(const DrawingFiles& files) {
 std::vector<DrawingFiles> findDrawings(const std::string& dir) {
   std::vector<DrawingFiles> drawings;
   for (const std::string& file : filesBelow(dir))
-    if (isDrawing(file))
+    if (isDrawingName(fs::path(file).filename().string()))
       drawings.push_back(drawingFiles(file, fs::path(file).lexically_relative(dir).generic_string()));
-  if (drawings.empty()) throw InputError(dir, "holds no picture (.png, .jpg, .webp, .bmp, .tif, .gif)");
+  if (drawings.empty()) throw InputError(dir, "holds no picture (" + std::string(kPictureEndings) + ")");
   std::sort(drawings.begin(), drawings.end(),
             [](const DrawingFiles& a, const DrawingFiles& b) { return a.name < b.name; });
   for (size_t i = 1; i < drawings.size(); ++i)

@@ -15,7 +15,7 @@ namespace skel {
 
 struct AverageNetsOptions {
   std::vector<std::string> nets;  // files of joint nets
-  std::string output = "weights/joint_net.bin";
+  std::string output = "out/joint_net.bin";
 };
 
 void bindAverageNetsOptions(CLI::App& command, AverageNetsOptions& options);

@@ -15,7 +15,7 @@ namespace skel {
 // drawings of one style (see Schedule in the .cpp).
 struct JointTrainingOptions {
   std::string body_plan = "biped";
-  std::string output = "weights/joint_net.bin";
+  std::string output = "out/joint_net.bin";
   std::string start;       // net to go on from; "": from nothing
   std::string checkpoint;  // "": none
   int hourglasses = 0;     // of the net; more than `start` has are added to it. 0: as many as that, else 1

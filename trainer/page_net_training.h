@@ -11,7 +11,7 @@
 namespace skel {
 
 struct PageTrainingOptions {
-  std::string output = "weights/page_net.bin";
+  std::string output = "out/page_net.bin";
   std::string start;       // net to go on from; "": from nothing
   std::string checkpoint;  // "": none
   std::string sheet;       // picture of generated pages to write instead of training; "": none

@@ -7,6 +7,8 @@
 #include "libskel/animation/clip_file.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/nearest_word.h"
+#include "libskel/core/text.h"
 
 namespace skel {
 namespace {
@@ -104,13 +106,15 @@ std::vector<Clip> clipsFor(const std::vector<Clip>& library, const SkeletonTempl
 }
 
 const Clip& clipNamed(const std::vector<Clip>& fitting, std::string_view name) {
-  std::string names;
+  std::vector<std::string> names;
   for (const Clip& clip : fitting) {
     if (clip.name == name) return clip;
-    names += (names.empty() ? "" : ", ") + clip.name;
+    if (std::find(names.begin(), names.end(), clip.name) == names.end()) names.push_back(clip.name);
   }
+  const std::string meant = nearestWord(name, names);
   throw UsageError("there is no clip \"" + std::string(name) + "\" for this body plan" +
-                   (names.empty() ? std::string() : "; there are: " + names));
+                   (meant.empty() ? "" : "; did you mean \"" + meant + "\"?") +
+                   (names.empty() ? "" : (meant.empty() ? "; there are: " : " There are: ") + joined(names)));
 }
 
 }  // namespace skel

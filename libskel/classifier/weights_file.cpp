@@ -9,6 +9,7 @@
 #include "libskel/core/check.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
+#include "libskel/core/net_format.h"
 #include "libskel/core/number_chars.h"
 
 namespace skel {
@@ -102,6 +103,7 @@ std::string show(float number) {
 }  // namespace
 
 WeightsFile parseWeights(std::string_view text, const std::string& file) {
+  checkNetFormat(text, file, kFormat);
   const JsonDocument document = JsonDocument::parse(text, file);
   const JsonValue root = document.root();
   root.checkFormat(kFormat, kWeightsVersion);

@@ -58,10 +58,14 @@ inline bool printed() {
 
 // Parses argv into `app`, then calls run(), which returns the exit code. The one place where all that a tool
 // may throw becomes one line and an exit code; CLI11's own codes become 1 (wrong usage). SKEL_VERSION is the
-// project's, given to every tool (cmake/SkelBuild.cmake).
+// project's, SKEL_NETS_SHA256 names the nets that are compiled in; both are given to every tool's main.cpp
+// (cmake/SkelBuild.cmake).
 inline int runTool(CLI::App& app, int argc, char** argv, const std::function<ExitCode()>& run) {
   std::setlocale(LC_ALL, "C");
-  app.set_version_flag("--version", app.get_name() + " " SKEL_VERSION, "Print the version and exit");
+  const std::string nets = SKEL_NETS_SHA256;
+  app.set_version_flag("--version",
+                       app.get_name() + " " SKEL_VERSION + (nets.empty() ? "" : "\nnets, SHA-256:" + nets),
+                       "Print the version, the hashes of the nets, and exit");
   requireNumberChecks(app);
   const auto say = [&](const std::exception& error, ExitCode code) {
     std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.what());

@@ -4,6 +4,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
+#include "libskel/core/net_format.h"
 #include "libskel/core/sha256.h"
 
 namespace skel {
@@ -25,6 +26,7 @@ std::string formatFixedNet(const ConvNet& net, const std::string& provenance, co
 
 std::string parseFixedNet(std::string_view bytes, const std::string& file, const FixedNetFormat& format,
                           ConvNet& net, bool check_hash) {
+  checkNetFormat(bytes, file, format.name);
   const std::size_t end = bytes.find('\n');
   if (end == std::string_view::npos)
     throw InputError(file, "not a " + std::string(format.kind) + ": it has no header line");

@@ -1,5 +1,7 @@
 #include "libskel/core/file_names.h"
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "libskel/core/error.h"
@@ -40,6 +42,27 @@ std::string pathInside(const std::string& dir, const std::string& named, const s
   const fs::path last = path.filename();
   if (last.empty() || last == "." || last == "..") refuse();
   return path.string();
+}
+
+std::string shellWord(const std::string& path) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) || c >= 0x80 || std::string_view("/._-+,:@%=").find(char(c)) != std::string::npos;
+  };
+  const auto unseen = [](unsigned char c) { return c < 0x20 || c == 0x7F; };
+  if (!path.empty() && std::all_of(path.begin(), path.end(), plain)) return path;
+  const bool escapes = std::any_of(path.begin(), path.end(), unseen);
+  std::string word = escapes ? "$'" : "'";
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (unseen(byte)) {
+      word += {'\\', 'x', "0123456789abcdef"[byte >> 4], "0123456789abcdef"[byte & 15]};
+    } else if (escapes && (c == '\'' || c == '\\')) {
+      word += {'\\', c};
+    } else {
+      word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    }
+  }
+  return word + "'";
 }
 
 }  // namespace skel

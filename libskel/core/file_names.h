@@ -14,4 +14,8 @@ std::string safeFileName(std::string_view text);
 // `dir`: an absolute path, or one that leads out by `..` or by a link to another folder.
 std::string pathInside(const std::string& dir, const std::string& named, const std::string& file);
 
+// A path as one word of a shell's line: in quotes where it needs them; what is not printed as bash writes it
+// ($'\x1b').
+std::string shellWord(const std::string& path);
+
 }  // namespace skel

@@ -10,23 +10,49 @@
 namespace skel {
 using namespace std::chrono;
 
-ProgressBar::ProgressBar(std::string title, std::size_t total)
+namespace {
+
+// "4:07"
+std::string clockTime(double time_s) {
+  const int whole_s = static_cast<int>(time_s + 0.5);
+  char text[32];
+  std::snprintf(text, sizeof text, "%d:%02d", whole_s / 60, whole_s % 60);
+  return text;
+}
+
+double left_s(std::size_t done, std::size_t total, double elapsed_s) {
+  return done > 0 && done < total ? elapsed_s * static_cast<double>(total - done) / static_cast<double>(done)
+                                  : 0;
+}
+
+}  // namespace
+
+ProgressBar::ProgressBar(std::string title, std::size_t total, bool shown)
     : title_(std::move(title)),
       total_(std::max<std::size_t>(total, 1)),
-      visible_(::isatty(STDERR_FILENO) != 0),
+      shown_(shown),
+      terminal_(::isatty(STDERR_FILENO) != 0),
       start_(steady_clock::now()),
       last_(start_) {}
 
 ProgressBar::~ProgressBar() { clear(); }
 
+double ProgressBar::elapsed_s() const { return duration<double>(last_ - start_).count(); }
+
 void ProgressBar::advance(std::size_t steps, const std::string& note) {
   const std::lock_guard lock(mutex_);
   done_ += steps;
   note_ = note;
+  if (!shown_) return;
   const auto now = steady_clock::now();
-  if (!visible_ || (now - last_ < milliseconds(100) && done_ < total_)) return;
-  last_ = now;
-  draw();
+  if (terminal_) {
+    if (now - last_ < milliseconds(100) && done_ < total_) return;
+    last_ = now;
+    draw();
+  } else if (done_ < total_ && now - last_ >= duration<double>(pauseBetweenLines_s(elapsed_s()))) {
+    last_ = now;
+    std::fprintf(stderr, "%s\n", progressLine(title_, done_, total_, elapsed_s(), printable(note_)).c_str());
+  }
 }
 
 void ProgressBar::clear() {
@@ -38,13 +64,19 @@ void ProgressBar::draw() {
   constexpr std::size_t kWidth = 30;
   const double share = std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_));
   const auto filled = static_cast<std::size_t>(share * kWidth);
-  const double elapsed_s = duration<double>(last_ - start_).count();
-  const int left_s = share > 0 ? static_cast<int>(elapsed_s * (1 - share) / share + 0.5) : 0;
-  std::fprintf(stderr, "\r\033[K%s [%s%s] %zu/%zu %d:%02d left  %s", title_.c_str(),
+  std::fprintf(stderr, "\r\033[K%s [%s%s] %zu/%zu %s left  %s", title_.c_str(),
                std::string(filled, '=').c_str(), std::string(kWidth - filled, ' ').c_str(), done_, total_,
-               left_s / 60, left_s % 60, printable(note_).c_str());
+               clockTime(left_s(done_, total_, elapsed_s())).c_str(), printable(note_).c_str());
   std::fflush(stderr);
   drawn_ = true;
 }
+
+std::string progressLine(const std::string& title, std::size_t done, std::size_t total, double elapsed_s,
+                         const std::string& note) {
+  return title + ": " + std::to_string(done) + " of " + std::to_string(total) + ", " +
+         clockTime(left_s(done, total, elapsed_s)) + " left" + (note.empty() ? "" : ", " + note);
+}
+
+double pauseBetweenLines_s(double elapsed_s) { return std::clamp(elapsed_s / 10, 5.0, 60.0); }
 
 }  // namespace skel

@@ -1,4 +1,4 @@
-// A progress bar on stderr, for whatever takes longer than a second.
+// How far a work is, on stderr, for whatever takes longer than a second.
 #pragma once
 
 #include <chrono>
@@ -8,10 +8,12 @@
 
 namespace skel {
 
-// Draws only if stderr is a terminal. May be called from several threads.
+// A bar where stderr is a terminal; elsewhere a line now and then: after five seconds, then with pauses that
+// grow with the work. May be called from several threads.
 class ProgressBar {
  public:
-  ProgressBar(std::string title, std::size_t total);
+  // `shown`: false says nothing at all.
+  ProgressBar(std::string title, std::size_t total, bool shown = true);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -22,13 +24,21 @@ class ProgressBar {
   void clear();
 
  private:
+  double elapsed_s() const;
   void draw();
 
   std::string title_, note_;
   std::size_t total_, done_ = 0;
-  bool visible_, drawn_ = false;
+  bool shown_, terminal_, drawn_ = false;
   std::chrono::steady_clock::time_point start_, last_;
   std::mutex mutex_;
 };
+
+// "rigging: 12 of 24, 0:10 left", and the note if there is one. 0 < done <= total.
+std::string progressLine(const std::string& title, std::size_t done, std::size_t total, double elapsed_s,
+                         const std::string& note);
+
+// How long after that time a log gets its next line, s.
+double pauseBetweenLines_s(double elapsed_s);
 
 }  // namespace skel

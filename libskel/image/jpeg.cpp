@@ -10,6 +10,7 @@
 #include <string>
 
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/image/formats.h"
 
 namespace skel {
@@ -104,7 +105,7 @@ Image decodeJpeg(std::string_view bytes, const std::string& file) {
   const J_COLOR_SPACE space = reader.jpeg.jpeg_color_space;
   if (space == JCS_CMYK || space == JCS_YCCK) {
     throw InputError(file, "is a CMYK JPEG, made for printing; convert it to RGB, for example by `magick " +
-                               file + " -colorspace sRGB out.png`");
+                               shellWord(file) + " -colorspace sRGB out.png`");
   }
   const int orientation = orientationOf(reader.jpeg);  // the markers are gone once the pixels are read
   Image image(static_cast<int>(reader.jpeg.image_width), static_cast<int>(reader.jpeg.image_height));

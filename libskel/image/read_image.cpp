@@ -1,6 +1,7 @@
 #include "libskel/image/read_image.h"
 
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/image/formats.h"
 
@@ -22,7 +23,7 @@ Image decodeImage(std::string_view bytes, const std::string& file) {
     case Format::kHeic:
     case Format::kAvif:
       throw InputError(file, std::string("is a ") + (format == Format::kHeic ? "HEIC" : "AVIF") +
-                                 " picture; convert it by `heif-convert " + file + " out.png`");
+                                 " picture; convert it by `heif-convert " + shellWord(file) + " out.png`");
     case Format::kUnknown:
       break;
   }

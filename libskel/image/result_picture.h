@@ -1,4 +1,4 @@
-// Pictures that skel writes beside drawings, and that are no drawings.
+// Which files beside drawings are drawings, and which are pictures that were made of one.
 #pragma once
 
 #include <array>
@@ -16,5 +16,13 @@ inline bool isResultPicture(std::string_view name) {
     if (name.ends_with(ending)) return true;
   return false;
 }
+
+// Whether a file of this name, without its folder, is taken for a drawing where a folder is read: a picture
+// that is no result, no mask and no view of the back (<stem>.back.png), and not hidden. HEIC and AVIF are
+// among them, so that whoever reads them says what to do.
+bool isDrawingName(std::string_view name);
+
+// The endings of the pictures that can be read, for messages.
+inline constexpr std::string_view kPictureEndings = ".png, .jpg, .webp, .bmp, .tif, .gif";
 
 }  // namespace skel

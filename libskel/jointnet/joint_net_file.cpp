@@ -5,6 +5,7 @@
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
+#include "libskel/core/net_format.h"
 #include "libskel/core/sha256.h"
 #include "libskel/jointnet/joint_net.h"
 
@@ -60,6 +61,7 @@ std::string formatJointNet(const JointNet& net) {
 }
 
 JointNet parseJointNet(std::string_view bytes, const std::string& file, bool check_hash) {
+  checkNetFormat(bytes, file, kFormat);
   const std::size_t end = bytes.find('\n');
   if (end == std::string_view::npos) throw InputError(file, "not a joint net: it has no header line");
   const JsonDocument document = JsonDocument::parse(bytes.substr(0, end), file);

@@ -15,6 +15,7 @@
 #include "libskel/jointnet/net_joints.h"
 #include "libskel/mesh/front_view.h"
 #include "libskel/pipeline/body_depth.h"
+#include "libskel/recognition/complete_skeleton.h"
 #include "libskel/recognition/paper_recognizer.h"
 #include "libskel/recognition/tree_recognition.h"
 #include "libskel/silhouette/outline.h"
@@ -45,6 +46,30 @@ class Stopwatch {
 // here.
 void roundToFile(Skeleton& skeleton) {
   for (Joint& joint : skeleton.joints) joint.image = (joint.image * 100).array().round() / 100;
+}
+
+// Those that follow from others, or were a guess, follow them. What was said of the joints before is stale.
+void placeJoints(const RigInput& input, const SkeletonTemplate& body_plan, const Silhouette& silhouette,
+                 Recognition& found) {
+  std::vector<bool> known;
+  for (const Joint& joint : found.skeleton.joints) known.push_back(joint.origin == JointOrigin::kRecognized);
+  const auto place = [&] {
+    for (const auto& [name, image] : input.placed) {
+      const int index = found.skeleton.find(name);
+      if (index < 0)
+        throw UsageError("\"" + name + "\" is no joint of the template \"" + body_plan.name + "\"");
+      Joint& joint = found.skeleton.joints[std::size_t(index)];
+      joint.image = image;
+      joint.confidence = 1;
+      joint.origin = JointOrigin::kEdited;
+      known[std::size_t(index)] = true;
+      std::erase(found.missing, name);
+    }
+  };
+  place();
+  completeSkeleton(found.skeleton, known, body_plan, silhouette);
+  place();  // also where a joint lies on another, or outside of the figure
+  found.warnings.clear();
 }
 
 const JointNets& jointNetsOf(const RigOptions& options) {
@@ -219,6 +244,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     } else {
       found = recognizeByNet(options, drawing);
     }
+    if (!input.placed.empty()) placeJoints(input, drawing.body_plan, silhouette, found);
     return found;
   });
   roundToFile(drawing.recognition.skeleton);

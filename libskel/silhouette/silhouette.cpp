@@ -82,13 +82,13 @@ Silhouette finish(const Plane8& foreground, const SilhouetteOptions& options, in
   out.mask = figure.inPicture(figure.mask, foreground.rows(), foreground.cols());
   out.bridges = figure.inPicture(figure.bridges, foreground.rows(), foreground.cols());
   if (options.fill_holes) fillHoles(out.mask);
-  if (out.figure_count > 1 && options.figure == 1) {
+  if (out.figure_count > 1 && options.figure == 1 && !options.all) {
     out.warnings.push_back("the picture shows " + std::to_string(out.figure_count) +
                            " figures; the largest is taken (choose another with --figure)");
   }
-  if (const std::string sides = cutSides(out.mask); !sides.empty()) {
-    out.warnings.push_back("the figure is cut by the border of the picture (" + sides + ")");
-  }
+  out.cut_sides = cutSides(out.mask);
+  if (!out.cut_sides.empty())
+    out.warnings.push_back("the figure is cut by the border of the picture (" + out.cut_sides + ")");
   out.outline = traceOutline(out.mask);
   out.grid = gridOver(out.mask);
   out.grid_mask = sampleMask(out.mask, out.grid);
@@ -151,13 +151,14 @@ Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& option
   pieces.limbs_first = true;
   Silhouette out = finish(segmentation.foreground, options, min_long_side, pieces);
   constexpr double kMuch = 0.45, kCompact = 0.1;  // of the picture; open share
-  if (out.found() &&
+  out.is_sheet =
+      out.found() &&
       static_cast<double>((out.mask != 0).count()) > kMuch * static_cast<double>(out.mask.size()) &&
-      openShare(out.mask) < kCompact) {
+      openShare(out.mask) < kCompact;
+  if (out.is_sheet)
     out.warnings.push_back(
         "the sheet itself was probably taken for the figure: crop the photo, or paint a mask (skel-label "
         "FILE)");
-  }
   return out;
 }
 

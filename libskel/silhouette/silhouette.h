@@ -39,6 +39,8 @@ struct Silhouette {
   SilhouetteStatus status = SilhouetteStatus::kNoFigure;
   std::string reason;                 // why there is none, one clause
   std::vector<std::string> warnings;  // e.g. other figures in the picture, the figure cut by the border
+  std::string cut_sides;              // of the picture, by which the figure is cut: "left, bottom"
+  bool is_sheet = false;              // the sheet itself was probably taken for the figure
 
   Plane8 mask;     // size of the image; one 4-connected figure
   Plane8 bridges;  // where the mask joins pieces of the figure across gaps (pieces.h); empty if it joins none
@@ -62,6 +64,7 @@ struct PageNet;
 struct SilhouetteOptions {
   SilhouetteMethod method = SilhouetteMethod::kAutomatic;
   int figure = 1;                           // 1 is the largest
+  bool all = false;                         // the others are taken, too: nothing is said of them
   bool fill_holes = false;                  // as in the paper, which keeps the outer contour alone
   std::shared_ptr<const PageNet> page_net;  // null: the built-in one (page_net.h)
 };

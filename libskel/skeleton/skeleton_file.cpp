@@ -71,18 +71,22 @@ void markMovedJoints(SkeletonFile& file) {
 std::string formatSkeletonFile(const SkeletonFile& file) {
   Json root;
   root["format"] = "skel-skeleton";
-  root["version"] = 2;
+  root["version"] = file.labels || !file.image_sha256.empty() ? 3 : 2;
   root["image"] = {{"file", jsonFromFileName(file.image_file)},
                    {"width", file.image_width},
                    {"height", file.image_height}};
+  if (!file.image_sha256.empty()) root["image"]["sha256"] = file.image_sha256;
   root["figure"] = {
       {"number", file.figure.number}, {"sha256", file.figure.sha256}, {"turned", file.figure.turned_deg}};
   root["template"] = file.skeleton.template_name;
   root["confidence"] = rounded(file.confidence, 1000);
   root["missing"] = file.missing;
   root["warnings"] = file.warnings;
-  root["mask"] = file.mask ? Json{{"file", jsonFromFileName(file.mask->file)}, {"sha256", file.mask->sha256}}
-                           : Json(nullptr);
+  const auto source = [](const SkeletonFile::Mask& given) {
+    return Json{{"file", jsonFromFileName(given.file)}, {"sha256", given.sha256}};
+  };
+  root["mask"] = file.mask ? source(*file.mask) : Json(nullptr);
+  if (file.labels) root["labels"] = source(*file.labels);
   // One joint a line, so that a person finds and mends it.
   std::string text = root.dump(2, ' ', false, Json::error_handler_t::replace);
   text.resize(text.size() - 2);
@@ -105,7 +109,7 @@ std::string formatSkeletonFile(const SkeletonFile& file) {
 
 std::string templateOfSkeleton(std::string_view text, const std::string& path) {
   const JsonDocument document = JsonDocument::parse(text, path);
-  document.root().checkFormat("skel-skeleton", 2);
+  document.root().checkFormat("skel-skeleton", 3);
   return document.root().at("template").asString();
 }
 
@@ -117,24 +121,27 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
                                const SkeletonTemplate& body_plan) {
   const JsonDocument document = JsonDocument::parse(text, path);
   const JsonValue root = document.root();
-  root.checkFormat("skel-skeleton", 2);
+  root.checkFormat("skel-skeleton", 3);
   root.allowOnly({"format", "version", "image", "figure", "template", "confidence", "missing", "warnings",
-                  "mask", "joints"});
+                  "mask", "labels", "joints"});
   SkeletonFile file;
   const JsonValue image = root.at("image");
-  image.allowOnly({"file", "width", "height"});
+  image.allowOnly({"file", "width", "height", "sha256"});
   file.image_file = image.at("file").asFileName();
   file.image_width = image.at("width").asInt(1, 1'000'000);
   file.image_height = image.at("height").asInt(1, 1'000'000);
+  if (const auto hash = image.find("sha256")) file.image_sha256 = hash->asString();
   if (const auto figure = root.find("figure")) file.figure = figureAt(*figure);  // not in version 1
   checkTemplate(root.at("template"), body_plan.name);
   file.confidence = root.at("confidence").asNumber(0, 1);
   file.missing = textsAt(root.at("missing"));
   file.warnings = textsAt(root.at("warnings"));
-  if (const JsonValue mask = root.at("mask"); !mask.isNull()) {
-    mask.allowOnly({"file", "sha256"});
-    file.mask = SkeletonFile::Mask{mask.at("file").asFileName(), mask.at("sha256").asString()};
-  }
+  const auto sourceAt = [](const JsonValue& given) {
+    given.allowOnly({"file", "sha256"});
+    return SkeletonFile::Mask{given.at("file").asFileName(), given.at("sha256").asString()};
+  };
+  if (const JsonValue mask = root.at("mask"); !mask.isNull()) file.mask = sourceAt(mask);
+  if (const auto labels = root.find("labels")) file.labels = sourceAt(*labels);
   file.skeleton.template_name = body_plan.name;
   file.skeleton.joints.resize(body_plan.joints.size());
   for (const JsonValue& item : root.at("joints").items()) {

@@ -16,6 +16,7 @@ struct SkeletonFile {
     std::string file;
     std::string sha256;
   };
+  using Labels = Mask;
 
   // Which figure of the drawing it is.
   struct Figure {
@@ -24,14 +25,16 @@ struct SkeletonFile {
     int turned_deg = 0;  // how far it is turned clockwise against upright, 0 to 359
   };
 
-  std::string image_file;  // a path relative to the skeleton file
+  std::string image_file;    // a path relative to the skeleton file
+  std::string image_sha256;  // of its bytes; empty: not known
   int image_width = 0, image_height = 0;
   Figure figure;
   Skeleton skeleton;
   double confidence = 0;
   std::vector<std::string> missing;  // joints that were not found in the drawing
   std::vector<std::string> warnings;
-  std::optional<Mask> mask;  // given or mended by hand
+  std::optional<Mask> mask;      // given or mended by hand
+  std::optional<Labels> labels;  // whose joints, placed by a person, are among these
 };
 
 std::string formatSkeletonFile(const SkeletonFile& file);

@@ -189,6 +189,15 @@ TEST_CASE("each body plan has clips of its own") {
       "there is no clip \"fly\" for this body plan; there are: idle, walk, gallop, graze, nod, wag");
 }
 
+TEST_CASE("an unknown clip lists each clip once, and the one that was probably meant") {
+  std::vector<Clip> twice = clipsFor(builtinClips(), loadTemplate("quadruped"));
+  for (const Clip& clip : clipsFor(builtinClips(), loadTemplate("quadruped"))) twice.push_back(clip);
+  CHECK_THROWS_WITH(
+      clipNamed(twice, "galop"),
+      "there is no clip \"galop\" for this body plan; did you mean \"gallop\"? There are: idle, "
+      "walk, gallop, graze, nod, wag");
+}
+
 TEST_CASE("a folder of clips adds to those that come with skel and takes their place") {
   const TempDir dir;
   const auto write = [&](const std::string& name, const std::string& text) {

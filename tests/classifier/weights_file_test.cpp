@@ -50,6 +50,13 @@ TEST_CASE("a weights file of every past version is still read") {
   CHECK(count == kWeightsVersion);
 }
 
+TEST_CASE("a net of the wrong kind is named as such") {
+  const std::string joint_net = SKEL_SOURCE_DIR "/weights/joint_net.bin";
+  CHECK_THROWS_WITH(readMlp(joint_net), joint_net +
+                                            ": is a net that finds joints (--joint-net); weights that tell "
+                                            "candidates apart (--weights) was expected");
+}
+
 TEST_CASE("bad weights files are refused with file, path and reason") {
   CHECK(complaint("skel-weights", "skel-skeleton") ==
         "w.json: is a file of format \"skel-skeleton\", \"skel-weights\" was expected");

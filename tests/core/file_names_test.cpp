@@ -3,6 +3,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "tests/support/catch.h"
+#include "tests/support/run_tool.h"
 #include "tests/support/temp_dir.h"
 
 using namespace skel;
@@ -48,4 +49,16 @@ TEST_CASE("a name that begins with a zero byte does not lead out of its folder u
   const TempDir dir;
   using namespace std::string_literals;
   CHECK_THROWS_AS(pathInside(dir.path(), "\0../../../x"s, "list.json"), InputError);
+}
+
+TEST_CASE("a path as a word of the shell is in quotes where it needs them, and comes back as it was") {
+  CHECK(shellWord("class/anna-2_b.png") == "class/anna-2_b.png");
+  CHECK(shellWord("class/J\u00fcrgen.png") == "class/J\u00fcrgen.png");
+  CHECK(shellWord("my hero.png") == "'my hero.png'");
+  CHECK(shellWord("$(rm *).png") == "'$(rm *).png'");
+  CHECK(shellWord("Eva's.png") == "'Eva'\\''s.png'");
+  CHECK(shellWord("") == "''");
+  CHECK(shellWord("a\x1b[2J'\n") == "$'a\\x1b[2J\\'\\x0a'");
+  for (const std::string path : {"a b", "it's; `x` \"y\" \\ $HOME ~ & | <", "-n"})
+    CHECK(runTool("printf %s " + shellWord(path)).out == path);
 }

@@ -87,7 +87,7 @@ TEST_CASE("with several pictures the good ones are rigged and the exit code is t
   const TempDir dir;
   writeFile(dir.file("a.png"), readFile(kDrawing));
   writeFile(dir.file("b.png"), "no picture");
-  const ToolRun run = infer(dir, "a.png b.png --jobs 2");
+  const ToolRun run = infer(dir, "a.png b.png --jobs 2 --quiet");
   expect(run, 2, "b.png: ");
   CHECK(fs::exists(dir.file("out/a.glb")));
   CHECK_FALSE(fs::exists(dir.file("out/b.glb")));

@@ -43,7 +43,7 @@ TEST_CASE("a drawing that needs more memory than there is does not take the othe
   const ToolRun run = limited(dir, 700, "skel-infer huge.png small.png --formats glb");
   CAPTURE(run.err);
   CHECK(run.exit_code == 3);
-  CHECK(run.err.find("skel-infer: huge.png: needs more memory than there is\n") == 0);
+  CHECK(run.err.find("skel-infer: huge.png: needs more memory than there is\n") != std::string::npos);
   CHECK(fs::exists(dir.file("out/small.glb")));
 }
 

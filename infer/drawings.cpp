@@ -1,0 +1,75 @@
+#include "infer/drawings.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <system_error>
+
+#include "libskel/core/error.h"
+#include "libskel/core/natural_order.h"
+#include "libskel/image/result_picture.h"
+
+namespace skel {
+namespace fs = std::filesystem;
+namespace {
+
+// The texture of an .obj, which has the drawing's name.
+bool isTexture(const fs::path& picture) {
+  return picture.extension() == ".png" && fs::exists(fs::path(picture).replace_extension(".mtl"));
+}
+
+std::vector<std::string> drawingsIn(const fs::path& dir) {
+  std::vector<std::string> names;
+  std::error_code failure;
+  for (fs::directory_iterator entry(dir, failure), end; !failure && entry != end; entry.increment(failure)) {
+    const fs::path& path = entry->path();
+    std::error_code unknown;
+    if (isDrawingName(path.filename().string()) && !entry->is_directory(unknown) && !isTexture(path))
+      names.push_back(path.filename().string());
+  }
+  if (failure) throw InputError(dir.string(), "cannot be read: " + failure.message());
+  if (names.empty())
+    throw InputError(dir.string(), "holds no drawing (" + std::string(kPictureEndings) +
+                                       "); folders in it are not looked into");
+  std::sort(names.begin(), names.end(), comesBefore);
+  for (std::string& name : names) name = (dir / name).string();
+  return names;
+}
+
+}  // namespace
+
+NamedDrawings drawingsOf(const std::vector<std::string>& named) {
+  std::vector<std::string> pictures;
+  std::set<std::string> from_folders;
+  for (const std::string& name : named) {
+    std::error_code not_there;
+    if (!fs::is_directory(name, not_there)) {
+      pictures.push_back(name);
+      continue;
+    }
+    for (std::string& drawing : drawingsIn(name)) {
+      from_folders.insert(drawing);
+      pictures.push_back(std::move(drawing));
+    }
+  }
+
+  std::set<fs::path> without_endings;
+  for (const std::string& picture : pictures) without_endings.insert(fs::path(picture).replace_extension());
+  const auto isResult = [&](const std::string& picture) {
+    if (pictures.size() < 2 || from_folders.contains(picture)) return false;
+    for (const std::string_view ending : kResultPictureEndings) {
+      if (!picture.ends_with(ending)) continue;
+      const std::string drawing = picture.substr(0, picture.size() - ending.size());
+      return without_endings.contains(drawing) || fs::exists(drawing + ".skeleton.json");
+    }
+    return false;
+  };
+  NamedDrawings found;
+  for (std::string& picture : pictures)
+    (isResult(picture) ? found.results : found.drawings).push_back(std::move(picture));
+  if (found.drawings.empty() && !pictures.empty())
+    throw UsageError("none of the images is a drawing; name one of them alone to rig it all the same");
+  return found;
+}
+
+}  // namespace skel

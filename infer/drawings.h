@@ -1,0 +1,21 @@
+// The drawings that a command line means.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace skel {
+
+struct NamedDrawings {
+  std::vector<std::string> drawings;
+  std::vector<std::string> results;  // files that were named, but are what skel-infer writes of a drawing
+};
+
+// `named`: pictures and folders, mixed. A folder stands for the drawings in it, not for those in its folders,
+// in natural order: masks, views of the back, results and files that are no pictures are passed over. A
+// picture that was named is a drawing, but for results of which the drawing is among the others or whose
+// skeleton file lies beside: so `*.png` in a folder of results means the drawings alone. Throws InputError: a
+// folder without drawings or that cannot be read; UsageError: results alone.
+NamedDrawings drawingsOf(const std::vector<std::string>& named);
+
+}  // namespace skel

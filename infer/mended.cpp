@@ -1,0 +1,158 @@
+#include "infer/mended.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "infer/rig_figure.h"
+#include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
+#include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
+#include "libskel/core/sha256.h"
+#include "libskel/core/text.h"
+#include "libskel/labels/label_file.h"
+#include "libskel/pipeline/rig_drawing.h"
+
+namespace skel {
+namespace fs = std::filesystem;
+namespace {
+
+bool isLabelFile(const std::string& path) { return path.ends_with(kLabelFileEnding); }
+
+std::string ifThere(const std::string& path) {
+  std::error_code unknown;
+  return fs::is_regular_file(path, unknown) ? path : "";
+}
+
+[[noreturn]] void refuseOther(const std::string& file, const std::string& source) {
+  throw InputError(file, "was made by hand for another picture of this name, " + source +
+                             " has changed since; mend it anew (skel-label " + shellWord(source) +
+                             "), or leave it out by --force");
+}
+
+// Those that a person has placed; of a file that was named also those that were found for it.
+PlacedJoints jointsOfLabels(const std::string& path, bool named, const std::string& source,
+                            const std::string& image_sha256) {
+  const LabelFile file = readLabelFile(path);
+  PlacedJoints placed;
+  for (const auto& [name, place] : file.joints) {
+    const bool found =
+        std::find(file.recognized.begin(), file.recognized.end(), name) != file.recognized.end();
+    if (place && (named || !found)) placed.joints.emplace_back(name, *place);
+  }
+  if (named && placed.joints.empty())
+    throw InputError(path, "holds no joints, only classes of candidates; place them (skel-label " +
+                               shellWord(source) + ", key J), or name a .skeleton.json");
+  if ((!placed.joints.empty() || file.mask) && file.image.sha256 != image_sha256) refuseOther(path, source);
+  return placed;
+}
+
+bool knowsAll(const SkeletonTemplate& body_plan, const PlacedJoints& placed) {
+  return std::all_of(placed.joints.begin(), placed.joints.end(),
+                     [&](const auto& joint) { return body_plan.find(joint.first) >= 0; });
+}
+
+}  // namespace
+
+MendedFiles mendedFiles(const InferOptions& options, const std::string& source, const std::string& stem,
+                        int figure) {
+  MendedFiles files;
+  files.mask = options.mask_file;
+  if (isLabelFile(options.skeleton_file)) files.labels = options.skeleton_file;
+  if (isLayerMap(options.layers)) files.limbs = options.layers;
+  if (isBackPicture(options.back)) files.back = options.back;
+  if (options.force || options.images.empty()) return files;
+
+  const std::string beside = fs::path(source).replace_extension().string();
+  if (options.skeleton_file.empty()) {
+    const std::string skeleton = options.out_dir + "/" + stem + ".skeleton.json";
+    if (hasEditedJoint(skeleton)) files.skeleton = skeleton;
+  }
+  if (fs::exists(beside + ".joints.json")) return files;
+  const bool one = figure == 1 && options.figure != "all";
+  if (one && options.skeleton_file.empty()) {
+    files.labels = ifThere(beside + kLabelFileEnding);
+    if (files.mask.empty()) files.mask = ifThere(beside + ".mask.png");
+  }
+  if (options.layers == "auto" && options.model_file.empty())
+    files.limbs = ifThere(beside + (figure > 1 ? "-" + std::to_string(figure) : "") + ".limbs.png");
+  if (options.back.empty() && one)
+    for (const char* ending : {".back.png", ".back.jpg", ".back.jpeg"})
+      if (files.back.empty()) files.back = ifThere(beside + ending);
+  return files;
+}
+
+PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options, const RigOptions& rig,
+                          const std::string& source, const Image& image, const std::string& image_sha256,
+                          int figure) {
+  PlacedJoints placed;
+  if (!files.skeleton.empty()) {
+    const LookAtOutputs look;
+    const std::string text = readFile(files.skeleton);
+    const SkeletonFile file =
+        parseSkeletonFile(text, files.skeleton, planOfSkeleton(text, files.skeleton, rig));
+    const bool other_size = file.image_width != image.width || file.image_height != image.height;
+    if (other_size || (!file.image_sha256.empty() && file.image_sha256 != image_sha256))
+      refuseOther(files.skeleton, source);
+    if (file.figure.number != figure)
+      throw InputError(files.skeleton,
+                       "holds joints of figure " + std::to_string(file.figure.number) +
+                           " that were moved by hand, figure " + std::to_string(figure) +
+                           " is to be rigged; name another folder by -o, or lose them by --force");
+    for (const Joint& joint : file.skeleton.joints)
+      if (joint.origin == JointOrigin::kEdited) placed.joints.emplace_back(joint.name, joint.image);
+    placed.body_plan = file.skeleton.template_name;
+    placed.labels = file.labels;
+    placed.outline_sha256 = file.figure.sha256;
+  }
+  if (files.labels.empty()) return placed;
+  const std::string labels_sha256 = sha256(readFile(files.labels));
+  if (placed.labels && placed.labels->sha256 == labels_sha256) {
+    placed.labels->file = files.labels;
+    return placed;
+  }
+  const PlacedJoints labelled =
+      jointsOfLabels(files.labels, files.labels == options.skeleton_file, source, image_sha256);
+  if (labelled.joints.empty()) return placed;
+  for (const auto& joint : labelled.joints) {
+    std::erase_if(placed.joints, [&](const auto& other) { return other.first == joint.first; });
+    placed.joints.push_back(joint);
+  }
+  placed.labels = SkeletonFile::Labels{files.labels, labels_sha256};
+  if (placed.body_plan.empty() && !knowsAll(rig.body_plan, placed)) {
+    if (!rig.otherwise || !knowsAll(rig.otherwise->body_plan, placed))
+      throw InputError(files.labels, "has joints that are none of the template \"" + rig.body_plan.name +
+                                         "\"; name theirs by --template");
+    placed.body_plan = rig.otherwise->body_plan.name;
+  }
+  return placed;
+}
+
+RigOptions forBodyPlan(const RigOptions& rig, const std::string& body_plan) {
+  RigOptions one = rig;
+  if (body_plan.empty() || !rig.otherwise) return one;
+  if (body_plan == rig.otherwise->body_plan.name) {
+    one.body_plan = rig.otherwise->body_plan;
+    one.clips = rig.otherwise->clips;
+  }
+  one.otherwise.reset();
+  return one;
+}
+
+std::optional<Note> mendedNote(const MendedFiles& files, const InferOptions& options,
+                               const PlacedJoints& placed) {
+  std::vector<std::string> what;
+  const auto add = [&](const std::string& file, const std::string& named, const std::string& name) {
+    if (!file.empty() && file != named) what.push_back(name);
+  };
+  if (const std::size_t count = placed.joints.size(); count > 0 && options.skeleton_file.empty())
+    what.push_back(std::to_string(count) + (count == 1 ? " joint" : " joints"));
+  add(files.mask, options.mask_file, "mask");
+  add(files.limbs, options.layers, "limbs");
+  add(files.back, options.back, "back");
+  if (what.empty()) return std::nullopt;
+  const std::string shared = "made by hand and taken up (--force leaves it out)";
+  return Note{shared + ": " + joined(what), shared, joined(what)};
+}
+
+}  // namespace skel

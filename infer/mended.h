@@ -1,0 +1,55 @@
+// What a person has mended of a drawing: named on the command line, or left beside the drawing and its
+// results.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "infer/infer_options.h"
+#include "libskel/pipeline/drawing_notes.h"
+#include "libskel/skeleton/skeleton_file.h"
+
+namespace skel {
+
+// Paths; "": there is none.
+struct MendedFiles {
+  std::string skeleton;  // a result with joints that a person has moved
+  std::string labels;    // with joints that a person has placed
+  std::string mask, limbs, back;
+};
+
+// Those of figure `figure` of the drawing `source`, whose results are called <out_dir>/<stem>.*, that the
+// command line does not name others for: <source's stem>.mask.png, .labels.json, .limbs.png and .back.png
+// beside the drawing (mask and labels of one figure alone), an edited skeleton among the results. Nothing
+// with
+// --force, and nothing beside a drawing with <stem>.joints.json: that is annotated, not mended. --skeleton
+// may name labels.
+MendedFiles mendedFiles(const InferOptions& options, const std::string& source, const std::string& stem,
+                        int figure);
+
+// Joints that a person has placed.
+struct PlacedJoints {
+  std::vector<std::pair<std::string, Eigen::Vector2d>> joints;  // image px
+  std::string body_plan;                                        // that they belong to; "": either
+  std::optional<SkeletonFile::Labels> labels;                   // where some of them are from; path as given
+  std::string outline_sha256;                                   // of the figure when they were mended; or ""
+};
+
+// Of skeleton and labels. Where both place a joint, the labels count if they have changed since the skeleton
+// was made with them. Throws InputError: made for another picture, another figure; labels that were named and
+// hold no joints.
+PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options, const RigOptions& rig,
+                          const std::string& source, const Image& image, const std::string& image_sha256,
+                          int figure);
+
+// The options for the body plan of that name alone; as they are for "".
+RigOptions forBodyPlan(const RigOptions& rig, const std::string& body_plan);
+
+// Which of them were taken up though nobody named them; nothing where none was.
+std::optional<Note> mendedNote(const MendedFiles& files, const InferOptions& options,
+                               const PlacedJoints& placed);
+
+}  // namespace skel

@@ -1,0 +1,142 @@
+#include "infer/report_page.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "embedded/report_css.h"
+#include "libskel/core/json_names.h"
+
+namespace skel {
+namespace {
+
+// Text of any bytes for HTML, in UTF-8.
+std::string escaped(const std::string& text) {
+  std::string html;
+  for (const char c : jsonFromFileName(text)) {
+    switch (c) {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      case '\'':
+        html += "&#39;";
+        break;
+      default:
+        html += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
+    }
+  }
+  return html;
+}
+
+// One card of the page: a figure, or a drawing of which there is none.
+struct Card {
+  std::string name;  // HTML
+  const FigureResult* figure = nullptr;
+  std::string problem;  // of a drawing without a figure
+  bool again() const { return !figure || figure->verdict == Verdict::kRetake; }
+};
+
+std::vector<Card> cardsOf(const std::vector<DrawingResult>& drawings) {
+  std::vector<Card> cards;
+  for (const DrawingResult& drawing : drawings) {
+    const std::string name = std::filesystem::path(drawing.source).stem().string();
+    for (const FigureResult& figure : drawing.figures)
+      cards.push_back(
+          {escaped(drawing.figures.size() > 1 ? name + " " + std::to_string(figure.number) : name),
+           &figure,
+           {}});
+    if (!drawing.error.empty()) cards.push_back({escaped(name), nullptr, drawing.problem});
+  }
+  return cards;
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string percent(double share) { return std::to_string(std::lround(100 * share)) + "%"; }
+
+std::string film(const Card& card) {
+  const FilmSheet& sheet = card.figure->pictures.film;
+  if (sheet.columns == 0) return "";
+  char style[160];
+  std::snprintf(style, sizeof style, "--columns:%d;--rows:%d;--lasts:%.3fs;--line-lasts:%.3fs", sheet.columns,
+                sheet.rows, sheet.duration_s, sheet.duration_s / sheet.rows);
+  return "<div class=\"film\" style=\"" + std::string(style) + "\"><div><img alt=\"" + card.name +
+         ", moving\" src=\"" + sheet.source + "\"></div></div>";
+}
+
+std::string verdictChip(const Card& card) {
+  if (!card.figure) return "<span class=\"chip again\">no figure</span>";
+  switch (card.figure->verdict) {
+    case Verdict::kRetake:
+      return "<span class=\"chip again\">take again</span>";
+    case Verdict::kLookAt:
+      return "<span class=\"chip look\">look at it</span>";
+    case Verdict::kFine:
+      break;
+  }
+  return "<span class=\"chip fine\">fine</span>";
+}
+
+std::string cardHtml(const Card& card, std::size_t number) {
+  std::string html =
+      "<article id=\"d" + std::to_string(number) + "\"><h2>" + card.name + "</h2>" + verdictChip(card);
+  if (!card.figure) return html + "<p class=\"advice\">" + escaped(card.problem) + "</p></article>\n";
+  const FigureResult& figure = *card.figure;
+  html += "<div class=\"pair\"><img class=\"drawing\" alt=\"" + card.name + ", as drawn\" src=\"" +
+          figure.pictures.drawing + "\">" + film(card) + "</div>";
+  html += "<p class=\"sure\"><span><i style=\"width:" + percent(figure.confidence) + "\"></i></span>" +
+          percent(figure.confidence) + " sure of the joints</p>";
+  for (const std::string& sentence : figure.advice)
+    html += "<p class=\"advice\">" + escaped(sentence) + "</p>";
+  return html + "</article>\n";
+}
+
+}  // namespace
+
+std::string reportPage(const std::vector<DrawingResult>& drawings) {
+  const std::vector<Card> cards = cardsOf(drawings);
+  std::size_t fine = 0, look = 0;
+  std::string again, all;
+  for (std::size_t i = 0; i < cards.size(); ++i) {
+    const Card& card = cards[i];
+    all += cardHtml(card, i + 1);
+    if (card.again()) {
+      const std::string why = !card.figure                  ? card.problem
+                              : card.figure->advice.empty() ? ""
+                                                            : card.figure->advice.front();
+      again +=
+          "<li><a href=\"#d" + std::to_string(i + 1) + "\">" + card.name + "</a> " + escaped(why) + "</li>\n";
+    } else {
+      ++(card.figure->verdict == Verdict::kFine ? fine : look);
+    }
+  }
+  const std::size_t retake = cards.size() - fine - look;
+  const std::string title = counted(cards.size(), "drawing", "drawings");
+  std::string summary = std::to_string(fine) + " fine";
+  if (look > 0) summary += ", " + std::to_string(look) + " to look at";
+  if (retake > 0) summary += ", " + std::to_string(retake) + " to take again";
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
+      "'unsafe-inline'\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
+      title + ", moving</title>\n<style>\n" + std::string(embedded::report_css) +
+      "</style></head>\n<body>\n<input type=\"checkbox\" id=\"still\">\n<header><h1>" + title + "</h1><p>" +
+      summary + "</p><label for=\"still\">stand still</label></header>\n";
+  if (!again.empty())
+    html += "<section class=\"again\"><h2>Photos to take again</h2><ul>\n" + again + "</ul></section>\n";
+  return html + "<main>\n" + all + "</main>\n</body></html>\n";
+}
+
+}  // namespace skel

@@ -1,0 +1,92 @@
+#include "infer/report_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "libskel/animation/sample_pose.h"
+#include "libskel/deform/skin_vertices.h"
+#include "libskel/draw/canvas.h"
+#include "libskel/draw/render_mesh.h"
+#include "libskel/image/write_image.h"
+#include "libskel/image/write_jpeg.h"
+
+namespace skel {
+namespace {
+
+constexpr int kDrawingWidth = 400, kDrawingHeight = 480;  // px, at most
+constexpr int kColumns = 8, kMostRows = 5;
+constexpr double kFrameRate = 10;  // 1/s
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) {
+      return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u;
+    };
+    const unsigned three = byte(0) << 16 | byte(1) << 8 | byte(2);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k > bytes.size() ? '=' : kDigits[three >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+std::string dataAddress(const Image& picture) {
+  constexpr int kQuality = 78;
+  const auto jpeg = encodeJpeg(picture, kQuality);
+  return jpeg ? "data:image/jpeg;base64," + base64(*jpeg)
+              : "data:image/png;base64," + base64(encodePng(picture, 9));
+}
+
+const Clip* shownClip(const std::vector<Clip>& clips, const std::string& wanted) {
+  for (const std::string_view name :
+       {std::string_view(wanted), std::string_view("dance"), std::string_view("walk")})
+    for (const Clip& clip : clips)
+      if (clip.name == name) return &clip;
+  return clips.empty() ? nullptr : &clips.front();
+}
+
+FilmSheet filmSheet(const RiggedDrawing& drawing, const Clip& clip) {
+  const RiggedCharacter& character = drawing.character;
+  const double yaw_rad = drawing.body_plan.from_side ? 0 : .35;
+  constexpr double kPitch_rad = .08;
+  FilmSheet film;
+  film.columns = kColumns;
+  film.duration_s = double(clip.duration_s());
+  film.rows = std::clamp(int(std::lround(film.duration_s * kFrameRate / kColumns)), 1, kMostRows);
+  const int count = film.rows * film.columns;
+
+  const Eigen::Index vertices = character.mesh.vertices.rows();
+  const auto heights = character.mesh.vertices.col(1);
+  Eigen::MatrixX3f all(vertices * count, 3);
+  for (int i = 0; i < count; ++i) {
+    const float time_s = clip.duration_s() * float(i) / float(count);
+    all.middleRows(i * vertices, vertices) =
+        skinVertices(character.mesh.vertices, character.weights,
+                     posedFromRest(character.skeleton, samplePose(clip, character.skeleton, time_s),
+                                   heights.maxCoeff() - heights.minCoeff()));
+  }
+  const Camera camera = framingCamera(all, yaw_rad, kPitch_rad, double(kFilmWidth) / kFilmHeight);
+  Image sheet = blankImage(film.columns * kFilmWidth, film.rows * kFilmHeight);
+  for (int i = 0; i < count; ++i)
+    blit(sheet,
+         renderMesh(all.middleRows(i * vertices, vertices), character.mesh, camera,
+                    {.width = kFilmWidth, .height = kFilmHeight}),
+         i % film.columns * kFilmWidth, i / film.columns * kFilmHeight);
+  film.source = dataAddress(sheet);
+  return film;
+}
+
+}  // namespace
+
+ReportPictures reportPictures(const RiggedDrawing& drawing, const std::string& clip) {
+  Image paper = blankImage(drawing.image.width, drawing.image.height);
+  blit(paper, drawing.image, 0, 0);
+  ReportPictures pictures;
+  pictures.drawing = dataAddress(fitted(paper, kDrawingWidth, kDrawingHeight));
+  if (const Clip* shown = shownClip(drawing.clips, clip)) pictures.film = filmSheet(drawing, *shown);
+  return pictures;
+}
+
+}  // namespace skel

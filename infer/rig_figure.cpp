@@ -1,0 +1,254 @@
+#include "infer/rig_figure.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "infer/advice.h"
+#include "infer/mended.h"
+#include "infer/outputs.h"
+#include "libskel/core/caught_error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/sha256.h"
+#include "libskel/image/read_image.h"
+#include "libskel/labels/label_file.h"
+#include "libskel/mesh/read_mesh.h"
+#include "libskel/pipeline/rig_drawing.h"
+#include "libskel/pipeline/trace.h"
+#include "libskel/skeleton/outside_figure.h"
+
+namespace skel {
+namespace fs = std::filesystem;
+namespace {
+
+bool writes(const InferOptions& options, const char* format) {
+  return std::count(options.formats.begin(), options.formats.end(), format) > 0;
+}
+
+std::string sizeText(long width, long height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+// Reads the mask that is used and returns its path, "": none. A skeleton that was handed in brings its own.
+std::string useMask(const InferOptions& options, const std::string& found,
+                    const std::optional<SkeletonFile>& given, RigInput& input) {
+  std::string path = found;
+  if (path.empty() && given && given->mask) {
+    path = (fs::path(options.skeleton_file).parent_path() / given->mask->file).string();
+    if (sha256(readFile(path)) != given->mask->sha256)
+      throw InputError(path, "has changed since " + options.skeleton_file +
+                                 " was made with it; name it by --mask if that is meant");
+  }
+  if (path.empty()) return path;
+  input.mask = readMask(path);
+  if (input.mask->cols() != input.image.width || input.mask->rows() != input.image.height)
+    throw InputError(path, "is a mask of " + sizeText(input.mask->cols(), input.mask->rows()) +
+                               " px, the image has " + sizeText(input.image.width, input.image.height));
+  return path;
+}
+
+// The skeleton says which figure it belongs to; a number that was asked for must be that one.
+int figureOf(const InferOptions& options, const SkeletonFile& given, int asked) {
+  if (asked != 1 && asked != given.figure.number)
+    throw InputError(options.skeleton_file, "belongs to figure " + std::to_string(given.figure.number) +
+                                                " of the drawing, --figure asks for " +
+                                                std::to_string(asked));
+  return given.figure.number;
+}
+
+// What was made of one of several figures keeps its name.
+std::string stemOf(const InferOptions& options, const RigJob& job, int figure) {
+  if (options.figure == "all") return job.stem + "-" + std::to_string(figure);
+  const std::string from = fs::path(options.skeleton_file).filename().string(), start = job.stem + "-";
+  constexpr std::string_view kEnding = ".skeleton.json";
+  if (!from.starts_with(start) || !from.ends_with(kEnding)) return job.stem;
+  const std::string number = from.substr(start.size(), from.size() - start.size() - kEnding.size());
+  const bool numbered = !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+  return numbered ? start + number : job.stem;
+}
+
+// The joints must be this figure's. `file`: where they are from.
+void checkJoints(const Skeleton& skeleton, const std::string& file, int figure, const Plane8& mask) {
+  const Joint* stray = jointFarOutside(skeleton, mask);
+  if (!stray) return;
+  throw InputError(file, "joint \"" + stray->name + "\" lies far outside figure " + std::to_string(figure) +
+                             " of the drawing; place it on the figure, or take the skeleton of this one");
+}
+
+constexpr const char* kOutlineChanged =
+    "the figure is not outlined as it was when the joints were found: look at them";
+
+bool wasEdited(const Skeleton& skeleton) {
+  return std::any_of(skeleton.joints.begin(), skeleton.joints.end(),
+                     [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; });
+}
+
+// What to say of a figure whose joints were given.
+std::vector<std::string> warningsOf(const SkeletonFile& given, const RiggedDrawing& drawing, bool own_mask) {
+  std::vector<std::string> warnings = drawing.silhouette.warnings;
+  // What was said of joints before somebody moved them is stale.
+  if (!wasEdited(given.skeleton))
+    for (const std::string& warning : given.warnings)
+      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+  if (!own_mask && !given.figure.sha256.empty() && given.figure.sha256 != outlineHash(drawing.silhouette))
+    warnings.push_back(kOutlineChanged);
+  return warnings;
+}
+
+Verdict verdictOf(const RiggedDrawing& drawing, const SkeletonFile& file) {
+  constexpr double kRecognized = .5;
+  const Silhouette& silhouette = drawing.silhouette;
+  const bool guessed = file.confidence < kRecognized && !wasEdited(file.skeleton);
+  if (guessed || silhouette.is_sheet || !silhouette.cut_sides.empty()) return Verdict::kRetake;
+  return file.warnings.empty() ? Verdict::kFine : Verdict::kLookAt;
+}
+
+// Of clips that were asked for, and of limbs.
+std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, const RiggedDrawing& drawing) {
+  std::vector<Note> notes;
+  for (const std::string& name : options.clips)
+    if (name != "none" && std::none_of(drawing.clips.begin(), drawing.clips.end(),
+                                       [&](const Clip& clip) { return clip.name == name; }))
+      notes.push_back({"there is no clip \"" + name + "\" for a " + drawing.body_plan.name + ": left out"});
+  if (options.model_file.empty() && rig.layers)
+    for (Note& note : limbNotes(drawing, drawing.clips)) notes.push_back(std::move(note));
+  return notes;
+}
+
+// Rigs one figure, writes its files and adds what became of it. Returns how many figures there are in the
+// drawing.
+int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& job, int figure,
+              std::vector<FigureResult>& results) {
+  const std::string& handed_in = options.skeleton_file;
+  std::optional<SkeletonFile> given;
+  if (!handed_in.empty() && !handed_in.ends_with(kLabelFileEnding)) {
+    const std::string text = readFile(handed_in);
+    given = parseSkeletonFile(text, handed_in, planOfSkeleton(text, handed_in, rig));
+    figure = figureOf(options, *given, figure);
+  }
+  const std::string stem = stemOf(options, job, figure);
+  const std::string skeleton_path = options.out_dir + "/" + stem + ".skeleton.json";
+  std::error_code no_file;
+  if (!handed_in.empty() && !options.force && !fs::equivalent(skeleton_path, handed_in, no_file) &&
+      writes(options, "json") && hasEditedJoint(skeleton_path))
+    throw InputError(
+        skeleton_path,
+        "holds joints that were edited by hand; go on from it by --skeleton, or give --force to lose them");
+
+  RigInput input;
+  std::string image_sha256;
+  if (!options.images.empty()) {
+    const std::string bytes = readFile(job.source);
+    input.image = decodeImage(bytes, job.source);
+    image_sha256 = sha256(bytes);
+  }
+  if (!options.model_file.empty()) input.model = readMesh(options.model_file);
+  if (given) {
+    if (given->image_width != input.image.width || given->image_height != input.image.height)
+      throw InputError(handed_in, "belongs to an image of " +
+                                      sizeText(given->image_width, given->image_height) + " px, " +
+                                      job.source + " has " + sizeText(input.image.width, input.image.height));
+    input.skeleton = given->skeleton;
+    input.turned_deg = given->figure.turned_deg;
+  }
+  const MendedFiles mended = mendedFiles(options, job.source, stem, figure);
+  const PlacedJoints placed =
+      placedJoints(mended, options, rig, job.source, input.image, image_sha256, figure);
+  input.placed = placed.joints;
+  const std::string mask = useMask(options, mended.mask, given, input);
+  if (!mended.limbs.empty()) input.layers = {readImage(mended.limbs), mended.limbs};
+  if (!mended.back.empty()) input.back = {readImage(mended.back), mended.back};
+
+  RigOptions figure_rig = forBodyPlan(rig, placed.body_plan);
+  figure_rig.silhouette.figure = std::max(figure, 1);
+  figure_rig.silhouette.all = options.figure == "all";
+  RiggedDrawing drawing = rigCharacter(std::move(input), figure_rig);
+  if (!drawing.found()) throw InputError(mask.empty() ? job.source : mask, drawing.silhouette.reason);
+  std::vector<std::string> warnings;
+  if (given) {
+    checkJoints(given->skeleton, handed_in, figure, drawing.silhouette.mask);
+    drawing.recognition.confidence = given->confidence;
+    drawing.recognition.missing = given->missing;
+    warnings = warningsOf(*given, drawing, !mask.empty());
+  } else {
+    warnings = figureNotes(drawing);
+  }
+  const std::string outline = outlineHash(drawing.silhouette);
+  if (!placed.joints.empty()) {
+    checkJoints(drawing.recognition.skeleton, mended.skeleton.empty() ? mended.labels : mended.skeleton,
+                figure, drawing.silhouette.mask);
+    if (mask.empty() && !placed.outline_sha256.empty() && placed.outline_sha256 != outline)
+      warnings.push_back(kOutlineChanged);
+  }
+
+  SkeletonFile file;
+  file.image_file = pathSeenFrom(skeleton_path, job.source);
+  file.image_sha256 = image_sha256;
+  file.image_width = drawing.image.width;
+  file.image_height = drawing.image.height;
+  file.figure = {figure, outline, drawing.recognition.turned_deg};
+  file.skeleton = drawing.recognition.skeleton;
+  file.confidence = drawing.recognition.confidence;
+  file.missing = drawing.recognition.missing;
+  file.warnings = std::move(warnings);
+  if (!mask.empty()) file.mask = {pathSeenFrom(skeleton_path, mask), sha256(readFile(mask))};
+  file.labels = placed.labels;
+  if (file.labels && !mended.labels.empty()) file.labels->file = pathSeenFrom(skeleton_path, mended.labels);
+
+  const std::vector<std::string> written = writeOutputs(options, stem, drawing, file);
+  if (!options.trace_dir.empty()) {
+    const bool given_mask = !mask.empty() || options.images.empty();
+    writeTrace(drawing, given_mask ? SilhouetteSteps{} : silhouetteSteps(drawing.image),
+               options.images.size() > 1 || options.figure == "all" ? options.trace_dir + "/" + stem
+                                                                    : options.trace_dir);
+  }
+
+  FigureResult result;
+  result.number = figure;
+  result.mend_file = figure > 1 ? skeleton_path : job.source;
+  if (!written.empty()) result.written = written.front();
+  result.confidence = file.confidence;
+  result.body_plan = drawing.body_plan.name;
+  result.verdict = verdictOf(drawing, file);
+  result.reasons = file.warnings;
+  result.notes = notesOf(options, rig, drawing);
+  if (const auto note = mendedNote(mended, options, placed)) result.notes.push_back(*note);
+  if (!options.report_file.empty()) {
+    result.advice = adviceOn(drawing, file, options.figure == "all");
+    result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front());
+  }
+  result.times = drawing.times;
+  results.push_back(std::move(result));
+  return drawing.silhouette.figure_count;
+}
+
+}  // namespace
+
+bool isBackPicture(const std::string& back) { return !back.empty() && back != "plain" && back != "same"; }
+
+bool isLayerMap(const std::string& layers) { return layers != "auto" && layers != "off"; }
+
+void noteResults(const InferOptions& options, const RigJob& job, const std::vector<Clip>& clips) {
+  constexpr int kMostFigures = 99;
+  for (int figure = 1; figure <= (options.figure == "all" ? kMostFigures : 1); ++figure)
+    noteOutputs(options, stemOf(options, job, figure), clips);
+}
+
+DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, const RigJob& job) {
+  DrawingResult result;
+  result.source = job.source;
+  try {
+    if (options.figure == "all") {
+      const int count = rigFigure(options, rig, job, 1, result.figures);
+      for (int figure = 2; figure <= count; ++figure) rigFigure(options, rig, job, figure, result.figures);
+    } else {
+      rigFigure(options, rig, job, std::stoi(options.figure), result.figures);
+    }
+  } catch (...) {
+    const Error error = caughtError(job.source);
+    result.code = error.exitCode();
+    result.error = result.problem = error.what();
+    if (result.error.starts_with(job.source + ": "))
+      result.problem = result.error.substr(job.source.size() + 2);
+  }
+  return result;
+}
+
+}  // namespace skel

@@ -1,0 +1,33 @@
+#include "libskel/core/net_format.h"
+
+#include <array>
+#include <utility>
+
+#include "libskel/core/error.h"
+
+namespace skel {
+
+void checkNetFormat(std::string_view bytes, const std::string& file, std::string_view format) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kKinds = {
+      {{"skel-weights", "weights that tell candidates apart (--weights)"},
+       {"skel-joint-net", "a net that finds joints (--joint-net)"},
+       {"skel-part-net", "a net that tells parts (--part-net)"},
+       {"skel-page-net", "a net that finds figures on pages"}}};
+  constexpr std::size_t kHeader = 4096;
+  constexpr std::string_view kKey = "\"format\"";
+  const std::string_view header = bytes.substr(0, kHeader);
+  const std::size_t key = header.find(kKey);
+  if (key == header.npos) return;
+  const std::size_t first = header.find('"', key + kKey.size());
+  if (first == header.npos) return;
+  const std::string_view found = header.substr(first + 1, header.find('"', first + 1) - first - 1);
+  const auto nameOf = [&](std::string_view wanted) {
+    for (const auto& [kind, name] : kKinds)
+      if (kind == wanted) return std::string(name);
+    return std::string();
+  };
+  if (found != format && !nameOf(found).empty())
+    throw InputError(file, "is " + nameOf(found) + "; " + nameOf(format) + " was expected");
+}
+
+}  // namespace skel

@@ -1,0 +1,74 @@
+#include "libskel/pipeline/drawing_notes.h"
+
+#include <map>
+
+#include "libskel/core/file_names.h"
+#include "libskel/core/text.h"
+#include "libskel/deform/stretch.h"
+
+namespace skel {
+namespace {
+
+constexpr const char* kPaintTheLimb = "; if it is drawn before the body, paint it (skel-label FILE, key G)";
+
+}  // namespace
+
+std::string noteText(const Note& note, const std::string& file) {
+  constexpr std::string_view kPlace = " FILE";
+  std::string text = note.text;
+  for (std::size_t at = text.find(kPlace); at != text.npos; at = text.find(kPlace, at))
+    text.replace(at + 1, kPlace.size() - 1, shellWord(file));
+  return text;
+}
+
+std::vector<std::string> figureNotes(const RiggedDrawing& drawing) {
+  std::vector<std::string> notes = drawing.silhouette.warnings;
+  notes.insert(notes.end(), drawing.recognition.warnings.begin(), drawing.recognition.warnings.end());
+  return notes;
+}
+
+std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip>& clips) {
+  constexpr double kSure = .5;     // of the joints
+  constexpr double kTorn = .02;    // share of the model's area that a clip stretches too far
+  constexpr double kOfLimb = .01;  // of which so much is a limb's
+  std::vector<Note> notes;
+  if (drawing.recognition.confidence < kSure) return notes;
+  const SkeletonTemplate& body_plan = drawing.body_plan;
+  for (const int limb : drawing.layers.hidden) {
+    const std::string name = limbName(body_plan, limb);
+    notes.push_back({"the " + name + " cannot be told from the body and stays with it" + kPaintTheLimb,
+                     "a limb that cannot be told from the body stays with it" + std::string(kPaintTheLimb),
+                     name});
+  }
+  const RiggedCharacter& character = drawing.character;
+  std::map<int, std::vector<int>> joints_of_limb;  // of those that are no layers
+  for (std::size_t k = 0; k < body_plan.limbs.size(); ++k) {
+    const int limb = static_cast<int>(k) + 1;
+    if (drawing.layers.any() && (drawing.layers.limb == limb).any()) continue;
+    for (const int joint : body_plan.limbs[k].joints)
+      if (const int j = character.skeleton.find(body_plan.joints[std::size_t(joint)].name); j >= 0)
+        joints_of_limb[limb].push_back(j);
+  }
+  std::map<int, std::vector<std::string>> clips_of_limb;
+  for (const ClipStretch& stretch :
+       clipStretches(character.mesh, character.skeleton, character.weights, clips)) {
+    int most = 0;
+    double share = kOfLimb;
+    for (const auto& [limb, joints] : joints_of_limb) {
+      double sum = 0;
+      for (const int joint : joints) sum += stretch.by_joint[std::size_t(joint)];
+      if (sum > share) most = limb, share = sum;
+    }
+    if (stretch.share > kTorn && most > 0) clips_of_limb[most].push_back(stretch.clip);
+  }
+  for (const auto& [limb, names] : clips_of_limb) {
+    const std::string name = limbName(body_plan, limb);
+    notes.push_back({joined(names) + (names.size() == 1 ? " pulls the " : " pull the ") + name +
+                         " out of shape" + kPaintTheLimb,
+                     "a motion pulls a limb out of shape" + std::string(kPaintTheLimb),
+                     name + " by " + joined(names)});
+  }
+  return notes;
+}
+
+}  // namespace skel

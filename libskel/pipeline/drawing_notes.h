@@ -1,0 +1,29 @@
+// What a person should know of a drawing that was rigged.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libskel/pipeline/rig_character.h"
+
+namespace skel {
+
+// One clause. The word FILE in it stands for the file that skel-label opens to mend the drawing.
+struct Note {
+  std::string text;
+  // Where many drawings are spoken of, the same is said once of all: `text` without what differs, which is
+  // `what`. Empty: `text` has nothing that differs.
+  std::string shared = {}, what = {};
+};
+
+// The note's text for a drawing whose file to mend is `file`; the path stands there as a word for the shell.
+std::string noteText(const Note& note, const std::string& file);
+
+// Of the figure, its joints and its body plan, where the joints were looked for.
+std::vector<std::string> figureNotes(const RiggedDrawing& drawing);
+
+// Of limbs that these clips, which are relative to the rest pose, do not move as limbs should; nothing where
+// the joints are a guess.
+std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip>& clips);
+
+}  // namespace skel

@@ -1,0 +1,109 @@
+// A folder of drawings in one run: what is read, and what is said of many at once.
+#include <sys/stat.h>
+
+#include <filesystem>
+
+#include "libskel/core/files.h"
+#include "libskel/image/write_image.h"
+#include "tests/infer/run_infer.h"
+#include "tests/support/catch.h"
+#include "tests/support/synthetic_figure.h"
+
+using namespace skel;
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string figure(int size = 300) {
+  CapsuleFigure capsules;
+  capsules.size = size;
+  return encodePng(capsuleImage(capsules));
+}
+
+// The names of the drawings in the order in which they are reported.
+std::string reported(const std::string& out) {
+  std::string names;
+  std::istringstream lines(out);
+  for (std::string line; std::getline(lines, line);) names += line.substr(0, line.find(": ")) + " ";
+  return names;
+}
+
+long count(const std::string& text, const std::string& what) {
+  long found = 0;
+  for (size_t at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++found;
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a folder stands for its drawings in natural order, and what is no drawing is passed over") {
+  const TempDir dir;
+  for (const char* name : {"kid10.png", "kid9.png", "Kid 1.PNG"})
+    writeFile(dir.file(std::string("class/") + name), figure());
+  for (const char* name : {"kid9.mask.png", "kid9.back.png", "kid9.limbs.png", "kid9.silhouette.png",
+                           "kid9.overlay.png", "kid9.layers.png", ".hidden.png"})
+    writeFile(dir.file(std::string("class/") + name), figure());
+  writeFile(dir.file("class/letter.txt"), "dear parents");
+  writeFile(dir.file("class/deeper/other.png"), figure());
+  const ToolRun run = infer(dir, "class/ -o class --formats glb --clips none --force");
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(reported(run.out) == "class/Kid 1.PNG class/kid9.png class/kid10.png ");
+  CHECK_THAT(run.err, Contains("3 drawings: "));
+  SECTION("results of the first run are passed over by the second, a texture of an .obj, too") {
+    fs::rename(dir.file("class/kid10.png"), dir.file("kid10.png"));
+    REQUIRE(infer(dir, "kid10.png -o class --formats obj,json,overlay,silhouette").exit_code == 0);
+    CHECK(reported(infer(dir, "class --formats json --force").out) == "class/Kid 1.PNG class/kid9.png ");
+  }
+  SECTION("folders and files are mixed") {
+    writeFile(dir.file("second/anna.png"), figure());
+    writeFile(dir.file("zoe.png"), figure());
+    CHECK(reported(infer(dir, "zoe.png second class --formats json --force").out) ==
+          "zoe.png second/anna.png class/Kid 1.PNG class/kid9.png class/kid10.png ");
+  }
+}
+
+TEST_CASE("a folder without a drawing is refused by name") {
+  const TempDir dir;
+  writeFile(dir.file("empty/letter.txt"), "dear parents");
+  const ToolRun run = infer(dir, "empty");
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("empty: holds no drawing (.png, .jpg"));
+  CHECK_FALSE(fs::exists(dir.file("out")));
+}
+
+TEST_CASE("what is said of many drawings is said once, with the names that it holds for") {
+  const TempDir dir;
+  CapsuleFigure capsules;
+  const Image whole = capsuleImage(capsules);
+  // Without its lower third, twice.
+  Image cut(whole.width, whole.height * 2 / 3);
+  cut.rgba = whole.rgba.topRows(cut.rgba.rows());
+  writeFile(dir.file("class/Ada.png"), encodePng(whole));
+  writeFile(dir.file("class/David.png"), encodePng(cut));
+  writeFile(dir.file("class/Eva B.png"), encodePng(cut));
+  writeFile(dir.file("class/text.png"), "no picture");
+  const ToolRun run = infer(dir, "class --formats json");
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("4 drawings: ") && Contains("2 to retake, 1 without a result\n"));
+  CHECK_THAT(run.err,
+             Contains("retake class/David.png 'class/Eva B.png': the figure is cut by the border of the "
+                      "picture (bottom)\n"));
+  CHECK(count(run.err, "cut by the border") == 1);
+  CHECK(count(run.err, "class/text.png: is not a picture") == 1);
+  SECTION("--quiet says what went wrong, nothing else") {
+    const ToolRun quiet = infer(dir, "class --formats json --quiet");
+    CHECK(quiet.out.empty());
+    CHECK(count(quiet.err, "\n") == 1);
+    CHECK_THAT(quiet.err, Contains("class/text.png: is not a picture"));
+    CHECK(quiet.exit_code == 2);
+  }
+}
+
+TEST_CASE("a path in a note can be pasted into a shell") {
+  const TempDir dir;
+  fs::copy(SKEL_DATASETS "/characters/game_ninja.png", dir.file("Eva's photo.png"));
+  CHECK_THAT(infer(dir, "\"Eva's photo.png\"").err, Contains("(skel-label 'Eva'\\''s photo.png', key G)"));
+}

@@ -1,0 +1,157 @@
+// What a person has mended is taken up by the next run by itself, and what skel wrote is not taken for it.
+#include <filesystem>
+
+#include "libskel/core/files.h"
+#include "libskel/core/json.h"
+#include "libskel/core/sha256.h"
+#include "libskel/image/write_image.h"
+#include "libskel/labels/label_file.h"
+#include "libskel/silhouette/silhouette.h"
+#include "tests/infer/run_infer.h"
+#include "tests/support/catch.h"
+#include "tests/support/synthetic_figure.h"
+
+using namespace skel;
+namespace fs = std::filesystem;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// A drawing without annotations, in that folder as boy.png.
+void drawBoy(const TempDir& dir) { writeFile(dir.file("boy.png"), readFile(kDrawing)); }
+
+// Where the skeleton file has that joint.
+std::vector<double> placeIn(const TempDir& dir, const std::string& name) {
+  const JsonDocument document = JsonDocument::readFile(dir.file("out/boy.skeleton.json"));
+  for (const JsonValue& joint : document.root().at("joints").items())
+    if (joint.at("name").asString() == name) return joint.at("image").asNumbers(2);
+  return {};
+}
+
+void moveInFile(const TempDir& dir, const std::string& name, const std::string& x) {
+  std::string text = readFile(dir.file("out/boy.skeleton.json"));
+  const size_t start = text.find("\"image\":[", text.find("\"name\":\"" + name)) + 9;
+  text.replace(start, text.find(',', start) - start, x);
+  writeFile(dir.file("out/boy.skeleton.json"), text);
+}
+
+// As skel-label saves them: one joint placed, one that was found.
+void placeInLabels(const TempDir& dir, const Eigen::Vector2d& left_hand) {
+  LabelFile labels;
+  const std::string image = readFile(dir.file("boy.png"));
+  labels.image = {"boy.png", sha256(image)};
+  labels.image_width = labels.image_height = 600;
+  labels.grid_width = labels.grid_height = kWorkingGridSize;
+  labels.joints = {{"left_hand", left_hand}, {"right_hand", Eigen::Vector2d(100, 300)}};
+  labels.recognized = {"right_hand"};
+  writeLabelFile(dir.file("boy.labels.json"), labels);
+}
+
+constexpr const char* kTakenUp = "made by hand and taken up (--force leaves it out): ";
+
+}  // namespace
+
+TEST_CASE("a joint that was moved in the skeleton file stays where it was put, and one line says so") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  const auto before = placeIn(dir, "left_hand");
+  moveInFile(dir, "left_hand", "420.5");
+  for (int time = 0; time < 2; ++time) {
+    const ToolRun again = infer(dir, "boy.png");
+    CHECK(again.exit_code == 0);
+    CHECK_THAT(again.err, Contains(kTakenUp + std::string("1 joint\n")));
+    CHECK(placeIn(dir, "left_hand") == std::vector<double>{420.5, before[1]});
+  }
+  SECTION("--force loses it") {
+    const ToolRun run = infer(dir, "boy.png --force");
+    CHECK(run.err.find("by hand") == run.err.npos);
+    CHECK(placeIn(dir, "left_hand") == before);
+  }
+  SECTION("another picture of that name is not rigged by it") {
+    const std::string mended = readFile(dir.file("out/boy.skeleton.json"));
+    Image image = capsuleImage({.size = 600});
+    writeFile(dir.file("boy.png"), encodePng(image));
+    const ToolRun run = infer(dir, "boy.png");
+    CHECK(run.exit_code == 2);
+    CHECK_THAT(run.err, Contains("out/boy.skeleton.json: was made by hand for another picture of this name"));
+    CHECK(readFile(dir.file("out/boy.skeleton.json")) == mended);
+  }
+}
+
+TEST_CASE("what skel wrote and nobody touched is not taken for mended") {
+  const TempDir dir;
+  drawBoy(dir);
+  const std::string formats = "boy.png -o . --formats glb,json,overlay,silhouette,layers";
+  REQUIRE(infer(dir, formats).exit_code == 0);
+  const std::string first = readFile(dir.file("boy.glb"));
+  const ToolRun again = infer(dir, formats);
+  CHECK(again.err.find("by hand") == again.err.npos);
+  CHECK(readFile(dir.file("boy.glb")) == first);
+}
+
+TEST_CASE("joints placed in skel-label's folder mode are taken up, and changed by either file afterwards") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  const auto right = placeIn(dir, "right_hand");
+  const auto found = placeIn(dir, "left_hand");
+  placeInLabels(dir, {found[0] - 8, found[1]});
+  CHECK_THAT(infer(dir, "boy.png").err, Contains(kTakenUp + std::string("1 joint\n")));
+  CHECK(placeIn(dir, "left_hand")[0] == Approx(found[0] - 8));
+  CHECK(placeIn(dir, "right_hand") == right);  // that one was found by a net, not placed
+  SECTION("a later edit of the skeleton file counts, as the labels are the ones it was made with") {
+    moveInFile(dir, "left_hand", "430");
+    REQUIRE(infer(dir, "boy.png").exit_code == 0);
+    CHECK(placeIn(dir, "left_hand")[0] == 430);
+  }
+  SECTION("later labels count") {
+    placeInLabels(dir, {found[0] - 4, found[1]});
+    REQUIRE(infer(dir, "boy.png").exit_code == 0);
+    CHECK(placeIn(dir, "left_hand")[0] == Approx(found[0] - 4));
+  }
+}
+
+TEST_CASE("a mask, painted limbs and a back beside the drawing are taken up") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png -o plain --formats glb,layers").exit_code == 0);
+  fs::copy(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("boy.mask.png"));
+  fs::copy(dir.file("plain/boy.layers.png"), dir.file("boy.limbs.png"));
+  fs::copy(kDrawing, dir.file("boy.back.png"));
+  const ToolRun run = infer(dir, "boy.png");
+  CHECK_THAT(run.err, Contains(kTakenUp + std::string("mask, limbs, back\n")));
+  REQUIRE(infer(dir, "boy.png -o named --mask boy.mask.png --layers boy.limbs.png --back boy.back.png")
+              .exit_code == 0);
+  CHECK(readFile(dir.file("out/boy.glb")) == readFile(dir.file("named/boy.glb")));
+  SECTION("--force leaves them out") {
+    const ToolRun forced = infer(dir, "boy.png -o forced --force");
+    CHECK(forced.err.find("by hand") == forced.err.npos);
+    CHECK(readFile(dir.file("forced/boy.glb")) == readFile(dir.file("plain/boy.glb")));
+  }
+  SECTION("beside an annotated drawing they are the truth to measure by, and left alone") {
+    fs::copy(SKEL_DATASETS "/characters/cap_boy.joints.json", dir.file("boy.joints.json"));
+    const ToolRun annotated = infer(dir, "boy.png -o annotated");
+    CHECK(annotated.err.find("by hand") == annotated.err.npos);
+    CHECK(readFile(dir.file("annotated/boy.glb")) == readFile(dir.file("plain/boy.glb")));
+  }
+}
+
+TEST_CASE("option --skeleton takes the joints of a label file, or says what to do where it has none") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  const auto found = placeIn(dir, "left_hand");
+  placeInLabels(dir, {found[0] - 8, found[1]});
+  fs::rename(dir.file("boy.labels.json"), dir.file("mine.labels.json"));
+  CHECK(infer(dir, "boy.png --skeleton mine.labels.json").exit_code == 0);
+  CHECK(placeIn(dir, "left_hand")[0] == Approx(found[0] - 8));
+  LabelFile labels = readLabelFile(dir.file("mine.labels.json"));
+  labels.joints.clear();
+  labels.recognized.clear();
+  writeLabelFile(dir.file("none.labels.json"), labels);
+  const ToolRun none = infer(dir, "boy.png --skeleton none.labels.json --force");
+  CHECK(none.exit_code == 2);
+  CHECK_THAT(none.err, Contains("none.labels.json: holds no joints, only classes of candidates; place them "
+                                "(skel-label boy.png, key J)"));
+}

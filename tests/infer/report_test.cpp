@@ -1,0 +1,78 @@
+// --report: one page of HTML for a class.
+#include <filesystem>
+
+#include "libskel/core/files.h"
+#include "libskel/image/write_image.h"
+#include "tests/infer/run_infer.h"
+#include "tests/support/catch.h"
+#include "tests/support/synthetic_figure.h"
+
+using namespace skel;
+using Catch::Matchers::Contains;
+
+namespace {
+
+size_t countIn(const std::string& text, const std::string& what) {
+  size_t found = 0;
+  for (size_t at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++found;
+  return found;
+}
+
+// A class with a good drawing, one that is cut off, one that is no picture.
+std::string reportOf(const TempDir& dir, const std::string& options = "") {
+  const Image whole = capsuleImage();
+  Image cut(whole.width, whole.height * 2 / 3);
+  cut.rgba = whole.rgba.topRows(cut.rgba.rows());
+  writeFile(dir.file("class/<b>Tom & \"Jerry\".png"), encodePng(whole));
+  writeFile(dir.file("class/David.png"), encodePng(cut));
+  writeFile(dir.file("class/text.png"), "no picture");
+  infer(dir, "class -o class --formats json --report class/report.html " + options);
+  return readFile(dir.file("class/report.html"));
+}
+
+}  // namespace
+
+TEST_CASE("the report shows each drawing beside its moving figure, and what to take again and why") {
+  const TempDir dir;
+  const std::string html = reportOf(dir);
+  CHECK_THAT(html, Contains("<h1>3 drawings</h1>"));
+  CHECK_THAT(html, Contains("2 to take again"));
+  CHECK(countIn(html, "<article ") == 3);
+  CHECK(countIn(html, "class=\"drawing\"") == 2);
+  CHECK(countIn(html, "class=\"film\"") == 2);
+  CHECK(countIn(html, "sure of the joints") == 2);
+  CHECK_THAT(html, Contains(">David</a> The figure is cut off at the bottom. Step back"));
+  CHECK_THAT(html, Contains(">text</a> is not a picture that can be read"));
+  CHECK_THAT(html, Contains("@media print") && Contains("prefers-color-scheme: dark"));
+}
+
+TEST_CASE("names in the report are text, whatever stands in them") {
+  const TempDir dir;
+  const std::string html = reportOf(dir);
+  CHECK_THAT(html, Contains("<h2>&lt;b&gt;Tom &amp; &quot;Jerry&quot;</h2>"));
+  CHECK(html.find("<b>") == html.npos);
+}
+
+TEST_CASE("the report needs nothing from elsewhere, runs no script and is the same each time") {
+  const TempDir dir;
+  const std::string html = reportOf(dir);
+  for (const char* foreign : {"http://", "https://", "<script", "url(", "@import", "<link", "file:"})
+    CHECK(html.find(foreign) == html.npos);
+  CHECK_THAT(html, Contains("default-src 'none'; img-src data:"));
+  CHECK(reportOf(dir) == html);
+}
+
+TEST_CASE("the report shows the clip that was asked for, or the drawing alone where there is none") {
+  const TempDir dir;
+  CHECK(reportOf(dir, "--clips walk") != reportOf(dir, "--clips jump"));
+  const std::string still = reportOf(dir, "--clips none");
+  CHECK(countIn(still, "class=\"drawing\"") == 2);
+  CHECK(countIn(still, "class=\"film\"") == 0);
+}
+
+TEST_CASE("a drawing is not written over by the report") {
+  const TempDir dir;
+  writeFile(dir.file("a.png"), readFile(kDrawing));
+  CHECK(infer(dir, "a.png --report a.png").exit_code == 1);
+  CHECK(readFile(dir.file("a.png")) == readFile(kDrawing));
+}
