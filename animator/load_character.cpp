@@ -22,12 +22,6 @@ std::string endingOf(const std::string& path) {
   return ending;
 }
 
-bool isDrawing(const std::string& path) {
-  constexpr std::array<std::string_view, 8> kEndings = {".png", ".jpg", ".jpeg", ".webp",
-                                                        ".bmp", ".tif", ".tiff", ".gif"};
-  return std::find(kEndings.begin(), kEndings.end(), endingOf(path)) != kEndings.end();
-}
-
 bool hasClip(const std::vector<Clip>& clips, const std::string& name) {
   return std::any_of(clips.begin(), clips.end(), [&](const Clip& clip) { return clip.name == name; });
 }
@@ -40,6 +34,10 @@ void bindCharacterSource(CLI::App& app, CharacterSource& source) {
          "A rigged character (.glb), a drawing, which is rigged first, or a model (.obj) with --skeleton")
       ->required()
       ->type_name("FILE");
+  bindCharacterOptions(app, source);
+}
+
+void bindCharacterOptions(CLI::App& app, CharacterSource& source) {
   app.add_option("--template", source.body_plan,
                  "Body plan of a drawing: a name, a file, or auto: the one that it fits")
       ->capture_default_str();
@@ -50,10 +48,25 @@ void bindCharacterSource(CLI::App& app, CharacterSource& source) {
       ->capture_default_str();
 }
 
-CharacterFile loadCharacter(const CharacterSource& source) {
-  if (isDrawing(source.path)) {
-    const RigOptions options = rigOptionsWithoutClips(source.body_plan);
-    return {rigDrawing(source.path, options).character, {}, stemOf(source.path)};
+bool isDrawing(const CharacterSource& source) {
+  constexpr std::array<std::string_view, 8> kEndings = {".png", ".jpg", ".jpeg", ".webp",
+                                                        ".bmp", ".tif", ".tiff", ".gif"};
+  return std::find(kEndings.begin(), kEndings.end(), endingOf(source.path)) != kEndings.end();
+}
+
+RiggedDrawing rigDrawing(const CharacterSource& source, const ClipSource& clips) {
+  RigOptions options = rigOptionsWithoutClips(source.body_plan);
+  const std::vector<Clip> library = clipLibrary(clips);
+  options.clips = clipsFor(library, options.body_plan);
+  if (options.otherwise) options.otherwise->clips = clipsFor(library, options.otherwise->body_plan);
+  options.into_picture = clips.into_picture;
+  return rigDrawing(source.path, options);
+}
+
+CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& clips) {
+  if (isDrawing(source)) {
+    RiggedDrawing drawing = rigDrawing(source, clips);
+    return {std::move(drawing.character), std::move(drawing.clips), stemOf(source.path)};
   }
   const bool rigged = endingOf(source.path) == ".glb";
   if (rigged && source.skeleton.empty()) return readGlb(source.path);
@@ -67,10 +80,14 @@ CharacterFile loadCharacter(const CharacterSource& source) {
   return file;
 }
 
+void addLibrary(CharacterFile& file, const ClipSource& clips) {
+  for (const Clip& clip : clipsFor(clipLibrary(clips), file.character))
+    if (!hasClip(file.clips, clip.name)) file.clips.push_back(fitted(clip, file.character, clips));
+}
+
 CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips) {
-  CharacterFile file = loadCharacter(source);
-  for (Clip& clip : libraryFor(file.character, clips))
-    if (!hasClip(file.clips, clip.name)) file.clips.push_back(std::move(clip));
+  CharacterFile file = loadCharacter(source, clips);
+  addLibrary(file, clips);
   return file;
 }
 
@@ -87,6 +104,7 @@ Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const C
   if (hasClip(fitting, name_or_path)) return fitted(clipNamed(fitting, name_or_path), file.character, source);
   if (name_or_path.find_first_of("./") != std::string::npos)
     return loadClipFor(name_or_path, file.character, source);
+  std::erase_if(fitting, [&](const Clip& clip) { return hasClip(file.clips, clip.name); });
   fitting.insert(fitting.begin(), file.clips.begin(), file.clips.end());
   return clipNamed(fitting, name_or_path);  // names those that there are
 }

@@ -6,6 +6,7 @@
 
 #include "animator/clip_source.h"
 #include "libskel/import/read_character.h"
+#include "libskel/pipeline/rig_character.h"
 
 namespace CLI {
 class App;
@@ -19,14 +20,23 @@ struct CharacterSource {
   std::string skeleton = {};       // of a model (.obj): see readRigModel()
   std::string up = "auto";
 };
-// FILE, --template, --skeleton, --up.
+// FILE, and the options of the next one.
 void bindCharacterSource(CLI::App& app, CharacterSource& source);
+// --template, --skeleton, --up.
+void bindCharacterOptions(CLI::App& app, CharacterSource& source);
 
-// A drawing is rigged first, a model bound. Throws InputError: cannot be read, no figure in the drawing, a
-// model without a skeleton, an ending that is no character's.
-CharacterFile loadCharacter(const CharacterSource& source);
+// By the ending of the source's name.
+bool isDrawing(const CharacterSource& source);
+// With the motions of skel that fit it. Throws InputError.
+RiggedDrawing rigDrawing(const CharacterSource& source, const ClipSource& clips = {});
 
-// The same with the motions of skel that fit it and whose names its own clips leave free.
+// A drawing is rigged first, with the motions of skel that fit it, a model bound. Throws InputError: cannot
+// be read, no figure in the drawing, a model without a skeleton, an ending that is no character's.
+CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& clips = {});
+
+// Adds the motions of skel that fit it and whose names its own clips leave free.
+void addLibrary(CharacterFile& file, const ClipSource& clips = {});
+// Both.
 CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips = {});
 
 // For the character's rest pose: the motions of skel that fit.

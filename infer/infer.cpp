@@ -14,11 +14,10 @@
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
 #include "libskel/core/sha256.h"
-#include "libskel/core/text.h"
-#include "libskel/deform/stretch.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/result_picture.h"
 #include "libskel/mesh/read_mesh.h"
+#include "libskel/pipeline/drawing_notes.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/pipeline/trace.h"
 #include "libskel/skeleton/outside_figure.h"
@@ -201,44 +200,6 @@ std::vector<std::string> warningsOf(const SkeletonFile& given, const RiggedDrawi
   return warnings;
 }
 
-// What to say of limbs that do not move as limbs should. `file`: what skel-label is to open.
-std::vector<std::string> limbWarnings(const RiggedDrawing& drawing, const SkeletonTemplate& body_plan,
-                                      const std::string& file) {
-  constexpr double kTorn = .02;    // share of the model's area that a clip stretches too far
-  constexpr double kOfLimb = .01;  // of which so much is a limb's
-  std::vector<std::string> warnings;
-  const std::string remedy = "; if it is drawn before the body, paint it (skel-label " + file +
-                             ", key G) and hand it back (--layers)";
-  for (const int limb : drawing.layers.hidden)
-    warnings.push_back("the " + limbName(body_plan, limb) +
-                       " cannot be told from the body and stays with it" + remedy);
-  const RiggedCharacter& character = drawing.character;
-  std::map<int, std::vector<int>> joints_of_limb;  // of those that are no layers
-  for (std::size_t k = 0; k < body_plan.limbs.size(); ++k) {
-    const int limb = static_cast<int>(k) + 1;
-    if (drawing.layers.any() && (drawing.layers.limb == limb).any()) continue;
-    for (const int joint : body_plan.limbs[k].joints)
-      if (const int j = character.skeleton.find(body_plan.joints[std::size_t(joint)].name); j >= 0)
-        joints_of_limb[limb].push_back(j);
-  }
-  std::map<int, std::vector<std::string>> clips_of_limb;
-  for (const ClipStretch& stretch :
-       clipStretches(character.mesh, character.skeleton, character.weights, drawing.clips)) {
-    int most = 0;
-    double share = kOfLimb;
-    for (const auto& [limb, joints] : joints_of_limb) {
-      double sum = 0;
-      for (const int joint : joints) sum += stretch.by_joint[std::size_t(joint)];
-      if (sum > share) most = limb, share = sum;
-    }
-    if (stretch.share > kTorn && most > 0) clips_of_limb[most].push_back(stretch.clip);
-  }
-  for (const auto& [limb, clips] : clips_of_limb)
-    warnings.push_back(joined(clips) + (clips.size() == 1 ? " pulls the " : " pull the ") +
-                       limbName(body_plan, limb) + " out of shape" + remedy);
-  return warnings;
-}
-
 // Rigs one figure and writes its files. Returns how many figures there are in the drawing.
 int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job, int figure,
               Outcome& outcome) {
@@ -277,14 +238,14 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
   figure_rig.silhouette.figure = std::max(figure, 1);
   RiggedDrawing drawing = rigCharacter(std::move(input), figure_rig);
   if (!drawing.found()) throw InputError(mask.empty() ? job.source : mask, drawing.silhouette.reason);
-  std::vector<std::string> warnings = drawing.silhouette.warnings;
+  std::vector<std::string> warnings;
   if (given) {
     checkJoints(options, *given, drawing.silhouette.mask);
     drawing.recognition.confidence = given->confidence;
     drawing.recognition.missing = given->missing;
     warnings = warningsOf(*given, drawing, !mask.empty());
   } else {
-    warnings.insert(warnings.end(), drawing.recognition.warnings.begin(), drawing.recognition.warnings.end());
+    warnings = figureNotes(drawing);
   }
 
   SkeletonFile file;
@@ -317,9 +278,9 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const Job& job
     if (name != "none" && std::none_of(drawing.clips.begin(), drawing.clips.end(),
                                        [&](const Clip& clip) { return clip.name == name; }))
       notes.push_back("there is no clip \"" + name + "\" for a " + drawing.body_plan.name + ": left out");
-  if (options.model_file.empty() && rig.layers && file.confidence >= .5) {
+  if (options.model_file.empty() && rig.layers) {
     const std::vector<std::string> of_limbs =
-        limbWarnings(drawing, drawing.body_plan, figure > 1 ? skeleton_path : job.source);
+        limbNotes(drawing, drawing.clips, figure > 1 ? skeleton_path : job.source);
     notes.insert(notes.end(), of_limbs.begin(), of_limbs.end());
   }
   for (const std::string& note : notes) outcome.complaints += source + ": note: " + note + "\n";
