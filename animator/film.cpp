@@ -67,8 +67,7 @@ JointTransforms posedAt(const RiggedCharacter& character, const Clip& clip, doub
                        heightOf(character));
 }
 
-Camera filmCamera(const RiggedCharacter& character, const std::vector<Clip>& clips, double yaw_rad,
-                  double pitch_rad, double width_over_height) {
+Eigen::MatrixX3f outermostPoints(const RiggedCharacter& character, const std::vector<Clip>& clips) {
   const std::vector<Eigen::Index> outermost = outermostVertices(character);
   const Eigen::MatrixX3f vertices = character.mesh.vertices(outermost, Eigen::all);
   SkinWeights weights;
@@ -83,7 +82,12 @@ Camera filmCamera(const RiggedCharacter& character, const std::vector<Clip>& cli
         skinVertices(vertices, weights,
                      posedAt(character, clip, double(clip.duration_s()) * double(i % kMoments) / kMoments));
   });
-  return framingCamera(all, yaw_rad, pitch_rad, width_over_height);
+  return all;
+}
+
+Camera filmCamera(const RiggedCharacter& character, const std::vector<Clip>& clips, double yaw_rad,
+                  double pitch_rad, double width_over_height) {
+  return framingCamera(outermostPoints(character, clips), yaw_rad, pitch_rad, width_over_height);
 }
 
 void writeFilm(const Scene& scene, const Clip& clip, const Camera& camera, const FilmOptions& options,

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "animator/render_films.h"
+#include "animator/render_sheet.h"
 #include "animator/rig_source.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/pipeline/drawing_notes.h"
@@ -66,7 +67,8 @@ void render(const RenderCommandOptions& options, const std::string& path, const 
 
 ExitCode runRender(const RenderCommandOptions& options) {
   checkNames(options.files);
-  const RenderCharacter rendered = filmRenderer(options);
+  const RenderCharacter rendered =
+      options.sheet.output.empty() ? filmRenderer(options) : sheetRenderer(options);
   ExitCode code = ExitCode::kDone;
   for (const std::string& path : options.files) {
     try {

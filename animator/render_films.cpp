@@ -35,6 +35,7 @@ struct FilmNames {
 
 FilmNames filmNames(const RenderCommandOptions& options) {
   const bool several = options.files.size() > 1 || manyClips(options);
+  if (options.output.empty()) throw UsageError("name the film by -o, or a sprite sheet by --sheet");
   FilmNames names{options.output, options.format.empty() ? filmFormats().front() : options.format,
                   several || !options.format.empty()};
   if (names.in_folder && !options.output.ends_with('/') && !fs::is_directory(options.output))
@@ -44,11 +45,11 @@ FilmNames filmNames(const RenderCommandOptions& options) {
 }
 
 FilmOptions filmOptions(const RenderCommandOptions& options) {
-  const PictureSize size = sizeOf(options);
+  const PictureSize size = sizeOf(options, {512, 512});
   FilmOptions film;
   film.width = size.width;
   film.height = size.height;
-  film.frame_rate = options.frame_rate;
+  film.frame_rate = options.frame_rate.value_or(30);
   film.duration_s = options.duration_s;
   film.look.wireframe = options.wireframe;
   film.look.translucent = options.translucent;

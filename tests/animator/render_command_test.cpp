@@ -124,10 +124,11 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
   } cases[] = {
       {"", 1, "file is required"},
       {model + " -o " + film, 1, "--clip is required"},
+      {model + " --clip nod", 1, "name the film by -o, or a sprite sheet by --sheet"},
       {model + " --clip fly -o " + film, 1, "there is no clip \"fly\""},
       {model + " --clip none.clip.json -o " + film, 2, "none.clip.json: cannot be read"},
       {model + " --clip nod -o " + dir.file("film.avi"), 1, "films are written as .mp4, .gif, .webp"},
-      {model + " --clip nod --size 64 -o " + film, 1, "--size is \"64\", must be WIDTHxHEIGHT"},
+      {model + " --clip nod --size 64x -o " + film, 1, "--size is \"64x\", must be WIDTHxHEIGHT"},
       {model + " --clip nod --size 0x64 -o " + film, 1, "must be WIDTHxHEIGHT"},
       {model + " --clip nod --size 63x64 -o " + dir.file("film.mp4"), 1, "the sides of an MP4 are even"},
       {model + " --clip nod --background none -o " + dir.file("film.mp4"), 1, "MP4 has no transparency"},
