@@ -8,7 +8,9 @@
 
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_library.h"
+#include "libskel/cli/number.h"
 #include "libskel/core/error.h"
+#include "libskel/core/foreign_files.h"
 #include "libskel/pipeline/rig_drawing.h"
 
 namespace skel {
@@ -41,6 +43,11 @@ void bindCharacterOptions(CLI::App& app, CharacterSource& source) {
   app.add_option("--template", source.body_plan,
                  "Body plan of a drawing: a name, a file, or auto: the one that it fits")
       ->capture_default_str();
+  app.add_option(
+         "--alpha", source.alpha,
+         "How opaque the figure of a drawing is that is seen through elsewhere: leaves a soft glow out "
+         "(default: half of the most)")
+      ->check(numberIn(0.01, 1.0));
   app.add_option("--skeleton", source.skeleton, "The skeleton of a model: see skel-animate bind")
       ->type_name("FILE");
   app.add_option("--up", source.up, "The axis that points up in the skeleton's file")
@@ -60,6 +67,7 @@ RiggedDrawing rigDrawing(const CharacterSource& source, const ClipSource& clips)
   options.clips = clipsFor(library, options.body_plan);
   if (options.otherwise) options.otherwise->clips = clipsFor(library, options.otherwise->body_plan);
   options.into_picture = clips.into_picture;
+  options.silhouette.alpha = source.alpha;
   return rigDrawing(source.path, options);
 }
 
@@ -68,6 +76,8 @@ CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& cli
     RiggedDrawing drawing = rigDrawing(source, clips);
     return {std::move(drawing.character), std::move(drawing.clips), stemOf(source.path)};
   }
+  if (const std::string remedy = howToConvert(source.path); !remedy.empty())
+    throw InputError(source.path, remedy);
   const bool rigged = endingOf(source.path) == ".glb";
   if (rigged && source.skeleton.empty()) return readGlb(source.path);
   if (!rigged && source.skeleton.empty())
@@ -97,13 +107,14 @@ std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource&
   return clips;
 }
 
-Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source) {
+Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source,
+             std::string* note) {
   for (const Clip& clip : file.clips)
     if (clip.name == name_or_path) return clip;
   std::vector<Clip> fitting = clipsFor(clipLibrary(source), file.character);
   if (hasClip(fitting, name_or_path)) return fitted(clipNamed(fitting, name_or_path), file.character, source);
   if (name_or_path.find_first_of("./") != std::string::npos)
-    return loadClipFor(name_or_path, file.character, source);
+    return loadClipFor(name_or_path, file.character, source, note);
   std::erase_if(fitting, [&](const Clip& clip) { return hasClip(file.clips, clip.name); });
   fitting.insert(fitting.begin(), file.clips.begin(), file.clips.end());
   return clipNamed(fitting, name_or_path);  // names those that there are

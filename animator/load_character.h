@@ -1,6 +1,7 @@
 // What the commands can be given as a character and as a motion.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,14 +16,15 @@ class App;
 namespace skel {
 
 struct CharacterSource {
-  std::string path;                // a .glb, a drawing, or a model with a skeleton of its own
-  std::string body_plan = "auto";  // of a drawing
-  std::string skeleton = {};       // of a model (.obj): see readRigModel()
+  std::string path;                  // a .glb, a drawing, or a model with a skeleton of its own
+  std::string body_plan = "auto";    // of a drawing
+  std::optional<double> alpha = {};  // of a drawing: see SilhouetteOptions
+  std::string skeleton = {};         // of a model (.obj): see readRigModel()
   std::string up = "auto";
 };
 // FILE, and the options of the next one.
 void bindCharacterSource(CLI::App& app, CharacterSource& source);
-// --template, --skeleton, --up.
+// --template, --alpha, --skeleton, --up.
 void bindCharacterOptions(CLI::App& app, CharacterSource& source);
 
 // By the ending of the source's name.
@@ -44,6 +46,7 @@ std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource&
 
 // A clip of the file, one that comes with skel, or a file that loadClipFor() reads, for the character's rest
 // pose. Throws UsageError that lists the names there are, InputError.
-Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source = {});
+Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source = {},
+             std::string* note = nullptr);
 
 }  // namespace skel

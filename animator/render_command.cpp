@@ -32,7 +32,9 @@ std::vector<Clip> askedClips(const RenderCommandOptions& options, CharacterFile 
   };
   for (const std::string& name : options.clips) {
     if (name != kAllClips) {
-      take(clipFor(name, file, options.library));
+      std::string note;
+      take(clipFor(name, file, options.library, &note));
+      if (!note.empty()) std::fprintf(stderr, "%s\n", note.c_str());
       continue;
     }
     addLibrary(file, options.library);

@@ -106,6 +106,8 @@ struct Sheets {
         tags.push_back({tag, first, first + count - 1});
       }
     }
+    const SpritePacking packing = options.sheet.trim ? SpritePacking::kTrimmed : SpritePacking::kEven;
+    checkSheetSize(tags, camera.cell, packing);
     const Scene scene(character, painterFor(options, character.mesh));
     std::vector<Image> images(sprites.size());
     {
@@ -122,8 +124,7 @@ struct Sheets {
     }
     for (std::size_t i = 0; i < sprites.size(); ++i) sprites[i].image = std::move(images[i]);
 
-    const SpriteSheet sheet = packSprites(
-        sprites, tags, camera.cell, options.sheet.trim ? SpritePacking::kTrimmed : SpritePacking::kEven);
+    const SpriteSheet sheet = packSprites(sprites, tags, camera.cell, packing);
     const AtlasForm form = options.sheet.atlas == "array"  ? AtlasForm::kArray
                            : options.sheet.atlas == "hash" ? AtlasForm::kHash
                                                            : AtlasForm::kAseprite;

@@ -65,19 +65,38 @@ std::vector<PlacedSprite> placeTrimmed(const std::vector<Sprite>& sprites) {
   return placed;
 }
 
+Box extentOf(const std::vector<PlacedSprite>& placed) {
+  Box all;
+  for (const auto& [box, in_cell] : placed)
+    all.width = std::max(all.width, box.x + box.width), all.height = std::max(all.height, box.y + box.height);
+  return all;
+}
+
+void checkExtent(const Box& sheet) {
+  if (std::max(sheet.width, sheet.height) > kLongestSheet_px)
+    throw UsageError("the sheet would be " + std::to_string(sheet.width) + "x" +
+                     std::to_string(sheet.height) +
+                     " px; take a smaller --size, fewer --frames, clips or --directions");
+}
+
 }  // namespace
+
+void checkSheetSize(const std::vector<SpriteTag>& tags, const SpriteCell& cell, SpritePacking packing) {
+  if (std::max(cell.width, cell.height) > kLongestCell_px)
+    throw UsageError("the frames of a sheet have at most " + std::to_string(kLongestCell_px) + " px a side");
+  // Trimmed ones may leave nothing out.
+  const double sprites = tags.empty() ? 0 : tags.back().last + 1.0;
+  const int side = int(std::sqrt(sprites * cell.width * cell.height));
+  checkExtent(packing == SpritePacking::kEven ? extentOf(placeEven(tags, cell)) : Box{0, 0, side, side});
+}
 
 SpriteSheet packSprites(const std::vector<Sprite>& sprites, const std::vector<SpriteTag>& tags,
                         const SpriteCell& cell, SpritePacking packing) {
   SpriteSheet sheet;
   sheet.placed = packing == SpritePacking::kEven ? placeEven(tags, cell) : placeTrimmed(sprites);
-  int width = 0, height = 0;
-  for (const auto& [box, in_cell] : sheet.placed)
-    width = std::max(width, box.x + box.width), height = std::max(height, box.y + box.height);
-  if (std::max(width, height) > kLongestSheet_px)
-    throw UsageError("the sheet would be " + std::to_string(width) + "x" + std::to_string(height) +
-                     " px; take a smaller --size, fewer --frames, clips or --directions, or --trim");
-  sheet.picture = blankImage(width, height, kClear);
+  const Box extent = extentOf(sheet.placed);
+  checkExtent(extent);
+  sheet.picture = blankImage(extent.width, extent.height, kClear);
   for (std::size_t i = 0; i < sprites.size(); ++i) {
     const auto& [to, from] = sheet.placed[i];
     for (int row = 0; row < to.height; ++row)

@@ -44,11 +44,15 @@ enum class SpritePacking {
   kTrimmed,  // what is not clear of each, a pixel apart
 };
 
-// Throws UsageError: the sheet would be larger than kLongestSheet_px.
+// What can be said before there are sprites. Throws UsageError: the sheet would be longer than
+// kLongestSheet_px, a cell than kLongestCell_px.
+void checkSheetSize(const std::vector<SpriteTag>& tags, const SpriteCell& cell, SpritePacking packing);
+
+// Throws UsageError as above.
 SpriteSheet packSprites(const std::vector<Sprite>& sprites, const std::vector<SpriteTag>& tags,
                         const SpriteCell& cell, SpritePacking packing);
 
 // What graphics cards of ten years take.
-inline constexpr int kLongestSheet_px = 16384;
+inline constexpr int kLongestSheet_px = 16384, kLongestCell_px = 2048;
 
 }  // namespace skel

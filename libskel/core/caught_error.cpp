@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <new>
 #include <sstream>
-#include <string_view>
 #include <system_error>
+
+#include "libskel/core/text.h"
 
 namespace skel {
 namespace {
@@ -15,22 +16,6 @@ std::string oneLine(const char* text) {
   std::string line;
   for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
   return line;
-}
-
-// Text out of a file may neither begin a line of its own nor command a terminal.
-std::string printable(std::string_view text) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && byte != 0x7f)
-      out += c;
-    else if (c == '\n')
-      out += "\\n";
-    else
-      out += {'\\', 'x', kDigits[byte / 16], kDigits[byte % 16]};
-  }
-  return out;
 }
 
 Error refusal(const std::string& start, const std::string& why) {

@@ -145,7 +145,9 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
       {model + " --clip nod --fps 60 -o " + film, 1, "at most 50 frames a second"},
       {dir.file("none.glb") + " --clip nod -o " + film, 2, "none.glb: cannot be read"},
       {dir.file("text.glb") + " --clip nod -o " + film, 2, "text.glb"},
-      {dir.file("model.stl") + " --clip nod -o " + film, 2, "is neither a rigged character"},
+      {dir.file("model.xyz") + " --clip nod -o " + film, 2, "is neither a rigged character"},
+      {dir.file("model.fbx") + " --clip nod -o " + film, 2, "is an FBX file; open it in Blender"},
+      {dir.file("hero.svg") + " --clip nod -o " + film, 2, "hero.svg -o out.png`"},
       {model + " --clip nod -o " + dir.file("text.glb") + "/film.gif", 4, "text.glb"},
   };
   for (const auto& one : cases) {

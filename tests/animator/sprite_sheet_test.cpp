@@ -191,6 +191,9 @@ TEST_CASE("sheets of several drawings go to a folder; what makes no sense is one
       {model + " --clip nod --sheet a.png --directions 3", "--directions"},
       {model + " --clip nod --fps 240 --size 2000x2000 --sheet " + dir.file("s.png"),
        "the sheet would be 32000x"},
+      {model + " --clip nod --fps 240 --size 2000x2000 --trim --sheet " + dir.file("s.png"),
+       "the sheet would be"},
+      {model + " --clip nod --size 4000 --sheet " + dir.file("s.png"), "at most 2048 px a side"},
   };
   for (const auto& one : cases) {
     CAPTURE(one.arguments);
