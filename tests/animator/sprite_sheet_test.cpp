@@ -171,7 +171,7 @@ TEST_CASE("an animal that was drawn looking to the left is so in the sprites tha
   CHECK(difference(0) * 4 < difference(64));
 }
 
-TEST_CASE("sheets of several drawings go to a folder; what makes no sense is one line") {
+TEST_CASE("sheets of several drawings go to a folder, and what makes no sense is one line") {
   const TempDir dir;
   const std::string model = figureFile(dir), sheets = dir.file("sheets/");
   REQUIRE(render(kDrawing + " " + kDog + " --clips idle --frames 2 --size 24 --sheet " + sheets).exit_code ==
