@@ -76,7 +76,8 @@ RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& char
                         source.into_picture);
 }
 
-Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source) {
+Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source,
+                 std::string* note) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".bvh" || ending == ".BVH") return loadBvhFor(path, character, source).clip;
   const std::string text = readFile(path);
@@ -84,7 +85,7 @@ Clip loadClipFor(const std::string& path, const RiggedCharacter& character, cons
     KeyframeClipOptions options;
     options.z_up = source.clip_up == "z";
     if (source.interpolation == "linear") options.interpolation = RotationInterpolation::kAngles;
-    return parseKeyframeClip(text, path, character.skeleton, options);
+    return parseKeyframeClip(text, path, character.skeleton, options, note);
   }
   const Clip clip = parseClip(text, path);
   for (const JointTrack& track : clip.tracks)

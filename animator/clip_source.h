@@ -36,7 +36,9 @@ Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource
 RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& character,
                             const ClipSource& source = {});
 
-// A clip file, ours or of the elk system, or a .bvh, fitted to the character. Throws InputError.
-Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source = {});
+// A clip file, ours or of the elk system, or a .bvh, fitted to the character. `note` (or null) is what is not
+// used of it, for the user. Throws InputError.
+Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source = {},
+                 std::string* note = nullptr);
 
 }  // namespace skel

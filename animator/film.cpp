@@ -1,8 +1,11 @@
 #include "animator/film.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <future>
+#include <map>
+#include <set>
 
 #include "libskel/core/parallel.h"
 
@@ -16,6 +19,34 @@ constexpr int kMoments = 32;
 
 // Where there is no thread to be had, frames are encoded when they are asked for.
 constexpr auto kAtOnceIfPossible = std::launch::async | std::launch::deferred;
+
+// The vertices that reach farthest in 26 directions, of those that each joint moves most: they say where the
+// figure ends in any pose.
+std::vector<Eigen::Index> outermostVertices(const RiggedCharacter& character) {
+  Eigen::Matrix<float, 3, 26> directions;
+  int count = 0;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z)
+        if (x != 0 || y != 0 || z != 0)
+          directions.col(count++) = Eigen::Vector3f(float(x), float(y), float(z)).normalized();
+  using Reach = std::array<std::pair<float, Eigen::Index>, 26>;
+  std::map<int, Reach> reach_of_joint;
+  const Eigen::MatrixX3f& vertices = character.mesh.vertices;
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    Eigen::Index most;
+    character.weights.weights.row(v).maxCoeff(&most);
+    const Eigen::Matrix<float, 1, 26> ways = vertices.row(v) * directions;
+    const auto [joint, is_new] = reach_of_joint.try_emplace(character.weights.joints(v, most));
+    for (int d = 0; d < 26; ++d)
+      if (auto& farthest = joint->second[std::size_t(d)]; is_new || ways[d] > farthest.first)
+        farthest = {ways[d], v};
+  }
+  std::set<Eigen::Index> outermost;
+  for (const auto& [joint, reach] : reach_of_joint)
+    for (const auto& [way, vertex] : reach) outermost.insert(vertex);
+  return {outermost.begin(), outermost.end()};
+}
 
 }  // namespace
 
@@ -36,18 +67,27 @@ JointTransforms posedAt(const RiggedCharacter& character, const Clip& clip, doub
                        heightOf(character));
 }
 
-Camera filmCamera(const RiggedCharacter& character, const std::vector<Clip>& clips, double yaw_rad,
-                  double pitch_rad, double width_over_height) {
-  const Eigen::Index count = character.mesh.vertices.rows(), moments = Eigen::Index(clips.size()) * kMoments;
+Eigen::MatrixX3f outermostPoints(const RiggedCharacter& character, const std::vector<Clip>& clips) {
+  const std::vector<Eigen::Index> outermost = outermostVertices(character);
+  const Eigen::MatrixX3f vertices = character.mesh.vertices(outermost, Eigen::all);
+  SkinWeights weights;
+  weights.joints = character.weights.joints(outermost, Eigen::all);
+  weights.weights = character.weights.weights(outermost, Eigen::all);
+  const Eigen::Index count = vertices.rows(), moments = Eigen::Index(clips.size()) * kMoments;
   Eigen::MatrixX3f all((moments + 1) * count, 3);
-  all.topRows(count) = character.mesh.vertices;
+  all.topRows(count) = vertices;
   parallelFor(std::size_t(moments), 0, [&](std::size_t i) {
     const Clip& clip = clips[i / kMoments];
     all.middleRows((Eigen::Index(i) + 1) * count, count) =
-        skinVertices(character.mesh.vertices, character.weights,
+        skinVertices(vertices, weights,
                      posedAt(character, clip, double(clip.duration_s()) * double(i % kMoments) / kMoments));
   });
-  return framingCamera(all, yaw_rad, pitch_rad, width_over_height);
+  return all;
+}
+
+Camera filmCamera(const RiggedCharacter& character, const std::vector<Clip>& clips, double yaw_rad,
+                  double pitch_rad, double width_over_height) {
+  return framingCamera(outermostPoints(character, clips), yaw_rad, pitch_rad, width_over_height);
 }
 
 void writeFilm(const Scene& scene, const Clip& clip, const Camera& camera, const FilmOptions& options,

@@ -20,6 +20,9 @@ struct FilmOptions {
 // Whole frames, at least one. The last one comes a frame before the end, so that films that loop do not stop.
 int frameCount(const Clip& clip, const FilmOptions& options);
 
+// Points that show where the figure ends: in the rest pose and at 32 moments of each clip.
+Eigen::MatrixX3f outermostPoints(const RiggedCharacter& character, const std::vector<Clip>& clips);
+
 // Shows all of the clips, from one side: the eye does not move.
 Camera filmCamera(const RiggedCharacter& character, const std::vector<Clip>& clips, double yaw_rad,
                   double pitch_rad, double width_over_height);

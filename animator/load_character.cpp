@@ -8,7 +8,9 @@
 
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_library.h"
+#include "libskel/cli/number.h"
 #include "libskel/core/error.h"
+#include "libskel/core/foreign_files.h"
 #include "libskel/pipeline/rig_drawing.h"
 
 namespace skel {
@@ -20,12 +22,6 @@ std::string endingOf(const std::string& path) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
   return ending;
-}
-
-bool isDrawing(const std::string& path) {
-  constexpr std::array<std::string_view, 8> kEndings = {".png", ".jpg", ".jpeg", ".webp",
-                                                        ".bmp", ".tif", ".tiff", ".gif"};
-  return std::find(kEndings.begin(), kEndings.end(), endingOf(path)) != kEndings.end();
 }
 
 bool hasClip(const std::vector<Clip>& clips, const std::string& name) {
@@ -40,9 +36,18 @@ void bindCharacterSource(CLI::App& app, CharacterSource& source) {
          "A rigged character (.glb), a drawing, which is rigged first, or a model (.obj) with --skeleton")
       ->required()
       ->type_name("FILE");
+  bindCharacterOptions(app, source);
+}
+
+void bindCharacterOptions(CLI::App& app, CharacterSource& source) {
   app.add_option("--template", source.body_plan,
                  "Body plan of a drawing: a name, a file, or auto: the one that it fits")
       ->capture_default_str();
+  app.add_option(
+         "--alpha", source.alpha,
+         "How opaque the figure of a drawing is that is seen through elsewhere: leaves a soft glow out "
+         "(default: half of the most)")
+      ->check(numberIn(0.01, 1.0));
   app.add_option("--skeleton", source.skeleton, "The skeleton of a model: see skel-animate bind")
       ->type_name("FILE");
   app.add_option("--up", source.up, "The axis that points up in the skeleton's file")
@@ -50,11 +55,29 @@ void bindCharacterSource(CLI::App& app, CharacterSource& source) {
       ->capture_default_str();
 }
 
-CharacterFile loadCharacter(const CharacterSource& source) {
-  if (isDrawing(source.path)) {
-    const RigOptions options = rigOptionsWithoutClips(source.body_plan);
-    return {rigDrawing(source.path, options).character, {}, stemOf(source.path)};
+bool isDrawing(const CharacterSource& source) {
+  constexpr std::array<std::string_view, 8> kEndings = {".png", ".jpg", ".jpeg", ".webp",
+                                                        ".bmp", ".tif", ".tiff", ".gif"};
+  return std::find(kEndings.begin(), kEndings.end(), endingOf(source.path)) != kEndings.end();
+}
+
+RiggedDrawing rigDrawing(const CharacterSource& source, const ClipSource& clips) {
+  RigOptions options = rigOptionsWithoutClips(source.body_plan);
+  const std::vector<Clip> library = clipLibrary(clips);
+  options.clips = clipsFor(library, options.body_plan);
+  if (options.otherwise) options.otherwise->clips = clipsFor(library, options.otherwise->body_plan);
+  options.into_picture = clips.into_picture;
+  options.silhouette.alpha = source.alpha;
+  return rigDrawing(source.path, options);
+}
+
+CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& clips) {
+  if (isDrawing(source)) {
+    RiggedDrawing drawing = rigDrawing(source, clips);
+    return {std::move(drawing.character), std::move(drawing.clips), stemOf(source.path)};
   }
+  if (const std::string remedy = howToConvert(source.path); !remedy.empty())
+    throw InputError(source.path, remedy);
   const bool rigged = endingOf(source.path) == ".glb";
   if (rigged && source.skeleton.empty()) return readGlb(source.path);
   if (!rigged && source.skeleton.empty())
@@ -67,10 +90,14 @@ CharacterFile loadCharacter(const CharacterSource& source) {
   return file;
 }
 
+void addLibrary(CharacterFile& file, const ClipSource& clips) {
+  for (const Clip& clip : clipsFor(clipLibrary(clips), file.character))
+    if (!hasClip(file.clips, clip.name)) file.clips.push_back(fitted(clip, file.character, clips));
+}
+
 CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips) {
-  CharacterFile file = loadCharacter(source);
-  for (Clip& clip : libraryFor(file.character, clips))
-    if (!hasClip(file.clips, clip.name)) file.clips.push_back(std::move(clip));
+  CharacterFile file = loadCharacter(source, clips);
+  addLibrary(file, clips);
   return file;
 }
 
@@ -80,13 +107,15 @@ std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource&
   return clips;
 }
 
-Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source) {
+Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source,
+             std::string* note) {
   for (const Clip& clip : file.clips)
     if (clip.name == name_or_path) return clip;
   std::vector<Clip> fitting = clipsFor(clipLibrary(source), file.character);
   if (hasClip(fitting, name_or_path)) return fitted(clipNamed(fitting, name_or_path), file.character, source);
   if (name_or_path.find_first_of("./") != std::string::npos)
-    return loadClipFor(name_or_path, file.character, source);
+    return loadClipFor(name_or_path, file.character, source, note);
+  std::erase_if(fitting, [&](const Clip& clip) { return hasClip(file.clips, clip.name); });
   fitting.insert(fitting.begin(), file.clips.begin(), file.clips.end());
   return clipNamed(fitting, name_or_path);  // names those that there are
 }

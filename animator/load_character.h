@@ -1,11 +1,13 @@
 // What the commands can be given as a character and as a motion.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "animator/clip_source.h"
 #include "libskel/import/read_character.h"
+#include "libskel/pipeline/rig_character.h"
 
 namespace CLI {
 class App;
@@ -14,19 +16,29 @@ class App;
 namespace skel {
 
 struct CharacterSource {
-  std::string path;                // a .glb, a drawing, or a model with a skeleton of its own
-  std::string body_plan = "auto";  // of a drawing
-  std::string skeleton = {};       // of a model (.obj): see readRigModel()
+  std::string path;                  // a .glb, a drawing, or a model with a skeleton of its own
+  std::string body_plan = "auto";    // of a drawing
+  std::optional<double> alpha = {};  // of a drawing: see SilhouetteOptions
+  std::string skeleton = {};         // of a model (.obj): see readRigModel()
   std::string up = "auto";
 };
-// FILE, --template, --skeleton, --up.
+// FILE, and the options of the next one.
 void bindCharacterSource(CLI::App& app, CharacterSource& source);
+// --template, --alpha, --skeleton, --up.
+void bindCharacterOptions(CLI::App& app, CharacterSource& source);
 
-// A drawing is rigged first, a model bound. Throws InputError: cannot be read, no figure in the drawing, a
-// model without a skeleton, an ending that is no character's.
-CharacterFile loadCharacter(const CharacterSource& source);
+// By the ending of the source's name.
+bool isDrawing(const CharacterSource& source);
+// With the motions of skel that fit it. Throws InputError.
+RiggedDrawing rigDrawing(const CharacterSource& source, const ClipSource& clips = {});
 
-// The same with the motions of skel that fit it and whose names its own clips leave free.
+// A drawing is rigged first, with the motions of skel that fit it, a model bound. Throws InputError: cannot
+// be read, no figure in the drawing, a model without a skeleton, an ending that is no character's.
+CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& clips = {});
+
+// Adds the motions of skel that fit it and whose names its own clips leave free.
+void addLibrary(CharacterFile& file, const ClipSource& clips = {});
+// Both.
 CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips = {});
 
 // For the character's rest pose: the motions of skel that fit.
@@ -34,6 +46,7 @@ std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource&
 
 // A clip of the file, one that comes with skel, or a file that loadClipFor() reads, for the character's rest
 // pose. Throws UsageError that lists the names there are, InputError.
-Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source = {});
+Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source = {},
+             std::string* note = nullptr);
 
 }  // namespace skel

@@ -1,146 +1,89 @@
 #include "animator/render_command.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
-#include <numbers>
+#include <map>
+#include <optional>
 
-#include "animator/film.h"
-#include "animator/load_character.h"
-#include "libskel/cli/number.h"
-#include "libskel/cli/outputs.h"
-#include "libskel/core/progress.h"
+#include "animator/render_films.h"
+#include "animator/render_sheet.h"
+#include "animator/rig_source.h"
+#include "libskel/core/caught_error.h"
 #include "libskel/core/text.h"
-#include "libskel/draw/canvas.h"
-#include "libskel/image/read_image.h"
+#include "libskel/pipeline/drawing_notes.h"
 
 namespace skel {
 namespace {
 
-struct Size {
-  int width = 0, height = 0;
-};
+// What skel-infer says of it, too.
+void tell(const RiggedDrawing& drawing, const std::string& path, const std::vector<Clip>& clips) {
+  std::printf("%s: %s, confidence %.2f\n", printable(path).c_str(), drawing.body_plan.name.c_str(),
+              drawing.recognition.confidence);
+  std::vector<Note> notes;
+  for (const std::string& note : figureNotes(drawing)) notes.push_back({note});
+  for (Note& note : limbNotes(drawing, clips)) notes.push_back(std::move(note));
+  for (const Note& note : notes)
+    std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(noteText(note, path)).c_str());
+}
 
-Size sizeOf(const std::string& text) {
-  Size size;
-  const char *begin = text.data(), *end = begin + text.size();
-  const auto width = std::from_chars(begin, end, size.width);
-  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-    const auto height = std::from_chars(width.ptr + 1, end, size.height);
-    if (height.ec == std::errc() && height.ptr == end && size.width > 0 && size.height > 0) return size;
+// Those that are asked for, each once.
+std::vector<Clip> askedClips(const RenderCommandOptions& options, CharacterFile file) {
+  std::vector<Clip> clips;
+  const auto take = [&](const Clip& clip) {
+    if (std::find(clips.begin(), clips.end(), clip) == clips.end()) clips.push_back(clip);
+  };
+  for (const std::string& name : options.clips) {
+    if (name != kAllClips) {
+      std::string note;
+      take(clipFor(name, file, options.library, &note));
+      if (!note.empty()) std::fprintf(stderr, "%s\n", printable(note).c_str());
+      continue;
+    }
+    addLibrary(file, options.library);
+    std::for_each(file.clips.begin(), file.clips.end(), take);
   }
-  throw UsageError("--size is \"" + text + "\", must be WIDTHxHEIGHT in px, such as 512x512");
+  return clips;
 }
 
-void setBackground(Look& look, const std::string& text, const Size& size) {
-  if (const auto color = backgroundColor(text))
-    look.background = *color;
-  else
-    look.picture = covering(readImage(text), size.width, size.height);
+// Files are named after characters.
+void checkNames(const std::vector<std::string>& files) {
+  std::map<std::string, std::string> file_of_name;
+  for (const std::string& file : files)
+    if (const auto [other, is_new] = file_of_name.emplace(stemOf(file), file); !is_new)
+      throw UsageError(other->second + " and " + file + " would both write files called " + other->first +
+                       "; rename one");
 }
 
-std::unique_ptr<MeshPainter> painterFor(const std::string& name, const TriangleMesh& mesh) {
-  if (name == "gl") return offscreenPainter(mesh);
-  return name == "software" ? softwarePainter(mesh) : fastestPainter(mesh);
+void render(const RenderCommandOptions& options, const std::string& path, const RenderCharacter& render) {
+  CharacterSource source = options.source;
+  source.path = path;
+  std::optional<RiggedDrawing> drawing;
+  if (isDrawing(source)) drawing = rigDrawing(source, options.library);
+  CharacterFile file =
+      drawing ? CharacterFile{drawing->character, drawing->clips, {}} : loadCharacter(source);
+  file.name = stemOf(path);
+  const std::vector<Clip> clips = askedClips(options, file);
+  if (drawing) tell(*drawing, path, clips);
+  render(std::move(file), clips);
 }
 
 }  // namespace
 
-void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
-  bindCharacterSource(app, options.source);
-  app.add_option("--clip", options.clip,
-                 "A clip of the file, one that comes with skel, or a file: .clip.json, .bvh, key frames")
-      ->required();
-  app.add_option("-o,--output", options.output,
-                 "The film: " + videoFormatNames() + " (a name that ends with /) of PNG files")
-      ->required()
-      ->check(outputFile());
-  app.add_option("--fps", options.frame_rate, "Frames a second")
-      ->check(numberIn(0.1, 240.0))
-      ->capture_default_str();
-  bindClipSource(app, options.clips);
-  app.add_option("--duration", options.duration_s, "In seconds; the clip repeats (default: once)")
-      ->check(numberIn(0.0, 3600.0));
-  app.add_option("--size", options.size, "WIDTHxHEIGHT, px")->capture_default_str();
-  app.add_option("--angle", options.angle_deg,
-                 "From where it is seen: 0 from the front, 90 from its left, degrees")
-      ->check(numberIn(-360.0, 360.0))
-      ->capture_default_str();
-  app.add_option("--pitch", options.pitch_deg, "How far from above, degrees")
-      ->check(numberIn(-89.0, 89.0))
-      ->capture_default_str();
-  app.add_option("--frame", options.frame,
-                 "What the camera shows all of: this clip, or all clips of the character, so that films of "
-                 "one have one scale and one ground")
-      ->check(CLI::IsMember({"clip", "clips"}))
-      ->capture_default_str();
-  app.add_option("--background", options.background,
-                 "white, grey, black, #rrggbb, none (transparent), or a picture")
-      ->capture_default_str();
-  app.add_flag("--wireframe", options.wireframe, "The mesh's edges as well");
-  app.add_flag("--translucent", options.translucent, "The body can be seen through");
-  app.add_flag("--show-skeleton", options.skeleton, "The skeleton over the body");
-  app.add_option("--show-weights", options.weights_of, "The weights of this joint as colours")
-      ->type_name("JOINT");
-  app.add_flag("--no-shadow", options.no_shadow, "No shadow on the ground");
-  app.add_option("--blend", options.blend, "How joints move the skin: matrices, or dual quaternions")
-      ->check(CLI::IsMember({"linear", "dual"}))
-      ->capture_default_str();
-  app.add_option("--painter", options.painter, "What draws: auto takes a graphics card if there is one")
-      ->check(CLI::IsMember({"auto", "software", "gl"}))
-      ->capture_default_str();
-}
-
 ExitCode runRender(const RenderCommandOptions& options) {
-  const Size size = sizeOf(options.size);
-  FilmOptions film;
-  film.width = size.width;
-  film.height = size.height;
-  film.frame_rate = options.frame_rate;
-  film.duration_s = options.duration_s;
-  film.look.wireframe = options.wireframe;
-  film.look.translucent = options.translucent;
-  film.look.skeleton = options.skeleton;
-  film.look.shadow = !options.no_shadow;
-  if (options.blend == "dual") film.look.blending = Blending::kDualQuaternions;
-  setBackground(film.look, options.background, size);
-
-  VideoOptions video_options{.width = size.width, .height = size.height, .frame_rate = options.frame_rate};
-  video_options.transparent = film.look.background.a < 255 && film.look.picture.empty();
-  // What cannot be written is said before anything is rigged.
-  openVideo(options.output, video_options);
-
-  const CharacterFile file = loadCharacter(options.source);
-  const Clip clip = clipFor(options.clip, file, options.clips);
-  if (!options.weights_of.empty()) {
-    film.look.weights_of = file.character.skeleton.find(options.weights_of);
-    if (film.look.weights_of < 0)
-      throw UsageError("--show-weights: there is no joint \"" + options.weights_of + "\" in " +
-                       options.source.path);
+  checkNames(options.files);
+  const RenderCharacter rendered =
+      options.sheet.output.empty() ? filmRenderer(options) : sheetRenderer(options);
+  ExitCode code = ExitCode::kDone;
+  for (const std::string& path : options.files) {
+    try {
+      render(options, path, rendered);
+    } catch (...) {
+      const Error error = caughtError(path);
+      std::fprintf(stderr, "skel-animate: %s\n", error.what());
+      if (code == ExitCode::kDone) code = error.exitCode();
+    }
   }
-  const int frames = frameCount(clip, film);
-  video_options.frames = frames;
-  const auto video = openVideo(options.output, video_options);
-  const Scene scene(file.character, painterFor(options.painter, file.character.mesh));
-  std::vector<Clip> shown = {clip};
-  if (options.frame == "clips") {
-    for (const Clip& other : file.clips) shown.push_back(other);
-    for (Clip& other : libraryFor(file.character, options.clips))
-      if (std::none_of(shown.begin(), shown.end(), [&](const Clip& c) { return c.name == other.name; }))
-        shown.push_back(std::move(other));
-  }
-  const Camera camera =
-      filmCamera(file.character, shown, options.angle_deg * std::numbers::pi / 180,
-                 options.pitch_deg * std::numbers::pi / 180, double(size.width) / size.height);
-  {
-    ProgressBar bar("frames", std::size_t(frames));
-    writeFilm(scene, clip, camera, film, *video, [&] { bar.advance(); });
-    video->finish();
-  }
-  std::printf("%s: %d frames of %dx%d, %.2f s of \"%s\"\n", options.output.c_str(), frames, size.width,
-              size.height, frames / options.frame_rate, printable(clip.name).c_str());
-  return ExitCode::kDone;
+  return code;
 }
 
 }  // namespace skel

@@ -29,7 +29,12 @@ void report(const JointMatch& match) {
 }
 
 Clip motionFor(const RetargetCommandOptions& options, const CharacterFile& file) {
-  if (!options.motion.ends_with(".bvh")) return clipFor(options.motion, file, options.clips);
+  if (!options.motion.ends_with(".bvh")) {
+    std::string note;
+    Clip clip = clipFor(options.motion, file, options.clips, &note);
+    if (!note.empty()) std::printf("%s\n", note.c_str());
+    return clip;
+  }
   RetargetedMotion result = loadBvhFor(options.motion, file.character, options.clips);
   report(result.match);
   return std::move(result.clip);

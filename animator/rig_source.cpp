@@ -55,13 +55,14 @@ Skeleton readSkeletonFor(const TriangleMesh& mesh, const std::string& path, cons
     const std::string text = readFile(path);
     return parseSkeletonFile(text, path, loadTemplate(templateOfSkeleton(text, path))).skeleton;
   }
-  const Skeleton as_is = readRigFile(path), turned = yUpFromZUp(as_is);
+  std::string unused;
+  const Skeleton as_is = readRigFile(path, &unused), turned = yUpFromZUp(as_is);
   const double y = shareInside(as_is, mesh), z = shareInside(turned, mesh);
   const bool z_up = up == "z" || (up == "auto" && z > y);
   if (note)
     *note = path + ": " + (z_up ? "z" : "y") + " is up" + (up == "auto" ? "" : " (--up)") + "; " +
             percent(z_up ? z : y) + " of its bones lie in the model, " + percent(z_up ? y : z) + " with " +
-            (z_up ? "y" : "z") + " up";
+            (z_up ? "y" : "z") + " up" + (unused.empty() ? "" : "\n" + unused);
   return z_up ? turned : as_is;
 }
 

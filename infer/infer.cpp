@@ -123,6 +123,12 @@ void bindRecognitionOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--joint-net", options.joint_net_file,
                  "Weights of the net that finds the joints (default: built in)")
       ->always_capture_default(false);
+  app.add_option(
+         "--alpha", options.alpha,
+         "How opaque the figure is where pictures can be seen through, 0.01 to 1: leaves a soft glow\n"
+         "out (default: half of the most)")
+      ->check(numberIn(0.01, 1.0))
+      ->always_capture_default(false);
   app.add_flag("--upright", options.upright, "The figure is not turned: try no other orientations");
   app.add_option("--recognizer", options.recognizer, "How joints are found")
       ->check(namesOf(kRecognizerNames));

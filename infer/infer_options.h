@@ -20,6 +20,7 @@ struct InferOptions {
   std::string body_plan = "auto";
   std::string recognizer = "tree";
   bool upright = false;
+  std::optional<double> alpha;  // see SilhouetteOptions
   std::string candidates = "maxima";
   std::string skin = "geodesic";
   int max_influences = 4;

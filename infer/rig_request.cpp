@@ -43,6 +43,7 @@ RigOptions rigOptions(const InferOptions& options) {
   rig.mlp = options.weights_file.empty() ? defaultMlp() : readMlp(options.weights_file);
   rig.recognizer = kRecognizerNames.at(options.recognizer);
   rig.upright = options.upright;
+  rig.silhouette.alpha = options.alpha;
   // The paper keeps the outer contour alone.
   rig.silhouette.fill_holes = rig.recognizer == Recognizer::kPaper;
   rig.candidates.method = kCandidateNames.at(options.candidates);

@@ -7,6 +7,7 @@
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/unused_keys.h"
 
 namespace skel {
 namespace {
@@ -27,12 +28,12 @@ void turnUp(Clip& clip) {
   }
 }
 
-JointTrack trackAt(const std::string& joint, const JsonValue& list) {
+JointTrack trackAt(const std::string& joint, const JsonValue& list, UnusedKeys& unused) {
   JointTrack track;
   track.joint = joint;
   std::vector<float> times;
   for (const JsonValue& key : list.items()) {
-    key.allowOnly({"time", "rotation", "translation", "scale"});
+    unused.take(key, {"time", "rotation", "translation", "scale"});
     const JsonValue time = key.at("time");
     takeTime(time, time.asNumber(), times);
     const auto vector = [&](const char* name, double limit,
@@ -57,10 +58,11 @@ JointTrack trackAt(const std::string& joint, const JsonValue& list) {
 }  // namespace
 
 Clip parseKeyframeClip(std::string_view text, const std::string& file, const Skeleton& skeleton,
-                       const KeyframeClipOptions& options) {
+                       const KeyframeClipOptions& options, std::string* note) {
   const JsonDocument document = JsonDocument::parse(text, file);
   const JsonValue root = document.root();
-  root.allowOnly({"name", "duration", "keyframes"});
+  UnusedKeys unused;
+  unused.take(root, {"name", "duration", "keyframes"});
   Clip clip;
   clip.name = root.at("name").asString();
   clip.interpolation = options.interpolation;
@@ -70,12 +72,13 @@ Clip parseKeyframeClip(std::string_view text, const std::string& file, const Ske
   for (const std::string& joint : keyframes.keys()) {
     const JsonValue list = keyframes.at(joint);
     if (skeleton.find(joint) < 0) list.fail("\"" + joint + "\" is no joint of the skeleton");
-    JointTrack track = trackAt(joint, list);
+    JointTrack track = trackAt(joint, list, unused);
     if (track.times_s.empty() && track.translation_times_s.empty() && track.scale_times_s.empty())
       continue;  // a joint without keys holds its rest pose
     clip.tracks.push_back(std::move(track));
   }
   if (options.z_up) turnUp(clip);
+  if (note) *note = unused.note(file);
   return clip;
 }
 

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <system_error>
 
+#include "libskel/core/text.h"
+
 namespace skel {
 namespace {
 

@@ -3,6 +3,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
+#include "libskel/core/foreign_files.h"
 #include "libskel/image/formats.h"
 
 namespace skel {
@@ -27,6 +28,7 @@ Image decodeImage(std::string_view bytes, const std::string& file) {
     case Format::kUnknown:
       break;
   }
+  if (const std::string remedy = howToConvert(file); !remedy.empty()) throw InputError(file, remedy);
   throw InputError(file, "is not a picture that can be read (PNG, JPEG, WebP, BMP, TIFF or GIF)");
 }
 

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "libskel/core/error.h"
+#include "libskel/core/foreign_files.h"
 
 namespace skel {
 namespace {
@@ -36,7 +37,10 @@ std::string_view chunk(std::string_view bytes, std::size_t at, std::uint32_t typ
 // The JSON text of a GLB; `binary` becomes the other chunk.
 std::string_view split(std::string_view bytes, const std::string& file, std::string_view& binary) {
   if (bytes.empty()) throw InputError(file, "is empty, not a GLB file");
-  if (bytes.size() < 12 || word(bytes, 0) != kMagic) throw InputError(file, "is not a GLB file");
+  if (bytes.size() < 12 || word(bytes, 0) != kMagic) {
+    const std::string remedy = howToConvert(file);
+    throw InputError(file, remedy.empty() ? "is not a GLB file" : remedy);
+  }
   if (word(bytes, 4) != 2)
     throw InputError(file, "is of glTF version " + std::to_string(word(bytes, 4)) + ", 2 is read");
   const std::size_t length = word(bytes, 8);

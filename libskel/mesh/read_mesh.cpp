@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "libskel/core/error.h"
+#include "libskel/core/foreign_files.h"
 #include "libskel/mesh/obj.h"
 
 namespace skel {
@@ -14,11 +15,7 @@ TriangleMesh readMesh(const std::string& path) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : static_cast<char>(c);
   });
   if (ending == ".obj") return readObj(path);
-  if (ending == ".stl")
-    throw InputError(
-        path,
-        "is an STL file: loose triangles without parts, colours or units; open it in Blender and "
-        "export it as OBJ");
+  if (const std::string remedy = howToConvert(path); !remedy.empty()) throw InputError(path, remedy);
   throw InputError(path, "is no model that can be read; export it as OBJ");
 }
 

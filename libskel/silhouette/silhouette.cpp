@@ -101,10 +101,11 @@ struct AlphaMask {
   Plane8 opaque;
 };
 
-AlphaMask alphaMask(const Image& image) {
+AlphaMask alphaMask(const Image& image, std::optional<double> least = std::nullopt) {
   AlphaMask out;
   const int strongest = image.rgba.col(3).maxCoeff();
-  const int threshold = std::max(1, std::min(128, (strongest + 1) / 2));
+  const int threshold =
+      std::max(1, least ? int(std::lround(255 * *least)) : std::min(128, (strongest + 1) / 2));
   if (image.rgba.col(3).minCoeff() >= threshold) return out;
   out.opaque = Plane8(image.height, image.width);
   std::int64_t area = 0;
@@ -126,6 +127,21 @@ AlphaMask alphaMask(const Image& image) {
   return out;
 }
 
+// Whether more of the figure than its edges can be seen through, and not all of it.
+bool muchIsSoft(const Image& image, const Plane8& mask) {
+  constexpr double kSoft = 0.9;   // of the most opaque pixel
+  constexpr double kMuch = 0.05;  // of the figure
+  constexpr int kEdge = 2;        // px, where it is drawn smoothly
+  const double strongest = image.rgba.col(3).maxCoeff();
+  Plane8 soft(mask.rows(), mask.cols());
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      soft(y, x) = mask(y, x) && image.pixel(x, y)[3] < kSoft * strongest ? 255 : 0;
+  cv::Mat inner;
+  cv::erode(viewOf(soft), inner, cv::Mat::ones(2 * kEdge + 1, 2 * kEdge + 1, CV_8U));
+  return double(cv::countNonZero(inner)) > kMuch * double((mask != 0).count());
+}
+
 }  // namespace
 
 Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& options) {
@@ -137,10 +153,18 @@ Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& option
     filled.fill_holes = true;
     return finish(paperForeground(image), filled, min_long_side);
   }
-  AlphaMask alpha = alphaMask(image);
+  AlphaMask alpha = alphaMask(image, options.alpha);
   if (alpha.meaningful) {
-    if ((alpha.opaque == 0).all()) return noFigure("the picture is fully transparent");
-    return finish(alpha.opaque, options, kMinLongSide);
+    if ((alpha.opaque == 0).all())
+      return noFigure(image.rgba.col(3).maxCoeff() > 0 && options.alpha
+                          ? "nothing in the picture is as opaque as --alpha asks for"
+                          : "the picture is fully transparent");
+    Silhouette out = finish(alpha.opaque, options, kMinLongSide);
+    if (out.found() && muchIsSoft(image, out.mask))
+      out.warnings.push_back(
+          "much of the figure is half-transparent: if that is a glow or a shadow, leave it out by --alpha "
+          "0.9");
+    return out;
   }
   const Segmentation segmentation = segment(image, options.page_net.get());
   if (!segmentation.reason.empty()) return noFigure(segmentation.reason);

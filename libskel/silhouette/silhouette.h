@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,8 +64,11 @@ struct PageNet;
 
 struct SilhouetteOptions {
   SilhouetteMethod method = SilhouetteMethod::kAutomatic;
-  int figure = 1;                           // 1 is the largest
-  bool all = false;                         // the others are taken, too: nothing is said of them
+  int figure = 1;    // 1 is the largest
+  bool all = false;  // the others are taken, too: nothing is said of them
+  // Of pictures with transparency: what is at least so opaque is the figure, 0…1; nothing: half as opaque as
+  // the most opaque pixel, at most half.
+  std::optional<double> alpha;
   bool fill_holes = false;                  // as in the paper, which keeps the outer contour alone
   std::shared_ptr<const PageNet> page_net;  // null: the built-in one (page_net.h)
 };

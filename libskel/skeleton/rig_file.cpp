@@ -7,6 +7,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
+#include "libskel/core/unused_keys.h"
 
 namespace skel {
 namespace {
@@ -39,7 +40,8 @@ std::string parentOf(const JsonValue& item, const std::string& name,
   return other;
 }
 
-std::vector<Listed> listedJoints(const JsonValue& root, const std::optional<JsonValue>& hierarchy) {
+std::vector<Listed> listedJoints(const JsonValue& root, const std::optional<JsonValue>& hierarchy,
+                                 UnusedKeys& unused) {
   std::vector<Listed> listed;
   std::map<std::string, std::string> names;
   std::map<int, std::string> indices;
@@ -48,7 +50,7 @@ std::vector<Listed> listedJoints(const JsonValue& root, const std::optional<Json
   if (items.empty()) list.fail("is empty");
   if (items.size() > kMostJoints) list.fail("has more than " + std::to_string(kMostJoints) + " joints");
   for (const JsonValue& item : items) {
-    item.allowOnly({"name", "index", "head", "tail", "parent"});
+    unused.take(item, {"name", "index", "head", "tail", "parent"});
     Joint joint;
     joint.name = item.at("name").asString();
     if (joint.name.empty()) item.at("name").fail("is empty");
@@ -88,12 +90,14 @@ std::string unlistedRoot(const std::vector<Listed>& listed, const std::optional<
 
 }  // namespace
 
-Skeleton readRigFile(const std::string& path) {
+Skeleton readRigFile(const std::string& path, std::string* note) {
   const JsonDocument document = JsonDocument::readFile(path);
   const JsonValue file = document.root();
-  file.allowOnly({"joints", "hierarchy"});
+  UnusedKeys unused;
+  unused.take(file, {"joints", "hierarchy"});
   const std::optional<JsonValue> hierarchy = file.find("hierarchy");
-  const std::vector<Listed> listed = listedJoints(file, hierarchy);
+  const std::vector<Listed> listed = listedJoints(file, hierarchy, unused);
+  if (note) *note = unused.note(path);
   const std::string root = unlistedRoot(listed, hierarchy);
 
   Skeleton skeleton;

@@ -12,8 +12,9 @@ namespace skel {
 // Positions in the file's own frame. `hierarchy` may be missing; where it is there, it may name one joint
 // that `joints` does not list: the root, which stands at the origin and moves no bone. Throws InputError with
 // the JSON path: a joint that is its own ancestor, two of one name, a parent that there is not, two roots,
-// parents that disagree.
-Skeleton readRigFile(const std::string& path);
+// parents that disagree. Other keys are left alone; `note` (or null) says which, and is empty where there are
+// none.
+Skeleton readRigFile(const std::string& path, std::string* note = nullptr);
 
 // More are read from no file: what looks at all pairs of them stays quick.
 inline constexpr std::size_t kMostJoints = 4096;

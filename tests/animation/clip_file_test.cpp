@@ -285,5 +285,13 @@ TEST_CASE("a key-frame clip that makes no sense is refused with the place in it"
           "keyframes.head[0].rotation: has 2 numbers, must have 3");
   refused(R"({"head": [{"time": 1, "rotation": [0, 1, NaN]}]})",
           "is not JSON: line 1 cannot be read: keyframes.head[0].rotation[2] is not a finite number");
-  refused(R"({"head": [{"time": 1, "turn": [0, 1, 0]}]})", "keyframes.head[0]: has the unknown key \"turn\"");
+}
+
+TEST_CASE("what a key-frame clip has besides is left alone, and said") {
+  std::string note;
+  const Clip clip = parseKeyframeClip(
+      R"({"name": "trot", "fps": 24, "keyframes": {"head": [{"time": 1, "rotation": [0, 1, 0], "easing": "in"}]}})",
+      "trot.json", figureSkeleton(), {}, &note);
+  CHECK(clip.tracks.size() == 1);
+  CHECK(note == "trot.json: fps, keyframes.head[].easing are not used");
 }

@@ -138,8 +138,6 @@ TEST_CASE("bad skeletons are refused with the place in them, and nothing is writ
       {rig(bone("a", "null"), "{\"x\": \"a\"}"), "s.json: hierarchy.x: there is no joint \"x\""},
       {rig(bone("a", "null") + "," + bone("b", "null"), "{\"a\": \"r\", \"b\": \"q\"}"),
        "s.json: hierarchy.b: there is no joint \"q\"; only one may be missing, the root, and \"r\" is"},
-      {rig("{\"name\": \"a\", \"head\": [0,0,0], \"tail\": [0,1,0], \"parent\": null, \"roll\": 1}"),
-       "s.json: joints[0]: has the unknown key \"roll\""},
       {"{\"format\": \"skel-skeleton\", \"version\": 9}", "s.json: "},
   };
   for (const Case& c : cases) {
@@ -147,6 +145,27 @@ TEST_CASE("bad skeletons are refused with the place in them, and nothing is writ
     expect(animate(dir, "bind m.obj --skeleton s.json -o m.glb"), 2, c.message);
   }
   CHECK(filesIn(dir.path()) == 2);
+}
+
+TEST_CASE("the elk system's own skeleton.json binds: what it has besides joints is left alone, and said") {
+  const TempDir dir;
+  writeFile(dir.file("m.obj"), kTetrahedron);
+  writeFile(dir.file("skeleton.json"), R"({
+    "joints": [
+      {"name": "hips", "index": 0, "head": [0, 0.2, 0], "tail": [0, 1, 0], "parent": null, "children": ["chest"]},
+      {"name": "chest", "index": 1, "head": [0, 1, 0], "tail": [0, 1.6, 0], "parent": "hips", "children": []}
+    ],
+    "bones": [
+      {"name": "hips", "start_joint": "hips", "end_joint": "chest", "parent": null, "children": ["chest"]},
+      {"name": "chest", "start_joint": "chest", "end_joint": "chest_end", "parent": "hips", "children": []}
+    ],
+    "hierarchy": {"hips": null, "chest": "hips"}
+  })");
+  const ToolRun run = animate(dir, "bind m.obj --skeleton skeleton.json -o m.glb");
+  CHECK(run.err == "");
+  REQUIRE(run.exit_code == 0);
+  CHECK(run.out.find("\nskeleton.json: bones, joints[].children are not used\n") != std::string::npos);
+  CHECK(readGlb(dir.file("m.glb")).character.skeleton.joints.size() == 2);
 }
 
 TEST_CASE("bad models, weights and tables are refused, and nothing is written") {

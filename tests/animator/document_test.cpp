@@ -49,7 +49,7 @@ TEST_CASE("a character opens in its rest pose, with its clips before those of sk
   CHECK_FALSE(document.canUndo());
   CHECK_THROWS_WITH(AnimationDocument({.path = dir.file("none.glb")}), Contains("none.glb: cannot be read"));
   CHECK_THROWS_WITH(AnimationDocument({.path = dir.file("model.stl")}),
-                    Contains("model.stl: is neither a rigged character (.glb) nor a drawing"));
+                    Contains("model.stl: is an STL file"));
 }
 
 TEST_CASE("playing goes round, or stops at the end") {

@@ -26,6 +26,7 @@ TEST_CASE("a drawing becomes a film in one command, the same one every time") {
     const ToolRun run = render(arguments + dir.file(name));
     CHECK(run.err == "");
     REQUIRE(run.exit_code == 0);
+    CHECK_THAT(run.out, Contains("cap_boy.png: biped, confidence 0.9"));
     CHECK_THAT(run.out, Contains("6 frames of 96x128, 0.50 s of \"dance\""));
   }
   CHECK(readFile(dir.file("a.gif")) == readFile(dir.file("b.gif")));
@@ -56,6 +57,62 @@ TEST_CASE("a model plays its own clips and those of skel, and looks as it is tol
   CHECK(render(model + " --clip walk --fps 4 --size 64x64 -o " + dir.file("walk.webp")).exit_code == 0);
 }
 
+TEST_CASE(
+    "several drawings and clips become films in a folder, each character's at one scale and one ground") {
+  const TempDir dir;
+  const auto films = [&](const std::string& arguments) {
+    const ToolRun run = render(arguments + " --fps 5 --size 64x64 --no-shadow --format png -o " + dir.path());
+    CHECK(run.err == "");
+    REQUIRE(run.exit_code == 0);
+  };
+  const auto frame = [&](const std::string& film, int number) {
+    return readFile(dir.file(film) + "/frame-000" + std::to_string(number) + ".png");
+  };
+  const std::string dog = std::string(SKEL_SOURCE_DIR) + "/datasets/animals/box_dog.png";
+  films(kDrawing + " " + dog + " --clips idle,walk");
+  for (const auto& entry : fs::directory_iterator(dir.path())) CHECK(filesBelow(entry.path()).size() > 4);
+  const std::string idle = frame("cap_boy-idle", 1);
+  CHECK(frame("box_dog-walk", 1) != frame("cap_boy-walk", 1));
+  films(kDrawing + " --clip jump --clip idle");
+  CHECK(frame("cap_boy-idle", 1) == idle);
+  films(kDrawing + " --clip idle --frame clips");
+  CHECK(frame("cap_boy-idle", 1) == idle);
+  films(kDrawing + " --clips jump,idle --frame clip");
+  CHECK(frame("cap_boy-idle", 1) != idle);
+
+  // Nothing is cut off.
+  films(kDrawing + " --clips all --background none");
+  for (const std::string& path : filesBelow(dir.path())) {
+    if (path.find("cap_boy") == std::string::npos) continue;
+    const Image image = readImage(path);
+    for (int i = 0; i < 64; ++i)
+      for (const auto& [x, y] : {std::pair(i, 0), {i, 63}, {0, i}, {63, i}})
+        REQUIRE(image.pixel(x, y)[3] == 0);
+  }
+}
+
+TEST_CASE("a film of a drawing says what skel-infer says of it, once for all films") {
+  const TempDir dir;
+  const std::string dog =
+      std::string(SKEL_SOURCE_DIR) + "/datasets/animals/box_dog.png --template biped --size 64x64 --fps 4 ";
+  const ToolRun run = render(dog + "--clips walk,idle --format gif -o " + dir.file("films/"));
+  REQUIRE(run.exit_code == 0);
+  CHECK_THAT(run.err, Contains("box_dog.png: note: it looks like a quadruped: try --template quadruped"));
+  CHECK_THAT(run.err, Contains("this hardly looks like one whole biped; not found: "));
+  CHECK_THAT(run.out, Contains("box_dog.png: biped, confidence 0.1"));
+  CHECK(run.err.find("looks like a quadruped") == run.err.rfind("looks like a quadruped"));
+}
+
+TEST_CASE("of several drawings, one that cannot be rigged keeps no other from its film") {
+  const TempDir dir;
+  writeFile(dir.file("text.png"), "no picture");
+  const ToolRun run = render(dir.file("text.png") + " " + kDrawing +
+                             " --clip walk --fps 4 --size 64x64 --format gif -o " + dir.file("films/"));
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("text.png: is not a picture"));
+  CHECK(filesBelow(dir.file("films")) == std::vector<std::string>{dir.file("films/cap_boy-walk.gif")});
+}
+
 TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
   const TempDir dir;
   const std::string model = figureFile(dir), film = dir.file("film.gif");
@@ -67,21 +124,30 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
   } cases[] = {
       {"", 1, "file is required"},
       {model + " -o " + film, 1, "--clip is required"},
+      {model + " --clip nod", 1, "name the film by -o, or a sprite sheet by --sheet"},
       {model + " --clip fly -o " + film, 1, "there is no clip \"fly\""},
       {model + " --clip none.clip.json -o " + film, 2, "none.clip.json: cannot be read"},
       {model + " --clip nod -o " + dir.file("film.avi"), 1, "films are written as .mp4, .gif, .webp"},
-      {model + " --clip nod --size 64 -o " + film, 1, "--size is \"64\", must be WIDTHxHEIGHT"},
+      {model + " --clip nod --size 64x -o " + film, 1, "--size is \"64x\", must be WIDTHxHEIGHT"},
       {model + " --clip nod --size 0x64 -o " + film, 1, "must be WIDTHxHEIGHT"},
       {model + " --clip nod --size 63x64 -o " + dir.file("film.mp4"), 1, "the sides of an MP4 are even"},
       {model + " --clip nod --background none -o " + dir.file("film.mp4"), 1, "MP4 has no transparency"},
       {model + " --clip nod --background '#12' -o " + film, 1, "a colour is written #rrggbb"},
       {model + " --clip nod --background blue.png -o " + film, 2, "blue.png: cannot be read"},
       {model + " --clip nod --show-weights wing -o " + film, 1, "there is no joint \"wing\""},
+      {model + " --clips nod,walk -o " + film, 1, "film.gif must be a folder (a name that ends with /)"},
+      {model + " --clip nod --format gif -o " + film, 1, "--format is that of films in a folder"},
+      {model + " " + model + " --clip nod -o " + dir.file("films/"), 1,
+       "would both write files called figure"},
+      {model + " --clip fly -o " + film, 1,
+       "; there are: nod, idle, walk, run, jump, wave, dance, sit, cheer\n"},
       {model + " --clip nod --fps 0 -o " + film, 1, "--fps"},
       {model + " --clip nod --fps 60 -o " + film, 1, "at most 50 frames a second"},
       {dir.file("none.glb") + " --clip nod -o " + film, 2, "none.glb: cannot be read"},
       {dir.file("text.glb") + " --clip nod -o " + film, 2, "text.glb"},
-      {dir.file("model.stl") + " --clip nod -o " + film, 2, "is neither a rigged character"},
+      {dir.file("model.xyz") + " --clip nod -o " + film, 2, "is neither a rigged character"},
+      {dir.file("model.fbx") + " --clip nod -o " + film, 2, "is an FBX file; open it in Blender"},
+      {dir.file("hero.svg") + " --clip nod -o " + film, 2, "hero.svg -o out.png`"},
       {model + " --clip nod -o " + dir.file("text.glb") + "/film.gif", 4, "text.glb"},
   };
   for (const auto& one : cases) {

@@ -181,7 +181,8 @@ TEST_CASE("models are told by the ending of their names") {
       Catch::EndsWith("a.stl: is an STL file: loose triangles without parts, colours or units; open it "
                       "in Blender and export it as OBJ"));
   CHECK_THROWS_WITH(readMesh(dir.file("a.fbx")),
-                    Catch::EndsWith("a.fbx: is no model that can be read; export it as OBJ"));
+                    Catch::EndsWith("a.fbx: is an FBX file; open it in Blender and export it as glTF Binary "
+                                    "(.glb), or as OBJ without its skeleton"));
 }
 
 TEST_CASE("a model without height is refused") {

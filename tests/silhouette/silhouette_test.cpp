@@ -287,6 +287,37 @@ TEST_CASE("alpha tells the figure, with its holes") {
   CHECK(s.outline.size() == 2);
 }
 
+TEST_CASE("a soft glow belongs to the figure unless --alpha leaves it out, and is told of") {
+  Image image = paint(300, 400, [](double, double) { return Color{200, 30, 90}; });
+  const Plane8 mask = maskOf(kPerson, 300, 400);
+  const auto near = [&](int x, int y, int reach) {
+    for (int v = std::max(0, y - reach); v <= std::min(399, y + reach); ++v)
+      for (int u = std::max(0, x - reach); u <= std::min(299, x + reach); ++u)
+        if (mask(v, u)) return true;
+    return false;
+  };
+  for (int y = 0; y < 400; ++y)
+    for (int x = 0; x < 300; ++x)
+      image.pixel(x, y)[3] = mask(y, x) ? 255 : near(x, y, 12) ? 150 : near(x, y, 16) ? 60 : 0;
+  const Silhouette with_glow = foundIn(image);
+  CHECK(iou(with_glow.mask, mask) < .8);
+  REQUIRE(with_glow.warnings.size() == 1);
+  CHECK_THAT(with_glow.warnings[0], Catch::Contains("half-transparent"));
+  SilhouetteOptions options;
+  options.alpha = .9;
+  const Silhouette without = extractSilhouette(image, options);
+  REQUIRE(without.found());
+  CHECK((without.mask == mask).all());
+  CHECK(without.warnings.empty());
+
+  // One that can be seen through everywhere alike has no glow, and one with smooth edges has none either.
+  for (int y = 0; y < 400; ++y)
+    for (int x = 0; x < 300; ++x) image.pixel(x, y)[3] = mask(y, x) ? 140 : near(x, y, 2) ? 80 : 0;
+  CHECK(foundIn(image).warnings.empty());
+  CHECK(extractSilhouette(image, options).reason ==
+        "nothing in the picture is as opaque as --alpha asks for");
+}
+
 TEST_CASE("transparent corners alone do not make an opaque picture a figure") {
   Image image = filled(kPerson, plainWhite, {200, 30, 30});
   for (int i = 0; i < 10; ++i) {

@@ -1,0 +1,134 @@
+#include "animator/render_films.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+
+#include "animator/film.h"
+#include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
+#include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
+#include "libskel/core/progress.h"
+#include "libskel/core/text.h"
+#include "libskel/draw/canvas.h"
+#include "libskel/image/read_image.h"
+
+namespace skel {
+namespace {
+namespace fs = std::filesystem;
+
+bool manyClips(const RenderCommandOptions& options) {
+  return options.clips.size() > 1 || options.clips.front() == kAllClips;
+}
+
+// Where films go.
+struct FilmNames {
+  std::string output, format;
+  bool in_folder;  // the output is a folder of films
+
+  std::string operator()(const std::string& character, const std::string& clip) const {
+    if (!in_folder) return output;
+    const fs::path path = fs::path(output) / safeFileName(character + "-" + clip);
+    return path.string() + (format == "png" ? "/" : "." + format);
+  }
+};
+
+FilmNames filmNames(const RenderCommandOptions& options) {
+  const bool several = options.files.size() > 1 || manyClips(options);
+  if (options.output.empty()) throw UsageError("name the film by -o, or a sprite sheet by --sheet");
+  FilmNames names{options.output, options.format.empty() ? filmFormats().front() : options.format,
+                  several || !options.format.empty()};
+  if (names.in_folder && !options.output.ends_with('/') && !fs::is_directory(options.output))
+    throw UsageError(options.output + " must be a folder (a name that ends with /): " +
+                     (several ? "there are several films" : "--format is that of films in a folder"));
+  return names;
+}
+
+FilmOptions filmOptions(const RenderCommandOptions& options) {
+  const PictureSize size = sizeOf(options, {512, 512});
+  FilmOptions film;
+  film.width = size.width;
+  film.height = size.height;
+  film.frame_rate = options.frame_rate.value_or(30);
+  film.duration_s = options.duration_s;
+  film.look.wireframe = options.wireframe;
+  film.look.translucent = options.translucent;
+  film.look.skeleton = options.skeleton;
+  film.look.shadow = !options.no_shadow;
+  if (options.blend == "dual") film.look.blending = Blending::kDualQuaternions;
+  if (const auto color = backgroundColor(options.background))
+    film.look.background = *color;
+  else
+    film.look.picture = covering(readImage(options.background), size.width, size.height);
+  return film;
+}
+
+struct Films {
+  const RenderCommandOptions& options;
+  FilmNames names;
+  FilmOptions film;
+  VideoOptions video;
+
+  explicit Films(const RenderCommandOptions& asked)
+      : options(asked), names(filmNames(asked)), film(filmOptions(asked)) {
+    video = {.width = film.width, .height = film.height, .frame_rate = film.frame_rate};
+    video.transparent = film.look.background.a < 255 && film.look.picture.empty();
+    if (!names.in_folder)
+      openVideo(options.output, video);
+    else if (ensureWritableFolder(options.output); names.format != "png")
+      openVideo(names("film", "clip"), video);
+  }
+
+  Camera cameraOf(const RiggedCharacter& character, const std::vector<Clip>& clips) const {
+    return filmCamera(character, clips, options.angle_deg * std::numbers::pi / 180,
+                      options.pitch_deg * std::numbers::pi / 180, double(film.width) / film.height);
+  }
+
+  void write(const Scene& scene, const Look& look, const Clip& clip, const Camera& camera,
+             const std::string& path) const {
+    FilmOptions clip_film = film;
+    clip_film.look = look;
+    VideoOptions clip_video = video;
+    clip_video.frames = frameCount(clip, film);
+    const auto writer = openVideo(path, clip_video);
+    {
+      ProgressBar bar("frames", std::size_t(clip_video.frames));
+      writeFilm(scene, clip, camera, clip_film, *writer, [&] { bar.advance(); });
+      writer->finish();
+    }
+    std::printf("%s: %d frames of %dx%d, %.2f s of \"%s\"\n", path.c_str(), clip_video.frames, film.width,
+                film.height, clip_video.frames / film.frame_rate, printable(clip.name).c_str());
+  }
+
+  void operator()(CharacterFile file, const std::vector<Clip>& clips) const {
+    const RiggedCharacter& character = file.character;
+    Look look = film.look;
+    if (!options.weights_of.empty()) {
+      look.weights_of = character.skeleton.find(options.weights_of);
+      if (look.weights_of < 0)
+        throw UsageError("--show-weights: there is no joint \"" + options.weights_of + "\" in " + file.name);
+    }
+    std::vector<std::string> paths;
+    for (const Clip& clip : clips) {
+      paths.push_back(names(file.name, clip.name));
+      if (names.in_folder) noteNamedOutput(paths.back());
+    }
+    const bool one_camera = options.frame == "clips" || (options.frame == "auto" && manyClips(options));
+    Camera camera;
+    if (one_camera) {
+      addLibrary(file, options.library);
+      file.clips.insert(file.clips.end(), clips.begin(), clips.end());
+      camera = cameraOf(character, file.clips);
+    }
+    const Scene scene(character, painterFor(options, character.mesh));
+    for (std::size_t i = 0; i < clips.size(); ++i)
+      write(scene, look, clips[i], one_camera ? camera : cameraOf(character, {clips[i]}), paths[i]);
+  }
+};
+
+}  // namespace
+
+RenderCharacter filmRenderer(const RenderCommandOptions& options) { return Films(options); }
+
+}  // namespace skel

@@ -1,0 +1,65 @@
+// What `skel-animate render` can be asked for.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "animator/load_character.h"
+#include "libskel/scene/mesh_painter.h"
+
+namespace CLI {
+class App;
+}
+
+namespace skel {
+
+// Among the names of clips: all that the character can do.
+inline constexpr std::string_view kAllClips = "all";
+
+struct SheetOptions {
+  std::string output;  // empty: films instead
+  int directions = 1;
+  int most_frames = 0;  // a clip; 0: as many as the rate gives
+  bool trim = false;
+  std::string atlas = "array";  // hash, aseprite
+  bool pixels = false, outline = false;
+  int palette = 0;  // colours; 0: as many as there are
+};
+
+struct RenderCommandOptions {
+  std::vector<std::string> files;
+  CharacterSource source;  // of each of them, but for its path
+  std::vector<std::string> clips;
+  ClipSource library;
+  std::string output;
+  std::string format;  // of films in a folder; empty: the first of filmFormats()
+  SheetOptions sheet;
+  std::optional<double> frame_rate;  // 30 of films, 12 of sheets
+  double duration_s = 0;
+  std::string size;  // empty: 512x512 of films, 64x64 of sheets
+  double angle_deg = 0, pitch_deg = 5;
+  std::string background = "white";
+  std::string frame = "auto";  // clip or clips: what the camera shows all of
+  std::string painter = "auto";
+  std::string blend = "linear";
+  bool wireframe = false, translucent = false, skeleton = false, no_shadow = false;
+  std::string weights_of;
+};
+void bindRenderOptions(CLI::App& app, RenderCommandOptions& options);
+
+// For --format, the default first.
+std::vector<std::string> filmFormats();
+
+struct PictureSize {
+  int width = 0, height = 0;  // px
+};
+// Of --size. Throws UsageError.
+PictureSize sizeOf(const RenderCommandOptions& options, PictureSize otherwise);
+
+// Of --painter.
+std::unique_ptr<MeshPainter> painterFor(const RenderCommandOptions& options, const TriangleMesh& mesh);
+
+}  // namespace skel

@@ -1,0 +1,143 @@
+#include "animator/render_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+
+#include "animator/film.h"
+#include "animator/pixel_look.h"
+#include "animator/sprite_atlas.h"
+#include "animator/sprite_camera.h"
+#include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
+#include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
+#include "libskel/core/parallel.h"
+#include "libskel/core/progress.h"
+#include "libskel/draw/canvas.h"
+#include "libskel/image/write_image.h"
+
+namespace skel {
+namespace {
+namespace fs = std::filesystem;
+
+struct Sheets {
+  const RenderCommandOptions& options;
+  PictureSize size;
+  bool in_folder;
+
+  explicit Sheets(const RenderCommandOptions& asked)
+      : options(asked), size(sizeOf(asked, {64, 64})), in_folder(asked.sheet.output.ends_with('/')) {
+    const std::string& path = options.sheet.output;
+    if (!in_folder && fs::path(path).extension() != ".png")
+      throw UsageError(path + ": a sprite sheet is a .png, or a folder (a name that ends with /) of such");
+    if (!in_folder && options.files.size() > 1)
+      throw UsageError(path + " must be a folder (a name that ends with /): there are several drawings");
+    if (!in_folder) noteNamedOutput(atlasOf(path));
+    const fs::path folder = fs::path(path).parent_path();
+    ensureWritableFolder(folder.empty() ? "." : folder.string());
+  }
+
+  static std::string atlasOf(const std::string& sheet) {
+    return fs::path(sheet).replace_extension(".json").string();
+  }
+
+  std::string pathOf(const CharacterFile& file) const {
+    if (!in_folder) return options.sheet.output;
+    const std::string path = options.sheet.output + safeFileName(file.name) + ".png";
+    noteNamedOutput(path);
+    noteNamedOutput(atlasOf(path));
+    return path;
+  }
+
+  // How far sprites are painted larger than they become.
+  int factor() const { return options.sheet.pixels ? 4 : 2; }
+
+  Image paint(const Scene& scene, const Clip& clip, double time_s, const Camera& camera) const {
+    Look look;
+    look.background = kClear;
+    look.shadow = false;
+    const Image large = scene.paint(posedAt(scene.character(), clip, time_s), camera, factor() * size.width,
+                                    factor() * size.height, look);
+    return options.sheet.pixels ? pixelated(large, factor()) : resized(large, size.width, size.height);
+  }
+
+  int frameCount(const Clip& clip) const {
+    const int count = int(std::lround(double(clip.duration_s()) * options.frame_rate.value_or(12)));
+    const int most = options.sheet.most_frames;
+    return std::max(1, most > 0 ? std::min(count, most) : count);
+  }
+
+  void operator()(CharacterFile file, const std::vector<Clip>& clips) const {
+    const std::string path = pathOf(file);
+    const RiggedCharacter& character = file.character;
+    std::vector<SpriteDirection> directions = spriteDirections(character, options.sheet.directions);
+    for (SpriteDirection& direction : directions)
+      direction.yaw_rad += options.angle_deg * std::numbers::pi / 180;
+    std::vector<Clip> framed = clips;
+    if (options.frame == "clips") {
+      addLibrary(file, options.library);
+      framed.insert(framed.end(), file.clips.begin(), file.clips.end());
+    }
+    const SpriteCamera camera = spriteCamera(character, outermostPoints(character, framed), directions,
+                                             options.pitch_deg * std::numbers::pi / 180, size.width,
+                                             size.height, options.sheet.outline ? 2 : 1);
+
+    struct Moment {
+      const Clip* clip;
+      double time_s;
+      Camera camera;
+    };
+    std::vector<Moment> moments;
+    std::vector<Sprite> sprites;
+    std::vector<SpriteTag> tags;
+    for (const Clip& clip : clips) {
+      for (const SpriteDirection& direction : directions) {
+        const std::string tag = direction.name.empty() ? clip.name : clip.name + "-" + direction.name;
+        const int count = frameCount(clip), first = int(sprites.size());
+        const double duration_s = double(clip.duration_s());
+        const auto ms = [&](int i) { return int(std::lround(duration_s * 1000 * i / count)); };
+        for (int i = 0; i < count; ++i) {
+          moments.push_back({&clip, duration_s * i / count, turned(camera, character, direction.yaw_rad)});
+          sprites.push_back({tag + "-" + std::to_string(i), std::max(1, ms(i + 1) - ms(i)), {}});
+        }
+        tags.push_back({tag, first, first + count - 1});
+      }
+    }
+    const SpritePacking packing = options.sheet.trim ? SpritePacking::kTrimmed : SpritePacking::kEven;
+    checkSheetSize(tags, camera.cell, packing);
+    const Scene scene(character, painterFor(options, character.mesh));
+    std::vector<Image> images(sprites.size());
+    {
+      ProgressBar bar("sprites", sprites.size());
+      parallelFor(sprites.size(), scene.isConcurrent() ? 0 : 1, [&](std::size_t i) {
+        images[i] = paint(scene, *moments[i].clip, moments[i].time_s, moments[i].camera);
+        bar.advance();
+      });
+    }
+    if (options.sheet.palette > 0) reduceColors(images, options.sheet.palette);
+    if (options.sheet.outline) {
+      const Color dark = darkestColor(images);
+      for (Image& image : images) addOutline(image, dark);
+    }
+    for (std::size_t i = 0; i < sprites.size(); ++i) sprites[i].image = std::move(images[i]);
+
+    const SpriteSheet sheet = packSprites(sprites, tags, camera.cell, packing);
+    const AtlasForm form = options.sheet.atlas == "array"  ? AtlasForm::kArray
+                           : options.sheet.atlas == "hash" ? AtlasForm::kHash
+                                                           : AtlasForm::kAseprite;
+    writeFile(path, encodePng(sheet.picture, 9));
+    writeFile(atlasOf(path),
+              formatAtlas(sprites, tags, camera.cell, sheet, form, fs::path(path).filename().string()));
+    std::printf("%s: %d frames of %dx%d, %d animations, %dx%d px\n", path.c_str(), int(sprites.size()),
+                size.width, size.height, int(tags.size()), sheet.picture.width, sheet.picture.height);
+  }
+};
+
+}  // namespace
+
+RenderCharacter sheetRenderer(const RenderCommandOptions& options) { return Sheets(options); }
+
+}  // namespace skel

@@ -1,0 +1,60 @@
+#include "animator/sprite_atlas.h"
+
+#include <nlohmann/json.hpp>
+
+#include "libskel/core/json_names.h"
+
+namespace skel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json sizeOf(int width, int height) { return {{"w", width}, {"h", height}}; }
+
+Json boxOf(const Box& box) { return {{"x", box.x}, {"y", box.y}, {"w", box.width}, {"h", box.height}}; }
+
+}  // namespace
+
+std::string formatAtlas(const std::vector<Sprite>& sprites, const std::vector<SpriteTag>& tags,
+                        const SpriteCell& cell, const SpriteSheet& sheet, AtlasForm form,
+                        const std::string& picture) {
+  const Json pivot = {{"x", double(cell.pivot_x) / cell.width}, {"y", double(cell.pivot_y) / cell.height}};
+  Json frames = form == AtlasForm::kArray ? Json::array() : Json::object();
+  for (std::size_t i = 0; i < sprites.size(); ++i) {
+    const auto& [in_sheet, in_cell] = sheet.placed[i];
+    const std::string name = form == AtlasForm::kAseprite ? std::to_string(i) : sprites[i].name;
+    Json frame = form == AtlasForm::kArray ? Json{{"filename", name}} : Json::object();
+    frame["frame"] = boxOf(in_sheet);
+    frame["rotated"] = false;
+    frame["trimmed"] = in_cell.width < cell.width || in_cell.height < cell.height;
+    frame["spriteSourceSize"] = boxOf(in_cell);
+    frame["sourceSize"] = sizeOf(cell.width, cell.height);
+    frame["pivot"] = pivot;
+    frame["duration"] = sprites[i].duration_ms;
+    if (form == AtlasForm::kArray)
+      frames.push_back(std::move(frame));
+    else
+      frames[name] = std::move(frame);
+  }
+  Json frame_tags = Json::array();
+  for (const SpriteTag& tag : tags)
+    frame_tags.push_back(
+        {{"name", tag.name}, {"from", tag.first}, {"to", tag.last}, {"direction", "forward"}});
+  const Json key = {{"frame", 0},
+                    {"bounds", boxOf({0, 0, cell.width, cell.height})},
+                    {"pivot", {{"x", cell.pivot_x}, {"y", cell.pivot_y}}}};
+  const Json slice = {{"name", "ground"}, {"color", "#0000ffff"}, {"keys", Json::array({key})}};
+  const Json atlas = {{"frames", std::move(frames)},
+                      {"meta",
+                       {{"app", "skel-animate"},
+                        {"version", "1.0"},
+                        {"image", jsonFromFileName(picture)},
+                        {"format", "RGBA8888"},
+                        {"size", sizeOf(sheet.picture.width, sheet.picture.height)},
+                        {"scale", "1"},
+                        {"frameTags", std::move(frame_tags)},
+                        {"slices", Json::array({slice})}}}};
+  return atlas.dump(1) + "\n";
+}
+
+}  // namespace skel

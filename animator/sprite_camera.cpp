@@ -1,0 +1,94 @@
+#include "animator/sprite_camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "libskel/animation/role_figure.h"
+#include "libskel/deform/figure_shape.h"
+
+namespace skel {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Clockwise on a map.
+constexpr std::array<const char*, 16> kNames = {"s", "ssw", "sw", "wsw", "w", "wnw", "nw", "nnw",
+                                                "n", "nne", "ne", "ene", "e", "ese", "se", "sse"};
+
+// About the vertical: 0 at the viewer (+z), positive to +x.
+double looksAt(const RiggedCharacter& character) {
+  constexpr double kAnimal = -kPi / 2;
+  const Skeleton& skeleton = character.skeleton;
+  const bool biped = skeleton.find("left_foot") >= 0, animal = skeleton.find("left_front_foot") >= 0;
+  if (biped || animal)
+    return measureFigure(character.mesh, character.weights, skeleton).yaw_rad + (animal ? kAnimal : 0);
+  const std::optional<RoleFigure> figure = roleFigure(skeleton);
+  if (!figure) return 0;
+  const bool quadruped = figure->skeleton.find("left_front_foot") >= 0;
+  const Eigen::Vector3d ours(quadruped ? -1 : 0, 0, quadruped ? 0 : 1),
+      front = figure->to_ours.inverse() * ours;
+  return std::atan2(front.x(), front.z());
+}
+
+// On the ground, below the middle of the joints.
+Eigen::Vector3d groundPoint(const RiggedCharacter& character) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Joint& joint : character.skeleton.joints) middle += joint.position;
+  middle /= double(std::max<std::size_t>(1, character.skeleton.joints.size()));
+  middle.y() = double(character.mesh.vertices.col(1).minCoeff());
+  return middle;
+}
+
+}  // namespace
+
+std::vector<SpriteDirection> spriteDirections(const RiggedCharacter& character, int count) {
+  if (count == 1) return {{"", 0}};
+  const double front = looksAt(character);
+  const int step = 16 / count, first = count == 2 ? 4 : 0;
+  std::vector<SpriteDirection> directions;
+  for (int i = first; i < first + 16; i += step)
+    directions.push_back({kNames[std::size_t(i)], front + 2 * kPi * i / 16});
+  return directions;
+}
+
+SpriteCamera spriteCamera(const RiggedCharacter& character, const Eigen::MatrixX3f& points,
+                          const std::vector<SpriteDirection>& directions, double pitch_rad, int width,
+                          int height, int margin_px) {
+  const Eigen::Vector3d ground = groundPoint(character);
+  double aside = 1e-6, low = 0, high = 1e-6;  // m, from the ground point
+  for (const SpriteDirection& direction : directions) {
+    Camera camera;
+    camera.yaw_rad = direction.yaw_rad;
+    camera.pitch_rad = pitch_rad;
+    const Eigen::Matrix3d eye = eyeFromModel(camera);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      const Eigen::Vector3d p = eye * (points.row(i).transpose().cast<double>() - ground);
+      aside = std::max(aside, std::abs(p.x()));
+      low = std::min(low, p.y()), high = std::max(high, p.y());
+    }
+  }
+  // A pixel of the height is kept for the ground's whole number.
+  const double px_per_m = std::min((width - 2.0 * margin_px) / (2 * aside),
+                                   std::max(1.0, height - 2.0 * margin_px - 1) / (high - low));
+  SpriteCamera result;
+  result.cell = {width, height, width / 2, 0};
+  result.cell.pivot_y = int(std::floor(height - margin_px + low * px_per_m));
+  result.camera.pitch_rad = pitch_rad;
+  result.camera.view_height_m = height / px_per_m;
+  result.camera.distance_m = 50 * (high - low);
+  return result;
+}
+
+Camera turned(const SpriteCamera& sprites, const RiggedCharacter& character, double yaw_rad) {
+  Camera camera = sprites.camera;
+  camera.yaw_rad = yaw_rad;
+  const SpriteCell& cell = sprites.cell;
+  const double m_per_px = camera.view_height_m / cell.height;
+  const Eigen::Vector3d in_cell(cell.pivot_x - cell.width / 2.0, cell.height / 2.0 - cell.pivot_y, 0);
+  camera.target = groundPoint(character) - eyeFromModel(camera).transpose() * (m_per_px * in_cell);
+  return camera;
+}
+
+}  // namespace skel

@@ -1,0 +1,36 @@
+// Where sprites are seen from.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "animator/sprite_sheet.h"
+#include "libskel/draw/render_mesh.h"
+#include "libskel/export/write_character.h"
+
+namespace skel {
+
+struct SpriteDirection {
+  std::string
+      name;  // where the figure looks on a map whose south is the viewer: "s", "sw" …; empty: as drawn
+  double yaw_rad = 0;  // of the camera
+};
+
+// 1: as it is drawn; 2 (to the left, "w", and to the right, "e"), 4, 8, 16: round about, as a clock goes from
+// "s", where the figure looks at the viewer.
+std::vector<SpriteDirection> spriteDirections(const RiggedCharacter& character, int count);
+
+// As good as without perspective. The figure turns about the vertical through the middle of its joints, which
+// meets the ground in the cell's pivot, on a whole pixel. All points are seen, `margin_px` from the border.
+struct SpriteCamera {
+  SpriteCell cell;
+  Camera camera;  // but for its yaw
+};
+SpriteCamera spriteCamera(const RiggedCharacter& character, const Eigen::MatrixX3f& points,
+                          const std::vector<SpriteDirection>& directions, double pitch_rad, int width,
+                          int height, int margin_px);
+
+// Of one direction.
+Camera turned(const SpriteCamera& camera, const RiggedCharacter& character, double yaw_rad);
+
+}  // namespace skel

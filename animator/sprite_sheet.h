@@ -1,0 +1,58 @@
+// Many small pictures in one large one, for games.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libskel/image/image.h"
+
+namespace skel {
+
+struct Sprite {
+  std::string name;
+  int duration_ms = 0;
+  Image image;  // a whole cell
+};
+
+// Sprites one behind the other that are one motion from one side.
+struct SpriteTag {
+  std::string name;
+  int first = 0, last = 0;  // both included
+};
+
+// What all sprites share.
+struct SpriteCell {
+  int width = 0, height = 0;     // px
+  int pivot_x = 0, pivot_y = 0;  // px from the left and from the top: below the figure, on the ground
+};
+
+struct Box {
+  int x = 0, y = 0, width = 0, height = 0;  // px
+};
+
+struct PlacedSprite {
+  Box in_sheet, in_cell;  // of the same size
+};
+
+struct SpriteSheet {
+  Image picture;
+  std::vector<PlacedSprite> placed;  // one a sprite
+};
+
+enum class SpritePacking {
+  kEven,     // whole cells; each tag begins a row
+  kTrimmed,  // what is not clear of each, a pixel apart
+};
+
+// What can be said before there are sprites. Throws UsageError: the sheet would be longer than
+// kLongestSheet_px, a cell than kLongestCell_px.
+void checkSheetSize(const std::vector<SpriteTag>& tags, const SpriteCell& cell, SpritePacking packing);
+
+// Throws UsageError as above.
+SpriteSheet packSprites(const std::vector<Sprite>& sprites, const std::vector<SpriteTag>& tags,
+                        const SpriteCell& cell, SpritePacking packing);
+
+// What graphics cards of ten years take.
+inline constexpr int kLongestSheet_px = 16384, kLongestCell_px = 2048;
+
+}  // namespace skel

@@ -1,0 +1,261 @@
+#include "animator/sprite_sheet.h"
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "animator/pixel_look.h"
+#include "animator/sprite_camera.h"
+#include "libskel/draw/canvas.h"
+#include "libskel/draw/oklab.h"
+#include "libskel/image/read_image.h"
+#include "tests/animator/figure_file.h"
+#include "tests/support/catch.h"
+#include "tests/support/run_tool.h"
+
+using namespace skel;
+using Catch::Matchers::Contains;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string kDrawing = std::string(SKEL_SOURCE_DIR) + "/datasets/characters/cap_boy.png";
+const std::string kDog = std::string(SKEL_SOURCE_DIR) + "/datasets/animals/box_dog.png";
+
+ToolRun render(const std::string& arguments, const std::string& before = "") {
+  return runTool(before + SKEL_ANIMATE + " render " + arguments);
+}
+
+struct Sheet {
+  Image image;
+  Json atlas;
+};
+
+Sheet sheetOf(const TempDir& dir, const std::string& arguments) {
+  const ToolRun run = render(arguments + " --sheet " + dir.file("sheet.png"));
+  CHECK(run.err == "");
+  REQUIRE(run.exit_code == 0);
+  std::ifstream atlas(dir.file("sheet.json"));
+  return {readImage(dir.file("sheet.png")), Json::parse(atlas)};
+}
+
+int keyOf(const std::uint8_t* p) { return p[0] << 16 | p[1] << 8 | p[2]; }
+
+// One past the lowest row of the frame that is not clear, in the whole cell; 0: all is.
+int bottomOf(const Sheet& sheet, const Json& frame) {
+  const Json &box = frame["frame"], &in_cell = frame["spriteSourceSize"];
+  for (int y = int(box["h"]) - 1; y >= 0; --y)
+    for (int x = 0; x < int(box["w"]); ++x)
+      if (sheet.image.pixel(int(box["x"]) + x, int(box["y"]) + y)[3] >= 128) return int(in_cell["y"]) + y + 1;
+  return 0;
+}
+
+// No pixel of the sheet is two frames', and none is outside.
+void checkPlaces(const Sheet& sheet) {
+  const Json& size = sheet.atlas["meta"]["size"];
+  CHECK(size["w"] == sheet.image.width);
+  CHECK(size["h"] == sheet.image.height);
+  Plane8 taken = Plane8::Zero(sheet.image.height, sheet.image.width);
+  for (const Json& frame : sheet.atlas["frames"]) {
+    const Json &box = frame["frame"], &in_cell = frame["spriteSourceSize"], &cell = frame["sourceSize"];
+    const int x = box["x"], y = box["y"], w = box["w"], h = box["h"];
+    REQUIRE((x >= 0 && y >= 0 && w > 0 && h > 0));
+    REQUIRE((x + w <= sheet.image.width && y + h <= sheet.image.height));
+    CHECK((w == in_cell["w"] && h == in_cell["h"]));
+    CHECK((int(in_cell["x"]) + w <= int(cell["w"]) && int(in_cell["y"]) + h <= int(cell["h"])));
+    CHECK((taken.block(y, x, h, w) == 0).all());
+    taken.block(y, x, h, w) = 1;
+  }
+}
+
+Image filled(int width, int height, Color color) { return blankImage(width, height, color); }
+
+}  // namespace
+
+TEST_CASE("a sheet of eight directions: frames, tags, durations, pivots on the ground, nothing overlaps") {
+  const TempDir dir;
+  for (const char* packing : {"", " --trim"}) {
+    CAPTURE(packing);
+    const Sheet sheet = sheetOf(
+        dir, kDrawing + " --directions 8 --clips idle,walk --frames 4 --size 40x48 --pitch 0" + packing);
+    checkPlaces(sheet);
+    const Json &frames = sheet.atlas["frames"], &tags = sheet.atlas["meta"]["frameTags"];
+    REQUIRE(frames.size() == 64);
+    REQUIRE(tags.size() == 16);
+    CHECK(sheet.atlas["meta"]["image"] == "sheet.png");
+    const char* directions[] = {"s", "sw", "w", "nw", "n", "ne", "e", "se"};
+    for (int i = 0; i < 16; ++i) {
+      CHECK(tags[i]["name"] == std::string(i < 8 ? "idle-" : "walk-") + directions[i % 8]);
+      CHECK(tags[i]["from"] == 4 * i);
+      CHECK(tags[i]["to"] == 4 * i + 3);
+      int duration_ms = 0;
+      for (int k = 0; k < 4; ++k) {
+        const Json& frame = frames[4 * i + k];
+        CHECK(frame["filename"] == std::string(tags[i]["name"]) + "-" + std::to_string(k));
+        duration_ms += int(frame["duration"]);
+      }
+      CHECK(duration_ms == (i < 8 ? 4000 : 1067));
+    }
+    const Json& pivot = sheet.atlas["meta"]["slices"][0]["keys"][0]["pivot"];
+    CHECK(pivot["x"] == 20);
+    for (const Json& frame : frames) {
+      CHECK(frame["pivot"]["x"] == .5);
+      CHECK(double(frame["pivot"]["y"]) == Approx(double(pivot["y"]) / 48));
+      CHECK(frame["sourceSize"] == Json({{"w", 40}, {"h", 48}}));
+      CHECK(std::abs(bottomOf(sheet, frame) - int(pivot["y"])) <= 1);
+      CHECK(frame["trimmed"] == (*packing != 0));
+    }
+  }
+}
+
+TEST_CASE("an atlas is a list, or frames by their names, or by numbers as Phaser's Aseprite loader wants") {
+  const TempDir dir;
+  const std::string model = figureFile(dir);
+  const auto frames = [&](const std::string& form) {
+    return sheetOf(dir, model + " --clip nod --frames 2 --size 16 --atlas " + form).atlas["frames"];
+  };
+  CHECK(frames("array")[1]["filename"] == "nod-1");
+  CHECK(frames("hash")["nod-1"]["frame"]["x"] == 16);
+  CHECK_FALSE(frames("hash")["nod-1"].contains("filename"));
+  CHECK(frames("aseprite")["1"]["duration"] == 500);
+}
+
+TEST_CASE(
+    "in the pixel look all is opaque or clear, colours are as few as asked for, one dark line is around") {
+  const TempDir dir;
+  const Sheet sheet =
+      sheetOf(dir, kDrawing + " --directions 4 --clips walk --size 48 --pixels --palette 12 --outline");
+  checkPlaces(sheet);
+  std::set<int> colors;
+  for (Eigen::Index i = 0; i < sheet.image.rgba.rows(); ++i) {
+    const std::uint8_t* p = sheet.image.rgba.data() + 4 * i;
+    REQUIRE((p[3] == 0 || p[3] == 255));
+    if (p[3] > 0) colors.insert(keyOf(p));
+  }
+  CHECK(colors.size() <= 12);
+  CHECK(colors.size() > 6);
+  // Whoever comes from outside meets the line first.
+  std::set<int> first;
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 48; ++x)
+      if (const std::uint8_t* p = sheet.image.pixel(x, y); p[3] > 0) {
+        first.insert(keyOf(p));
+        break;
+      }
+  CHECK(first.size() == 1);
+}
+
+TEST_CASE("a sheet has the same bytes with any number of threads") {
+  const TempDir dir;
+  const std::string arguments =
+      kDog + " --directions 2 --clips walk --frames 6 --size 32 --pixels --palette 8 --sheet ";
+  REQUIRE(render(arguments + dir.file("a.png"), "taskset -c 0 ").exit_code == 0);
+  REQUIRE(render(arguments + dir.file("b.png")).exit_code == 0);
+  CHECK(readFile(dir.file("a.png")) == readFile(dir.file("b.png")));
+}
+
+TEST_CASE("an animal that was drawn looking to the left is so in the sprites that look west") {
+  const TempDir dir;
+  const Sheet as_drawn = sheetOf(dir, kDog + " --clip walk --frames 1 --size 64");
+  const Sheet sides = sheetOf(dir, kDog + " --directions 2 --clip walk --frames 1 --size 64");
+  CHECK(sides.atlas["frames"][0]["filename"] == "walk-w-0");
+  CHECK(sides.atlas["frames"][1]["filename"] == "walk-e-0");
+  const auto difference = [&](int y0) {
+    double sum = 0;
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x)
+        sum += std::abs(sides.image.pixel(x, y0 + y)[3] - as_drawn.image.pixel(x, y)[3]);
+    return sum;
+  };
+  CHECK(difference(0) * 4 < difference(64));
+}
+
+TEST_CASE("sheets of several drawings go to a folder, and what makes no sense is one line") {
+  const TempDir dir;
+  const std::string model = figureFile(dir), sheets = dir.file("sheets/");
+  REQUIRE(render(kDrawing + " " + kDog + " --clips idle --frames 2 --size 24 --sheet " + sheets).exit_code ==
+          0);
+  CHECK(filesBelow(sheets).size() == 4);
+  writeFile(dir.file("hero.png"), readFile(kDrawing));
+  const struct {
+    std::string arguments, message;
+  } cases[] = {
+      {dir.file("hero.png") + " --clip idle --sheet " + dir.file("hero.png"),
+       "hero.png would be written over, but it is an input; name another output"},
+      {model + " --clip nod --sheet " + dir.file("sheet.gif"), "a sprite sheet is a .png"},
+      {model + " " + kDrawing + " --clip idle --sheet " + dir.file("sheet.png"), "must be a folder"},
+      {model + " --clip nod --sheet a.png -o b.gif", "excludes"},
+      {model + " --clip nod -o " + dir.file("a.gif") + " --directions 8", "--directions requires --sheet"},
+      {model + " --clip nod --sheet a.png --palette 8", "--palette requires --pixels"},
+      {model + " --clip nod --sheet a.png --directions 3", "--directions"},
+      {model + " --clip nod --fps 240 --size 2000x2000 --sheet " + dir.file("s.png"),
+       "the sheet would be 32000x"},
+      {model + " --clip nod --fps 240 --size 2000x2000 --trim --sheet " + dir.file("s.png"),
+       "the sheet would be"},
+      {model + " --clip nod --size 4000 --sheet " + dir.file("s.png"), "at most 2048 px a side"},
+  };
+  for (const auto& one : cases) {
+    CAPTURE(one.arguments);
+    const ToolRun run = render(one.arguments);
+    CHECK(run.exit_code == 1);
+    CHECK_THAT(run.err, Contains(one.message));
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("a pixel is one of the colours of its square, and there only if half of that is covered") {
+  Image large = filled(4, 2, kClear);
+  const auto put = [&](int x, int y, Color c) {
+    std::uint8_t* p = large.pixel(x, y);
+    p[0] = c.r, p[1] = c.g, p[2] = c.b, p[3] = c.a;
+  };
+  const Color red{200, 10, 10}, other{190, 20, 20}, blue{0, 0, 250};
+  put(0, 0, red), put(0, 1, other), put(1, 0, red), put(1, 1, blue), put(2, 0, blue);
+  const Image small = pixelated(large, 2);
+  REQUIRE((small.width == 2 && small.height == 1));
+  CHECK(keyOf(small.pixel(0, 0)) == (200 << 16 | 10 << 8 | 10));
+  CHECK(int(small.pixel(0, 0)[3]) == 255);
+  CHECK(int(small.pixel(1, 0)[3]) == 0);
+}
+
+TEST_CASE("few colours stand for many, small things keep theirs, and the same ones are in all pictures") {
+  std::vector<Image> pictures(2, Image(64, 64));
+  for (Image& picture : pictures)
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x) {
+        std::uint8_t* p = picture.pixel(x, y);
+        p[0] = std::uint8_t(200 + x % 8), p[1] = std::uint8_t(150 + y % 8), p[2] = 90, p[3] = 255;
+      }
+  for (int i = 0; i < 4; ++i)
+    std::copy_n(std::array<std::uint8_t, 4>{10, 20, 220, 255}.data(), 4, pictures[0].pixel(i, 9));
+  reduceColors(pictures, 3);
+  std::set<int> colors;
+  for (const Image& picture : pictures)
+    for (Eigen::Index i = 0; i < picture.rgba.rows(); ++i) colors.insert(keyOf(picture.rgba.data() + 4 * i));
+  CHECK(colors.size() <= 3);
+  const std::uint8_t* eye = pictures[0].pixel(2, 9);
+  CHECK((eye[0] < 40 && eye[2] > 190));
+  const std::vector<Image> before = pictures;
+  reduceColors(pictures, 3);
+  CHECK((pictures[1].rgba == before[1].rgba).all());
+}
+
+TEST_CASE("OKLab gives back every colour that sRGB has") {
+  for (int i = 0; i < 4096; ++i) {
+    const Color color{std::uint8_t(i % 16 * 17), std::uint8_t(i / 16 % 16 * 17), std::uint8_t(i / 256 * 17)};
+    const Color back = srgbFromOklab(oklabFromSrgb(color));
+    CAPTURE(i);
+    REQUIRE((back.r == color.r && back.g == color.g && back.b == color.b));
+  }
+  CHECK(oklabFromSrgb(kWhite)[0] == Approx(1).margin(1e-3));
+}
+
+TEST_CASE("one who is drawn from the front looks south when seen from the front") {
+  const std::vector<SpriteDirection> directions = spriteDirections(figure(), 4);
+  REQUIRE(directions.size() == 4);
+  CHECK(directions[0].name == "s");
+  CHECK(directions[0].yaw_rad == Approx(0).margin(.1));
+  CHECK(directions[1].name == "w");
+  CHECK(directions[1].yaw_rad == Approx(std::numbers::pi / 2).margin(.1));
+}
