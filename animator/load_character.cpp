@@ -9,7 +9,6 @@
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/core/error.h"
-#include "libskel/pipeline/rig_drawing.h"
 
 namespace skel {
 namespace {
@@ -50,11 +49,14 @@ void bindCharacterSource(CLI::App& app, CharacterSource& source) {
       ->capture_default_str();
 }
 
+RiggedDrawing loadDrawing(const CharacterSource& source) {
+  if (!isDrawing(source.path))
+    throw UsageError(source.path + " is no drawing (.png, .jpg, ...), which alone can move as it was drawn");
+  return rigDrawing(source.path, rigOptionsWithoutClips(source.body_plan));
+}
+
 CharacterFile loadCharacter(const CharacterSource& source) {
-  if (isDrawing(source.path)) {
-    const RigOptions options = rigOptionsWithoutClips(source.body_plan);
-    return {rigDrawing(source.path, options).character, {}, stemOf(source.path)};
-  }
+  if (isDrawing(source.path)) return {loadDrawing(source).character, {}, stemOf(source.path)};
   const bool rigged = endingOf(source.path) == ".glb";
   if (rigged && source.skeleton.empty()) return readGlb(source.path);
   if (!rigged && source.skeleton.empty())

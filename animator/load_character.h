@@ -6,6 +6,7 @@
 
 #include "animator/clip_source.h"
 #include "libskel/import/read_character.h"
+#include "libskel/pipeline/rig_drawing.h"
 
 namespace CLI {
 class App;
@@ -25,6 +26,9 @@ void bindCharacterSource(CLI::App& app, CharacterSource& source);
 // A drawing is rigged first, a model bound. Throws InputError: cannot be read, no figure in the drawing, a
 // model without a skeleton, an ending that is no character's.
 CharacterFile loadCharacter(const CharacterSource& source);
+
+// A drawing, rigged, with all that was found on the way. Throws UsageError if the source is none, InputError.
+RiggedDrawing loadDrawing(const CharacterSource& source);
 
 // The same with the motions of skel that fit it and whose names its own clips leave free.
 CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips = {});

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "animator/film.h"
+#include "animator/flat_figure.h"
 #include "animator/load_character.h"
 #include "libskel/cli/number.h"
 #include "libskel/cli/outputs.h"
@@ -61,6 +62,10 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
   bindClipSource(app, options.clips);
   app.add_option("--duration", options.duration_s, "In seconds; the clip repeats (default: once)")
       ->check(numberIn(0.0, 3600.0));
+  app.add_option("--look", options.look,
+                 "solid: the model; flat: the drawing itself, its limbs moved in the picture, unlit")
+      ->check(CLI::IsMember({"solid", "flat"}))
+      ->capture_default_str();
   app.add_option("--size", options.size, "WIDTHxHEIGHT, px")->capture_default_str();
   app.add_option("--angle", options.angle_deg,
                  "From where it is seen: 0 from the front, 90 from its left, degrees")
@@ -110,8 +115,23 @@ ExitCode runRender(const RenderCommandOptions& options) {
   // What cannot be written is said before anything is rigged.
   openVideo(options.output, video_options);
 
-  const CharacterFile file = loadCharacter(options.source);
-  const Clip clip = clipFor(options.clip, file, options.clips);
+  const bool flat = options.look == "flat";
+  if (flat &&
+      (options.angle_deg != 0 || options.wireframe || options.translucent || !options.weights_of.empty()))
+    throw UsageError(
+        "--look flat shows the drawing as it was drawn: leave out --angle, --wireframe, "
+        "--translucent and --show-weights");
+  ClipSource clips = options.clips;
+  clips.flat = flat;
+  RiggedDrawing drawing;
+  CharacterFile file;
+  if (flat) {
+    drawing = loadDrawing(options.source);
+    file.character = drawing.character;
+  } else {
+    file = loadCharacter(options.source);
+  }
+  const Clip clip = clipFor(options.clip, file, clips);
   if (!options.weights_of.empty()) {
     film.look.weights_of = file.character.skeleton.find(options.weights_of);
     if (film.look.weights_of < 0)
@@ -121,22 +141,31 @@ ExitCode runRender(const RenderCommandOptions& options) {
   const int frames = frameCount(clip, film);
   video_options.frames = frames;
   const auto video = openVideo(options.output, video_options);
-  const Scene scene(file.character, painterFor(options.painter, file.character.mesh));
   std::vector<Clip> shown = {clip};
   if (options.frame == "clips") {
     for (const Clip& other : file.clips) shown.push_back(other);
-    for (Clip& other : libraryFor(file.character, options.clips))
+    for (Clip& other : libraryFor(file.character, clips))
       if (std::none_of(shown.begin(), shown.end(), [&](const Clip& c) { return c.name == other.name; }))
         shown.push_back(std::move(other));
   }
-  const Camera camera =
-      filmCamera(file.character, shown, options.angle_deg * std::numbers::pi / 180,
-                 options.pitch_deg * std::numbers::pi / 180, double(size.width) / size.height);
-  {
-    ProgressBar bar("frames", std::size_t(frames));
-    writeFilm(scene, clip, camera, film, *video, [&] { bar.advance(); });
-    video->finish();
+  const double width_over_height = double(size.width) / size.height;
+  ProgressBar bar("frames", std::size_t(frames));
+  const auto advance = [&] { bar.advance(); };
+  if (flat) {
+    const FlatFigure figure(drawing);
+    const Camera camera = figure.camera(shown, width_over_height);
+    const CutOutPainter painter = figure.painterFor(camera, size.height);
+    const auto paint = [&](int frame) {
+      return figure.paint(clip, frame / film.frame_rate, camera, painter, film);
+    };
+    writeFrames(frames, true, paint, *video, advance);
+  } else {
+    const Scene scene(file.character, painterFor(options.painter, file.character.mesh));
+    const Camera camera = filmCamera(file.character, shown, options.angle_deg * std::numbers::pi / 180,
+                                     options.pitch_deg * std::numbers::pi / 180, width_over_height);
+    writeFilm(scene, clip, camera, film, *video, advance);
   }
+  video->finish();
   std::printf("%s: %d frames of %dx%d, %.2f s of \"%s\"\n", options.output.c_str(), frames, size.width,
               size.height, frames / options.frame_rate, clip.name.c_str());
   return ExitCode::kDone;
