@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "libskel/image/mask_parts.h"
+#include "libskel/cutout/limb_plane.h"
 #include "libskel/mesh/fill_hidden.h"
 #include "libskel/skin/skin_weights.h"
 
@@ -15,8 +15,10 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector2d;
 
-constexpr double kOneJoint = 0.55;  // a vertex that follows one joint by more is a handle of it
-constexpr int kUnderlap_px = 2;     // so far a sheet goes on below the next, lest the ground shows between
+// A vertex that follows one joint by more is a handle of it: elbows bend in one place, necks and backs all
+// along.
+constexpr double kOneLimbJoint = 0.55, kOneTrunkJoint = 0.8;
+constexpr int kUnderlap_px = 2;  // so far a sheet goes on below the next, lest the ground shows between
 
 // The figure's pieces, or the whole figure as the one that it is.
 std::vector<FigurePiece> piecesOf(const DrawnFigure& figure) {
@@ -31,11 +33,6 @@ std::vector<FigurePiece> piecesOf(const DrawnFigure& figure) {
     pieces.push_back(std::move(whole));
   }
   return pieces;
-}
-
-Vector2d imageOf(const DrawnFigure& figure, int joint_of_plan) {
-  const int joint = figure.skeleton.find(figure.body_plan.joints[std::size_t(joint_of_plan)].name);
-  return joint < 0 ? Vector2d::Zero().eval() : figure.skeleton.joints[std::size_t(joint)].image;
 }
 
 // How far before the viewer's other things a part is painted.
@@ -125,89 +122,6 @@ Image pictureOf(const DrawnFigure& figure, const FigurePiece& piece, const Plane
     for (int x = 0; x < picture.width; ++x)
       if (known(y, x) == 0 && hidden(y, x) == 0) std::fill_n(picture.pixel(x, y), 4, std::uint8_t(0));
   return picture;
-}
-
-// A thing that a limb holds is the limb's: of what the thing touches, so much is.
-constexpr double kHeld = 0.25;
-
-// Of the image's size: the limb that a pixel is of, from 1, with what it holds; 0: none, or one that is a
-// sheet of its own or that moves nothing.
-Plane8 limbPlane(const DrawnFigure& figure, const std::vector<FigurePiece>& pieces) {
-  const Plane8& part = figure.layers.part;
-  Plane8 limbs = Plane8::Zero(figure.silhouette.mask.rows(), figure.silhouette.mask.cols());
-  if (part.size() == 0) return limbs;
-  const auto isSheet = [&](int layer) {
-    return std::any_of(pieces.begin(), pieces.end(), [&](const FigurePiece& p) { return p.layer == layer; });
-  };
-  for (int limb = 0; limb < 4; ++limb)
-    if (std::count(figure.layers.hidden.begin(), figure.layers.hidden.end(), limb + 1) == 0 &&
-        !isSheet(limb + 1))
-      limbs = (part == std::uint8_t(limbPart(limb)))
-                  .select(Plane8::Constant(part.rows(), part.cols(), std::uint8_t(limb + 1)), limbs);
-  const Plane8& mask = figure.silhouette.mask;
-  const MaskParts things = maskParts((mask != 0 && part == std::uint8_t(Part::kThing)).cast<std::uint8_t>());
-  std::vector<std::array<int, 5>> touched(things.size.size(), {0, 0, 0, 0, 0});
-  const Plane8 before = limbs;
-  for (const MaskParts::Run& run : things.runs) {
-    const auto touch = [&](int x, int y) {
-      if (x < 0 || y < 0 || x >= mask.cols() || y >= mask.rows() || mask(y, x) == 0) return;
-      if (part(y, x) != std::uint8_t(Part::kThing)) ++touched[std::size_t(run.part)][before(y, x)];
-    };
-    touch(run.x0 - 1, run.y), touch(run.x1, run.y);
-    for (int x = run.x0; x < run.x1; ++x) touch(x, run.y - 1), touch(x, run.y + 1);
-  }
-  for (const MaskParts::Run& run : things.runs) {
-    const std::array<int, 5>& by = touched[std::size_t(run.part)];
-    const auto most = std::max_element(by.begin() + 1, by.end());
-    if (*most > kHeld * std::accumulate(by.begin(), by.end(), 0))
-      limbs.row(run.y).segment(run.x0, run.x1 - run.x0).setConstant(std::uint8_t(most - by.begin()));
-  }
-  return limbs;
-}
-
-// Of the limbs that are no sheets of their own, from 1: how wide each is, px, in the mean.
-std::vector<double> limbWidths(const DrawnFigure& figure, const Plane8& limbs) {
-  std::vector<double> widths(5, 0);
-  for (std::size_t k = 0; k < std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++k) {
-    double length = 0;
-    for (std::size_t i = 0; i < 2; ++i)
-      length += (imageOf(figure, figure.body_plan.limbs[k].joints[i + 1]) -
-                 imageOf(figure, figure.body_plan.limbs[k].joints[i]))
-                    .norm();
-    if (length > 0) widths[k + 1] = double((limbs == std::uint8_t(k + 1)).count()) / length;
-  }
-  return widths;
-}
-
-// Where a limb touches the rest, or another one, along a short way and not where it hangs (a hand at a hip,
-// a knee at the other): 1 on the pixels of both sides, between which the paper is cut.
-Plane8 touches(const DrawnFigure& figure, const Plane8& limbs, const std::vector<double>& widths) {
-  constexpr double kRoot = 0.9, kShort = 0.6;  // of the limb's width
-  const Plane8& mask = figure.silhouette.mask;
-  std::vector<Vector2d> roots(5, Vector2d::Zero());
-  for (std::size_t k = 0; k < std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++k)
-    roots[k + 1] = imageOf(figure, figure.body_plan.limbs[k].joints[0]);
-  Plane8 border = Plane8::Zero(mask.rows(), mask.cols());
-  const auto hangs = [&](std::uint8_t limb, int x, int y) {
-    return limb != 0 && (Vector2d(x, y) - roots[limb]).norm() <= kRoot * widths[limb];
-  };
-  for (int y = 0; y < mask.rows(); ++y)
-    for (int x = 0; x < mask.cols(); ++x)
-      for (const auto& [v, u] : {std::pair(y, x + 1), std::pair(y + 1, x)}) {
-        if (v >= mask.rows() || u >= mask.cols() || mask(y, x) == 0 || mask(v, u) == 0) continue;
-        const std::uint8_t one = limbs(y, x), other = limbs(v, u);
-        if (one != other && !hangs(one, x, y) && !hangs(other, x, y)) border(y, x) = border(v, u) = 1;
-      }
-  const MaskParts parts = maskParts(border);
-  std::vector<double> width(parts.size.size(), 1e300);
-  for (const MaskParts::Run& run : parts.runs)
-    for (int x = run.x0; x < run.x1; ++x)
-      if (const std::uint8_t limb = limbs(run.y, x); limb != 0)
-        width[std::size_t(run.part)] = std::min(width[std::size_t(run.part)], widths[limb]);
-  for (const MaskParts::Run& run : parts.runs)  // two pixels a pixel of length
-    if (double(parts.size[std::size_t(run.part)]) > 2 * kShort * width[std::size_t(run.part)])
-      border.row(run.y).segment(run.x0, run.x1 - run.x0).setZero();
-  return border;
 }
 
 // Which limb moves what of a sheet: of each square and of each vertex. `free`: the vertices about the borders
@@ -317,7 +231,9 @@ void hang(const SkinWeights& weights, Index first, const Carriers& carriers, Cut
   const Eigen::MatrixX2d places = placedVertices(sheet);
   const auto hold = [&](Index v) { sheet.handles.push_back({int(v), weights.joints(first + v, 0)}); };
   for (Index v = 0; v < places.rows(); ++v)
-    if (weights.weights(first + v, 0) >= float(kOneJoint) && !carriers.free[std::size_t(v)]) hold(v);
+    if (const double most = carriers.of_vertex[std::size_t(v)] == 0 ? kOneTrunkJoint : kOneLimbJoint;
+        double(weights.weights(first + v, 0)) >= most && !carriers.free[std::size_t(v)])
+      hold(v);
   // What hangs on nothing moves with the joint that it is nearest to.
   const std::vector<int> part = partsOf(sheet.lattice);
   std::vector<int> held_in(part.size(), 0);
@@ -341,7 +257,7 @@ CutOut makeCutOut(const DrawnFigure& figure, const CutOutOptions& options) {
   const int side_px = std::max(1, int(std::lround(std::sqrt(area / options.squares))));
   const Plane8 limbs = limbPlane(figure, pieces);
   const std::vector<double> widths = limbWidths(figure, limbs);
-  const Plane8 cut = touches(figure, limbs, widths);
+  const Plane8 cut = limbTouches(figure, limbs, widths);
   CutOut cut_out;
   std::vector<Carriers> carriers;
   for (std::size_t i = 0; i < pieces.size(); ++i) {

@@ -29,27 +29,29 @@ double angleBetween(const Vector2d& a, const Vector2d& b) {
 
 double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
 
-// The mean of how far feet are off, those that are up counting little.
+// How far the figure must be moved for its lowest foot to be as low as in space, and for those that are down
+// to be where they are there, in the mean.
 Vector2d offGround(const Skeleton& skeleton, const SkeletonTemplate& body_plan, const FlatPose& pose,
                    const std::vector<Eigen::Vector3f>& posed) {
-  constexpr double kLow = 0.03;  // of the height of the root
+  constexpr double kDown = 0.03;  // above the lowest foot, of the height of the root
+  const double down = kDown * std::max(1e-6, std::abs(skeleton.joints[0].position.y()));
   std::vector<std::size_t> feet;
-  double lowest = 1e300;
+  double lowest = 1e300, lowest_flat = 1e300;
   for (const TemplateLimb& limb : body_plan.limbs) {
     const int foot = skeleton.find(body_plan.joints[std::size_t(limb.joints[2])].name);
     if (foot < 0 || !isLeg(body_plan, limb)) continue;
     feet.push_back(std::size_t(foot));
-    lowest = std::min(lowest, double(posed[std::size_t(foot)].y()));
+    lowest = std::min(lowest, double(posed[feet.back()].y()));
+    lowest_flat = std::min(lowest_flat, pose.place[feet.back()].y());
   }
-  const double scale = kLow * std::max(1e-6, std::abs(skeleton.joints[0].position.y()));
-  Vector2d sum = Vector2d::Zero();
-  double weights = 0;
+  if (feet.empty()) return Vector2d::Zero();
+  double aside = 0, weights = 0;
   for (const std::size_t foot : feet) {
-    const double weight = std::exp(-(double(posed[foot].y()) - lowest) / scale);
-    sum += weight * (posed[foot].head<2>().cast<double>() - pose.place[foot]);
+    const double weight = std::exp(-(double(posed[foot].y()) - lowest) / down);
+    aside += weight * (double(posed[foot].x()) - pose.place[foot].x());
     weights += weight;
   }
-  return weights > 0 ? Vector2d(sum / weights) : sum;
+  return {aside / weights, lowest - lowest_flat};
 }
 
 }  // namespace

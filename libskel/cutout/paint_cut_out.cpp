@@ -40,19 +40,26 @@ struct SquareTexture {
     return of < 0 || of == square;
   }
 
-  // Between the four nearest texels; `x`, `y` in 256ths of a texel.
+  // Between the four nearest texels; `x`, `y` in 256ths of a texel. Texels of other copies do not count, so
+  // that there is no seam where two are cut apart.
   Sample at(int x, int y) const {
     const int left = x >> 8, top = y >> 8, tx = x & 255, ty = y & 255;
+    int all = 256 * 256;
     std::array<int, 4> sum{0, 0, 0, 0};
     for (int k = 0; k < 4; ++k) {
       const int u = left + k % 2, v = top + k / 2;
       const int weight = (k % 2 ? tx : 256 - tx) * (k / 2 ? ty : 256 - ty);
-      if (weight == 0 || u < 0 || v < 0 || u >= image.width || v >= image.height || !shows(u, v)) continue;
+      if (weight == 0 || u < 0 || v < 0 || u >= image.width || v >= image.height) continue;
+      if (!shows(u, v)) {
+        all -= weight;
+        continue;
+      }
       const std::uint8_t* p = image.pixel(u, v);
       for (std::size_t c = 0; c < 4; ++c) sum[c] += weight * p[c];
     }
-    Sample result;
-    for (std::size_t c = 0; c < 4; ++c) result[c] = std::uint8_t((sum[c] + 32768) >> 16);
+    Sample result{0, 0, 0, 0};
+    if (all > 0)
+      for (std::size_t c = 0; c < 4; ++c) result[c] = std::uint8_t((sum[c] + all / 2) / all);
     return result;
   }
 };
@@ -75,8 +82,10 @@ void paintTriangle(const std::array<Vector2d, 3>& p, const std::array<Vector2d, 
   for (int y = y0; y <= y1; ++y) {
     double from = 1e300, to = -1e300;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vector2d &a = p[k], &b = p[(k + 1) % 3];
-      if (std::min(a.y(), b.y()) > y || std::max(a.y(), b.y()) < y) continue;
+      // The same way along a side for both triangles that have it.
+      const bool down = p[k].y() < p[(k + 1) % 3].y();
+      const Vector2d &a = p[down ? k : (k + 1) % 3], &b = p[down ? (k + 1) % 3 : k];
+      if (a.y() > y || b.y() < y) continue;
       if (a.y() == b.y()) {
         from = std::min({from, a.x(), b.x()}), to = std::max({to, a.x(), b.x()});
         continue;

@@ -67,7 +67,7 @@ TEST_CASE("at rest the cut-out is the drawing: its pixels, and nothing around th
         for (int v = y - 1; v <= y + 1; ++v)
           for (int u = x - 1; u <= x + 1; ++u) {
             near = near || mask(v, u) != 0;
-            all = all && mask(v, u) != 0;
+            all = all && mask(v, u) != 0 && drawing.image.pixel(u, v)[3] == 255;
             for (std::size_t c = 0; c < 3; ++c) {
               low[c] = std::min<int>(low[c], drawing.image.pixel(u, v)[c]);
               high[c] = std::max<int>(high[c], drawing.image.pixel(u, v)[c]);
@@ -108,7 +108,7 @@ TEST_CASE("paper bends at joints and keeps its size everywhere else") {
               stretched += share > 1.5;
             }
       }
-      CHECK(stretched < 0.03 * sides);
+      CHECK(stretched < 0.05 * sides);
     }
   }
 }

@@ -134,7 +134,7 @@ TEST_CASE("of two bars that lie over each other, each goes with the vertices tha
   const MatrixX2d posed = mesh.deform(targets);
   CHECK((posed.topRows(count) - kBar.vertices).cwiseAbs().maxCoeff() < 1e-6);
   CHECK((posed.bottomRows(count) - both.bottomRows(count)).col(1).minCoeff() > 49.99);
-  CHECK_THROWS_AS(ArapMesh(both, triangles, std::vector<int>{0, 40}), UsageError);
+  CHECK_THROWS_AS(ArapMesh(both, triangles, std::vector<int>{7}), UsageError);
 }
 
 TEST_CASE("meshes and handles that cannot be used are refused") {
