@@ -84,6 +84,7 @@ std::vector<double> limbWidths(const DrawnFigure& figure, const Plane8& limbs) {
 
 Plane8 limbTouches(const DrawnFigure& figure, const Plane8& limbs, const std::vector<double>& widths) {
   constexpr double kRoot = 0.9, kShort = 0.6;  // of the limb's width
+  constexpr double kOver = 0.8;                // of its length
   const Plane8& mask = figure.silhouette.mask;
   std::array<Vector2d, 5> roots;
   roots.fill(Vector2d::Zero());
@@ -110,7 +111,7 @@ Plane8 limbTouches(const DrawnFigure& figure, const Plane8& limbs, const std::ve
   const MaskParts trunk_parts = maskParts(with_trunk), limb_parts = maskParts(with_limb);
   std::vector<std::size_t> limb_of(trunk_parts.size.size(), 0);
   std::vector<double> distance(trunk_parts.size.size(), 1e300), width(limb_parts.size.size(), 1e300);
-  std::array<double, 5> nearest;
+  std::array<double, 5> nearest, touching{};
   nearest.fill(1e300);
   for (const MaskParts::Run& run : trunk_parts.runs)
     for (int x = run.x0; x < run.x1; ++x)
@@ -119,16 +120,22 @@ Plane8 limbTouches(const DrawnFigure& figure, const Plane8& limbs, const std::ve
         of_part = std::min(of_part, fromRoot(limb, x, run.y));
         nearest[limb] = std::min(nearest[limb], of_part);
         limb_of[std::size_t(run.part)] = limb;
+        ++touching[limb];
       }
   for (const MaskParts::Run& run : limb_parts.runs)
     for (int x = run.x0; x < run.x1; ++x)
       if (const std::size_t limb = limbs(run.y, x); limb != 0)
         width[std::size_t(run.part)] = std::min(width[std::size_t(run.part)], widths[limb]);
 
+  // One that lies over the trunk has nothing behind it that could be shown.
+  std::array<bool, 5> over{};
+  for (std::size_t limb = 1; limb < 5; ++limb)
+    over[limb] = touching[limb] * widths[limb] > kOver * double((limbs == std::uint8_t(limb)).count());
+
   Plane8 cut = Plane8::Zero(mask.rows(), mask.cols());
   for (const MaskParts::Run& run : trunk_parts.runs) {
     const std::size_t part = std::size_t(run.part), limb = limb_of[part];
-    if (hangs[limb] || distance[part] > nearest[limb])
+    if (!over[limb] && (hangs[limb] || distance[part] > nearest[limb]))
       cut.row(run.y).segment(run.x0, run.x1 - run.x0).setOnes();
   }
   for (const MaskParts::Run& run : limb_parts.runs)  // two pixels a pixel of length
