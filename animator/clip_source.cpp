@@ -43,16 +43,11 @@ void bindClipSource(CLI::App& app, ClipSource& source) {
   app.add_option("--clip-up", source.clip_up, "The axis of a key-frame clip that points up")
       ->check(CLI::IsMember({"y", "z"}))
       ->capture_default_str();
-  app.add_option_function<double>(
-         "--into-picture",
-         [&source](double share) {
-           source.into_picture = share;
-           source.into_picture_given = true;
-         },
-         "How far limbs that point at the viewer turn into the picture, of figures drawn from the front: 0 "
-         "not "
-         "at all, 1 all the way")
+  app.add_option("--into-picture", source.into_picture,
+                 "How far limbs that point at the viewer turn into the picture, of figures drawn from the "
+                 "front: 0 not at all, 1 all the way")
       ->check(numberIn(0.0, 1.0))
+      ->each([&source](const std::string&) { source.into_picture_given = true; })
       ->capture_default_str();
 }
 
