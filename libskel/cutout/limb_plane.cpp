@@ -84,7 +84,7 @@ std::vector<double> limbWidths(const DrawnFigure& figure, const Plane8& limbs) {
 
 Plane8 limbTouches(const DrawnFigure& figure, const Plane8& limbs, const std::vector<double>& widths) {
   constexpr double kRoot = 0.9, kShort = 0.6;  // of the limb's width
-  constexpr double kOver = 0.8;                // of its length
+  constexpr double kOver = 1.3;                // of its length
   const Plane8& mask = figure.silhouette.mask;
   std::array<Vector2d, 5> roots;
   roots.fill(Vector2d::Zero());
