@@ -26,6 +26,10 @@ FigureShape measureByRoles(const RiggedCharacter& character, const RoleFigure& f
   return measureFigure(mesh, weights, figure.skeleton);
 }
 
+double intoPicture(const ClipSource& source, ClipFrame frame) {
+  return source.flat && !source.into_picture_given && frame == ClipFrame::kBody ? 1 : source.into_picture;
+}
+
 }  // namespace
 
 void bindClipSource(CLI::App& app, ClipSource& source) {
@@ -43,6 +47,7 @@ void bindClipSource(CLI::App& app, ClipSource& source) {
                  "How far limbs that point at the viewer turn into the picture, of figures drawn from the "
                  "front: 0 not at all, 1 all the way")
       ->check(numberIn(0.0, 1.0))
+      ->each([&source](const std::string&) { source.into_picture_given = true; })
       ->capture_default_str();
 }
 
@@ -65,7 +70,7 @@ Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource
       return retargetByRoles(clip, *figure, character.skeleton, measureByRoles(character, *figure));
   RetargetOptions options;
   options.shape = measureFigure(character.mesh, character.weights, character.skeleton);
-  options.into_picture = source.into_picture;
+  options.into_picture = intoPicture(source, clip.frame);
   return retargetToRest(clip, character.skeleton, options);
 }
 
@@ -73,7 +78,7 @@ RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& char
                             const ClipSource& source) {
   return retargetMotion(readBvh(path), path, character.skeleton,
                         measureFigure(character.mesh, character.weights, character.skeleton),
-                        source.into_picture);
+                        intoPicture(source, ClipFrame::kBody));
 }
 
 Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source,

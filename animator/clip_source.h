@@ -18,6 +18,10 @@ struct ClipSource {
   std::string interpolation = "slerp";  // of files of the elk system: slerp, or linear on the angles
   std::string clip_up = "z";            // of files of the elk system: the axis that points up
   double into_picture = RetargetOptions().into_picture;
+  bool into_picture_given = false;  // by the user
+  // For the drawing itself as a cut-out: what is made for the figure's own directions (a walk, others'
+  // motions) turns into the picture all the way, unless the user says how far.
+  bool flat = false;
 };
 // --clips-dir, --interpolation, --clip-up, --into-picture.
 void bindClipSource(CLI::App& app, ClipSource& source);

@@ -90,17 +90,12 @@ Camera filmCamera(const RiggedCharacter& character, const std::vector<Clip>& cli
   return framingCamera(outermostPoints(character, clips), yaw_rad, pitch_rad, width_over_height);
 }
 
-void writeFilm(const Scene& scene, const Clip& clip, const Camera& camera, const FilmOptions& options,
-               VideoWriter& video, const std::function<void()>& on_frame) {
-  const int count = frameCount(clip, options);
+void writeFrames(int count, bool concurrent, const std::function<Image(int)>& paint, VideoWriter& video,
+                 const std::function<void()>& on_frame) {
   std::future<void> encoded;
   for (int first = 0; first < count; first += kBatch) {
     std::vector<Image> frames(std::size_t(std::min(kBatch, count - first)));
-    parallelFor(frames.size(), scene.isConcurrent() ? 0 : 1, [&](std::size_t i) {
-      const double time_s = (first + int(i)) / options.frame_rate;
-      frames[i] = scene.paint(posedAt(scene.character(), clip, time_s), camera, options.width, options.height,
-                              options.look);
-    });
+    parallelFor(frames.size(), concurrent ? 0 : 1, [&](std::size_t i) { frames[i] = paint(first + int(i)); });
     if (encoded.valid()) encoded.get();
     encoded = std::async(kAtOnceIfPossible, [&video, &on_frame, frames = std::move(frames)] {
       for (const Image& frame : frames) {
@@ -110,6 +105,15 @@ void writeFilm(const Scene& scene, const Clip& clip, const Camera& camera, const
     });
   }
   encoded.get();
+}
+
+void writeFilm(const Scene& scene, const Clip& clip, const Camera& camera, const FilmOptions& options,
+               VideoWriter& video, const std::function<void()>& on_frame) {
+  const auto paint = [&](int frame) {
+    return scene.paint(posedAt(scene.character(), clip, frame / options.frame_rate), camera, options.width,
+                       options.height, options.look);
+  };
+  writeFrames(frameCount(clip, options), scene.isConcurrent(), paint, video, on_frame);
 }
 
 }  // namespace skel

@@ -27,8 +27,12 @@ Eigen::MatrixX3f outermostPoints(const RiggedCharacter& character, const std::ve
 Camera filmCamera(const RiggedCharacter& character, const std::vector<Clip>& clips, double yaw_rad,
                   double pitch_rad, double width_over_height);
 
-// All frames into `video`, which is not finished: `clip` is relative to the character's rest pose. Frames are
-// painted on all cores while others are encoded. `on_frame` is called for each.
+// Frames into `video`, which is not finished, several painted at once if `concurrent`, while others are
+// encoded. `paint` is called with the number of each, `on_frame` when it is written.
+void writeFrames(int count, bool concurrent, const std::function<Image(int)>& paint, VideoWriter& video,
+                 const std::function<void()>& on_frame);
+
+// All frames of a film: `clip` is relative to the character's rest pose.
 void writeFilm(const Scene& scene, const Clip& clip, const Camera& camera, const FilmOptions& options,
                VideoWriter& video, const std::function<void()>& on_frame);
 

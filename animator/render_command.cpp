@@ -59,17 +59,24 @@ void render(const RenderCommandOptions& options, const std::string& path, const 
   source.path = path;
   std::optional<RiggedDrawing> drawing;
   if (isDrawing(source)) drawing = rigDrawing(source, options.library);
-  CharacterFile file =
-      drawing ? CharacterFile{drawing->character, drawing->clips, {}} : loadCharacter(source);
+  const bool flat = options.look == "flat";
+  if (flat && !drawing)
+    throw UsageError(path + " is no drawing (.png, .jpg, ...), which alone can move as it was drawn");
+  CharacterFile file = drawing ? CharacterFile{drawing->character, {}, {}} : loadCharacter(source);
+  if (drawing && !flat) file.clips = drawing->clips;
   file.name = stemOf(path);
   const std::vector<Clip> clips = askedClips(options, file);
   if (drawing) tell(*drawing, path, clips);
-  render(std::move(file), clips);
+  render(std::move(file), drawing ? &*drawing : nullptr, clips);
 }
 
 }  // namespace
 
-ExitCode runRender(const RenderCommandOptions& options) {
+ExitCode runRender(const RenderCommandOptions& asked) {
+  RenderCommandOptions options = asked;
+  options.library.flat = options.look == "flat";
+  if (options.library.flat && !options.sheet.output.empty())
+    throw UsageError("--look flat makes films; of sprite sheets, --pixels");
   checkNames(options.files);
   const RenderCharacter rendered =
       options.sheet.output.empty() ? filmRenderer(options) : sheetRenderer(options);

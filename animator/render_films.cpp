@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "animator/film.h"
+#include "animator/flat_figure.h"
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
@@ -72,6 +73,11 @@ struct Films {
 
   explicit Films(const RenderCommandOptions& asked)
       : options(asked), names(filmNames(asked)), film(filmOptions(asked)) {
+    if (options.look == "flat" &&
+        (options.angle_deg != 0 || options.wireframe || options.translucent || !options.weights_of.empty()))
+      throw UsageError(
+          "--look flat shows the drawing as it was drawn: leave out --angle, --wireframe, --translucent and "
+          "--show-weights");
     video = {.width = film.width, .height = film.height, .frame_rate = film.frame_rate};
     video.transparent = film.look.background.a < 255 && film.look.picture.empty();
     if (!names.in_folder)
@@ -85,23 +91,33 @@ struct Films {
                       options.pitch_deg * std::numbers::pi / 180, double(film.width) / film.height);
   }
 
-  void write(const Scene& scene, const Look& look, const Clip& clip, const Camera& camera,
-             const std::string& path) const {
-    FilmOptions clip_film = film;
-    clip_film.look = look;
+  // `frames(video, on_frame)` writes them all.
+  template <class Frames>
+  void write(const Clip& clip, const std::string& path, const Frames& frames) const {
     VideoOptions clip_video = video;
     clip_video.frames = frameCount(clip, film);
     const auto writer = openVideo(path, clip_video);
     {
       ProgressBar bar("frames", std::size_t(clip_video.frames));
-      writeFilm(scene, clip, camera, clip_film, *writer, [&] { bar.advance(); });
+      frames(*writer, [&] { bar.advance(); });
       writer->finish();
     }
     std::printf("%s: %d frames of %dx%d, %.2f s of \"%s\"\n", path.c_str(), clip_video.frames, film.width,
                 film.height, clip_video.frames / film.frame_rate, printable(clip.name).c_str());
   }
 
-  void operator()(CharacterFile file, const std::vector<Clip>& clips) const {
+  void writeFlat(const FlatFigure& figure, const Clip& clip, const Camera& camera,
+                 const std::string& path) const {
+    const CutOutPainter painter = figure.painterFor(camera, film.height);
+    const auto paint = [&](int frame) {
+      return figure.paint(clip, frame / film.frame_rate, camera, painter, film);
+    };
+    write(clip, path, [&](VideoWriter& writer, const auto& on_frame) {
+      writeFrames(frameCount(clip, film), true, paint, writer, on_frame);
+    });
+  }
+
+  void operator()(CharacterFile file, const RiggedDrawing* drawing, const std::vector<Clip>& clips) const {
     const RiggedCharacter& character = file.character;
     Look look = film.look;
     if (!options.weights_of.empty()) {
@@ -115,15 +131,27 @@ struct Films {
       if (names.in_folder) noteNamedOutput(paths.back());
     }
     const bool one_camera = options.frame == "clips" || (options.frame == "auto" && manyClips(options));
-    Camera camera;
     if (one_camera) {
       addLibrary(file, options.library);
       file.clips.insert(file.clips.end(), clips.begin(), clips.end());
-      camera = cameraOf(character, file.clips);
     }
+    const auto shownWith = [&](const Clip& clip) {
+      return one_camera ? file.clips : std::vector<Clip>{clip};
+    };
+    if (options.look == "flat") {
+      const FlatFigure figure(*drawing);
+      for (std::size_t i = 0; i < clips.size(); ++i)
+        writeFlat(figure, clips[i], figure.camera(shownWith(clips[i]), double(film.width) / film.height),
+                  paths[i]);
+      return;
+    }
+    FilmOptions shown = film;
+    shown.look = look;
     const Scene scene(character, painterFor(options, character.mesh));
     for (std::size_t i = 0; i < clips.size(); ++i)
-      write(scene, look, clips[i], one_camera ? camera : cameraOf(character, {clips[i]}), paths[i]);
+      write(clips[i], paths[i], [&](VideoWriter& writer, const auto& on_frame) {
+        writeFilm(scene, clips[i], cameraOf(character, shownWith(clips[i])), shown, writer, on_frame);
+      });
   }
 };
 

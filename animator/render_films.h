@@ -9,8 +9,9 @@
 namespace skel {
 
 // Writes what was asked for of one character, moved by these clips, which are relative to its rest pose.
-// Files are named after the character.
-using RenderCharacter = std::function<void(CharacterFile, const std::vector<Clip>&)>;
+// Files are named after the character. `drawing`: what it was made of; null: no drawing.
+using RenderCharacter =
+    std::function<void(CharacterFile, const RiggedDrawing* drawing, const std::vector<Clip>&)>;
 
 // A film a clip. `options` outlive the result. Throws UsageError, OutputError, UnavailableError where films
 // cannot be written so, before there is a character.

@@ -75,6 +75,10 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
   bindClipSource(app, options.library);
   app.add_option("--duration", options.duration_s, "In seconds; the clip repeats (default: once)")
       ->check(numberIn(0.0, 3600.0));
+  app.add_option("--look", options.look,
+                 "solid: the model; flat: the drawing itself, its limbs moved in the picture, unlit")
+      ->check(CLI::IsMember({"solid", "flat"}))
+      ->capture_default_str();
   app.add_option("--size", options.size,
                  "WIDTHxHEIGHT, or one number for both, px (default: 512, of a sheet's frames 64)");
   app.add_option("--angle", options.angle_deg,

@@ -41,6 +41,7 @@ struct RenderCommandOptions {
   double duration_s = 0;
   std::string size;  // empty: 512x512 of films, 64x64 of sheets
   double angle_deg = 0, pitch_deg = 5;
+  std::string look = "solid";  // or flat: the drawing itself
   std::string background = "white";
   std::string frame = "auto";  // clip or clips: what the camera shows all of
   std::string painter = "auto";

@@ -70,7 +70,7 @@ struct Sheets {
     return std::max(1, most > 0 ? std::min(count, most) : count);
   }
 
-  void operator()(CharacterFile file, const std::vector<Clip>& clips) const {
+  void operator()(CharacterFile file, const RiggedDrawing*, const std::vector<Clip>& clips) const {
     const std::string path = pathOf(file);
     const RiggedCharacter& character = file.character;
     std::vector<SpriteDirection> directions = spriteDirections(character, options.sheet.directions);

@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 
 set(SKEL_LIBRARY_ROOMS core image convnet silhouette candidates classifier mesh skeleton jointnet recognition layers draw
-                       animation skin deform labels style export import pipeline)
+                       animation skin deform cutout labels style export import pipeline)
 set(skel_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/skel)
 
 add_library(skel INTERFACE)

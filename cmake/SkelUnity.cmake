@@ -4,7 +4,7 @@ if(NOT SKEL_UNITY)
   return()
 endif()
 set(alone mesh/obj mesh/planar_mesh silhouette/page silhouette/ruling skin/geodesic skin/volumetric video/video_writer)
-foreach(room animation candidates classifier convnet core deform draw export import jointnet labels mesh pipeline silhouette
+foreach(room animation candidates classifier convnet core cutout deform draw export import jointnet labels mesh pipeline silhouette
              skeleton skin style video animating labeling styling training net_training)
   if(TARGET skel_${room})
     set_target_properties(skel_${room} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)

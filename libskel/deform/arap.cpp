@@ -11,7 +11,6 @@
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
-#include "libskel/deform/untangle.h"
 
 namespace skel {
 namespace {
@@ -76,12 +75,31 @@ struct ArapMesh::Content {
 
 ArapMesh::ArapMesh(const Eigen::MatrixX2d& vertices, const Eigen::MatrixX3i& triangles,
                    const Eigen::MatrixX2d& handles, const ArapOptions& options) {
-  SKEL_CHECK(options.iterations >= 1);
   if (triangles.rows() == 0) throw UsageError("a mesh without triangles cannot be deformed");
-  if (handles.rows() < 2 || (handles.rowwise() - handles.row(0)).cwiseAbs().maxCoeff() == 0)
-    throw UsageError("a mesh is deformed by at least two handles at different places");
   if (!vertices.allFinite() || !handles.allFinite())
     throw UsageError("a vertex or a handle of the mesh is no number");
+  std::vector<MeshHandle> held;
+  for (Eigen::Index h = 0; h < handles.rows(); ++h)
+    held.push_back(handleAt(handles.row(h), vertices, triangles));
+  prepare(vertices, triangles, held, options);
+}
+
+ArapMesh::ArapMesh(const Eigen::MatrixX2d& vertices, const Eigen::MatrixX3i& triangles,
+                   const std::vector<int>& handles, const ArapOptions& options) {
+  if (triangles.rows() == 0) throw UsageError("a mesh without triangles cannot be deformed");
+  if (!vertices.allFinite()) throw UsageError("a vertex of the mesh is no number");
+  std::vector<MeshHandle> held;
+  for (const int vertex : handles) held.push_back({{vertex, vertex, vertex}, {1, 0, 0}});
+  prepare(vertices, triangles, held, options);
+}
+
+void ArapMesh::prepare(const Eigen::MatrixX2d& vertices, const Eigen::MatrixX3i& triangles,
+                       const std::vector<MeshHandle>& handles, const ArapOptions& options) {
+  SKEL_CHECK(options.iterations >= 1);
+  if (std::all_of(handles.begin(), handles.end(), [&](const MeshHandle& handle) {
+        return handle.of(vertices) == handles.front().of(vertices);
+      }))
+    throw UsageError("a mesh is deformed by at least two handles at different places");
   auto content = std::make_unique<Content>();
   Content& c = *content;
   c.vertex_count = vertices.rows();
@@ -119,15 +137,14 @@ ArapMesh::ArapMesh(const Eigen::MatrixX2d& vertices, const Eigen::MatrixX3i& tri
     }
   }
   c.handle_weight = options.handle_weight;
-  for (Eigen::Index h = 0; h < handles.rows(); ++h) {
-    const MeshHandle handle = handleAt(handles.row(h), vertices, triangles);
+  c.handles = handles;
+  for (const MeshHandle& handle : handles) {
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < 3; ++k) {
         const double w = c.handle_weight * handle.shares[i] * handle.shares[k];
         free.emplace_back(handle.vertices[i], handle.vertices[k], w);
         rigid.emplace_back(handle.vertices[i], handle.vertices[k], w);
       }
-    c.handles.push_back(handle);
   }
   Eigen::SparseMatrix<Complex> free_matrix(c.vertex_count, c.vertex_count);
   free_matrix.setFromTriplets(free.begin(), free.end());

@@ -9,6 +9,9 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
+
+#include "libskel/deform/untangle.h"
 
 namespace skel {
 
@@ -24,6 +27,10 @@ class ArapMesh {
   // Throws UsageError where that is not so.
   ArapMesh(const Eigen::MatrixX2d& vertices, const Eigen::MatrixX3i& triangles,
            const Eigen::MatrixX2d& handles, const ArapOptions& options = {});
+  // The same with vertices as handles, for meshes that lie over themselves. A mesh in several parts needs two
+  // in each.
+  ArapMesh(const Eigen::MatrixX2d& vertices, const Eigen::MatrixX3i& triangles,
+           const std::vector<int>& handles, const ArapOptions& options = {});
   ~ArapMesh();
   ArapMesh(ArapMesh&&) noexcept;
 
@@ -37,6 +44,8 @@ class ArapMesh {
   struct Content;
 
  private:
+  void prepare(const Eigen::MatrixX2d& vertices, const Eigen::MatrixX3i& triangles,
+               const std::vector<MeshHandle>& handles, const ArapOptions& options);
   std::unique_ptr<const Content> content_;
 };
 

@@ -96,6 +96,14 @@ Color weightColor(double weight) {
   return {mixed(none.r, heat.r), mixed(none.g, heat.g), mixed(none.b, heat.b)};
 }
 
+Image paintBackground(const Look& look, int width, int height) {
+  Image image = blankImage(width, height, look.background);
+  if (!look.picture.empty()) putOver(image, covering(look.picture, width, height));
+  return image;
+}
+
+double boneWidth(int height_px) { return std::max(1.5, height_px / 180.0); }
+
 Scene::Scene(const RiggedCharacter& character, std::unique_ptr<MeshPainter> painter)
     : character_(character), painter_(std::move(painter)) {
   if (character.mesh.vertices.rows() > 0) ground_y_ = character.mesh.vertices.col(1).minCoeff();
@@ -107,8 +115,7 @@ Image Scene::paint(const JointTransforms& posed_from_rest, const Camera& camera,
   const Eigen::MatrixX3f vertices =
       skinVertices(character_.mesh.vertices, character_.weights, posed_from_rest, look.blending);
   const Projection project(camera, width, height);
-  Image image = blankImage(width, height, look.background);
-  if (!look.picture.empty()) putOver(image, covering(look.picture, width, height));
+  Image image = paintBackground(look, width, height);
   if (look.shadow && (look.solid || look.translucent)) drawShadow(image, vertices, ground_y_, camera);
 
   Surface surface;
@@ -140,7 +147,7 @@ Image Scene::paint(const JointTransforms& posed_from_rest, const Camera& camera,
       seen.joints[j].image = project(joints[j].cast<double>()).value_or(Vector2d(-1e4, -1e4));
       seen.joints[j].confidence = 1;
     }
-    const double bone_px = std::max(1.5, height / 180.0);
+    const double bone_px = boneWidth(height);
     if (look.skeleton) drawSkeleton(image, seen, {.bone_px = bone_px});
     if (look.chosen >= 0) {
       const Joint& joint = seen.joints[std::size_t(look.chosen)];

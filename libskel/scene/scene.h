@@ -22,6 +22,11 @@ struct Look {
   Image picture;                          // if not empty: over the background, covering all of it
 };
 
+// The look's background alone.
+Image paintBackground(const Look& look, int width, int height);
+// How wide the bones of a skeleton are in a picture of that height, px.
+double boneWidth(int height_px);
+
 // What stays the same from frame to frame: the ground, the painted background.
 class Scene {
  public:

@@ -113,6 +113,29 @@ TEST_CASE("of several drawings, one that cannot be rigged keeps no other from it
   CHECK(filesBelow(dir.file("films")) == std::vector<std::string>{dir.file("films/cap_boy-walk.gif")});
 }
 
+TEST_CASE("a drawing moves as it was drawn, on a ground that is clear, the same one every time") {
+  const TempDir dir;
+  const std::string arguments =
+      kDrawing + " --look flat --clip wave --fps 4 --duration 1 --size 96x96 --background none -o ";
+  for (const char* name : {"a/", "b/"}) {
+    const ToolRun run = render(arguments + dir.file(name));
+    CHECK(run.err == "");
+    REQUIRE(run.exit_code == 0);
+  }
+  const std::string first = dir.file("a/frame-0001.png"), third = dir.file("a/frame-0003.png");
+  CHECK(readFile(first) == readFile(dir.file("b/frame-0001.png")));
+  CHECK(readFile(third) == readFile(dir.file("b/frame-0003.png")));
+  CHECK(readFile(first) != readFile(third));
+  CHECK(readImage(first).pixel(0, 0)[3] == 0);
+  CHECK((readImage(first).rgba.col(3) == 255).any());
+  REQUIRE(render(arguments + dir.file("clips/") + " --frame clips").exit_code == 0);
+  CHECK((readImage(dir.file("clips/frame-0001.png")).rgba.col(3) > 0).count() <
+        (readImage(first).rgba.col(3) > 0).count());
+  const std::string bvh = std::string(SKEL_SOURCE_DIR) + "/tests/data/motions/rokoko.bvh";
+  CHECK(render(kDrawing + " --look flat --clip " + bvh + " --fps 4 --size 64x64 -o " + dir.file("bvh.gif"))
+            .exit_code == 0);
+}
+
 TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
   const TempDir dir;
   const std::string model = figureFile(dir), film = dir.file("film.gif");
@@ -125,6 +148,8 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
       {"", 1, "file is required"},
       {model + " -o " + film, 1, "--clip is required"},
       {model + " --clip nod", 1, "name the film by -o, or a sprite sheet by --sheet"},
+      {model + " --look flat --clip nod -o " + film, 1, "is no drawing"},
+      {kDrawing + " --look flat --angle 30 --clip wave -o " + film, 1, "--look flat shows the drawing as it"},
       {model + " --clip fly -o " + film, 1, "there is no clip \"fly\""},
       {model + " --clip none.clip.json -o " + film, 2, "none.clip.json: cannot be read"},
       {model + " --clip nod -o " + dir.file("film.avi"), 1, "films are written as .mp4, .gif, .webp"},

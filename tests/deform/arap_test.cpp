@@ -120,6 +120,23 @@ TEST_CASE("triangles that are turned over are counted") {
   CHECK(flippedTriangles(kBar.vertices, folded, kBar.triangles) == kBar.triangles.rows());
 }
 
+TEST_CASE("of two bars that lie over each other, each goes with the vertices that it is held by") {
+  const Eigen::Index count = kBar.vertices.rows();
+  MatrixX2d both(2 * count, 2);
+  both << kBar.vertices, kBar.vertices;
+  MatrixX3i triangles(2 * kBar.triangles.rows(), 3);
+  triangles << kBar.triangles, kBar.triangles.array() + int(count);
+  const std::vector<int> held = {0, 40, int(count), int(count) + 40};
+  const ArapMesh mesh(both, triangles, held);
+  MatrixX2d targets(4, 2);
+  for (Eigen::Index h = 0; h < 4; ++h) targets.row(h) = both.row(held[std::size_t(h)]);
+  targets.bottomRows(2).rowwise() += Eigen::RowVector2d(0, 50);
+  const MatrixX2d posed = mesh.deform(targets);
+  CHECK((posed.topRows(count) - kBar.vertices).cwiseAbs().maxCoeff() < 1e-6);
+  CHECK((posed.bottomRows(count) - both.bottomRows(count)).col(1).minCoeff() > 49.99);
+  CHECK_THROWS_AS(ArapMesh(both, triangles, std::vector<int>{7}), UsageError);
+}
+
 TEST_CASE("meshes and handles that cannot be used are refused") {
   CHECK_THROWS_AS(ArapMesh(kBar.vertices, MatrixX3i(0, 3), kHandles), UsageError);
   CHECK_THROWS_AS(ArapMesh(kBar.vertices, kBar.triangles, kHandles.topRows(1)), UsageError);

@@ -1,0 +1,34 @@
+// A drawing that performs clips as it was drawn: a cut-out in the picture plane.
+#pragma once
+
+#include <vector>
+
+#include "animator/film.h"
+#include "libskel/cutout/cut_out.h"
+#include "libskel/cutout/paint_cut_out.h"
+#include "libskel/pipeline/rig_character.h"
+
+namespace skel {
+
+class FlatFigure {
+ public:
+  // The drawing outlives the figure.
+  explicit FlatFigure(const RiggedDrawing& drawing);
+
+  // As filmCamera(), straight from the front.
+  Camera camera(const std::vector<Clip>& clips, double width_over_height) const;
+
+  // Of the look, the background and the skeleton are shown. `painter`: for this camera and size, see
+  // painterFor().
+  Image paint(const Clip& clip, double time_s, const Camera& camera, const CutOutPainter& painter,
+              const FilmOptions& options) const;
+  CutOutPainter painterFor(const Camera& camera, int height) const;
+
+ private:
+  FlatPose poseAt(const Clip& clip, double time_s) const;
+
+  const RiggedDrawing& drawing_;
+  CutOut cut_out_;
+};
+
+}  // namespace skel

@@ -1,0 +1,320 @@
+#include "libskel/cutout/cut_out.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "libskel/cutout/limb_plane.h"
+#include "libskel/mesh/fill_hidden.h"
+#include "libskel/skin/skin_weights.h"
+
+namespace skel {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector2d;
+
+// A vertex that follows one joint by more is a handle of it: elbows bend in one place, necks and backs all
+// along.
+constexpr double kOneLimbJoint = 0.55, kOneTrunkJoint = 0.8;
+constexpr int kUnderlap_px = 2;  // so far a sheet goes on below the next, lest the ground shows between
+
+// The figure's pieces, or the whole figure as the one that it is.
+std::vector<FigurePiece> piecesOf(const DrawnFigure& figure) {
+  std::vector<FigurePiece> pieces =
+      figurePieces(figure.layers, figure.silhouette, figure.skeleton, figure.body_plan);
+  if (pieces.empty()) {
+    FigurePiece whole;
+    whole.box = figureBox(figure.silhouette.mask);
+    whole.mask =
+        figure.silhouette.mask.block(whole.box.y0, whole.box.x0, whole.box.height(), whole.box.width());
+    whole.hidden = whole.over = Plane8::Zero(whole.mask.rows(), whole.mask.cols());
+    pieces.push_back(std::move(whole));
+  }
+  return pieces;
+}
+
+// How far before the viewer's other things a part is painted.
+class PaintOrder {
+ public:
+  PaintOrder(const DrawnFigure& figure, const std::vector<FigurePiece>& pieces)
+      : order_(figure.body_plan.limbs.size() + 1, 0) {
+    const Skeleton& skeleton = figure.skeleton;
+    double trunk_z = 0, low = 1e300, high = -1e300;
+    int trunk_joints = 0;
+    for (const Joint& joint : skeleton.joints) {
+      low = std::min(low, joint.position.y()), high = std::max(high, joint.position.y());
+      if (joint.name.find('_') != std::string::npos && joint.name != "head_top") continue;
+      trunk_z += joint.position.z();
+      ++trunk_joints;
+    }
+    trunk_z /= std::max(1, trunk_joints);
+    for (std::size_t k = 0; k < figure.body_plan.limbs.size(); ++k) {
+      const TemplateLimb& limb = figure.body_plan.limbs[k];
+      const auto piece = std::find_if(pieces.begin(), pieces.end(),
+                                      [&](const FigurePiece& p) { return p.layer == int(k) + 1; });
+      double z = 0;
+      for (const int joint : limb.joints)
+        if (const int j = skeleton.find(figure.body_plan.joints[std::size_t(joint)].name); j >= 0)
+          z += (skeleton.joints[std::size_t(j)].position.z() - trunk_z) / double(limb.joints.size());
+      const int turn = int(piece - pieces.begin());  // after all others where it is no sheet of its own
+      constexpr double kFar = 0.015;                 // of the figure's height
+      if (z < -kFar * (high - low))
+        order_[k + 1] = turn - 200;
+      else if (piece == pieces.end())
+        order_[k + 1] = isLeg(figure.body_plan, limb) ? -100 : 100;
+      else
+        order_[k + 1] = turn;
+    }
+  }
+  int of(int part) const { return order_[std::size_t(part)]; }
+
+ private:
+  std::vector<int> order_;
+};
+
+// The pieces' masks, those below others a little larger: below what is painted after them.
+std::vector<Plane8> underlapped(const std::vector<FigurePiece>& pieces, const Plane8& figure,
+                                const PaintOrder& order) {
+  constexpr int kNone = -10000;
+  Eigen::ArrayXXi top = Eigen::ArrayXXi::Constant(figure.rows(), figure.cols(), kNone);
+  for (const FigurePiece& piece : pieces)
+    for (int v = 0; v < piece.mask.rows(); ++v)
+      for (int u = 0; u < piece.mask.cols(); ++u)
+        if (piece.mask(v, u) != 0 && piece.hidden(v, u) == 0) {
+          int& there = top(piece.box.y0 + v, piece.box.x0 + u);
+          there = std::max(there, order.of(piece.layer));
+        }
+  std::vector<Plane8> masks;
+  for (const FigurePiece& piece : pieces) {
+    Plane8 mask = piece.mask;
+    for (int step = 0; step < kUnderlap_px; ++step) {
+      const Plane8 now = mask;
+      for (int v = 0; v < now.rows(); ++v)
+        for (int u = 0; u < now.cols(); ++u)
+          if (now(v, u) == 0 && top(piece.box.y0 + v, piece.box.x0 + u) > order.of(piece.layer) &&
+              ((u > 0 && now(v, u - 1) != 0) || (v > 0 && now(v - 1, u) != 0) ||
+               (u + 1 < now.cols() && now(v, u + 1) != 0) || (v + 1 < now.rows() && now(v + 1, u) != 0)))
+            mask(v, u) = 255;
+    }
+    masks.push_back(std::move(mask));
+  }
+  return masks;
+}
+
+// What the piece shows, with what others hide of it filled in; clear around it.
+Image pictureOf(const DrawnFigure& figure, const FigurePiece& piece, const Plane8& mask) {
+  const PixelBox& box = piece.box;
+  Image picture(box.width(), box.height());
+  Plane8 known = Plane8::Zero(box.height(), box.width()), hidden = known;
+  const Plane8& bridges = figure.silhouette.bridges;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      std::copy_n(figure.image.pixel(box.x0 + x, box.y0 + y), 4, picture.pixel(x, y));
+      if (mask(y, x) == 0) continue;
+      const bool drawn = bridges.size() == 0 || bridges(box.y0 + y, box.x0 + x) == 0;
+      hidden(y, x) = piece.hidden(y, x) != 0 || piece.mask(y, x) == 0;
+      known(y, x) = drawn && hidden(y, x) == 0;
+    }
+  picture = fillHidden(std::move(picture), known, hidden);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      if (known(y, x) == 0 && hidden(y, x) == 0) std::fill_n(picture.pixel(x, y), 4, std::uint8_t(0));
+  return picture;
+}
+
+// Which limb moves what of a sheet: of each square and of each vertex. `free`: the vertices about the borders
+// between limbs and the rest, where paper bends.
+struct Carriers {
+  std::vector<int> of_square, of_vertex;
+  std::vector<bool> free;
+};
+
+Carriers carriersOf(const CutOutSheet& sheet, const Plane8& limbs, const PixelBox& box,
+                    const std::vector<double>& widths) {
+  constexpr double kFree = 0.3;  // of a limb's width, to both sides of where it begins
+  const Lattice& lattice = sheet.lattice;
+  Carriers carriers;
+  std::vector<std::array<int, 5>> votes(lattice.squares.size(), {0, 0, 0, 0, 0});
+  for (int v = 0; v < lattice.square_of.rows(); ++v)
+    for (int u = 0; u < lattice.square_of.cols(); ++u)
+      if (const int square = lattice.square_of(v, u); square >= 0) {
+        ++votes[std::size_t(square)][limbs(box.y0 + v, box.x0 + u)];
+      }
+  const auto winner = [](const std::array<int, 5>& of) {
+    return int(std::max_element(of.begin(), of.end()) - of.begin());
+  };
+  const std::size_t count = std::size_t(lattice.vertices.rows());
+  std::vector<std::array<int, 5>> around(count, {0, 0, 0, 0, 0});
+  for (std::size_t s = 0; s < lattice.squares.size(); ++s) {
+    carriers.of_square.push_back(winner(votes[s]));
+    for (const int v : lattice.squares[s]) ++around[std::size_t(v)][std::size_t(carriers.of_square[s])];
+  }
+  std::vector<double> left(count, -1);  // how much farther paper is free, px
+  for (std::size_t v = 0; v < count; ++v) {
+    carriers.of_vertex.push_back(winner(around[v]));
+    if (std::count(around[v].begin(), around[v].end(), 0) == 4) continue;
+    for (std::size_t limb = 1; limb < 5; ++limb)
+      if (around[v][limb] > 0) left[v] = std::max(left[v], kFree * widths[limb]);
+  }
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const std::array<int, 4>& square : lattice.squares)
+      for (const int a : square)
+        for (const int b : square) {
+          const double reach =
+              left[std::size_t(a)] - (lattice.vertices.row(a) - lattice.vertices.row(b)).norm();
+          if (reach > left[std::size_t(b)] + 1e-9) left[std::size_t(b)] = reach, changed = true;
+        }
+  }
+  for (const double reach : left) carriers.free.push_back(reach >= 0);
+  return carriers;
+}
+
+// The drawing flat on the model's plane, all sheets in one mesh, for the skin: what different limbs move is
+// not joined.
+TriangleMesh flatMesh(const std::vector<CutOutSheet>& sheets, const std::vector<Carriers>& carriers) {
+  TriangleMesh mesh;
+  Index vertices = 0;
+  for (const CutOutSheet& sheet : sheets) vertices += sheet.lattice.vertices.rows();
+  mesh.vertices.resize(vertices, 3);
+  mesh.layer.resize(vertices);
+  std::vector<Eigen::RowVector3i> triangles;
+  Index first = 0;
+  for (std::size_t s = 0; s < sheets.size(); ++s) {
+    const CutOutSheet& sheet = sheets[s];
+    for (Index v = 0; v < sheet.lattice.vertices.rows(); ++v) {
+      const Vector2d at = sheet.placed(sheet.lattice.vertices.row(v).transpose());
+      mesh.vertices.row(first + v) << float(at.x()), float(at.y()), 0.f;
+      mesh.layer[first + v] = carriers[s].of_vertex[std::size_t(v)];
+    }
+    const Eigen::MatrixX3i own = sheet.lattice.triangles();
+    for (Index t = 0; t < own.rows(); ++t) {
+      const Eigen::RowVector3i corners = own.row(t).array() + int(first);
+      if (mesh.layer[corners[0]] == mesh.layer[corners[1]] &&
+          mesh.layer[corners[0]] == mesh.layer[corners[2]])
+        triangles.push_back(corners);
+    }
+    first += sheet.lattice.vertices.rows();
+  }
+  mesh.triangles.resize(Index(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) mesh.triangles.row(Index(t)) = triangles[t];
+  return mesh;
+}
+
+Eigen::MatrixX2d placedVertices(const CutOutSheet& sheet) {
+  Eigen::MatrixX2d places(sheet.lattice.vertices.rows(), 2);
+  for (Index v = 0; v < places.rows(); ++v)
+    places.row(v) = sheet.placed(sheet.lattice.vertices.row(v).transpose()).transpose();
+  return places;
+}
+
+// Of each vertex, the first vertex of the part of the lattice that it is in.
+std::vector<int> partsOf(const Lattice& lattice) {
+  std::vector<int> part(std::size_t(lattice.vertices.rows()));
+  std::iota(part.begin(), part.end(), 0);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const std::array<int, 4>& square : lattice.squares) {
+      int least = part[std::size_t(square[0])];
+      for (const int v : square) least = std::min(least, part[std::size_t(v)]);
+      for (const int v : square)
+        if (part[std::size_t(v)] != least) part[std::size_t(v)] = least, changed = true;
+    }
+  }
+  return part;
+}
+
+// `first`: the sheet's first vertex among those of `weights`.
+void hang(const SkinWeights& weights, Index first, const Carriers& carriers, CutOutSheet& sheet) {
+  const Eigen::MatrixX2d places = placedVertices(sheet);
+  const auto hold = [&](Index v) { sheet.handles.push_back({int(v), weights.joints(first + v, 0)}); };
+  for (Index v = 0; v < places.rows(); ++v)
+    if (const double most = carriers.of_vertex[std::size_t(v)] == 0 ? kOneTrunkJoint : kOneLimbJoint;
+        double(weights.weights(first + v, 0)) >= most && !carriers.free[std::size_t(v)])
+      hold(v);
+  // What hangs on nothing moves with the joint that it is nearest to.
+  const std::vector<int> part = partsOf(sheet.lattice);
+  std::vector<int> held_in(part.size(), 0);
+  for (const CutOutSheet::Handle& handle : sheet.handles)
+    ++held_in[std::size_t(part[std::size_t(handle.vertex)])];
+  for (Index v = 0; v < places.rows(); ++v)
+    if (held_in[std::size_t(part[std::size_t(v)])] < 2) hold(v);
+  std::vector<int> held;
+  for (const CutOutSheet::Handle& handle : sheet.handles) held.push_back(handle.vertex);
+  sheet.mesh = std::make_shared<const ArapMesh>(places, sheet.lattice.triangles(), held);
+}
+
+}  // namespace
+
+CutOut makeCutOut(const DrawnFigure& figure, const CutOutOptions& options) {
+  const std::vector<FigurePiece> pieces = piecesOf(figure);
+  const PaintOrder order(figure, pieces);
+  const std::vector<Plane8> masks = underlapped(pieces, figure.silhouette.mask, order);
+  double area = 0;
+  for (const Plane8& mask : masks) area += double((mask != 0).count());
+  const int side_px = std::max(1, int(std::lround(std::sqrt(area / options.squares))));
+  const Plane8 limbs = limbPlane(figure, pieces);
+  const std::vector<double> widths = limbWidths(figure, limbs);
+  const Plane8 cut = limbTouches(figure, limbs, widths);
+  CutOut cut_out;
+  std::vector<Carriers> carriers;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    CutOutSheet& sheet = cut_out.sheets.emplace_back();
+    const Eigen::Vector2i corner(pieces[i].box.x0, pieces[i].box.y0);
+    sheet.layer = pieces[i].layer;
+    sheet.picture = pictureOf(figure, pieces[i], masks[i]);
+    sheet.placed = figure.model_from_image;
+    sheet.placed.origin_px -= corner.cast<double>();
+    const auto joined = [&](const Eigen::Vector2i& p, const Eigen::Vector2i& q) {
+      const Eigen::Vector2i a = p + corner, b = q + corner;
+      return sheet.layer != 0 || cut(a.y(), a.x()) == 0 || cut(b.y(), b.x()) == 0 ||
+             limbs(a.y(), a.x()) == limbs(b.y(), b.x());
+    };
+    sheet.lattice = latticeOf(masks[i], side_px, joined);
+    if (sheet.layer != 0)
+      carriers.push_back({std::vector<int>(sheet.lattice.squares.size(), sheet.layer),
+                          std::vector<int>(std::size_t(sheet.lattice.vertices.rows()), sheet.layer),
+                          std::vector<bool>(std::size_t(sheet.lattice.vertices.rows()), false)});
+    else
+      carriers.push_back(carriersOf(sheet, limbs, pieces[i].box, widths));
+    sheet.part = carriers.back().of_square;
+  }
+  const TriangleMesh flat = flatMesh(cut_out.sheets, carriers);
+  Skeleton on_plane = figure.skeleton;
+  for (Joint& joint : on_plane.joints) joint.position.z() = 0;
+  const SkinWeights weights =
+      computeSkinWeights(flat, on_plane, SkinMethod::kGeodesic, {},
+                         jointLayers(figure.skeleton, figure.body_plan, flat, figure.layers));
+  Index first = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    hang(weights, first, carriers[i], cut_out.sheets[i]);
+    first += cut_out.sheets[i].lattice.vertices.rows();
+  }
+
+  for (std::size_t s = 0; s < cut_out.sheets.size(); ++s)
+    for (std::size_t square = 0; square < cut_out.sheets[s].lattice.squares.size(); ++square)
+      cut_out.patches.push_back({s, square});
+  const auto turn = [&](const CutOut::Patch& patch) {
+    return order.of(cut_out.sheets[patch.sheet].part[patch.square]);
+  };
+  std::stable_sort(cut_out.patches.begin(), cut_out.patches.end(),
+                   [&](const CutOut::Patch& a, const CutOut::Patch& b) { return turn(a) < turn(b); });
+  return cut_out;
+}
+
+std::vector<Eigen::MatrixX2d> posedSheets(const CutOut& cut_out, const FlatPose& pose) {
+  std::vector<Eigen::MatrixX2d> posed;
+  for (const CutOutSheet& sheet : cut_out.sheets) {
+    Eigen::MatrixX2d targets(Index(sheet.handles.size()), 2);
+    for (std::size_t h = 0; h < sheet.handles.size(); ++h) {
+      const Vector2d rest = sheet.placed(sheet.lattice.vertices.row(sheet.handles[h].vertex).transpose());
+      targets.row(Index(h)) = pose.moved(sheet.handles[h].joint, rest).transpose();
+    }
+    posed.push_back(sheet.mesh->deform(targets));
+  }
+  return posed;
+}
+
+}  // namespace skel

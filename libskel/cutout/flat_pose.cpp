@@ -1,0 +1,102 @@
+#include "libskel/cutout/flat_pose.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace skel {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// Shares of a bone's length on the screen: one that shows less points at the viewer, and where it points in
+// the picture says nothing.
+constexpr double kStump = 0.15, kSeen = 0.45;
+
+// The joint that the bone leads to: towards the head, where there is a way, else the first one.
+int boneEnd(const Skeleton& skeleton, const std::vector<bool>& to_head, int joint) {
+  int end = -1;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
+    if (skeleton.joints[j].parent == joint && (end < 0 || to_head[j])) end = int(j);
+  return end;
+}
+
+double angleBetween(const Vector2d& a, const Vector2d& b) {
+  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+}
+
+double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
+
+// How far the figure must be moved for its lowest foot to be as low as in space, and for those that are down
+// to be where they are there, in the mean.
+Vector2d offGround(const Skeleton& skeleton, const SkeletonTemplate& body_plan, const FlatPose& pose,
+                   const std::vector<Eigen::Vector3f>& posed) {
+  constexpr double kDown = 0.03;  // above the lowest foot, of the height of the root
+  const double down = kDown * std::max(1e-6, std::abs(skeleton.joints[0].position.y()));
+  std::vector<std::size_t> feet;
+  double lowest = 1e300, lowest_flat = 1e300;
+  for (const TemplateLimb& limb : body_plan.limbs) {
+    const int foot = skeleton.find(body_plan.joints[std::size_t(limb.joints[2])].name);
+    if (foot < 0 || !isLeg(body_plan, limb)) continue;
+    feet.push_back(std::size_t(foot));
+    lowest = std::min(lowest, double(posed[feet.back()].y()));
+    lowest_flat = std::min(lowest_flat, pose.place[feet.back()].y());
+  }
+  if (feet.empty()) return Vector2d::Zero();
+  double aside = 0, weights = 0;
+  for (const std::size_t foot : feet) {
+    const double weight = std::exp(-(double(posed[foot].y()) - lowest) / down);
+    aside += weight * (double(posed[foot].x()) - pose.place[foot].x());
+    weights += weight;
+  }
+  return {aside / weights, lowest - lowest_flat};
+}
+
+}  // namespace
+
+bool isLeg(const SkeletonTemplate& body_plan, const TemplateLimb& limb) {
+  return body_plan.joints[std::size_t(limb.joints[2])].name.ends_with("foot");
+}
+
+Vector2d FlatPose::moved(std::size_t joint, const Vector2d& p) const {
+  return place[joint] + Eigen::Rotation2Dd(turn_rad[joint]) * (p - rest[joint]);
+}
+
+FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
+                  const JointTransforms& posed_from_rest) {
+  const std::size_t count = skeleton.joints.size();
+  std::vector<bool> to_head(count, false);
+  if (body_plan.head >= 0)
+    for (int j = skeleton.find(body_plan.joints[std::size_t(body_plan.head)].name); j >= 0;
+         j = skeleton.joints[std::size_t(j)].parent)
+      to_head[std::size_t(j)] = true;
+  const std::vector<Eigen::Vector3f> posed = posedJoints(skeleton, posed_from_rest);
+
+  FlatPose pose;
+  std::vector<Vector3d> bones(count);
+  for (std::size_t j = 0; j < count; ++j) {
+    const Joint& joint = skeleton.joints[j];
+    const std::size_t parent = std::size_t(std::max(0, joint.parent));
+    const int end = boneEnd(skeleton, to_head, int(j));
+    const Vector3d along =
+        end >= 0 ? Vector3d(skeleton.joints[std::size_t(end)].position - joint.position) : bones[parent];
+    bones[j] = along.norm() > 1e-9 ? Vector3d(along.normalized()) : Vector3d::UnitY();
+    const Vector3d turned = posed_from_rest[j].linear().cast<double>() * bones[j];
+    const double carried = joint.parent < 0 ? 0 : pose.turn_rad[parent];
+    const Vector2d before = bones[j].head<2>(), after = turned.head<2>();
+    const double shown = std::min(before.norm(), after.norm());
+    const double t = std::clamp((shown - kStump) / (kSeen - kStump), 0.0, 1.0);
+    const double own = angleBetween(before, after);
+    pose.turn_rad.push_back(carried + t * t * (3 - 2 * t) * wrapped(own - carried));
+    pose.rest.push_back(joint.position.head<2>());
+    pose.place.push_back(joint.parent < 0 ? Vector2d(posed[j].head<2>().cast<double>())
+                                          : pose.moved(parent, pose.rest[j]));
+  }
+  const Vector2d off = offGround(skeleton, body_plan, pose, posed);
+  for (Vector2d& place : pose.place) place += off;
+  return pose;
+}
+
+}  // namespace skel

@@ -1,0 +1,30 @@
+// A pose in space, laid limb by limb into the picture plane, as cut-out animation does: bones turn, and keep
+// the length that they were drawn with.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "libskel/deform/skin_vertices.h"
+#include "libskel/skeleton/template.h"
+
+namespace skel {
+
+// How each joint of a skeleton moves its part of the drawing: about `rest`, by `turn_rad` counter-clockwise,
+// to `place`. Model frame, m, x to the right and y up.
+struct FlatPose {
+  std::vector<Eigen::Vector2d> rest, place;
+  std::vector<double> turn_rad;
+
+  Eigen::Vector2d moved(std::size_t joint, const Eigen::Vector2d& p) const;
+};
+
+// Whether the limb stands on the ground: an animal's front leg is one, too.
+bool isLeg(const SkeletonTemplate& body_plan, const TemplateLimb& limb);
+
+// Each bone points where the posed one does as seen by the viewer, turned with its parent where it rather
+// points at him. The feet that are down stand where they do in space: the whole figure is moved so.
+FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
+                  const JointTransforms& posed_from_rest);
+
+}  // namespace skel

@@ -1,0 +1,40 @@
+// A figure in the squares of a grid, each part of it that a square holds in a copy of the square.
+//
+// N. Molino, Z. Bao, R. Fedkiw, "A virtual node algorithm for changing mesh topology during simulation"
+// (2004): what is apart in the figure is apart in the mesh, however narrow the gap, and all triangles are
+// well shaped.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "libskel/image/image.h"
+
+namespace skel {
+
+struct Lattice {
+  int side_px = 1;            // of a square
+  Eigen::MatrixX2d vertices;  // #V×2, px of the mask; its pixels lie within the squares
+  // Of each copy of a square: its corners, top left, top right, bottom left, bottom right.
+  std::vector<std::array<int, 4>> squares;
+  std::vector<Eigen::Vector2i> corners_px;  // of each: its top left pixel
+  std::vector<bool> alone;                  // of each: no other copy has pixels in this square
+  // Of the mask's size: which copy shows the pixel, -1 where the mask is 0.
+  Eigen::Array<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> square_of;
+
+  // Which way a square is cut into triangles: from its top right corner, or from its top left one.
+  bool cutFromTopRight(std::size_t square) const { return (corners_px[square] / side_px).sum() % 2 == 0; }
+  // #F×3, two a square, all of one orientation.
+  Eigen::MatrixX3i triangles() const;
+};
+
+// Whether two pixels of the figure, (x, y) and the one to the right of it or below it, are of one piece.
+using JoinedPixels = std::function<bool(const Eigen::Vector2i&, const Eigen::Vector2i&)>;
+
+// `mask`: not 0 on the figure. Copies share corners where joined pixels of theirs touch across a side, so
+// that the lattice of a 4-connected figure is in one part if all its pixels are joined. `side_px` at least 1.
+Lattice latticeOf(const Plane8& mask, int side_px, const JoinedPixels& joined);
+
+}  // namespace skel

@@ -1,0 +1,147 @@
+#include "libskel/cutout/limb_plane.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "libskel/image/mask_parts.h"
+
+namespace skel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kHeld = 0.25;   // of what a thing touches, so much is the limb that holds it
+constexpr double kSpeck = 0.05;  // of all that is of a limb
+
+Vector2d imageOf(const DrawnFigure& figure, int joint_of_plan) {
+  const int joint = figure.skeleton.find(figure.body_plan.joints[std::size_t(joint_of_plan)].name);
+  return joint < 0 ? Vector2d::Zero().eval() : figure.skeleton.joints[std::size_t(joint)].image;
+}
+
+// 1 on what is no limb's and not the trunk's for sure: things, and specks apart from the rest of their part.
+Plane8 unsure(const Plane8& mask, const Plane8& part, const Plane8& limbs) {
+  Plane8 result = (mask != 0 && part == std::uint8_t(Part::kThing)).cast<std::uint8_t>();
+  for (int limb = 0; limb < 5; ++limb) {
+    const MaskParts parts =
+        maskParts((mask != 0 && result == 0 && limbs == std::uint8_t(limb)).cast<std::uint8_t>());
+    const double all = double(std::accumulate(parts.size.begin(), parts.size.end(), std::int64_t{0}));
+    for (const MaskParts::Run& run : parts.runs)
+      if (double(parts.size[std::size_t(run.part)]) < kSpeck * all)
+        result.row(run.y).segment(run.x0, run.x1 - run.x0).setOnes();
+  }
+  return result;
+}
+
+}  // namespace
+
+Plane8 limbPlane(const DrawnFigure& figure, const std::vector<FigurePiece>& pieces) {
+  const Plane8 &part = figure.layers.part, &mask = figure.silhouette.mask;
+  Plane8 limbs = Plane8::Zero(mask.rows(), mask.cols());
+  if (part.size() == 0) return limbs;
+  const auto isSheet = [&](int layer) {
+    return std::any_of(pieces.begin(), pieces.end(), [&](const FigurePiece& p) { return p.layer == layer; });
+  };
+  for (int limb = 0; limb < 4; ++limb)
+    if (std::count(figure.layers.hidden.begin(), figure.layers.hidden.end(), limb + 1) == 0 &&
+        !isSheet(limb + 1))
+      limbs = (part == std::uint8_t(limbPart(limb)))
+                  .select(Plane8::Constant(part.rows(), part.cols(), std::uint8_t(limb + 1)), limbs);
+  const Plane8 open = unsure(mask, part, limbs);
+  const MaskParts specks = maskParts(open);
+  std::vector<std::array<int, 5>> touched(specks.size.size(), {0, 0, 0, 0, 0});
+  for (const MaskParts::Run& run : specks.runs) {
+    const auto touch = [&](int x, int y) {
+      if (x >= 0 && y >= 0 && x < mask.cols() && y < mask.rows() && mask(y, x) != 0 && open(y, x) == 0)
+        ++touched[std::size_t(run.part)][limbs(y, x)];
+    };
+    touch(run.x0 - 1, run.y), touch(run.x1, run.y);
+    for (int x = run.x0; x < run.x1; ++x) touch(x, run.y - 1), touch(x, run.y + 1);
+  }
+  for (const MaskParts::Run& run : specks.runs) {
+    const std::array<int, 5>& by = touched[std::size_t(run.part)];
+    const auto most = std::max_element(by.begin() + 1, by.end());
+    const bool held = *most > kHeld * std::accumulate(by.begin(), by.end(), 0);
+    limbs.row(run.y)
+        .segment(run.x0, run.x1 - run.x0)
+        .setConstant(held ? std::uint8_t(most - by.begin()) : std::uint8_t(0));
+  }
+  return limbs;
+}
+
+std::vector<double> limbWidths(const DrawnFigure& figure, const Plane8& limbs) {
+  std::vector<double> widths(5, 0);
+  for (std::size_t k = 0; k < std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++k) {
+    double length = 0;
+    for (std::size_t i = 0; i < 2; ++i)
+      length += (imageOf(figure, figure.body_plan.limbs[k].joints[i + 1]) -
+                 imageOf(figure, figure.body_plan.limbs[k].joints[i]))
+                    .norm();
+    if (length > 0) widths[k + 1] = double((limbs == std::uint8_t(k + 1)).count()) / length;
+  }
+  return widths;
+}
+
+Plane8 limbTouches(const DrawnFigure& figure, const Plane8& limbs, const std::vector<double>& widths) {
+  constexpr double kRoot = 0.9, kShort = 0.6;  // of the limb's width
+  constexpr double kOver = 1.3;                // of its length
+  const Plane8& mask = figure.silhouette.mask;
+  std::array<Vector2d, 5> roots;
+  roots.fill(Vector2d::Zero());
+  for (std::size_t k = 0; k < std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++k)
+    roots[k + 1] = imageOf(figure, figure.body_plan.limbs[k].joints[0]);
+  const auto fromRoot = [&](std::size_t limb, int x, int y) { return (Vector2d(x, y) - roots[limb]).norm(); };
+  std::array<bool, 5> hangs{};  // there are pixels near its root where the limb and the trunk meet
+  Plane8 with_trunk = Plane8::Zero(mask.rows(), mask.cols()), with_limb = with_trunk;
+  for (int y = 0; y < mask.rows(); ++y)
+    for (int x = 0; x < mask.cols(); ++x)
+      for (const auto& [v, u] : {std::pair(y, x + 1), std::pair(y + 1, x)}) {
+        if (v >= mask.rows() || u >= mask.cols() || mask(y, x) == 0 || mask(v, u) == 0) continue;
+        const std::uint8_t one = limbs(y, x), other = limbs(v, u);
+        if (one == other) continue;
+        bool near = false;
+        for (const std::uint8_t limb : {one, other})
+          if (limb != 0 && fromRoot(limb, x, y) <= kRoot * widths[limb])
+            near = true, hangs[limb] = hangs[limb] || one == 0 || other == 0;
+        if (near) continue;
+        Plane8& border = one == 0 || other == 0 ? with_trunk : with_limb;
+        border(y, x) = border(v, u) = 1;
+      }
+
+  const MaskParts trunk_parts = maskParts(with_trunk), limb_parts = maskParts(with_limb);
+  std::vector<std::size_t> limb_of(trunk_parts.size.size(), 0);
+  std::vector<double> distance(trunk_parts.size.size(), 1e300), width(limb_parts.size.size(), 1e300);
+  std::array<double, 5> nearest, touching{};
+  nearest.fill(1e300);
+  for (const MaskParts::Run& run : trunk_parts.runs)
+    for (int x = run.x0; x < run.x1; ++x)
+      if (const std::size_t limb = limbs(run.y, x); limb != 0) {
+        double& of_part = distance[std::size_t(run.part)];
+        of_part = std::min(of_part, fromRoot(limb, x, run.y));
+        nearest[limb] = std::min(nearest[limb], of_part);
+        limb_of[std::size_t(run.part)] = limb;
+        ++touching[limb];
+      }
+  for (const MaskParts::Run& run : limb_parts.runs)
+    for (int x = run.x0; x < run.x1; ++x)
+      if (const std::size_t limb = limbs(run.y, x); limb != 0)
+        width[std::size_t(run.part)] = std::min(width[std::size_t(run.part)], widths[limb]);
+
+  // One that lies over the trunk has nothing behind it that could be shown.
+  std::array<bool, 5> over{};
+  for (std::size_t limb = 1; limb < 5; ++limb)
+    over[limb] = touching[limb] * widths[limb] > kOver * double((limbs == std::uint8_t(limb)).count());
+
+  Plane8 cut = Plane8::Zero(mask.rows(), mask.cols());
+  for (const MaskParts::Run& run : trunk_parts.runs) {
+    const std::size_t part = std::size_t(run.part), limb = limb_of[part];
+    if (!over[limb] && (hangs[limb] || distance[part] > nearest[limb]))
+      cut.row(run.y).segment(run.x0, run.x1 - run.x0).setOnes();
+  }
+  for (const MaskParts::Run& run : limb_parts.runs)  // two pixels a pixel of length
+    if (double(limb_parts.size[std::size_t(run.part)]) <= 2 * kShort * width[std::size_t(run.part)])
+      cut.row(run.y).segment(run.x0, run.x1 - run.x0).setOnes();
+  return cut;
+}
+
+}  // namespace skel

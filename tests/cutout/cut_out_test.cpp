@@ -1,0 +1,152 @@
+#include "libskel/cutout/cut_out.h"
+
+#include <algorithm>
+#include <array>
+
+#include "libskel/animation/clip_library.h"
+#include "libskel/cutout/paint_cut_out.h"
+#include "libskel/draw/canvas.h"
+#include "tests/support/catch.h"
+#include "tests/support/clips_on_drawings.h"
+
+using namespace skel;
+
+namespace {
+
+RiggedDrawing drawn(const std::string& path, const std::string& body_plan) {
+  return rigWithClips(std::string(SKEL_SOURCE_DIR) + "/datasets/" + path, body_plan,
+                      clipsFor(builtinClips(), loadTemplate(body_plan)));
+}
+
+CutOut cutOutOf(const RiggedDrawing& drawing) {
+  return makeCutOut({drawing.image, drawing.silhouette, drawing.character.skeleton, drawing.body_plan,
+                     drawing.layers, drawing.character.mesh.model_from_image});
+}
+
+std::vector<Eigen::MatrixX2d> posedBy(const RiggedDrawing& drawing, const CutOut& cut_out, const Clip& clip,
+                                      float time_s) {
+  const RiggedCharacter& character = drawing.character;
+  return posedSheets(cut_out,
+                     flatPose(character.skeleton, drawing.body_plan,
+                              posedFromRest(character.skeleton, samplePose(clip, character.skeleton, time_s),
+                                            heightOf(character.mesh))));
+}
+
+// Painted in the drawing's own size.
+Image painted(const RiggedDrawing& drawing, const CutOut& cut_out, std::vector<Eigen::MatrixX2d> sheets) {
+  const ModelFromImage& model = drawing.character.mesh.model_from_image;
+  for (Eigen::MatrixX2d& sheet : sheets)
+    for (Eigen::Index v = 0; v < sheet.rows(); ++v)
+      sheet.row(v) = model.inverse(sheet.row(v).transpose()).transpose();
+  Image image = blankImage(drawing.image.width, drawing.image.height, kClear);
+  CutOutPainter(cut_out, 1 / model.scale.x()).paint(sheets, image);
+  return image;
+}
+
+}  // namespace
+
+TEST_CASE("at rest the cut-out is the drawing: its pixels, and nothing around them") {
+  for (const auto& [path, plan] :
+       {std::pair("characters/cap_boy.png", "biped"), std::pair("animals/cloud_sheep.png", "quadruped")}) {
+    CAPTURE(path);
+    const RiggedDrawing drawing = drawn(path, plan);
+    const CutOut cut_out = cutOutOf(drawing);
+    FlatPose rest;
+    for (const Joint& joint : drawing.character.skeleton.joints) {
+      rest.rest.push_back(joint.position.head<2>());
+      rest.place.push_back(joint.position.head<2>());
+      rest.turn_rad.push_back(0);
+    }
+    const Image image = painted(drawing, cut_out, posedSheets(cut_out, rest));
+    const Plane8& mask = drawing.silhouette.mask;
+    int other = 0, around = 0, clear = 0;
+    for (int y = 1; y + 1 < image.height; ++y)
+      for (int x = 1; x + 1 < image.width; ++x) {
+        std::array<int, 3> low{255, 255, 255}, high{0, 0, 0};
+        bool near = false, all = true;
+        for (int v = y - 1; v <= y + 1; ++v)
+          for (int u = x - 1; u <= x + 1; ++u) {
+            near = near || mask(v, u) != 0;
+            all = all && mask(v, u) != 0 && drawing.image.pixel(u, v)[3] == 255;
+            for (std::size_t c = 0; c < 3; ++c) {
+              low[c] = std::min<int>(low[c], drawing.image.pixel(u, v)[c]);
+              high[c] = std::max<int>(high[c], drawing.image.pixel(u, v)[c]);
+            }
+          }
+        const std::uint8_t* p = image.pixel(x, y);
+        around += !near && p[3] != 0;
+        clear += all && p[3] < 250;
+        if (!all) continue;
+        for (std::size_t c = 0; c < 3; ++c) other += p[c] + 3 < low[c] || p[c] > high[c] + 3;
+      }
+    const double figure = double((mask != 0).count());
+    CHECK(around == 0);
+    CHECK(clear == 0);
+    CHECK(other < 0.002 * figure);
+  }
+}
+
+TEST_CASE("paper bends at joints and keeps its size everywhere else") {
+  for (const auto& [path, plan] :
+       {std::pair("characters/cap_boy.png", "biped"), std::pair("animals/cloud_sheep.png", "quadruped")}) {
+    CAPTURE(path);
+    const RiggedDrawing drawing = drawn(path, plan);
+    const CutOut cut_out = cutOutOf(drawing);
+    for (const Clip& clip : drawing.clips) {
+      CAPTURE(clip.name);
+      int sides = 0, stretched = 0;
+      for (int k = 0; k < 6; ++k) {
+        const auto posed = posedBy(drawing, cut_out, clip, clip.duration_s() * float(k) / 6);
+        for (std::size_t s = 0; s < posed.size(); ++s)
+          for (const auto& [a, b, c, d] : cut_out.sheets[s].lattice.squares)
+            for (const auto& [from, to] :
+                 {std::pair(a, b), std::pair(a, c), std::pair(b, d), std::pair(c, d)}) {
+              const double share =
+                  (posed[s].row(from) - posed[s].row(to)).norm() /
+                  (cut_out.sheets[s].lattice.side_px * drawing.character.mesh.model_from_image.scale.x());
+              ++sides;
+              stretched += share > 1.5;
+            }
+      }
+      CHECK(stretched < 0.05 * sides);
+    }
+  }
+}
+
+TEST_CASE("every patch is painted once, far limbs before the trunk") {
+  const RiggedDrawing drawing = drawn("animals/cloud_sheep.png", "quadruped");
+  const CutOut cut_out = cutOutOf(drawing);
+  std::size_t squares = 0;
+  for (const CutOutSheet& sheet : cut_out.sheets) squares += sheet.lattice.squares.size();
+  REQUIRE(cut_out.patches.size() == squares);
+  std::vector<std::vector<bool>> seen;
+  for (const CutOutSheet& sheet : cut_out.sheets) seen.emplace_back(sheet.lattice.squares.size(), false);
+  std::array<std::size_t, 5> first, last;
+  first.fill(squares), last.fill(0);
+  for (std::size_t i = 0; i < squares; ++i) {
+    const CutOut::Patch& patch = cut_out.patches[i];
+    CHECK_FALSE(seen[patch.sheet][patch.square]);
+    seen[patch.sheet][patch.square] = true;
+    const std::size_t part = std::size_t(cut_out.sheets[patch.sheet].part[patch.square]);
+    first[part] = std::min(first[part], i), last[part] = std::max(last[part], i);
+  }
+  const Skeleton& skeleton = drawing.character.skeleton;
+  int far = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const int foot =
+        skeleton.index(drawing.body_plan.joints[std::size_t(drawing.body_plan.limbs[k].joints[2])].name);
+    if (skeleton.joints[std::size_t(foot)].position.z() > -0.03 || first[k + 1] == squares) continue;
+    ++far;
+    CHECK(last[k + 1] < first[0]);
+  }
+  CHECK(far >= 1);
+}
+
+TEST_CASE("the same drawing in the same pose gives the same bytes") {
+  const RiggedDrawing drawing = drawn("characters/cap_boy.png", "biped");
+  const CutOut one = cutOutOf(drawing), other = cutOutOf(drawing);
+  const Clip& dance = clipNamed(drawing.clips, "dance");
+  const Image a = painted(drawing, one, posedBy(drawing, one, dance, 0.7f)),
+              b = painted(drawing, other, posedBy(drawing, other, dance, 0.7f));
+  CHECK((a.rgba == b.rgba).all());
+}

@@ -1,0 +1,91 @@
+#include "libskel/cutout/flat_pose.h"
+
+#include "libskel/animation/clip_library.h"
+#include "tests/support/catch.h"
+#include "tests/support/clips_on_drawings.h"
+
+using namespace skel;
+
+namespace {
+
+RiggedDrawing rigged(const std::string& path, const std::string& body_plan) {
+  const std::vector<Clip> clips = clipsFor(builtinClips(), loadTemplate(body_plan));
+  return rigWithClips(std::string(SKEL_SOURCE_DIR) + "/datasets/" + path, body_plan, clips);
+}
+
+FlatPose poseAt(const RiggedDrawing& drawing, const Clip& clip, float time_s) {
+  const RiggedCharacter& character = drawing.character;
+  return flatPose(character.skeleton, drawing.body_plan,
+                  posedFromRest(character.skeleton, samplePose(clip, character.skeleton, time_s),
+                                heightOf(character.mesh)));
+}
+
+}  // namespace
+
+TEST_CASE("at rest every joint is where it was drawn") {
+  const RiggedDrawing drawing = rigged("characters/cap_boy.png", "biped");
+  const std::vector<Eigen::Quaternionf> still(drawing.character.skeleton.joints.size(),
+                                              Eigen::Quaternionf::Identity());
+  const FlatPose pose = flatPose(drawing.character.skeleton, drawing.body_plan,
+                                 posedFromRest(drawing.character.skeleton, still));
+  for (std::size_t j = 0; j < pose.rest.size(); ++j) {
+    CHECK((pose.place[j] - pose.rest[j]).norm() < 1e-5);
+    CHECK(std::abs(pose.turn_rad[j]) < 1e-5);
+  }
+}
+
+TEST_CASE("bones keep their length on the screen, whatever they do in space") {
+  for (const auto& [path, plan] :
+       {std::pair("characters/cap_boy.png", "biped"), std::pair("characters/zombie.png", "biped"),
+        std::pair("animals/cloud_sheep.png", "quadruped")}) {
+    CAPTURE(path);
+    const RiggedDrawing drawing = rigged(path, plan);
+    REQUIRE(drawing.found());
+    for (const Clip& clip : drawing.clips)
+      for (int k = 0; k < 8; ++k) {
+        const FlatPose pose = poseAt(drawing, clip, clip.duration_s() * float(k) / 8);
+        for (std::size_t j = 1; j < pose.rest.size(); ++j) {
+          const std::size_t parent = std::size_t(drawing.character.skeleton.joints[j].parent);
+          CHECK((pose.place[j] - pose.place[parent]).norm() ==
+                Approx((pose.rest[j] - pose.rest[parent]).norm()).margin(1e-9));
+        }
+      }
+  }
+}
+
+TEST_CASE("the lowest foot is on the screen where it is in space") {
+  const RiggedDrawing drawing = rigged("characters/cap_boy.png", "biped");
+  const RiggedCharacter& character = drawing.character;
+  for (const Clip& clip : drawing.clips) {
+    CAPTURE(clip.name);
+    for (int k = 0; k < 16; ++k) {
+      const float time_s = clip.duration_s() * float(k) / 16;
+      const FlatPose pose = poseAt(drawing, clip, time_s);
+      const auto posed = posedJoints(
+          character.skeleton, posedFromRest(character.skeleton, samplePose(clip, character.skeleton, time_s),
+                                            heightOf(character.mesh)));
+      double flat = 1e9, space = 1e9;
+      for (const char* foot : {"left_foot", "right_foot"}) {
+        const std::size_t j = std::size_t(character.skeleton.index(foot));
+        flat = std::min(flat, pose.place[j].y()), space = std::min(space, double(posed[j].y()));
+      }
+      CHECK(flat == Approx(space).margin(1e-5));
+    }
+  }
+}
+
+TEST_CASE("a bone that points at the viewer goes with the one that carries it") {
+  RiggedDrawing drawing = rigged("characters/cap_boy.png", "biped");
+  Skeleton& skeleton = drawing.character.skeleton;
+  for (Joint& joint : skeleton.joints) joint.position.z() = 0;
+  const std::size_t shoulder = std::size_t(skeleton.index("left_shoulder")),
+                    elbow = std::size_t(skeleton.index("left_elbow"));
+  std::vector<Eigen::Quaternionf> turns(skeleton.joints.size(), Eigen::Quaternionf::Identity());
+  const Eigen::Vector3f bone =
+      (skeleton.joints[elbow].position - skeleton.joints[shoulder].position).cast<float>();
+  for (const float aside : {-0.05f, 0.05f}) {
+    turns[shoulder] = Eigen::Quaternionf::FromTwoVectors(bone, Eigen::Vector3f(aside, 0.02f, 1));
+    const FlatPose pose = flatPose(skeleton, drawing.body_plan, posedFromRest(skeleton, turns));
+    CHECK(std::abs(pose.turn_rad[shoulder]) < 0.01);
+  }
+}
