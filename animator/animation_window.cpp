@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "animator/document.h"
+#include "animator/key_marks.h"
 #include "animator/pose_file.h"
 #include "animator/stage_view.h"
 #include "libskel/animation/clip_file.h"
@@ -22,17 +23,22 @@
 namespace skel {
 namespace {
 
-constexpr float kListWidth = 236, kPanelWidth = 292, kTimeHeight = 96, kStatusHeight = 40, kButtonHeight = 38;
+constexpr float kListWidth = 236, kTimeHeight = 96, kStatusHeight = 40, kButtonHeight = 38;
+constexpr double kFrameRate = 30;  // of the arrow keys, and of films unless told otherwise, 1/s
+// Keys nearer to each other on the time line are no longer told apart.
+constexpr float kKeysApart_px = 14;
+
+constexpr const char* kSides[] = {"Front", "Left side", "Back", "Right side"};
 
 constexpr struct {
   const char *keys, *what;
 } kHelp[] = {
-    {"Left drag", "turn the view; on a ring: turn the joint (Shift: in steps of 15 degrees)"},
-    {"Right or middle drag", "move the view"},
+    {"Left drag", "turn the view, or a joint by its ring (Shift: by steps of 15 degrees)"},
+    {"Right drag", "move the view (the middle button, too)"},
     {"Wheel  +  -", "zoom"},
     {"Click", "choose a joint; beside the figure: none"},
     {"Tab  Shift Tab", "next, previous joint"},
-    {"F  Arrow up", "the whole figure in view; from the front, the side, behind ..."},
+    {"F  Arrow up", "all in view; from the front, the side, behind ..."},
     {"Space", "play, pause"},
     {"Left  Right", "a frame back, on"},
     {"K  Delete", "set a key, remove it"},
@@ -40,9 +46,18 @@ constexpr struct {
     {"1  2  3  4", "solid, translucent, wireframe, skeleton"},
     {"W", "weights of the joint as colours"},
     {"Ctrl Z  Ctrl Y", "undo, redo"},
-    {"Ctrl O  Ctrl S  Ctrl E", "open a character, save it, write a film"},
+    {"Ctrl O  S  E", "open a character, save it, write a film"},
     {"H  F1", "this help; Esc closes it"},
 };
+
+// Of a film; by the name that --background takes, or a colour of one's own.
+constexpr struct {
+  const char *label, *name;
+} kBackgrounds[] = {{"white", "white"},
+                    {"grey", "grey"},
+                    {"black", "black"},
+                    {"a colour", nullptr},
+                    {"none (transparent)", "none"}};
 
 bool pressed(key::Code code, bool repeat = false) { return ImGui::IsKeyPressed(code, repeat); }
 
@@ -117,22 +132,25 @@ class AnimationWindow {
                      ImGuiWindowFlags_NoNavInputs);
     drawMenu();
     const float height = ImGui::GetContentRegionAvail().y - kStatusHeight;
+    // Narrow windows leave more of their width to the figure.
+    const float panel_width = std::clamp(0.222f * ImGui::GetContentRegionAvail().x, 262.f, 292.f);
     drawLists(height);
     ImGui::SameLine();
     ImGui::BeginChild(
-        "middle", {ImGui::GetContentRegionAvail().x - kPanelWidth - 8, height}, false,
+        "middle", {ImGui::GetContentRegionAvail().x - panel_width - 8, height}, false,
         ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoBackground);
-    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
     stage_.draw({room.x, room.y - kTimeHeight - 8});
+    drawSides(corner);
     drawTime(room.x);
     ImGui::EndChild();
     ImGui::SameLine();
-    drawPanel(height);
+    drawPanel(panel_width, height);
     drawStatus();
     drawDialog();
     ImGui::End();
     ImGui::PopStyleColor(3);
-    if (help_) drawHelp();
+    if (help_) drawHelp(corner, room);
     return moves || film_ ? NextFrame::kAtOnce : NextFrame::kOnInput;
   }
 
@@ -149,7 +167,7 @@ class AnimationWindow {
     }
     if (pressed(key::kH) || pressed(key::kSlash) || pressed(key::kF1)) help_ = !help_;
     if (pressed(key::kEscape)) help_ = false;
-    if (pressed(key::kSpace)) playOrPause();
+    if (pressed(key::kSpace)) document_.playOrPause();
     if (pressed(key::kLeft, true)) stepFrames(-1);
     if (pressed(key::kRight, true)) stepFrames(+1);
     if (pressed(key::kUp)) stage_.lookFrom(quarter_++ % 4);
@@ -183,13 +201,6 @@ class AnimationWindow {
   void setTranslucent(bool on) {
     stage_.look.translucent = on;
     if (on) stage_.look.solid = false;
-  }
-
-  void playOrPause() {
-    if (!document_.clip() && !document_.clips().empty()) document_.chooseClip(0);
-    if (!document_.playing && !document_.loops && document_.state().time_s >= document_.duration_s())
-      document_.setTime(0);
-    document_.playing = !document_.playing;
   }
 
   void stepFrames(int frames) {
@@ -226,11 +237,19 @@ class AnimationWindow {
     FilmOptions options;
     options.width = film_size_[0];
     options.height = film_size_[1];
-    options.frame_rate = kFrameRate;
+    options.frame_rate = film_rate_;
     options.look = stage_.look;
+    options.look.background = filmBackground();
     options.look.weights_of = stage_.weights ? document_.chosen() : -1;
     film_ = document_.exportFilm(path, stage_.camera(), options);
     return film_ != nullptr;
+  }
+
+  Color filmBackground() const {
+    const char* name = kBackgrounds[film_background_].name;
+    if (name) return *backgroundColor(name);
+    const auto byte = [](float share) { return std::uint8_t(std::lround(share * 255)); };
+    return {byte(film_color_[0]), byte(film_color_[1]), byte(film_color_[2])};
   }
 
   void drawMenu() {
@@ -278,9 +297,8 @@ class AnimationWindow {
     }
     if (ImGui::BeginMenu("View")) {
       if (ImGui::MenuItem("Fit", "F")) stage_.fit();
-      const char* const sides[] = {"Front", "Left side", "Back", "Right side"};
       for (int quarter = 0; quarter < 4; ++quarter)
-        if (ImGui::MenuItem(sides[quarter])) stage_.lookFrom(quarter);
+        if (ImGui::MenuItem(kSides[quarter])) stage_.lookFrom(quarter);
       ImGui::Separator();
       ImGui::MenuItem("Turning rings", nullptr, &stage_.handles);
       ImGui::MenuItem("Shadow", nullptr, &stage_.look.shadow);
@@ -344,39 +362,67 @@ class AnimationWindow {
     ImGui::TreePop();
   }
 
+  // Over the corner of the picture.
+  void drawSides(const ImVec2& corner) {
+    const ImVec2 button = {62, 28};
+    const ImVec2 below = ImGui::GetCursorScreenPos();
+    ImGui::SetCursorScreenPos({corner.x + 10, corner.y + 10});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(4, 3));
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(4, 4));
+    ImGui::BeginChild("sides", {button.x, 5 * button.y + 4 * 4}, false,
+                      ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar);
+    constexpr const char* kLabels[] = {"Front", "Left", "Back", "Right"};
+    for (int quarter = 0; quarter < 4; ++quarter)
+      if (toggle(kLabels[quarter], button, stage_.isSeenFrom(quarter), kSides[quarter]))
+        stage_.lookFrom(quarter);
+    if (ImGui::Button("Fit", button)) stage_.fit();
+    tip("All in view: key F");
+    ImGui::EndChild();
+    ImGui::PopStyleVar(2);
+    ImGui::SetCursorScreenPos(below);
+  }
+
   void drawTime(float width) {
     ImGui::BeginChild("time", {width, kTimeHeight}, true, ImGuiWindowFlags_NoScrollbar);
     const double duration = document_.duration_s();
-    ImGui::BeginDisabled(document_.clips().empty());
-    if (ImGui::Button(document_.playing ? "Pause" : "Play", {88, kButtonHeight})) playOrPause();
-    ImGui::EndDisabled();
-    tip("Space");
+    enabledButton(
+        document_.playing ? "Pause" : "Play", {88, kButtonHeight}, document_.canPlay(),
+        [&] { document_.playOrPause(); }, "Space");
     ImGui::SameLine();
     drawTimeline(ImGui::GetContentRegionAvail().x, duration);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(8, 3));
     ImGui::AlignTextToFramePadding();
-    ImGui::Text("%.2f s of %.2f s", document_.state().time_s, duration);
-    ImGui::SameLine(180);
-    ImGui::Checkbox("Loop", &document_.loops);
-    ImGui::SameLine(270);
-    auto speed = float(document_.speed);
-    ImGui::SetNextItemWidth(150);
-    if (ImGui::SliderFloat("##speed", &speed, 0.1f, 3, "speed %.2f")) document_.speed = double(speed);
-    ImGui::SameLine();
-    if (ImGui::Button("1x")) document_.speed = 1;
     if (document_.clip()) {
-      ImGui::SameLine(0, 24);
+      ImGui::Text("%.2f s of", document_.state().time_s);
+      ImGui::SameLine();
       auto length = float(duration);
-      ImGui::SetNextItemWidth(130);
-      if (ImGui::DragFloat("##length", &length, 0.02f, 0.1f, 60, "length %.2f s")) setLength(double(length));
+      ImGui::SetNextItemWidth(84);
+      if (ImGui::DragFloat("##length", &length, 0.02f, 0.1f, 60, "%.2f s"))
+        document_.setDuration(double(length));
       groupStep();
       tip("How long the clip is; never shorter than its last key");
+    } else {
+      ImGui::TextDisabled("no clip");
     }
+    ImGui::SameLine(184);
+    ImGui::Checkbox("Loop", &document_.loops);
+    ImGui::SameLine(0, 14);
+    ImGui::TextUnformatted("Speed");
+    ImGui::SameLine();
+    constexpr float kValueWidth = 64;
+    auto speed = float(document_.speed);
+    ImGui::SetNextItemWidth(std::clamp(
+        ImGui::GetContentRegionAvail().x - kValueWidth - ImGui::GetStyle().ItemSpacing.x, 30.f, 150.f));
+    if (ImGui::SliderFloat("##speed", &speed, 0.1f, 3, "", ImGuiSliderFlags_NoInput))
+      document_.speed = double(speed);
+    ImGui::SameLine();
+    char value[16];
+    std::snprintf(value, sizeof value, "%.2f###1x", document_.speed);
+    if (ImGui::Button(value, {kValueWidth, 0})) document_.speed = 1;
+    tip("Back to 1");
     ImGui::PopStyleVar();
     ImGui::EndChild();
   }
-
-  void setLength(double length_s) { document_.setDuration(length_s); }
 
   // A drag of the widget before makes one step.
   void groupStep() {
@@ -394,28 +440,36 @@ class AnimationWindow {
       document_.setTime(double((ImGui::GetIO().MousePos.x - x0) / (x1 - x0)) * duration);
     }
     ImDrawList* list = ImGui::GetWindowDrawList();
+    if (duration <= 0) {
+      const char* const hint = "Choose a clip on the left, or make one";
+      const ImVec2 size = ImGui::CalcTextSize(hint);
+      list->AddText({corner.x + (width - size.x) / 2, y - size.y / 2},
+                    ImGui::GetColorU32(ImGuiCol_TextDisabled), hint);
+      return;
+    }
     list->AddRectFilled({x0 - 4, y - 4}, {x1 + 4, y + 4}, IM_COL32(222, 227, 237, 255), 4);
-    if (duration <= 0) return;
     const auto at = [&](double time_s) {
       return x0 + (x1 - x0) * float(std::clamp(time_s / duration, 0.0, 1.0));
     };
     list->AddRectFilled({x0 - 4, y - 4}, {at(document_.state().time_s), y + 4}, IM_COL32(120, 160, 225, 255),
                         4);
-    const std::vector<double> keys = document_.keyTimes();
-    // Of a clip with a key a frame, a picket fence would say nothing.
-    const bool dense = double(keys.size()) > double(x1 - x0) / 14;
-    for (std::size_t i = 0; i < keys.size() && !dense; ++i) {
-      const float x = at(keys[i]);
-      list->AddQuadFilled({x, y - 13}, {x + 4.5f, y - 8.5f}, {x, y - 4}, {x - 4.5f, y - 8.5f},
-                          IM_COL32(238, 150, 20, 255));
+    const double apart_s = std::max(1.5 / kFrameRate, double(kKeysApart_px / (x1 - x0)) * duration);
+    for (const KeyMark& mark : keyMarks(document_.keyTimes(), apart_s)) {
+      const float x = at(mark.from_s);
+      if (mark.isOne())
+        list->AddQuadFilled({x, y - 13}, {x + 4.5f, y - 8.5f}, {x, y - 4}, {x - 4.5f, y - 8.5f},
+                            IM_COL32(238, 150, 20, 255));
+      else
+        list->AddRectFilled({x, y - 10.5f}, {at(mark.to_s), y - 6.5f}, IM_COL32(238, 150, 20, 120), 2);
     }
     const float x = at(document_.state().time_s);
     list->AddCircleFilled({x, y}, 9, IM_COL32_WHITE);
     list->AddCircleFilled({x, y}, 7, IM_COL32(44, 92, 180, 255));
   }
 
-  void drawPanel(float height) {
-    ImGui::BeginChild("panel", {kPanelWidth, height}, true);
+  void drawPanel(float panel_width, float height) {
+    ImGui::BeginChild("panel", {panel_width, height}, true);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(6, 8));
     const float width = ImGui::GetContentRegionAvail().x, half = (width - 8) / 2;
     enabledButton(
         "Undo", {half, kButtonHeight}, document_.canUndo(), [&] { document_.undo(); }, "Ctrl Z");
@@ -470,6 +524,7 @@ class AnimationWindow {
     ImGui::TextDisabled("%d joints, %d bones", document_.jointCount(), document_.boneCount());
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6);
     ImGui::TextDisabled("%d vertices, %d triangles", int(mesh.vertices.rows()), int(mesh.triangles.rows()));
+    ImGui::PopStyleVar();
     ImGui::EndChild();
   }
 
@@ -541,7 +596,7 @@ class AnimationWindow {
       ImGui::SameLine();
     }
     ImGui::TextUnformatted(document_.message().empty()
-                               ? "Space plays, a click chooses a joint, H shows all keys"
+                               ? "A click chooses a clip or a joint, Space plays, H shows all keys"
                                : document_.message().c_str());
   }
 
@@ -565,6 +620,19 @@ class AnimationWindow {
         ImGui::SetNextItemWidth(220);
         ImGui::InputInt2("width, height, px", film_size_.data());
         for (int& side : film_size_) side = std::clamp(side, 2, 8192);
+        ImGui::SetNextItemWidth(106);
+        ImGui::InputInt("frames a second", &film_rate_, 0);
+        film_rate_ = std::clamp(film_rate_, 1, 240);
+        ImGui::SetNextItemWidth(220);
+        if (ImGui::BeginCombo("background", kBackgrounds[film_background_].label)) {
+          for (std::size_t i = 0; i < std::size(kBackgrounds); ++i)
+            if (ImGui::Selectable(kBackgrounds[i].label, i == film_background_)) film_background_ = i;
+          ImGui::EndCombo();
+        }
+        if (!kBackgrounds[film_background_].name) {
+          ImGui::SameLine();
+          ImGui::ColorEdit3("##colour", film_color_.data(), ImGuiColorEditFlags_NoInputs);
+        }
       }
       if (dialog_.tried) {
         ImGui::PushTextWrapPos(640);
@@ -583,38 +651,46 @@ class AnimationWindow {
     ImGui::PopStyleVar(2);
   }
 
-  void drawHelp() {
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  // Over the figure and the time line, never over the lists beside them.
+  void drawHelp(const ImVec2& corner, const ImVec2& room) {
+    ImGui::SetNextWindowPos({corner.x + room.x / 2, corner.y + room.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(room.x, 720.f), 0});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, room);
     ImGui::SetNextWindowBgAlpha(0.96f);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 14);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(28, 22));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(18, 14));
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(6, 2));
     ImGui::Begin("help", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings);
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
     if (ImGui::BeginTable("keys", 2)) {
+      ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
+      ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
       for (const auto& line : kHelp) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         ImGui::TextColored({0.17f, 0.36f, 0.71f, 1}, "%s", line.keys);
         ImGui::TableNextColumn();
-        ImGui::Text("   %s", line.what);
+        ImGui::TextWrapped("%s", line.what);
       }
       ImGui::EndTable();
     }
     ImGui::Spacing();
-    ImGui::TextDisabled("Keys hold what was turned; playing and scrubbing show what the keys say.");
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped("Keys hold what was turned; playing and scrubbing show what the keys say.");
+    ImGui::PopStyleColor();
     ImGui::End();
-    ImGui::PopStyleVar(2);
+    ImGui::PopStyleVar(3);
   }
-
-  static constexpr double kFrameRate = 30;  // of films and of the arrow keys, 1/s
 
   AnimationDocument& document_;
   StageView stage_;
   PathDialog dialog_;
   std::unique_ptr<FilmExport> film_;
   std::array<int, 2> film_size_ = {512, 512};
+  int film_rate_ = int(kFrameRate);
+  std::size_t film_background_ = 0;
+  std::array<float, 3> film_color_ = {0.62f, 0.83f, 1};
   Eigen::Vector3d angles_deg_ = Eigen::Vector3d::Zero();
   int angles_joint_ = -1;
   bool angles_held_ = false;

@@ -140,9 +140,18 @@ void AnimationDocument::takePoseFromClip() {
   state_.pose = clip() ? samplePose(*clip(), skeleton(), float(state_.time_s)) : restPose(skeleton());
 }
 
+void AnimationDocument::playOrPause() {
+  if (!canPlay()) {
+    message_ = "nothing to play: choose a clip";
+    return;
+  }
+  if (!playing && !loops && state_.time_s >= duration_s()) setTime(0);
+  playing = !playing;
+}
+
 bool AnimationDocument::advance(double seconds) {
   const double duration = duration_s();
-  if (!playing || duration <= 0) return playing = false;
+  if (!playing || !canPlay()) return playing = false;
   double time_s = state_.time_s + seconds * speed;
   if (loops) {
     time_s = std::fmod(time_s, duration);
@@ -301,6 +310,7 @@ void AnimationDocument::newClip(const std::string& name, double duration_s) {
   state_.clip = int(clips->size()) - 1;
   state_.clips = std::move(clips);
   state_.time_s = 0;
+  takePoseFromClip();
   playing = false;
   message_ = "new clip \"" + unique + "\": pose the character and set keys";
 }

@@ -72,6 +72,9 @@ class AnimationDocument {
   bool playing = false, loops = true;
   double speed = 1;
   double duration_s() const;
+  bool canPlay() const { return duration_s() > 0; }
+  // From the start if it stands at the end; says so if there is nothing to play.
+  void playOrPause();
   // Goes on by so much time of the watch; false if nothing moves.
   bool advance(double seconds);
   void setTime(double time_s);
@@ -95,7 +98,7 @@ class AnimationDocument {
   void setKey();
   // Of the chosen joint, or of all, at the current time.
   void removeKey();
-  // Without keys, and chosen; it is for this character alone.
+  // Without keys, in the rest pose, and chosen; it is for this character alone.
   void newClip(const std::string& name, double duration_s);
   void setDuration(double duration_s);
   // When there are keys: of the chosen joint, or of all.

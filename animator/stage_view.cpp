@@ -20,17 +20,30 @@ ImU32 faded(ImU32 color, int alpha) { return (color & ~IM_COL32_A_MASK) | ImU32(
 
 }  // namespace
 
-void StageView::fit() {
-  camera_ = framingCamera(document_.character().mesh.vertices, 0.5, 0.12,
-                          double(std::max(1, width_)) / std::max(1, height_));
-  camera_.view_height_m *= 1.25;  // room for raised hands
+void StageView::fit() { framed_ = Framed(); }
+
+void StageView::frame() {
+  std::vector<Clip> shown;
+  if (document_.clip()) shown.push_back(*document_.clip());
+  camera_ = filmCamera(*shown_, shown, camera_.yaw_rad, camera_.pitch_rad, double(width_) / double(height_));
 }
 
-void StageView::zoomBy(double factor) { zoom(camera_, factor, 0, 0, std::max(1, height_)); }
+void StageView::zoomBy(double factor) {
+  zoom(camera_, factor, 0, 0, std::max(1, height_));
+  framed_.reset();
+}
 
 void StageView::lookFrom(int quarter) {
   camera_.yaw_rad = quarter * std::numbers::pi / 2;
   camera_.pitch_rad = 0;
+  if (framed_) fit();
+}
+
+bool StageView::isSeenFrom(int quarter) const {
+  constexpr double kSame_rad = 1e-3;
+  const double off_rad =
+      std::remainder(camera_.yaw_rad - quarter * std::numbers::pi / 2, 2 * std::numbers::pi);
+  return std::abs(off_rad) < kSame_rad && std::abs(camera_.pitch_rad) < kSame_rad;
 }
 
 Eigen::Vector2d StageView::mouse() const {
@@ -40,11 +53,16 @@ Eigen::Vector2d StageView::mouse() const {
 
 void StageView::followDocument() {
   const auto& character = document_.state().character;
-  if (shown_ == character) return;
-  const bool another_mesh = !shown_ || shown_->mesh.vertices.rows() != character->mesh.vertices.rows();
-  shown_ = character;
-  scene_ = std::make_unique<Scene>(*shown_, softwarePainter(shown_->mesh));
-  if (another_mesh) fit();
+  if (shown_ != character) {
+    const bool another_mesh = !shown_ || shown_->mesh.vertices.rows() != character->mesh.vertices.rows();
+    shown_ = character;
+    scene_ = std::make_unique<Scene>(*shown_, softwarePainter(shown_->mesh));
+    if (another_mesh) fit();
+  }
+  const Framed now{shown_, document_.state().clip, width_, height_};
+  if (!framed_ || *framed_ == now) return;
+  frame();
+  framed_ = now;
 }
 
 void StageView::draw(const ImVec2& size) {
@@ -116,12 +134,15 @@ void StageView::useMouse(bool hovered) {
     }
   }
   if (pans_) {
+    framed_.reset();
     pan(camera_, double(io.MouseDelta.x), double(io.MouseDelta.y), height_);
     pans_ = ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2);
   }
-  if (hovered && io.MouseWheel != 0)
+  if (hovered && io.MouseWheel != 0) {
+    framed_.reset();
     zoom(camera_, std::pow(1.15, double(io.MouseWheel)), mouse().x() - width_ / 2.0,
          mouse().y() - height_ / 2.0, height_);
+  }
 }
 
 void StageView::drawHandles(ImDrawList* list) {

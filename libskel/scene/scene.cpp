@@ -14,6 +14,25 @@ using Eigen::Vector3d;
 
 constexpr float kTranslucency = 0.35f;
 
+double meanEdge(const TriangleMesh& mesh) {
+  if (mesh.triangles.rows() == 0) return 0;
+  double sum = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Index a = mesh.triangles(t, k), b = mesh.triangles(t, (k + 1) % 3);
+      sum += double((mesh.vertices.row(a) - mesh.vertices.row(b)).norm());
+    }
+  return sum / double(3 * mesh.triangles.rows());
+}
+
+// The finer the mesh is on the picture, the paler its wires, which would else hide what they cover.
+Color wireColor(double edge_px, float wire_px, bool filled) {
+  // Of a tiling by equilateral triangles.
+  const double covered = std::min(1.0, 2 * std::sqrt(3.0) * double(wire_px) / std::max(edge_px, 1e-6));
+  const double darkening = filled ? 0.09 : 0.3, most = filled ? 0.43 : 0.75;
+  return kInk.withAlpha(std::uint8_t(std::lround(255 * std::min(most, darkening / covered))));
+}
+
 // A soft disc on the ground below the body; smaller and paler the higher the body is.
 void drawShadow(Image& image, const Eigen::MatrixX3f& vertices, float ground_y, const Camera& camera) {
   if (vertices.rows() == 0) return;
@@ -107,6 +126,7 @@ double boneWidth(int height_px) { return std::max(1.5, height_px / 180.0); }
 Scene::Scene(const RiggedCharacter& character, std::unique_ptr<MeshPainter> painter)
     : character_(character), painter_(std::move(painter)) {
   if (character.mesh.vertices.rows() > 0) ground_y_ = character.mesh.vertices.col(1).minCoeff();
+  edge_m_ = meanEdge(character.mesh);
 }
 
 Image Scene::paint(const JointTransforms& posed_from_rest, const Camera& camera, int width, int height,
@@ -122,7 +142,7 @@ Image Scene::paint(const JointTransforms& posed_from_rest, const Camera& camera,
   surface.fill = look.solid || look.translucent;
   surface.opacity = look.translucent ? kTranslucency : 1;
   surface.wires = look.wireframe;
-  surface.wire_color = surface.fill ? kInk.withAlpha(110) : kInk.withAlpha(190);
+  surface.wire_color = wireColor(edge_m_ * project.pxPerMetre(camera.target), surface.wire_px, surface.fill);
   Eigen::MatrixX3f colors;
   if (look.weights_of >= 0) {
     const SkinWeights& weights = character_.weights;

@@ -44,6 +44,7 @@ class Scene {
   const RiggedCharacter& character_;
   std::unique_ptr<MeshPainter> painter_;
   float ground_y_ = 0;
+  double edge_m_ = 0;  // of the mesh's triangles, on the whole
 };
 
 // The colour of a weight in [0, 1].

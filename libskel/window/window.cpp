@@ -18,8 +18,10 @@
 namespace skel {
 namespace {
 
-// Dear ImGui takes this many frames to settle after an event, e.g. for sizes that depend on the last frame's.
+// Dear ImGui takes this many frames to settle after an event, e.g. for sizes that depend on the last frame's,
+// and so long to fade what a dialog has dimmed.
 constexpr int kSettlingFrames = 4;
+constexpr double kSettling_s = 0.25;
 
 std::string glfwProblem() {
   const char* text = nullptr;
@@ -186,16 +188,18 @@ void Window::setTitle(const std::string& title) { glfwSetWindowTitle(parts_->win
 
 void Window::run(const std::function<NextFrame()>& frame) {
   int settling = kSettlingFrames;
+  double settled_s = glfwGetTime() + kSettling_s;
   KeyTaps taps;
   while (!glfwWindowShouldClose(parts_->window)) {
     const NextFrame next = drawFrame(parts_->window, taps, frame);
     if (!glfwGetWindowAttrib(parts_->window, GLFW_VISIBLE)) glfwShowWindow(parts_->window);
     if (next == NextFrame::kClose) break;
-    if (next == NextFrame::kAtOnce || --settling > 0) {
+    if (next == NextFrame::kAtOnce || --settling > 0 || glfwGetTime() < settled_s) {
       glfwPollEvents();
     } else {
       glfwWaitEvents();
       settling = kSettlingFrames;
+      settled_s = glfwGetTime() + kSettling_s;
     }
   }
 }

@@ -79,6 +79,28 @@ TEST_CASE("playing goes round, or stops at the end") {
   CHECK(document.state().time_s == 0);
 }
 
+TEST_CASE("without a clip there is nothing to play, and that is said") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  CHECK_FALSE(document.canPlay());
+  document.playOrPause();
+  CHECK_FALSE(document.playing);
+  CHECK(document.clip() == nullptr);
+  CHECK_THAT(document.message(), Contains("choose a clip"));
+
+  document.chooseClip(0);
+  CHECK(document.canPlay());
+  document.playOrPause();
+  CHECK(document.playing);
+  document.loops = false;
+  document.advance(10);
+  document.playOrPause();  // at the end: once more
+  CHECK(document.playing);
+  CHECK(document.state().time_s == 0);
+  document.playOrPause();
+  CHECK_FALSE(document.playing);
+}
+
 TEST_CASE("a joint turns about its own axes, and the numbers say so") {
   const TempDir dir;
   AnimationDocument document({.path = figureFile(dir)});
@@ -169,6 +191,29 @@ TEST_CASE("keys hold what was turned, scrubbing shows what the keys say") {
   CHECK(document.clip()->tracks.size() == 1);
   document.setDuration(5);
   CHECK(document.duration_s() == 5);
+}
+
+TEST_CASE("a new clip begins in the rest pose and has tracks only for what was turned") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  document.chooseClip(clipIndex(document, "walk"));
+  document.setTime(0.3);
+  REQUIRE_FALSE(atRest(document));
+  document.newClip("mine", 2);
+  CHECK(atRest(document));
+  CHECK(document.state().pose.root_translation.norm() == 0);
+  document.setTime(1);
+  document.turnJoint(document.skeleton().index("head"), 0, 0.4);
+  document.setKey();
+  REQUIRE(document.saveClip(dir.file("mine.clip.json")));
+  const Clip saved = readClipFile(dir.file("mine.clip.json"));
+  REQUIRE(saved.tracks.size() == 1);
+  CHECK(saved.tracks[0].joint == "head");
+  CHECK(saved.tracks[0].times_s == std::vector<float>{1});
+  CHECK(saved.root_times_s.empty());
+  while (document.clip()->name == "mine") REQUIRE(document.undo());
+  CHECK(document.clip()->name == "walk");
+  CHECK_FALSE(atRest(document));
 }
 
 TEST_CASE("poses, clips, weights, skeletons and characters come back from their files") {

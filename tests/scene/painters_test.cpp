@@ -192,6 +192,24 @@ TEST_CASE("a scene puts background, shadow, body and skeleton over one another")
   CHECK(covered(seen(look)) == 160 * 160);
 }
 
+TEST_CASE("wires leave the body's colours to be seen, however fine they lie in the picture") {
+  const RiggedCharacter character = figure();
+  const Scene scene(character, softwarePainter(character.mesh));
+  const JointTransforms rest(character.skeleton.joints.size(), Eigen::Affine3f::Identity());
+  const Camera camera = framingCamera(character.mesh.vertices, 0, 0.2);
+  for (const int side : {60, 160, 480}) {
+    Look look;
+    look.shadow = false;
+    look.background = kClear;
+    const Image bare = scene.paint(rest, camera, side, side, look);
+    look.wireframe = true;
+    const double on_body = difference(scene.paint(rest, camera, side, side, look), bare) * side * side;
+    CAPTURE(side);
+    CHECK(on_body / covered(bare) > 2);
+    CHECK(on_body / covered(bare) < 15);
+  }
+}
+
 TEST_CASE("the back wears its own part of the texture, in every painter") {
   // A pillow: black in front, white behind.
   TriangleMesh mesh = square();
