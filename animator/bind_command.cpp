@@ -21,7 +21,7 @@ const std::map<std::string, JointNaming> kNamings = {
 // Reads the model, computes its weights and says so.
 CharacterFile boundModel(const RigSource& source, const SkinRequest& skin) {
   RigModel model = readRigModel(source);
-  if (!model.note.empty()) std::printf("%s\n", printable(model.note).c_str());
+  if (!model.note.empty()) std::printf("%s\n", model.note.c_str());
   RiggedCharacter& character = model.file.character;
   const auto start = std::chrono::steady_clock::now();
   character.weights = weightsFor(character, skin);
@@ -56,7 +56,7 @@ ExitCode runBind(const BindOptions& options) {
     file = boundModel(options.source, options.skin);
   } else {
     RigModel model = readRigModel(options.source);
-    if (!model.note.empty()) std::printf("%s\n", printable(model.note).c_str());
+    if (!model.note.empty()) std::printf("%s\n", model.note.c_str());
     file = std::move(model.file);
     file.character.weights = readWeights(options.weights, file.character);
   }

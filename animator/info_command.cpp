@@ -72,7 +72,7 @@ ExitCode runInfo(const InfoOptions& options) {
   }
   const RigModel model = readRigModel({options.file, options.skeleton, "auto"});
   const RiggedCharacter& character = model.file.character;
-  if (!model.note.empty()) std::printf("%s\n", printable(model.note).c_str());
+  if (!model.note.empty()) std::printf("%s\n", model.note.c_str());
   printMesh(character.mesh);
   printSkeleton(character.skeleton);
   if (character.weights.weights.rows() > 0) printWeights(character.weights);

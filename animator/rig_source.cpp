@@ -8,6 +8,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
+#include "libskel/core/text.h"
 #include "libskel/mesh/read_mesh.h"
 #include "libskel/skeleton/place_in_mesh.h"
 #include "libskel/skeleton/rig_file.h"
@@ -60,9 +61,9 @@ Skeleton readSkeletonFor(const TriangleMesh& mesh, const std::string& path, cons
   const double y = shareInside(as_is, mesh), z = shareInside(turned, mesh);
   const bool z_up = up == "z" || (up == "auto" && z > y);
   if (note)
-    *note = path + ": " + (z_up ? "z" : "y") + " is up" + (up == "auto" ? "" : " (--up)") + "; " +
+    *note = printable(path) + ": " + (z_up ? "z" : "y") + " is up" + (up == "auto" ? "" : " (--up)") + "; " +
             percent(z_up ? z : y) + " of its bones lie in the model, " + percent(z_up ? y : z) + " with " +
-            (z_up ? "y" : "z") + " up" + (unused.empty() ? "" : "\n" + unused);
+            (z_up ? "y" : "z") + " up" + (unused.empty() ? "" : "\n" + printable(unused));
   return z_up ? turned : as_is;
 }
 

@@ -10,7 +10,6 @@
 #include "libskel/core/json.h"
 #include "libskel/core/json_names.h"
 #include "libskel/core/sha256.h"
-#include "libskel/style/poses.h"
 
 namespace skel {
 namespace {
@@ -64,7 +63,6 @@ DatabaseEntry addToDatabase(const std::string& dir, const std::string& path, con
                             bool force) {
   const SkeletonTemplate plan = loadTemplate("biped");
   MotionFile motion = readMotionFile(path, plan);
-  posesOf(motion, plan, path);  // says what nobody could use
   if (!action.empty()) motion.action = action;
   if (motion.action.empty())
     throw InputError(path, "has no action class; name it by --action walk, run, jump ...");

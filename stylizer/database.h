@@ -22,7 +22,7 @@ struct DatabaseEntry {
 std::vector<DatabaseEntry> readDatabase(const std::string& dir);
 
 // Copies the motion into the folder, as `<name>` or under its own name, and writes the index anew. `action`:
-// its class, if not what the file says. Throws InputError: no class, a joint that no frame knows, a motion of
+// its class, if not what the file says. Throws InputError: no class, a motion of
 // that name is there already (unless `force`); OutputError.
 DatabaseEntry addToDatabase(const std::string& dir, const std::string& motion, const std::string& action,
                             bool force);

@@ -165,7 +165,7 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
       {model + " " + model + " --clip nod -o " + dir.file("films/"), 1,
        "would both write files called figure"},
       {model + " --clip fly -o " + film, 1,
-       "; there are: nod, idle, walk, run, jump, wave, dance, sit, cheer\n"},
+       "; there are: nod, idle, walk, run, jump, wave, dance, sit, cheer, greet, talk\n"},
       {model + " --clip nod --fps 0 -o " + film, 1, "--fps"},
       {model + " --clip nod --fps 60 -o " + film, 1, "at most 50 frames a second"},
       {dir.file("none.glb") + " --clip nod -o " + film, 2, "none.glb: cannot be read"},

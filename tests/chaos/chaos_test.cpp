@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "libskel/skeleton/motion_file.h"
 #include "tests/tools/tools.h"
 
 using namespace skel;
@@ -48,9 +49,14 @@ void writeCharacter(const TempDir& dir, double swing) {
 }
 
 void writeMotion(const TempDir& dir, const std::string& place) {
-  std::string motion = readFile(SKEL_SOURCE_DIR "/tests/data/formats/skel-motion-2.json");
-  motion.replace(motion.find("61.25"), 5, place);
-  writeFile(dir.file("walk.motion.json"), motion);
+  const SkeletonTemplate plan = loadTemplate("biped");
+  MotionFile motion = readMotionFile(SKEL_SOURCE_DIR "/tests/data/formats/skel-motion-2.json", plan);
+  for (MotionFrame& frame : motion.frames)
+    for (std::optional<PlacedJoint>& joint : frame.joints)
+      if (!joint) joint = PlacedJoint{.image = {40, 50}, .confidence = 1};
+  std::string text = formatMotionFile(motion, plan);
+  text.replace(text.find("61.25"), 5, place);
+  writeFile(dir.file("walk.motion.json"), text);
 }
 
 const std::vector<Job>& jobs() {
