@@ -21,8 +21,8 @@ void bindRigSource(CLI::App& app, RigSource& source);
 
 struct RigModel {
   CharacterFile file;  // the weights are empty, and the clips, unless all came from one .glb
-  std::string
-      note;  // how the skeleton was turned and what of its file is not used, for the user, in lines; may be empty
+  // How the skeleton was turned and what of its file is not used, for the user, in lines; may be empty.
+  std::string note;
 };
 // Throws InputError, and UsageError where there is no skeleton.
 RigModel readRigModel(const RigSource& source);
