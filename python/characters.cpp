@@ -60,7 +60,16 @@ Eigen::MatrixXf denseWeights(const RiggedCharacter& character) {
 }
 
 // As a file would be: whatever is wrong is told by the reader of clip files.
-Clip checked(const Clip& clip) { return parseClip(formatClip(clip), "clip \"" + clip.name + "\""); }
+Clip checked(const Clip& clip) {
+  const std::string file = "clip \"" + clip.name + "\"";
+  try {
+    return parseClip(formatClip(clip), file);
+  } catch (const InputError&) {
+    throw;
+  } catch (const Error& error) {
+    throw InputError(file, error.what());
+  }
+}
 
 using Tracks = std::map<std::string, std::pair<std::vector<float>, Quaternions>>;
 
