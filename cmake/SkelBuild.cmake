@@ -22,7 +22,12 @@ endif()
 
 # What who uses the library gets: nothing but what its headers need.
 add_library(skel_usage INTERFACE)
-target_include_directories(skel_usage INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+# The warnings of who embeds skel are not for its headers.
+set(system "")
+if(NOT PROJECT_IS_TOP_LEVEL)
+  set(system SYSTEM)
+endif()
+target_include_directories(skel_usage ${system} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                                                 $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_compile_features(skel_usage INTERFACE cxx_std_20)
 # Eigen's fast square roots start from the CPU's own approximation, which differs between makers. Where two parts of a
