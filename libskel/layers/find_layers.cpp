@@ -8,6 +8,7 @@
 
 #include "libskel/core/segment.h"
 #include "libskel/layers/find_parts.h"
+#include "libskel/layers/held_things.h"
 #include "libskel/layers/layer_map.h"
 
 namespace skel {
@@ -217,6 +218,7 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
   map.limb = Plane8::Zero(image.height, image.width);
   enlarge(picture, limbs, map.limb);
   map.limb = (silhouette.mask != 0).select(map.limb, Plane8::Zero(image.height, image.width));
+  giveThingsToLimbs(silhouette, map);
   return map;
 }
 

@@ -6,6 +6,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
+#include "libskel/layers/held_things.h"
 #include "libskel/layers/layer_map.h"
 
 namespace skel {
@@ -57,8 +58,8 @@ Image layerPicture(const LayerMap& layers, const Plane8& mask) {
     for (int x = 0; x < width; ++x) {
       if (mask(y, x) == 0) continue;
       const int limb = layers.any() ? layers.limb(y, x) : 0;
-      const Rgb color = limb == 0 && layers.part.size() != 0 ? partColor(static_cast<Part>(layers.part(y, x)))
-                                                             : layerColor(limb);
+      const Part part = layers.part.size() != 0 ? static_cast<Part>(layers.part(y, x)) : Part::kTrunk;
+      const Rgb color = limb == 0 || part == Part::kThing ? partColor(part) : layerColor(limb);
       std::copy(color.begin(), color.end(), picture.pixel(x, y));
       picture.pixel(x, y)[3] = 255;
     }
@@ -75,14 +76,17 @@ LayerMap layersOfPicture(const Image& picture, const Silhouette& silhouette,
     throw InputError(file, text.str());
   }
   LayerMap layers;
-  layers.limb = Plane8::Zero(picture.height, picture.width);
+  layers.limb = layers.part = Plane8::Zero(picture.height, picture.width);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
       const std::uint8_t* p = picture.pixel(x, y);
       const bool grey = p[0] == p[1] && p[1] == p[2];
+      if (p[3] < 128 || grey || mask(y, x) == 0) continue;
       const auto is = [&](Part part) { return partColor(part) == Rgb{p[0], p[1], p[2]}; };
-      if (p[3] < 128 || grey || mask(y, x) == 0 || std::any_of(kColoured.begin(), kColoured.end(), is))
+      if (const auto* part = std::find_if(kColoured.begin(), kColoured.end(), is); part != kColoured.end()) {
+        layers.part(y, x) = static_cast<std::uint8_t>(*part);
         continue;
+      }
       int limb = 0;
       for (int k = 1; k <= static_cast<int>(body_plan.limbs.size()) && limb == 0; ++k)
         if (layerColor(k) == Rgb{p[0], p[1], p[2]}) limb = k;
@@ -95,6 +99,7 @@ LayerMap layersOfPicture(const Image& picture, const Silhouette& silhouette,
       layers.limb(y, x) = static_cast<std::uint8_t>(limb);
     }
   if (!layers.limb.any()) layers.limb.resize(0, 0);
+  giveThingsToLimbs(silhouette, layers);
   return layers;
 }
 

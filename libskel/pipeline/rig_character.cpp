@@ -15,6 +15,7 @@
 #include "libskel/jointnet/net_joints.h"
 #include "libskel/mesh/front_view.h"
 #include "libskel/pipeline/body_depth.h"
+#include "libskel/pipeline/worn_parts.h"
 #include "libskel/recognition/complete_skeleton.h"
 #include "libskel/recognition/paper_recognizer.h"
 #include "libskel/recognition/tree_recognition.h"
@@ -285,8 +286,11 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   });
   drawing.character.skeleton = drawing.recognition.skeleton;
   drawing.character.weights = timed("skin", [&] {
-    return computeSkinWeights(drawing.character.mesh, drawing.character.skeleton, options.skin_method,
-                              options.skin, joint_layers);
+    SkinWeights weights = computeSkinWeights(drawing.character.mesh, drawing.character.skeleton,
+                                             options.skin_method, options.skin, joint_layers);
+    if (inflated)
+      carryWornParts(drawing.character.mesh, drawing.character.skeleton, body_plan, drawing.layers, weights);
+    return weights;
   });
   if (inflated) {
     drawing.character = timed("depth", [&] {

@@ -190,11 +190,7 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
                                const SkinOptions& options, const std::vector<int>& joint_layers) {
   SKEL_CHECK(options.max_influences >= 1 && options.max_influences <= 4);
   SKEL_CHECK(!skeleton.joints.empty());
-  const int joint_count = static_cast<int>(skeleton.joints.size());
-  SkinWeights result;
-  result.joints.setZero(mesh.vertices.rows(), 4);
-  result.weights.setZero(mesh.vertices.rows(), 4);
-  if (mesh.vertices.rows() == 0) return result;
+  if (mesh.vertices.rows() == 0) return {};
   SKEL_CHECK(mesh.vertices.allFinite());
 
   const Method& way = find(method);
@@ -204,22 +200,8 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
                      std::to_string(mesh.vertices.rows()) +
                      "; take --skin geodesic, whose time grows as their number");
   const std::vector<Bone> bones = skeletonBones(skeleton);
-  const JointWeights weights = joint_layers.empty()
-                                   ? meshWeights(mesh, skeleton, bones, way, options)
-                                   : layerWeights(mesh, skeleton, bones, way, options, joint_layers);
-  std::vector<int> order;
-  for (Eigen::Index v = 0; v < weights.rows(); ++v) {
-    order.clear();
-    for (int joint = 0; joint < joint_count; ++joint) {
-      if (weights(v, joint) > 0) order.push_back(joint);
-    }
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weights(v, a) > weights(v, b); });
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      result.joints(v, k) = static_cast<std::uint16_t>(order[k]);
-      result.weights(v, k) = weights(v, order[k]);
-    }
-  }
-  return result;
+  return packWeights(joint_layers.empty() ? meshWeights(mesh, skeleton, bones, way, options)
+                                          : layerWeights(mesh, skeleton, bones, way, options, joint_layers));
 }
 
 }  // namespace skel

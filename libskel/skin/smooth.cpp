@@ -49,4 +49,29 @@ void keepHeaviest(int count, JointWeights& weights) {
   }
 }
 
+SkinWeights packWeights(const JointWeights& weights) {
+  SkinWeights result;
+  result.joints.setZero(weights.rows(), 4);
+  result.weights.setZero(weights.rows(), 4);
+  std::vector<int> order;
+  for (Eigen::Index v = 0; v < weights.rows(); ++v) {
+    order.clear();
+    for (int joint = 0; joint < weights.cols(); ++joint)
+      if (weights(v, joint) > 0) order.push_back(joint);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weights(v, a) > weights(v, b); });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      result.joints(v, static_cast<Eigen::Index>(k)) = static_cast<std::uint16_t>(order[k]);
+      result.weights(v, static_cast<Eigen::Index>(k)) = weights(v, order[k]);
+    }
+  }
+  return result;
+}
+
+JointWeights unpackWeights(const SkinWeights& weights, int joint_count) {
+  JointWeights rows = JointWeights::Zero(weights.joints.rows(), joint_count);
+  for (Eigen::Index v = 0; v < rows.rows(); ++v)
+    for (int k = 0; k < 4; ++k) rows(v, weights.joints(v, k)) += weights.weights(v, k);
+  return rows;
+}
+
 }  // namespace skel

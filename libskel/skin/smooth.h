@@ -3,6 +3,7 @@
 
 #include "libskel/mesh/triangle_mesh.h"
 #include "libskel/skin/falloff.h"
+#include "libskel/skin/skin_weights.h"
 
 namespace skel {
 
@@ -12,5 +13,9 @@ void smoothWeights(const TriangleMesh& mesh, int rounds, JointWeights& weights);
 
 // The `count` heaviest of each row, to the sum of 1; of equal ones the first joints.
 void keepHeaviest(int count, JointWeights& weights);
+
+// Of rows with at most four weights above 0.
+SkinWeights packWeights(const JointWeights& weights);
+JointWeights unpackWeights(const SkinWeights& weights, int joint_count);
 
 }  // namespace skel

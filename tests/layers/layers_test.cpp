@@ -375,6 +375,28 @@ TEST_CASE(
       (layersOfPicture(picture, drawing.silhouette, drawing.body_plan, "map.png").limb == layers.limb).all());
 }
 
+TEST_CASE("a thing is of the limb that most of its border lies against, also where it was painted by hand") {
+  const Drawing drawing;
+  LayerMap layers = drawing.layers();
+  const int arm = 1, trunk = 0;
+  const Vector2d hand = drawing.at("right_hand"), neck = drawing.at("neck");
+  layers.part = Plane8::Zero(drawing.figure.size, drawing.figure.size);
+  const auto paint = [&](const Vector2d& at) {
+    layers.part.block(int(at.y()) - 8, int(at.x()) - 8, 17, 17).setConstant(std::uint8_t(Part::kThing));
+    layers.limb.block(int(at.y()) - 8, int(at.x()) - 8, 17, 17).setConstant(trunk);
+  };
+  paint(hand), paint(neck + Vector2d(0, 30));
+  const LayerMap read = layersOfPicture(layerPicture(layers, drawing.silhouette.mask), drawing.silhouette,
+                                        drawing.body_plan, "map.png");
+  CHECK(read.limb(int(hand.y()), int(hand.x())) == arm);
+  CHECK(read.limb(int(neck.y()) + 30, int(neck.x())) == trunk);
+  CHECK(read.part(int(neck.y()) + 30, int(neck.x())) == std::uint8_t(Part::kThing));
+  const LayerMap again = layersOfPicture(layerPicture(read, drawing.silhouette.mask), drawing.silhouette,
+                                         drawing.body_plan, "map.png");
+  CHECK((again.limb == read.limb).all());
+  CHECK((again.part == read.part).all());
+}
+
 TEST_CASE("what is hidden takes the colours around it") {
   Image image(60, 40);
   for (int y = 0; y < 40; ++y)

@@ -1,0 +1,216 @@
+#include "libskel/pipeline/worn_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "libskel/skin/bones.h"
+#include "libskel/skin/edges.h"
+#include "libskel/skin/falloff.h"
+#include "libskel/skin/smooth.h"
+
+namespace skel {
+namespace {
+
+using Eigen::Index;
+using Eigen::RowVectorXf;
+
+constexpr float kLeast = .01f;     // of all vertices
+constexpr float kHeld = .3f;       // of the thighs, and of what lies between them: less is no skirt
+constexpr float kSwing = .4f;      // of a leg: so far down a skirt's hem would go with the thigh altogether
+constexpr float kMostSwing = .8f;  // of the thigh's turn, of the shortest skirt
+constexpr float kApart = .15f;     // of a leg: hips so far apart in the picture push a side each
+
+bool isWorn(Part part) { return part == Part::kSkirt || part == Part::kAppendix || part == Part::kThing; }
+
+// Of each vertex, by its place in the drawing; where that shows another body of the mesh, by its neighbours.
+std::vector<Part> partsOfVertices(const TriangleMesh& mesh, const LayerMap& layers, const Edges& edges) {
+  const auto count = static_cast<std::size_t>(mesh.vertices.rows());
+  std::vector<Part> parts(count, Part::kTrunk);
+  std::vector<char> known(count, 0);
+  std::deque<std::size_t> waiting;
+  for (std::size_t v = 0; v < count; ++v) {
+    const auto row = static_cast<Index>(v);
+    const Eigen::Vector2d at =
+        mesh.model_from_image.inverse(mesh.vertices.row(row).head<2>().transpose().cast<double>());
+    const auto x = static_cast<Index>(std::lround(at.x())), y = static_cast<Index>(std::lround(at.y()));
+    if (x < 0 || y < 0 || x >= layers.part.cols() || y >= layers.part.rows()) continue;
+    const int own = mesh.layer.size() > 0 ? mesh.layer[row] : 0, seen = layers.any() ? layers.limb(y, x) : 0;
+    if (own != seen) continue;
+    parts[v] = static_cast<Part>(layers.part(y, x));
+    known[v] = 1;
+    waiting.push_back(v);
+  }
+  while (!waiting.empty()) {
+    const std::size_t v = waiting.front();
+    waiting.pop_front();
+    for (int i = edges.first[v]; i < edges.first[v + 1]; ++i)
+      if (const auto to = static_cast<std::size_t>(edges.to[static_cast<std::size_t>(i)]); !known[to])
+        parts[to] = parts[v], known[to] = 1, waiting.push_back(to);
+  }
+  return parts;
+}
+
+// Connected vertices of one part; the crumbs are none.
+std::vector<std::vector<int>> pieces(const std::vector<Part>& parts, const Edges& edges) {
+  std::vector<std::vector<int>> found;
+  std::vector<char> seen(parts.size(), 0);
+  for (std::size_t start = 0; start < parts.size(); ++start) {
+    if (seen[start] || !isWorn(parts[start])) continue;
+    std::vector<int>& piece = found.emplace_back(1, static_cast<int>(start));
+    seen[start] = 1;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const auto v = static_cast<std::size_t>(piece[i]);
+      for (int k = edges.first[v]; k < edges.first[v + 1]; ++k) {
+        const auto to = static_cast<std::size_t>(edges.to[static_cast<std::size_t>(k)]);
+        if (!seen[to] && parts[to] == parts[start]) seen[to] = 1, piece.push_back(static_cast<int>(to));
+      }
+    }
+  }
+  const float least = kLeast * static_cast<float>(parts.size());
+  std::erase_if(found,
+                [&](const std::vector<int>& piece) { return static_cast<float>(piece.size()) < least; });
+  return found;
+}
+
+struct Legs {
+  std::array<int, 2> hips{}, knees{};  // joints
+  int pelvis = 0;
+  float top_m = 0, length_m = 0;
+  std::array<float, 2> x_m{};  // of the hips
+};
+
+std::optional<Legs> legsOf(const Skeleton& skeleton, const SkeletonTemplate& body_plan) {
+  Legs legs;
+  std::size_t found = 0;
+  float low = 0;
+  for (const TemplateLimb& limb : body_plan.limbs) {
+    if (limb.limb_class != JointClass::kLeg || found == 2) continue;
+    const auto joint = [&](int i) {
+      return skeleton.find(
+          body_plan.joints[static_cast<std::size_t>(limb.joints[static_cast<std::size_t>(i)])].name);
+    };
+    const int hip = joint(0), knee = joint(1), foot = joint(2);
+    if (hip < 0 || knee < 0 || foot < 0) return std::nullopt;
+    const Eigen::Vector3f at = skeleton.joints[static_cast<std::size_t>(hip)].position.cast<float>();
+    legs.hips[found] = hip, legs.knees[found] = knee;
+    legs.x_m[found] = at.x();
+    legs.top_m += at.y() / 2;
+    low += static_cast<float>(skeleton.joints[static_cast<std::size_t>(foot)].position.y()) / 2;
+    ++found;
+  }
+  if (found != 2) return std::nullopt;
+  legs.pelvis = skeleton.joints[static_cast<std::size_t>(legs.hips[0])].parent;
+  legs.length_m = legs.top_m - low;
+  if (legs.pelvis < 0 || legs.length_m <= 0) return std::nullopt;
+  return legs;
+}
+
+// What is drawn of one hangs over both thighs and closes what is between them; trousers do not.
+bool wearsSkirt(const LayerMap& layers, const Skeleton& skeleton, const Legs& legs) {
+  constexpr int kSamples = 16;
+  const auto at = [&](int joint) { return skeleton.joints[static_cast<std::size_t>(joint)].image; };
+  const auto held = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    int inside = 0;
+    for (int i = 0; i < kSamples; ++i) {
+      const Eigen::Vector2d p = from + (i + .5) / kSamples * (to - from);
+      const auto x = static_cast<Index>(std::lround(p.x())), y = static_cast<Index>(std::lround(p.y()));
+      inside += x >= 0 && y >= 0 && x < layers.part.cols() && y < layers.part.rows() &&
+                static_cast<Part>(layers.part(y, x)) == Part::kSkirt;
+    }
+    return static_cast<float>(inside) >= kHeld * kSamples;
+  };
+  const Eigen::Vector2d a = at(legs.hips[0]), b = at(legs.hips[1]), c = at(legs.knees[0]),
+                        d = at(legs.knees[1]);
+  return held(a, c) && held(b, d) && held((a + b) / 2, (c + d) / 2);
+}
+
+float smoothStep(float t) {
+  t = std::clamp(t, 0.f, 1.f);
+  return t * t * (3 - 2 * t);
+}
+
+// Above the hips it goes with the trunk as it did, limbs apart.
+void hang(const TriangleMesh& mesh, const Legs& legs, const std::vector<int>& skirt, JointWeights& weights) {
+  float hem = legs.top_m, left = mesh.vertices(skirt[0], 0), right = left;
+  for (const int v : skirt) {
+    hem = std::min(hem, mesh.vertices(v, 1));
+    left = std::min(left, mesh.vertices(v, 0)), right = std::max(right, mesh.vertices(v, 0));
+  }
+  const float drop = legs.top_m - hem, width = right - left;
+  if (drop <= 0 || width <= 0) return;
+  const float swing = std::min(kMostSwing, kSwing * legs.length_m / drop);
+  const float apart = legs.x_m[1] - legs.x_m[0];
+  const float turned = std::clamp(apart / (kApart * legs.length_m), -1.f, 1.f);
+  for (const int v : skirt) {
+    const float down = legs.top_m - mesh.vertices(v, 1);
+    if (down <= 0) continue;
+    const float across = (mesh.vertices(v, 0) - (left + right) / 2) / width;  // -.5….5
+    const float second = .5f + turned * across, push = swing * smoothStep(down / drop);
+    weights.row(v).setZero();
+    weights(v, legs.pelvis) = 1 - push;
+    weights(v, legs.hips[0]) = push * (1 - second);
+    weights(v, legs.hips[1]) = push * second;
+  }
+}
+
+// As one with the joint that moves most of what the piece touches; with `trunk_alone`, what limbs move apart.
+void ride(const Edges& edges, const std::vector<int>& limbs, const std::vector<int>& piece, bool trunk_alone,
+          JointWeights& weights) {
+  std::vector<char> own(static_cast<std::size_t>(weights.rows()), 0);
+  for (const int v : piece) own[static_cast<std::size_t>(v)] = 1;
+  std::vector<int> touched;
+  for (const int v : piece)
+    for (int k = edges.first[static_cast<std::size_t>(v)]; k < edges.first[static_cast<std::size_t>(v) + 1];
+         ++k)
+      if (const int to = edges.to[static_cast<std::size_t>(k)]; !own[static_cast<std::size_t>(to)])
+        touched.push_back(to);
+  RowVectorXf sum = RowVectorXf::Zero(weights.cols());
+  for (const int v : touched) sum += weights.row(v);
+  if (trunk_alone)
+    for (Index j = 0; j < sum.size(); ++j)
+      if (limbs[static_cast<std::size_t>(j)] >= 0) sum[j] = 0;
+  Index most = 0;
+  if (touched.empty() || sum.maxCoeff(&most) <= 0) return;
+  RowVectorXf carried = RowVectorXf::Zero(weights.cols());
+  for (const int v : touched) {
+    RowVectorXf row = weights.row(v);
+    for (Index j = 0; j < row.size(); ++j)
+      if (limbs[static_cast<std::size_t>(j)] != limbs[static_cast<std::size_t>(most)]) row[j] = 0;
+    carried += row;
+  }
+  carried /= carried.sum();
+  for (const int v : piece) weights.row(v) = carried;
+}
+
+}  // namespace
+
+void carryWornParts(const TriangleMesh& mesh, const Skeleton& skeleton, const SkeletonTemplate& body_plan,
+                    const LayerMap& layers, SkinWeights& weights) {
+  const int count = static_cast<int>(mesh.vertices.rows());
+  if (layers.part.size() == 0 || count == 0) return;
+  const Edges edges = edgesOf(count, mesh.triangles);
+  const std::vector<Part> parts = partsOfVertices(mesh, layers, edges);
+  const std::vector<std::vector<int>> found = pieces(parts, edges);
+  if (found.empty()) return;
+  const JointWeights flesh = unpackWeights(weights, static_cast<int>(skeleton.joints.size()));
+  JointWeights rows = flesh;
+  const std::vector<int> limbs = jointLimbs(skeleton);
+  const std::optional<Legs> legs = legsOf(skeleton, body_plan);
+  const bool skirted = legs && wearsSkirt(layers, skeleton, *legs);
+  for (const std::vector<int>& piece : found) {
+    const Part part = parts[static_cast<std::size_t>(piece[0])];
+    if (part != Part::kSkirt)
+      ride(edges, limbs, piece, part == Part::kAppendix, rows);
+    else if (skirted)
+      hang(mesh, *legs, piece, rows);
+  }
+  if (rows == flesh) return;
+  keepHeaviest(4, rows);
+  weights = packWeights(rows);
+}
+
+}  // namespace skel
