@@ -9,7 +9,8 @@
 namespace skel {
 
 // Of the parts that the layer map tells:
-// - a skirt hangs from the pelvis and is pushed by both thighs, more towards its hem, each on its own side: it
+// - a skirt hangs from the pelvis and is pushed by both thighs, more towards its hem, each on its own side:
+// it
 //   swings, and never becomes two legs;
 // - a cape, wing or tail goes with the trunk that it touches, not with the limbs before it;
 // - a thing held rides rigidly with what touches it most, a hand mostly.
