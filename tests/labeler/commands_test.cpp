@@ -199,6 +199,13 @@ TEST_CASE("check names every inconsistency with file and path") {
                  "cap_boy.labels.json: mask.file: \"cap_boy.mask.png\" has changed"));
 }
 
+TEST_CASE("the labelled set of the repository has no inconsistency") {
+  const ToolRun run = runTool("env -u DISPLAY -u WAYLAND_DISPLAY '" SKEL_LABEL "' check '" SKEL_SOURCE_DIR
+                              "/datasets/characters'");
+  CHECK(run.out == "no inconsistencies\n");
+  CHECK(run.err == "");
+}
+
 TEST_CASE("stats and the table count the same candidates") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());
