@@ -109,7 +109,22 @@ struct Joints {
   std::vector<Affine3d, Eigen::aligned_allocator<Affine3d>> model_from_parent;
   std::vector<int> of_node;        // index into skeleton.joints, -1: none
   std::vector<int> of_skin_joint;  // the same by the skin's own order
+  bool have_ends = false;
+
+  BoneStyle style() const {
+    if (have_ends) return BoneStyle::kEnds;
+    const bool plain = std::all_of(axes.begin(), axes.end(), [](const Quaterniond& turn) {
+      return turn.vec().cwiseAbs().maxCoeff() <= kRigid;
+    });
+    return plain ? BoneStyle::kPlain : BoneStyle::kAlong;
+  }
 };
+
+// What encodeGlb() puts at the end of a last bone.
+bool isBoneEnd(const JsonValue& node) {
+  const std::optional<JsonValue> extras = node.find("extras");
+  return extras && extras->isObject() && extras->find("end");
+}
 
 std::string templateOf(const Skeleton& skeleton) {
   for (const std::string& name : builtinTemplates()) {
@@ -163,6 +178,10 @@ Joints readJoints(const Nodes& nodes, const JsonValue& skin) {
   std::set<std::string> names;
   for (const int node : sorted) {
     const JsonValue& value = nodes.values[node];
+    if (isBoneEnd(value)) {
+      joints.have_ends = true;
+      continue;
+    }
     const int index = static_cast<int>(joints.skeleton.joints.size()), above = nodes.parents[node];
     Joint joint;
     joint.name = value.at("name").asString();
@@ -190,6 +209,7 @@ Joints readJoints(const Nodes& nodes, const JsonValue& skin) {
     joints.of_skin_joint[place[node]] = index;
     joints.skeleton.joints.push_back(std::move(joint));
   }
+  if (joints.skeleton.joints.empty()) list.fail("holds nothing but ends of bones");
   joints.skeleton.template_name = templateOf(joints.skeleton);
   return joints;
 }
@@ -203,6 +223,7 @@ void checkInverseBind(const GlbContainer& glb, const JsonValue& skin, const Join
     index->fail("are " + std::to_string(matrices.count) + ", there are " +
                 std::to_string(joints.of_skin_joint.size()) + " joints");
   for (std::size_t k = 0; k < matrices.count; ++k) {
+    if (joints.of_skin_joint[k] < 0) continue;
     const Joint& joint = joints.skeleton.joints[joints.of_skin_joint[k]];
     const Eigen::Matrix3d turn = joints.axes[joints.of_skin_joint[k]].conjugate().toRotationMatrix();
     Eigen::Matrix4d expected = Eigen::Matrix4d::Identity();
@@ -312,6 +333,8 @@ SkinWeights readWeights(const GlbContainer& glb, const JsonValue& primitive, con
       if (joint >= joints.of_skin_joint.size())
         joints_index.fail("vertex " + std::to_string(v) + " has joint " + std::to_string(joint) + " of " +
                           std::to_string(joints.of_skin_joint.size()));
+      if (joints.of_skin_joint[joint] < 0)
+        joints_index.fail("vertex " + std::to_string(v) + " is moved by the end of a bone");
       shares[k] = {weight, static_cast<std::uint16_t>(joints.of_skin_joint[joint])};
       sum += weight;
     }
@@ -488,6 +511,7 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
     for (std::size_t i = 0; i < all.size(); ++i)
       result.clips.push_back(readClip(glb, all[i], character, joints, "clip " + std::to_string(i + 1)));
   }
+  result.bones = joints.style();
   if (const auto name = mesh.find("name")) result.name = name->asString();
   return result;
 }

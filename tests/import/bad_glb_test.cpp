@@ -179,6 +179,12 @@ TEST_CASE("GLB files that mean something else are refused with their place") {
          setWord(binary, d["bufferViews"][view].value("byteOffset", 0u), 0xffffffff);
        },
        "attributes.JOINTS_0: vertex 0 has joint 255 of 17"},
+      {[](json& d, std::string&) { d["nodes"].back()["extras"]["end"] = true; },
+       "attributes.JOINTS_0: vertex 2052 is moved by the end of a bone"},
+      {[](json& d, std::string&) {
+         for (const int joint : d["skins"][0]["joints"]) d["nodes"][joint]["extras"]["end"] = true;
+       },
+       "skins[0].joints: holds nothing but ends of bones"},
       {[](json& d, std::string&) { d["animations"][0]["channels"][0]["target"]["node"] = 0; },
        "animations[0].channels[0].target.node: is no joint of the skin"},
       {[](json& d, std::string&) { d["animations"][0]["channels"][0]["target"]["path"] = "weights"; },
