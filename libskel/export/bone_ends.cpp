@@ -33,8 +33,9 @@ std::optional<Vector3d> boneEnd(const Skeleton& skeleton, int index, const Trian
   Eigen::AlignedBox3d end;
   for (const Vector3d& from_joint : moved)
     if (from_joint.dot(direction) >= (1 - kFarEnd) * length) end.extend(from_joint);
-  const Vector3d middle = end.center();
-  return joint.position + middle + (length - middle.dot(direction)) * direction;
+  const Vector3d aside = end.center() - end.center().dot(direction) * direction;
+  // What is as wide as long (the top of a head) says nothing about where its bone leads.
+  return joint.position + length * direction + (aside.norm() < .5 * length ? aside : Vector3d::Zero());
 }
 
 }  // namespace
