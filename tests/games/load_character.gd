@@ -37,6 +37,11 @@ func _init():
 		material = mesh.mesh.surface_get_material(0)
 	if material.albedo_texture == null:
 		return wrong("no texture", file)
+	if abs(material.emission_energy - 0.25) > 0.01:
+		return wrong("shines by %f" % material.emission_energy, file)
+	for uv in mesh.mesh.surface_get_arrays(0)[Mesh.ARRAY_TEX_UV]:
+		if not Rect2(0, 0, 1, 1).has_point(uv):
+			return wrong("texture coordinates beyond the texture", file)
 	if mesh.get_aabb().position.y < -0.01 or mesh.get_aabb().position.y > 0.01:
 		return wrong("stands at %f m" % mesh.get_aabb().position.y, file)
 	var expected = arguments[-1].split(",")
