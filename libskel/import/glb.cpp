@@ -101,13 +101,15 @@ int skinnedNode(const GlbContainer& glb, const Nodes& nodes) {
   return found;
 }
 
+constexpr int kBoneEnd = -2;
+
 struct Joints {
   Skeleton skeleton;
   // Of each joint from its own axes and from those of its node's parent to the model's, in the rest pose.
   // Skel's skeletons have the model's everywhere.
   std::vector<Quaterniond> axes;
   std::vector<Affine3d, Eigen::aligned_allocator<Affine3d>> model_from_parent;
-  std::vector<int> of_node;        // index into skeleton.joints, -1: none
+  std::vector<int> of_node;        // index into skeleton.joints, -1: none, kBoneEnd
   std::vector<int> of_skin_joint;  // the same by the skin's own order
   bool have_ends = false;
 
@@ -180,6 +182,7 @@ Joints readJoints(const Nodes& nodes, const JsonValue& skin) {
     const JsonValue& value = nodes.values[node];
     if (isBoneEnd(value)) {
       joints.have_ends = true;
+      joints.of_node[node] = kBoneEnd;
       continue;
     }
     const int index = static_cast<int>(joints.skeleton.joints.size()), above = nodes.parents[node];
@@ -251,14 +254,18 @@ void readTriangles(const GlbContainer& glb, const JsonValue& primitive, Triangle
   }
 }
 
-// What glb.cpp of the export room writes: a share of the texture shines, light gives the rest.
-bool shinesInPart(const JsonValue& material, const JsonValue& pbr, const std::vector<double>& factor) {
+JsonValue imageOf(const GlbContainer& glb, const JsonValue& texture) {
+  return glb.element("images", glb.element("textures", texture.at("index")).at("source"));
+}
+
+// What glb.cpp of the export room writes: a share of the texture shines, light gives the rest. Blender makes
+// two textures with one image of it.
+bool shinesInPart(const GlbContainer& glb, const JsonValue& material, const JsonValue& pbr,
+                  const std::vector<double>& factor) {
   const std::optional<JsonValue> shine = material.find("emissiveTexture"),
                                  base = pbr.find("baseColorTexture");
   const auto share = numbersAt(material, "emissiveFactor", 3);
-  if (!shine || !base || !share ||
-      shine->at("index").asInt(0, 1 << 20) != base->at("index").asInt(0, 1 << 20))
-    return false;
+  if (!shine || !base || !share || imageOf(glb, *shine).path() != imageOf(glb, *base).path()) return false;
   for (std::size_t k = 0; k < 3; ++k)
     if (std::abs(factor[k] + (*share)[k] - 1) > 1e-6) return false;
   return factor[3] == 1;
@@ -272,11 +279,11 @@ void readTexture(const GlbContainer& glb, const JsonValue& primitive, const std:
   const std::optional<JsonValue> pbr = material.find("pbrMetallicRoughness");
   if (!pbr) return;
   if (const auto factor = numbersAt(*pbr, "baseColorFactor", 4))
-    if (*factor != std::vector<double>(4, 1) && !shinesInPart(material, *pbr, *factor))
+    if (*factor != std::vector<double>(4, 1) && !shinesInPart(glb, material, *pbr, *factor))
       pbr->at("baseColorFactor").fail("is not read; put the colour into a texture");
   const std::optional<JsonValue> found = pbr->find("baseColorTexture");
   if (!found) return;
-  const JsonValue image = glb.element("images", glb.element("textures", found->at("index")).at("source"));
+  const JsonValue image = imageOf(glb, *found);
   if (image.find("uri")) image.at("uri").fail("lies outside of the file; export as one .glb");
   if (const auto set = found->find("texCoord"); set && set->asInt(0, 1 << 20) != 0)
     set->fail("is not read; use the first set of texture coordinates");
@@ -431,6 +438,7 @@ Clip readClip(const GlbContainer& glb, const JsonValue& animation, const RiggedC
     const JsonValue target = channel.at("target"), path = target.at("path");
     const int joint = joints.of_node[static_cast<std::size_t>(
         target.at("node").asInt(0, static_cast<int>(joints.of_node.size()) - 1))];
+    if (joint == kBoneEnd) continue;  // other programs write a track for every joint
     if (joint < 0) target.at("node").fail("is no joint of the skin");
     const std::string kind = path.asString();
     if (kind != "rotation" && kind != "translation" && kind != "scale")

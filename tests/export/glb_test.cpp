@@ -478,6 +478,27 @@ TEST_CASE("the last bones end in joints at the far end of what they move, which 
   CHECK(restTransform(nodes, parents, ends.at("mixamorig:RightFoot_end")).translation().y() > ground);
 }
 
+TEST_CASE("a bone ends in the middle of its far end, straight ahead where that is as wide as long") {
+  RiggedCharacter character;
+  character.skeleton.joints.resize(2);
+  character.skeleton.joints[0].name = "pelvis";
+  character.skeleton.joints[1].name = "tip";
+  character.skeleton.joints[1].parent = 0;
+  character.skeleton.joints[1].position = {0, 1, 0};
+  character.weights.joints.setZero(3, 4);
+  character.weights.joints.block(1, 0, 2, 1).setOnes();
+  character.weights.weights.setZero(3, 4);
+  character.weights.weights.col(0).setOnes();
+  character.mesh.vertices.resize(3, 3);
+  const auto end = [&](float x, float y) -> Eigen::Vector3d {
+    character.mesh.vertices << 0, 0, 0, x, y, 0, 2 * x, y, 0;
+    const Skeleton ends = withBoneEnds(character.skeleton, character.mesh, character.weights);
+    return ends.joints[ends.index("tip_end")].position;
+  };
+  CHECK((end(0.1f, 1.5f) - Eigen::Vector3d(0.15, 1.5, 0)).norm() < 1e-6);
+  CHECK((end(1, 1.5f) - Eigen::Vector3d(0, 1.5, 0)).norm() < 1e-6);
+}
+
 TEST_CASE("a bone with a tail ends there, and a taken name is left alone") {
   RiggedCharacter character = figure();
   Joint& hand = character.skeleton.joints[character.skeleton.index("left_hand")];
