@@ -35,7 +35,9 @@ std::optional<Vector3d> boneEnd(const Skeleton& skeleton, int index, const Trian
     if (from_joint.dot(direction) >= (1 - kFarEnd) * length) end.extend(from_joint);
   const Vector3d aside = end.center() - end.center().dot(direction) * direction;
   // What is as wide as long (the top of a head) says nothing about where its bone leads.
-  return joint.position + length * direction + (aside.norm() < .5 * length ? aside : Vector3d::Zero());
+  Vector3d tip = length * direction + (aside.norm() < .5 * length ? aside : Vector3d::Zero());
+  tip.y() = std::max(tip.y(), end.min().y());  // a foot that is drawn aslant stays above the ground
+  return joint.position + tip;
 }
 
 }  // namespace

@@ -497,6 +497,12 @@ TEST_CASE("a bone ends in the middle of its far end, straight ahead where that i
   };
   CHECK((end(0.1f, 1.5f) - Eigen::Vector3d(0.15, 1.5, 0)).norm() < 1e-6);
   CHECK((end(1, 1.5f) - Eigen::Vector3d(0, 1.5, 0)).norm() < 1e-6);
+
+  // Aslant and down: never below what it moves.
+  character.skeleton.joints[0].position = {-1, 2, 0};
+  character.mesh.vertices << 0, -9, 0, 1, .5f, 0, 2, .5f, 0;
+  const Skeleton ends = withBoneEnds(character.skeleton, character.mesh, character.weights);
+  CHECK(ends.joints[ends.index("tip_end")].position.y() >= .5);
 }
 
 TEST_CASE("a bone with a tail ends there, and a taken name is left alone") {
