@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
-#include <map>
 
 #include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
@@ -14,9 +13,6 @@
 
 namespace skel {
 namespace {
-
-const std::map<std::string, JointNaming> kNamings = {
-    {"skel", JointNaming::kSkel}, {"vrm", JointNaming::kVrm}, {"mixamo", JointNaming::kMixamo}};
 
 // Reads the model, computes its weights and says so.
 CharacterFile boundModel(const RigSource& source, const SkinRequest& skin) {
@@ -39,9 +35,7 @@ void bindBindOptions(CLI::App& app, BindOptions& options) {
   bindSkinRequest(app, options.skin);
   app.add_option("--weights", options.weights, "Take these weights (.weights.json) instead of computing any")
       ->type_name("FILE");
-  app.add_option("--names", options.naming, "Whose names the joints get")
-      ->check(CLI::IsMember({"skel", "vrm", "mixamo"}))
-      ->capture_default_str();
+  bindJointOptions(app, options.joints);
   app.add_option("-o,--output", options.output, "The .glb to write; without: out/<model>.glb")
       ->type_name("FILE")
       ->check(outputFile());
@@ -60,7 +54,7 @@ ExitCode runBind(const BindOptions& options) {
     file = std::move(model.file);
     file.character.weights = readWeights(options.weights, file.character);
   }
-  writeFile(path, encodeGlb(file.character, file.clips, {file.name, kNamings.at(options.naming)}));
+  writeFile(path, encodeGlb(file.character, file.clips, exportOptions(file.name, options.joints)));
   std::printf("wrote %s\n", path.c_str());
   return ExitCode::kDone;
 }

@@ -5,6 +5,7 @@
 
 #include "animator/rig_source.h"
 #include "animator/skin_request.h"
+#include "libskel/cli/joint_options.h"
 #include "libskel/core/error.h"
 
 namespace skel {
@@ -14,7 +15,7 @@ struct BindOptions {
   SkinRequest skin;
   std::string weights;  // a .weights.json instead of `skin`
   std::string output;   // empty: out/<stem>.glb
-  std::string naming = "skel";
+  JointOptions joints;
 };
 void bindBindOptions(CLI::App& app, BindOptions& options);
 ExitCode runBind(const BindOptions& options);

@@ -116,6 +116,7 @@ AnimationDocument::AnimationDocument(const CharacterSource& source, const ClipSo
     : source_(source), library_(library) {
   CharacterFile file = loadCharacterWithClips(source, library);
   name_ = file.name;
+  bones_ = file.bones;
   state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
   state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
   state_.pose = restPose(skeleton());
@@ -357,6 +358,7 @@ bool AnimationDocument::openModel(const std::string& path) {
     playing = false;
     source_ = source;
     name_ = file.name;
+    bones_ = file.bones;
     state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
     state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
     state_.clip = -1;
@@ -375,6 +377,7 @@ bool AnimationDocument::saveModel(const std::string& path) {
                  [](const Clip& clip) { return !clip.tracks.empty() || !clip.root_times_s.empty(); });
     ExportOptions options;
     options.name = name_;
+    options.bones = bones_;
     save(path, ".glb", encodeGlb(character(), clips, options));
     return "saved " + path;
   });

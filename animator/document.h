@@ -137,6 +137,7 @@ class AnimationDocument {
   CharacterSource source_;
   ClipSource library_;
   std::string name_;
+  BoneStyle bones_ = BoneStyle::kAlong;  // as the file that was opened has them
   AnimationState state_;
   int chosen_ = -1;
   int open_steps_ = 0;

@@ -49,7 +49,7 @@ std::string encoded(const std::string& path, CharacterFile file, const Clip& cli
   }
   std::erase_if(file.clips, [&](const Clip& other) { return other.name == clip.name; });
   file.clips.push_back(clip);
-  return encodeGlb(file.character, file.clips, {file.name});
+  return encodeGlb(file.character, file.clips, {.name = file.name, .bones = file.bones});
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ add_custom_command(OUTPUT ${manual}/done
   VERBATIM)
 add_custom_target(skel_manual ALL DEPENDS ${manual}/done)
 install(DIRECTORY ${manual}/man ${manual}/bash-completion ${manual}/zsh DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT skel)
+install(DIRECTORY integrations/ DESTINATION ${CMAKE_INSTALL_DATADIR}/skel COMPONENT skel)
 
 # A package of its own, where script/build-web has made the page.
 set(page ${PROJECT_SOURCE_DIR}/build/web/skel.html)

@@ -169,7 +169,7 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
       ->check(numberIn(0.0, 1.0));
   app.add_option("--rest-pose", options.rest_pose, "How the character stands when nothing moves it")
       ->check(namesOf(kRestPoseNames));
-  app.add_option("--names", options.naming, "What exported joints are called")->check(namesOf(kNamingNames));
+  bindJointOptions(app, options.joints);
   app.add_option(
          "--back", options.back,
          "What the model wears behind: plain (its colours without the face), same (the drawing), or a\n"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libskel/animation/retarget.h"
+#include "libskel/cli/joint_options.h"
 #include "libskel/core/error.h"
 
 namespace skel {
@@ -28,7 +29,7 @@ struct InferOptions {
   std::string clips_dir;           // more of them
   double into_picture = RetargetOptions().into_picture;
   std::string rest_pose = "drawn";
-  std::string naming = "skel";
+  JointOptions joints;
   std::string back;             // "same", "plain", a picture, or nothing: the body plan's own
   std::string layers = "auto";  // "auto", "off", or a picture
   double height_m = 0;          // 0: the body plan's own

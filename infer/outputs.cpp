@@ -91,7 +91,7 @@ std::vector<Format> makeFormats() {
   for (const ExportFormat& format : exportFormats())
     all.push_back({format.name, format.suffixes, [&format](const Request& r) {
                      std::vector<OutputFile> files;
-                     const ExportOptions options{.name = r.stem, .naming = kNamingNames.at(r.options.naming)};
+                     const ExportOptions options = exportOptions(r.stem, r.options.joints);
                      for (ExportedFile& file : format.encode({r.drawing.character, r.drawing.clips, options,
                                                               &r.drawing.image, &r.drawing.silhouette.mask}))
                        files.push_back({r.path(file.suffix), std::move(file.bytes)});

@@ -20,9 +20,6 @@ inline const std::map<std::string, SkinMethod> kSkinNames = {{"geodesic", SkinMe
                                                              {"euclidean", SkinMethod::kEuclidean},
                                                              {"idw", SkinMethod::kIdw},
                                                              {"idw-region", SkinMethod::kIdwRegion}};
-inline const std::map<std::string, JointNaming> kNamingNames = {
-    {"skel", JointNaming::kSkel}, {"vrm", JointNaming::kVrm}, {"mixamo", JointNaming::kMixamo}};
-
 inline const std::map<std::string, RestPose> kRestPoseNames = {
     {"drawn", RestPose::kDrawn}, {"A", RestPose::kA}, {"T", RestPose::kT}};
 

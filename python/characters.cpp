@@ -322,8 +322,9 @@ void bindCharacters(py::module_& module) {
       .def(
           "to_glb",
           [](const CharacterFile& f) {
-            const std::string bytes =
-                unlocked("character", [&] { return encodeGlb(f.character, f.clips, {.name = f.name}); });
+            const std::string bytes = unlocked("character", [&] {
+              return encodeGlb(f.character, f.clips, {.name = f.name, .bones = f.bones});
+            });
             return py::bytes(bytes);
           },
           "The bytes of the .glb.");

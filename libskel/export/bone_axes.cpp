@@ -48,29 +48,35 @@ bool stretchesUnevenly(const Clip& clip, const std::string& joint) {
 
 }  // namespace
 
+bool isLeaf(const Skeleton& skeleton, int joint) {
+  return std::none_of(skeleton.joints.begin(), skeleton.joints.end(),
+                      [&](const Joint& other) { return other.parent == joint; });
+}
+
+Vector3d boneDirection(const Skeleton& skeleton, int index, const TriangleMesh& mesh,
+                       const SkinWeights& skin) {
+  const Joint& joint = skeleton.joints[std::size_t(index)];
+  const Vector3d on = restBone(skeleton, index);
+  if (!isLeaf(skeleton, index)) return on;
+  const Vector3d bone = joint.tail ? (*joint.tail - joint.position).normalized() : on;
+  if (joint.parent < 0) return bone;
+  // As long as its parent's is how programs draw a bone without a child.
+  const double length = (joint.position - skeleton.joints[std::size_t(joint.parent)].position).norm();
+  if (joint.position.y() + length * bone.y() >= double(mesh.vertices.col(1).minCoeff())) return bone;
+  const Vector3d reach = reachOnGround(mesh.vertices, skin, index, joint.position);
+  if (reach.norm() > .1 * length) return reach;
+  return Vector3d::UnitZ();
+}
+
 std::vector<Quaterniond> boneAxes(const Skeleton& skeleton, const TriangleMesh& mesh, const SkinWeights& skin,
                                   const std::vector<Clip>& clips) {
-  const std::vector<Joint>& joints = skeleton.joints;
-  const double ground = mesh.vertices.col(1).minCoeff();
-  std::vector<bool> leaf(joints.size(), true);
-  for (const Joint& joint : joints)
-    if (joint.parent >= 0) leaf[std::size_t(joint.parent)] = false;
   std::vector<Quaterniond> axes;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const Joint& joint = joints[j];
-    Vector3d bone = restBone(skeleton, int(j));
-    if (leaf[j] && joint.tail) bone = (*joint.tail - joint.position).normalized();
-    if (leaf[j] && joint.parent >= 0) {
-      // As long as its parent's is how programs draw a bone without a child.
-      const double length = (joint.position - joints[std::size_t(joint.parent)].position).norm();
-      if (joint.position.y() + length * bone.y() < ground) {
-        const Vector3d reach = reachOnGround(mesh.vertices, skin, int(j), joint.position);
-        bone = reach.norm() > .1 * length ? reach : Vector3d::UnitZ();
-      }
-    }
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const std::string& name = skeleton.joints[j].name;
     const bool stretched = std::any_of(clips.begin(), clips.end(),
-                                       [&](const Clip& clip) { return stretchesUnevenly(clip, joint.name); });
-    axes.push_back(stretched ? Quaterniond::Identity() : withUpAlong(bone));
+                                       [&](const Clip& clip) { return stretchesUnevenly(clip, name); });
+    axes.push_back(stretched ? Quaterniond::Identity()
+                             : withUpAlong(boneDirection(skeleton, int(j), mesh, skin)));
   }
   return axes;
 }

@@ -11,11 +11,17 @@
 
 namespace skel {
 
-// Of each joint the rotation from its own axes to the model's, in the rest pose. +y points to the middle of
-// its children; without children to its tail, if it has one, else on along its parent's bone, or flat above
-// the ground where that would lead into it (feet): towards the vertices that it moves, or to the viewer. +z
-// is the side that is nearest to the viewer, so that knees and elbows bend about one axis. A joint that one
-// of the clips stretches unevenly keeps the model's axes, since glTF scales along a node's own.
+bool isLeaf(const Skeleton& skeleton, int joint);
+
+// Where the bone of a joint points in the rest pose, of any length: to the middle of its children; without
+// children to its tail, if it has one, else on along its parent's bone, or flat above the ground where that
+// would lead into it (feet): towards the vertices that it moves, or to the viewer.
+Eigen::Vector3d boneDirection(const Skeleton& skeleton, int joint, const TriangleMesh& mesh,
+                              const SkinWeights& skin);
+
+// Of each joint the rotation from its own axes to the model's, in the rest pose: +y is boneDirection(), +z
+// the side that is nearest to the viewer, so that knees and elbows bend about one axis. A joint that one of
+// the clips stretches unevenly keeps the model's axes, since glTF scales along a node's own.
 std::vector<Eigen::Quaterniond> boneAxes(const Skeleton& skeleton, const TriangleMesh& mesh,
                                          const SkinWeights& skin, const std::vector<Clip>& clips);
 

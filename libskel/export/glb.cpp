@@ -11,6 +11,7 @@
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/check.h"
 #include "libskel/export/bone_axes.h"
+#include "libskel/export/bone_ends.h"
 #include "libskel/export/joint_names.h"
 #include "libskel/export/write_character.h"
 #include "libskel/image/write_image.h"
@@ -248,6 +249,7 @@ Skeleton rounded(Skeleton skeleton) {
 struct Rig {
   Skeleton skeleton;
   std::vector<Quaterniond> axes;
+  int first_end;  // from here on the skeleton's joints are ends of bones
 
   Quaterniond parentAxes(int joint) const {
     const int parent = skeleton.joints[joint].parent;
@@ -265,6 +267,15 @@ struct Rig {
   }
 };
 
+Rig rigOf(const RiggedCharacter& character, const std::vector<Clip>& clips, BoneStyle style) {
+  const auto& [mesh, skeleton, skin] = character;
+  const Skeleton whole = rounded(style == BoneStyle::kEnds ? withBoneEnds(skeleton, mesh, skin) : skeleton);
+  return {whole,
+          style == BoneStyle::kPlain ? std::vector<Quaterniond>(whole.joints.size(), Quaterniond::Identity())
+                                     : boneAxes(whole, mesh, skin, clips),
+          int(skeleton.joints.size())};
+}
+
 // One node a joint, from `first` on.
 void addJoints(GlbBuilder& glb, const Rig& rig, JointNaming naming, int first) {
   for (std::size_t j = 0; j < rig.skeleton.joints.size(); ++j) {
@@ -275,6 +286,8 @@ void addJoints(GlbBuilder& glb, const Rig& rig, JointNaming naming, int first) {
     node.translation = {offset.x(), offset.y(), offset.z()};
     const Quaterniond turn = rig.local(int(j), Quaterniond::Identity()).normalized();
     if (turn.vec().norm() > 1e-9) node.rotation = {turn.x(), turn.y(), turn.z(), turn.w()};
+    if (int(j) >= rig.first_end)
+      node.extras = tinygltf::Value(tinygltf::Value::Object{{"end", tinygltf::Value(true)}});
     if (joint.tail) {
       tinygltf::Value::Array tail;
       for (const double value : *joint.tail) tail.emplace_back(value);
@@ -449,12 +462,11 @@ std::string encodeGlb(const RiggedCharacter& character, const std::vector<Clip>&
   const int kMeshNode = 0, kFirstJoint = 1;
   const std::string name = asUtf8(options.name);
   tinygltf::Node node;
-  node.name = meshNodeName(name, character.skeleton, options.naming);
+  const Rig rig = rigOf(character, clips, options.bones);
+  node.name = meshNodeName(name, rig.skeleton, options.naming);
   node.mesh = addMesh(glb, character, name);
   node.skin = 0;
   glb.model.nodes.push_back(node);
-  const Skeleton skeleton = rounded(character.skeleton);
-  const Rig rig{skeleton, boneAxes(skeleton, mesh, character.weights, clips)};
   addJoints(glb, rig, options.naming, kFirstJoint);
   addSkin(glb, rig, name, kFirstJoint);
   for (const Clip& clip : clips) addClip(glb, clip, character, rig, kFirstJoint);

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "libskel/export/bone_ends.h"
+
 namespace skel {
 
 namespace {
@@ -36,6 +38,9 @@ std::string exportedJointName(const std::string& joint, JointNaming naming) {
   if (naming == JointNaming::kSkel) return joint;
   for (const Names& names : kNames)
     if (names.skel == joint) return std::string(naming == JointNaming::kVrm ? names.vrm : names.mixamo);
+  const std::string end = boneEndName("");
+  if (joint.size() > end.size() && joint.ends_with(end))
+    return boneEndName(exportedJointName(joint.substr(0, joint.size() - end.size()), naming));
   return joint;
 }
 

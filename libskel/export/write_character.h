@@ -20,9 +20,17 @@ struct RiggedCharacter {
 // Names of the joints in exported files.
 enum class JointNaming { kSkel, kVrm, kMixamo };
 
+// The joints' own axes in a GLB; what moves is the same with all of them.
+enum class BoneStyle {
+  kAlong,  // +y along the bone (bone_axes.h), as Blender draws bones
+  kEnds,   // so, too, and each last bone ends in a joint that moves nothing (bone_ends.h): it has a length
+  kPlain,  // the model's, for code that turns joints
+};
+
 struct ExportOptions {
   std::string name = "character";  // of the mesh and of the scene
   JointNaming naming = JointNaming::kSkel;
+  BoneStyle bones = BoneStyle::kAlong;
 };
 
 // glTF 2.0 binary: one skinned mesh with its texture, the joints, the clips as animations (already retargeted

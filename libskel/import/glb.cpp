@@ -101,15 +101,32 @@ int skinnedNode(const GlbContainer& glb, const Nodes& nodes) {
   return found;
 }
 
+constexpr int kBoneEnd = -2;
+
 struct Joints {
   Skeleton skeleton;
   // Of each joint from its own axes and from those of its node's parent to the model's, in the rest pose.
   // Skel's skeletons have the model's everywhere.
   std::vector<Quaterniond> axes;
   std::vector<Affine3d, Eigen::aligned_allocator<Affine3d>> model_from_parent;
-  std::vector<int> of_node;        // index into skeleton.joints, -1: none
+  std::vector<int> of_node;        // index into skeleton.joints, -1: none, kBoneEnd
   std::vector<int> of_skin_joint;  // the same by the skin's own order
+  bool have_ends = false;
+
+  BoneStyle style() const {
+    if (have_ends) return BoneStyle::kEnds;
+    const bool plain = std::all_of(axes.begin(), axes.end(), [](const Quaterniond& turn) {
+      return turn.vec().cwiseAbs().maxCoeff() <= kRigid;
+    });
+    return plain ? BoneStyle::kPlain : BoneStyle::kAlong;
+  }
 };
+
+// What encodeGlb() puts at the end of a last bone.
+bool isBoneEnd(const JsonValue& node) {
+  const std::optional<JsonValue> extras = node.find("extras");
+  return extras && extras->isObject() && extras->find("end");
+}
 
 std::string templateOf(const Skeleton& skeleton) {
   for (const std::string& name : builtinTemplates()) {
@@ -163,6 +180,11 @@ Joints readJoints(const Nodes& nodes, const JsonValue& skin) {
   std::set<std::string> names;
   for (const int node : sorted) {
     const JsonValue& value = nodes.values[node];
+    if (isBoneEnd(value)) {
+      joints.have_ends = true;
+      joints.of_node[node] = kBoneEnd;
+      continue;
+    }
     const int index = static_cast<int>(joints.skeleton.joints.size()), above = nodes.parents[node];
     Joint joint;
     joint.name = value.at("name").asString();
@@ -190,6 +212,7 @@ Joints readJoints(const Nodes& nodes, const JsonValue& skin) {
     joints.of_skin_joint[place[node]] = index;
     joints.skeleton.joints.push_back(std::move(joint));
   }
+  if (joints.skeleton.joints.empty()) list.fail("holds nothing but ends of bones");
   joints.skeleton.template_name = templateOf(joints.skeleton);
   return joints;
 }
@@ -203,6 +226,7 @@ void checkInverseBind(const GlbContainer& glb, const JsonValue& skin, const Join
     index->fail("are " + std::to_string(matrices.count) + ", there are " +
                 std::to_string(joints.of_skin_joint.size()) + " joints");
   for (std::size_t k = 0; k < matrices.count; ++k) {
+    if (joints.of_skin_joint[k] < 0) continue;
     const Joint& joint = joints.skeleton.joints[joints.of_skin_joint[k]];
     const Eigen::Matrix3d turn = joints.axes[joints.of_skin_joint[k]].conjugate().toRotationMatrix();
     Eigen::Matrix4d expected = Eigen::Matrix4d::Identity();
@@ -230,14 +254,18 @@ void readTriangles(const GlbContainer& glb, const JsonValue& primitive, Triangle
   }
 }
 
-// What glb.cpp of the export room writes: a share of the texture shines, light gives the rest.
-bool shinesInPart(const JsonValue& material, const JsonValue& pbr, const std::vector<double>& factor) {
+JsonValue imageOf(const GlbContainer& glb, const JsonValue& texture) {
+  return glb.element("images", glb.element("textures", texture.at("index")).at("source"));
+}
+
+// What glb.cpp of the export room writes: a share of the texture shines, light gives the rest. Blender makes
+// two textures with one image of it.
+bool shinesInPart(const GlbContainer& glb, const JsonValue& material, const JsonValue& pbr,
+                  const std::vector<double>& factor) {
   const std::optional<JsonValue> shine = material.find("emissiveTexture"),
                                  base = pbr.find("baseColorTexture");
   const auto share = numbersAt(material, "emissiveFactor", 3);
-  if (!shine || !base || !share ||
-      shine->at("index").asInt(0, 1 << 20) != base->at("index").asInt(0, 1 << 20))
-    return false;
+  if (!shine || !base || !share || imageOf(glb, *shine).path() != imageOf(glb, *base).path()) return false;
   for (std::size_t k = 0; k < 3; ++k)
     if (std::abs(factor[k] + (*share)[k] - 1) > 1e-6) return false;
   return factor[3] == 1;
@@ -251,11 +279,11 @@ void readTexture(const GlbContainer& glb, const JsonValue& primitive, const std:
   const std::optional<JsonValue> pbr = material.find("pbrMetallicRoughness");
   if (!pbr) return;
   if (const auto factor = numbersAt(*pbr, "baseColorFactor", 4))
-    if (*factor != std::vector<double>(4, 1) && !shinesInPart(material, *pbr, *factor))
+    if (*factor != std::vector<double>(4, 1) && !shinesInPart(glb, material, *pbr, *factor))
       pbr->at("baseColorFactor").fail("is not read; put the colour into a texture");
   const std::optional<JsonValue> found = pbr->find("baseColorTexture");
   if (!found) return;
-  const JsonValue image = glb.element("images", glb.element("textures", found->at("index")).at("source"));
+  const JsonValue image = imageOf(glb, *found);
   if (image.find("uri")) image.at("uri").fail("lies outside of the file; export as one .glb");
   if (const auto set = found->find("texCoord"); set && set->asInt(0, 1 << 20) != 0)
     set->fail("is not read; use the first set of texture coordinates");
@@ -312,6 +340,8 @@ SkinWeights readWeights(const GlbContainer& glb, const JsonValue& primitive, con
       if (joint >= joints.of_skin_joint.size())
         joints_index.fail("vertex " + std::to_string(v) + " has joint " + std::to_string(joint) + " of " +
                           std::to_string(joints.of_skin_joint.size()));
+      if (joints.of_skin_joint[joint] < 0)
+        joints_index.fail("vertex " + std::to_string(v) + " is moved by the end of a bone");
       shares[k] = {weight, static_cast<std::uint16_t>(joints.of_skin_joint[joint])};
       sum += weight;
     }
@@ -408,6 +438,7 @@ Clip readClip(const GlbContainer& glb, const JsonValue& animation, const RiggedC
     const JsonValue target = channel.at("target"), path = target.at("path");
     const int joint = joints.of_node[static_cast<std::size_t>(
         target.at("node").asInt(0, static_cast<int>(joints.of_node.size()) - 1))];
+    if (joint == kBoneEnd) continue;  // other programs write a track for every joint
     if (joint < 0) target.at("node").fail("is no joint of the skin");
     const std::string kind = path.asString();
     if (kind != "rotation" && kind != "translation" && kind != "scale")
@@ -488,6 +519,7 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
     for (std::size_t i = 0; i < all.size(); ++i)
       result.clips.push_back(readClip(glb, all[i], character, joints, "clip " + std::to_string(i + 1)));
   }
+  result.bones = joints.style();
   if (const auto name = mesh.find("name")) result.name = name->asString();
   return result;
 }

@@ -14,11 +14,13 @@ struct CharacterFile {
   RiggedCharacter character;  // Joint::image and mesh.model_from_image are not known: zeros, the identity
   std::vector<Clip> clips;    // relative to the character's rest pose
   std::string name;           // of the scene
+  BoneStyle bones = BoneStyle::kAlong;
 };
 
 // glTF 2.0 binary, as encodeGlb() writes it: one skinned mesh of one primitive with at most 4 influences a
 // vertex, joints that stand unscaled in the rest pose, everything inside the file, animations with LINEAR
-// samplers. Joints may have any axes; clips come in the model's. encodeGlb() gives back the same bytes (the
+// samplers. Joints may have any axes; clips come in the model's. Joints that encodeGlb() put at the ends of
+// bones are left out. With `bones` it gives back the same bytes (the
 // texture's if it was ours), but for the last bits of rotations. Throws InputError with the place in the glTF
 // document.
 CharacterFile readGlb(const std::string& path);

@@ -64,6 +64,18 @@ TEST_CASE("the clips of animals fit the bound elk, and it walks") {
   CHECK(filesIn(dir.file("walk")) == 6);
 }
 
+TEST_CASE("the elk's last bones end where its skeleton says, in what is made of its file, too") {
+  const TempDir dir;
+  REQUIRE(animate(dir, "bind '" + kElk + "' --skeleton '" + kBones + "' --bones ends -o elk.glb").exit_code ==
+          0);
+  REQUIRE(animate(dir, "retarget walk --to elk.glb -o walks.glb").exit_code == 0);
+  const CharacterFile elk = readGlb(dir.file("elk.glb")), walks = readGlb(dir.file("walks.glb"));
+  CHECK(elk.bones == BoneStyle::kEnds);
+  CHECK(walks.bones == BoneStyle::kEnds);
+  CHECK(walks.character.skeleton.joints.size() == elk.character.skeleton.joints.size());
+  CHECK(readFile(dir.file("walks.glb")).find("_end\"") != std::string::npos);
+}
+
 TEST_CASE("the elk is bound, and its weights are saved and taken again") {
   const TempDir dir;
   const ToolRun bound = animate(dir, "bind '" + kElk + "' --skeleton '" + kBones + "' -o elk.glb");

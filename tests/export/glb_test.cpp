@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -5,6 +6,7 @@
 
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
+#include "libskel/export/bone_ends.h"
 #include "libskel/export/joint_names.h"
 #include "libskel/export/write_character.h"
 #include "libskel/mesh/split_seams.h"
@@ -82,6 +84,76 @@ Eigen::Affine3d restTransform(const json& nodes, const std::vector<int>& parents
     global = local * global;
   }
   return global;
+}
+
+std::vector<int> parentsOf(const json& nodes) {
+  std::vector<int> parents(nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const int child : nodes[i].value("children", std::vector<int>())) parents[child] = int(i);
+  return parents;
+}
+
+// What an accessor of times and one of values say of a time; quaternions are turned the short way.
+Eigen::VectorXd sampled(const Glb& glb, const json& sampler, double time_s) {
+  const std::vector<double> times = numbers(glb, sampler["input"]), values = numbers(glb, sampler["output"]);
+  const Eigen::Index width = Eigen::Index(values.size() / times.size());
+  const auto at = [&](std::size_t i) -> Eigen::VectorXd {
+    return Eigen::Map<const Eigen::VectorXd>(values.data() + Eigen::Index(i) * width, width);
+  };
+  const std::size_t next = std::size_t(std::upper_bound(times.begin(), times.end(), time_s) - times.begin());
+  if (next == 0) return at(0);
+  if (next == times.size()) return at(next - 1);
+  const double t = (time_s - times[next - 1]) / (times[next] - times[next - 1]);
+  if (width == 3) return (1 - t) * at(next - 1) + t * at(next);
+  const Eigen::Quaterniond from(Eigen::Vector4d(at(next - 1))), to(Eigen::Vector4d(at(next)));
+  return from.slerp(t, to).coeffs();
+}
+
+// The vertices in an animation's pose, by the specification alone.
+Eigen::MatrixX3d posed(const Glb& glb, const json& animation, double time_s) {
+  const json& nodes = glb.document["nodes"];
+  struct Place {
+    Eigen::Vector3d translation = Eigen::Vector3d::Zero(), scale = Eigen::Vector3d::Ones();
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  };
+  std::vector<Place> places(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto t = nodes[i].value("translation", std::vector<double>{0, 0, 0});
+    const auto r = nodes[i].value("rotation", std::vector<double>{0, 0, 0, 1});
+    places[i].translation = {t[0], t[1], t[2]};
+    places[i].rotation = Eigen::Quaterniond(r[3], r[0], r[1], r[2]);
+  }
+  for (const json& channel : animation["channels"]) {
+    Place& place = places[channel["target"]["node"].get<std::size_t>()];
+    const Eigen::VectorXd value = sampled(glb, animation["samplers"][channel["sampler"].get<int>()], time_s);
+    const std::string path = channel["target"]["path"];
+    if (path == "rotation") place.rotation = Eigen::Quaterniond(Eigen::Vector4d(value));
+    if (path == "translation") place.translation = value;
+    if (path == "scale") place.scale = value;
+  }
+  const std::vector<int> parents = parentsOf(nodes);
+  const json& skin = glb.document["skins"][0];
+  const std::vector<double> inverse_bind = numbers(glb, skin["inverseBindMatrices"]);
+  std::vector<Eigen::Matrix4d> matrices;
+  for (const int joint : skin["joints"].get<std::vector<int>>()) {
+    Eigen::Affine3d global = Eigen::Affine3d::Identity();
+    for (int node = joint; node >= 0; node = parents[node])
+      global = Eigen::Translation3d(places[node].translation) * places[node].rotation *
+               Eigen::Scaling(places[node].scale) * global;
+    const Eigen::Index at = 16 * Eigen::Index(matrices.size());
+    matrices.push_back(global.matrix() * Eigen::Map<const Eigen::Matrix4d>(inverse_bind.data() + at));
+  }
+  const json& attributes = glb.document["meshes"][0]["primitives"][0]["attributes"];
+  const std::vector<double> positions = numbers(glb, attributes["POSITION"]),
+                            joints = numbers(glb, attributes["JOINTS_0"]),
+                            weights = numbers(glb, attributes["WEIGHTS_0"]);
+  Eigen::MatrixX3d result = Eigen::MatrixX3d::Zero(Eigen::Index(positions.size() / 3), 3);
+  for (Eigen::Index v = 0; v < result.rows(); ++v) {
+    const Eigen::Vector4d here(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2], 1);
+    for (Eigen::Index k = 4 * v; k < 4 * v + 4; ++k)
+      result.row(v) += weights[k] * (matrices[std::size_t(joints[k])] * here).head<3>().transpose();
+  }
+  return result;
 }
 
 // What must hold for every GLB that skel writes.
@@ -334,6 +406,116 @@ TEST_CASE("joints are named as the target program wants them") {
                            "rightUpperArm", "rightLowerArm", "rightHand", "leftUpperLeg", "leftLowerLeg",
                            "leftFoot", "rightUpperLeg", "rightLowerLeg", "rightFoot"})
     CHECK(vrm.count(bone) == 1);
+}
+
+TEST_CASE("a character moves in the same way whatever the axes of its joints are") {
+  const RiggedCharacter character = figure();
+  std::vector<Clip> clips;
+  for (const Clip& clip : clipsFor(builtinClips(), character.skeleton))
+    clips.push_back(retargetToRest(clip, character.skeleton));
+  Clip stretch;
+  stretch.name = "stretch";
+  JointTrack track;
+  track.joint = "left_hand";
+  track.translation_times_s = {0, 1};
+  track.translations_m = {{0, 0, 0}, {0.1f, 0.2f, 0.3f}};
+  track.scale_times_s = {0, 1};
+  track.scales = {{1, 1, 1}, {1, 2, 1}};
+  stretch.tracks = {track};
+  clips.push_back(stretch);
+  REQUIRE(clips.size() > 8);
+  const Glb along = parseGlb(encodeGlb(character, clips));
+  const double height = character.mesh.vertices.col(1).maxCoeff() - character.mesh.vertices.col(1).minCoeff();
+  for (const BoneStyle style : {BoneStyle::kEnds, BoneStyle::kPlain}) {
+    const Glb other = parseGlb(encodeGlb(character, clips, {.bones = style}));
+    for (std::size_t c = 0; c < clips.size(); ++c) {
+      const auto vertices = [&](const Glb& glb, double time_s) {
+        return posed(glb, glb.document["animations"][c], time_s);
+      };
+      for (const double share : {0., .23, .5, .81}) {
+        const double time_s = share * clips[c].duration_s();
+        CHECK((vertices(other, time_s) - vertices(along, time_s)).cwiseAbs().maxCoeff() < 1e-4 * height);
+      }
+      CHECK((vertices(along, .5 * clips[c].duration_s()) - vertices(along, 0)).norm() > 1e-2);
+    }
+  }
+}
+
+TEST_CASE("plain bones have the model's axes") {
+  const RiggedCharacter character = figure();
+  const Glb glb = parseGlb(encodeGlb(character, {}, {.bones = BoneStyle::kPlain}));
+  checkStructure(glb, character);
+  for (const json& node : glb.document["nodes"]) CHECK_FALSE(node.contains("rotation"));
+}
+
+TEST_CASE("the last bones end in joints at the far end of what they move, which move nothing") {
+  const RiggedCharacter character = figure();
+  const Glb glb =
+      parseGlb(encodeGlb(character, {}, {.naming = JointNaming::kMixamo, .bones = BoneStyle::kEnds}));
+  const json &nodes = glb.document["nodes"], &skin = glb.document["skins"][0];
+  const std::vector<int> parents = parentsOf(nodes);
+  std::map<std::string, int> ends;
+  const std::size_t own = character.skeleton.joints.size();
+  for (std::size_t j = own; j < skin["joints"].size(); ++j) {
+    const int node = skin["joints"][j];
+    CHECK(nodes[node]["extras"]["end"] == true);
+    CHECK(nodes[node]["name"] == nodes[parents[node]]["name"].get<std::string>() + "_end");
+    ends[nodes[node]["name"]] = node;
+    // +y of the bone runs to its end.
+    const Eigen::Affine3d bone = restTransform(nodes, parents, parents[node]);
+    const Eigen::Vector3d there = bone.inverse() * restTransform(nodes, parents, node).translation();
+    CHECK(there.normalized().y() > .9999);
+  }
+  // head_top moves nothing in this figure.
+  CHECK(ends.size() == 4);
+  for (const double joint :
+       numbers(glb, glb.document["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"]))
+    CHECK(joint < double(own));
+  const Eigen::Vector3d hand = restTransform(nodes, parents, ends.at("mixamorig:LeftHand_end")).translation();
+  const Joint& wrist = character.skeleton.joints[character.skeleton.index("left_hand")];
+  CHECK((hand - wrist.position).norm() == Approx(.35 * .2).margin(1e-4));
+  const double ground = character.mesh.vertices.col(1).minCoeff();
+  CHECK(restTransform(nodes, parents, ends.at("mixamorig:RightFoot_end")).translation().y() > ground);
+}
+
+TEST_CASE("a bone ends in the middle of its far end, straight ahead where that is as wide as long") {
+  RiggedCharacter character;
+  character.skeleton.joints.resize(2);
+  character.skeleton.joints[0].name = "pelvis";
+  character.skeleton.joints[1].name = "tip";
+  character.skeleton.joints[1].parent = 0;
+  character.skeleton.joints[1].position = {0, 1, 0};
+  character.weights.joints.setZero(3, 4);
+  character.weights.joints.block(1, 0, 2, 1).setOnes();
+  character.weights.weights.setZero(3, 4);
+  character.weights.weights.col(0).setOnes();
+  character.mesh.vertices.resize(3, 3);
+  const auto end = [&](float x, float y) -> Eigen::Vector3d {
+    character.mesh.vertices << 0, 0, 0, x, y, 0, 2 * x, y, 0;
+    const Skeleton ends = withBoneEnds(character.skeleton, character.mesh, character.weights);
+    return ends.joints[ends.index("tip_end")].position;
+  };
+  CHECK((end(0.1f, 1.5f) - Eigen::Vector3d(0.15, 1.5, 0)).norm() < 1e-6);
+  CHECK((end(1, 1.5f) - Eigen::Vector3d(0, 1.5, 0)).norm() < 1e-6);
+
+  // Aslant and down: never below what it moves.
+  character.skeleton.joints[0].position = {-1, 2, 0};
+  character.mesh.vertices << 0, -9, 0, 1, .5f, 0, 2, .5f, 0;
+  const Skeleton ends = withBoneEnds(character.skeleton, character.mesh, character.weights);
+  CHECK(ends.joints[ends.index("tip_end")].position.y() >= .5);
+}
+
+TEST_CASE("a bone with a tail ends there, and a taken name is left alone") {
+  RiggedCharacter character = figure();
+  Joint& hand = character.skeleton.joints[character.skeleton.index("left_hand")];
+  hand.tail = Eigen::Vector3d(1, 1, 1);
+  Joint taken;
+  taken.name = "right_hand_end";
+  taken.parent = 0;
+  character.skeleton.joints.push_back(taken);
+  const Skeleton with_ends = withBoneEnds(character.skeleton, character.mesh, character.weights);
+  CHECK(with_ends.joints[with_ends.index("left_hand_end")].position == Eigen::Vector3d(1, 1, 1));
+  CHECK(with_ends.joints[with_ends.index("right_hand_end")].parent == 0);
 }
 
 TEST_CASE("geometry stays small") {

@@ -179,6 +179,12 @@ TEST_CASE("GLB files that mean something else are refused with their place") {
          setWord(binary, d["bufferViews"][view].value("byteOffset", 0u), 0xffffffff);
        },
        "attributes.JOINTS_0: vertex 0 has joint 255 of 17"},
+      {[](json& d, std::string&) { d["nodes"].back()["extras"]["end"] = true; },
+       "attributes.JOINTS_0: vertex 2052 is moved by the end of a bone"},
+      {[](json& d, std::string&) {
+         for (const int joint : d["skins"][0]["joints"]) d["nodes"][joint]["extras"]["end"] = true;
+       },
+       "skins[0].joints: holds nothing but ends of bones"},
       {[](json& d, std::string&) { d["animations"][0]["channels"][0]["target"]["node"] = 0; },
        "animations[0].channels[0].target.node: is no joint of the skin"},
       {[](json& d, std::string&) { d["animations"][0]["channels"][0]["target"]["path"] = "weights"; },
@@ -213,6 +219,31 @@ TEST_CASE("GLB files that mean something else are refused with their place") {
     CHECK(said.find(c.message) != std::string::npos);
     CHECK(said.find('\n') == std::string::npos);
   }
+}
+
+TEST_CASE("the end of a bone moves nothing: what other programs say of its motion is left out") {
+  const std::string bytes = changed([](json& document, std::string&) {
+    for (std::size_t i = 0; i < document["nodes"].size(); ++i) {
+      if (document["nodes"][i]["name"] != "head_top") continue;
+      document["nodes"][i]["extras"]["end"] = true;
+      document["animations"][0]["channels"][0]["target"]["node"] = i;
+    }
+  });
+  const CharacterFile file = decodeGlb(bytes, "a.glb");
+  CHECK(file.character.skeleton.find("head_top") < 0);
+  CHECK(file.clips.at(0).tracks.empty());
+}
+
+TEST_CASE("a texture that shines in part may be two textures of one image, as Blender writes it") {
+  const auto with = [](int image) {
+    return complaint(changed([&](json& document, std::string&) {
+      document["images"].push_back(document["images"][0]);
+      document["textures"].push_back({{"sampler", 0}, {"source", image}});
+      document["materials"][0]["emissiveTexture"]["index"] = 1;
+    }));
+  };
+  CHECK(with(0) == "none");
+  CHECK(with(1).find("baseColorFactor: is not read") != std::string::npos);
 }
 
 TEST_CASE("an animation of 1e8 s, which became a film of one frame, is refused") {

@@ -74,6 +74,25 @@ TEST_CASE("what is written as GLB is read back whole, and without clips gives th
   CHECK(same_bytes);
 }
 
+TEST_CASE("whatever the axes of the joints, the character is read as it was and gives the same bytes again") {
+  const RiggedCharacter character = figure();
+  const Clip wave = retargetToRest(clipNamed(builtinClips(), "wave"), character.skeleton);
+  for (const BoneStyle style : {BoneStyle::kAlong, BoneStyle::kEnds, BoneStyle::kPlain}) {
+    const std::string bytes = encodeGlb(character, {}, {.name = "figure", .bones = style});
+    const CharacterFile file = decodeGlb(bytes, "figure.glb");
+    CHECK(file.bones == style);
+    CHECK(file.character.skeleton.joints.size() == character.skeleton.joints.size());
+    CHECK(file.character.skeleton.template_name == "biped");
+    const bool same_bytes = encodeGlb(file.character, {}, {.name = file.name, .bones = file.bones}) == bytes;
+    CHECK(same_bytes);
+    const Clip back = decodeGlb(encodeGlb(character, {wave}, {.bones = style}), "figure.glb").clips.at(0);
+    REQUIRE(back.tracks.size() == wave.tracks.size());
+    for (std::size_t t = 0; t < wave.tracks.size(); ++t)
+      for (std::size_t i = 0; i < wave.tracks[t].rotations.size(); ++i)
+        CHECK(back.tracks[t].rotations[i].angularDistance(wave.tracks[t].rotations[i]) < 2e-6f);
+  }
+}
+
 TEST_CASE("clips that move and scale joints and the root come back from GLB") {
   const RiggedCharacter character = figure();
   Clip clip;

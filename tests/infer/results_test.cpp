@@ -132,6 +132,21 @@ TEST_CASE("option --formats obj reports the .obj, not a .png") {
   CHECK(contains(infer(dir, kDrawing + " --formats obj").out, ": out/cap_boy.obj  confidence"));
 }
 
+TEST_CASE("option --bones says whether the last bones of a GLB have ends") {
+  const TempDir dir;
+  writeFile(dir.file("a.png"), page({CapsuleFigure()}));
+  const auto glb = [&](const std::string& options, const std::string& folder) {
+    REQUIRE(infer(dir, "a.png --formats glb -o " + folder + options).exit_code == 0);
+    return readFile(dir.file(folder + "/a.glb"));
+  };
+  const std::string as_ever = glb("", "one");
+  const bool same = glb(" --bones along", "two") == as_ever;
+  CHECK(same);
+  CHECK_FALSE(contains(as_ever, "left_foot_end"));
+  CHECK(contains(glb(" --bones ends --names vrm", "three"), "\"leftFoot_end\""));
+  CHECK(infer(dir, "a.png --bones up").exit_code == infer(dir, "a.png --names up").exit_code);
+}
+
 TEST_CASE("one clip gives <stem>-<clip>.bvh, as the docs say") {
   const TempDir dir;
   CHECK(contains(infer(dir, kDrawing + " --formats bvh --clips wave").out, "out/cap_boy-wave.bvh"));

@@ -1,0 +1,45 @@
+# What both ways of importing do to a scene that Godot has made of a GLB.
+tool
+
+const LOOPS = "dance, idle, run, talk, walk"
+
+# The clips that go on and on; others are played once.
+static func mend(scene: Node, loops: String) -> void:
+	var looping = []
+	for name in loops.split(",", false):
+		looping.append(name.strip_edges())
+	_mend(scene, scene.name, looping)
+
+static func _mend(node: Node, name: String, looping: Array) -> void:
+	if node is MeshInstance:
+		node.name = name  # Godot puts a number behind what another node is called
+		node.mesh = _with_shares(node.mesh)
+		for surface in range(node.mesh.get_surface_count()):
+			_dim(node.mesh.surface_get_material(surface))
+	if node is AnimationPlayer:
+		for clip in node.get_animation_list():
+			node.get_animation(clip).loop = clip in looping
+	for child in node.get_children():
+		_mend(child, name, looping)
+
+# Godot forgets how much of the texture shines and lets it all: what light does not give.
+static func _dim(material: SpatialMaterial) -> void:
+	if material.emission_texture and material.emission_texture == material.albedo_texture:
+		material.emission_energy = 1 - pow((material.albedo_color.r + 0.055) / 1.055, 2.4)
+
+# Godot 3.2 takes texture coordinates in units of 1/65535 for whole numbers.
+static func _with_shares(mesh: ArrayMesh) -> ArrayMesh:
+	var result = ArrayMesh.new()
+	for surface in range(mesh.get_surface_count()):
+		var arrays = mesh.surface_get_arrays(surface)
+		var most = 0.0
+		for uv in arrays[Mesh.ARRAY_TEX_UV]:
+			most = max(most, max(uv.x, uv.y))
+		if most < 256:
+			return mesh
+		for i in range(arrays[Mesh.ARRAY_TEX_UV].size()):
+			arrays[Mesh.ARRAY_TEX_UV][i] /= 65535.0
+		result.add_surface_from_arrays(mesh.surface_get_primitive_type(surface), arrays)
+		result.surface_set_material(surface, mesh.surface_get_material(surface))
+		result.surface_set_name(surface, mesh.surface_get_name(surface))
+	return result

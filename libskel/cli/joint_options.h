@@ -1,0 +1,36 @@
+// How the joints of exported files are: the options of all tools that write rigged models.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+
+#include "libskel/export/write_character.h"
+
+namespace skel {
+
+struct JointOptions {
+  std::string naming = "skel", bones = "along";
+};
+
+inline const std::map<std::string, JointNaming> kNamingNames = {
+    {"skel", JointNaming::kSkel}, {"vrm", JointNaming::kVrm}, {"mixamo", JointNaming::kMixamo}};
+inline const std::map<std::string, BoneStyle> kBoneStyleNames = {
+    {"along", BoneStyle::kAlong}, {"ends", BoneStyle::kEnds}, {"plain", BoneStyle::kPlain}};
+
+inline void bindJointOptions(CLI::App& app, JointOptions& options) {
+  app.add_option("--names", options.naming, "What exported joints are called")
+      ->check(CLI::IsMember({"skel", "vrm", "mixamo"}))
+      ->capture_default_str();
+  app.add_option("--bones", options.bones,
+                 "Axes of the .glb's joints: along the bones, as Blender draws them; ends: so, too, and the\n"
+                 "last bones reach toes and fingertips; plain: the model's, for code that turns joints")
+      ->check(CLI::IsMember({"along", "ends", "plain"}))
+      ->capture_default_str();
+}
+
+inline ExportOptions exportOptions(const std::string& name, const JointOptions& options) {
+  return {name, kNamingNames.at(options.naming), kBoneStyleNames.at(options.bones)};
+}
+
+}  // namespace skel
