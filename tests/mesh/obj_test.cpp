@@ -91,7 +91,7 @@ TEST_CASE("the texture is found through the material that is used") {
   CHECK(mesh.texture.width == 2);
   CHECK(mesh.vertices.rows() == 5);  // the first is split
   CHECK(mesh.uv.row(0) == Eigen::RowVector2f(0, 1));
-  CHECK(mesh.uv.row(3) == Eigen::RowVector2f(0.5f, 0.5f));
+  CHECK(mesh.uv.row(4) == Eigen::RowVector2f(0.5f, 0.5f));
 
   writeFile(dir.file("a.obj"), text + "f 1/1 2/2 3/3\nf 1 3 4\n");
   const TriangleMesh mixed =
