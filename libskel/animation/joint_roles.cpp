@@ -70,11 +70,11 @@ const std::initializer_list<std::string_view> kLeg[3] = {
 
 struct Tree {
   const Skeleton& skeleton;
-  const std::vector<Vector3d>& tips;
+  std::vector<Vector3d> tips;
   std::vector<std::vector<int>> children;
 
-  Tree(const Skeleton& of, const std::vector<Vector3d>& tips_of)
-      : skeleton(of), tips(tips_of), children(of.joints.size()) {
+  Tree(const Skeleton& of, std::vector<Vector3d> tips_of)
+      : skeleton(of), tips(std::move(tips_of)), children(of.joints.size()) {
     for (std::size_t j = 0; j < of.joints.size(); ++j)
       if (of.joints[j].parent >= 0) children[std::size_t(of.joints[j].parent)].push_back(int(j));
   }

@@ -7,6 +7,26 @@
 #include "libskel/core/json.h"
 
 namespace skel {
+namespace {
+
+// Of each vertex of `mesh` its entry in a list of weights, one for each vertex of the mesh or of its file.
+Eigen::VectorXi entriesOf(const TriangleMesh& mesh, const JsonValue& list, Eigen::Index count) {
+  const Eigen::Index vertices = mesh.vertices.rows();
+  const Eigen::VectorXi same = Eigen::VectorXi::LinSpaced(vertices, 0, static_cast<int>(vertices) - 1);
+  const bool of_mesh = count == vertices,
+             of_file = mesh.file_vertex.size() > 0 && count == mesh.file_vertices;
+  if (of_mesh && of_file && mesh.file_vertex != same)
+    list.fail("could be those of the model's file or of its " + std::to_string(count) +
+              " vertices with copies at seams; remove vertices without faces from the model");
+  if (!of_mesh && !of_file)
+    list.fail("are " + std::to_string(count) + ", the model has " + std::to_string(vertices) +
+              (mesh.file_vertex.size() > 0 && mesh.file_vertices != vertices
+                   ? " with copies at seams, its file " + std::to_string(mesh.file_vertices)
+                   : ""));
+  return of_file ? mesh.file_vertex : same;
+}
+
+}  // namespace
 
 SkinWeights readWeights(const std::string& path, const RiggedCharacter& character) {
   const JsonDocument document = JsonDocument::readFile(path);
@@ -20,12 +40,11 @@ SkinWeights readWeights(const std::string& path, const RiggedCharacter& characte
   }
   const JsonValue list = root.at("vertices");
   const std::vector<JsonValue> vertices = list.items();
-  const Eigen::Index count = character.mesh.vertices.rows();
-  if (static_cast<Eigen::Index>(vertices.size()) != count)
-    list.fail("are " + std::to_string(vertices.size()) + ", the model has " + std::to_string(count));
-  SkinWeights result;
-  result.joints.setZero(count, 4);
-  result.weights.setZero(count, 4);
+  const auto count = static_cast<Eigen::Index>(vertices.size());
+  const Eigen::VectorXi entry = entriesOf(character.mesh, list, count);
+  SkinWeights read;
+  read.joints.setZero(count, 4);
+  read.weights.setZero(count, 4);
   for (Eigen::Index v = 0; v < count; ++v) {
     const JsonValue& vertex = vertices[static_cast<std::size_t>(v)];
     vertex.allowOnly({"joints", "weights"});
@@ -43,11 +62,11 @@ SkinWeights readWeights(const std::string& path, const RiggedCharacter& characte
     if (!(sum > 0)) vertex.at("weights").fail("are all 0");
     std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     for (std::size_t k = 0; k < row.size() && row[k].first > 0; ++k) {
-      result.joints(v, static_cast<Eigen::Index>(k)) = static_cast<std::uint16_t>(row[k].second);
-      result.weights(v, static_cast<Eigen::Index>(k)) = row[k].first / sum;
+      read.joints(v, static_cast<Eigen::Index>(k)) = static_cast<std::uint16_t>(row[k].second);
+      read.weights(v, static_cast<Eigen::Index>(k)) = row[k].first / sum;
     }
   }
-  return result;
+  return {read.joints(entry, Eigen::all), read.weights(entry, Eigen::all)};
 }
 
 }  // namespace skel

@@ -355,19 +355,33 @@ TriangleMesh readObj(const std::string& path) {
   Looks looks = looksOf(obj, path);
   TriangleMesh mesh;
   Rows rows(obj.triangles.size());
-  mesh.triangles.resize(static_cast<Eigen::Index>(obj.triangles.size()), 3);
-  for (std::size_t t = 0; t < obj.triangles.size(); ++t) {
+  const auto rowOf = [&](std::size_t t, int k) -> Rows::Row {
     const int look = looks.tiles.empty() ? -1 : looks.of_triangle[t];
+    const bool pictured = look >= 0 && !looks.plain[static_cast<std::size_t>(look)];
+    const Corner& corner = obj.triangles[t].corners[static_cast<std::size_t>(k)];
+    return {corner[0], pictured ? corner[1] : -1, look};
+  };
+  // The first rows of all positions come before the others.
+  std::vector<Rows::Row> firsts(obj.positions.size(), {-1, -1, -1});
+  for (std::size_t t = 0; t < obj.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
-      const Corner& corner = obj.triangles[t].corners[static_cast<std::size_t>(k)];
-      const bool placed = look >= 0 && !looks.plain[static_cast<std::size_t>(look)];
-      mesh.triangles(static_cast<Eigen::Index>(t), k) = rows.of({corner[0], placed ? corner[1] : -1, look});
+      const Rows::Row row = rowOf(t, k);
+      Rows::Row& first = firsts[static_cast<std::size_t>(row.position)];
+      if (first.position < 0) first = row;
     }
-  }
+  for (const Rows::Row& first : firsts)
+    if (first.position >= 0) rows.of(first);
+  mesh.triangles.resize(static_cast<Eigen::Index>(obj.triangles.size()), 3);
+  for (std::size_t t = 0; t < obj.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) mesh.triangles(static_cast<Eigen::Index>(t), k) = rows.of(rowOf(t, k));
   mesh.vertices.resize(static_cast<Eigen::Index>(rows.rows.size()), 3);
-  for (std::size_t v = 0; v < rows.rows.size(); ++v)
-    mesh.vertices.row(static_cast<Eigen::Index>(v)) =
-        obj.positions[static_cast<std::size_t>(rows.rows[v].position)];
+  mesh.file_vertex.resize(mesh.vertices.rows());
+  mesh.file_vertices = static_cast<Eigen::Index>(obj.positions.size());
+  for (std::size_t v = 0; v < rows.rows.size(); ++v) {
+    const int position = rows.rows[v].position;
+    mesh.vertices.row(static_cast<Eigen::Index>(v)) = obj.positions[static_cast<std::size_t>(position)];
+    mesh.file_vertex[static_cast<Eigen::Index>(v)] = position;
+  }
   const Eigen::RowVector3d size =
       mesh.vertices.colwise().maxCoeff().cast<double>() - mesh.vertices.colwise().minCoeff().cast<double>();
   if (!(size.y() * kMaxWidth > size.maxCoeff()))

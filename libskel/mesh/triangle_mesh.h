@@ -47,6 +47,10 @@ struct TriangleMesh {
   // #V, of a mesh of several closed bodies: which one, 0 the trunk's, else the limb's that a vertex belongs
   // to (FigurePiece::layer). Empty: one skin.
   Eigen::VectorXi layer;
+  // #V, of a mesh that was read from a file of `file_vertices` vertices: which of them, from 0, each one is.
+  // Seams have several of one; what no face needs is left out. Empty: the file's, or not from a file.
+  Eigen::VectorXi file_vertex;
+  Eigen::Index file_vertices = 0;
 
   Eigen::RowVector2f uvOf(Eigen::Index triangle, int corner) const {
     const bool back = back_uv.rows() > 0 && triangle >= first_back;

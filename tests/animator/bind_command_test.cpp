@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "libskel/core/files.h"
+#include "libskel/image/write_image.h"
 #include "libskel/import/read_character.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
@@ -227,6 +228,43 @@ TEST_CASE("bad models, weights and tables are refused, and nothing is written") 
   }
   CHECK_FALSE(fs::exists(dir.file("out.glb")));
   CHECK(fs::exists(dir.file("m.obj")));
+}
+
+TEST_CASE("weights of an OBJ are one for each of its lines, or for each vertex with copies at seams") {
+  const TempDir dir;
+  writeFile(dir.file("t.png"), encodePng(Image(2, 2)));
+  writeFile(dir.file("m.mtl"), "newmtl m\nmap_Kd t.png\n");
+  writeFile(dir.file("s.json"), rig(bone("a", "null") + "," + bone("b", "\"a\"")));
+  // The first line is at a seam, so that there are four lines and five vertices.
+  const std::string model = "mtllib m.mtl\nusemtl m\n" + kTetrahedron.substr(0, kTetrahedron.find('f')),
+                    faces = "vt 0 0\nvt 1 1\nf 3/1 2/1 1/1\nf 1/2 2/1 4/1\nf 2/1 3/1 4/1\nf 3/1 1/1 4/1\n";
+  const auto weights = [&](const std::vector<int>& joints) {
+    std::string vertices;
+    for (const int joint : joints)
+      vertices +=
+          (vertices.empty() ? "" : ",") + ("{\"joints\": [" + std::to_string(joint)) + "], \"weights\": [1]}";
+    writeFile(dir.file("w.json"),
+              "{\"format\": \"skel-skin\", \"version\": 1, \"joints\": [\"a\", \"b\"], "
+              "\"vertices\": [" +
+                  vertices + "]}");
+    return animate(dir, "bind m.obj --skeleton s.json --weights w.json -o m.glb");
+  };
+  // In the order of the vertices of m.glb.
+  const auto bound = [&] {
+    const SkinWeights read = readGlb(dir.file("m.glb")).character.weights;
+    return std::vector<int>(read.joints.col(0).begin(), read.joints.col(0).end());
+  };
+  writeFile(dir.file("m.obj"), model + faces);
+  CHECK(weights({1, 0, 1, 0}).err == "");
+  CHECK(bound() == std::vector<int>{1, 0, 1, 0, 1});
+  CHECK(weights({1, 0, 1, 0, 0}).err == "");
+  CHECK(bound() == std::vector<int>{1, 0, 1, 0, 0});
+  expect(weights({1, 0, 1}), 2, "w.json: vertices: are 3, the model has 5 with copies at seams, its file 4");
+
+  writeFile(dir.file("m.obj"), model + "v 0 9 0\n" + faces);
+  expect(weights({1, 0, 1, 0, 0}), 2,
+         "w.json: vertices: could be those of the model's file or of its 5 vertices with copies at seams; "
+         "remove vertices without faces from the model");
 }
 
 TEST_CASE("what cannot be written leaves the old file whole") {

@@ -46,11 +46,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   input.mask = maskFrom(data, size);
   input.image = Image(static_cast<int>(input.mask->cols()), static_cast<int>(input.mask->rows()));
   input.image.rgba.setConstant(255);
-  RigOptions options = rigOptions();
+  RigOptions options = rigOptions(size);
   options.silhouette.fill_holes = size % 2 == 0;
   options.candidates.method = static_cast<CandidateMethod>(size % 3);
-  if (size % 5 == 0) options.recognizer = Recognizer::kPaper;
-  if (size % 7 == 0) options.inflate.spacing_px = 0;
+  if (size % 31 == 0) options.inflate.spacing_px = 0;
   mayRefuse([&] {
     const RiggedDrawing drawing = rigCharacter(std::move(input), options);
     requireSound(drawing);

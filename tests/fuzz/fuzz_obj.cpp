@@ -8,7 +8,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   mayRefuse([&] {
     RigInput input;
     input.model = readObj(fileOf(textOf(data, size), "fuzz.obj"));
-    requireSound(rigCharacter(std::move(input), rigOptions()));
+    requireSound(rigCharacter(std::move(input), rigOptions(size)));
   });
   return 0;
 }

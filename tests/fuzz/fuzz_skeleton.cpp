@@ -7,7 +7,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace skel;
   static const Image image = capsuleImage({.size = 64});
   mayRefuse([&] {
-    const RigOptions options = rigOptions();
+    const RigOptions options = rigOptions(size);
     const std::string path = fileOf(textOf(data, size), "fuzz.skeleton.json");
     mayRefuse([&] { hasEditedJoint(path); });
     const SkeletonFile file = readSkeletonFile(path, options.body_plan);

@@ -7,7 +7,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace skel;
   static const Image image = capsuleImage({.size = 64});
   mayRefuse([&] {
-    RigOptions options = rigOptions();
+    RigOptions options = rigOptions(size);
     options.recognizer = Recognizer::kPaper;  // the net knows the biped alone
     options.body_plan = parseTemplate(textOf(data, size), "fuzz");
     RigInput input;

@@ -13,12 +13,17 @@
 
 namespace skel {
 
-inline RigOptions rigOptions() {
+// Quick, to try more figures: the mesh is coarse, and the nets, which take most of the time, are asked about
+// one input of 128.
+inline RigOptions rigOptions(std::size_t size) {
   static const SkeletonTemplate biped = loadTemplate("biped");
+  const bool nets = size % 128 == 0;
   RigOptions options;
   options.mlp = defaultMlp();
   options.body_plan = biped;
-  options.inflate.spacing_px = 4;  // coarse, to try more figures
+  options.recognizer = nets ? Recognizer::kTree : Recognizer::kPaper;
+  options.layers = nets;
+  options.inflate.spacing_px = 6;
   return options;
 }
 

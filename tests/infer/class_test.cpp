@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "infer/drawings.h"
 #include "libskel/core/files.h"
 #include "libskel/image/write_image.h"
 #include "tests/infer/run_infer.h"
@@ -62,6 +63,17 @@ TEST_CASE("a folder stands for its drawings in natural order, and what is no dra
     CHECK(reported(infer(dir, "zoe.png second class --formats json --force").out) ==
           "zoe.png second/anna.png class/Kid 1.PNG class/kid9.png class/kid10.png ");
   }
+}
+
+TEST_CASE("results are told from drawings among 200,000 names in time") {
+  std::vector<std::string> names;
+  for (int i = 0; i < 100'000; ++i) {
+    names.push_back("nowhere/a" + std::to_string(i) + ".png");
+    names.push_back("nowhere/" + std::string(i % 2 ? "a" : "b") + std::to_string(i) + ".overlay.png");
+  }
+  const NamedDrawings found = drawingsOf(names);
+  CHECK(found.drawings.size() == 150'000);
+  CHECK(found.results.size() == 50'000);
 }
 
 TEST_CASE("a folder without a drawing is refused by name") {

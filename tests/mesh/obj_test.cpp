@@ -91,7 +91,7 @@ TEST_CASE("the texture is found through the material that is used") {
   CHECK(mesh.texture.width == 2);
   CHECK(mesh.vertices.rows() == 5);  // the first is split
   CHECK(mesh.uv.row(0) == Eigen::RowVector2f(0, 1));
-  CHECK(mesh.uv.row(3) == Eigen::RowVector2f(0.5f, 0.5f));
+  CHECK(mesh.uv.row(4) == Eigen::RowVector2f(0.5f, 0.5f));
 
   writeFile(dir.file("a.obj"), text + "f 1/1 2/2 3/3\nf 1 3 4\n");
   const TriangleMesh mixed =
@@ -100,6 +100,25 @@ TEST_CASE("the texture is found through the material that is used") {
   CHECK(colorAt(mixed, 1, 0) == Eigen::Array3i(255, 255, 255).matrix());
   writeFile(dir.file("b.obj"), "mtllib gone.mtl\n" + text.substr(13) + "f 1/1 2/2 3/3\n");
   CHECK_THROWS_AS(readObj(dir.file("b.obj")), InputError);
+}
+
+TEST_CASE("vertices stand in the order of their lines, copies for seams after them") {
+  const std::string other = "v 5 5 5\n";  // of no face
+  const TempDir dir;
+  Image picture(2, 2);
+  picture.rgba.setConstant(200);
+  writeFile(dir.file("a.png"), encodePng(picture));
+  writeFile(dir.file("a.mtl"), "newmtl a\nmap_Kd a.png\n");
+  writeFile(dir.file("a.obj"), "mtllib a.mtl\nusemtl a\n" + other + kSquare +
+                                   "vt 0 0\nvt 1 0\nvt 1 1\nf 5/1 4/2 2/3\nf 2/1 4/1 3/2\n");
+  const TriangleMesh mesh = readObj(dir.file("a.obj"));
+  CHECK(mesh.file_vertices == 5);
+  CHECK(mesh.file_vertex == Eigen::Vector<int, 6>(1, 2, 3, 4, 1, 3));
+  CHECK(mesh.triangles.row(0) == Eigen::RowVector3i(3, 2, 0));
+  CHECK(mesh.triangles.row(1) == Eigen::RowVector3i(4, 5, 1));
+  for (int v = 0; v < 2; ++v) CHECK(mesh.vertices.row(4 + v) == mesh.vertices.row(2 * v));
+
+  CHECK(read(kSquare + "f 4 3 2\nf 4 2 1\n").file_vertex == Eigen::Vector4i(0, 1, 2, 3));
 }
 
 TEST_CASE("several materials, pictures and colours, become one texture") {

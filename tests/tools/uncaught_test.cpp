@@ -1,4 +1,5 @@
 // What is thrown where nobody expects it: one line that names the input, a code, and the others go on.
+#include <algorithm>
 #include <filesystem>
 
 #include "libskel/core/files.h"
@@ -68,6 +69,19 @@ TEST_CASE("wherever memory ends, there is one line and no abort") {
   }
   CHECK(failed);
   CHECK(done);
+}
+
+TEST_CASE("a mask of a comb of 2000 teeth of 1 px needs no more than 1.2 GB") {
+  if (!kLimitsWork) return;
+  const TempDir dir;
+  constexpr int kSize = 4000;
+  Image comb = blankImage(kSize, kSize);
+  for (int y = 40; y < kSize; ++y)
+    for (int x = 1; x < kSize; x += 2) std::fill_n(comb.pixel(x, y), 3, 0);
+  writeFile(dir.file("comb.png"), encodePng(comb));
+  const ToolRun run = limited(dir, 1200, "skel-infer comb.png --mask comb.png --formats glb");
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 0);
 }
 
 TEST_CASE("threads that cannot be had end no tool") {
