@@ -26,6 +26,7 @@ namespace {
 constexpr std::string_view kBlank = " \t\r";
 constexpr double kMaxWidth = 1e4;            // of a model, in its heights
 constexpr std::size_t kMostCorners = 10000;  // of a face
+constexpr std::size_t kMostLibraries = 100;  // of materials
 
 // A text file line by line: without comments, with lines that end in a backslash joined.
 class Lines {
@@ -126,6 +127,13 @@ std::string besides(const std::string& path, std::string name) {
   return (std::filesystem::path(path).parent_path() / name).string();
 }
 
+// One file has many paths: ./a.png, b/../a.png, links.
+std::string sameForAllNames(const std::string& path) {
+  std::error_code unknown;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(path, unknown);
+  return unknown ? path : whole.string();
+}
+
 struct Material {
   Eigen::Array3f color = Eigen::Array3f::Ones();  // Kd
   std::string picture;                            // a path; empty: none
@@ -205,6 +213,9 @@ Obj parseObj(const std::string& path) {
     } else if (word[0] == "mtllib") {
       std::string library = remainder(line, "mtllib");
       if (libraries.insert(library).second) obj.libraries.push_back(std::move(library));
+      if (libraries.size() > kMostLibraries)
+        lines.fail("the model names more than " + std::to_string(kMostLibraries) +
+                   " files of materials; join them");
     } else if (word[0] == "usemtl") {
       const std::string name = remainder(line, "usemtl");
       const auto [known, is_new] = used.emplace(name, static_cast<int>(obj.used.size()));
@@ -251,13 +262,6 @@ InputError texturesDoNotFit(const std::string& path) {
                               " px a side; make them smaller, or repeat less often");
 }
 
-// One file has many paths: ./a.png, b/../a.png, links.
-std::string sameForAllNames(const std::string& path) {
-  std::error_code unknown;
-  const std::filesystem::path whole = std::filesystem::weakly_canonical(path, unknown);
-  return unknown ? path : whole.string();
-}
-
 bool hasCoordinates(const Triangle& triangle) {
   return std::all_of(triangle.corners.begin(), triangle.corners.end(),
                      [](const Corner& c) { return c[1] >= 0; });
@@ -265,7 +269,10 @@ bool hasCoordinates(const Triangle& triangle) {
 
 Looks looksOf(const Obj& obj, const std::string& path) {
   Materials materials;
-  for (const std::string& library : obj.libraries) readMaterials(besides(path, library), materials);
+  std::set<std::string> read;
+  for (const std::string& library : obj.libraries)
+    if (const std::string mtl = besides(path, library); read.insert(sameForAllNames(mtl)).second)
+      readMaterials(mtl, materials);
   const Material none;
   const auto named = [&](int used) -> const Material& {
     // A file that never says which is meant means the first picture.
