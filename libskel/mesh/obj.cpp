@@ -24,9 +24,10 @@ namespace skel {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r";
-constexpr double kMaxWidth = 1e4;            // of a model, in its heights
-constexpr std::size_t kMostCorners = 10000;  // of a face
-constexpr std::size_t kMostLibraries = 100;  // of materials
+constexpr double kMaxWidth = 1e4;                                      // of a model, in its heights
+constexpr std::size_t kMostCorners = 10000;                            // of a face
+constexpr std::size_t kMostLibraries = 100;                            // of materials
+constexpr std::size_t kMostCutting = 5 * kMostCorners * kMostCorners;  // of all faces: their corners squared
 
 // A text file line by line: without comments, with lines that end in a backslash joined.
 class Lines {
@@ -196,6 +197,7 @@ Obj parseObj(const std::string& path) {
   std::vector<std::string_view> word;
   std::vector<Corner> polygon;
   std::vector<Eigen::Vector3f> places;
+  std::size_t cutting = 0;
   const auto addTriangle = [&](int a, int b, int c) {
     const Triangle triangle{{polygon[a], polygon[b], polygon[c]}, material};
     const auto& [p, q, r] = triangle.corners;
@@ -241,6 +243,9 @@ Obj parseObj(const std::string& path) {
         addTriangle(0, 1, 2);
         continue;
       }
+      cutting += polygon.size() * polygon.size();
+      if (cutting > kMostCutting)
+        lines.fail("the faces have too many corners to be cut; export the model as triangles");
       places.clear();
       for (const Corner& corner : polygon) places.push_back(obj.positions[corner[0]]);
       for (const auto& [a, b, c] : cutPolygon(places)) addTriangle(a, b, c);

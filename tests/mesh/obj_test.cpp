@@ -274,3 +274,12 @@ TEST_CASE("a model names up to 100 files of materials, whether they are one file
   CHECK(complaint(libraries + "mtllib b.mtl\n") ==
         "line 101: the model names more than 100 files of materials; join them");
 }
+
+TEST_CASE("faces of many corners are cut up to a sum, and refused beyond") {
+  std::string face = "f";
+  for (int k = 0; k < 10'000; ++k) face += " 1";
+  std::string faces = kSquare;
+  for (int k = 0; k < 6; ++k) faces += face + "\n";
+  CHECK(complaint(faces) ==
+        "line 10: the faces have too many corners to be cut; export the model as triangles");
+}
