@@ -59,8 +59,13 @@ TEST_CASE("a zero byte in a name does not end the complaint about it") {
   CHECK(std::string(error.what()) == "c.json: names \"a\\x00b\", which is no joint");
 }
 
-TEST_CASE("what people are shown keeps letters of all languages and no command for a terminal") {
+TEST_CASE(
+    "what people are shown keeps letters of all languages, and nothing that commands a terminal or turns "
+    "text around") {
   CHECK(printable("Bär 走 🦌") == "Bär 走 🦌");
   CHECK(printable("\t\r\x7f\x1b[2J\n") == "\\x09\\x0d\\x7f\\x1b[2J\\n");
   CHECK(printable("\xc2\x9b[2J") == "\\x9b[2J");
+  CHECK(printable("a\u202eb\u2066c\u2028d\u2029e\u061cf\u200fg") ==
+        "a\\u202eb\\u2066c\\u2028d\\u2029e\\u061cf\\u200fg");
+  CHECK(printable("\x9b[2J\xe4\xf0\x9f\xa6") == "\\x9b[2J\\xe4\\xf0\\x9f\\xa6");
 }
