@@ -24,7 +24,8 @@ std::vector<std::string> drawingsIn(const fs::path& dir) {
   for (fs::directory_iterator entry(dir, failure), end; !failure && entry != end; entry.increment(failure)) {
     const fs::path& path = entry->path();
     std::error_code unknown;
-    if (isDrawingName(path.filename().string()) && !entry->is_directory(unknown) && !isTexture(path))
+    if (isDrawingName(path.filename().string()) && !entry->is_directory(unknown) &&
+        !entry->is_other(unknown) && !isTexture(path))
       names.push_back(path.filename().string());
   }
   if (failure) throw InputError(dir.string(), "cannot be read: " + failure.message());

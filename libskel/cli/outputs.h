@@ -19,8 +19,8 @@ inline CLI::Validator outputFile() { return mark(kOutputMark); }
 // Inputs, not all of which are taken: the tool calls noteInput() for those that are.
 inline CLI::Validator pickedFiles() { return mark(kPickedMark); }
 
-// Notes the files that the command line names, and the outputs' defaults. Throws UsageError where an output
-// is an input.
+// Notes the files and pipes that the command line names, and the outputs' defaults. Throws UsageError where
+// an output is an input.
 inline void noteFiles(const CLI::App& app) {
   const auto has = [](const CLI::Option& option, const char* mark) {
     try {
@@ -30,6 +30,7 @@ inline void noteFiles(const CLI::App& app) {
     }
   };
   for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& word : option->results()) notePipe(word);
     if (has(*option, kPickedMark)) continue;
     const bool output = has(*option, kOutputMark);
     std::vector<std::string> files = option->results();

@@ -74,6 +74,8 @@ bool wroteDirectly(const std::string& path, const struct stat& there, std::strin
     return true;
   }
   if (S_ISREG(there.st_mode)) return false;
+  if (S_ISFIFO(there.st_mode) && !mayOpenPipe(there))
+    throw OutputError(path, "cannot be replaced: it is a pipe");
   Descriptor file{::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY)};
   if (file.fd < 0) throw OutputError(path, "cannot be written: " + reason());
   writeTo(file.fd, bytes, path);
@@ -167,6 +169,8 @@ std::string readFile(const std::string& path) {
     return bytesIn(file.fd, static_cast<size_t>(status.st_size), path);
   };
   if (!S_ISREG(status.st_mode)) {
+    if (!mayOpenPipe(status))
+      throw InputError(path, "is a pipe, not a file; pipes are read where the command line names them");
     static Pipes pipes;
     return pipes.bytesOf(status, read);
   }

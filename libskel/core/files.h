@@ -10,14 +10,14 @@
 namespace skel {
 
 // All bytes of a file. What comes out of a pipe is kept: whoever reads it again gets the same. Throws
-// InputError (missing, a directory, a device, unreadable).
+// InputError (missing, a directory, a device, a pipe that may not be opened (input_guard.h), unreadable).
 std::string readFile(const std::string& path);
 
 // Writes to <path>.skel-tmp, flushes it to the disk and renames it, so that `path` holds the old bytes or the
 // new ones and never half of either, also where several processes write it. Who is killed leaves the
 // temporary file, which the next to write `path` takes over. Makes missing parent folders. A link stays one
-// and its target is written; a file that is replaced keeps its mode and its owner; devices and pipes are
-// written to. Throws OutputError, and UsageError where `path` is an input.
+// and its target is written; a file that is replaced keeps its mode and its owner; devices and pipes
+// (those that may be opened) are written to. Throws OutputError, and UsageError where `path` is an input.
 void writeFile(const std::string& path, std::string_view bytes);
 
 // The same for documents that are edited in place: `path` may be an input.

@@ -18,7 +18,7 @@ struct Lists {
   std::mutex mutex;
   bool on = false;
   std::map<Identity, std::string> inputs, outputs;
-  std::set<Identity> own;
+  std::set<Identity> own, pipes;
   std::map<std::string, std::string> named;  // outputs by their canonical paths
 };
 
@@ -81,6 +81,18 @@ void noteNamedOutput(const std::string& path) {
     throw UsageError(path + " is to be written twice" +
                      (other->second == path ? "" : ", also as " + other->second) +
                      "; name two different outputs");
+}
+
+void notePipe(const std::string& path) {
+  struct stat status;
+  if (::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode)) return;
+  const std::lock_guard lock(lists().mutex);
+  lists().pipes.insert({status.st_dev, status.st_ino});
+}
+
+bool mayOpenPipe(const struct stat& pipe) {
+  const std::lock_guard lock(lists().mutex);
+  return !lists().on || lists().pipes.contains({pipe.st_dev, pipe.st_ino});
 }
 
 void noteReplaced(const struct stat* before, const struct stat& after) {

@@ -2,6 +2,9 @@
 // that no tool can forget a file that another one names (a skeleton's mask, the pictures of an OBJ, the
 // frames of a film); a tool that says early what it is going to write is refused before any work. Files are
 // told apart by device and inode: neither `./x`, a link nor another spelling of a folder hides one.
+//
+// A pipe that nobody writes to is waited for, for ever: only those that the user names are opened, not what
+// lies in a folder or what a file names.
 #pragma once
 
 #include <sys/stat.h>
@@ -22,6 +25,12 @@ void noteOutput(const std::string& path);
 
 // The same, and refuses two outputs that are one file, also one that is not there yet.
 void noteNamedOutput(const std::string& path);
+
+// `path` stands on the command line: if it is a pipe, it may be opened.
+void notePipe(const std::string& path);
+
+// Whether a pipe may be opened: noted, or there is no guard.
+bool mayOpenPipe(const struct stat& pipe);
 
 // For writeFile(): `before` has been replaced by `after`, which is this program's own.
 void noteReplaced(const struct stat* before, const struct stat& after);

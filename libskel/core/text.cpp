@@ -1,6 +1,43 @@
 #include "libskel/core/text.h"
 
 namespace skel {
+namespace {
+
+struct Character {
+  char32_t code;
+  std::size_t bytes;
+};
+
+// The first character of UTF-8; of what is none, a byte.
+Character firstOf(std::string_view text) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  const std::size_t count = byte(0) < 0xc2   ? 1
+                            : byte(0) < 0xe0 ? 2
+                            : byte(0) < 0xf0 ? 3
+                            : byte(0) < 0xf5 ? 4
+                                             : 1;
+  if (count == 1 || text.size() < count) return {byte(0), 1};
+  char32_t code = byte(0) & (0xffu >> (count + 1));
+  for (std::size_t k = 1; k < count; ++k) {
+    if ((byte(k) & 0xc0) != 0x80) return {byte(0), 1};
+    code = code << 6 | (byte(k) & 0x3f);
+  }
+  return {code, count};
+}
+
+// Turns text around, or ends its line.
+bool ordersText(char32_t code) {
+  return code == 0x61c || code == 0x200e || code == 0x200f || (code >= 0x2028 && code <= 0x202e) ||
+         (code >= 0x2066 && code <= 0x2069);
+}
+
+std::string hex(char32_t code, int digits) {
+  std::string text;
+  while (digits-- > 0) text += "0123456789abcdef"[code >> 4 * digits & 15];
+  return text;
+}
+
+}  // namespace
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -9,19 +46,18 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 std::string printable(std::string_view text) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
   std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto at = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
-    // U+0080 to U+009F, two bytes of UTF-8, are commands as well.
-    const bool c1 = at(i) == 0xc2 && (at(i + 1) & 0xe0) == 0x80;
-    const unsigned code = c1 ? at(++i) : at(i);
-    if (!c1 && code >= 0x20 && code != 0x7f)
-      out += text[i];
-    else if (code == '\n')
+  while (!text.empty()) {
+    const auto [code, bytes] = firstOf(text);
+    if (code == '\n')
       out += "\\n";
+    else if (code < 0x20 || (code >= 0x7f && code < 0xa0) || (bytes == 1 && code >= 0x80))
+      out += "\\x" + hex(code, 2);
+    else if (ordersText(code))
+      out += "\\u" + hex(code, 4);
     else
-      out += {'\\', 'x', kDigits[code / 16], kDigits[code % 16]};
+      out += text.substr(0, bytes);
+    text.remove_prefix(bytes);
   }
   return out;
 }

@@ -10,8 +10,9 @@ namespace skel {
 // With commas in between.
 std::string joined(const std::vector<std::string>& words);
 
-// Text out of a file as people are shown it: it neither ends (\x00) nor begins a line of its own (\n) nor
-// commands a terminal (\x1b). Errors do so by themselves.
+// Text out of a file as people are shown it: it neither ends (\x00) nor begins a line of its own (\n, \u2028)
+// nor commands a terminal (\x1b) nor turns what follows around (\u202e); bytes that are no UTF-8 are shown as
+// such (\xe4). Errors do so by themselves.
 std::string printable(std::string_view text);
 
 }  // namespace skel

@@ -423,8 +423,9 @@ std::vector<Eigen::Quaternionf> quaternions(const GlbContainer::Numbers& numbers
   return result;
 }
 
+// `keys` counts those of all clips so far: channels may share their numbers.
 Clip readClip(const GlbContainer& glb, const JsonValue& animation, const RiggedCharacter& character,
-              const Joints& joints, const std::string& otherwise) {
+              const Joints& joints, const std::string& otherwise, std::size_t& keys) {
   Clip clip;
   const std::optional<JsonValue> name = animation.find("name");
   clip.name = name ? name->asString() : otherwise;
@@ -449,6 +450,10 @@ Clip readClip(const GlbContainer& glb, const JsonValue& animation, const RiggedC
     if (const auto way = sampler.find("interpolation"); way && way->asString() != "LINEAR")
       way->fail(way->asString() + " is not read; export with LINEAR interpolation (baked)");
     const std::vector<float> times = readTimes(glb, sampler.at("input"));
+    keys += times.size();
+    if (keys > kMaxKeys)
+      sampler.at("input").fail("brings all clips to more than " + std::to_string(kMaxKeys / 1'000'000) +
+                               " million keys; export fewer animations, or fewer keys");
     const JsonValue output = sampler.at("output");
     const GlbContainer::Numbers values = glb.numbers(output, kind == "rotation" ? 4 : 3);
     if (values.count != times.size())
@@ -516,8 +521,9 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
   makeWhole(character);
   if (const auto animations = glb.root().find("animations")) {
     const std::vector<JsonValue> all = animations->items();
+    std::size_t keys = 0;
     for (std::size_t i = 0; i < all.size(); ++i)
-      result.clips.push_back(readClip(glb, all[i], character, joints, "clip " + std::to_string(i + 1)));
+      result.clips.push_back(readClip(glb, all[i], character, joints, "clip " + std::to_string(i + 1), keys));
   }
   result.bones = joints.style();
   if (const auto name = mesh.find("name")) result.name = name->asString();

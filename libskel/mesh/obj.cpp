@@ -24,8 +24,10 @@ namespace skel {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r";
-constexpr double kMaxWidth = 1e4;            // of a model, in its heights
-constexpr std::size_t kMostCorners = 10000;  // of a face
+constexpr double kMaxWidth = 1e4;                                      // of a model, in its heights
+constexpr std::size_t kMostCorners = 10000;                            // of a face
+constexpr std::size_t kMostLibraries = 100;                            // of materials
+constexpr std::size_t kMostCutting = 5 * kMostCorners * kMostCorners;  // of all faces: their corners squared
 
 // A text file line by line: without comments, with lines that end in a backslash joined.
 class Lines {
@@ -126,6 +128,13 @@ std::string besides(const std::string& path, std::string name) {
   return (std::filesystem::path(path).parent_path() / name).string();
 }
 
+// One file has many paths: ./a.png, b/../a.png, links.
+std::string sameForAllNames(const std::string& path) {
+  std::error_code unknown;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(path, unknown);
+  return unknown ? path : whole.string();
+}
+
 struct Material {
   Eigen::Array3f color = Eigen::Array3f::Ones();  // Kd
   std::string picture;                            // a path; empty: none
@@ -188,6 +197,7 @@ Obj parseObj(const std::string& path) {
   std::vector<std::string_view> word;
   std::vector<Corner> polygon;
   std::vector<Eigen::Vector3f> places;
+  std::size_t cutting = 0;
   const auto addTriangle = [&](int a, int b, int c) {
     const Triangle triangle{{polygon[a], polygon[b], polygon[c]}, material};
     const auto& [p, q, r] = triangle.corners;
@@ -205,6 +215,9 @@ Obj parseObj(const std::string& path) {
     } else if (word[0] == "mtllib") {
       std::string library = remainder(line, "mtllib");
       if (libraries.insert(library).second) obj.libraries.push_back(std::move(library));
+      if (libraries.size() > kMostLibraries)
+        lines.fail("the model names more than " + std::to_string(kMostLibraries) +
+                   " files of materials; join them");
     } else if (word[0] == "usemtl") {
       const std::string name = remainder(line, "usemtl");
       const auto [known, is_new] = used.emplace(name, static_cast<int>(obj.used.size()));
@@ -230,6 +243,9 @@ Obj parseObj(const std::string& path) {
         addTriangle(0, 1, 2);
         continue;
       }
+      cutting += polygon.size() * polygon.size();
+      if (cutting > kMostCutting)
+        lines.fail("the faces have too many corners to be cut; export the model as triangles");
       places.clear();
       for (const Corner& corner : polygon) places.push_back(obj.positions[corner[0]]);
       for (const auto& [a, b, c] : cutPolygon(places)) addTriangle(a, b, c);
@@ -251,13 +267,6 @@ InputError texturesDoNotFit(const std::string& path) {
                               " px a side; make them smaller, or repeat less often");
 }
 
-// One file has many paths: ./a.png, b/../a.png, links.
-std::string sameForAllNames(const std::string& path) {
-  std::error_code unknown;
-  const std::filesystem::path whole = std::filesystem::weakly_canonical(path, unknown);
-  return unknown ? path : whole.string();
-}
-
 bool hasCoordinates(const Triangle& triangle) {
   return std::all_of(triangle.corners.begin(), triangle.corners.end(),
                      [](const Corner& c) { return c[1] >= 0; });
@@ -265,7 +274,10 @@ bool hasCoordinates(const Triangle& triangle) {
 
 Looks looksOf(const Obj& obj, const std::string& path) {
   Materials materials;
-  for (const std::string& library : obj.libraries) readMaterials(besides(path, library), materials);
+  std::set<std::string> read;
+  for (const std::string& library : obj.libraries)
+    if (const std::string mtl = besides(path, library); read.insert(sameForAllNames(mtl)).second)
+      readMaterials(mtl, materials);
   const Material none;
   const auto named = [&](int used) -> const Material& {
     // A file that never says which is meant means the first picture.

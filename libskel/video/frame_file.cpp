@@ -20,6 +20,8 @@ constexpr std::string_view kMark = "\0\0\0\x0DtEXtSoftware\0skel[)>\xA9"sv;
 constexpr std::size_t kMarkAt = 33;  // behind signature and IHDR, which are always of the same size
 
 bool isOurs(const fs::path& path) {
+  std::error_code unknown;
+  if (!fs::is_regular_file(path, unknown)) return false;
   std::ifstream file(path, std::ios::binary);
   std::string head(kMarkAt + kMark.size(), '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));

@@ -54,13 +54,31 @@ TEST_CASE("a name in a file that holds a line of ours, or commands for a termina
         "2: c.json: is \"a\\nskel-infer: b\\x1b[31m\\x07\"");
 }
 
+TEST_CASE("a value of any length leaves the file, the place and what to do in a message") {
+  for (const std::string letter : {"x", "ä", "走"}) {
+    std::string value;
+    while (value.size() < 3'000'000) value += letter;
+    const std::string said =
+        InputError("a.obj", "line 7: '" + value + "' is no number; export it anew").what();
+    CHECK(said.size() < 610);
+    CHECK(said.starts_with("a.obj: line 7: '" + letter));
+    CHECK(said.ends_with(letter + "' is no number; export it anew"));
+    CHECK(printable(said) == said);
+  }
+}
+
 TEST_CASE("a zero byte in a name does not end the complaint about it") {
   const InputError error("c.json", std::string("names \"a\0b\", which is no joint", 30));
   CHECK(std::string(error.what()) == "c.json: names \"a\\x00b\", which is no joint");
 }
 
-TEST_CASE("what people are shown keeps letters of all languages and no command for a terminal") {
+TEST_CASE(
+    "what people are shown keeps letters of all languages, and nothing that commands a terminal or turns "
+    "text around") {
   CHECK(printable("Bär 走 🦌") == "Bär 走 🦌");
   CHECK(printable("\t\r\x7f\x1b[2J\n") == "\\x09\\x0d\\x7f\\x1b[2J\\n");
   CHECK(printable("\xc2\x9b[2J") == "\\x9b[2J");
+  CHECK(printable("a\u202eb\u2066c\u2028d\u2029e\u061cf\u200fg") ==
+        "a\\u202eb\\u2066c\\u2028d\\u2029e\\u061cf\\u200fg");
+  CHECK(printable("\x9b[2J\xe4\xf0\x9f\xa6") == "\\x9b[2J\\xe4\\xf0\\x9f\\xa6");
 }

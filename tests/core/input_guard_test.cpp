@@ -1,10 +1,12 @@
 // Run in a child process each: the guard stays on for good.
 #include "libskel/core/input_guard.h"
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <functional>
+#include <thread>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
@@ -103,4 +105,24 @@ TEST_CASE("two outputs that are one file are refused, folders and devices are no
             "; name two different outputs");
   CHECK(refusal([&] { noteNamedOutput(dir.file("a")), noteNamedOutput(dir.file("a")); }).empty());
   CHECK(refusal([&] { noteNamedOutput("/dev/null"), noteNamedOutput("/dev/null"); }).empty());
+}
+
+TEST_CASE("a pipe is opened where it was named, and not where a folder or a file leads to it") {
+  const TempDir dir;
+  const std::string pipe = dir.file("pipe"), link = dir.file("link");
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  fs::create_symlink("pipe", link);
+  for (const std::string& path : {pipe, link}) {
+    CHECK(refusal([&] { readFile(path); }) ==
+          "another error: " + path +
+              ": is a pipe, not a file; pipes are read where the command line names them");
+    CHECK(refusal([&] { writeFile(path, "x"); }) ==
+          "another error: " + path + ": cannot be replaced: it is a pipe");
+  }
+  CHECK(refusal([&] {
+          notePipe(link);
+          std::thread writer([&] { writeFile(pipe, "bytes"); });
+          if (readFile(pipe) != "bytes") throw UsageError("other bytes");
+          writer.join();
+        }).empty());
 }

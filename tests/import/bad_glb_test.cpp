@@ -257,3 +257,35 @@ TEST_CASE("an animation of 1e8 s, which became a film of one frame, is refused")
   CHECK(complaint(bytes).find("ends after more than an hour; cut the animation into parts") !=
         std::string::npos);
 }
+
+TEST_CASE("keys that clips share are counted each time: a few bytes do not become gigabytes") {
+  constexpr std::size_t kKeys = 40'000;
+  const auto copies = [&](std::size_t count) {
+    return changed([&](json& document, std::string& binary) {
+      const auto append = [&](std::size_t accessor, int width, const std::function<float(std::size_t)>& at) {
+        document["accessors"][accessor]["count"] = kKeys;
+        document["accessors"][accessor].erase("min");
+        document["accessors"][accessor].erase("max");
+        document["accessors"][accessor]["byteOffset"] = 0;
+        document["accessors"][accessor]["bufferView"] = document["bufferViews"].size();
+        const std::size_t bytes = kKeys * static_cast<std::size_t>(width) * 4;
+        document["bufferViews"].push_back(
+            {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes}});
+        for (std::size_t i = 0; i < bytes / 4; ++i) {
+          const float number = at(i);
+          binary.append(reinterpret_cast<const char*>(&number), 4);
+        }
+      };
+      const json animation = document["animations"][0], sampler = animation["samplers"][0];
+      append(sampler["input"], 1, [](std::size_t i) { return static_cast<float>(i) / 64; });
+      append(sampler["output"], 4, [](std::size_t i) { return i % 4 == 3 ? 1.f : 0.f; });
+      document["buffers"][0]["byteLength"] = binary.size();
+      document["animations"] = json::array();
+      for (std::size_t i = 0; i < count; ++i) document["animations"].push_back(animation);
+    });
+  };
+  CHECK(complaint(copies(10)) == "none");
+  CHECK(complaint(copies(251)) ==
+        "a.glb: animations[250].samplers[0].input: brings all clips to more than 10 million keys; export "
+        "fewer animations, or fewer keys");
+}

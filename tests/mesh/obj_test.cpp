@@ -282,3 +282,23 @@ TEST_CASE("many materials, and one library named many times, are read in time") 
   writeFile(dir.file("a.obj"), obj);
   CHECK(readObj(dir.file("a.obj")).triangles.rows() == 100'000);
 }
+
+TEST_CASE("a model names up to 100 files of materials, whether they are one file or many") {
+  const TempDir dir;
+  writeFile(dir.file("a.mtl"), "newmtl red\nKd 1 0 0\n");
+  std::string libraries;
+  for (std::size_t i = 1; i <= 100; ++i) libraries += "mtllib ." + std::string(i, '/') + "a.mtl\n";
+  writeFile(dir.file("a.obj"), libraries + kSquare + "usemtl red\nf 1 2 3 4\n");
+  CHECK(readObj(dir.file("a.obj")).texture.rgba(0, 1) == 0);
+  CHECK(complaint(libraries + "mtllib b.mtl\n") ==
+        "line 101: the model names more than 100 files of materials; join them");
+}
+
+TEST_CASE("faces of many corners are cut up to a sum, and refused beyond") {
+  std::string face = "f";
+  for (int k = 0; k < 10'000; ++k) face += " 1";
+  std::string faces = kSquare;
+  for (int k = 0; k < 6; ++k) faces += face + "\n";
+  CHECK(complaint(faces) ==
+        "line 10: the faces have too many corners to be cut; export the model as triangles");
+}

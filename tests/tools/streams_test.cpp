@@ -19,6 +19,36 @@ TEST_CASE("a drawing comes through /dev/stdin") {
           "/dev/stdin: is a pipe or a device; films are read from files");
 }
 
+TEST_CASE("a pipe that lies in a folder, or that a file names, is not waited for") {
+  const TempDir dir;
+  const auto pipe = [&](const std::string& name) {
+    fs::create_directories(fs::path(dir.file(name)).parent_path());
+    REQUIRE(mkfifo(dir.file(name).c_str(), 0600) == 0);
+  };
+  const auto notWaited = [&](const std::string& command, const std::string& message) {
+    refused(dir, "timeout 60 " + command, 2, message);
+  };
+  const std::string is_pipe = "is a pipe, not a file; pipes are read where the command line names them";
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
+  pipe("drawings/a.png");
+  notWaited("skel-infer drawings", "drawings: holds no drawing");
+  pipe("mtl/a.mtl");
+  writeFile(dir.file("mtl/a.obj"), "mtllib a.mtl\n" + triangle);
+  notWaited("skel-animate info mtl/a.obj", "mtl/a.mtl: " + is_pipe);
+  pipe("picture/a.png");
+  writeFile(dir.file("picture/a.mtl"), "newmtl m\nmap_Kd a.png\n");
+  writeFile(dir.file("picture/a.obj"), "mtllib a.mtl\nusemtl m\n" + triangle);
+  notWaited("skel-animate info picture/a.obj", "picture/a.png: " + is_pipe);
+  pipe("database/index.json");
+  notWaited("skel-style database list database", "database/index.json: " + is_pipe);
+  writeFigure(dir.file("cat.png"));
+  writeFigure(dir.file("film/1.png"));
+  done(dir, "skel-infer cat.png -o rigged && skel-style keypoints film -o m.motion.json");
+  done(dir, "rm cat.png && mkfifo cat.png");
+  notWaited("skel-style render --character rigged/cat.skeleton.json --motion m.motion.json -o cat.gif",
+            "cat.png: " + is_pipe);
+}
+
 TEST_CASE("what is printed and does not arrive is an output error") {
   const TempDir dir;
   writeFigure(dir.file("cat.png"));
