@@ -9,9 +9,15 @@
 namespace skel {
 namespace {
 
-constexpr std::size_t kBackgroundFrames = 25, kBatch = 16;
+constexpr std::size_t kBackgroundFrames = 25, kLeastBackgroundFrames = 3, kBatch = 16;
+constexpr std::size_t kPixelsAtOnce = 100'000'000;  // of all frames that are in memory together
 // A figure that stands in the median of all frames is one that does not leave its place.
 constexpr double kStandingShare = 0.3;
+
+std::size_t framesAtOnce(const FilmInfo& info, std::size_t least, std::size_t most) {
+  const std::size_t pixels = std::size_t(info.width) * std::size_t(info.height);
+  return std::clamp(kPixelsAtOnce / std::max<std::size_t>(1, pixels), least, most);
+}
 
 double areaOf(const Silhouette& silhouette) {
   return silhouette.found() ? double((silhouette.mask > 0).count()) : 0;
@@ -33,6 +39,10 @@ FilmInfo lookAtFilm(const FilmSource& source, Image& background) {
   for (; reader->next(frame); ++info.frames) {
     info.width = frame.image.width;
     info.height = frame.image.height;
+    if (long(info.width) * info.height > kMostFramePixels)
+      throw InputError(source.path, "has frames of " + std::to_string(info.width) + "x" +
+                                        std::to_string(info.height) +
+                                        " px; 36 million px are the most: scale it down");
     if (by_alpha && !transparent && hasTransparency(frame.image)) {
       transparent = true;
       info.method = FigureMethod::kAlpha;
@@ -43,9 +53,9 @@ FilmInfo lookAtFilm(const FilmSource& source, Image& background) {
     }
     if (info.method != FigureMethod::kStill || info.frames % every != 0) continue;
     samples.push_back(frame.image);
-    if (samples.size() < 2 * kBackgroundFrames) continue;
+    if (samples.size() < framesAtOnce(info, 2 * kLeastBackgroundFrames - 1, 2 * kBackgroundFrames)) continue;
     for (std::size_t i = 0; 2 * i < samples.size(); ++i) samples[i] = std::move(samples[2 * i]);
-    samples.resize(samples.size() / 2);
+    samples.resize((samples.size() + 1) / 2);
     every *= 2;
   }
   if (source.figure == "alpha" && !transparent)
@@ -65,7 +75,7 @@ void forEachFrame(const FilmSource& source, const FilmInfo& info, const Image& b
   std::size_t first = 0;
   for (bool more = true; more;) {
     std::vector<FilmFrame> batch;
-    while (batch.size() < kBatch) {
+    while (batch.size() < framesAtOnce(info, 1, kBatch)) {
       FilmFrame frame;
       more = reader->next(frame.video) && first + batch.size() < std::size_t(info.frames);
       if (!more) break;

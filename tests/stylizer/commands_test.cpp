@@ -135,6 +135,18 @@ TEST_CASE("one frame, frames that are all the same, and frames without a figure"
   CHECK_THAT(keys.err, Contains("shows no figure in any frame"));
 }
 
+TEST_CASE("a film of a few bytes whose frames are huge is refused before many of them are in memory") {
+  const TempDir dir;
+  fs::create_directory(dir.file("film"));
+  Image frame(12001, 3000);
+  frame.rgba.setConstant(255);
+  writePng(frame, dir.file("film/frame-1.png"));
+  fs::copy_file(dir.file("film/frame-1.png"), dir.file("film/frame-2.png"));
+  const ToolRun run = style("keyframes " + dir.file("film") + " -o " + dir.file("keys"));
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("has frames of 12001x3000 px; 36 million px are the most: scale it down"));
+}
+
 TEST_CASE("a motion of more than an hour becomes no clip, and a film in part alone") {
   const TempDir dir;
   writeFile(dir.file("long.motion.json"), motionText(3, 1e6, 1));
