@@ -87,8 +87,9 @@ TEST_CASE("nets that are handed over do what those do that are compiled in") {
 
   options.joint_nets = std::make_shared<const JointNets>(std::vector<JointNets::File>{});
   CHECK_THROWS_AS(rigCharacter(input, options), UsageError);
+  const std::string damaged = biped.substr(9);
   options.joint_nets =
-      std::make_shared<const JointNets>(std::vector<JointNets::File>{{"biped", biped.substr(9), "biped"}});
+      std::make_shared<const JointNets>(std::vector<JointNets::File>{{"biped", damaged, "biped"}});
   CHECK_THROWS_AS(rigCharacter(input, options), InputError);
 }
 
