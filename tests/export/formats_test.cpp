@@ -189,7 +189,7 @@ TEST_CASE("a BVH holds the tree in centimetres and the clip in degrees") {
 
   REQUIRE(text[i + 1] == "Frames:");
   const std::size_t frames = std::stoul(text[i + 2]);
-  CHECK(frames == 85);
+  CHECK(frames == 91);
   CHECK(std::stod(text[i + 5]) == Approx(1.0 / 30));
   const std::size_t first = i + 6;
   REQUIRE(text.size() == first + frames * channels);
