@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
@@ -47,6 +48,7 @@ std::vector<DatabaseEntry> readDatabase(const std::string& dir) {
   const JsonValue root = document.root();
   root.checkFormat(kFormat, 1);
   root.allowOnly({"format", "version", "motions"});
+  std::set<std::string> files;
   for (const JsonValue& item : root.at("motions").items()) {
     item.allowOnly({"file", "action", "source", "frames", "keys", "sha256"});
     entries.push_back({item.at("file").asFileName(), item.at("action").asString(),
@@ -54,6 +56,7 @@ std::vector<DatabaseEntry> readDatabase(const std::string& dir) {
                        item.at("keys").asInt(0, kMaxFrames), item.at("sha256").asString()});
     if (fs::path(entries.back().file).has_parent_path())
       item.at("file").fail("must lie in the folder itself");
+    if (!files.insert(entries.back().file).second) item.at("file").fail("stands there twice");
     pathInside(dir, entries.back().file, indexOf(dir));
   }
   return entries;
@@ -73,6 +76,7 @@ DatabaseEntry addToDatabase(const std::string& dir, const std::string& path, con
   DatabaseEntry entry{fs::path(path).filename().string(), motion.action,  motion.source,
                       int(motion.frames.size()),          keysOf(motion), ""};
   const std::string to = (fs::path(dir) / entry.file).string();
+  if (to == indexOf(dir)) throw InputError(path, "is named as the database's own index; rename it");
   if (!force && fs::exists(to)) throw InputError(to, "is there already; give --force to replace it");
   for (MotionFrame& frame : motion.frames)
     if (!frame.image_file.empty())

@@ -23,11 +23,13 @@ constexpr const char* kFormat = "skel-labels";
 constexpr int kVersion = 2;  // 1: without `recognized`
 constexpr int kMaxImageSide = 100'000;
 constexpr int kMaxGridSide = 4096;
+constexpr std::size_t kMostComplaints = 100;  // of one file; more help nobody
 
 // Runs each step; the complaints of those that fail are kept, so that a check can name all of them.
 class Problems {
  public:
   void attempt(const std::function<void()>& step) {
+    if (lines_.size() >= kMostComplaints) return;
     try {
       step();
     } catch (const InputError& error) {

@@ -97,6 +97,18 @@ TEST_CASE("a label file stands beside its image") {
   CHECK(besideLabelFile("knight.labels.json", "knight.png") == "knight.png");
 }
 
+TEST_CASE("of a file of nothing but bad candidates a hundred complaints are kept") {
+  const TempDir dir;
+  const std::string path = dir.file("a.labels.json");
+  writeLabelFile(path, sample());
+  std::string text = readFile(path);
+  const std::size_t list = text.find('[', text.find("\"candidates\""));
+  std::string many;
+  for (int i = 0; i < 5000; ++i) many += "{},";
+  writeFile(path, text.insert(list + 1, many));
+  CHECK(findProblems(path).size() == 100);
+}
+
 TEST_CASE("a good label file has no problems") { CHECK(problems("600", "600").empty()); }
 
 TEST_CASE("each problem of a label file is named with file, path and reason") {

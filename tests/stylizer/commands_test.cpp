@@ -140,7 +140,7 @@ TEST_CASE("a film of a few bytes whose frames are huge is refused before many of
   fs::create_directory(dir.file("film"));
   Image frame(12001, 3000);
   frame.rgba.setConstant(255);
-  writePng(frame, dir.file("film/frame-1.png"));
+  writeFile(dir.file("film/frame-1.png"), encodePng(frame));
   fs::copy_file(dir.file("film/frame-1.png"), dir.file("film/frame-2.png"));
   const ToolRun run = style("keyframes " + dir.file("film") + " -o " + dir.file("keys"));
   CHECK(run.exit_code == 2);
@@ -176,6 +176,24 @@ TEST_CASE("a database takes no motion that no command could use") {
   CHECK(run.exit_code == 2);
   CHECK_THAT(run.err, Contains("m.motion.json: no frame knows the joint \"head\""));
   CHECK_FALSE(fs::exists(dir.file("db")));
+}
+
+TEST_CASE("a database lists a motion once, and none that is named as its index") {
+  const TempDir dir;
+  writeFile(dir.file("index.json"), motionText(2, 1, 1));
+  const std::string db = dir.file("db");
+  ToolRun run = style("database add " + db + " " + dir.file("index.json") + " --action a");
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("index.json: is named as the database's own index; rename it"));
+
+  fs::rename(dir.file("index.json"), dir.file("m.motion.json"));
+  done("database add " + db + " " + dir.file("m.motion.json") + " --action a");
+  std::string index = readFile(db + "/index.json");
+  const std::size_t from = index.find('{', index.find("motions")), to = index.find('}', from);
+  writeFile(db + "/index.json", index.insert(to + 1, "," + index.substr(from, to + 1 - from)));
+  run = style("database list " + db);
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("motions[1].file: stands there twice"));
 }
 
 TEST_CASE("a film's pictures are written when a figure is found in it, and not before") {
