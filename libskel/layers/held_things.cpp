@@ -16,7 +16,7 @@ constexpr double kLeastThing = .004;  // of the figure's pixels
 void giveThingsToLimbs(const Silhouette& silhouette, LayerMap& map) {
   if (!map.any() || map.part.size() == 0) return;
   const auto thing = static_cast<std::uint8_t>(Part::kThing);
-  const MaskParts things = maskParts((map.part == thing).cast<std::uint8_t>());
+  const MaskParts things = maskParts((map.part == thing && silhouette.mask != 0).cast<std::uint8_t>());
   const double least = kLeastThing * static_cast<double>((silhouette.mask != 0).count());
   const auto rows = map.limb.rows(), columns = map.limb.cols();
   std::vector<std::array<int, 256>> border(things.size.size(), std::array<int, 256>{});
