@@ -77,7 +77,7 @@ ExitCode runRetarget(const RetargetCommandOptions& options) {
   noteOutput(path);
   CharacterFile file = readGlb(options.target);
   Clip clip = motionFor(options, file);
-  if (!options.name.empty()) clip.name = options.name;
+  if (!options.name.empty()) clip.name = printable(options.name);
   writeFile(path, encoded(path, std::move(file), clip));
   std::printf("wrote %s\n", path.c_str());
   return ExitCode::kDone;

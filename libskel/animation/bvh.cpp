@@ -9,6 +9,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/number_chars.h"
+#include "libskel/core/text.h"
 
 namespace skel {
 namespace {
@@ -238,7 +239,7 @@ BvhMotion parseBvh(std::string_view text, const std::string& file) {
 
 BvhMotion readBvh(const std::string& path) {
   BvhMotion motion = parseBvh(readFile(path), path);
-  motion.clip.name = std::filesystem::path(path).stem().string();
+  motion.clip.name = printable(std::filesystem::path(path).stem().string());
   return motion;
 }
 
