@@ -50,6 +50,15 @@ TEST_CASE("listings show a clip's or a motion's name on one line, whatever it ho
   CHECK(motions.find('\x1b') == motions.npos);
 }
 
+TEST_CASE("a motion whose file's name is not UTF-8 is put onto a model, under a name that a file can hold") {
+  const TempDir dir;
+  writeFigure(dir.file("cat.png"));
+  done(dir, "skel-infer cat.png --formats glb");
+  done(dir, "skel-animate retarget walk --to out/cat.glb -o '\xff\xfe.bvh'");
+  done(dir, "skel-animate retarget '\xff\xfe.bvh' --to out/cat.glb -o moved.glb");
+  CHECK_THAT(done(dir, "skel-animate list moved.glb").out, Contains(R"(\xff\xfe)"));
+}
+
 TEST_CASE("a COCO file that names pictures outside of its folder is refused") {
   const TempDir dir;
   writeFigure(dir.file("outside/cat.png"));
