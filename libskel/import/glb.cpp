@@ -203,9 +203,13 @@ Joints readJoints(const Nodes& nodes, const JsonValue& skin) {
     joints.axes.push_back(Quaterniond(rest.linear()).normalized());
     joints.model_from_parent.push_back(parent);
     joint.position = rest.translation();
+    if (!(joint.position.cwiseAbs().maxCoeff() <= kFarthest))
+      value.fail("the joint \"" + joint.name + "\" is farther than 1e6 from the origin");
     if (const auto extras = value.find("extras"); extras && extras->isObject())
       if (const auto tail = numbersAt(*extras, "tail", 3))
         joint.tail = Vector3d((*tail)[0], (*tail)[1], (*tail)[2]);
+    if (joint.tail && !(joint.tail->cwiseAbs().maxCoeff() <= kFarthest))
+      value.fail("the tail of the joint \"" + joint.name + "\" is farther than 1e6 from the origin");
     joint.confidence = 1;
     joint.origin = JointOrigin::kEdited;
     joints.of_node[node] = index;
@@ -306,6 +310,8 @@ TriangleMesh readMesh(const GlbContainer& glb, const JsonValue& primitive, const
   const GlbContainer::Numbers positions = glb.numbers(primitive.at("attributes").at("POSITION"), 3);
   mesh.vertices = Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>>(
       positions.values.data(), static_cast<Eigen::Index>(positions.count), 3);
+  if (mesh.vertices.size() > 0 && !(mesh.vertices.cwiseAbs().maxCoeff() <= float(kFarthest)))
+    primitive.at("attributes").at("POSITION").fail("has a vertex farther than 1e6 from the origin");
   readTriangles(glb, primitive, mesh);
   readTexture(glb, primitive, file, mesh);
   return mesh;

@@ -209,6 +209,8 @@ Obj parseObj(const std::string& path) {
     if (word.empty()) continue;
     if (word[0] == "v") {
       obj.positions.push_back(numbers<3>(lines, word));
+      if (obj.positions.back().cwiseAbs().maxCoeff() > float(kFarthest))
+        lines.fail("a vertex is farther than 1e6 from the origin");
     } else if (word[0] == "vt") {
       const Eigen::Vector2f uv = numbers<2>(lines, word);
       obj.coordinates.emplace_back(uv.x(), 1 - uv.y());  // OBJ's v goes up

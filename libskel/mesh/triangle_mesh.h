@@ -58,6 +58,9 @@ struct TriangleMesh {
   }
 };
 
+// From the origin, in the units of a file, of all that it holds: what is farther is refused.
+inline constexpr double kFarthest = 1e6;
+
 // The height of a model that skel makes.
 inline constexpr double kModelHeight_m = 1.7;
 

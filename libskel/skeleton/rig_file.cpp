@@ -8,6 +8,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
 #include "libskel/core/unused_keys.h"
+#include "libskel/mesh/triangle_mesh.h"
 
 namespace skel {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 Eigen::Vector3d pointAt(const JsonValue& value) {
   const std::vector<double> numbers = value.asNumbers(3);
   for (const double number : numbers)
-    if (std::abs(number) > 1e6) value.fail("is farther than 1e6 from the origin");
+    if (std::abs(number) > kFarthest) value.fail("is farther than 1e6 from the origin");
   return {numbers[0], numbers[1], numbers[2]};
 }
 

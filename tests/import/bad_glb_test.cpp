@@ -289,3 +289,19 @@ TEST_CASE("keys that clips share are counted each time: a few bytes do not becom
         "a.glb: animations[250].samplers[0].input: brings all clips to more than 10 million keys; export "
         "fewer animations, or fewer keys");
 }
+
+TEST_CASE("a joint or a vertex beyond a million units, which ended the binding of weights, is refused") {
+  CHECK_THAT(complaint(changed([](json& document, std::string&) {
+               for (json& node : document["nodes"])
+                 if (node["name"] == "head") node["translation"] = {-1e308, 0, 0};
+             })),
+             Catch::Matchers::Contains("the joint \"head\" is farther than 1e6 from the origin"));
+  CHECK_THAT(complaint(changed([](json& document, std::string& binary) {
+               const json& primitive = document["meshes"][0]["primitives"][0];
+               const json& accessor = document["accessors"][std::size_t(primitive["attributes"]["POSITION"])];
+               const json& view = document["bufferViews"][std::size_t(accessor["bufferView"])];
+               const float far = 1e30f;
+               std::memcpy(binary.data() + view.value("byteOffset", std::size_t(0)), &far, 4);
+             })),
+             Catch::Matchers::Contains("has a vertex farther than 1e6 from the origin"));
+}

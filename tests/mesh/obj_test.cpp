@@ -207,7 +207,7 @@ TEST_CASE("models are told by the ending of their names") {
 TEST_CASE("a model without height is refused") {
   CHECK(complaint("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n") ==
         "is flat: it has no height along y; turn it so that y points up");
-  CHECK(complaint("v 0 0 0\nv 1e30 1e-20 0\nv 0 1e-20 1\nf 1 2 3\n") ==
+  CHECK(complaint("v 0 0 0\nv 1e6 1e-20 0\nv 0 1e-20 1\nf 1 2 3\n") ==
         "is flat: it has no height along y; turn it so that y points up");
 }
 
@@ -215,6 +215,7 @@ TEST_CASE("bad models are refused with the line") {
   CHECK(complaint("") == "holds no faces; export the model as a polygon mesh");
   CHECK(complaint(kSquare) == "holds no faces; export the model as a polygon mesh");
   CHECK(complaint("v 0 0 nan\n") == "line 1: 'nan' is not a finite number");
+  CHECK(complaint("v 0 1e30 0\n") == "line 1: a vertex is farther than 1e6 from the origin");
   CHECK(complaint("\n\nv 0 0 1e99\n") == "line 3: '1e99' is not a finite number");
   CHECK(complaint("v 0 0\n") == "line 1: 'v' needs 3 numbers");
   CHECK(complaint("v 0 0 0x\n") == "line 1: '0x' is not a finite number");
