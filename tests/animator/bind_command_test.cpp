@@ -197,7 +197,10 @@ TEST_CASE("bad models, weights and tables are refused, and nothing is written") 
   writeFile(dir.file("bad.obj"), "v 0 0 0\n");
   expect(bind("bad.obj --skeleton s.json"), 2, "bad.obj: holds no faces");
   writeFile(dir.file("bad.obj"), "v 1e9 0 0\nv 0 1e9 0\nv 0 0 1e9\nf 1 2 3\n");
-  expect(bind("bad.obj --skeleton s.json"), 2, "bad.obj: is smaller than 1e-6 or reaches beyond 1e6");
+  expect(bind("bad.obj --skeleton s.json"), 2,
+         "bad.obj: line 1: a vertex is farther than 1e6 from the origin");
+  writeFile(dir.file("bad.obj"), "v 1e-9 0 0\nv 0 1e-9 0\nv 0 0 1e-9\nf 1 2 3\n");
+  expect(bind("bad.obj --skeleton s.json"), 2, "bad.obj: is smaller than 1e-6");
   writeFile(dir.file("bad.glb"), "glTF and then nothing");
   expect(bind("bad.glb"), 2, "bad.glb: is of glTF version");
   expect(bind("m.obj --skeleton s.json --skin magic"), 1, "--skin: magic not in {");
