@@ -1,7 +1,6 @@
 #include "animator/rig_source.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -28,11 +27,8 @@ bool isGlb(const std::string& path) {
 
 // Distances are squared in floats.
 void checkSize(const TriangleMesh& mesh, const std::string& path) {
-  const Eigen::RowVector3d size =
-      mesh.vertices.colwise().maxCoeff().cast<double>() - mesh.vertices.colwise().minCoeff().cast<double>();
-  const double most = std::max(size.maxCoeff(), mesh.vertices.cwiseAbs().cast<double>().maxCoeff());
-  if (!(most <= 1e6 && size.maxCoeff() >= 1e-6))
-    throw InputError(path, "is smaller than 1e-6 or reaches beyond 1e6; scale it to metres");
+  const Eigen::RowVector3f size = mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
+  if (!(size.maxCoeff() >= 1e-6f)) throw InputError(path, "is smaller than 1e-6; scale it to metres");
 }
 
 }  // namespace

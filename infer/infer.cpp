@@ -9,6 +9,7 @@
 #include "infer/report_page.h"
 #include "infer/rig_figure.h"
 #include "infer/rig_request.h"
+#include "libskel/cli/names.h"
 #include "libskel/cli/number.h"
 #include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
@@ -19,13 +20,6 @@
 namespace skel {
 namespace fs = std::filesystem;
 namespace {
-
-template <class Value>
-CLI::IsMember namesOf(const std::map<std::string, Value>& all) {
-  std::vector<std::string> names;
-  for (const auto& one : all) names.push_back(one.first);
-  return CLI::IsMember(names);
-}
 
 std::string stemOf(const std::string& path) { return fs::path(path).stem().string(); }
 

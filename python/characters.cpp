@@ -6,6 +6,7 @@
 #include "libskel/core/files.h"
 #include "libskel/draw/color.h"
 #include "libskel/export/formats.h"
+#include "libskel/skin/smooth.h"
 #include "python/bindings.h"
 
 namespace skel::python {
@@ -48,15 +49,6 @@ py::array_t<float> cornersOf(const TriangleMesh& mesh) {
       to(f, corner, 1) = at.y();
     }
   return uv;
-}
-
-Eigen::MatrixXf denseWeights(const RiggedCharacter& character) {
-  const SkinWeights& skin = character.weights;
-  Eigen::MatrixXf dense =
-      Eigen::MatrixXf::Zero(skin.joints.rows(), Eigen::Index(character.skeleton.joints.size()));
-  for (Eigen::Index v = 0; v < dense.rows(); ++v)
-    for (int k = 0; k < 4; ++k) dense(v, skin.joints(v, k)) += skin.weights(v, k);
-  return dense;
 }
 
 // As a file would be: whatever is wrong is told by the reader of clip files.
@@ -269,7 +261,10 @@ void bindCharacters(py::module_& module) {
           "mesh", [](const CharacterFile& f) -> const TriangleMesh& { return f.character.mesh; },
           py::return_value_policy::reference_internal)
       .def_property_readonly(
-          "weights", [](const CharacterFile& f) { return denseWeights(f.character); },
+          "weights",
+          [](const CharacterFile& f) {
+            return unpackWeights(f.character.weights, int(f.character.skeleton.joints.size()));
+          },
           "(V, J) float32: how much each joint carries each vertex; rows sum to 1, at most 4 of them are not "
           "0.")
       .def_readwrite("clips", &CharacterFile::clips,

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "libskel/cli/names.h"
 #include "libskel/export/write_character.h"
 
 namespace skel {
@@ -20,12 +21,12 @@ inline const std::map<std::string, BoneStyle> kBoneStyleNames = {
 
 inline void bindJointOptions(CLI::App& app, JointOptions& options) {
   app.add_option("--names", options.naming, "What exported joints are called")
-      ->check(CLI::IsMember({"skel", "vrm", "mixamo"}))
+      ->check(namesOf(kNamingNames))
       ->capture_default_str();
   app.add_option("--bones", options.bones,
                  "Axes of the .glb's joints: along the bones, as Blender draws them; ends: so, too, and the\n"
                  "last bones reach toes and fingertips; plain: the model's, for code that turns joints")
-      ->check(CLI::IsMember({"along", "ends", "plain"}))
+      ->check(namesOf(kBoneStyleNames))
       ->capture_default_str();
 }
 

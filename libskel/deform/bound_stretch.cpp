@@ -8,13 +8,13 @@
 #include "libskel/deform/stretch.h"
 #include "libskel/skin/bones.h"
 #include "libskel/skin/edges.h"
+#include "libskel/skin/smooth.h"
 
 namespace skel {
 namespace {
 
 using Eigen::Index;
 using Eigen::RowVector3f;
-using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr int kCandidateMoments = 16;  // of each clip, to choose from
 constexpr std::size_t kTelling = 56;   // of all clips
@@ -91,7 +91,7 @@ class Stretched {
   }
 
   // Those at the `changed` vertices that any moment stretches too far, ascending.
-  std::vector<int> among(const std::vector<int>& changed, const Rows& weights) {
+  std::vector<int> among(const std::vector<int>& changed, const JointWeights& weights) {
     std::vector<int> near;
     for (const int v : changed)
       near.insert(near.end(), triangles_.begin() + first_[std::size_t(v)],
@@ -109,13 +109,13 @@ class Stretched {
   }
 
  private:
-  bool isRigid(int t, const Rows& weights) const {
+  bool isRigid(int t, const JointWeights& weights) const {
     const auto a = weights.row(mesh_.triangles(t, 0)), b = weights.row(mesh_.triangles(t, 1)),
                c = weights.row(mesh_.triangles(t, 2));
     return (a - b).cwiseAbs().sum() < kSame && (a - c).cwiseAbs().sum() < kSame;
   }
 
-  void pose(int v, const Rows& weights) {
+  void pose(int v, const JointWeights& weights) {
     auto to = posed_.middleRows(3 * v, 3);
     to.setZero();
     for (Index j = 0; j < weights.cols(); ++j) {
@@ -170,21 +170,6 @@ void keepFour(Eigen::Ref<Eigen::RowVectorXf> row) {
   row /= row.sum();
 }
 
-void takeRow(const Rows& weights, Index v, SkinWeights& result) {
-  std::array<int, 4> order{};
-  int count = 0;
-  for (Index j = 0; j < weights.cols() && count < 4; ++j)
-    if (weights(v, j) > 0) order[std::size_t(count++)] = int(j);
-  std::stable_sort(order.begin(), order.begin() + count,
-                   [&](int a, int b) { return weights(v, a) > weights(v, b); });
-  result.joints.row(v).setZero();
-  result.weights.row(v).setZero();
-  for (int k = 0; k < count; ++k) {
-    result.joints(v, k) = std::uint16_t(order[std::size_t(k)]);
-    result.weights(v, k) = weights(v, order[std::size_t(k)]);
-  }
-}
-
 // The triangles' vertices and those up to so many edges away, ascending.
 std::vector<int> around(const TriangleMesh& mesh, const Edges& edges, const std::vector<int>& triangles,
                         int rings) {
@@ -207,8 +192,8 @@ std::vector<int> around(const TriangleMesh& mesh, const Edges& edges, const std:
 }
 
 // Most of the way to the mean of the neighbours, all at once.
-void smoothRows(const Edges& edges, const std::vector<int>& vertices, Rows& rows) {
-  Rows smooth(Index(vertices.size()), rows.cols());
+void smoothRows(const Edges& edges, const std::vector<int>& vertices, JointWeights& rows) {
+  JointWeights smooth(Index(vertices.size()), rows.cols());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const std::size_t v = std::size_t(vertices[i]);
     Eigen::RowVectorXf sum = Eigen::RowVectorXf::Zero(rows.cols());
@@ -222,7 +207,7 @@ void smoothRows(const Edges& edges, const std::vector<int>& vertices, Rows& rows
 }
 
 // The triangle rides rigidly.
-void evenOut(const TriangleMesh& mesh, int triangle, Rows& rows) {
+void evenOut(const TriangleMesh& mesh, int triangle, JointWeights& rows) {
   Eigen::RowVectorXf mean = Eigen::RowVectorXf::Zero(rows.cols());
   for (int k = 0; k < 3; ++k) mean += rows.row(mesh.triangles(triangle, k));
   mean /= 3;
@@ -234,7 +219,8 @@ void evenOut(const TriangleMesh& mesh, int triangle, Rows& rows) {
 // if it is one piece with the body (`joined`) or tears much of all. Returns the vertices that it moved,
 // ascending.
 std::vector<int> holdArms(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<int>& limbs,
-                          const std::vector<double>& joined, const std::vector<int>& stretched, Rows& rows) {
+                          const std::vector<double>& joined, const std::vector<int>& stretched,
+                          JointWeights& rows) {
   constexpr float kMuch = 0.1f;
   const float torn = 3 * kTorn * float(mesh.triangles.rows());  // corners
   std::vector<int> held;
@@ -283,9 +269,7 @@ StretchBound boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton,
                           SkinWeights& weights) {
   const int vertices = int(mesh.vertices.rows());
   if (vertices == 0 || clips.empty()) return {};
-  Rows rows = Rows::Zero(vertices, Index(skeleton.joints.size()));
-  for (int v = 0; v < vertices; ++v)
-    for (int k = 0; k < 4; ++k) rows(v, weights.joints(v, k)) += weights.weights(v, k);
+  JointWeights rows = unpackWeights(weights, int(skeleton.joints.size()));
   const std::vector<JointTransforms> moments = tellingMoments(mesh, skeleton, clips);
   if (moments.empty()) return {};
   Stretched stretched(mesh, byJoint(moments, skeleton.joints.size()));
@@ -321,7 +305,7 @@ StretchBound boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton,
     stalled = 0;
   }
   for (int v = 0; v < vertices; ++v)
-    if (changed[std::size_t(v)]) takeRow(rows, v, weights);
+    if (changed[std::size_t(v)]) packRow(rows, v, weights);
   return {int(found.size()), held_arms};
 }
 

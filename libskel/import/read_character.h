@@ -20,9 +20,8 @@ struct CharacterFile {
 // glTF 2.0 binary, as encodeGlb() writes it: one skinned mesh of one primitive with at most 4 influences a
 // vertex, joints that stand unscaled in the rest pose, everything inside the file, animations with LINEAR
 // samplers. Joints may have any axes; clips come in the model's. Joints that encodeGlb() put at the ends of
-// bones are left out. With `bones` it gives back the same bytes (the
-// texture's if it was ours), but for the last bits of rotations. Throws InputError with the place in the glTF
-// document.
+// bones are left out. With `bones` it gives back the same bytes (the texture's if it was ours), but for the
+// last bits of rotations. Throws InputError with the place in the glTF document.
 CharacterFile readGlb(const std::string& path);
 // `file` is the name that complaints use.
 CharacterFile decodeGlb(std::string_view bytes, const std::string& file);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "libskel/image/mask_parts.h"
@@ -28,15 +29,16 @@ void giveThingsToLimbs(const Silhouette& silhouette, LayerMap& map) {
     touch(run.part, run.y, run.x0 - 1), touch(run.part, run.y, run.x1);
     for (int x = run.x0; x < run.x1; ++x) touch(run.part, run.y - 1, x), touch(run.part, run.y + 1, x);
   }
-  for (const MaskParts::Run& run : things.runs) {
-    if (static_cast<double>(things.size[static_cast<std::size_t>(run.part)]) < least) continue;
-    const std::array<int, 256>& of = border[static_cast<std::size_t>(run.part)];
-    int all = 0;
-    for (const int px : of) all += px;
-    for (int limb = 1; limb < 256; ++limb)
-      if (2 * of[static_cast<std::size_t>(limb)] > all)
-        map.limb.row(run.y).segment(run.x0, run.x1 - run.x0).setConstant(static_cast<std::uint8_t>(limb));
+  std::vector<std::uint8_t> owner(things.size.size(), 0);  // a limb, or none
+  for (std::size_t part = 0; part < owner.size(); ++part) {
+    if (static_cast<double>(things.size[part]) < least) continue;
+    const int all = std::accumulate(border[part].begin(), border[part].end(), 0);
+    for (std::size_t limb = 1; limb < border[part].size(); ++limb)
+      if (2 * border[part][limb] > all) owner[part] = static_cast<std::uint8_t>(limb);
   }
+  for (const MaskParts::Run& run : things.runs)
+    if (const std::uint8_t limb = owner[static_cast<std::size_t>(run.part)]; limb != 0)
+      map.limb.row(run.y).segment(run.x0, run.x1 - run.x0).setConstant(limb);
 }
 
 }  // namespace skel

@@ -1,6 +1,8 @@
 #include "libskel/skin/smooth.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -49,21 +51,26 @@ void keepHeaviest(int count, JointWeights& weights) {
   }
 }
 
+void packRow(const JointWeights& weights, Eigen::Index v, SkinWeights& result) {
+  std::array<int, 4> order{};
+  std::size_t count = 0;
+  for (int joint = 0; joint < weights.cols() && count < order.size(); ++joint)
+    if (weights(v, joint) > 0) order[count++] = joint;
+  std::stable_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count),
+                   [&](int a, int b) { return weights(v, a) > weights(v, b); });
+  result.joints.row(v).setZero();
+  result.weights.row(v).setZero();
+  for (std::size_t k = 0; k < count; ++k) {
+    result.joints(v, static_cast<Eigen::Index>(k)) = static_cast<std::uint16_t>(order[k]);
+    result.weights(v, static_cast<Eigen::Index>(k)) = weights(v, order[k]);
+  }
+}
+
 SkinWeights packWeights(const JointWeights& weights) {
   SkinWeights result;
-  result.joints.setZero(weights.rows(), 4);
-  result.weights.setZero(weights.rows(), 4);
-  std::vector<int> order;
-  for (Eigen::Index v = 0; v < weights.rows(); ++v) {
-    order.clear();
-    for (int joint = 0; joint < weights.cols(); ++joint)
-      if (weights(v, joint) > 0) order.push_back(joint);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weights(v, a) > weights(v, b); });
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      result.joints(v, static_cast<Eigen::Index>(k)) = static_cast<std::uint16_t>(order[k]);
-      result.weights(v, static_cast<Eigen::Index>(k)) = weights(v, order[k]);
-    }
-  }
+  result.joints.resize(weights.rows(), 4);
+  result.weights.resize(weights.rows(), 4);
+  for (Eigen::Index v = 0; v < weights.rows(); ++v) packRow(weights, v, result);
   return result;
 }
 

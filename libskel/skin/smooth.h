@@ -14,7 +14,8 @@ void smoothWeights(const TriangleMesh& mesh, int rounds, JointWeights& weights);
 // The `count` heaviest of each row, to the sum of 1; of equal ones the first joints.
 void keepHeaviest(int count, JointWeights& weights);
 
-// Of rows with at most four weights above 0.
+// Of rows with at most four weights above 0, heaviest first.
+void packRow(const JointWeights& weights, Eigen::Index v, SkinWeights& result);
 SkinWeights packWeights(const JointWeights& weights);
 JointWeights unpackWeights(const SkinWeights& weights, int joint_count);
 
