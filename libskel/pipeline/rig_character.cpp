@@ -19,6 +19,7 @@
 #include "libskel/recognition/complete_skeleton.h"
 #include "libskel/recognition/paper_recognizer.h"
 #include "libskel/recognition/tree_recognition.h"
+#include "libskel/silhouette/line_art.h"
 #include "libskel/silhouette/outline.h"
 #include "libskel/skeleton/lift.h"
 
@@ -229,6 +230,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   });
   if (!drawing.found()) return drawing;
   const Silhouette& silhouette = drawing.silhouette;
+  if (needsPaper(drawing.image, silhouette.mask)) drawing.image = onPaper(drawing.image);
 
   drawing.candidates = timed("candidates", [&] { return extractCandidates(silhouette, options.candidates); });
   drawing.features = timed("features", [&] { return features(drawing.candidates); });

@@ -7,6 +7,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/sha256.h"
+#include "libskel/silhouette/line_art.h"
 #include "libskel/silhouette/outline.h"
 #include "libskel/silhouette/paper.h"
 #include "libskel/silhouette/pieces.h"
@@ -28,6 +29,11 @@ Silhouette noFigure(const std::string& reason) {
 }
 
 constexpr int kMinLongSide = 8;  // of a figure, px
+
+// A spot on a large sheet is no figure either.
+int leastLongSide(const Image& image) {
+  return std::max(kMinLongSide, std::max(image.width, image.height) / 16);
+}
 
 void fillHoles(Plane8& mask) {
   cv::Mat framed;
@@ -142,18 +148,54 @@ bool muchIsSoft(const Image& image, const Plane8& mask) {
   return double(cv::countNonZero(inner)) > kMuch * double((mask != 0).count());
 }
 
+// Of an opaque picture.
+Silhouette silhouetteOnPaper(const Image& image, const SilhouetteOptions& options) {
+  const Segmentation segmentation = segment(image, options.page_net.get());
+  if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
+  // What the grain of paper left beside the figure is small and lies near it.
+  PieceOptions pieces;
+  pieces.widest_gap = 0.06;
+  pieces.smallest_share = 0.01;
+  pieces.limbs_first = true;
+  Silhouette out = finish(segmentation.foreground, options, leastLongSide(image), pieces);
+  constexpr double kMuch = 0.45, kCompact = 0.1;  // of the picture; open share
+  out.is_sheet =
+      out.found() &&
+      static_cast<double>((out.mask != 0).count()) > kMuch * static_cast<double>(out.mask.size()) &&
+      openShare(out.mask) < kCompact;
+  if (out.is_sheet)
+    out.warnings.push_back(
+        "the sheet itself was probably taken for the figure: crop the photo, or paint a mask (skel-label "
+        "FILE)");
+  return out;
+}
+
+// Of line art: there is paper around it, too.
+Silhouette silhouetteOfLines(const Image& image, const SilhouetteOptions& options) {
+  const int margin = std::max(4, std::max(image.width, image.height) / 16);
+  Image wide(image.width + 2 * margin, image.height + 2 * margin);
+  wide.rgba.setZero();
+  for (int y = 0; y < image.height; ++y)
+    std::copy_n(image.pixel(0, y), 4 * image.width, wide.pixel(margin, margin + y));
+  const Silhouette on_paper = silhouetteOnPaper(onPaper(wide), options);
+  if (!on_paper.found()) return on_paper;
+  return finish(on_paper.mask.block(margin, margin, image.height, image.width), options, kMinLongSide);
+}
+
 }  // namespace
 
 Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& options) {
   if (image.empty()) return noFigure("the picture is empty");
-  // A spot on a large sheet is no figure either.
-  const int min_long_side = std::max(kMinLongSide, std::max(image.width, image.height) / 16);
   if (options.method == SilhouetteMethod::kPaper) {
     SilhouetteOptions filled = options;
     filled.fill_holes = true;
-    return finish(paperForeground(image), filled, min_long_side);
+    return finish(paperForeground(image), filled, leastLongSide(image));
   }
-  AlphaMask alpha = alphaMask(image, options.alpha);
+  const AlphaMask alpha = alphaMask(image, options.alpha);
+  if (alpha.meaningful && mayBeLineArt(alpha.opaque)) {
+    Silhouette drawn = silhouetteOfLines(image, options);
+    if (drawn.found() && needsPaper(image, drawn.mask)) return drawn;
+  }
   if (alpha.meaningful) {
     if ((alpha.opaque == 0).all())
       return noFigure(image.rgba.col(3).maxCoeff() > 0 && options.alpha
@@ -166,24 +208,7 @@ Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& option
           "0.9");
     return out;
   }
-  const Segmentation segmentation = segment(image, options.page_net.get());
-  if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
-  // What the grain of paper left beside the figure is small and lies near it.
-  PieceOptions pieces;
-  pieces.widest_gap = 0.06;
-  pieces.smallest_share = 0.01;
-  pieces.limbs_first = true;
-  Silhouette out = finish(segmentation.foreground, options, min_long_side, pieces);
-  constexpr double kMuch = 0.45, kCompact = 0.1;  // of the picture; open share
-  out.is_sheet =
-      out.found() &&
-      static_cast<double>((out.mask != 0).count()) > kMuch * static_cast<double>(out.mask.size()) &&
-      openShare(out.mask) < kCompact;
-  if (out.is_sheet)
-    out.warnings.push_back(
-        "the sheet itself was probably taken for the figure: crop the photo, or paint a mask (skel-label "
-        "FILE)");
-  return out;
+  return silhouetteOnPaper(image, options);
 }
 
 SilhouetteSteps silhouetteSteps(const Image& image) {

@@ -93,6 +93,36 @@ TEST_CASE("nets that are handed over do what those do that are compiled in") {
   CHECK_THROWS_AS(rigCharacter(input, options), InputError);
 }
 
+TEST_CASE("line art on a clear ground is rigged as on paper: white within its lines") {
+  RigInput input;
+  input.image = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");
+  const Silhouette solid = extractSilhouette(input.image);
+  REQUIRE(solid.found());
+  Image& image = input.image;
+  image.rgba.setZero();
+  for (const Polygon& contour : solid.outline)
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Eigen::Vector2d &a = contour[i], &b = contour[(i + 1) % contour.size()];
+      const int steps = int(std::ceil((b - a).norm()));
+      for (int k = 0; k < steps; ++k) {
+        const Eigen::Vector2d p = a + double(k) / steps * (b - a);
+        for (int y = -2; y <= 2; ++y)
+          for (int x = -2; x <= 2; ++x) {
+            const int u = int(std::lround(p.x())) + x, v = int(std::lround(p.y())) + y;
+            if (u >= 0 && v >= 0 && u < image.width && v < image.height) image.pixel(u, v)[3] = 255;
+          }
+      }
+    }
+  RigOptions options;
+  options.body_plan = loadTemplate("biped");
+  const RiggedDrawing drawing = rigCharacter(std::move(input), options);
+  REQUIRE(drawing.found());
+  CHECK(double((drawing.silhouette.mask != 0).count()) > .97 * double((solid.mask != 0).count()));
+  const Eigen::Vector2d body =
+      drawing.recognition.skeleton.joints[drawing.recognition.skeleton.index("body")].image;
+  CHECK(int(drawing.image.pixel(int(body.x()), int(body.y()))[0]) == 255);
+}
+
 TEST_CASE("a drawing that stands on its head gives an upright model; its joints stay the picture's") {
   RigInput input;
   input.image = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");

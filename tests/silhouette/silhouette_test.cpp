@@ -9,6 +9,7 @@
 
 #include "libskel/core/rng.h"
 #include "libskel/image/read_image.h"
+#include "libskel/silhouette/line_art.h"
 #include "libskel/silhouette/steps.h"
 #include "tests/support/catch.h"
 
@@ -285,6 +286,33 @@ TEST_CASE("alpha tells the figure, with its holes") {
   const Silhouette s = foundIn(image);
   CHECK((s.mask == mask).all());
   CHECK(s.outline.size() == 2);
+}
+
+TEST_CASE("line art on a clear ground is filled as on paper, gaps in its lines or not; sticks stay sticks") {
+  const bool light = GENERATE(false, true);
+  const double gap = GENERATE(0., 6.);  // px, at the belly
+  Image image = paint(300, 400, [&](double, double) { return light ? Color{250, 250, 240} : kBlack; });
+  for (int y = 0; y < 400; ++y)
+    for (int x = 0; x < 300; ++x) {
+      const double distance = distanceTo(kPerson, x, y);
+      const bool line = distance <= 0 && distance > -4 && !(x < 150 && std::abs(y - 200) < gap);
+      image.pixel(x, y)[3] = line ? 255 : 0;
+    }
+  const Plane8 person = maskOf(kPerson, 300, 400);
+  CHECK(iou(foundIn(image).mask, person) > .97);
+  CHECK(needsPaper(image, person));
+  const Image on_paper = onPaper(image);
+  CHECK((on_paper.rgba.col(3) == 255).all());
+  CHECK(int(on_paper.pixel(150, 80)[0]) == (light ? 40 : 255));
+
+  const std::vector<Capsule> sticks = {{150, 60, 150, 60, 6},   {150, 60, 150, 240, 4},
+                                       {150, 120, 60, 180, 4},  {150, 120, 240, 180, 4},
+                                       {150, 240, 110, 360, 4}, {150, 240, 190, 360, 4}};
+  const Plane8 thin = maskOf(sticks, 300, 400);
+  for (Eigen::Index i = 0; i < thin.size(); ++i) image.rgba(i, 3) = thin.data()[i];
+  const Silhouette stick_figure = foundIn(image);
+  CHECK((stick_figure.mask == thin).all());
+  CHECK_FALSE(needsPaper(image, stick_figure.mask));
 }
 
 TEST_CASE("a soft glow belongs to the figure unless --alpha leaves it out, and is told of") {
