@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "libskel/core/check.h"
+#include "libskel/mesh/head_back.h"
 #include "libskel/mesh/ink.h"
 
 namespace skel {
@@ -33,10 +34,9 @@ constexpr double kAlone =
     0.5;  // px of areas around a thing that is drawn by lines alone, as a share of the others
 constexpr double kHatched = 0.4;  // share of lines from which on they are a colour
 // As shares of the head's radius.
-constexpr double kInsideHead = 0.8;  // all of it may be face
-constexpr double kHeadReach = 2;     // hair, ears and cheeks
-constexpr double kBelowHead = 1.1;   // and how far down
-constexpr double kMostOf = 0.5;      // of the rim or the middle of the head
+constexpr double kHeadReach = 2;    // hair, ears and cheeks
+constexpr double kBelowHead = 1.1;  // and how far down
+constexpr double kMostOf = 0.5;     // of the rim of what is the head's
 // What a step of the spreading colours costs, sideways 1.
 constexpr double kDown = 1.5, kUp = 3;
 constexpr double kBelowHair = 4;
@@ -284,8 +284,8 @@ class BackPainter {
  private:
   struct Area {
     int size = 0, at_rim = 0;
-    int core = 0;                      // px whose neighbours belong to it as well
-    int in_head = 0, at_head_rim = 0;  // in the disc that may be all face; at the rim around the head
+    int core = 0;  // px whose neighbours belong to it as well
+    int at_head_rim = 0;
     Eigen::Vector3f color = Eigen::Vector3f::Zero();
   };
 
@@ -333,7 +333,6 @@ class BackPainter {
         const int i = open[next];
         const bool at_rim = to_rim[i] <= kRim_px;
         area.at_rim += at_rim;
-        area.in_head += fromHead(place(i)) < kInsideHead;
         area.at_head_rim += at_rim && nearHead(place(i));
         area.color += color_[i];
         const Eigen::Vector3f mean = area.color / float(next + 1);
@@ -365,29 +364,16 @@ class BackPainter {
     }
   }
 
-  // The face: what is most of the head's middle but not of its rim; -1: none, a head of one colour.
-  int face() const {
-    int in_head = 0, at_head_rim = 0, most = -1;
-    for (int id = 0; id < int(areas_.size()); ++id) {
-      in_head += areas_[id].in_head, at_head_rim += areas_[id].at_head_rim;
-      if (most < 0 || areas_[id].in_head > areas_[most].in_head) most = id;
-    }
-    if (most < 0 || areas_[most].in_head < kMostOf * in_head) return -1;
-    return areas_[most].at_head_rim > kMostOf * at_head_rim ? -1 : most;
-  }
-
-  // Those at the rim, without the face.
+  // Those at the rim.
   void keepAreas() {
     kept_.assign(small_.figure.size(), 0);
     const double figure_area = double(std::count(small_.figure.begin(), small_.figure.end(), 1));
-    const int face_area = face();
     bool any = false;
     for (int i = 0; i < int(kept_.size()); ++i) {
       if (area_[i] < 0) continue;
       const Area& area = areas_[area_[i]];
       kept_[i] = area.size >= kLeastArea * figure_area && area.core >= kLeastCore * area.size &&
-                 area.at_rim >= kAtRim * kRim_px * std::sqrt(double(area.size)) &&
-                 fromHead(place(i)) > kInsideHead && !(area_[i] == face_area && nearHead(place(i)));
+                 area.at_rim >= kAtRim * kRim_px * std::sqrt(double(area.size));
       any |= kept_[i] && !isStroke(area_[i]);
     }
     if (any || areas_.empty()) return;
@@ -547,7 +533,9 @@ Image backColors(const Image& front, const Plane8& figure, const std::optional<H
   SKEL_CHECK_EQ(figure.cols(), front.width);
   if (!(figure != 0).any()) return front;
   if (whole_px == 0) whole_px = std::max(front.width, front.height);
-  return BackPainter(front, figure, head, whole_px).paint(front);
+  Image back = BackPainter(front, figure, head, whole_px).paint(front);
+  if (head) paintBackOfHead(front, figure, *head, back);
+  return back;
 }
 
 }  // namespace skel

@@ -114,6 +114,25 @@ TEST_CASE("the back of the head is hair where hair is at its rim, and the head's
     for (int x = 60; x < 140; ++x) REQUIRE(std::abs(back.pixel(x, y)[0] - (has_hair ? 90 : 240)) < 10);
 }
 
+TEST_CASE("a cap covers the back of the head down to the ears, without its badge, and the neck is bare") {
+  Image image(200, 200);
+  image.rgba.setConstant(255);
+  const Eigen::Vector2d middle(100, 100);
+  paintDisc(image, middle, 80, {240, 200, 160});
+  for (int y = 0; y < 85; ++y)
+    for (int x = 0; x < 200; ++x)
+      if (image.pixel(x, y)[0] == 240) image.pixel(x, y)[0] = 30, image.pixel(x, y)[1] = 90;
+  paintDisc(image, {100, 55}, 12, {255, 220, 0});
+  paintDisc(image, {75, 105}, 8, {0, 0, 0});
+  const Plane8 mask = notWhite(image);
+  const Image back = backColors(image, mask, HeadDisc{middle, 80});
+  for (int y = 30; y < 180; ++y)
+    for (int x = 70; x < 130; ++x) {
+      if (y > 120 && y < 150) continue;
+      REQUIRE(std::abs(back.pixel(x, y)[0] - (y < 135 ? 30 : 240)) < 25);
+    }
+}
+
 TEST_CASE("the back of clothes in red or blue that are drawn by black lines holds no black") {
   Image image = outlinedBall(300, 120, 9);
   const std::array<int, 3> color =
