@@ -12,8 +12,8 @@ bool mayBeLineArt(const Plane8& opaque);
 // Laid on white, light lines on dark grey.
 Image onPaper(const Image& image);
 
-// Whether so much of the figure cannot be seen, only its lines, that there must be paper under it. `image`: of
-// the mask's size.
+// Whether so much of the figure cannot be seen, only its lines, that there must be paper under it. `image`:
+// of the mask's size.
 bool needsPaper(const Image& image, const Plane8& mask);
 
 }  // namespace skel
