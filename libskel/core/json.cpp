@@ -26,55 +26,87 @@ constexpr std::size_t kMostKeys = 1000;
 // Of lists and objects in one another: what reads, walks or frees them goes as deep as they do.
 constexpr std::size_t kMostDepth = 100;
 
-// Follows the parser: looks at the keys, and knows where it stands.
-struct Follower {
-  struct Open {
-    bool is_list;
-    std::size_t count = 0;  // of the list's items so far
-    std::string key;        // the object's last
-    std::set<std::string> keys;
-  };
-  const std::string& file;
-  std::vector<Open> open;
+// Builds the document from what the parser meets, looks at the keys, and knows where it stands. (The
+// library's own builder with a callback looks at all items of a list again after each that is a list or an
+// object.)
+class Builder {
+ public:
+  Builder(const std::string& file, Json& root) : file_(file), root_(root) {}
 
-  bool operator()(int /*depth*/, Json::parse_event_t event, Json& parsed) {
-    switch (event) {
-      case Json::parse_event_t::object_start:
-      case Json::parse_event_t::array_start:
-        if (open.size() == kMostDepth)
-          throw InputError(file, "is nested deeper than " + std::to_string(kMostDepth) + " levels");
-        open.push_back({event == Json::parse_event_t::array_start, 0, {}, {}});
-        break;
-      case Json::parse_event_t::object_end:
-      case Json::parse_event_t::array_end:
-        open.pop_back();
-        [[fallthrough]];
-      case Json::parse_event_t::value:
-        if (!open.empty()) ++open.back().count;
-        break;
-      case Json::parse_event_t::key:
-        takeKey(parsed.get<std::string>());
-    }
+  bool null() { return put(nullptr); }
+  bool boolean(bool value) { return put(value); }
+  bool number_integer(Json::number_integer_t value) { return put(value); }
+  bool number_unsigned(Json::number_unsigned_t value) { return put(value); }
+  bool number_float(Json::number_float_t value, const std::string&) { return put(value); }
+  bool string(std::string& value) { return put(std::move(value)); }
+  bool binary(Json::binary_t& value) { return put(std::move(value)); }
+  bool start_object(std::size_t) { return start(Json::object()); }
+  bool start_array(std::size_t) { return start(Json::array()); }
+  bool end_object() { return end(); }
+  bool end_array() { return end(); }
+  bool key(std::string& key) {
+    takeKey(std::move(key));
     return true;
   }
-
-  void takeKey(std::string key) {
-    Open& object = open.back();
-    // The parser keeps the last of several equal keys; a file written by hand deserves to be told.
-    if (!object.keys.insert(key).second)
-      throw InputError(file, "has the key \"" + key + "\" twice in one object");
-    if (object.keys.size() > kMostKeys)
-      throw InputError(file, "has an object with more than " + std::to_string(kMostKeys) + " keys");
-    object.key = std::move(key);
+  template <class Error>
+  bool parse_error(std::size_t, const std::string&, const Error& error) {
+    throw error;
   }
 
+  bool isOpen() const { return !open_.empty(); }
   // "joints[3].image[0]"
   std::string path() const {
     std::string text;
-    for (const Open& level : open)
-      text += level.is_list ? "[" + std::to_string(level.count) + "]" : (text.empty() ? "" : ".") + level.key;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      const Open& level = open_[i];
+      const std::size_t begun = i + 1 < open_.size();  // an item that is there already
+      text += level.json->is_array() ? "[" + std::to_string(level.json->size() - begun) + "]"
+                                     : (text.empty() ? "" : ".") + level.key;
+    }
     return text;
   }
+
+ private:
+  struct Open {
+    Json* json;
+    std::string key;  // the object's last
+    std::set<std::string> keys;
+  };
+
+  Json& add(Json value) {
+    if (open_.empty()) return root_ = std::move(value);
+    Json& parent = *open_.back().json;
+    if (parent.is_object()) return parent.emplace(open_.back().key, std::move(value)).first.value();
+    parent.push_back(std::move(value));
+    return parent.back();
+  }
+  bool put(Json value) {
+    add(std::move(value));
+    return true;
+  }
+  bool start(Json value) {
+    if (open_.size() == kMostDepth)
+      throw InputError(file_, "is nested deeper than " + std::to_string(kMostDepth) + " levels");
+    open_.push_back({&add(std::move(value)), {}, {}});
+    return true;
+  }
+  bool end() {
+    open_.pop_back();
+    return true;
+  }
+  void takeKey(std::string key) {
+    Open& object = open_.back();
+    // The parser keeps the last of several equal keys; a file written by hand deserves to be told.
+    if (!object.keys.insert(key).second)
+      throw InputError(file_, "has the key \"" + key + "\" twice in one object");
+    if (object.keys.size() > kMostKeys)
+      throw InputError(file_, "has an object with more than " + std::to_string(kMostKeys) + " keys");
+    object.key = std::move(key);
+  }
+
+  const std::string& file_;
+  Json& root_;
+  std::vector<Open> open_;
 };
 
 // Other programs write numbers into JSON that it does not have.
@@ -104,19 +136,19 @@ JsonDocument JsonDocument::readFile(const std::string& path) { return parse(skel
 JsonDocument JsonDocument::parse(std::string_view text, const std::string& file) {
   JsonDocument document;
   document.content_->file = file;
-  Follower follower{file, {}};
+  Builder builder(file, document.content_->json);
   try {
-    document.content_->json = Json::parse(text, std::ref(follower));
+    Json::sax_parse(text, &builder);
   } catch (const nlohmann::json::parse_error& error) {
     const auto upto = text.substr(0, std::min(error.byte, text.size()));
     const auto line = std::count(upto.begin(), upto.end(), '\n') + 1;
     if (text.empty()) throw InputError(file, "is empty, not JSON");
     std::string problem = "is not JSON: line " + std::to_string(line) + " cannot be read";
-    if (!follower.open.empty() && isNanOrInfinity(text, error.byte))
-      problem += ": " + follower.path() + " is not a finite number";
+    if (builder.isOpen() && isNanOrInfinity(text, error.byte))
+      problem += ": " + builder.path() + " is not a finite number";
     throw InputError(file, problem);
   } catch (const nlohmann::json::out_of_range&) {
-    const std::string path = follower.path();
+    const std::string path = builder.path();
     throw InputError(file, (path.empty() ? "" : path + ": ") + "is a number that is too large");
   }
   return document;

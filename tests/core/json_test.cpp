@@ -74,6 +74,14 @@ TEST_CASE("objects of endless length are refused before they cost time") {
                     "f.json: has an object with more than 1000 keys");
 }
 
+TEST_CASE("a list of very many objects takes no longer than its length says") {
+  // By pairs it would be 10^11 steps.
+  constexpr int kCount = 400'000;
+  std::string text = "[{}";
+  for (int i = 1; i < kCount; ++i) text += ",{}";
+  CHECK(JsonDocument::parse(text + "]", "f.json").root().items().size() == kCount);
+}
+
 TEST_CASE("lists in lists without end are refused before they cost memory") {
   const auto nested = [](std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
   CHECK_NOTHROW(JsonDocument::parse(nested(100), "f.json"));
