@@ -65,7 +65,13 @@ void render(const RenderCommandOptions& options, const std::string& path, const 
   CharacterFile file = drawing ? CharacterFile{drawing->character, {}, {}} : loadCharacter(source);
   if (drawing && !flat) file.clips = drawing->clips;
   file.name = stemOf(path);
-  const std::vector<Clip> clips = askedClips(options, file);
+  const std::vector<Clip> clips = [&] {
+    try {
+      return askedClips(options, file);
+    } catch (const UsageError& error) {  // others may have it
+      throw UsageError(path + ": " + error.what());
+    }
+  }();
   if (drawing) tell(*drawing, path, clips);
   render(std::move(file), drawing ? &*drawing : nullptr, clips);
 }

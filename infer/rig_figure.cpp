@@ -241,6 +241,10 @@ DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, con
     } else {
       rigFigure(options, rig, job, std::stoi(options.figure), result.figures);
     }
+  } catch (const UsageError& wrong) {  // for this drawing, if not for others
+    result.code = wrong.exitCode();
+    result.problem = wrong.what();
+    result.error = job.source + ": " + result.problem;
   } catch (...) {
     const Error error = caughtError(job.source);
     result.code = error.exitCode();

@@ -113,6 +113,17 @@ TEST_CASE("of several drawings, one that cannot be rigged keeps no other from it
   CHECK(filesBelow(dir.file("films")) == std::vector<std::string>{dir.file("films/cap_boy-walk.gif")});
 }
 
+TEST_CASE(
+    "of several drawings, one whose body plan lacks the clip is named, and the others have their films") {
+  const TempDir dir;
+  const ToolRun run = render(std::string(SKEL_SOURCE_DIR) + "/datasets/animals/box_dog.png " + kDrawing +
+                             " --clip run --fps 4 --size 64x64 --format gif -o " + dir.file("films/"));
+  CHECK(run.exit_code == 1);
+  CHECK_THAT(run.err,
+             Contains("box_dog.png: there is no clip \"run\" for this body plan; there are: idle, walk"));
+  CHECK(filesBelow(dir.file("films")) == std::vector<std::string>{dir.file("films/cap_boy-run.gif")});
+}
+
 TEST_CASE("a drawing moves as it was drawn, on a ground that is clear, the same one every time") {
   const TempDir dir;
   const std::string arguments =

@@ -93,6 +93,14 @@ TEST_CASE("with several pictures the good ones are rigged and the exit code is t
   CHECK_FALSE(fs::exists(dir.file("out/b.glb")));
 }
 
+TEST_CASE("of several drawings, one that a format is not for is named, and the others have it") {
+  const TempDir dir;
+  writeFile(dir.file("a.png"), readFile(kDrawing));
+  writeFile(dir.file("dog.png"), readFile(SKEL_SOURCE_DIR "/datasets/animals/box_dog.png"));
+  expect(infer(dir, "a.png dog.png --formats char_cfg"), 1, "dog.png: the format char_cfg is for bipeds");
+  CHECK(fs::exists(dir.file("out/a/char_cfg.yaml")));
+}
+
 TEST_CASE("wrong usage is told before any work") {
   const TempDir dir;
   writeFile(dir.file("a.png"), readFile(kDrawing));
