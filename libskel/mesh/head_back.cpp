@@ -26,6 +26,8 @@ constexpr double kFace = 0.6;      // the disc whose commonest colour is the fac
 constexpr double kNape = -0.45;    // down to where hair reaches
 constexpr double kCheek = 0.3;     // share of a row below that a cheek takes of it
 constexpr double kDrawnRim = 0.2;  // behind the rim, where an outline may stay
+constexpr double kHang = 0.25;     // at the middle of a row, what lies so much higher at the rim
+constexpr int kSoft = 2;           // rows to both sides whose colours are mixed
 constexpr int kAlike = 48;         // channels of one colour differ by less
 constexpr double kMostly = 0.5;
 
@@ -111,7 +113,15 @@ class Head {
     if (!left || !right || x < -left->rim || x > right->rim) return std::nullopt;
     if (isInk(now) && std::min(x + left->rim, right->rim - x) < kDrawnRim) return std::nullopt;
     const double share = (x + left->rim) / (left->rim + right->rim);
-    return mixed(*left, *right, share);
+    // Hair and brims hang around a ball, lowest in the middle.
+    const double hang = kHang * 4 * share * (1 - share);
+    Vector3f sum = Vector3f::Zero();
+    for (int d = -kSoft; d <= kSoft; ++d) {
+      const int from = std::clamp(i + d - int(std::lround(hang * kRowsPerRadius)), 0, int(rows_.size()) - 1);
+      const auto& row = rows_[std::size_t(from)];
+      sum += mixed(row[0] ? *row[0] : *left, row[1] ? *row[1] : *right, share);
+    }
+    return Vector3f(sum / (2 * kSoft + 1));
   }
 
   Vector2d frame(const Vector2d& p) const {
@@ -124,9 +134,9 @@ class Head {
 
   static Vector3f mixed(const Side& left, const Side& right, double share) {
     if (left.face == right.face) return left.color + float(share) * (right.color - left.color);
-    constexpr double kSoft = 0.04;
+    constexpr double kEdge = 0.04;
     const double edge = left.face ? kCheek : 1 - kCheek;
-    const double t = std::clamp((share - edge) / kSoft / 2 + .5, 0., 1.);
+    const double t = std::clamp((share - edge) / kEdge / 2 + .5, 0., 1.);
     return left.color + float(t) * (right.color - left.color);
   }
 
