@@ -97,7 +97,8 @@ TEST_CASE("of several drawings, one that a format is not for is named, and the o
   const TempDir dir;
   writeFile(dir.file("a.png"), readFile(kDrawing));
   writeFile(dir.file("dog.png"), readFile(SKEL_SOURCE_DIR "/datasets/animals/box_dog.png"));
-  expect(infer(dir, "a.png dog.png --formats char_cfg --quiet"), 1, "dog.png: the format char_cfg is for bipeds");
+  expect(infer(dir, "a.png dog.png --formats char_cfg --quiet"), 1,
+         "dog.png: the format char_cfg is for bipeds");
   CHECK(fs::exists(dir.file("out/a/char_cfg.yaml")));
 }
 
