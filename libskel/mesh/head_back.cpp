@@ -29,7 +29,7 @@ constexpr double kDrawnRim = 0.2;  // behind the rim, where an outline may stay
 constexpr double kHang = 0.25;     // at the middle of a row, what lies so much higher at the rim
 constexpr int kSoft = 2;           // rows to both sides whose colours are mixed
 constexpr int kAlike = 48;         // channels of one colour differ by less
-constexpr double kMostly = 0.5;
+constexpr double kMostly = 0.5;    // of the rows, of their ends above the middle
 
 bool alike(const Vector3f& a, const Vector3f& b) { return (a - b).cwiseAbs().maxCoeff() < kAlike; }
 
@@ -70,7 +70,7 @@ class Head {
     std::vector<Vector3f> inner;
     for (double t = -kFace; t <= kFace; t += 1. / kRowsPerRadius)
       for (double x = -kFace; x <= kFace; x += 1. / kRowsPerRadius)
-        if (std::hypot(x, t) < kFace && inside(x, t)) inner.push_back(colorAt(x, t));
+        if (x * x + t * t < kFace * kFace && inside(x, t)) inner.push_back(colorAt(x, t));
     if (inner.empty()) return;
     const Vector3f face = commonest(inner);
     const int rows = int(std::lround((kTop - kBottom) * kRowsPerRadius)) + 1;
