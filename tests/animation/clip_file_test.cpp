@@ -246,7 +246,7 @@ TEST_CASE("an own clip without a template takes the place of those that have its
   CHECK(animals[0] != 9);
 }
 
-TEST_CASE("key-frame clips turn by angles, move and scale; what has no key rests") {
+TEST_CASE("key-frame clips turn by angles, move and scale, and what has no key rests") {
   const std::string text = R"({"name": "trot", "duration": 3, "keyframes": {
       "head": [{"time": 0, "rotation": [0, 0, 0]}, {"time": 2, "rotation": [0, 0, 6]}],
       "neck": [{"time": 1, "translation": [1, 2, 3], "scale": [1, 2, 3]}],

@@ -127,7 +127,7 @@ TEST_CASE("a joint turns about its own axes, and the numbers say so") {
   CHECK(atRest(document));
 }
 
-TEST_CASE("every step is undone and done again; a drag is one step") {
+TEST_CASE("every step is undone and done again, and a drag is one step") {
   const TempDir dir;
   AnimationDocument document({.path = figureFile(dir)});
   const int knee = document.skeleton().index("right_knee");

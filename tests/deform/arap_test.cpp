@@ -80,7 +80,7 @@ TEST_CASE("a bar bends like an arm: no triangle flips, its area stays, the handl
   }
 }
 
-TEST_CASE("what is folded is unfolded; what is not stays as it is") {
+TEST_CASE("what is folded is unfolded, and what is not stays as it is") {
   const std::vector<MeshHandle> handles = {{{0, 1, 42}, {1, 0, 0}}, {{327, 368, 367}, {0, 1, 0}}};
   const Untangler untangler(kBar.vertices, kBar.triangles, handles);
   const MatrixX2d targets = (MatrixX2d(2, 2) << 0, 0, 40, 8).finished();

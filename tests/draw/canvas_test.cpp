@@ -132,7 +132,7 @@ TEST_CASE("a montage holds its panels, and heat maps are brightest where the fie
   CHECK(brightness(2) < brightness(3));
 }
 
-TEST_CASE("a background is a name, a colour in figures, or neither; a picture covers all of it") {
+TEST_CASE("a background is a name, a colour in figures, or neither, and a picture covers all of it") {
   CHECK(backgroundColor("none")->a == 0);
   CHECK(backgroundColor("white")->r == 255);
   CHECK(backgroundColor("#10a0ff")->g == 0xa0);

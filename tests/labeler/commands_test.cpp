@@ -118,7 +118,7 @@ TEST_CASE("candidates: empty label files where there are none, at any depth") {
   CHECK(run.out == "0 label files made, 2 kept as they were, 1 failed\n");
 }
 
-TEST_CASE("import: beside the pictures, or copied; labels of a person are kept unless forced") {
+TEST_CASE("import: beside the pictures, or copied, and labels of a person are kept unless forced") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.file("in/a"));
   copyCharacter("box_robot", dir.file("in"));

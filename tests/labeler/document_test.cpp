@@ -293,7 +293,7 @@ TEST_CASE("a joint that is dragged is edited, stays in the picture, and takes it
         JointOrigin::kEdited);
 }
 
-TEST_CASE("candidates follow the mask; labels stay where the figure stays") {
+TEST_CASE("candidates follow the mask, labels stay where the figure stays") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path(), false);
   Document document(dir.path(), documentOptions());

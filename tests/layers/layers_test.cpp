@@ -143,7 +143,8 @@ Eigen::MatrixX3f raised(const TriangleMesh& mesh, const Skeleton& skeleton, cons
 
 }  // namespace
 
-TEST_CASE("an arm drawn before the chest is a layer, pixel by pixel, its outline with it; nothing else is") {
+TEST_CASE(
+    "an arm drawn before the chest is a layer, pixel by pixel, its outline with it, and nothing else is") {
   const Drawing drawing;
   const LayerMap layers = drawing.layers();
   REQUIRE(layers.any());
@@ -335,7 +336,7 @@ TEST_CASE("pieces cover the figure, each in its own box, in any part of the pict
   CHECK(pieces[1].box.height() < pieces[0].box.height() / 2);
 }
 
-TEST_CASE("a map of layers survives its picture; what is no map is refused") {
+TEST_CASE("a map of layers survives its picture, and what is no map is refused") {
   const Drawing drawing;
   const LayerMap layers = drawing.layers();
   const Image picture = layerPicture(layers, drawing.silhouette.mask);

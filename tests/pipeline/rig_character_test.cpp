@@ -123,7 +123,7 @@ TEST_CASE("line art on a clear ground is rigged as on paper: white within its li
   CHECK(int(drawing.image.pixel(int(body.x()), int(body.y()))[0]) == 255);
 }
 
-TEST_CASE("a drawing that stands on its head gives an upright model; its joints stay the picture's") {
+TEST_CASE("a drawing that stands on its head gives an upright model, its joints stay the picture's") {
   RigInput input;
   input.image = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");
   const Image upright = input.image;

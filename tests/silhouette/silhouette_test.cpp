@@ -288,7 +288,8 @@ TEST_CASE("alpha tells the figure, with its holes") {
   CHECK(s.outline.size() == 2);
 }
 
-TEST_CASE("line art on a clear ground is filled as on paper, gaps in its lines or not; sticks stay sticks") {
+TEST_CASE(
+    "line art on a clear ground is filled as on paper, gaps in its lines or not, and sticks stay sticks") {
   const bool light = GENERATE(false, true);
   const double gap = GENERATE(0., 6.);  // px, at the belly
   Image image = paint(300, 400, [&](double, double) { return light ? Color{250, 250, 240} : kBlack; });

@@ -120,7 +120,7 @@ TEST_CASE("a figure of capsules bends like one") {
   }
 }
 
-TEST_CASE("the flank beside an arm goes with the trunk; by distance through the air it goes with the arm") {
+TEST_CASE("the flank beside an arm goes with the trunk, by distance through the air it goes with the arm") {
   CapsuleFigure figure;
   figure.trunk_radius = 34, figure.limb_radius = 9;
   figure.left_arm = figure.left_forearm = 25;

@@ -141,7 +141,7 @@ TEST_CASE("joint training refuses what it cannot go on from or learn from") {
   CHECK_FALSE(std::filesystem::exists(dir.file("n.bin")));
 }
 
-TEST_CASE("the mean of a net and itself is that net; the mean of two lies between them") {
+TEST_CASE("the mean of a net and itself is that net, the mean of two lies between them") {
   const TempDir dir;
   const std::string archive = SKEL_DATASETS "/../weights/archive/", tool = SKEL_TRAIN " average '";
   const std::string a = archive + "joint-net-pass-1.bin", b = archive + "joint-net-pass-2.bin";
