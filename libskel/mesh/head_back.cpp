@@ -17,21 +17,21 @@ using Eigen::Vector3f;
 // Lengths are in radii of the head's disc; rows go from its top down.
 constexpr int kRowsPerRadius = 32;
 constexpr double kTop = 1.5, kBottom = -1.05;
-constexpr double kReach = 1.45;    // sideways, to the rim
+constexpr double kAside = 1.45;    // sideways, to the rim
 constexpr double kSkip = 0.05;     // behind the rim, where paper shines through
 constexpr double kBand = 0.3;      // behind the rim, whose colour counts
 constexpr double kEven = 0.25;     // rows as near as this have one colour
-constexpr double kLine = 0.25;     // least share of it that is not ink, where ink is but the outline
+constexpr double kPlain = 0.25;    // least share of it that is not ink, where ink is but the outline
 constexpr double kFace = 0.6;      // the disc whose commonest colour is the face's
 constexpr double kNape = -0.45;    // down to where hair reaches
 constexpr double kCheek = 0.3;     // share of a row below that a cheek takes of it
 constexpr double kDrawnRim = 0.2;  // behind the rim, where an outline may stay
 constexpr double kHang = 0.25;     // at the middle of a row, what lies so much higher at the rim
-constexpr int kSoft = 2;           // rows to both sides whose colours are mixed
-constexpr int kAlike = 48;         // channels of one colour differ by less
+constexpr int kMixedRows = 2;      // rows to both sides whose colours are mixed
+constexpr int kOneColor = 48;      // channels of one colour differ by less
 constexpr double kMostly = 0.5;    // of the rows, of their ends above the middle
 
-bool alike(const Vector3f& a, const Vector3f& b) { return (a - b).cwiseAbs().maxCoeff() < kAlike; }
+bool alike(const Vector3f& a, const Vector3f& b) { return (a - b).cwiseAbs().maxCoeff() < kOneColor; }
 
 Vector3f median(std::vector<Vector3f> colors) {
   Vector3f out;
@@ -89,7 +89,7 @@ class Head {
           }
         if (all.empty()) continue;
         Side side{bands[std::size_t(i)].rim,
-                  commonest(double(plain.size()) > kLine * double(all.size()) ? plain : all)};
+                  commonest(double(plain.size()) > kPlain * double(all.size()) ? plain : all)};
         side.face = alike(side.color, face);
         rows_[std::size_t(i)][std::size_t(k)] = side;
       }
@@ -116,12 +116,12 @@ class Head {
     // Hair and brims hang around a ball, lowest in the middle.
     const double hang = kHang * 4 * share * (1 - share);
     Vector3f sum = Vector3f::Zero();
-    for (int d = -kSoft; d <= kSoft; ++d) {
+    for (int d = -kMixedRows; d <= kMixedRows; ++d) {
       const int from = std::clamp(i + d - int(std::lround(hang * kRowsPerRadius)), 0, int(rows_.size()) - 1);
       const auto& row = rows_[std::size_t(from)];
       sum += mixed(row[0] ? *row[0] : *left, row[1] ? *row[1] : *right, share);
     }
-    return Vector3f(sum / (2 * kSoft + 1));
+    return Vector3f(sum / (2 * kMixedRows + 1));
   }
 
   Vector2d frame(const Vector2d& p) const {
@@ -169,8 +169,8 @@ class Head {
     constexpr double kStep = 1. / kRowsPerRadius;
     if (!inside(0, t)) return {};
     Band band;
-    while (band.rim < kReach && inside(sign * band.rim, t)) band.rim += kStep;
-    if (band.rim >= kReach) return {};
+    while (band.rim < kAside && inside(sign * band.rim, t)) band.rim += kStep;
+    if (band.rim >= kAside) return {};
     const Vector2d rim(sign * band.rim, t), inwards = -rim.normalized();
     for (double d = kSkip; d < kBand; d += kStep)
       if (const Vector2d p = rim + d * inwards; inside(p.x(), p.y()))
@@ -226,7 +226,7 @@ class Head {
 void paintBackOfHead(const Image& front, const Plane8& figure, const HeadDisc& disc, Image& back) {
   if (disc.radius < 2) return;
   const Head head(front, figure, disc);
-  const double reach = 2 * kReach * disc.radius;
+  const double reach = 2 * kAside * disc.radius;
   const int x0 = std::max(0, int(disc.center.x() - reach)),
             x1 = std::min(front.width, int(disc.center.x() + reach) + 1),
             y0 = std::max(0, int(disc.center.y() - reach)),

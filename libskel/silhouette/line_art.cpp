@@ -44,7 +44,7 @@ bool mayBeLineArt(const Plane8& opaque) {
   return static_cast<int>(framed.total()) - cv::countNonZero(framed == kOutside) >= kEnclosing * area;
 }
 
-Image onPaper(const Image& image) {
+Image laidOnPaper(const Image& image) {
   const int paper = isLight(image) ? 40 : 255;
   Image out = image;
   for (Eigen::Index i = 0; i < out.rgba.rows(); ++i) {

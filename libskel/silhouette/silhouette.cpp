@@ -177,7 +177,7 @@ Silhouette silhouetteOfLines(const Image& image, const SilhouetteOptions& option
   wide.rgba.setZero();
   for (int y = 0; y < image.height; ++y)
     std::copy_n(image.pixel(0, y), 4 * image.width, wide.pixel(margin, margin + y));
-  const Silhouette on_paper = silhouetteOnPaper(onPaper(wide), options);
+  const Silhouette on_paper = silhouetteOnPaper(laidOnPaper(wide), options);
   if (!on_paper.found()) return on_paper;
   return finish(on_paper.mask.block(margin, margin, image.height, image.width), options, kMinLongSide);
 }

@@ -302,7 +302,7 @@ TEST_CASE(
   const Plane8 person = maskOf(kPerson, 300, 400);
   CHECK(iou(foundIn(image).mask, person) > .97);
   CHECK(needsPaper(image, person));
-  const Image on_paper = onPaper(image);
+  const Image on_paper = laidOnPaper(image);
   CHECK((on_paper.rgba.col(3) == 255).all());
   CHECK(int(on_paper.pixel(150, 80)[0]) == (light ? 40 : 255));
 
