@@ -20,7 +20,7 @@ CharacterFile boundModel(const RigSource& source, const SkinRequest& skin) {
   if (!model.note.empty()) std::printf("%s\n", model.note.c_str());
   RiggedCharacter& character = model.file.character;
   const auto start = std::chrono::steady_clock::now();
-  character.weights = weightsFor(character, skin);
+  character.weights = weightsFor(character, source.model, skin);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
   std::printf("%d vertices bound to %d bones by %s in %.1f ms\n",
               static_cast<int>(character.mesh.vertices.rows()),

@@ -86,7 +86,9 @@ CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& cli
                      "--skeleton FILE");
   CharacterFile file = readRigModel({source.path, source.skeleton, source.up}).file;
   RiggedCharacter& character = file.character;
-  character.weights = computeSkinWeights(character.mesh, character.skeleton, SkinMethod::kGeodesic);
+  SkinOptions skin;
+  skin.file = source.path;
+  character.weights = computeSkinWeights(character.mesh, character.skeleton, SkinMethod::kGeodesic, skin);
   return file;
 }
 

@@ -25,8 +25,10 @@ void bindSkinRequest(CLI::App& app, SkinRequest& request) {
       ->type_name("FILE");
 }
 
-SkinWeights weightsFor(const RiggedCharacter& character, const SkinRequest& request) {
+SkinWeights weightsFor(const RiggedCharacter& character, const std::string& file,
+                       const SkinRequest& request) {
   SkinOptions options;
+  options.file = file;
   options.max_influences = request.max_influences;
   options.smoothing = request.smoothing;
   if (!request.regions.empty()) {

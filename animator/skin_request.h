@@ -20,7 +20,7 @@ struct SkinRequest {
 // --skin, --max-influences, --smoothing, --regions.
 void bindSkinRequest(CLI::App& app, SkinRequest& request);
 
-// Throws InputError.
-SkinWeights weightsFor(const RiggedCharacter& character, const SkinRequest& request);
+// Throws InputError, which names `file`, the character's.
+SkinWeights weightsFor(const RiggedCharacter& character, const std::string& file, const SkinRequest& request);
 
 }  // namespace skel

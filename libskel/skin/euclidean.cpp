@@ -12,7 +12,7 @@ JointWeights euclideanWeights(const SkinInput& input) {
   const TriangleMesh& mesh = input.mesh;
   const std::vector<Bone>& bones = input.bones;
   const int vertices = static_cast<int>(mesh.vertices.rows()), count = static_cast<int>(bones.size());
-  BoneReaches reaches(vertices, count);
+  BoneDistances distances2(vertices, count);  // m²
   // A bone's radius: that of most vertices that are nearest to it.
   std::vector<std::vector<float>> own(count);
   for (int v = 0; v < vertices; ++v) {
@@ -20,12 +20,13 @@ JointWeights euclideanWeights(const SkinInput& input) {
     for (int b = 0; b < count; ++b) {
       const float distance =
           distanceToSegment<Eigen::Vector3f>(mesh.vertices.row(v), bones[b].from, bones[b].to);
-      reaches(v, b).distance_m2 = reaches(v, b).power_m2 = distance * distance;
-      if (reaches(v, b).power_m2 < reaches(v, nearest).power_m2) nearest = b;
+      distances2(v, b) = distance * distance;
+      if (distances2(v, b) < distances2(v, nearest)) nearest = b;
     }
-    own[nearest].push_back(std::sqrt(reaches(v, nearest).power_m2));
+    own[nearest].push_back(std::sqrt(distances2(v, nearest)));
   }
   const float edge_m = meanEdge(mesh);
+  std::vector<float> reach_m;  // of each bone
   for (int b = 0; b < count; ++b) {
     float radius = 0;
     if (!own[b].empty()) {
@@ -33,10 +34,12 @@ JointWeights euclideanWeights(const SkinInput& input) {
       std::nth_element(own[b].begin(), middle, own[b].end());
       radius = *middle;
     }
-    const float reach = reachBeyondJoint(radius, edge_m);
-    for (int v = 0; v < vertices; ++v) reaches(v, b).reach_m = reach;
+    reach_m.push_back(reachBeyondJoint(radius, edge_m));
   }
-  return weightsFromReaches(reaches, bones, input.jointCount());
+  const auto reaches = [&](Eigen::Index v, std::vector<BoneReach>& row) {
+    for (int b = 0; b < count; ++b) row[b] = {distances2(v, b), distances2(v, b), reach_m[b]};
+  };
+  return weightsFromReaches(vertices, bones, input.jointCount(), reaches);
 }
 
 }  // namespace skel

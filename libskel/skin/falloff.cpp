@@ -19,27 +19,30 @@ float falloff(float beyond_m2, float reach_m) {
 
 }  // namespace
 
-JointWeights weightsFromReaches(const BoneReaches& reaches, const std::vector<Bone>& bones, int joint_count,
-                                TrunkBones trunk) {
+JointWeights weightsFromReaches(Eigen::Index vertices, const std::vector<Bone>& bones, int joint_count,
+                                const ReachesOf& reaches_of, TrunkBones trunk) {
   struct Limb {
     const BoneReach *by_power, *by_distance;  // its nearest bones
   };
   const BoneReach no_way;
   std::vector<Limb> limbs(joint_count + 1);  // the last one: the trunk
-  JointWeights weights = JointWeights::Zero(reaches.rows(), joint_count);
-  for (Eigen::Index v = 0; v < reaches.rows(); ++v) {
+  std::vector<BoneReach> reaches(bones.size());
+  JointWeights weights = JointWeights::Zero(vertices, joint_count);
+  for (Eigen::Index v = 0; v < vertices; ++v) {
+    std::fill(reaches.begin(), reaches.end(), no_way);
+    reaches_of(v, reaches);
     std::fill(limbs.begin(), limbs.end(), Limb{&no_way, &no_way});
     const BoneReach* nearest = &no_way;
     int nearest_limb = -1;
-    for (Eigen::Index b = 0; b < reaches.cols(); ++b) {
-      const BoneReach& bone = reaches(v, b);
+    for (std::size_t b = 0; b < bones.size(); ++b) {
+      const BoneReach& bone = reaches[b];
       if (bone.power_m2 < nearest->power_m2) nearest = &bone, nearest_limb = bones[b].limb;
       Limb& limb = limbs[bones[b].limb < 0 ? joint_count : bones[b].limb];
       if (bone.power_m2 < limb.by_power->power_m2) limb.by_power = &bone;
       if (bone.distance_m2 < limb.by_distance->distance_m2) limb.by_distance = &bone;
     }
-    for (Eigen::Index b = 0; b < reaches.cols(); ++b) {
-      const BoneReach& bone = reaches(v, b);
+    for (std::size_t b = 0; b < bones.size(); ++b) {
+      const BoneReach& bone = reaches[b];
       if (bone.distance_m2 == no_way.distance_m2) continue;
       const bool of_limb = bones[b].limb >= 0;
       const Limb limb = of_limb                         ? limbs[bones[b].limb]

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -17,7 +18,11 @@ struct BoneReach {
                                                             // the body is about the bone
   float reach_m = 0;
 };
-using BoneReaches = Eigen::Array<BoneReach, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // #V×#bones
+// Says so of vertex v: `row` has a BoneReach() for each bone.
+using ReachesOf = std::function<void(Eigen::Index v, std::vector<BoneReach>& row)>;
+
+// From each vertex to each bone; infinite: no way.
+using BoneDistances = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // #V×#bones
 
 // #V×#joints, not negative, any sum. A row of zeros: no bone reaches the vertex.
 using JointWeights = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -33,8 +38,8 @@ enum class TrunkBones {
 // limb, whatever its place around the limb: a weight that is a function of it bends limbs like a joint.
 // Powers part the limbs from the trunk and from each other, distances the bones of one limb: an upper arm,
 // the thicker, would take the elbow with it by its power.
-JointWeights weightsFromReaches(const BoneReaches& reaches, const std::vector<Bone>& bones, int joint_count,
-                                TrunkBones trunk = TrunkBones::kEach);
+JointWeights weightsFromReaches(Eigen::Index vertices, const std::vector<Bone>& bones, int joint_count,
+                                const ReachesOf& reaches_of, TrunkBones trunk = TrunkBones::kEach);
 
 // How far beyond a joint the weights reach in a body of this half thickness, on a mesh with edges of this
 // length.

@@ -232,8 +232,7 @@ JointWeights geodesicWeights(const SkinInput& input) {
   }
   const float size = (high - low).maxCoeff();
   Fronts fronts(std::max({0.5f * edge_m, 1e-4f * size, 1e-12f}));
-  using Lengths = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Lengths way = Lengths::Constant(vertices, count, kFar);
+  BoneDistances way = BoneDistances::Constant(vertices, count, kFar);
   const auto reach = [&](int vertex, int bone, float distance) {
     if (distance >= way(vertex, bone)) return;
     way(vertex, bone) = distance;
@@ -301,18 +300,18 @@ JointWeights geodesicWeights(const SkinInput& input) {
     }
   }
 
-  BoneReaches reaches(vertices, count);
-  for (int v = 0; v < vertices; ++v) {
+  const auto reaches = [&](Eigen::Index v, std::vector<BoneReach>& row) {
+    const Eigen::Vector2f here = inPlane(static_cast<int>(v));
     for (int b = 0; b < count; ++b) {
       if (way(v, b) == kFar) continue;
-      const Profile::Ball ball = profiles[b].nearest(inPlane(v));
+      const Profile::Ball ball = profiles[b].nearest(here);
       const float around = std::max(0.0f, way(v, b) - kDetour * ball.distance - edge_m);
       const float distance = ball.distance + kPenalty * around;
-      reaches(v, b) = {distance * distance, distance * distance - ball.depth2,
-                       reachBeyondJoint(std::sqrt(ball.depth2), edge_m)};
+      row[b] = {distance * distance, distance * distance - ball.depth2,
+                reachBeyondJoint(std::sqrt(ball.depth2), edge_m)};
     }
-  }
-  return weightsFromReaches(reaches, bones, input.jointCount());
+  };
+  return weightsFromReaches(vertices, bones, input.jointCount(), reaches);
 }
 
 }  // namespace skel

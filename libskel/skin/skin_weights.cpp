@@ -193,6 +193,13 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
   if (mesh.vertices.rows() == 0) return {};
   SKEL_CHECK(mesh.vertices.allFinite());
 
+  const auto joints = static_cast<std::int64_t>(skeleton.joints.size());
+  if (mesh.vertices.rows() * joints > kMostVertexJoints)
+    throw InputError(options.file,
+                     "has " + std::to_string(mesh.vertices.rows()) + " vertices for " +
+                         std::to_string(joints) + " joints; at most " +
+                         std::to_string(kMostVertexJoints / joints) +
+                         " vertices can be bound to so many: take a coarser mesh or fewer joints");
   const Method& way = find(method);
   if (mesh.vertices.rows() > way.most_vertices)
     throw UsageError("weights by " + std::string(way.name) + " are for at most " +

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -37,7 +38,11 @@ struct SkinOptions {
   // How often each vertex moves half way to the mean of its neighbours, at last; 0…1000.
   int smoothing = 0;
   std::shared_ptr<const SkinRegions> regions;  // of kIdwRegion; null: defaultRegions()
+  std::string file = "the model";              // that the mesh came from, as errors name it
 };
+
+// Vertices times joints: each pair has a few numbers while weights are computed.
+inline constexpr std::int64_t kMostVertexJoints = 64'000'000;
 
 // A joint moves the segment from itself to its tail if it has one; else to its child, a leaf a short tip
 // segment beyond it, and the head also the upper half of the segment that leads to it. Any mesh will do:
@@ -49,7 +54,8 @@ struct SkinOptions {
 // `joint_layers`, one number a joint, each layer has one; empty: all follow all. A joint of layer -1 moves
 // nothing.
 //
-// Throws UsageError: more vertices than the method is for (kHeat: 200,000).
+// Throws InputError: more vertices times joints than kMostVertexJoints; UsageError: more vertices than the
+// method is for (kHeat: 200,000).
 SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleton, SkinMethod method,
                                const SkinOptions& options = {}, const std::vector<int>& joint_layers = {});
 

@@ -24,14 +24,14 @@ float straight(const Eigen::Vector3f& p, const Bone& bone) {
 
 // Half the body's thickness about each bone: the distance of most vertices that are nearest to it. A spine
 // runs along the back, far from the belly: for the trunk, nearly all of them.
-std::vector<float> boneRadii(const BoneReaches& reaches, const std::vector<Bone>& bones) {
-  std::vector<std::vector<float>> own(static_cast<std::size_t>(reaches.cols()));
-  for (Eigen::Index v = 0; v < reaches.rows(); ++v) {
+std::vector<float> boneRadii(const BoneDistances& distances2, const std::vector<Bone>& bones) {
+  std::vector<std::vector<float>> own(bones.size());
+  for (Eigen::Index v = 0; v < distances2.rows(); ++v) {
     Eigen::Index nearest = 0;
-    for (Eigen::Index b = 1; b < reaches.cols(); ++b)
-      if (reaches(v, b).distance_m2 < reaches(v, nearest).distance_m2) nearest = b;
-    if (reaches(v, nearest).distance_m2 < kFar)
-      own[static_cast<std::size_t>(nearest)].push_back(std::sqrt(reaches(v, nearest).distance_m2));
+    for (Eigen::Index b = 1; b < distances2.cols(); ++b)
+      if (distances2(v, b) < distances2(v, nearest)) nearest = b;
+    if (distances2(v, nearest) < kFar)
+      own[static_cast<std::size_t>(nearest)].push_back(std::sqrt(distances2(v, nearest)));
   }
   std::vector<float> radii;
   for (std::size_t b = 0; b < own.size(); ++b) {
@@ -126,7 +126,7 @@ JointWeights volumetricWeights(const SkinInput& input) {
 
   std::vector<int> cubes;
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) cubes.push_back(solid.at(mesh.vertices.row(v)));
-  BoneReaches reaches(mesh.vertices.rows(), count);
+  BoneDistances distances2 = BoneDistances::Constant(mesh.vertices.rows(), count, kFar);  // m²
   for (int b = 0; b < count; ++b) {
     // A way this much longer than the nearest bone's brings no weight, nor does any that goes on from it.
     ways.spread(seeds[static_cast<std::size_t>(b)], [&](int cube, float length) {
@@ -139,21 +139,19 @@ JointWeights volumetricWeights(const SkinInput& input) {
       const float direct = straight(mesh.vertices.row(v), bones[static_cast<std::size_t>(b)]);
       const float around = std::max(0.0f, way - kDetour * direct - 2 * cell_m);
       const float distance = direct + kPenalty * around;
-      reaches(v, b).distance_m2 = distance * distance;
+      distances2(v, b) = distance * distance;
     }
   }
   const float edge_m = meanEdge(mesh);
-  const std::vector<float> radii = boneRadii(reaches, bones);
-  for (int b = 0; b < count; ++b) {
-    const float reach_m = reachBeyondJoint(radii[b], edge_m);
-    for (Eigen::Index v = 0; v < reaches.rows(); ++v) {
-      BoneReach& here = reaches(v, b);
-      if (here.distance_m2 == kFar) continue;
-      here.power_m2 = here.distance_m2 - radii[b] * radii[b];
-      here.reach_m = reach_m;
+  const std::vector<float> radii = boneRadii(distances2, bones);
+  const auto reaches = [&](Eigen::Index v, std::vector<BoneReach>& row) {
+    for (int b = 0; b < count; ++b) {
+      const float distance2 = distances2(v, b);
+      if (distance2 == kFar) continue;
+      row[b] = {distance2, distance2 - radii[b] * radii[b], reachBeyondJoint(radii[b], edge_m)};
     }
-  }
-  return weightsFromReaches(reaches, bones, input.jointCount(), TrunkBones::kOneLimb);
+  };
+  return weightsFromReaches(mesh.vertices.rows(), bones, input.jointCount(), reaches, TrunkBones::kOneLimb);
 }
 
 }  // namespace skel

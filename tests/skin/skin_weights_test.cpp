@@ -379,6 +379,24 @@ TEST_CASE("heat refuses more vertices than it is quick for, and names what takes
       Catch::Matchers::Contains("at most 200000 vertices, the model has 200001; take --skin geodesic"));
 }
 
+// Gigabytes, of a file of a few megabytes.
+TEST_CASE("more vertices times joints than fit into memory are refused, by the file's name") {
+  Skeleton chain;
+  for (int j = 0; j < 4000; ++j)
+    chain.joints.push_back({"j" + std::to_string(j), j - 1, {}, {0, j / 4e3, 0}});
+  TriangleMesh mesh;
+  mesh.vertices = Eigen::MatrixX3f::Random(16'001, 3);
+  mesh.triangles.resize(1, 3);
+  mesh.triangles << 0, 1, 2;
+  SkinOptions options;
+  options.file = "big.obj";
+  for (const SkinMethod method : skinMethods())
+    CHECK_THROWS_WITH(
+        computeSkinWeights(mesh, chain, method, options),
+        "big.obj: has 16001 vertices for 4000 joints; at most 16000 vertices can be bound to so "
+        "many: take a coarser mesh or fewer joints");
+}
+
 // It took minutes: each joint looked at all vertices and all joints below it.
 TEST_CASE("a chain of a thousand joints binds a tube") {
   constexpr int kJoints = 1000, kRings = 300, kSides = 16;
