@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "libskel/core/error.h"
 
@@ -128,8 +129,7 @@ class Reader {
         fail("expected loc, name and parent of a joint");
       }
       if (!loc || name.empty()) fail("a joint needs loc and name");
-      for (const auto& [other, place] : cfg_.joints)
-        if (other == name) fail("the joint '" + name + "' is there twice");
+      if (!names_.insert(name).second) fail("the joint '" + name + "' is there twice");
       cfg_.joints.emplace_back(name, *loc);
     }
   }
@@ -142,6 +142,7 @@ class Reader {
   const std::string& file_;
   std::vector<Line> lines_;
   size_t next_ = 0;
+  std::set<std::string> names_;  // of the joints
   CharCfg cfg_;
 };
 

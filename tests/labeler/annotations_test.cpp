@@ -90,6 +90,16 @@ TEST_CASE("char_cfg.yaml: what is wrong is said with its line") {
   CHECK(problemOf("") == "char_cfg.yaml: width and height are missing");
 }
 
+// Each name was held against all before it.
+TEST_CASE("char_cfg.yaml: a joint is there once, and of joints there may be many") {
+  constexpr int kJoints = 400'000;
+  std::string yaml = "width: 9\nheight: 9\nskeleton:\n";
+  for (int j = 0; j < kJoints; ++j) yaml += "- loc: [1, 2]\n  name: j" + std::to_string(j) + "\n";
+  CHECK(parseCharCfg(yaml, "char_cfg.yaml").joints.size() == kJoints);
+  CHECK(problemOf(yaml + "- loc: [1, 2]\n  name: j7\n") ==
+        "char_cfg.yaml: line 800005: the joint 'j7' is there twice");
+}
+
 TEST_CASE("all layouts are found at any depth") {
   const SkeletonTemplate plan = loadTemplate("biped");
   const TempDir dir;
