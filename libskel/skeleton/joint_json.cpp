@@ -1,6 +1,9 @@
 #include "libskel/skeleton/joint_json.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "libskel/mesh/triangle_mesh.h"
 
 namespace skel {
 
@@ -18,6 +21,13 @@ Eigen::Vector2d imagePointAt(const JsonValue& value, const std::string& joint, i
     value.fail("joint \"" + joint + "\" lies outside the image of " + std::to_string(width) + "x" +
                std::to_string(height) + " px");
   return {xy[0], xy[1]};
+}
+
+Eigen::Vector3d positionAt(const JsonValue& value) {
+  const std::vector<double> numbers = value.asNumbers(3);
+  for (const double number : numbers)
+    if (std::abs(number) > kFarthest) value.fail("is farther than 1e6 from the origin");
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 void checkTemplate(const JsonValue& value, const std::string& template_name) {

@@ -1,4 +1,4 @@
-// What skeleton files and motion files say about a joint in the same way.
+// What files say about a joint in the same way.
 #pragma once
 
 #include <cmath>
@@ -18,6 +18,8 @@ inline double rounded(double value, double steps) {
 JointOrigin originAt(const JsonValue& value);
 // [x, y] within the pixels of an image.
 Eigen::Vector2d imagePointAt(const JsonValue& value, const std::string& joint, int width, int height);
+// [x, y, z], no farther than kFarthest.
+Eigen::Vector3d positionAt(const JsonValue& value);
 // Refuses a file of another template.
 void checkTemplate(const JsonValue& value, const std::string& template_name);
 

@@ -1,24 +1,16 @@
 #include "libskel/skeleton/rig_file.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <vector>
 
 #include "libskel/core/error.h"
 #include "libskel/core/json.h"
 #include "libskel/core/unused_keys.h"
-#include "libskel/mesh/triangle_mesh.h"
+#include "libskel/skeleton/joint_json.h"
 
 namespace skel {
 namespace {
-
-Eigen::Vector3d pointAt(const JsonValue& value) {
-  const std::vector<double> numbers = value.asNumbers(3);
-  for (const double number : numbers)
-    if (std::abs(number) > kFarthest) value.fail("is farther than 1e6 from the origin");
-  return {numbers[0], numbers[1], numbers[2]};
-}
 
 // A joint as it stands in the file.
 struct Listed {
@@ -60,8 +52,8 @@ std::vector<Listed> listedJoints(const JsonValue& root, const std::optional<Json
     if (const auto index = item.find("index"))
       if (const auto [first, added] = indices.emplace(index->asInt(0, 1'000'000), item.path()); !added)
         index->fail("is also that of " + first->second);
-    joint.position = pointAt(item.at("head"));
-    joint.tail = pointAt(item.at("tail"));
+    joint.position = positionAt(item.at("head"));
+    joint.tail = positionAt(item.at("tail"));
     joint.confidence = 1;
     joint.origin = JointOrigin::kEdited;
     std::string parent = parentOf(item, joint.name, hierarchy);

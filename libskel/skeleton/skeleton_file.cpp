@@ -36,8 +36,7 @@ Joint jointAt(const JsonValue& item, const SkeletonTemplate& body_plan, const Sk
   if ((parent.isNull() ? "" : parent.asString()) != expected)
     parent.fail("must be " + (expected.empty() ? "null" : "\"" + expected + "\""));
   joint.image = imagePointAt(item.at("image"), joint.name, file.image_width, file.image_height);
-  const auto position = item.at("position").asNumbers(3);
-  joint.position = {position[0], position[1], position[2]};
+  joint.position = positionAt(item.at("position"));
   joint.confidence = item.at("confidence").asNumber(0, 1);
   joint.origin = originAt(item.at("origin"));
   return joint;

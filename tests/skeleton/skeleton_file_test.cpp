@@ -69,6 +69,8 @@ TEST_CASE("a skeleton file with a mistake is refused with its place") {
   CHECK(complaint("\"image\":[95.0,198.2]", "\"image\":[200.0,198.2]") ==
         "joints[0].image: joint \"pelvis\" lies outside the image of 200x300 px");
   CHECK(complaint("\"image\":[95.0,198.2]", "\"image\":[NaN,198.2]").starts_with("is not JSON: line "));
+  CHECK(complaint("\"position\":[0.0,0.0,0.0]", "\"position\":[0.0,-1e100,0.0]") ==
+        "joints[0].position: is farther than 1e6 from the origin");
   CHECK(complaint("\"origin\":\"completed\"", "\"origin\":\"guessed\"") ==
         "joints[0].origin: is \"guessed\", must be recognized, completed, derived or edited");
   CHECK(complaint("\"parent\":\"pelvis\"", "\"parent\":\"neck\"") == "joints[1].parent: must be \"pelvis\"");
