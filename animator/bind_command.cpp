@@ -55,7 +55,7 @@ ExitCode runBind(const BindOptions& options) {
     file.character.weights = readWeights(options.weights, file.character);
   }
   writeFile(path, encodeGlb(file.character, file.clips, exportOptions(file.name, options.joints)));
-  std::printf("wrote %s\n", path.c_str());
+  std::printf("wrote %s\n", printable(path).c_str());
   return ExitCode::kDone;
 }
 
@@ -74,7 +74,7 @@ ExitCode runWeights(const WeightsOptions& options) {
   noteOutput(path);
   const CharacterFile file = boundModel(options.source, options.skin);
   writeFile(path, exportWeights({file.character, file.clips, {stemOf(path)}})[0].bytes);
-  std::printf("wrote %s\n", path.c_str());
+  std::printf("wrote %s\n", printable(path).c_str());
   return ExitCode::kDone;
 }
 

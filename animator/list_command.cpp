@@ -44,7 +44,7 @@ ExitCode runList(const ListOptions& options) {
     return ExitCode::kDone;
   }
   const CharacterFile file = readGlb(options.file);
-  std::printf("clips of %s:\n", options.file.c_str());
+  std::printf("clips of %s:\n", printable(options.file).c_str());
   for (const Clip& clip : file.clips) printClip(clip, "");
   std::printf("clips that fit:\n");
   for (const Clip& clip : clipsFor(library, file.character)) printClip(clip, "");

@@ -102,8 +102,8 @@ struct Films {
       frames(*writer, [&] { bar.advance(); });
       writer->finish();
     }
-    std::printf("%s: %d frames of %dx%d, %.2f s of \"%s\"\n", path.c_str(), clip_video.frames, film.width,
-                film.height, clip_video.frames / film.frame_rate, printable(clip.name).c_str());
+    std::printf("%s: %d frames of %dx%d, %.2f s of \"%s\"\n", printable(path).c_str(), clip_video.frames,
+                film.width, film.height, clip_video.frames / film.frame_rate, printable(clip.name).c_str());
   }
 
   void writeFlat(const FlatFigure& figure, const Clip& clip, const Camera& camera,

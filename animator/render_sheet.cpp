@@ -16,6 +16,7 @@
 #include "libskel/core/input_guard.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
+#include "libskel/core/text.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/image/write_image.h"
 
@@ -131,8 +132,9 @@ struct Sheets {
     writeFile(path, encodePng(sheet.picture, 9));
     writeFile(atlasOf(path),
               formatAtlas(sprites, tags, camera.cell, sheet, form, fs::path(path).filename().string()));
-    std::printf("%s: %d frames of %dx%d, %d animations, %dx%d px\n", path.c_str(), int(sprites.size()),
-                size.width, size.height, int(tags.size()), sheet.picture.width, sheet.picture.height);
+    std::printf("%s: %d frames of %dx%d, %d animations, %dx%d px\n", printable(path).c_str(),
+                int(sprites.size()), size.width, size.height, int(tags.size()), sheet.picture.width,
+                sheet.picture.height);
   }
 };
 

@@ -32,7 +32,7 @@ Clip motionFor(const RetargetCommandOptions& options, const CharacterFile& file)
   if (!options.motion.ends_with(".bvh")) {
     std::string note;
     Clip clip = clipFor(options.motion, file, options.clips, &note);
-    if (!note.empty()) std::printf("%s\n", note.c_str());
+    if (!note.empty()) std::printf("%s\n", printable(note).c_str());
     return clip;
   }
   RetargetedMotion result = loadBvhFor(options.motion, file.character, options.clips);
@@ -79,7 +79,7 @@ ExitCode runRetarget(const RetargetCommandOptions& options) {
   Clip clip = motionFor(options, file);
   if (!options.name.empty()) clip.name = printable(options.name);
   writeFile(path, encoded(path, std::move(file), clip));
-  std::printf("wrote %s\n", path.c_str());
+  std::printf("wrote %s\n", printable(path).c_str());
   return ExitCode::kDone;
 }
 

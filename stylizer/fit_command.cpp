@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "libskel/core/files.h"
+#include "libskel/core/text.h"
 #include "stylizer/commands.h"
 #include "stylizer/style_file.h"
 
@@ -32,8 +33,8 @@ ExitCode runFit(const FitOptions& options) {
     style.semantics = fitSemantics(style.coding.activations, actions, options.semantic);
   writeFile(options.output, formatStyleFile(style));
   std::printf("%s: %d frames of %d numbers, %d components, off by %.2f %%, after %d iterations\n",
-              options.output.c_str(), int(data.cols()), int(data.rows()), options.coding.components,
-              100 * style.coding.error, int(style.coding.objectives.size()) - 1);
+              printable(options.output).c_str(), int(data.cols()), int(data.rows()),
+              options.coding.components, 100 * style.coding.error, int(style.coding.objectives.size()) - 1);
   if (style.semantics)
     std::printf("  %d action classes, told apart in %.1f %% of the frames\n",
                 int(style.semantics->classes.size()), 100 * style.semantics->accuracy);

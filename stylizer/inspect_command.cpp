@@ -5,6 +5,7 @@
 
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
+#include "libskel/core/text.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
@@ -115,8 +116,8 @@ ExitCode runInspect(const InspectOptions& options) {
   rows.push_back({montage(maps), ""});
   rows.push_back({montage(basis_panels, {.columns = 8}), "mean pose with each component at its most"});
   writeFile(options.output, encodePng(montage(rows, {.columns = 1})));
-  std::printf("%s: %d frames, %d components, off by %.2f %%\n", options.output.c_str(), int(poses.cols()),
-              coding.components, 100 * style.error);
+  std::printf("%s: %d frames, %d components, off by %.2f %%\n", printable(options.output).c_str(),
+              int(poses.cols()), coding.components, 100 * style.error);
   return ExitCode::kDone;
 }
 

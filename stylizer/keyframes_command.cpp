@@ -7,6 +7,7 @@
 #include "libskel/core/input_guard.h"
 #include "libskel/core/json_names.h"
 #include "libskel/core/progress.h"
+#include "libskel/core/text.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/image/write_image.h"
 #include "libskel/skeleton/joint_json.h"
@@ -117,7 +118,8 @@ ExitCode runKeyframes(const KeyframesOptions& options) {
         Json{{"format", "skel-distances"}, {"version", 1}, {"distances", std::move(rows)}}.dump() + "\n");
     writeFile((fs::path(options.output) / "distances.png").string(), encodePng(matrixPicture(matrix)));
   }
-  std::printf("%s: %d of %d frames are key frames\n", options.output.c_str(), int(keys.size()), info.frames);
+  std::printf("%s: %d of %d frames are key frames\n", printable(options.output).c_str(), int(keys.size()),
+              info.frames);
   return ExitCode::kDone;
 }
 

@@ -3,6 +3,7 @@
 
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
+#include "libskel/core/text.h"
 #include "stylizer/commands.h"
 
 namespace skel {
@@ -21,8 +22,8 @@ ExitCode runKeypoints(const KeypointsCommandOptions& given) {
   writeFile(options.output, formatMotionFile(found.motion, loadTemplate("biped")));
   int keys = 0;
   for (const MotionFrame& frame : found.motion.frames) keys += frame.key;
-  std::printf("%s: %d frames, %d key frames%s", options.output.c_str(), int(found.motion.frames.size()), keys,
-              found.loop ? ", a loop" : "");
+  std::printf("%s: %d frames, %d key frames%s", printable(options.output).c_str(),
+              int(found.motion.frames.size()), keys, found.loop ? ", a loop" : "");
   if (found.without_figure > 0) std::printf(", %d without a figure", found.without_figure);
   std::printf("\n  limbs renamed in %d frames (arms) and %d (legs); unevenness %.4f as seen, %.4f smoothed\n",
               found.arms_swapped, found.legs_swapped, found.unevenness_seen, found.unevenness);

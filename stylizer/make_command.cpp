@@ -3,6 +3,7 @@
 
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
+#include "libskel/core/text.h"
 #include "stylizer/commands.h"
 
 namespace skel {
@@ -15,7 +16,7 @@ NamedMotion motionOf(const std::string& path, const std::string& name, const Mak
   if (path.ends_with(kMotionFileEnding)) return {path, readMotionFile(path, plan)};
   const std::string file = (fs::path(options.work) / (name + kMotionFileEnding)).string();
   if (!options.force && fs::exists(file)) {
-    std::printf("%s: taken as it is\n", file.c_str());
+    std::printf("%s: taken as it is\n", printable(file).c_str());
     return {file, readMotionFile(file, plan)};
   }
   noteOutput(file);
@@ -26,7 +27,7 @@ NamedMotion motionOf(const std::string& path, const std::string& name, const Mak
   find.loop = options.request.loop;
   const Keypoints found = findKeypoints(find);
   writeFile(file, formatMotionFile(found.motion, plan));
-  std::printf("%s: %d frames\n", file.c_str(), int(found.motion.frames.size()));
+  std::printf("%s: %d frames\n", printable(file).c_str(), int(found.motion.frames.size()));
   // As the next run will see it.
   return {file, readMotionFile(file, plan)};
 }
@@ -48,7 +49,7 @@ ExitCode runMake(const MakeOptions& given) {
   const NamedMotion style = motionOf(options.style, "style", options);
   const MotionTransferReport report = transferMotion({content}, {style}, transferOptions(options.request));
   writeFile(file, formatMotionFile(report.motion, plan));
-  std::printf("%s: mean pose %.0f %% of the way, phase correlation %.3f%s\n", file.c_str(),
+  std::printf("%s: mean pose %.0f %% of the way, phase correlation %.3f%s\n", printable(file).c_str(),
               100 * report.mean_pose_moved, report.phase_correlation,
               report.mirrored ? ", style mirrored" : "");
   perform(stage, readMotionFile(file, plan), file, report.content_loops, options.perform, options.output);

@@ -5,6 +5,7 @@
 #include "libskel/animation/clip_file.h"
 #include "libskel/core/files.h"
 #include "libskel/core/progress.h"
+#include "libskel/core/text.h"
 #include "libskel/style/motion_clip.h"
 #include "libskel/style/wear_motion.h"
 #include "stylizer/commands.h"
@@ -68,8 +69,9 @@ void perform(const Stage& stage, const MotionFile& motion, const std::string& pa
     writePuppetFilm(puppet, frames, *video, [&] { bar.advance(); });
     video->finish();
   }
-  std::printf("%s: %d frames of %dx%d, %.2f s; %lld of %lld triangles turned over\n", output.c_str(), count,
-              frames.width, frames.height, count / frames.frame_rate, static_cast<long long>(frames.flipped),
+  std::printf("%s: %d frames of %dx%d, %.2f s; %lld of %lld triangles turned over\n",
+              printable(output).c_str(), count, frames.width, frames.height, count / frames.frame_rate,
+              static_cast<long long>(frames.flipped),
               static_cast<long long>(count) * puppet.triangles.rows());
 }
 
@@ -96,7 +98,7 @@ ExitCode runRender(const RenderOptions2D& options) {
             options.perform, options.output);
   if (!options.to_clip.empty()) {
     writeFile(options.to_clip, clip_text);
-    std::printf("%s: %.2f s\n", options.to_clip.c_str(), clip_s);
+    std::printf("%s: %.2f s\n", printable(options.to_clip).c_str(), clip_s);
   }
   return ExitCode::kDone;
 }

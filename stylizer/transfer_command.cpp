@@ -23,7 +23,7 @@ ExitCode runTransfer(const TransferCommandOptions& options) {
   const MotionTransferReport report = transferMotion(content, style, transferOptions(options.request));
   writeFile(options.output, formatMotionFile(report.motion, loadTemplate("biped")));
   std::printf("%s: %s%s\n  factored to %.2f %%; mean pose %.0f %% of the way; phase correlation %.3f\n",
-              options.output.c_str(), printable(report.motion.source).c_str(),
+              printable(options.output).c_str(), printable(report.motion.source).c_str(),
               report.mirrored ? ", mirrored" : "", 100 * report.error, 100 * report.mean_pose_moved,
               report.phase_correlation);
   return ExitCode::kDone;

@@ -6,6 +6,7 @@
 #include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
+#include "libskel/core/text.h"
 #include "libskel/image/read_image.h"
 #include "libskel/jointnet/net_joints.h"
 #include "trainer/jointed_drawing.h"
@@ -94,8 +95,9 @@ ExitCode runBoneLengths(const BoneLengthsOptions& options) {
   for (std::size_t j = 0; j < count; ++j) {
     net.bones.push_back({lengths[j].mean(), lengths[j].deviation(), ratios[j].mean(), ratios[j].deviation()});
     if (lengths[j].known())
-      std::printf("%-16s log length %.2f ± %.2f  to the bone before %.2f ± %.2f\n", joints.names[j].c_str(),
-                  lengths[j].mean(), lengths[j].deviation(), ratios[j].mean(), ratios[j].deviation());
+      std::printf("%-16s log length %.2f ± %.2f  to the bone before %.2f ± %.2f\n",
+                  printable(joints.names[j]).c_str(), lengths[j].mean(), lengths[j].deviation(),
+                  ratios[j].mean(), ratios[j].deviation());
   }
   if (options.output.empty())
     replaceFile(options.net, formatJointNet(net));

@@ -11,6 +11,7 @@
 #include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/core/progress.h"
+#include "libskel/core/text.h"
 #include "libskel/labels/annotated_image.h"
 #include "trainer/cross_validation.h"
 #include "trainer/evaluation.h"
@@ -251,7 +252,7 @@ ExitCode runTrain(const TrainOptions& given) {
   writeFile(options.output, formatWeights(weights));
   if (!options.json.empty()) writeFile(options.json, formatEvaluation(evaluation));
   if (!options.report.empty()) writeReport(options.report, result, evaluation);
-  std::printf("wrote %s (%d epochs)\n", options.output.c_str(), result.epochs);
+  std::printf("wrote %s (%d epochs)\n", printable(options.output).c_str(), result.epochs);
   return ExitCode::kDone;
 }
 

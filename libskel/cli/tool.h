@@ -19,6 +19,7 @@
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 #include "libskel/core/temporary_file.h"
+#include "libskel/core/text.h"
 
 namespace skel {
 
@@ -68,7 +69,7 @@ inline int runTool(CLI::App& app, int argc, char** argv, const std::function<Exi
                        "Print the version, the hashes of the nets, and exit");
   requireNumberChecks(app);
   const auto say = [&](const std::exception& error, ExitCode code) {
-    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.what());
+    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), printable(error.what()).c_str());
     return static_cast<int>(code);
   };
   const auto finish = [&](int code) {

@@ -50,6 +50,31 @@ TEST_CASE("listings show a clip's or a motion's name on one line, whatever it ho
   CHECK(motions.find('\x1b') == motions.npos);
 }
 
+TEST_CASE("a file's name commands no terminal, whatever a tool says of it") {
+  const TempDir dir;
+  const std::string esc = "\x1b[31m";
+  writeFigure(dir.file("film/1.png"));
+  writeFigure(dir.file("film/2.png"), 8);
+  fs::copy_file(SKEL_SOURCE_DIR "/datasets/elk/elk.obj", dir.file("elk.obj"));
+  fs::copy_file(SKEL_SOURCE_DIR "/datasets/elk/elk.rig.json", dir.file(esc + ".rig.json"));
+  const std::string film = " --fps 4 --duration 0.5 --size 64x64 ";
+  for (const std::string& command :
+       {"skel-animate bind elk.obj --skeleton '" + esc + ".rig.json' -o '" + esc + ".glb'",
+        "skel-animate weights elk.obj --skeleton '" + esc + ".rig.json' -o '" + esc + ".weights.json'",
+        "skel-animate list '" + esc + ".glb'", "skel-animate info '" + esc + ".glb'",
+        "skel-animate retarget idle --to '" + esc + ".glb' -o 'to " + esc + ".glb'",
+        "skel-animate render '" + esc + ".glb' --clip idle" + film + "-o '" + esc + ".gif'",
+        "skel-style keyframes film -o '" + esc + " keys'",
+        "skel-style keypoints film -o '" + esc + ".motion.json'"}) {
+    CAPTURE(command);
+    const ToolRun run = runIn(dir, command);
+    CHECK(run.exit_code == 0);
+    CHECK((run.out + run.err).find("\\x1b[31m") != std::string::npos);
+    CHECK((run.out + run.err).find('\x1b') == std::string::npos);
+  }
+  refused(dir, "skel-animate list 'a.glb' '" + esc + "'", 1, "\\x1b[31m");
+}
+
 TEST_CASE("a motion whose file's name is not UTF-8 is put onto a model, under a name that a file can hold") {
   const TempDir dir;
   writeFigure(dir.file("cat.png"));
