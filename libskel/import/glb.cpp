@@ -312,6 +312,8 @@ TriangleMesh readMesh(const GlbContainer& glb, const JsonValue& primitive, const
       positions.values.data(), static_cast<Eigen::Index>(positions.count), 3);
   if (mesh.vertices.size() > 0 && !(mesh.vertices.cwiseAbs().maxCoeff() <= float(kFarthest)))
     primitive.at("attributes").at("POSITION").fail("has a vertex farther than 1e6 from the origin");
+  if ((mesh.vertices.rowwise() - mesh.vertices.row(0)).isZero(0))
+    primitive.at("attributes").at("POSITION").fail("has all vertices at one place");
   readTriangles(glb, primitive, mesh);
   readTexture(glb, primitive, file, mesh);
   return mesh;

@@ -130,6 +130,14 @@ TEST_CASE("GLB files that mean something else are refused with their place") {
       {[](json& d, std::string&) { d["skins"][0]["joints"][3] = 1; },
        "skins[0].joints[3]: node 1 stands here for the second time"},
       {[](json& d, std::string&) { d["skins"][0]["joints"].erase(3); }, "hangs on a node that is no joint"},
+      {[](json& d, std::string& bytes) {
+         const json& positions =
+             d["accessors"][d["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<int>()];
+         const json& view = d["bufferViews"][positions["bufferView"].get<int>()];
+         bytes.replace(view.value("byteOffset", 0), view["byteLength"].get<std::size_t>(),
+                       view["byteLength"].get<std::size_t>(), '\0');
+       },
+       ".POSITION: has all vertices at one place"},
       {[](json& d, std::string&) { d["meshes"][0]["primitives"].push_back(d["meshes"][0]["primitives"][0]); },
        "meshes[0].primitives: has 2 elements, one is read"},
       {[](json& d, std::string&) { d["meshes"][0]["primitives"][0]["mode"] = 1; },
