@@ -241,16 +241,15 @@ DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, con
     } else {
       rigFigure(options, rig, job, std::stoi(options.figure), result.figures);
     }
-  } catch (const UsageError& wrong) {  // for this drawing, if not for others
-    result.code = wrong.exitCode();
-    result.problem = wrong.what();
-    result.error = job.source + ": " + result.problem;
   } catch (...) {
     const Error error = caughtError(job.source);
+    const std::string start = job.source + ": ";
     result.code = error.exitCode();
     result.error = result.problem = error.what();
-    if (result.error.starts_with(job.source + ": "))
-      result.problem = result.error.substr(job.source.size() + 2);
+    if (result.error.starts_with(start))
+      result.problem = result.error.substr(start.size());
+    else if (result.code == ExitCode::kUsage)  // for this drawing, if not for others
+      result.error = start + result.problem;
   }
   return result;
 }

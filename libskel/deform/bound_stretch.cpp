@@ -1,7 +1,6 @@
 #include "libskel/deform/bound_stretch.h"
 
 #include <algorithm>
-#include <array>
 
 #include "libskel/animation/sample_pose.h"
 #include "libskel/deform/skin_vertices.h"

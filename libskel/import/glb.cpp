@@ -310,7 +310,7 @@ TriangleMesh readMesh(const GlbContainer& glb, const JsonValue& primitive, const
   const GlbContainer::Numbers positions = glb.numbers(primitive.at("attributes").at("POSITION"), 3);
   mesh.vertices = Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>>(
       positions.values.data(), static_cast<Eigen::Index>(positions.count), 3);
-  if (mesh.vertices.size() > 0 && !(mesh.vertices.cwiseAbs().maxCoeff() <= float(kFarthest)))
+  if (!(mesh.vertices.cwiseAbs().maxCoeff() <= float(kFarthest)))
     primitive.at("attributes").at("POSITION").fail("has a vertex farther than 1e6 from the origin");
   if ((mesh.vertices.rowwise() - mesh.vertices.row(0)).isZero(0))
     primitive.at("attributes").at("POSITION").fail("has all vertices at one place");

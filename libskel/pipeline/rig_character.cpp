@@ -230,7 +230,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   });
   if (!drawing.found()) return drawing;
   const Silhouette& silhouette = drawing.silhouette;
-  if (needsPaper(drawing.image, silhouette.mask)) drawing.image = laidOnPaper(drawing.image);
+  if (needsPaper(drawing.image, silhouette.mask)) drawing.image = laidOnPaper(std::move(drawing.image));
 
   drawing.candidates = timed("candidates", [&] { return extractCandidates(silhouette, options.candidates); });
   drawing.features = timed("features", [&] { return features(drawing.candidates); });

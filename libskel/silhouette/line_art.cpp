@@ -1,10 +1,11 @@
 #include "libskel/silhouette/line_art.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "libskel/silhouette/fill_holes.h"
 
 namespace skel {
 namespace {
@@ -32,28 +33,26 @@ bool mayBeLineArt(const Plane8& opaque) {
                       const_cast<std::uint8_t*>(opaque.data()));
   const cv::Rect box = cv::boundingRect(drawn);
   if (box.empty()) return false;
-  cv::Mat framed, wide;
-  cv::copyMakeBorder(drawn(box), framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-  const int area = cv::countNonZero(framed);
+  const int area = cv::countNonZero(drawn);
+  cv::Mat wide;
   const int half = std::max(1, cvRound(kLineWidth / 2 * std::max(box.width, box.height)));
-  cv::erode(framed, wide, cv::Mat::ones(2 * half + 1, 2 * half + 1, CV_8U), cv::Point(-1, -1), 1,
+  cv::erode(drawn(box).clone(), wide, cv::Mat::ones(2 * half + 1, 2 * half + 1, CV_8U), cv::Point(-1, -1), 1,
             cv::BORDER_CONSTANT, cv::Scalar(0));
   if (cv::countNonZero(wide) < kWider * area) return true;
-  constexpr std::uint8_t kOutside = 128;
-  cv::floodFill(framed, cv::Point(0, 0), cv::Scalar(kOutside), nullptr, {}, {}, 8);
-  return static_cast<int>(framed.total()) - cv::countNonZero(framed == kOutside) >= kEnclosing * area;
+  Plane8 filled = opaque;
+  fillHoles(filled);
+  return static_cast<double>((filled != 0).count()) >= kEnclosing * area;
 }
 
-Image laidOnPaper(const Image& image) {
+Image laidOnPaper(Image image) {
   const int paper = isLight(image) ? 40 : 255;
-  Image out = image;
-  for (Eigen::Index i = 0; i < out.rgba.rows(); ++i) {
-    auto p = out.rgba.row(i);
+  for (Eigen::Index i = 0; i < image.rgba.rows(); ++i) {
+    auto p = image.rgba.row(i);
     for (int c = 0; c < 3; ++c)
       p[c] = static_cast<std::uint8_t>((p[c] * p[3] + paper * (255 - p[3]) + 127) / 255);
     p[3] = 255;
   }
-  return out;
+  return image;
 }
 
 bool needsPaper(const Image& image, const Plane8& mask) {

@@ -10,7 +10,7 @@ namespace skel {
 bool mayBeLineArt(const Plane8& opaque);
 
 // Laid on white, light lines on dark grey.
-Image laidOnPaper(const Image& image);
+Image laidOnPaper(Image image);
 
 // Whether so much of the figure cannot be seen, only its lines, that there must be paper under it. `image`:
 // of the mask's size.

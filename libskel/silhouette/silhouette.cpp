@@ -7,6 +7,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/sha256.h"
+#include "libskel/silhouette/fill_holes.h"
 #include "libskel/silhouette/line_art.h"
 #include "libskel/silhouette/outline.h"
 #include "libskel/silhouette/paper.h"
@@ -33,18 +34,6 @@ constexpr int kMinLongSide = 8;  // of a figure, px
 // A spot on a large sheet is no figure either.
 int leastLongSide(const Image& image) {
   return std::max(kMinLongSide, std::max(image.width, image.height) / 16);
-}
-
-void fillHoles(Plane8& mask) {
-  cv::Mat framed;
-  cv::copyMakeBorder(viewOf(mask), framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-  constexpr std::uint8_t kOutside = 128;
-  // 8-connected, as the background of a 4-connected figure is.
-  cv::floodFill(framed, cv::Point(0, 0), cv::Scalar(kOutside), nullptr, {}, {}, 8);
-  for (Eigen::Index y = 0; y < mask.rows(); ++y) {
-    const std::uint8_t* row = framed.ptr(static_cast<int>(y) + 1) + 1;
-    for (Eigen::Index x = 0; x < mask.cols(); ++x) mask(y, x) = row[x] == kOutside ? 0 : 255;
-  }
 }
 
 // Names the sides of the picture along which a good part of the figure ends.
@@ -148,16 +137,20 @@ bool muchIsSoft(const Image& image, const Plane8& mask) {
   return double(cv::countNonZero(inner)) > kMuch * double((mask != 0).count());
 }
 
-// Of an opaque picture.
-Silhouette silhouetteOnPaper(const Image& image, const SilhouetteOptions& options) {
-  const Segmentation segmentation = segment(image, options.page_net.get());
-  if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
-  // What the grain of paper left beside the figure is small and lies near it.
+// What the grain of paper left beside the figure is small and lies near it.
+PieceOptions piecesOnPaper() {
   PieceOptions pieces;
   pieces.widest_gap = 0.06;
   pieces.smallest_share = 0.01;
   pieces.limbs_first = true;
-  Silhouette out = finish(segmentation.foreground, options, leastLongSide(image), pieces);
+  return pieces;
+}
+
+// Of an opaque picture.
+Silhouette silhouetteOnPaper(const Image& image, const SilhouetteOptions& options) {
+  const Segmentation segmentation = segment(image, options.page_net.get());
+  if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
+  Silhouette out = finish(segmentation.foreground, options, leastLongSide(image), piecesOnPaper());
   constexpr double kMuch = 0.45, kCompact = 0.1;  // of the picture; open share
   out.is_sheet =
       out.found() &&
@@ -177,9 +170,10 @@ Silhouette silhouetteOfLines(const Image& image, const SilhouetteOptions& option
   wide.rgba.setZero();
   for (int y = 0; y < image.height; ++y)
     std::copy_n(image.pixel(0, y), 4 * image.width, wide.pixel(margin, margin + y));
-  const Silhouette on_paper = silhouetteOnPaper(laidOnPaper(wide), options);
-  if (!on_paper.found()) return on_paper;
-  return finish(on_paper.mask.block(margin, margin, image.height, image.width), options, kMinLongSide);
+  const Segmentation segmentation = segment(laidOnPaper(std::move(wide)), options.page_net.get());
+  if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
+  return finish(segmentation.foreground.block(margin, margin, image.height, image.width), options,
+                leastLongSide(image), piecesOnPaper());
 }
 
 }  // namespace
