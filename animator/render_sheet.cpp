@@ -37,8 +37,7 @@ struct Sheets {
     if (!in_folder && options.files.size() > 1)
       throw UsageError(path + " must be a folder (a name that ends with /): there are several drawings");
     if (!in_folder) noteNamedOutput(atlasOf(path));
-    const fs::path folder = fs::path(path).parent_path();
-    ensureWritableFolder(folder.empty() ? "." : folder.string());
+    ensureWritableFolderOf(path);
   }
 
   static std::string atlasOf(const std::string& sheet) {

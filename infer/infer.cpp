@@ -211,6 +211,8 @@ ExitCode runInfer(const InferOptions& asked) {
     noteUnusedWeights(options);
   }
   ensureWritableFolder(options.out_dir);
+  if (!options.trace_dir.empty()) ensureWritableFolder(options.trace_dir);
+  if (!options.report_file.empty()) ensureWritableFolderOf(options.report_file);
   std::vector<DrawingResult> drawings(jobs.size());
   {
     ProgressBar progress("rigging", jobs.size(), !options.quiet);

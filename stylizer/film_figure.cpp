@@ -39,11 +39,6 @@ FilmInfo lookAtFilm(const FilmSource& source, Image& background) {
   for (; reader->next(frame); ++info.frames) {
     info.width = frame.image.width;
     info.height = frame.image.height;
-    if (long(info.width) * info.height > kMostFramePixels)
-      throw InputError(source.path, "has frames of " + std::to_string(info.width) + "x" +
-                                        std::to_string(info.height) + " px; " +
-                                        std::to_string(kMostFramePixels / 1'000'000) +
-                                        " million px are the most: scale it down");
     if (by_alpha && !transparent && hasTransparency(frame.image)) {
       transparent = true;
       info.method = FigureMethod::kAlpha;

@@ -21,8 +21,6 @@ enum class FigureMethod {
   kSilhouette,  // stage 2 of the pipeline, for each frame
 };
 
-inline constexpr long kMostFramePixels = 36'000'000;  // 8192x4320
-
 struct FilmInfo {
   double frame_rate = 0;  // 1/s
   int frames = 0;

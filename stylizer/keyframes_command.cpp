@@ -35,6 +35,9 @@ double meanArea(const std::vector<FrameOutline>& outlines, const std::vector<int
 
 ExitCode runKeyframes(const KeyframesOptions& options) {
   namespace fs = std::filesystem;
+  std::error_code unknown;
+  if (fs::equivalent(options.film.path, options.output, unknown))
+    throw UsageError(options.output + " holds the frames; name another folder with -o");
   ensureWritableFolder(options.output);
   checkFrames(options.output, "key-");
   for (const char* name : {"keyframes.json", "distances.json", "distances.png"})

@@ -20,6 +20,7 @@ NamedMotion motionOf(const std::string& path, const std::string& name, const Mak
     return {file, readMotionFile(file, plan)};
   }
   noteOutput(file);
+  ensureWritableFolderOf(file);
   KeypointOptions find;
   find.film = options.film;
   find.film.path = path;

@@ -214,6 +214,11 @@ void ensureWritableFolder(const std::string& dir) {
   if (::access(dir.c_str(), W_OK | X_OK) != 0) throw OutputError(dir, "cannot be written to: " + reason());
 }
 
+void ensureWritableFolderOf(const std::string& file) {
+  const fs::path folder = fs::path(file).parent_path();
+  ensureWritableFolder(folder.empty() ? "." : folder.string());
+}
+
 FolderLock::FolderLock(const std::string& dir)
     : fd_(::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   int failed = fd_ < 0 ? -1 : 0;

@@ -33,6 +33,8 @@ std::string pathSeenFrom(const std::string& other, const std::string& file);
 
 // Throws OutputError unless `dir` is, or can be made, a folder that can be written to.
 void ensureWritableFolder(const std::string& dir);
+// The same of the folder that `file` will stand in.
+void ensureWritableFolderOf(const std::string& file);
 
 // While it lives, others that want it wait, in this process and in others: for folders in which several files
 // belong together. The folder must be there. Throws OutputError.

@@ -29,7 +29,7 @@ class Bytes {
   bool big_endian_;
 };
 
-// The value of an integer tag in the first directory of a TIFF structure, 0 where there is none.
+// The first value of an integer tag in the first directory of a TIFF structure, 0 where there is none.
 std::uint32_t tiffTag(std::string_view tiff, std::uint32_t tag) {
   constexpr std::uint32_t kShort = 3, kLong = 4;
   const Bytes bytes(tiff, tiff.starts_with("MM"));
@@ -40,7 +40,10 @@ std::uint32_t tiffTag(std::string_view tiff, std::uint32_t tag) {
     if (entry + 12 > tiff.size()) break;
     if (bytes.integer(entry, 2) != tag) continue;
     const std::uint32_t type = bytes.integer(entry + 2, 2);
-    return type == kShort ? bytes.integer(entry + 8, 2) : type == kLong ? bytes.integer(entry + 8, 4) : 0;
+    // Of several values that do not fit here, the first one lies elsewhere.
+    const int size = type == kShort ? 2 : type == kLong ? 4 : 0;
+    const bool fits = size * std::uint64_t{bytes.integer(entry + 4, 4)} <= 4;
+    return bytes.integer(fits ? entry + 8 : bytes.integer(entry + 8, 4), size);
   }
   return 0;
 }
@@ -100,6 +103,8 @@ HeaderSize headerSize(std::string_view bytes, Format format) {
       return {};
   }
 }
+
+int tiffBitsPerSample(std::string_view tiff) { return static_cast<int>(tiffTag(tiff, 0x0102)); }
 
 int tiffOrientation(std::string_view tiff) {
   const std::uint32_t orientation = tiffTag(tiff, 0x0112);

@@ -24,6 +24,8 @@ struct HeaderSize {
 };
 HeaderSize headerSize(std::string_view bytes, Format format);
 
+// 0 where it states none.
+int tiffBitsPerSample(std::string_view tiff);
 // The Orientation tag (1…8) of a TIFF structure, which is what EXIF data is; 1 where there is none.
 int tiffOrientation(std::string_view tiff);
 // The same for the EXIF chunk of a WebP file.

@@ -30,6 +30,8 @@ SkelDecode loadDecoder() {
 Image decodeByPlugin(std::string_view bytes, Format format, const std::string& file) {
   const HeaderSize size = headerSize(bytes, format);
   checkSize(size.width, size.height, file);
+  if (format == Format::kTiff && tiffBitsPerSample(bytes) > 16)
+    throw InputError(file, "has pixels of more than 16 bits a channel; export it with 8 or 16");
 
   // OpenCV reads still ones alone.
   if (const auto frame = format == Format::kWebp ? firstWebpFrame(bytes) : std::nullopt) {

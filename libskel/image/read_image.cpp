@@ -23,7 +23,7 @@ Image decodeImage(std::string_view bytes, const std::string& file) {
       return decodeByPlugin(bytes, format, file);
     case Format::kHeic:
     case Format::kAvif:
-      throw InputError(file, std::string("is a ") + (format == Format::kHeic ? "HEIC" : "AVIF") +
+      throw InputError(file, std::string("is ") + (format == Format::kHeic ? "a HEIC" : "an AVIF") +
                                  " picture; convert it by `heif-convert " + shellWord(file) + " out.png`");
     case Format::kUnknown:
       break;

@@ -158,7 +158,7 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
 }
 
 bool hasEditedJoint(const std::string& path) {
-  if (!std::filesystem::exists(path)) return false;
+  if (std::error_code unknown; !std::filesystem::exists(path, unknown)) return false;
   const LookAtOutputs look;
   const JsonDocument document = JsonDocument::readFile(path);
   const auto joints = document.root().find("joints");

@@ -1,6 +1,7 @@
 // Inside the room: one writer a format, and the readers.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,11 @@
 #include "libskel/video/video_writer.h"
 
 namespace skel {
+
+// Throws InputError where a frame has more than kMostFramePixels.
+void checkFrameSize(std::int64_t width, std::int64_t height, const std::string& file);
+// By the least whole number that leaves no side longer than kLongestFrameSide_px.
+Image shrunk(Image frame);
 
 std::unique_ptr<VideoWriter> openFrameFolder(const std::string& dir, const VideoOptions& options);
 std::unique_ptr<VideoReader> readFrameFolder(const std::string& dir, double frame_rate);

@@ -61,8 +61,8 @@ class FilmReader : public VideoReader {
     if (!decoder_ || !packet_ || !frame_) throw std::bad_alloc();
     const AVStream& stream = *file->streams[stream_];
     require(avcodec_parameters_to_context(decoder_.get(), stream.codecpar));
-    if (decoder_->width > 0) checkSize(decoder_->width, decoder_->height, path_);
-    decoder_->max_pixels = kMaxPixels;
+    if (decoder_->width > 0) checkFrameSize(decoder_->width, decoder_->height, path_);
+    decoder_->max_pixels = kMostFramePixels;
     require(avcodec_open2(decoder_.get(), codec, nullptr));
     const double rate = av_q2d(stream.avg_frame_rate.num > 0 ? stream.avg_frame_rate : stream.r_frame_rate);
     frame_rate_ = rate > 0 && rate < 1000 ? rate : kUsualFrameRate;
@@ -75,7 +75,7 @@ class FilmReader : public VideoReader {
     }
     if (count_ == 0) {
       width_ = frame_->width, height_ = frame_->height;
-      checkSize(width_, height_, path_);
+      checkFrameSize(width_, height_, path_);
     }
     if (frame_->width != width_ || frame_->height != height_)
       throw InputError(path_, "changes the size of its frames at frame " + std::to_string(count_ + 1));
@@ -88,6 +88,7 @@ class FilmReader : public VideoReader {
     std::uint8_t* rows[] = {out.image.rgba.data()};
     const int row_bytes[] = {4 * width_};
     sws_scale(scaler_.get(), frame_->data, frame_->linesize, 0, height_, rows, row_bytes);
+    out.image = shrunk(std::move(out.image));
     out.file.clear();
     const AVRational unit = file_->streams[stream_]->time_base;
     const std::int64_t stamp = frame_->best_effort_timestamp;

@@ -47,7 +47,10 @@ class FolderReader : public VideoReader {
     if (next_ == files_.size()) return false;
     frame.file = files_[next_];
     frame.image = readImage(frame.file);
-    if (next_ == 0) width_ = frame.image.width, height_ = frame.image.height;
+    if (next_ == 0) {
+      width_ = frame.image.width, height_ = frame.image.height;
+      checkFrameSize(width_, height_, frame.file);
+    }
     if (frame.image.width != width_ || frame.image.height != height_)
       throw InputError(frame.file, "has " + std::to_string(frame.image.width) + "x" +
                                        std::to_string(frame.image.height) + " px, the first frame " +

@@ -17,7 +17,7 @@ class WebpReader : public VideoReader {
   explicit WebpReader(const std::string& path) : path_(path), bytes_(readFile(path)) {
     if (formatOf(bytes_) != Format::kWebp) throw InputError(path_, "cannot be read as WebP");
     const HeaderSize size = headerSize(bytes_, Format::kWebp);
-    checkSize(size.width, size.height, path_);
+    checkFrameSize(size.width, size.height, path_);
     WebPAnimDecoderOptions settings;
     if (!WebPAnimDecoderOptionsInit(&settings))
       throw UnavailableError(path_ +
@@ -48,6 +48,7 @@ class WebpReader : public VideoReader {
       throw InputError(path_, "cannot be read from frame " + std::to_string(count_ + 1) + " on");
     out.image = Image(static_cast<int>(info_.canvas_width), static_cast<int>(info_.canvas_height));
     std::copy_n(pixels, out.image.rgba.size(), out.image.rgba.data());
+    out.image = shrunk(std::move(out.image));
     out.file.clear();
     out.time_s = start_s_;
     start_s_ = std::max(end_ms / 1000., start_s_ + 1e-4);

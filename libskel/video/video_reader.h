@@ -14,6 +14,9 @@ struct VideoFrame {
   std::string file;   // of a folder of frames: the picture's path; else empty
 };
 
+inline constexpr long kMostFramePixels = 36'000'000;  // 8192x4320
+inline constexpr int kLongestFrameSide_px = 1920;
+
 class VideoReader {
  public:
   virtual ~VideoReader() = default;
@@ -29,8 +32,9 @@ class VideoReader {
 
 // A folder of pictures, in the order of their names with numbers counted as numbers, shown at
 // `folder_frame_rate`, 1/s; or a film: an animated .webp, or whatever format FFmpeg reads (MP4, GIF, WebM
-// ...), transparency kept. Throws InputError: not there, no film, no pictures; UnavailableError: a film in a
-// build without the library that reads it.
+// ...), transparency kept, its frames shrunk where they are longer than kLongestFrameSide_px (pictures of a
+// folder are not). Throws InputError: not there, no film, no pictures, frames of more than kMostFramePixels;
+// UnavailableError: a film in a build without the library that reads it.
 std::unique_ptr<VideoReader> readVideo(const std::string& path, double folder_frame_rate = 12);
 
 }  // namespace skel

@@ -57,8 +57,7 @@ std::unique_ptr<VideoWriter> openVideo(const std::string& path, const VideoOptio
                      " frames a second; 0.1 to 240 can be written");
   const std::string ending = endingOf(path);
   if (ending.empty()) return openFrameFolder(path, options);
-  const fs::path folder = fs::path(path).parent_path();
-  ensureWritableFolder(folder.empty() ? "." : folder.string());
+  ensureWritableFolderOf(path);
   if (ending == ".mp4") {
 #ifdef SKEL_VIDEO_MP4
     return openMp4(path, options);

@@ -360,7 +360,7 @@ std::string makeBmp() {
          std::string("\0\0\xff\0\xff\0\0\0", 8);
 }
 
-std::string makeTiff() {
+std::string makeTiff(std::uint32_t bits = 8) {
   const auto entry = [](int tag, int type, std::uint32_t value) {
     return little(static_cast<std::uint32_t>(tag), 2) + little(static_cast<std::uint32_t>(type), 2) +
            little(1, 4) + little(value, 4);
@@ -369,7 +369,7 @@ std::string makeTiff() {
   return "II*" + std::string(1, '\0') + little(8, 4) + little(9, 2) + entry(256, 3, 2) + entry(257, 3, 1) +
          little(258, 2) + little(3, 2) + little(3, 4) + little(bits_at, 4) + entry(259, 3, 1) +
          entry(262, 3, 2) + entry(273, 4, bits_at + 6) + entry(277, 3, 3) + entry(278, 3, 1) +
-         entry(279, 4, 6) + little(0, 4) + little(8, 2) + little(8, 2) + little(8, 2) +
+         entry(279, 4, 6) + little(0, 4) + little(bits, 2) + little(bits, 2) + little(bits, 2) +
          std::string("\xff\0\0\0\xff\0", 6);
 }
 
@@ -431,6 +431,10 @@ TEST_CASE("an animated WebP as a drawing gives its first frame, on its canvas") 
   outside[bytes.find("ANMF") + 8] = 2;
   CHECK_THAT(complaint(outside, "x"),
              Contains("x: is a broken picture (its first frame lies outside of it)"));
+}
+
+TEST_CASE("a TIFF of more than 16 bits a channel is refused before its pixels are in memory") {
+  CHECK_THAT(complaint(makeTiff(32), "x"), Contains("x: has pixels of more than 16 bits a channel"));
 }
 
 TEST_CASE("broken BMP, TIFF, GIF and WebP are refused") {

@@ -165,17 +165,19 @@ TEST_CASE("weights that decide nothing are said to") {
 }
 
 TEST_CASE("a folder that cannot be written to is an output error") {
+  const TempDir dir;
+  writeFile(dir.file("a.png"), readFile(kDrawing));
+  writeFile(dir.file("taken"), "x");
+  for (const char* option : {"--trace taken/below", "--report taken/below/r.html"}) {
+    expect(infer(dir, std::string("a.png -o out ") + option), 4, "taken/below: cannot be made");
+    CHECK(fs::is_empty(dir.file("out")));
+  }
   if (::geteuid() == 0) {
     // Root may write anywhere; a file in the folder's place stops it, too.
-    const TempDir dir;
-    writeFile(dir.file("a.png"), readFile(kDrawing));
-    writeFile(dir.file("taken"), "x");
     expect(infer(dir, "a.png -o taken"), 4, "taken: is not a folder; name another with -o");
     expect(infer(dir, "a.png -o taken/below"), 4, "taken/below: cannot be made");
     return;
   }
-  const TempDir dir;
-  writeFile(dir.file("a.png"), readFile(kDrawing));
   fs::create_directory(dir.file("locked"));
   ::chmod(dir.file("locked").c_str(), 0500);
   expect(infer(dir, "a.png -o locked"), 4, "locked: cannot be written to");

@@ -228,6 +228,7 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
   } cases[] = {
       {"", 1, "subcommand"},
       {"keyframes " + dir.file("none.mp4"), 2, "none.mp4: does not exist"},
+      {"keyframes " + dir.file("empty") + " -o " + dir.file("empty"), 1, "empty holds the frames"},
       {"keypoints " + dir.file("empty"), 2, "holds no pictures"},
       {"keypoints " + dir.file("bad.motion.json"), 2, "cannot be read as a film"},
       {"inspect " + dir.file("bad.motion.json"), 2, "bad.motion.json: version: is 9"},

@@ -116,6 +116,31 @@ TEST_CASE("a film whose header claims too many pixels, or 16x65535, is refused b
   }
 }
 
+TEST_CASE("a film of large frames is read smaller") {
+  const TempDir dir;
+  for (const char* name : {
+#ifdef SKEL_VIDEO_MP4
+           "a.mp4",
+#endif
+#ifdef SKEL_VIDEO_WEBP
+           "a.webp",
+#endif
+       }) {
+    CAPTURE(name);
+    const auto video = openVideo(dir.file(name), {.width = 2400, .height = 1200, .frame_rate = 10});
+    Image image = blankImage(2400, 1200);
+    drawDisc(image, {1200, 600}, 300, {10, 90, 60});
+    video->add(image);
+    video->finish();
+    VideoFrame frame;
+    REQUIRE(readVideo(dir.file(name))->next(frame));
+    CHECK(frame.image.width == 1200);
+    CHECK(frame.image.height == 600);
+    CHECK(int(frame.image.pixel(600, 300)[1]) - int(frame.image.pixel(600, 300)[0]) > 60);
+    CHECK(int(frame.image.pixel(600, 130)[0]) > 240);
+  }
+}
+
 TEST_CASE("what is no film is refused by name") {
   const TempDir dir;
   writeFile(dir.file("text.mp4"), "no film at all");
