@@ -42,7 +42,7 @@ struct SkinOptions {
 };
 
 // Vertices times joints: each pair has a few numbers while weights are computed.
-inline constexpr std::int64_t kMostVertexJoints = 64'000'000;
+inline constexpr std::int64_t kMostVertexJoints = 32'000'000;
 
 // A joint moves the segment from itself to its tail if it has one; else to its child, a leaf a short tip
 // segment beyond it, and the head also the upper half of the segment that leads to it. Any mesh will do:
