@@ -385,7 +385,7 @@ TEST_CASE("more vertices times joints than fit into memory are refused, by the f
   for (int j = 0; j < 4000; ++j)
     chain.joints.push_back({"j" + std::to_string(j), j - 1, {}, {0, j / 4e3, 0}});
   TriangleMesh mesh;
-  mesh.vertices = Eigen::MatrixX3f::Random(16'001, 3);
+  mesh.vertices = Eigen::MatrixX3f::Random(8'001, 3);
   mesh.triangles.resize(1, 3);
   mesh.triangles << 0, 1, 2;
   SkinOptions options;
@@ -393,7 +393,7 @@ TEST_CASE("more vertices times joints than fit into memory are refused, by the f
   for (const SkinMethod method : skinMethods())
     CHECK_THROWS_WITH(
         computeSkinWeights(mesh, chain, method, options),
-        "big.obj: has 16001 vertices for 4000 joints; at most 16000 vertices can be bound to so "
+        "big.obj: has 8001 vertices for 4000 joints; at most 8000 vertices can be bound to so "
         "many: take a coarser mesh or fewer joints");
 }
 
