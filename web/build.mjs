@@ -1,7 +1,7 @@
-// Puts the page together: node build.mjs WASM_DIR OUT. OUT/skel.html is the whole page in one file, OUT/site the same as
-// files to be hosted. WASM_DIR holds skel.js and skel.wasm.
+// Puts the page and the npm package together: node build.mjs WASM_DIR OUT. OUT/skel.html is the whole page in one file,
+// OUT/site the same as files to be hosted, OUT/npm the package. WASM_DIR holds skel.js and skel.wasm.
 import { createHash } from 'node:crypto';
-import { cp, mkdir, readFile, writeFile } from 'node:fs/promises';
+import { cp, mkdir, readFile, rm, writeFile } from 'node:fs/promises';
 import { gzipSync } from 'node:zlib';
 import { build } from 'esbuild';
 import { zipSync } from 'fflate';
@@ -13,12 +13,12 @@ const site = `${out}/site`;
 const weights = { page: 'page_net', parts: 'part_net', biped: 'joint_net', quadruped: 'quadruped_joint_net' };
 const samples = { gingerbread: 'characters', box_robot: 'characters', walking_fox: 'animals' };
 
-async function bundle(entry, plugins = []) {
-  const { outputFiles } = await build({
-    entryPoints: [here + entry], bundle: true, minify: true, write: false, format: 'iife', target: 'es2022',
-    legalComments: 'none', alias: { 'skel-core': `${wasmDir}/skel.js` }, external: ['fs', 'path', 'crypto'], plugins,
-    platform: 'browser',
-  });
+const common = {
+  bundle: true, target: 'es2022', legalComments: 'none', alias: { 'skel-core': `${wasmDir}/skel.js` }, external: ['fs', 'path', 'crypto'],
+};
+
+async function bundle(entry) {
+  const { outputFiles } = await build({ ...common, entryPoints: [here + entry], minify: true, write: false, format: 'iife', platform: 'browser' });
   return outputFiles[0].text;
 }
 
@@ -65,6 +65,24 @@ await Promise.all([
   writeFile(`${site}/worker.js`, worker), writeFile(`${site}/skel.wasm`, wasm), writeFile(`${site}/nets.zip`, netsZip), writeFile(`${site}/sw.js`, serviceWorker),
   cp(`${here}/src/manifest.webmanifest`, `${site}/manifest.webmanifest`), cp(`${here}/src/icon.svg`, `${site}/icon.svg`),
   ...Object.entries(pictures).map(([name, bytes]) => writeFile(`${site}/samples/${name}.png`, bytes)),
+]);
+
+// The package for npm: modules that share what they have in common, so that a SkelError is one wherever it is imported from.
+const npm = `${out}/npm`;
+await rm(npm, { recursive: true, force: true });
+await mkdir(`${npm}/nets`, { recursive: true });
+const [cmake, described] = await Promise.all([readFile(`${here}/../CMakeLists.txt`, 'utf8'), readFile(`${here}/npm/package.json`, 'utf8')]);
+await Promise.all([
+  build({
+    ...common, entryPoints: ['browser', 'worker', 'worker-thread', 'element'].map((name) => `${here}npm/${name}.js`), outdir: npm, splitting: true,
+    format: 'esm', platform: 'browser', external: [...common.external, 'three', 'three/*'],
+  }),
+  build({ ...common, entryPoints: [`${here}npm/node.js`], outdir: npm, format: 'esm', platform: 'node' }),
+  writeFile(`${npm}/package.json`, JSON.stringify({ ...JSON.parse(described), version: cmake.match(/project\(skel VERSION ([\d.]+)/)[1] }, null, 2) + '\n'),
+  writeFile(`${npm}/LICENSE`, licence + licences.map(({ name, url, licence: terms }) => `\n${name} (${url}): ${terms}`).join('') + '\n'),
+  cp(`${wasmDir}/skel.js`, `${npm}/skel-core.cjs`), cp(`${wasmDir}/skel.wasm`, `${npm}/skel.wasm`),
+  ...['README.md', 'index.d.ts', 'worker.d.ts', 'element.d.ts'].map((file) => cp(`${here}npm/${file}`, `${npm}/${file}`)),
+  ...Object.values(weights).map((file) => cp(`${here}/../weights/${file}.bin`, `${npm}/nets/${file}.bin`)),
 ]);
 
 const kB = (bytes) => `${Math.round(bytes / 1000)} kB`;

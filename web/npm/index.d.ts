@@ -1,0 +1,78 @@
+/** Something is wrong with what was given; the message is the sentence of skel's tools. */
+export class SkelError extends Error {
+  name: 'SkelError';
+}
+
+/** A picture that is decoded already: width × height pixels, row by row from the top, 4 bytes each (not premultiplied). */
+export interface Pixels {
+  width: number;
+  height: number;
+  rgba: Uint8Array;
+}
+
+/** A picture's file: PNG in node; whatever the browser shows in a browser. */
+export type Drawing = Uint8Array | ArrayBuffer | Blob | Response | Pixels;
+
+export type Plan = 'biped' | 'quadruped';
+
+export interface RigOptions {
+  /** The drawing's file name, for messages and for the names in the GLB. */
+  name?: string;
+  /** `auto`: the body plan that the figure fits. */
+  plan?: Plan | 'auto';
+  /** Which figure of the drawing, 1 is the largest. */
+  figure?: number;
+  /** A PNG file of the drawing's size, the figure white, instead of looking for it. */
+  mask?: Uint8Array | ArrayBuffer | Blob | null;
+  /** A skeleton file, as it was returned and then mended: rigs with these joints. */
+  skeleton?: SkeletonFile | string | null;
+}
+
+export interface Joint {
+  name: string;
+  parent: string | null;
+  /** Pixels of the drawing, from the centre of its top left pixel. */
+  image: [number, number];
+  /** Metres: x to the right, y up from the ground, z to the viewer. */
+  position: [number, number, number];
+  /** 0 … 1 */
+  confidence: number;
+  origin: string;
+  [more: string]: unknown;
+}
+
+/** What skel-infer writes as .skeleton.json (docs/formats.md). */
+export interface SkeletonFile {
+  format: 'skel-skeleton';
+  version: number;
+  template: string;
+  joints: Joint[];
+  [more: string]: unknown;
+}
+
+export interface Character {
+  name: string;
+  /** Of the picture that was rigged, px. */
+  width: number;
+  height: number;
+  /** Whether the picture was made smaller (more than 6 million px, in a browser). */
+  scaled: boolean;
+  plan: Plan;
+  /** 0 … 1 */
+  confidence: number;
+  warnings: string[];
+  /** How many figures the drawing shows. */
+  figures: number;
+  skeleton: SkeletonFile;
+  /** width × height bytes, 255 on the figure. */
+  mask: Uint8Array;
+  /** Of each stage. */
+  times_ms: Record<string, number>;
+  /** glTF 2.0, binary: mesh, skin, texture, all clips. */
+  glb: Uint8Array;
+  /** A PNG file. */
+  texture: Uint8Array;
+}
+
+/** Rigs a drawing. The core and its nets (8 MB) are loaded by the first call. Throws SkelError. */
+export function rig(drawing: Drawing, options?: RigOptions): Promise<Character>;

@@ -1,0 +1,74 @@
+// The core for whoever holds it: pictures in, characters out. The worker of the page and the npm package stand on it.
+const kMostPixels = 6e6; // larger pictures are made smaller, for the memory of a phone
+const kLongSide = 2048;
+
+// What is wrong with what was given, in the sentence of the tools.
+export class SkelError extends Error {
+  name = 'SkelError';
+}
+
+function checked(said) {
+  if (said.error) throw new SkelError(said.error);
+  return said;
+}
+
+const isPng = (bytes) => bytes.length > 24 && [0x89, 0x50, 0x4e, 0x47].every((byte, i) => bytes[i] === byte);
+function pngPixels(bytes) {
+  const header = new DataView(bytes.buffer, bytes.byteOffset);
+  return header.getUint32(16) * header.getUint32(20);
+}
+
+// What the browser knows and the core does not: JPEG, WebP, GIF, BMP; and large pictures. Null where it does not either.
+async function browserDecode(bytes) {
+  if (!globalThis.createImageBitmap || !globalThis.OffscreenCanvas) return null;
+  let bitmap;
+  try {
+    bitmap = await createImageBitmap(new Blob([bytes]), {
+      imageOrientation: 'from-image', premultiplyAlpha: 'none', colorSpaceConversion: 'none',
+    });
+  } catch {
+    return null;
+  }
+  const shrink = bitmap.width * bitmap.height > kMostPixels ? kLongSide / Math.max(bitmap.width, bitmap.height) : 1;
+  const width = Math.max(1, Math.round(bitmap.width * shrink)), height = Math.max(1, Math.round(bitmap.height * shrink));
+  const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
+  context.imageSmoothingQuality = 'high';
+  context.drawImage(bitmap, 0, 0, width, height);
+  bitmap.close();
+  return { width, height, rgba: new Uint8Array(context.getImageData(0, 0, width, height).data.buffer), scaled: shrink < 1 };
+}
+
+export class Skel {
+  #core;
+
+  // `createSkel`: what emcc made; `wasm`: the bytes of skel.wasm; `nets`: those of {page, parts, biped, quadruped}.
+  static async start(createSkel, wasm, nets) {
+    const skel = new Skel();
+    skel.#core = await createSkel({ wasmBinary: wasm });
+    checked(skel.#core.useNets(nets));
+    return skel;
+  }
+
+  // {name, width, height, rgba, scaled}. The size of what is not PNG is known only when it is there; the ending goes
+  // where pixels are no longer the file's.
+  async open(bytes, name) {
+    const small = isPng(bytes) && pngPixels(bytes) <= kMostPixels;
+    const picture = (small ? null : await browserDecode(bytes)) ?? { ...checked(this.#core.decode(bytes, name)), scaled: false };
+    return { ...picture, name: picture.scaled ? name.replace(/\.[^.]*$/, '') + '.png' : name };
+  }
+
+  readMask({ width, height }, request) {
+    return checked(this.#core.readMask({ skeleton: null, skeletonFile: '', ...request, width, height })).mask;
+  }
+
+  // What these calls return is that of the last rig().
+  rig({ name, width, height, rgba }, request) {
+    return checked(this.#core.rig({
+      mask: null, skeleton: null, skeletonFile: '', plan: '', figure: 1, ...request, file: name, width, height, rgba,
+    }));
+  }
+  glb() { return this.#core.glb(); }
+  texture() { return this.#core.texture(); }
+  drawing() { return this.#core.drawing(); }
+  mask() { return this.#core.mask(); }
+}
