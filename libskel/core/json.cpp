@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "libskel/core/check.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json_names.h"
@@ -154,10 +155,18 @@ JsonDocument JsonDocument::parse(std::string_view text, const std::string& file)
   return document;
 }
 
-JsonValue JsonDocument::root() const { return JsonValue(&content_->json, "", &content_->file); }
+JsonValue JsonDocument::root() const { return JsonValue(&content_->json, &content_->file); }
+
+std::string JsonValue::path() const {
+  if (!parent_) return "";
+  const std::string before = parent_->path();
+  if (!key_) return before + "[" + std::to_string(index_) + "]";
+  return before.empty() ? *key_ : before + "." + *key_;
+}
 
 void JsonValue::fail(const std::string& problem) const {
-  throw InputError(*file_, (path_.empty() ? "" : path_ + ": ") + problem);
+  const std::string path = this->path();
+  throw InputError(*file_, (path.empty() ? "" : path + ": ") + problem);
 }
 
 bool JsonValue::isNull() const { return get(value_).is_null(); }
@@ -207,18 +216,33 @@ std::vector<double> JsonValue::asNumbers() const {
 }
 
 std::vector<double> JsonValue::asNumbers(size_t count) const {
-  std::vector<double> numbers = asNumbers();
-  if (numbers.size() != count)
-    fail("has " + std::to_string(numbers.size()) + " numbers, must have " + std::to_string(count));
-  return numbers;
+  if (size() != count) fail("has " + std::to_string(size()) + " numbers, must have " + std::to_string(count));
+  return asNumbers();
 }
 
 std::vector<JsonValue> JsonValue::items() const {
-  if (!isArray()) fail("must be a list");
   std::vector<JsonValue> values;
-  for (const Json& item : get(value_))
-    values.push_back(JsonValue(&item, path_ + "[" + std::to_string(values.size()) + "]", file_));
+  values.reserve(size());
+  const auto parent = std::make_shared<const JsonValue>(*this);
+  for (const Json& item : get(value_)) {
+    JsonValue& value = values.emplace_back(JsonValue(&item, file_));
+    value.parent_ = parent;
+    value.index_ = values.size() - 1;
+  }
   return values;
+}
+
+size_t JsonValue::size() const {
+  if (!isArray()) fail("must be a list");
+  return get(value_).size();
+}
+
+JsonValue JsonValue::item(size_t index) const {
+  SKEL_CHECK(index < size());
+  JsonValue value(&get(value_)[index], file_);
+  value.parent_ = std::make_shared<const JsonValue>(*this);
+  value.index_ = index;
+  return value;
 }
 
 std::vector<std::string> JsonValue::keys() const {
@@ -238,7 +262,10 @@ std::optional<JsonValue> JsonValue::find(std::string_view key) const {
   if (!isObject()) fail("must be an object");
   const auto member = get(value_).find(std::string(key));
   if (member == get(value_).end()) return std::nullopt;
-  return JsonValue(&*member, path_.empty() ? std::string(key) : path_ + "." + std::string(key), file_);
+  JsonValue value(&*member, file_);
+  value.parent_ = std::make_shared<const JsonValue>(*this);
+  value.key_ = &member.key();
+  return value;
 }
 
 void JsonValue::allowOnly(std::initializer_list<std::string_view> allowed) const {

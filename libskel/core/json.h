@@ -39,6 +39,8 @@ class JsonValue {
 
   // Elements of an array.
   std::vector<JsonValue> items() const;
+  size_t size() const;
+  JsonValue item(size_t index) const;  // that there is
   // Keys of an object, in the file's order.
   std::vector<std::string> keys() const;
   // A required member of an object.
@@ -54,15 +56,17 @@ class JsonValue {
 
   // Throws InputError with this value's file and path.
   [[noreturn]] void fail(const std::string& problem) const;
-  const std::string& path() const { return path_; }
+  std::string path() const;
 
  private:
   friend class JsonDocument;
-  JsonValue(const void* value, std::string path, const std::string* file)
-      : value_(value), path_(std::move(path)), file_(file) {}
+  JsonValue(const void* value, const std::string* file) : value_(value), file_(file) {}
   const void* value_;
-  std::string path_;
   const std::string* file_;
+  // What holds it, and where in that: none of it is text before somebody asks for the path.
+  std::shared_ptr<const JsonValue> parent_;
+  const std::string* key_ = nullptr;  // null: of an array, at index_
+  size_t index_ = 0;
 };
 
 class JsonDocument {

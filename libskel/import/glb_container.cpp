@@ -116,14 +116,14 @@ GlbContainer::GlbContainer(std::string_view bytes, const std::string& file)
 
 int GlbContainer::count(std::string_view list) const {
   const std::optional<JsonValue> found = root().find(list);
-  return found ? static_cast<int>(found->items().size()) : 0;
+  return found ? static_cast<int>(found->size()) : 0;
 }
 
 JsonValue GlbContainer::element(std::string_view list, const JsonValue& index) const {
   const std::optional<JsonValue> found = root().find(list);
-  const std::vector<JsonValue> all = found ? found->items() : std::vector<JsonValue>();
-  if (all.empty()) index.fail("names one of the " + std::string(list) + ", but there are none");
-  return all[static_cast<std::size_t>(index.asInt(0, static_cast<int>(all.size()) - 1))];
+  const std::size_t size = found ? found->size() : 0;
+  if (size == 0) index.fail("names one of the " + std::string(list) + ", but there are none");
+  return found->item(static_cast<std::size_t>(index.asInt(0, static_cast<int>(size) - 1)));
 }
 
 std::string_view GlbContainer::view(const JsonValue& index) const {

@@ -342,10 +342,12 @@ class Rows {
   };
   int of(const Row& row) {
     std::uint64_t hash = static_cast<std::uint32_t>(row.position);
-    for (const int part : {row.coordinate, row.look}) {
-      hash = (hash ^ static_cast<std::uint32_t>(part)) * 0x9e3779b97f4a7c15u;
-      hash ^= hash >> 32;
-    }
+    hash |= std::uint64_t{static_cast<std::uint32_t>(row.coordinate)} << 32;
+    hash ^= std::uint64_t{static_cast<std::uint32_t>(row.look)} * 0x9e3779b97f4a7c15u;
+    // The finalizer of MurmurHash3 (A. Appleby): positions and coordinates often count in step.
+    hash = (hash ^ hash >> 33) * 0xff51afd7ed558ccdu;
+    hash = (hash ^ hash >> 33) * 0xc4ceb9fe1a85ec53u;
+    hash ^= hash >> 33;
     std::size_t slot = hash & (table_.size() - 1);
     while (table_[slot] >= 0 && !(rows[static_cast<std::size_t>(table_[slot])] == row))
       slot = (slot + 1) & (table_.size() - 1);

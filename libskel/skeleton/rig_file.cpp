@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "libskel/core/error.h"
@@ -66,9 +69,9 @@ std::vector<Listed> listedJoints(const JsonValue& root, const std::optional<Json
 std::string unlistedRoot(const std::vector<Listed>& listed, const std::optional<JsonValue>& hierarchy) {
   std::string root;
   if (!hierarchy) return root;
-  const auto known = [&](const std::string& name) {
-    return std::any_of(listed.begin(), listed.end(), [&](const Listed& l) { return l.joint.name == name; });
-  };
+  std::set<std::string_view> names;
+  for (const Listed& l : listed) names.insert(l.joint.name);
+  const auto known = [&](const std::string& name) { return names.count(name) > 0; };
   for (const std::string& child : hierarchy->keys()) {
     const JsonValue parent = hierarchy->at(child);
     if (!known(child) && !parent.isNull()) parent.fail("there is no joint \"" + child + "\"");
@@ -79,6 +82,35 @@ std::string unlistedRoot(const std::vector<Listed>& listed, const std::optional<
     root = parent.asString();
   }
   return root;
+}
+
+// Their order when, again and again, those whose parent is placed are placed, in the file's order, until all
+// are.
+std::vector<std::size_t> parentsFirst(const std::vector<Listed>& listed, const std::string& root) {
+  std::map<std::string_view, std::vector<std::size_t>> children;
+  std::set<std::string_view> names{root};
+  for (std::size_t i = 0; i < listed.size(); ++i) {
+    children[listed[i].parent].push_back(i);
+    names.insert(listed[i].joint.name);
+  }
+  for (const Listed& l : listed)
+    if (!l.parent.empty() && !names.count(l.parent))
+      l.value.at("parent").fail("there is no joint \"" + l.parent + "\"");
+  std::vector<int> round(listed.size(), -1);  // in which each is placed
+  std::vector<std::size_t> order = children[""];
+  if (!root.empty()) order.insert(order.end(), children[root].begin(), children[root].end());
+  for (const std::size_t i : order) round[i] = 0;
+  for (std::size_t next = 0; next < order.size(); ++next)
+    for (const std::size_t child : children[listed[order[next]].joint.name]) {
+      round[child] = round[order[next]] + (child < order[next] ? 1 : 0);
+      order.push_back(child);
+    }
+  for (std::size_t i = 0; i < listed.size(); ++i)
+    if (round[i] < 0)
+      listed[i].value.fail("\"" + listed[i].joint.name + "\" is its own ancestor, or below one that is");
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return std::pair(round[a], a) < std::pair(round[b], b); });
+  return order;
 }
 
 }  // namespace
@@ -94,37 +126,23 @@ Skeleton readRigFile(const std::string& path, std::string* note) {
   const std::string root = unlistedRoot(listed, hierarchy);
 
   Skeleton skeleton;
+  std::map<std::string_view, int> numbers;
   if (!root.empty()) {
     Joint joint;
     joint.name = root;
     joint.confidence = 1;
     skeleton.joints.push_back(joint);
+    numbers[root] = 0;
   }
-  for (const Listed& l : listed) {
-    if (l.parent.empty() || l.parent == root) continue;
-    if (std::none_of(listed.begin(), listed.end(), [&](const Listed& o) { return o.joint.name == l.parent; }))
-      l.value.at("parent").fail("there is no joint \"" + l.parent + "\"");
+  for (const std::size_t i : parentsFirst(listed, root)) {
+    const Listed& l = listed[i];
+    if (l.parent.empty() && !skeleton.joints.empty())
+      l.value.fail("\"" + l.joint.name + "\" has no parent, but \"" + skeleton.joints[0].name +
+                   "\" is the root; only one joint may have none");
+    numbers[l.joint.name] = static_cast<int>(skeleton.joints.size());
+    skeleton.joints.push_back(l.joint);
+    skeleton.joints.back().parent = l.parent.empty() ? -1 : numbers.at(l.parent);
   }
-  // Those whose parent is placed, in the file's order, until all are.
-  std::vector<char> placed(listed.size(), 0);
-  for (bool any = true; any;) {
-    any = false;
-    for (std::size_t i = 0; i < listed.size(); ++i) {
-      const Listed& l = listed[i];
-      if (placed[i]) continue;
-      const int parent = l.parent.empty() ? -1 : skeleton.find(l.parent);
-      if (!l.parent.empty() && parent < 0) continue;
-      if (parent < 0 && !skeleton.joints.empty())
-        l.value.fail("\"" + l.joint.name + "\" has no parent, but \"" + skeleton.joints[0].name +
-                     "\" is the root; only one joint may have none");
-      placed[i] = any = true;
-      skeleton.joints.push_back(l.joint);
-      skeleton.joints.back().parent = parent;
-    }
-  }
-  for (std::size_t i = 0; i < listed.size(); ++i)
-    if (!placed[i])
-      listed[i].value.fail("\"" + listed[i].joint.name + "\" is its own ancestor, or below one that is");
   return skeleton;
 }
 

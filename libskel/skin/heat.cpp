@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 
+#include "libskel/core/error.h"
 #include "libskel/core/segment.h"
 #include "libskel/skin/methods.h"
 #include "libskel/skin/parts.h"
@@ -26,6 +27,16 @@ constexpr double kEqually = 1.0001;           // near: two bones that differ by 
 constexpr double kLeast = 1e-3, kMost = 1e3;  // of a cotangent: slivers neither part nor tie the surface
 
 using Matrix = Eigen::SparseMatrix<double>;
+
+// Of the factorisation, in multiplications: some seconds. A surface of as many vertices as heat is for needs
+// 7e9; what hangs together across all of space as many as the cube of its vertices.
+constexpr double kMostWork = 1e10;
+
+class Factor : public Eigen::SimplicialLDLT<Matrix> {
+ public:
+  // After analyzePattern().
+  double work() const { return m_nonZerosPerCol.cast<double>().squaredNorm(); }
+};
 
 double cotangent(const Eigen::Vector3d& apex, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d u = a - apex, v = b - apex;
@@ -98,7 +109,13 @@ JointWeights heatWeights(const SkinInput& input) {
   }
   Matrix system(places, places);
   system.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Matrix> solver(system);
+  Factor solver;
+  solver.analyzePattern(system);
+  if (solver.work() > kMostWork)
+    throw InputError(
+        input.options.file,
+        "has triangles that are no surface over which heat could spread in time; take --skin geodesic");
+  solver.factorize(system);
   JointWeights weights = JointWeights::Zero(mesh.vertices.rows(), joints);
   if (solver.info() != Eigen::Success) return weights;
   for (int joint = 0; joint < joints; ++joint) {

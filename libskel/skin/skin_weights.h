@@ -54,7 +54,8 @@ inline constexpr std::int64_t kMostVertexJoints = 32'000'000;
 // `joint_layers`, one number a joint, each layer has one; empty: all follow all. A joint of layer -1 moves
 // nothing.
 //
-// Throws InputError: more vertices times joints than kMostVertexJoints; UsageError: more vertices than the
+// Throws InputError: more vertices times joints than kMostVertexJoints, triangles that are no surface
+// (kHeat); UsageError: more vertices than the
 // method is for (kHeat: 200,000).
 SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleton, SkinMethod method,
                                const SkinOptions& options = {}, const std::vector<int>& joint_layers = {});

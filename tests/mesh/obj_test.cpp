@@ -165,7 +165,7 @@ TEST_CASE("several materials, pictures and colours, become one texture") {
 }
 
 TEST_CASE("a file of 200,000 vertices is read well within a second") {
-  std::string text = "o grid\n";
+  std::string text = "mtllib a.mtl\nusemtl a\n";
   constexpr int kSide = 448;
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x)
@@ -179,6 +179,8 @@ TEST_CASE("a file of 200,000 vertices is read well within a second") {
       text += "\n";
     }
   const TempDir dir;
+  writeFile(dir.file("a.png"), encodePng(Image(2, 2)));
+  writeFile(dir.file("a.mtl"), "newmtl a\nmap_Kd a.png\n");
   writeFile(dir.file("a.obj"), text);
   const std::clock_t start = std::clock();
   const TriangleMesh mesh = readObj(dir.file("a.obj"));

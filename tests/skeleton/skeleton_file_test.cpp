@@ -2,6 +2,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/skeleton/rig_file.h"
 #include "tests/support/catch.h"
 #include "tests/support/temp_dir.h"
 
@@ -91,6 +92,25 @@ TEST_CASE("a skeleton that lacks a joint is refused") {
   writeFile(dir.file("s.json"), text);
   CHECK_THROWS_WITH(readSkeletonFile(dir.file("s.json"), loadTemplate("biped")),
                     dir.file("s.json") + ": joints: lacks the joint \"left_foot\"");
+}
+
+TEST_CASE("a rig whose joints stand children first is read parents first") {
+  // By passes over all names it took minutes.
+  constexpr int kCount = 4096;
+  const auto name = [](int i) { return std::string(1000, 'n') + std::to_string(i); };
+  std::string joints;
+  for (int i = kCount - 1; i >= 0; --i)
+    joints += (joints.empty() ? "" : ",") + std::string("{\"name\": \"") + name(i) +
+              "\", \"head\": [0, 0, 0], \"tail\": [0, 1, 0], \"parent\": " +
+              (i > 0 ? "\"" + name(i - 1) + "\"" : "null") + "}";
+  const TempDir dir;
+  writeFile(dir.file("rig.json"), "{\"joints\": [" + joints + "]}");
+  const Skeleton skeleton = readRigFile(dir.file("rig.json"));
+  REQUIRE(skeleton.joints.size() == kCount);
+  for (int i = 0; i < kCount; ++i) {
+    CHECK(skeleton.joints[std::size_t(i)].parent == i - 1);
+    CHECK(skeleton.joints[std::size_t(i)].name == name(i));
+  }
 }
 
 TEST_CASE("an edited joint is seen") {

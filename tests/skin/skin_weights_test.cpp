@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <random>
 #include <set>
 
 #include "libskel/core/json.h"
@@ -379,6 +380,21 @@ TEST_CASE("heat refuses more vertices than it is quick for, and names what takes
       Catch::Matchers::Contains("at most 200000 vertices, the model has 200001; take --skin geodesic"));
 }
 
+// It took hours: the factor of such a matrix is full.
+TEST_CASE("heat refuses triangles that are no surface, by the file's name") {
+  TriangleMesh mesh;
+  mesh.vertices = Eigen::MatrixX3f::Random(6000, 3);
+  std::mt19937 random(1);
+  mesh.triangles.resize(3 * mesh.vertices.rows(), 3);
+  for (Eigen::Index i = 0; i < mesh.triangles.size(); ++i)
+    mesh.triangles.data()[i] = static_cast<int>(random() % 6000);
+  SkinOptions options;
+  options.file = "knot.obj";
+  CHECK_THROWS_WITH(computeSkinWeights(mesh, capsuleSkeleton({}), SkinMethod::kHeat, options),
+                    Catch::Matchers::Contains("knot.obj: has triangles that are no surface") &&
+                        Catch::Matchers::Contains("take --skin geodesic"));
+}
+
 // Gigabytes, of a file of a few megabytes.
 TEST_CASE("more vertices times joints than fit into memory are refused, by the file's name") {
   Skeleton chain;
@@ -391,10 +407,9 @@ TEST_CASE("more vertices times joints than fit into memory are refused, by the f
   SkinOptions options;
   options.file = "big.obj";
   for (const SkinMethod method : skinMethods())
-    CHECK_THROWS_WITH(
-        computeSkinWeights(mesh, chain, method, options),
-        "big.obj: has 8001 vertices for 4000 joints; at most 8000 vertices can be bound to so "
-        "many: take a coarser mesh or fewer joints");
+    CHECK_THROWS_WITH(computeSkinWeights(mesh, chain, method, options),
+                      "big.obj: has 8001 vertices for 4000 joints; at most 8000 vertices can be bound to so "
+                      "many: take a coarser mesh or fewer joints");
 }
 
 // It took minutes: each joint looked at all vertices and all joints below it.

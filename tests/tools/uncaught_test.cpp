@@ -84,6 +84,21 @@ TEST_CASE("a mask of a comb of 2000 teeth of 1 px needs no more than 1.2 GB") {
   CHECK(run.exit_code == 0);
 }
 
+TEST_CASE("a long key before a long list takes no memory for each item") {
+  if (!kLimitsWork) return;
+  const TempDir dir;
+  fs::create_directory(dir.file("in"));
+  fs::copy_file(kDrawing, dir.file("in/a.png"));
+  std::string zeros = "0";
+  for (int i = 0; i < 20'000; ++i) zeros += ",0";
+  writeFile(dir.file("in/a.joints.json"),
+            "{\"joints\": {\"" + std::string(400'000, 'k') + "\": [" + zeros + "]}}");
+  const ToolRun run = limited(dir, 400, "skel-label import in -o out");
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 2);
+  CHECK(run.err.find("a.joints.json: joints.kkkkk") != std::string::npos);
+}
+
 TEST_CASE("threads that cannot be had end no tool") {
   if (!kLimitsWork) return;
   const TempDir dir;
