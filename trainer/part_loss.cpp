@@ -9,7 +9,7 @@ namespace skel {
 namespace {
 
 // What is seldom seen must not become a limb.
-constexpr std::array<double, kPartCount> kWeights = {1, 1, 3, 2, 2, 2, 2, 4, 3, 3};
+constexpr std::array<double, kPartCount> kWeights = {1, 1, 1.7, 1.4, 1.4, 1.4, 1.4, 2, 1.7, 1.7};
 constexpr double kBeforeWeight = .2;
 
 int limbOf(int part) {

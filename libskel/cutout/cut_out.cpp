@@ -60,7 +60,8 @@ class PaintOrder {
           z += (skeleton.joints[std::size_t(j)].position.z() - trunk_z) / double(limb.joints.size());
       const int turn = int(piece - pieces.begin());  // after all others where it is no sheet of its own
       constexpr double kFar = 0.015;                 // of the figure's height
-      if (z < -kFar * (high - low))
+      const std::vector<int>& far = figure.layers.far;
+      if (std::find(far.begin(), far.end(), int(k) + 1) != far.end() || z < -kFar * (high - low))
         order_[k + 1] = turn - 200;
       else if (piece == pieces.end())
         order_[k + 1] = isLeg(figure.body_plan, limb) ? -100 : 100;

@@ -39,7 +39,7 @@ double confidence(const Skeleton& skeleton, const LimbJoints& limb) {
 }  // namespace
 
 void partLimbsInDepth(TriangleMesh& mesh, Skeleton& skeleton, const SkinWeights& weights,
-                      const SkeletonTemplate& body_plan, double yaw_rad) {
+                      const SkeletonTemplate& body_plan, double yaw_rad, const std::vector<int>& far_limbs) {
   SKEL_CHECK_EQ(mesh.vertices.rows(), weights.joints.rows());
   const double turned = body_plan.from_side ? 1 : std::abs(std::sin(yaw_rad));
   if (turned == 0) return;
@@ -50,16 +50,17 @@ void partLimbsInDepth(TriangleMesh& mesh, Skeleton& skeleton, const SkinWeights&
       joints[i] = skeleton.find(body_plan.joints[std::size_t(limb.joints[i])].name);
     return joints;
   };
-  for (const TemplateLimb& limb : body_plan.limbs) {
-    const int root_of_other = body_plan.joints[std::size_t(limb.joints[0])].mirror;
-    const auto other = std::find_if(body_plan.limbs.begin(), body_plan.limbs.end(),
-                                    [&](const TemplateLimb& l) { return l.joints[0] == root_of_other; });
-    if (other == body_plan.limbs.end() || &*other <= &limb) continue;  // each pair once
-    LimbJoints near = inSkeleton(limb), far = inSkeleton(*other);
+  const auto isFar = [&](int limb) {
+    return std::find(far_limbs.begin(), far_limbs.end(), limb + 1) != far_limbs.end();
+  };
+  for (const auto& [first, second] : body_plan.limbPairs()) {
+    LimbJoints near = inSkeleton(body_plan.limbs[std::size_t(first)]),
+               far = inSkeleton(body_plan.limbs[std::size_t(second)]);
     if (*std::min_element(near.begin(), near.end()) < 0 || *std::min_element(far.begin(), far.end()) < 0)
       continue;
     constexpr double kSurer = 0.05, kApart = 1.3;
-    if (confidence(skeleton, far) > confidence(skeleton, near) + kSurer) std::swap(near, far);
+    if (isFar(first) || (!isFar(second) && confidence(skeleton, far) > confidence(skeleton, near) + kSurer))
+      std::swap(near, far);
     for (const int j : near) depth[std::size_t(j)] = kApart * turned * halfThickness(mesh, weights, near);
     for (const int j : far) depth[std::size_t(j)] = -kApart * turned * halfThickness(mesh, weights, far);
   }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "libskel/candidates/candidates.h"
+#include "libskel/core/segment.h"
 #include "libskel/image/mask_parts.h"
 #include "libskel/layers/layer_map.h"
 #include "libskel/mesh/outline.h"
@@ -122,14 +123,18 @@ void grow(Plane8& mask, int reach) {
   }
 }
 
+// What a limb shares with the trunk: around its first joint, and on to where it is seen.
 struct Root {
-  Vector2d center;
+  Vector2d from, to;
   double radius = 0;  // px
-  bool holds(int x, int y) const { return (Vector2d(x, y) - center).squaredNorm() <= radius * radius; }
+  bool holds(int x, int y) const { return distanceToSegment<Vector2d>(Vector2d(x, y), from, to) <= radius; }
   PixelBox box() const {
-    const auto reach = static_cast<int>(std::ceil(radius)) + 1;
-    const auto x = static_cast<int>(std::lround(center.x())), y = static_cast<int>(std::lround(center.y()));
-    return {x - reach, y - reach, x + reach + 1, y + reach + 1};
+    const auto at = [&](const Vector2d& p) {
+      const auto reach = static_cast<int>(std::ceil(radius)) + 1;
+      const auto x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
+      return PixelBox{x - reach, y - reach, x + reach + 1, y + reach + 1};
+    };
+    return around(at(from), at(to));
   }
 };
 
@@ -138,13 +143,14 @@ struct Limb {
   PixelBox box;
   double half_px = 0;  // of its width where it is widest
   Root root;
+  bool far = false;
 };
 
-// Half of the limb's width below its root: the median of the largest discs about the first bone that fit in.
-// `inside`: of the limb's coarse mask.
+// From the first joint to where the limb begins to be seen on its first bone. As wide as half of the limb
+// below: the median of the largest discs about that bone that fit in; of a limb that is hardly seen there,
+// where it is widest. `inside`: of the limb's coarse mask.
 Root rootOf(const Coarse& coarse, const DistanceField& inside, const Vector2d& from, const Vector2d& to) {
-  std::vector<double> radii;
-  for (double t = 0.25; t <= 0.75; t += 0.05) {
+  const auto widestAt = [&](double t) {
     const Vector2d p = from + t * (to - from);
     const auto x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
     const int reach = std::max(1, static_cast<int>(0.1 * (to - from).norm() / coarse.step));
@@ -153,10 +159,16 @@ Root rootOf(const Coarse& coarse, const DistanceField& inside, const Vector2d& f
     for (int v = std::max(0, cy - reach); v <= std::min<int>(cy + reach, int(inside.rows()) - 1); ++v)
       for (int u = std::max(0, cx - reach); u <= std::min<int>(cx + reach, int(inside.cols()) - 1); ++u)
         widest = std::max(widest, inside(v, u));
-    radii.push_back(static_cast<double>(widest) * coarse.step);
-  }
+    return static_cast<double>(widest) * coarse.step;
+  };
+  std::vector<double> radii;
+  for (double t = 0.25; t <= 0.75; t += 0.05) radii.push_back(widestAt(t));
   std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2), radii.end());
-  return {from, radii[radii.size() / 2]};
+  double seen = 0;
+  while (seen < 1 && widestAt(seen) == 0) seen += 0.05;
+  const double median = radii[radii.size() / 2];
+  return {from, from + std::min(seen, 1.) * (to - from),
+          median > 0 ? median : static_cast<double>(inside.maxCoeff()) * coarse.step};
 }
 
 // Of each number in the plane, the pixels that have it.
@@ -264,9 +276,10 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
     const Coarse coarse{{0, 0, own.width(), own.height()}, step};
     const DistanceField inside = distanceField(coarse.shrink(limb));
     const Vector2d corner(own.x0, own.y0);
+    const bool far = std::find(layers.far.begin(), layers.far.end(), layer) != layers.far.end();
     Root root = rootOf(coarse, inside, *from - corner, *to - corner);
-    root.center += corner;
-    limbs.push_back({layer, own, static_cast<double>(inside.maxCoeff()) * step, root});
+    root.from += corner, root.to += corner;
+    limbs.push_back({layer, own, static_cast<double>(inside.maxCoeff()) * step, root, far});
   }
   if (limbs.empty()) return {};
 
@@ -295,6 +308,7 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     FigurePiece& piece = drafts[i].piece;
     piece.layer = i == 0 ? 0 : limbs[i - 1].layer;
+    piece.behind = i > 0 && limbs[i - 1].far;
     piece.box = i == 0 ? box : common(around(limbs[i - 1].box, limbs[i - 1].root.box()), box);
     const Plane8 hidden = hiddenOf(piece.layer);
     piece.mask = piece.hidden = piece.over = Plane8::Zero(piece.box.height(), piece.box.width());
@@ -308,14 +322,14 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
           piece.over(v, u) = i > 0 && !limbs[i - 1].root.holds(x, y);
           continue;
         }
-        // At its root a limb and the body share what is drawn.
-        const auto rootHolds = [&](const Limb& limb) {
-          return limb.layer == std::max(layer, piece.layer) && limb.root.holds(x, y);
-        };
-        const bool root = (i == 0 || layer == 0) && std::any_of(limbs.begin(), limbs.end(), rootHolds);
-        if (root) {
+        // At its root a limb and the body share what is drawn; of a far one all that lies there hides it.
+        const int rooted = piece.behind || layer == 0 ? piece.layer : layer;
+        const Limb& limb =
+            *std::find_if(limbs.begin(), limbs.end(), [&](const Limb& l) { return l.layer == rooted; });
+        const bool root = limb.root.holds(x, y), bare = i == 0 && limb.far;
+        if (root && (i == 0 || layer == 0) && !limb.far) {
           piece.mask(v, u) = 255;
-        } else if (layer != 0 && coarse.at(hidden, x, y) != 0) {
+        } else if ((root && piece.behind) || (layer != 0 && !bare && coarse.at(hidden, x, y) != 0)) {
           piece.mask(v, u) = 255;
           piece.hidden(v, u) = 1;
           ++over[static_cast<std::size_t>(layer)];

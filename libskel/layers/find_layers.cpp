@@ -150,9 +150,19 @@ double seenAlong(const Look& picture, const PartSkeleton& skeleton, int limb) {
   return static_cast<double>(seen) / kSamples;
 }
 
+// What lies before the trunk is nearer than what it hides.
+std::vector<int> farLimbs(const SkeletonTemplate& body_plan, const std::array<double, 4>& before) {
+  std::vector<int> far;
+  if (!body_plan.from_side) return far;
+  for (const auto& [a, b] : body_plan.limbPairs())
+    far.push_back(1 + (before[std::size_t(b)] > before[std::size_t(a)] ? a : b));
+  return far;
+}
+
 // To the image's size, borders as smooth as its pixels allow: of each pixel the number that most of its
 // neighbours in `small` have, nearer ones more.
-void enlarge(const Look& picture, const cv::Mat& small, Plane8& whole) {
+Plane8 enlarged(const Look& picture, const cv::Mat& small, const Plane8& mask) {
+  Plane8 whole = Plane8::Zero(mask.rows(), mask.cols());
   const PixelBox& box = picture.box;
   struct Between {
     int first, second;
@@ -185,6 +195,7 @@ void enlarge(const Look& picture, const cv::Mat& small, Plane8& whole) {
       }
     }
   }
+  return (mask != 0).select(whole, Plane8::Zero(mask.rows(), mask.cols()));
 }
 
 }  // namespace
@@ -196,13 +207,15 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
   if (!bones) return map;
   PartPicture found = findParts(image, silhouette.mask, *bones, net);
   const Look picture(found);
+  map.far = farLimbs(body_plan, found.before);
   cv::Mat limbs(picture.part.size(), CV_8U, cv::Scalar(0));
   cv::Mat arms = cv::Mat::zeros(limbs.size(), CV_8U), edge = edges(picture, arms);  // arms that are layers
   for (int k = 0; k < 4; ++k) {
-    if (k == 2 && cv::countNonZero(limbs) != 0) arms = limbs != 0, edge = edges(picture, arms);
+    if (k == 2 && cv::countNonZero(limbs) != 0)
+      arms = (limbs != 0) & picture.mask, edge = edges(picture, arms);
     const Border border = borderOf(picture, *bones, k, arms, edge, found.range);
     if (standsOut(picture, k, border)) {
-      limbs.setTo(k + 1, picture.of(limbPart(k)));
+      limbs.setTo(k + 1, picture.part == static_cast<int>(limbPart(k)));
       continue;
     }
     const TemplateLimb& limb = body_plan.limbs[static_cast<std::size_t>(k)];
@@ -212,12 +225,9 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
         (seenAlong(picture, *bones, k) < kSeen || isGrown(border)))
       map.hidden.push_back(k + 1);
   }
-  map.part = Plane8::Zero(image.height, image.width);
-  enlarge(picture, picture.part, map.part);
+  map.part = enlarged(picture, picture.part, silhouette.mask);
   if (cv::countNonZero(limbs) == 0) return map;
-  map.limb = Plane8::Zero(image.height, image.width);
-  enlarge(picture, limbs, map.limb);
-  map.limb = (silhouette.mask != 0).select(map.limb, Plane8::Zero(image.height, image.width));
+  map.limb = enlarged(picture, limbs, silhouette.mask);
   giveThingsToLimbs(silhouette, map);
   return map;
 }

@@ -21,7 +21,7 @@ constexpr double kLineWidth = .02;    // lines are no wider
 constexpr double kInkReach = .0125;   // how far a limb takes the ink that it is drawn with
 constexpr double kInkContrast = .15;  // of the range of brightness
 constexpr float kCertain = .9f;       // probability of what borders do not move through
-// Log-odds that the net's are corrected by: it was taught limbs with twice the weight of the rest, and seldom
+// Log-odds that the net's are corrected by: it was taught limbs with more weight than the rest, and seldom
 // saw what hangs or is held, which must not become a limb.
 constexpr std::array<float, kPartCount> kCorrection = {0, 0, 1, -.7f, -.7f, -.7f, -.7f, 1.5f, .7f, .5f};
 // A limb is about its bones: log-odds less for each px of the net's beyond so many.
@@ -191,26 +191,36 @@ void snap(const std::vector<cv::Mat>& probabilities, Sketch& picture) {
     }
 }
 
-// A limb in front takes the lines that it is drawn with.
-void takeInk(Sketch& picture) {
-  for (int k = 0; k < 4; ++k) {
-    if (picture.before[static_cast<std::size_t>(k)] < .5) continue;
-    cv::Mat limb = picture.of(limbPart(k));
-    cv::Mat others = cv::Mat::zeros(limb.size(), CV_8U);
-    for (int j = 0; j < 4; ++j)
-      if (j != k &&
-          picture.before[static_cast<std::size_t>(j)] >= picture.before[static_cast<std::size_t>(k)])
-        others |= picture.of(limbPart(j));
-    for (int step = px(picture, kInkReach); step > 0; --step) {
-      cv::Mat grown;
-      cv::dilate(limb, grown, cv::Mat::ones(3, 3, CV_8U));
-      limb |= grown & picture.ink & ~others;
-    }
-    picture.part.setTo(static_cast<int>(limbPart(k)), limb);
+// The part takes the lines of `from` that it is drawn with.
+void takeInk(Sketch& picture, Part part, const cv::Mat& from) {
+  cv::Mat own = picture.of(part);
+  for (int step = px(picture, kInkReach); step > 0; --step) {
+    cv::Mat grown;
+    cv::dilate(own, grown, cv::Mat::ones(3, 3, CV_8U));
+    own |= grown & picture.ink & from;
   }
+  picture.part.setTo(static_cast<int>(part), own);
 }
 
-// Small pieces of a part apart from its largest go to what surrounds them.
+// Limbs in front take their lines from all that is behind them, the trunk its own from limbs behind it.
+void shareInk(Sketch& picture) {
+  cv::Mat behind = cv::Mat::zeros(picture.part.size(), CV_8U);
+  for (int k = 0; k < 4; ++k) {
+    const double before = picture.before[static_cast<std::size_t>(k)];
+    if (before < .5) {
+      behind |= picture.of(limbPart(k));
+      continue;
+    }
+    cv::Mat others = cv::Mat::zeros(picture.part.size(), CV_8U);
+    for (int j = 0; j < 4; ++j)
+      if (j != k && picture.before[static_cast<std::size_t>(j)] >= before) others |= picture.of(limbPart(j));
+    takeInk(picture, limbPart(k), ~others);
+  }
+  takeInk(picture, Part::kTrunk, behind);
+}
+
+// Small pieces of a part apart from its largest go to what surrounds them. What is outside of the figure,
+// too, so that at any scale its rim has the parts that end there.
 void removeIslands(Sketch& picture) {
   cv::Mat moved = cv::Mat::zeros(picture.part.size(), CV_8U);
   for (int part = 0; part < kPartCount; ++part) {
@@ -228,7 +238,6 @@ void removeIslands(Sketch& picture) {
           apart.at<std::uint8_t>(y, x) = 255;
       }
   }
-  if (cv::countNonZero(moved) == 0) return;
   cv::Mat distance, labels;
   const cv::Mat open = moved | ~picture.mask;
   cv::distanceTransform(open, distance, labels, cv::DIST_L2, 3, cv::DIST_LABEL_PIXEL);
@@ -241,7 +250,7 @@ void removeIslands(Sketch& picture) {
         of[static_cast<std::size_t>(labels.at<int>(y, x))] = picture.part.at<std::uint8_t>(y, x);
   for (int y = 0; y < open.rows; ++y)
     for (int x = 0; x < open.cols; ++x)
-      if (moved.at<std::uint8_t>(y, x) != 0)
+      if (open.at<std::uint8_t>(y, x) != 0)
         picture.part.at<std::uint8_t>(y, x) = of[static_cast<std::size_t>(labels.at<int>(y, x))];
 }
 
@@ -257,9 +266,9 @@ PartPicture findParts(const Image& image, const Plane8& mask, const PartSkeleton
       ask(net, scaled(skeleton, Vec(sketch.box.x0, sketch.box.y0), sketch.scale), sketch);
   findInk(sketch);
   snap(probabilities, sketch);
-  takeInk(sketch);
+  shareInk(sketch);
   removeIslands(sketch);
-  PartPicture picture{sketch.box, sketch.scale, {}, {}, {}, sketch.sure, sketch.range};
+  PartPicture picture{sketch.box, sketch.scale, {}, {}, {}, sketch.sure, sketch.before, sketch.range};
   const auto plane = [](const cv::Mat& of) {
     return Plane8(Eigen::Map<const Plane8>(of.ptr<std::uint8_t>(), of.rows, of.cols));
   };

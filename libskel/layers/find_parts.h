@@ -18,9 +18,10 @@ struct PartPicture {
   double scale = 1;               // its px a px of the image, at most 1
   std::vector<std::uint8_t> rgb;  // over white, three bytes a px, row by row
   Plane8 mask;                    // 255 on the figure
-  Plane8 part;                    // a Part; on the figure alone
-  std::array<double, 4> sure{};   // of each limb: mean probability of its pixels
-  double range = 0;               // of brightness on the figure, at least 40
+  Plane8 part;                    // a Part, outside of the figure the nearest
+  // Of each limb: mean probability of its pixels, and that it lies before what it overlaps.
+  std::array<double, 4> sure{}, before{};
+  double range = 0;  // of brightness on the figure, at least 40
 };
 
 // `mask`: 255 on the figure, somewhere; `skeleton` in image px, the corner of the first px at 0.

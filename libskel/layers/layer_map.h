@@ -25,6 +25,9 @@ struct LayerMap {
   // it is a guess where they end. They would only tear the body; its pixels stay with it, and these limbs
   // move nothing.
   std::vector<int> hidden = {};
+  // Of each pair of limbs of a figure drawn from the side, the farther one, which lies behind the trunk.
+  // Layers or not.
+  std::vector<int> far = {};
   // Of the image's size: a Part on the figure. Empty: not known.
   Plane8 part = {};
 
@@ -37,9 +40,9 @@ struct LayerMap {
 LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
                     const SkeletonTemplate& body_plan, const PartNet& net);
 
-// The bodies that the figure is made of, the farthest first: what each shows and what others hide of it, and
-// where it hangs on the trunk, which there has the same pixels. Empty: the map has no limb, or none that is
-// more than its root.
+// The bodies that the figure is made of, the trunk, then the limbs, the farthest first: what each shows and
+// what others hide of it, and where it hangs on the trunk, which there has the same pixels or, of far limbs,
+// hides it. Empty: the map has no limb, or none that is more than its root.
 std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& silhouette,
                                       const Skeleton& skeleton, const SkeletonTemplate& body_plan);
 

@@ -339,6 +339,7 @@ void layPieces(std::vector<Sheet>& sheets, const std::vector<FigurePiece>& piece
   const double cell_px = sheets.front().planar.cell_px, margin = 2 * cell_px + 2;
   Relief relief({box.x0 - margin, box.y0 - margin}, {box.x1 + margin, box.y1 + margin}, cell_px / 2);
   for (std::size_t i = 0; i < sheets.size(); ++i) {
+    if (i > 0 && pieces[i].behind) continue;
     if (i > 0) sheets[i].offset = layOver(relief, sheets[i].planar, sheets[i].z.back, pieces[i]);
     relief.raise(sheets[i].planar, sheets[i].z.front, sheets[i].offset);
   }

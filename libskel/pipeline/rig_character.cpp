@@ -267,6 +267,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
       LayerMap given = layersOfPicture(input.layers->image, silhouette, body_plan, input.layers->file);
       for (const int limb : found.hidden)
         if (!(given.limb == limb).any()) given.hidden.push_back(limb);
+      given.far = std::move(found.far);
       return given;
     });
     pieces = timed("pieces", [&] { return figurePieces(drawing.layers, silhouette, skeleton, body_plan); });
@@ -298,7 +299,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     drawing.character = timed("depth", [&] {
       RiggedCharacter parted = std::move(drawing.character);
       const double yaw_rad = measureFigure(parted.mesh, parted.weights, parted.skeleton).yaw_rad;
-      partLimbsInDepth(parted.mesh, parted.skeleton, parted.weights, body_plan, yaw_rad);
+      partLimbsInDepth(parted.mesh, parted.skeleton, parted.weights, body_plan, yaw_rad, drawing.layers.far);
       return parted;
     });
     drawing.recognition.skeleton = drawing.character.skeleton;

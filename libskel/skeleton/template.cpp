@@ -98,6 +98,15 @@ int SkeletonTemplate::find(std::string_view joint) const {
   return -1;
 }
 
+std::vector<std::array<int, 2>> SkeletonTemplate::limbPairs() const {
+  std::vector<std::array<int, 2>> pairs;
+  for (size_t a = 0; a < limbs.size(); ++a)
+    for (size_t b = a + 1; b < limbs.size(); ++b)
+      if (joints[static_cast<size_t>(limbs[a].joints[0])].mirror == limbs[b].joints[0])
+        pairs.push_back({static_cast<int>(a), static_cast<int>(b)});
+  return pairs;
+}
+
 SkeletonTemplate parseTemplate(std::string_view text, const std::string& file) {
   const JsonDocument document = JsonDocument::parse(text, file);
   const JsonValue root = document.root();

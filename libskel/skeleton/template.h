@@ -62,6 +62,8 @@ struct SkeletonTemplate {
   double length_m = 0;     // of a model's longer side, up or across; 0: models are 1.7 m high
 
   int find(std::string_view joint) const;  // -1 if there is none
+  // Of the limbs that are mirror images of each other, each pair once, the one that is named first before.
+  std::vector<std::array<int, 2>> limbPairs() const;
 };
 
 // A template of this name that skel brings along, or the file of this path. Throws InputError.

@@ -132,14 +132,15 @@ TEST_CASE("every patch is painted once, far limbs before the trunk") {
   }
   const Skeleton& skeleton = drawing.character.skeleton;
   int far = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const int foot =
-        skeleton.index(drawing.body_plan.joints[std::size_t(drawing.body_plan.limbs[k].joints[2])].name);
-    if (skeleton.joints[std::size_t(foot)].position.z() > -0.03 || first[k + 1] == squares) continue;
+  for (const int limb : drawing.layers.far) {
+    const TemplateLimb& joints = drawing.body_plan.limbs[std::size_t(limb) - 1];
+    const int foot = skeleton.index(drawing.body_plan.joints[std::size_t(joints.joints[2])].name);
+    CHECK(skeleton.joints[std::size_t(foot)].position.z() < 0);
+    if (first[std::size_t(limb)] == squares) continue;
     ++far;
-    CHECK(last[k + 1] < first[0]);
+    CHECK(last[std::size_t(limb)] < first[0]);
   }
-  CHECK(far >= 1);
+  CHECK(far == 2);
 }
 
 TEST_CASE("the same drawing in the same pose gives the same bytes") {

@@ -54,6 +54,17 @@ TEST_CASE("The limb that was seen more surely is the nearer one") {
   CHECK(animal.depth(0) < 0);
 }
 
+TEST_CASE("A limb that is known to be the farther one is, however surely it was seen") {
+  FourColumns animal;
+  for (const int j : animal.plan.limbs[2].joints)
+    animal.skeleton.joints[animal.skeleton.index(animal.plan.joints[j].name)].confidence = 1;
+  partLimbsInDepth(animal.mesh, animal.skeleton, animal.weights, animal.plan, 0, {2, 3});
+  CHECK(animal.depth(0) > 0);
+  CHECK(animal.depth(1) < 0);
+  CHECK(animal.depth(2) < 0);
+  CHECK(animal.depth(3) > 0);
+}
+
 TEST_CASE("A body plan that is drawn from the front stays flat unless it is turned") {
   FourColumns animal;
   animal.plan.from_side = false;

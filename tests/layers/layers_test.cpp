@@ -141,6 +141,31 @@ Eigen::MatrixX3f raised(const TriangleMesh& mesh, const Skeleton& skeleton, cons
   return posed;
 }
 
+// An animal of datasets with the joints and the mask that somebody has drawn.
+struct Animal {
+  SkeletonTemplate body_plan = loadTemplate("quadruped");
+  Image image;
+  Silhouette silhouette;
+  Skeleton skeleton = presetSkeleton(body_plan, {0, 0}, {1, 1});
+  LayerMap layers;
+
+  explicit Animal(const std::string& name) {
+    const std::string path = SKEL_SOURCE_DIR "/datasets/animals/" + name;
+    image = readImage(path + ".png");
+    silhouette = silhouetteFromMask(readMask(path + ".mask.png"));
+    for (const auto& [joint, place] : readJointsFile(path + ".joints.json"))
+      skeleton.joints[std::size_t(skeleton.index(joint))].image = *place;
+    layers = findLayers(image, silhouette, skeleton, body_plan, builtInPartNet());
+  }
+  // Of a limb, from the trunk outwards.
+  Eigen::Vector2i joint(int limb, int i) const {
+    const int of_plan = body_plan.limbs[std::size_t(limb)].joints[std::size_t(i)];
+    const std::string& name = body_plan.joints[std::size_t(of_plan)].name;
+    return skeleton.joints[std::size_t(skeleton.index(name))].image.array().round().matrix().cast<int>();
+  }
+  std::vector<FigurePiece> pieces() const { return figurePieces(layers, silhouette, skeleton, body_plan); }
+};
+
 }  // namespace
 
 TEST_CASE(
@@ -288,6 +313,61 @@ TEST_CASE("what two limbs cut off goes to the nearer of them: the rim of shoes t
     while (silhouette.mask(sole + 1, Eigen::Index(p.x())) != 0) ++sole;
     CHECK(int(layers.limb(sole, Eigen::Index(p.x()))) == limb);
   }
+}
+
+TEST_CASE("one leg of each pair of an animal is far: the trunk hides its root, and has nothing of it") {
+  const Animal sheep("cloud_sheep");
+  REQUIRE(sheep.layers.far.size() == 2);
+  CHECK((sheep.layers.far[0] == 1 || sheep.layers.far[0] == 2));
+  CHECK((sheep.layers.far[1] == 3 || sheep.layers.far[1] == 4));
+  const std::vector<FigurePiece> pieces = sheep.pieces();
+  REQUIRE(pieces.size() == 5);
+  for (const FigurePiece& piece : pieces) {
+    CAPTURE(piece.layer);
+    const bool far =
+        std::find(sheep.layers.far.begin(), sheep.layers.far.end(), piece.layer) != sheep.layers.far.end();
+    CHECK(piece.behind == far);
+    int hidden_by_trunk = 0, of_far = 0;
+    for (int v = 0; v < piece.box.height(); ++v)
+      for (int u = 0; u < piece.box.width(); ++u) {
+        const int layer = sheep.layers.limb(piece.box.y0 + v, piece.box.x0 + u);
+        hidden_by_trunk += piece.hidden(v, u) != 0 && layer == 0;
+        of_far += piece.mask(v, u) != 0 && (layer == sheep.layers.far[0] || layer == sheep.layers.far[1]);
+      }
+    if (far) CHECK(hidden_by_trunk > 50);
+    if (piece.layer == 0) CHECK(of_far == 0);
+  }
+}
+
+TEST_CASE("a trunk before the legs keeps its outline, and legs keep theirs, all around") {
+  const Animal sheep("cloud_sheep");
+  for (int limb = 0; limb < 4; ++limb) {
+    CAPTURE(limb);
+    const Eigen::Vector2i knee = sheep.joint(limb, 1);
+    REQUIRE(sheep.layers.limb(knee.y(), knee.x()) == limb + 1);
+    int top = knee.y();
+    while (sheep.layers.limb(top, knee.x()) == limb + 1) --top;
+    int darkest = 255;
+    for (int y = top - 4; y <= top; ++y) darkest = std::min<int>(darkest, sheep.image.pixel(knee.x(), y)[0]);
+    CHECK(darkest < 60);
+    for (const int step : {-1, 1})
+      for (int x = knee.x(); sheep.silhouette.mask(knee.y(), x) != 0; x += step)
+        CHECK(int(sheep.layers.limb(knee.y(), x)) == limb + 1);
+  }
+}
+
+TEST_CASE("short legs reach their hips deep in the trunk") {
+  const Animal pig("crayon_pig");
+  int legs = 0;
+  for (const FigurePiece& piece : pig.pieces()) {
+    if (piece.layer == 0) continue;
+    CAPTURE(piece.layer);
+    const Eigen::Vector2i hip = pig.joint(piece.layer - 1, 0) - Eigen::Vector2i(piece.box.x0, piece.box.y0);
+    REQUIRE(pig.layers.limb(hip.y() + piece.box.y0, hip.x() + piece.box.x0) == 0);
+    CHECK(piece.mask(hip.y(), hip.x()) != 0);
+    ++legs;
+  }
+  CHECK(legs >= 3);
 }
 
 TEST_CASE("the parts of a mask are the 4-connected ones, numbered as they begin") {

@@ -47,6 +47,16 @@ TEST_CASE("the quadruped has 19 joints, 16 of them recognised") {
   CHECK(quadruped.limbs.size() == 4);
 }
 
+TEST_CASE("limbs that mirror each other are pairs, arms with arms, legs with legs") {
+  for (const std::string& name : builtinTemplates()) {
+    CAPTURE(name);
+    CHECK(loadTemplate(name).limbPairs() == std::vector<std::array<int, 2>>{{0, 1}, {2, 3}});
+  }
+  SkeletonTemplate one_armed = loadTemplate("biped");
+  one_armed.limbs.erase(one_armed.limbs.begin());
+  CHECK(one_armed.limbPairs() == std::vector<std::array<int, 2>>{{1, 2}});
+}
+
 TEST_CASE("a template file that makes no sense is refused") {
   CHECK_THROWS_WITH(loadTemplate("centaur"),
                     "centaur: is no template; use one of: biped, quadruped, or a template's .json file");
