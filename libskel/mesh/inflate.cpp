@@ -51,6 +51,7 @@ void addTo(VertexEstimate& result, const std::vector<Polygon>& outline) {
 // The flange that a drawn outline becomes rises from the rim to this share of the outline's width: seen from
 // the side it is next to nothing.
 constexpr double kFlange = 0.06;
+constexpr double kLip = 1;  // how far the rim stands forward there, as a share of that width
 
 // −Δu + u / range² = c of each inner vertex. A long strip of width w gets z² = c/2·(w²/4 − x²), as thick as
 // wide for c = 2; a disc of diameter d gets z² = c/4·(d²/4 − r²), a ball for c = 4; what is wider than the
@@ -162,6 +163,7 @@ struct Sheet {
   OutlineBand outline_band;
   std::vector<Eigen::Vector2d> place;  // of all vertices, image px: where they stand
   Heights z;
+  std::vector<double> lip;     // px before the drawing, of the rim's vertices
   std::vector<double> offset;  // px, of all vertices
   DrawingTexture front;
   std::optional<BackTexture> back;
@@ -262,7 +264,7 @@ int shareOf(int max_texture_px, const PixelBox& piece, const PixelBox& figure) {
 // colours; both of the size of `image`.
 void dress(const Image& image, const Plane8& mask, const Plane8& colored, bool thin_outline,
            int max_texture_px, Sheet& sheet) {
-  sheet.outline_band = {std::vector<double>(sheet.inner(), 0), sheet.planar.vertices};
+  sheet.outline_band = {std::vector<double>(sheet.inner(), 0), {}, sheet.planar.vertices};
   if (thin_outline) sheet.outline_band = outlineBand(sheet.planar, drawnOutline(image, mask, sheet.outline));
   sheet.front = drawingTexture(image, colored, figureBox(mask), max_texture_px);
 }
@@ -281,7 +283,8 @@ void dressPiece(const Image& image, const FigurePiece& piece, const Plane8& draw
                  Plane8((colored != 0 && piece.hidden != 0).cast<std::uint8_t>()));
   dress(filled, piece.mask, colored, thin_outline, max_texture_px, sheet);
   const Eigen::Vector2d corner(box.x0, box.y0);
-  for (std::vector<Eigen::Vector2d>* points : {&sheet.planar.vertices, &sheet.outline_band.drawn})
+  for (std::vector<Eigen::Vector2d>* points :
+       {&sheet.planar.vertices, &sheet.outline_band.ink, &sheet.outline_band.drawn})
     for (Eigen::Vector2d& p : *points) p += corner;
   sheet.front.corner_px += corner;
 }
@@ -310,14 +313,37 @@ std::vector<double> bandBehind(const Sheet& sheet) {
   const Image &front = sheet.front.image, &back = sheet.back->image;
   for (int v = 0; v < sheet.inner(); ++v) {
     if (band[v] == 0) continue;
-    const Eigen::Vector2d p = sheet.planar.vertices[v], inwards = sheet.outline_band.drawn[v] - p;
-    const Eigen::Vector2d at = sheet.front.uvFromImage(p - 0.5 * band[v] * inwards.normalized())
+    const Eigen::Vector2d at = sheet.front.uvFromImage(sheet.outline_band.ink[v])
                                    .cwiseProduct(Eigen::Vector2d(front.width, front.height));
     const int x = std::clamp(static_cast<int>(at.x()), 0, front.width - 1),
               y = std::clamp(static_cast<int>(at.y()), 0, front.height - 1);
     if (!std::equal(front.pixel(x, y), front.pixel(x, y) + 3, back.pixel(x, y))) band[v] = 0;
   }
   return band;
+}
+
+// The rim stands forward where only the front shows the outline (`band`, `behind`: of the inner vertices):
+// the flange then looks inwards, and who looks from the side sees the back's colours up to the rim.
+std::vector<double> lipOf(const PlanarMesh& mesh, const std::vector<double>& band,
+                          const std::vector<double>& behind) {
+  const std::size_t inner = static_cast<std::size_t>(mesh.inner_count), rim = mesh.vertices.size() - inner;
+  std::vector<double> width(rim, 0), lip(rim, 0);
+  std::vector<int> beside(rim, 0);
+  for (const auto& t : mesh.triangles)
+    for (const int a : t)
+      for (const int b : t) {
+        if (a < mesh.inner_count || b >= mesh.inner_count) continue;
+        const std::size_t at = static_cast<std::size_t>(a) - inner;
+        ++beside[at];
+        if (behind[b] == 0) width[at] += band[b];
+      }
+  for (std::size_t v = 0; v < rim; ++v) width[v] /= std::max(1, beside[v]);
+  // Smooth along the rim.
+  lip = width;
+  for (const auto& [a, b] : mesh.rim)
+    for (const auto& [to, from] : {std::pair{a, b}, {b, a}}) lip[to - inner] += width[from - inner];
+  for (double& value : lip) value *= kLip / 3;
+  return lip;
 }
 
 // How thick it is, and where its points stand.
@@ -328,8 +354,9 @@ void giveDepth(const BodyDepth& body, bool own_back, Sheet& sheet) {
   // A back that shows no outline is round up to the rim.
   const std::vector<double> behind = own_back ? bandBehind(sheet) : band;
   sheet.z.back = behind == band ? sheet.z.front : inflatedHeights(sheet.planar, depths, behind);
+  sheet.lip = lipOf(sheet.planar, band, behind);
   sheet.place = sheet.planar.vertices;
-  putOnShoes(sheet.planar, body.feet, band, sheet.z, sheet.place);
+  putOnShoes(sheet.planar, body.feet, {band, behind}, sheet.z, sheet.place);
 }
 
 // Brings each piece before those behind it.
@@ -455,7 +482,7 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
       const int drawn_vertex = v < size ? v : v - size;
       const Eigen::Vector2d& q = sheet.outline_band.drawn[drawn_vertex];
       const Eigen::Vector2d p = mesh.model_from_image(sheet.place[drawn_vertex]);
-      const double z = drawn_vertex >= inner ? 0
+      const double z = drawn_vertex >= inner ? sheet.lip[static_cast<std::size_t>(drawn_vertex - inner)]
                        : v < size            ? sheet.z.front[drawn_vertex]
                                              : -sheet.z.back[drawn_vertex];
       mesh.vertices.row(first + v) << p.cast<float>().transpose(),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "libskel/mesh/cut_mesh.h"
 #include "libskel/mesh/ink.h"
 #include "libskel/mesh/outline.h"
 
@@ -16,9 +17,14 @@ using Eigen::Vector2d;
 constexpr double kWidest = 0.045;   // of a line
 constexpr double kSpacing = 0.006;  // from sample to sample
 // inkLightness().
-constexpr double kDarkest = 150;      // a line is darker
-constexpr double kContrast = 28;      // and what it encloses lighter by this
+constexpr double kDarkest = 150;                             // a line is darker
+constexpr double kContrast = 28;                             // and what it encloses lighter by this
+constexpr double kShareOfLight = 0.35, kLeastContrast = 15;  // or, where that is dark, by this share of it
+constexpr double kWhite = 215, kWhiteContrast = 90;  // or it is as light, and what it encloses so much darker
+// As shares of the widest: less is paper that shines through, more is a hood or a collar.
+constexpr double kLeastWhite = 0.12, kMostWhite = 0.65;
 constexpr double kLeastShape = 0.12;  // of a triangle, 1 for an equilateral one
+constexpr double kGap = 5;            // widths of an outline along which it may be lost
 // How far a line's inner edge is blurred: a share of its width and px, at most a share of a cell.
 constexpr double kSoft = 0.15, kSoftPx = 1.5, kMostSoft = 0.35;
 
@@ -34,34 +40,48 @@ bool inside(const Plane8& mask, const Vector2d& p) {
   return x >= 0 && y >= 0 && x < mask.cols() && y < mask.rows() && mask(y, x) != 0;
 }
 
-// The width of the dark line that begins at `p` and is crossed along `inwards`; 0: none.
+constexpr double kStep = 0.5;  // px, from value to value
+
+// The width of a line whose values are below those of what it encloses, at most `reach` steps, px; 0: none.
+// `contrast`: the least difference, of the darkest and the lightest value.
+template <class Contrast>
+double lineWidth(const std::vector<double>& light, std::size_t reach, double darkest_ink,
+                 const Contrast& contrast) {
+  // The outermost px may shine like paper; then comes ink.
+  const auto darkest = std::min_element(
+      light.begin(), light.begin() + static_cast<std::ptrdiff_t>(std::min(light.size(), reach / 2 + 2)));
+  if (*darkest > darkest_ink) return 0;
+  const double lightest = *std::max_element(darkest, light.end());
+  if (lightest - *darkest < contrast(lightest)) return 0;
+  const auto edge =
+      std::find_if(darkest, light.end(), [&](double value) { return value >= 0.5 * (*darkest + lightest); });
+  const auto width = static_cast<std::size_t>(edge - light.begin());
+  // The body goes on for as much again: else this is a thin thing whose other outline follows.
+  const bool body_follows = light.size() > width + width / 2 + 2;
+  return width <= reach && body_follows ? (static_cast<double>(width) + 1) * kStep : 0;
+}
+
+// The width of the line that begins at `p` and is crossed along `inwards`; 0: none.
 double lineWidth(const Image& image, const Plane8& mask, const Vector2d& p, const Vector2d& inwards,
                  double widest_px) {
+  const auto samples = static_cast<std::size_t>(1.6 * widest_px / kStep);
   std::vector<double> light;
-  const double step = 0.5;
-  light.reserve(static_cast<std::size_t>(1.6 * widest_px / step) + 1);
-  for (double t = step; t <= 1.6 * widest_px; t += step) {
-    const Vector2d at = p + t * inwards;
+  light.reserve(samples);
+  for (std::size_t i = 1; i <= samples; ++i) {
+    const Vector2d at = p + static_cast<double>(i) * kStep * inwards;
     if (!inside(mask, at)) break;
     light.push_back(lightnessAt(image, at));
   }
-  const auto reach = static_cast<std::size_t>(widest_px / step);
+  const auto reach = static_cast<std::size_t>(widest_px / kStep);
   if (light.size() < 4) return 0;
-  // The outermost px may shine like paper; then comes ink.
-  const auto darkest = std::min_element(light.begin(), light.begin() + std::min(light.size(), reach / 2 + 2));
-  if (*darkest > kDarkest) return 0;
-  double lightest = 0;
-  for (auto it = darkest; it != light.end(); ++it) lightest = std::max(lightest, *it);
-  if (lightest - *darkest < kContrast) return 0;
-  const double edge = 0.5 * (*darkest + lightest);
-  for (auto it = darkest; it != light.end(); ++it) {
-    if (*it < edge) continue;
-    const auto width = static_cast<std::size_t>(it - light.begin());
-    // The body goes on for as much again: else this is a thin thing whose other outline follows.
-    const bool body_follows = light.size() > width + width / 2 + 2;
-    return width <= reach && body_follows ? (static_cast<double>(width) + 1) * step : 0;
-  }
-  return 0;
+  const double dark = lineWidth(light, reach, kDarkest, [](double lightest) {
+    return std::clamp(kShareOfLight * lightest, kLeastContrast, kContrast);
+  });
+  // Paper shines through strokes of crayon: only what is wide can have a white outline.
+  if (dark > 0 || light.size() < samples) return dark;
+  for (double& value : light) value = 255 - value;
+  const double white = lineWidth(light, reach, 255 - kWhite, [](double) { return kWhiteContrast; });
+  return white >= kLeastWhite * widest_px && white <= kMostWhite * widest_px ? white : 0;
 }
 
 // 1 for an equilateral triangle, as it is turned in the drawing; negative for an inverted one.
@@ -69,6 +89,64 @@ double shape(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   const double area = (c.x() - a.x()) * (b.y() - a.y()) - (b.x() - a.x()) * (c.y() - a.y());
   return 2 * std::sqrt(3.0) * area / ((b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm());
 }
+
+// Where another line meets the outline, that goes on: it is told from both sides of a gap of at most
+// kGap widths. `samples` from `first` on are one closed curve.
+void closeGaps(std::vector<OutlineSample>& samples, std::size_t first, int spacing_px) {
+  const int size = static_cast<int>(samples.size() - first);
+  const auto width = [&](int k) -> double& { return samples[first + (k % size)].width_px; };
+  for (int k = 0; k < size; ++k) {
+    if (width(k) == 0 || width(k + 1) > 0) continue;
+    int end = k + 1;
+    while (end < k + size && width(end) == 0) ++end;
+    const double before = width(k), after = width(end);
+    if ((end - k) * spacing_px > kGap * (before + after) / 2) continue;
+    for (int i = k + 1; i < end; ++i) width(i) = before + (after - before) * (i - k) / (end - k);
+  }
+}
+
+// The outline's samples by cells, so that each vertex looks at its neighbourhood alone.
+class SampleGrid {
+ public:
+  SampleGrid(const PlanarMesh& mesh, const std::vector<OutlineSample>& outline, double reach)
+      : outline_(outline), cell_(std::max(reach, 1.0)), low_(mesh.vertices.front()) {
+    Vector2d high = low_;
+    for (const Vector2d& p : mesh.vertices) low_ = low_.cwiseMin(p), high = high.cwiseMax(p);
+    low_.array() -= cell_;
+    columns_ = static_cast<int>((high.x() - low_.x()) / cell_) + 3;
+    rows_ = static_cast<int>((high.y() - low_.y()) / cell_) + 3;
+    cells_.resize(static_cast<std::size_t>(columns_) * rows_);
+    for (std::size_t s = 0; s < outline.size(); ++s) {
+      const auto [i, j] = cellOf(outline[s].point);
+      cells_[static_cast<std::size_t>(j) * columns_ + i].push_back(static_cast<int>(s));
+    }
+  }
+
+  // Null: none is within reach.
+  const OutlineSample* nearest(const Vector2d& p) const {
+    const auto [ci, cj] = cellOf(p);
+    double distance = std::numeric_limits<double>::infinity();
+    const OutlineSample* found = nullptr;
+    for (int j = std::max(0, cj - 1); j <= std::min(rows_ - 1, cj + 1); ++j)
+      for (int i = std::max(0, ci - 1); i <= std::min(columns_ - 1, ci + 1); ++i)
+        for (const int s : cells_[static_cast<std::size_t>(j) * columns_ + i])
+          if (const double d = (outline_[s].point - p).norm(); d < distance)
+            distance = d, found = &outline_[s];
+    return found;
+  }
+
+ private:
+  std::pair<int, int> cellOf(const Vector2d& p) const {
+    return {std::clamp(static_cast<int>((p.x() - low_.x()) / cell_), 0, columns_ - 1),
+            std::clamp(static_cast<int>((p.y() - low_.y()) / cell_), 0, rows_ - 1)};
+  }
+
+  const std::vector<OutlineSample>& outline_;
+  double cell_;
+  Vector2d low_;
+  int columns_ = 0, rows_ = 0;
+  std::vector<std::vector<int>> cells_;
+};
 
 }  // namespace
 
@@ -101,34 +179,19 @@ std::vector<OutlineSample> drawnOutline(const Image& image, const Plane8& mask,
       std::nth_element(five, five + 2, five + 5);
       samples[first + k].width_px = five[2];
     }
+    closeGaps(samples, first, spacing);
   }
   return samples;
 }
 
 OutlineBand outlineBand(PlanarMesh& mesh, const std::vector<OutlineSample>& outline) {
-  OutlineBand band{std::vector<double>(mesh.inner_count, 0), {}};
+  OutlineBand band{std::vector<double>(mesh.inner_count, 0), mesh.vertices, mesh.vertices};
+  band.ink.resize(band.width_px.size());
   double widest = 0;
   for (const OutlineSample& sample : outline) widest = std::max(widest, sample.width_px);
-  if (widest == 0) {
-    band.drawn = mesh.vertices;
-    return band;
-  }
-  // Samples by cells, so that each vertex looks at its neighbourhood alone.
-  const double reach = widest + 1.5 * mesh.cell_px, cell = std::max(reach, 1.0);
-  Vector2d low = mesh.vertices.front(), high = low;
-  for (const Vector2d& p : mesh.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  low.array() -= cell;
-  const int columns = static_cast<int>((high.x() - low.x()) / cell) + 3;
-  const int rows = static_cast<int>((high.y() - low.y()) / cell) + 3;
-  std::vector<std::vector<int>> cells(static_cast<std::size_t>(columns) * rows);
-  const auto cellOf = [&](const Vector2d& p) {
-    return std::pair{std::clamp(static_cast<int>((p.x() - low.x()) / cell), 0, columns - 1),
-                     std::clamp(static_cast<int>((p.y() - low.y()) / cell), 0, rows - 1)};
-  };
-  for (std::size_t s = 0; s < outline.size(); ++s) {
-    const auto [i, j] = cellOf(outline[s].point);
-    cells[static_cast<std::size_t>(j) * columns + i].push_back(static_cast<int>(s));
-  }
+  if (widest == 0) return band;
+  const double reach = widest + 1.5 * mesh.cell_px;
+  const SampleGrid samples(mesh, outline, reach);
   std::vector<std::vector<int>> around(mesh.inner_count);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const int v : mesh.triangles[t])
@@ -141,20 +204,22 @@ OutlineBand outlineBand(PlanarMesh& mesh, const std::vector<OutlineSample>& outl
     }
     return result;
   };
+  const auto softOf = [&](double width) {
+    return std::min(kSoft * width + kSoftPx, kMostSoft * mesh.cell_px);
+  };
   std::vector<Vector2d> inwards(mesh.inner_count, Vector2d::Zero());
+  // How far behind the line's inner edge each vertex lies.
+  std::vector<double> behind(mesh.vertices.size(), reach);
   for (int v = 0; v < mesh.inner_count; ++v) {
     const Vector2d p = mesh.vertices[v];
-    const auto [ci, cj] = cellOf(p);
-    double distance = std::numeric_limits<double>::infinity();
-    int nearest = -1;
-    for (int j = std::max(0, cj - 1); j <= std::min(rows - 1, cj + 1); ++j)
-      for (int i = std::max(0, ci - 1); i <= std::min(columns - 1, ci + 1); ++i)
-        for (const int s : cells[static_cast<std::size_t>(j) * columns + i])
-          if (const double d = (outline[s].point - p).norm(); d < distance) distance = d, nearest = s;
-    if (nearest < 0 || outline[nearest].width_px == 0 || distance == 0) continue;
-    const double width = outline[nearest].width_px;
+    const OutlineSample* nearest = samples.nearest(p);
+    if (nearest == nullptr) continue;
+    const Vector2d q = nearest->point;
+    const double width = nearest->width_px;
+    double distance = (p - q).norm();
+    behind[v] = distance - width;
+    if (width == 0 || distance == 0) continue;
     if (std::abs(distance - width) < 0.75 * mesh.cell_px) {
-      const Vector2d q = outline[nearest].point;
       const double before = worst(v);
       for (const double share : {1.0, 0.6, 0.3}) {
         const double target = distance + share * (width - distance);
@@ -166,10 +231,26 @@ OutlineBand outlineBand(PlanarMesh& mesh, const std::vector<OutlineSample>& outl
         mesh.vertices[v] = p;
       }
     }
-    if (distance > width + 0.08 * mesh.cell_px) continue;
+    behind[v] = distance - width;
+    if (behind[v] > 0.08 * mesh.cell_px) continue;
+    behind[v] = std::min(behind[v], 0.0);
     band.width_px[v] = width;
-    const double soft = std::min(kSoft * width + kSoftPx, kMostSoft * mesh.cell_px);
-    inwards[v] = (p - outline[nearest].point).normalized() * (soft * std::min(1.0, distance / width));
+    band.ink[v] = q + (p - q) * (width / 2 / (p - q).norm());
+    inwards[v] = (p - q).normalized() * (softOf(width) * std::min(1.0, distance / width));
+  }
+  for (std::size_t v = static_cast<std::size_t>(mesh.inner_count); v < mesh.vertices.size(); ++v) {
+    const OutlineSample* nearest = samples.nearest(mesh.vertices[v]);
+    behind[v] = nearest == nullptr ? 0 : -nearest->width_px;
+  }
+  // What is left of the line's inner edge crosses triangles.
+  for (const CutVertex& cut : cutMesh(mesh, behind)) {
+    const Vector2d& a = mesh.vertices[cut.a];
+    const OutlineSample* nearest = samples.nearest(a);
+    const double width = nearest == nullptr ? 0 : nearest->width_px;
+    const Vector2d along = mesh.vertices[cut.b] - a;
+    band.width_px.push_back(width);
+    band.ink.push_back(a + (mesh.vertices[band.ink.size()] - a) / 2);
+    inwards.push_back(along * std::min(softOf(width) / along.norm(), (1 - cut.t) / 2));
   }
   band.drawn = mesh.vertices;
   for (int v = 0; v < mesh.inner_count; ++v) band.drawn[v] += inwards[v];

@@ -23,6 +23,7 @@ std::vector<OutlineSample> drawnOutline(const Image& image, const Plane8& mask,
 
 struct OutlineBand {
   std::vector<double> width_px;  // of the line, of each inner vertex that lies within it; 0 for all others
+  std::vector<Eigen::Vector2d> ink;    // of each of them, image px: a point in the middle of the line
   std::vector<Eigen::Vector2d> drawn;  // of all vertices, image px: the point of the drawing that they show
 };
 

@@ -19,6 +19,7 @@ constexpr double kLong = 1.6, kShort = 0.6;
 constexpr double kMostByShin = 1.2;        // of the shin's length
 constexpr double kToe = 0.7, kHeel = 0.3;  // before and behind the drawing, as shares of the length
 constexpr double kHigh = 0.5;              // half as deep as high is the least
+constexpr double kSole = 1.2;              // cells above the outline that are flattened
 constexpr int kColumns = 12;               // across the foot, each with a sole of its own
 
 // Across and down the shin, from the foot's joint.
@@ -31,7 +32,7 @@ struct FootFrame {
 
 }  // namespace
 
-void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, const std::vector<double>& band,
+void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, const OutlineBands& bands,
                 Heights& heights, std::vector<Vector2d>& place) {
   for (const DepthFoot& foot : feet) {
     if (foot.foot == foot.knee) continue;
@@ -74,15 +75,19 @@ void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, cons
     }
     for (const auto& [v, at] : own) {
       if (v >= mesh.inner_count) continue;
-      const double half = width / 2 - band[static_cast<std::size_t>(v)];
+      const double line = bands.front[static_cast<std::size_t>(v)];
+      const double half = width / 2 - line;
       const double across = (at.x() - middle) / std::max(half, 1.0);
       const double round = std::sqrt(std::max(0.0, 1 - across * across));
       const double up = std::clamp((sole - at.y()) / height, 0.0, 1.0);
       const double instep = std::sqrt(1 - up * up), counter = std::sqrt(1 - std::pow(up, 4));
-      heights.front[v] = std::max(heights.front[v], round * toe * instep);
-      heights.back[v] = std::max(heights.back[v], round * heel * counter);
       const double drop = soles[static_cast<std::size_t>(columnOf(at.x()))] - at.y();
-      if (drop > 0 && drop < 1.2 * mesh.cell_px && round > 0)
+      // But for the sole, a drawn outline stays the flange that it is.
+      const bool at_sole = drop < line + kSole * mesh.cell_px;
+      if (line == 0 || at_sole) heights.front[v] = std::max(heights.front[v], round * toe * instep);
+      if (bands.back[static_cast<std::size_t>(v)] == 0 || at_sole)
+        heights.back[v] = std::max(heights.back[v], round * heel * counter);
+      if (drop > 0 && drop < kSole * mesh.cell_px && round > 0)
         place[static_cast<std::size_t>(v)] += 0.9 * drop * frame.down;
     }
   }

@@ -299,7 +299,6 @@ TEST_CASE("a dark outline is no broad black band from the side, and the front st
   CHECK(darkFromTheSide(before) > 0.3);
   CHECK(darkFromTheSide(after) < 0.05);
   // From the front: the rim is where it was, and every point of the drawing lies where it is drawn.
-  REQUIRE(after.vertices.rows() == before.vertices.rows());
   const Eigen::Vector2d texels(after.texture.width, after.texture.height);
   const auto texelOf = [&](Eigen::Index v) {
     return Eigen::Vector2d(after.uv.row(v).transpose().cast<double>().cwiseProduct(texels));
@@ -307,19 +306,107 @@ TEST_CASE("a dark outline is no broad black band from the side, and the front st
   const auto pixelOf = [&](Eigen::Index v) {
     return after.model_from_image.inverse(after.vertices.row(v).head<2>().transpose().cast<double>());
   };
-  int rim = 0;
+  const auto rimOf = [](const TriangleMesh& mesh) {
+    std::vector<Eigen::Index> rim;
+    for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
+      if (mesh.vertices(v, 2) == 0) rim.push_back(v);
+    return rim;
+  };
+  const std::vector<Eigen::Index> rim = rimOf(after), rim_before = rimOf(before);
+  CHECK(rim.size() > 100);
+  REQUIRE(rim.size() == rim_before.size());
+  for (std::size_t k = 0; k < rim.size(); ++k)
+    REQUIRE(after.vertices.row(rim[k]) == before.vertices.row(rim_before[k]));
   // But for the line's blurred inner edge, which the flange takes along.
-  const Eigen::Index first = std::find_if(after.vertices.col(2).begin(), after.vertices.col(2).end(),
-                                          [](float z) { return z == 0; }) -
-                             after.vertices.col(2).begin();
-  const Eigen::Vector2d margin = texelOf(first) - pixelOf(first);
-  for (Eigen::Index v = 0; v < after.vertices.rows(); ++v) {
+  const Eigen::Vector2d margin = texelOf(rim[0]) - pixelOf(rim[0]);
+  for (Eigen::Index v = 0; v < after.vertices.rows(); ++v)
     REQUIRE((texelOf(v) - pixelOf(v) - margin).norm() < 0.15 * 14 + 1.6);
-    if (before.vertices(v, 2) != 0) continue;
+}
+
+TEST_CASE("thin outlines lie on the flange all along the rim: no beads of ink on the slope") {
+  const double width = GENERATE(2.0, 3.0, 5.0, 8.0);
+  CAPTURE(width);
+  const Image image = outlinedBall(700, 330, width);
+  InflateOptions thin;
+  thin.thin_outline = true;
+  const TriangleMesh mesh = inflate(image, silhouetteFromMask(notWhite(image)), thin);
+  CHECK(checkMesh(mesh).problem == "");
+  CHECK(darkFromTheSide(mesh) < 0.015);
+}
+
+TEST_CASE("an outline goes on where another line meets it") {
+  Image image = outlinedBall(400, 180, 8);
+  for (int y = 195; y < 205; ++y)
+    for (int x = 200; x < 379; ++x)
+      if (image.pixel(x, y)[0] == 250) std::fill_n(image.pixel(x, y), 3, std::uint8_t(0));
+  const Plane8 mask = notWhite(image);
+  std::vector<std::vector<Eigen::Vector2d>> outline;
+  for (const Polygon& corners : silhouetteFromMask(mask).outline) outline.push_back(sideMiddles(corners));
+  for (const OutlineSample& sample : drawnOutline(image, mask, outline))
+    REQUIRE(sample.width_px == Approx(8).margin(2.5));
+}
+
+TEST_CASE("white around a darker figure is an outline, and so is black around navy blue") {
+  const bool white = GENERATE(true, false);
+  CAPTURE(white);
+  Image image(300, 300);
+  image.rgba.setConstant(255);
+  const Eigen::Vector2d middle(149.5, 149.5);
+  paintDisc(image, middle, 120, white ? std::array{250, 250, 245} : std::array{20, 10, 25});
+  const double width = GENERATE(5.0, 1.0);
+  paintDisc(image, middle, 120 - width, white ? std::array{200, 20, 20} : std::array{40, 40, 84});
+  Plane8 mask = Plane8::Zero(300, 300);
+  for (int y = 0; y < 300; ++y)
+    for (int x = 0; x < 300; ++x) mask(y, x) = (Eigen::Vector2d(x, y) - middle).norm() <= 120;
+  std::vector<std::vector<Eigen::Vector2d>> outline;
+  for (const Polygon& corners : silhouetteFromMask(mask).outline) outline.push_back(sideMiddles(corners));
+  // One px of white is paper that shines through.
+  const double expected = width == 5 ? 5 : white ? 0 : 1;
+  for (const OutlineSample& sample : drawnOutline(image, mask, outline))
+    REQUIRE(sample.width_px == Approx(expected).margin(expected == 0 ? 0 : 1.6));
+}
+
+TEST_CASE("the rim stands forward where the back shows no outline, and nowhere else") {
+  const Image image = outlinedBall(400, 180, 11);
+  const Silhouette silhouette = silhouetteFromMask(notWhite(image));
+  InflateOptions options;
+  options.thin_outline = true;
+  options.back = GENERATE(Back::kPlain, Back::kSame);
+  const TriangleMesh mesh = inflate(image, silhouette, options);
+  const double px = mesh.model_from_image.scale.y();
+  int rim = 0;
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    const Eigen::Vector2d p =
+        mesh.model_from_image.inverse(mesh.vertices.row(v).head<2>().transpose().cast<double>());
+    if ((p - Eigen::Vector2d(199.5, 199.5)).norm() < 179) continue;
     ++rim;
-    REQUIRE(after.vertices.row(v) == before.vertices.row(v));
+    if (options.back == Back::kSame)
+      REQUIRE(mesh.vertices(v, 2) == 0);
+    else
+      REQUIRE(mesh.vertices(v, 2) / px == Approx(11).margin(2.5));
   }
   CHECK(rim > 100);
+}
+
+TEST_CASE("a shoe wears its colour, not the line that is drawn above it") {
+  // A leg, and a foot that is turned out.
+  Image image(300, 300);
+  image.rgba.setConstant(255);
+  const auto box = [&](int x0, int y0, int x1, int y1, std::uint8_t value) {
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) std::fill_n(image.pixel(x, y), 3, value);
+  };
+  box(100, 20, 150, 260, 0), box(100, 210, 240, 280, 0);
+  box(106, 26, 144, 270, 220), box(106, 216, 234, 274, 220);
+  InflateOptions options;
+  options.thin_outline = true;
+  options.back = Back::kPlain;
+  const DepthBone shin{{125, 40}, {125, 230}, 25, 2.5, 50, 0};
+  options.body.bones = {shin};
+  options.body.feet = {{{125, 120}, {125, 230}, 25, 0}};
+  const TriangleMesh mesh = inflate(image, silhouetteFromMask(notWhite(image)), options);
+  CHECK(checkMesh(mesh).problem == "");
+  CHECK(darkFromTheSide(mesh) < 0.05);
 }
 
 TEST_CASE("a figure that is dark all the way through has no outline") {
