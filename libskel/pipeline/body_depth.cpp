@@ -18,6 +18,9 @@ struct Build {
   double source, most;
 };
 constexpr Build kHeadBuild{5, 1.6}, kNeckBuild{1.2, 0.35}, kChestBuild{2.4, 1}, kLimbBuild{2.5, 2};
+constexpr Build kBallBuild{4, 1.3};  // head and trunk in one: a potato, a crab
+// Of the larger of head and trunk: what is as wide between them is no neck; and they are no farther apart.
+constexpr double kNoNeck = 0.95, kInOne = 1.8;
 constexpr Build kSideChestBuild{2.5, 1.4};                               // of a person drawn from the side
 constexpr Build kAnimalTrunkBuild{2, 1.05}, kAnimalHeadBuild{2.2, 1.2};  // drawn from the side, always
 constexpr double kLimbRadius = 0.4;  // at most, as a share of a bone's length: where it lies on the body
@@ -35,15 +38,19 @@ class DepthFinder {
     const auto pelvis = at("pelvis"), body = at("body"), neck = at("neck"), head = at("head"),
                top = at("head_top");
     if (!pelvis || !body || !neck || !head) return {};
-    const Build trunk = trunkBuild(*pelvis, *neck);
-    const double trunk_px = radius(*body);
+    const double head_px = radius(*head), neck_px = radius(*neck), body_px = radius(*body);
+    const bool in_one = !body_plan_.from_side && neck_px > kNoNeck * std::max(head_px, body_px) &&
+                        (*head - *body).norm() < kInOne * neck_px;
+    const Build trunk = in_one ? kBallBuild : trunkBuild(*pelvis, *neck);
+    const double trunk_px = in_one ? neck_px : body_px;
     addBone(*pelvis, *body, trunk_px, trunk);
     addBone(*body, *neck, trunk_px, trunk);
     const Vector2d up = top ? Vector2d(*top - *head) : Vector2d(*head - *neck);
-    const double head_px = radius(*head);
-    addBone(*head, *head + 0.5 * up.normalized() * std::min(up.norm(), head_px), head_px,
-            body_plan_.from_side ? kAnimalHeadBuild : kHeadBuild);
-    if (!body_plan_.from_side) addNeck(*neck, *head, head_px);
+    addBone(*head, *head + 0.5 * up.normalized() * std::min(up.norm(), head_px), in_one ? neck_px : head_px,
+            body_plan_.from_side ? kAnimalHeadBuild
+            : in_one             ? kBallBuild
+                                 : kHeadBuild);
+    if (!body_plan_.from_side && !in_one) addNeck(*neck, *head, head_px);
     for (std::size_t k = 0; k < body_plan_.limbs.size(); ++k)
       addLimb(body_plan_.limbs[k], static_cast<int>(k) + 1, trunk, trunk_px);
     if (const auto root = at("tail_root"), tail = at("tail"); root && tail)

@@ -68,6 +68,19 @@ TEST_CASE("a chest is shallower than wide, a head is round, the neck between the
   CHECK(neck < chest);
 }
 
+TEST_CASE("head and trunk in one are as deep as a ball, down to the legs") {
+  CapsuleFigure figure;
+  figure.trunk_radius = 95;
+  const Silhouette silhouette = silhouetteFromMask(capsuleMask(figure));
+  InflateOptions options;
+  options.body = bodyDepth(capsuleSkeleton(figure), loadTemplate("biped"), silhouette);
+  const Model model{capsuleSkeleton(figure), inflate(capsuleImage(figure), silhouette, options)};
+  const double middle = model.at("neck").y();
+  const float deepest = slice(model.mesh, middle, 2).length();
+  CHECK(deepest > 0.7f * slice(model.mesh, middle, 0, 0, 0.6).length());
+  CHECK(slice(model.mesh, model.at("pelvis").y(), 2).length() > 0.8f * deepest);
+}
+
 TEST_CASE("feet have a flat sole on the ground and a length to the front") {
   const Model model = capsuleModel();
   for (const std::string side : {"left", "right"}) {
