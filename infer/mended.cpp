@@ -35,11 +35,8 @@ PlacedJoints jointsOfLabels(const std::string& path, bool named, const std::stri
                             const std::string& image_sha256) {
   const LabelFile file = readLabelFile(path);
   PlacedJoints placed;
-  for (const auto& [name, place] : file.joints) {
-    const bool found =
-        std::find(file.recognized.begin(), file.recognized.end(), name) != file.recognized.end();
-    if (place && (named || !found)) placed.joints.emplace_back(name, *place);
-  }
+  for (const auto& [name, place] : file.joints)
+    if (place && (named || file.isPlaced(name))) placed.joints.emplace_back(name, *place);
   if (named && placed.joints.empty())
     throw InputError(path, "holds no joints, only classes of candidates; place them (skel-label " +
                                shellWord(source) + ", key J), or name a .skeleton.json");

@@ -159,7 +159,7 @@ void CanvasView::draw() {
   list->AddRectFilled(view_corner_, end, IM_COL32(222, 226, 234, 255));
   if (!document_.image().empty()) {
     drawPicture(list);
-    if (tool != Tool::kMask && tool != Tool::kLimbs) drawCandidates(list);
+    if (tool == Tool::kTouch || tool == Tool::kBrush || tool == Tool::kLasso) drawCandidates(list);
     drawSkeleton(list);
     drawCursor(list, hovered);
   }
@@ -176,18 +176,18 @@ void CanvasView::navigate(bool hovered) {
 
 void CanvasView::useTool(bool hovered) {
   switch (tool) {
-    case Tool::kTouch:
-      return useTouch(hovered);
-    case Tool::kBrush:
-      return useBrush(hovered);
-    case Tool::kLasso:
-      return useLasso(hovered);
     case Tool::kJoints:
       return useJoints(hovered);
     case Tool::kMask:
       return useMask(hovered);
     case Tool::kLimbs:
       return useLimbs(hovered);
+    case Tool::kTouch:
+      return useTouch(hovered);
+    case Tool::kBrush:
+      return useBrush(hovered);
+    case Tool::kLasso:
+      return useLasso(hovered);
   }
 }
 
@@ -313,8 +313,6 @@ void CanvasView::drawPicture(ImDrawList* list) {
 
 void CanvasView::drawCandidates(ImDrawList* list) {
   const Figure& figure = document_.figure();
-  const float quiet = tool == Tool::kJoints ? 0.35f : 1.f;
-  const auto alpha = [&](int a) { return static_cast<int>(static_cast<float>(a) * quiet); };
   const auto radius = [&](size_t i) {
     return static_cast<float>(figure.candidates.maxima[i].radius / figure.silhouette.grid.scale * zoom_);
   };
@@ -322,13 +320,13 @@ void CanvasView::drawCandidates(ImDrawList* list) {
   for (const int index : figure.candidates.kept) {
     const auto i = static_cast<size_t>(index);
     const ImVec2 p = screenFromImage(figure.centers_px[i]);
-    list->AddCircleFilled(p, radius(i), imColor(labels[i], alpha(62)), 48);
-    list->AddCircle(p, radius(i), imColor(labels[i], alpha(170)), 48, 1.5f);
+    list->AddCircleFilled(p, radius(i), imColor(labels[i], 62), 48);
+    list->AddCircle(p, radius(i), imColor(labels[i], 170), 48, 1.5f);
   }
   for (size_t i = 0; i < labels.size(); ++i) {
     const ImVec2 p = screenFromImage(figure.centers_px[i]);
-    list->AddCircleFilled(p, kDot_px, IM_COL32(255, 255, 255, alpha(235)), 20);
-    list->AddCircleFilled(p, kDot_px - 1.5f, imColor(labels[i], alpha(255)), 20);
+    list->AddCircleFilled(p, kDot_px, IM_COL32(255, 255, 255, 235), 20);
+    list->AddCircleFilled(p, kDot_px - 1.5f, imColor(labels[i], 255), 20);
   }
   if (selected_ < 0 || tool != Tool::kTouch) return;
   const auto i = static_cast<size_t>(selected_);

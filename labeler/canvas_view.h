@@ -12,7 +12,8 @@
 
 namespace skel {
 
-enum class Tool { kTouch, kBrush, kLasso, kJoints, kMask, kLimbs };
+// The last three are for the candidates' classes.
+enum class Tool { kJoints, kMask, kLimbs, kTouch, kBrush, kLasso };
 inline constexpr int kToolCount = 6;
 
 class CanvasView {
@@ -32,7 +33,7 @@ class CanvasView {
   // Ends a stroke that has not ended yet, so that other steps can follow.
   void cancel();
 
-  Tool tool = Tool::kTouch;
+  Tool tool = Tool::kJoints;
   JointClass active_class = JointClass::kHead;  // of brush, lasso and click
   int active_limb = 1;    // what the left button paints (LayerMap::limb); the right one: the body
   bool mask_adds = true;  // what the left button does to the mask; the right one: the reverse

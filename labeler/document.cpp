@@ -166,6 +166,22 @@ int countFound(const std::vector<std::optional<PlacedJoint>>& joints) {
   }));
 }
 
+Progress progressOf(const LabelFile& labels) {
+  return {static_cast<int>(labels.candidates.size()), countLabels(labels.labels)};
+}
+
+// Of what a label file of a drawing says about joints.
+Progress jointsOf(const LabelFile& labels, const SkeletonTemplate& body_plan) {
+  Progress progress;
+  for (const auto& [name, place] : labels.joints) {
+    const int j = body_plan.find(name);
+    if (j < 0 || !place || body_plan.joints[static_cast<size_t>(j)].derived) continue;
+    ++progress.parts;
+    progress.done += labels.isPlaced(name);
+  }
+  return progress;
+}
+
 std::string besideFile(const std::string& file, const std::string& name) {
   return (fs::path(file).parent_path() / name).lexically_normal().string();
 }
@@ -236,13 +252,13 @@ Document::Document(const std::string& path, DocumentOptions options)
     : options_(std::move(options)), path_(path) {
   constexpr std::string_view kSkeletonEnding = ".skeleton.json";
   if (fs::is_directory(path)) {
-    for (DrawingFiles& files : findDrawings(path)) items_.push_back({std::move(files), 0, 0, {}});
+    for (DrawingFiles& files : findDrawings(path)) items_.push_back({std::move(files), {}, {}, {}});
   } else if (path.ends_with(kSkeletonEnding)) {
     skeleton_file_ = readSkeletonFile(path, options_.body_plan);
     items_.push_back({drawingFiles(besideFile(path, skeleton_file_->image_file),
                                    fs::path(skeleton_file_->image_file).filename().string()),
-                      0,
-                      0,
+                      {},
+                      {},
                       {}});
   } else if (path.ends_with(kMotionFileEnding)) {
     motion_file_ = readMotionFile(path, options_.body_plan);
@@ -250,28 +266,33 @@ Document::Document(const std::string& path, DocumentOptions options)
       if (frame.image_file.empty())
         throw InputError(path, "has frames without a picture; it was computed, mend what it was made from");
       items_.push_back({drawingFiles(besideFile(path, frame.image_file), frame.image_file),
-                        static_cast<int>(frame.joints.size()),
-                        countFound(frame.joints),
+                        {static_cast<int>(frame.joints.size()), countFound(frame.joints)},
+                        {},
                         {}});
     }
   } else {
     readImage(path);
-    items_.push_back({drawingFiles(path, fs::path(path).filename().string()), 0, 0, {}});
+    items_.push_back({drawingFiles(path, fs::path(path).filename().string()), {}, {}, {}});
   }
   for (Item& item : items_) {
     if (fs::exists(item.files.mask)) given_masks_.insert(item.files.mask);
-    if (item.parts > 0 || !fs::is_regular_file(item.files.labels)) continue;
+    if (motion_file_ || !fs::is_regular_file(item.files.labels)) continue;
     try {
       const LabelFile labels = readLabelFile(item.files.labels);
-      item.parts = static_cast<int>(labels.candidates.size());
-      item.parts_done = countLabels(labels.labels);
+      item.classes = progressOf(labels);
+      item.joints = jointsOf(labels, options_.body_plan);
     } catch (const InputError& error) {
       item.problem = error.what();
     }
   }
-  // Where the last session ended.
-  const auto unfinished =
-      std::find_if(items_.begin(), items_.end(), [](const Item& item) { return !item.done(); });
+  const auto any = [&](Subject subject) {
+    return std::any_of(items_.begin(), items_.end(),
+                       [&](const Item& item) { return item.of(subject).done > 0; });
+  };
+  const bool joints = skeleton_file_ || motion_file_ || any(Subject::kJoints) || !any(Subject::kClasses);
+  subject_ = joints ? Subject::kJoints : Subject::kClasses;
+  const auto unfinished = std::find_if(items_.begin(), items_.end(),
+                                       [&](const Item& item) { return !item.of(subject_).isWhole(); });
   load(unfinished == items_.end() ? 0 : static_cast<int>(unfinished - items_.begin()));
 }
 
@@ -461,6 +482,19 @@ void Document::moveJoint(int joint, const Eigen::Vector2d& image_px) {
   std::replace(message_.begin(), message_.end(), '_', ' ');
 }
 
+void Document::acceptJoints() {
+  const StepScope scope(*this);
+  size_t accepted = 0;
+  for (size_t j = 0; j < state_.joints.size(); ++j) {
+    auto& joint = state_.joints[j];
+    if (!joint || options_.body_plan.joints[j].derived) continue;
+    ++accepted;
+    joint = PlacedJoint{joint->image, 1, JointOrigin::kEdited};
+  }
+  message_ = accepted > 0 ? counted(accepted, "joint") + ": right as they are"
+                          : "there are no joints: press R first";
+}
+
 void Document::forgetJoints() {
   if (skeleton_file_) {
     message_ = "a skeleton file needs all its joints";
@@ -590,15 +624,26 @@ void Document::readLayers() {
 void Document::forgetRig() {
   rigged_.reset();
   found_layers_.reset();
+  looked_for_joints_ = false;
+}
+
+bool Document::wantsJoints() const {
+  return !looked_for_joints_ && !skeleton_file_ && !motion_file_ && figure_->silhouette.found() &&
+         std::none_of(state_.joints.begin(), state_.joints.end(),
+                      [](const auto& joint) { return joint.has_value(); });
+}
+
+void Document::findJoints() {
+  if (!wantsJoints()) return;
+  looked_for_joints_ = true;
+  takeModel();
+  count();
 }
 
 void Document::rig() {
   if (image_.empty()) return;
-  try {
-    rigOrThrow();
-  } catch (...) {
-    message_ = caughtError(item().files.image).what();
-  }
+  const StepScope scope(*this);
+  takeModel();
 }
 
 RigInput Document::rigInput() const {
@@ -621,31 +666,27 @@ RigOptions Document::rigOptions() const {
   return options;
 }
 
-void Document::rigOrThrow() {
+void Document::takeModel() {
   RigInput input = rigInput();
-  const RigOptions options = rigOptions();
-  auto rigged = std::make_unique<RiggedDrawing>(rigCharacter(input, options));
-  if (!rigged->found()) {
-    message_ = rigged->silhouette.reason;
+  for (size_t j = 0; j < state_.joints.size(); ++j)
+    if (state_.joints[j] && state_.joints[j]->origin == JointOrigin::kEdited)
+      input.placed.emplace_back(options_.body_plan.joints[j].name, state_.joints[j]->image);
+  try {
+    auto rigged = std::make_unique<RiggedDrawing>(rigCharacter(std::move(input), rigOptions()));
+    if (!rigged->found()) {
+      message_ = rigged->silhouette.reason;
+      return;
+    }
+    rigged_ = std::move(rigged);
+  } catch (...) {
+    message_ = caughtError(item().files.image).what();
     return;
   }
-  const StepScope scope(*this);
-  for (const Joint& joint : rigged->recognition.skeleton.joints) {
-    auto& place = state_.joints[static_cast<size_t>(options_.body_plan.find(joint.name))];
-    if (!place || place->origin != JointOrigin::kEdited)
-      place = PlacedJoint{joint.image, joint.confidence, joint.origin};
-  }
-  deriveMidpoints(state_.joints, options_.body_plan);
-  // The model is to have the joints that are shown.
-  Skeleton shown = rigged->recognition.skeleton;
-  placeJoints(state_.joints, options_.body_plan, shown);
-  input.skeleton = std::move(shown);
-  std::vector<std::string> missing = rigged->recognition.missing;
-  std::erase_if(missing, [&](const std::string& name) {
-    return state_.joints[static_cast<size_t>(options_.body_plan.find(name))]->origin == JointOrigin::kEdited;
-  });
-  rigged_ = std::make_unique<RiggedDrawing>(rigCharacter(std::move(input), options));
+  for (const Joint& joint : rigged_->recognition.skeleton.joints)
+    state_.joints[static_cast<size_t>(options_.body_plan.find(joint.name))] =
+        PlacedJoint{joint.image, joint.confidence, joint.origin};
   if (!state_.layers) found_layers_ = std::make_shared<LayerMap>(rigged_->layers);
+  const std::vector<std::string>& missing = rigged_->recognition.missing;
   message_ = "rigged";
   if (!missing.empty()) message_ += ": look at " + missing.front();
   if (missing.size() == 2) message_ += " and " + missing.back();
@@ -677,11 +718,22 @@ bool Document::travel(std::deque<Step>& from, std::deque<Step>& to, DrawingState
   return true;
 }
 
+Progress Document::jointProgress() const {
+  if (skeleton_file_ || motion_file_)
+    return {static_cast<int>(state_.joints.size()), countFound(state_.joints)};
+  Progress progress;
+  for (size_t j = 0; j < state_.joints.size(); ++j) {
+    if (!state_.joints[j] || options_.body_plan.joints[j].derived) continue;
+    ++progress.parts;
+    progress.done += state_.joints[j]->origin == JointOrigin::kEdited;
+  }
+  return progress;
+}
+
 void Document::count() {
   Item& item = mutableItem();
-  const bool joints = skeleton_file_ || motion_file_;
-  item.parts = static_cast<int>(joints ? state_.joints.size() : state_.labels.size());
-  item.parts_done = joints ? countFound(state_.joints) : countLabels(state_.labels);
+  item.joints = jointProgress();
+  item.classes = {static_cast<int>(state_.labels.size()), countLabels(state_.labels)};
   if (figure_->silhouette.found()) item.problem.clear();
 }
 

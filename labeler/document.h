@@ -23,15 +23,28 @@
 
 namespace skel {
 
+// What a person looks through.
+enum class Subject {
+  kJoints,   // with the mask and the limbs before the body
+  kClasses,  // of the candidates
+};
+
+struct Progress {
+  int parts = 0, done = 0;  // 0 parts: not looked at yet
+
+  bool isWhole() const { return parts > 0 && done == parts; }
+};
+
 // A drawing in the list.
 struct Item {
   DrawingFiles files;
-  // Candidates and those that have a label; of a frame of a motion: joints and those that were found or
-  // placed by hand. 0 parts: not looked at yet.
-  int parts = 0, parts_done = 0;
+  // Joints that do not follow from others, and those placed by hand; of a skeleton file and of a frame of a
+  // motion all joints, and those that were found or placed.
+  Progress joints;
+  Progress classes;     // candidates, and those that have a label
   std::string problem;  // why it cannot be labelled; else empty
 
-  bool done() const { return parts > 0 && parts_done == parts; }
+  const Progress& of(Subject subject) const { return subject == Subject::kJoints ? joints : classes; }
 };
 
 // A mask file as it is, or is to be, on the disk.
@@ -80,6 +93,8 @@ class Document {
   // Joints are what this is about: they are kept in a file of their own.
   bool editsSkeleton() const { return skeleton_file_.has_value(); }
   bool editsMotion() const { return motion_file_.has_value(); }
+  // Where the last session has left off: classes if candidates have labels and no joint was placed.
+  Subject subject() const { return subject_; }
   // False, and stays, where there is no such item or the last step is not on the disk.
   bool go(int item);
 
@@ -99,6 +114,8 @@ class Document {
   // Labels every candidate by the nearest bone.
   void labelFromJoints();
   void moveJoint(int joint, const Eigen::Vector2d& image_px);
+  // Says of all joints that are known that they are where they belong, as if each had been placed.
+  void acceptJoints();
   void forgetJoints();
   // Of a motion: all joints as in the frame before, for frames in which none are found.
   void takeJointsOfFrameBefore();
@@ -117,6 +134,10 @@ class Document {
   std::shared_ptr<const LayerMap> layers() const { return state_.layers ? state_.layers : found_layers_; }
   // Looks for them with the joints as they are. No step.
   void findLimbs();
+  // Whether findJoints() has something to do: nobody has looked for the joints of this drawing yet.
+  bool wantsJoints() const;
+  // Recognises them and builds the model. No step.
+  void findJoints();
   // Recognises the joints anew, but for those that a person has placed, and builds the model. Says why where
   // that cannot be done.
   void rig();
@@ -157,7 +178,8 @@ class Document {
   void loadDrawing();
   // The one that the skeleton file was made with.
   void loadSkeletonsMask();
-  void rigOrThrow();
+  // Says why where it does not.
+  void takeModel();
   // Takes a mask and lets the candidates follow; false, with nothing changed, if it shows no figure.
   bool replaceMask(std::shared_ptr<const MaskVersion> mask);
   bool travel(std::deque<Step>& from, std::deque<Step>& to, DrawingState Step::*target);
@@ -172,10 +194,12 @@ class Document {
   void forgetRig();  // mask or joints have changed
   RigInput rigInput() const;
   RigOptions rigOptions() const;
+  Progress jointProgress() const;
   void count();
 
   DocumentOptions options_;
   std::vector<Item> items_;
+  Subject subject_ = Subject::kJoints;
   int current_ = 0;
   Image image_;
   std::string image_sha256_;
@@ -183,6 +207,7 @@ class Document {
   std::shared_ptr<const Figure> figure_;
   std::unique_ptr<RiggedDrawing> rigged_;
   std::shared_ptr<const LayerMap> found_layers_;  // in the picture, for the mask and joints that are there
+  bool looked_for_joints_ = false;                // in the picture, with the mask that is there
   std::string path_;                              // that was opened
   std::optional<SkeletonFile> skeleton_file_;     // what `path_` holds
   std::optional<MotionFile> motion_file_;

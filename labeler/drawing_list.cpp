@@ -5,6 +5,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/natural_order.h"
 #include "libskel/image/result_picture.h"
 #include "libskel/labels/label_file.h"
 
@@ -35,7 +36,7 @@ std::vector<DrawingFiles> findDrawings(const std::string& dir) {
       drawings.push_back(drawingFiles(file, fs::path(file).lexically_relative(dir).generic_string()));
   if (drawings.empty()) throw InputError(dir, "holds no picture (" + std::string(kPictureEndings) + ")");
   std::sort(drawings.begin(), drawings.end(),
-            [](const DrawingFiles& a, const DrawingFiles& b) { return a.name < b.name; });
+            [](const DrawingFiles& a, const DrawingFiles& b) { return comesBefore(a.name, b.name); });
   for (size_t i = 1; i < drawings.size(); ++i)
     if (drawings[i].labels == drawings[i - 1].labels)
       throw InputError(drawings[i].image,

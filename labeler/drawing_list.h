@@ -22,7 +22,7 @@ std::optional<std::string> givenMask(const DrawingFiles& files);
 
 DrawingFiles drawingFiles(const std::string& image, const std::string& name);
 
-// Pictures at any depth below `dir`, by name; not masks and what skel-infer writes (mask.png,
+// Pictures at any depth below `dir`, in natural order; not masks and what skel-infer writes (mask.png,
 // <stem>.mask.png, .limbs.png, .layers.png, .silhouette.png, .overlay.png). Throws InputError: no folder, no
 // picture in it, two pictures that would share a label file.
 std::vector<DrawingFiles> findDrawings(const std::string& dir);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "labeler/canvas_view.h"
 #include "labeler/preview.h"
@@ -15,41 +16,39 @@ namespace skel {
 namespace {
 
 constexpr float kListWidth = 220, kPanelWidth = 270, kStatusHeight = 46, kButtonHeight = 44;
-constexpr const char* kToolNames[kToolCount] = {"Touch", "Brush", "Lasso", "Joints", "Mask", "Limbs"};
-constexpr const char* kToolKeys[kToolCount] = {"V", "B", "L", "J", "M", "G"};
+constexpr const char* kToolNames[kToolCount] = {"Joints", "Mask", "Limbs", "Touch", "Brush", "Lasso"};
+constexpr const char* kToolKeys[kToolCount] = {"J", "M", "G", "V", "B", "L"};
 constexpr const char* kToolHelp[kToolCount] = {
+    "Drag joints to their place; Enter when all are right",
+    "Left adds to the figure, right erases",
+    "Paint limbs that lie before the body; right: that is the body",
     "Point at a disc, press 1 to 4",
     "Paint over discs in the chosen class",
-    "Draw a line around discs",
-    "Drag joints to their place",
-    "Left adds to the figure, right erases",
-    "Paint limbs that lie before the body; right: that is the body"};
+    "Draw a line around discs"};
+constexpr int kFirstClassTool = static_cast<int>(Tool::kTouch);
 
 constexpr struct {
   const char *keys, *what;
 } kHelp[] = {
+    {"J", "drag joints"},
+    {"Enter  Space", "all joints are right: the next unfinished drawing"},
+    {"R  Shift R", "rig and show the model; forget all joints first"},
+    {"C", "of a motion: joints as in the frame before"},
+    {"M  X", "mend the mask: left button adds, right button erases; X swaps them"},
+    {"G", "paint which limbs lie before the body; 1 to 4 choose the limb, 0 the body"},
+    {"V  B  L", "classes of the candidates: touch, brush, lasso"},
     {"1  2  3  4", "head, body, hand, leg: what the mouse touches, N has chosen, brush or lasso take"},
     {"0  Delete  Backspace", "take the label away"},
-    {"V  B  L", "touch, brush, lasso"},
-    {"N  Tab", "go to the disc that is least sure"},
-    {"Enter  Space", "accept its suggestion and go on to the next, as 1 to 4 do"},
+    {"N  Tab", "go to the disc that is least sure; Enter accepts its suggestion, as 1 to 4 do"},
     {"A", "accept all suggestions that are left"},
-    {"J", "drag joints"},
-    {"D", "labels from the joints"},
-    {"R", "rig and show the model; joints placed by hand stay"},
-    {"Shift R", "forget all joints and rig"},
-    {"C", "of a motion: joints as in the frame before"},
-    {"M", "mend the mask: left button adds, right button erases"},
-    {"G", "paint which limbs lie before the body; 1 to 4 choose the limb, 0 the body"},
-    {"X", "swap adding and erasing"},
+    {"D", "classes from the joints"},
     {"[  ]", "smaller, larger brush"},
     {"Ctrl Z", "undo"},
     {"Ctrl Y  Ctrl Shift Z", "redo"},
     {"Page Up  Page Down", "previous, next drawing; so do the arrow keys"},
     {"U", "next unfinished drawing"},
-    {"Wheel  +  -", "zoom"},
+    {"Wheel  +  -  F", "zoom; fit the drawing into the view"},
     {"Right or middle drag", "move the drawing"},
-    {"F", "fit the drawing into the view"},
     {"H  ?  F1", "this help; Esc closes it"},
 };
 
@@ -71,14 +70,32 @@ void tip(const char* text) {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
 }
 
+enum class Keep { kBeginning, kEnd };
+
+// What fits into `room`, px, with ".." for the rest.
+std::string shortened(const std::string& text, float room, Keep keep) {
+  const auto width = [](const std::string& shown) { return ImGui::CalcTextSize(shown.c_str()).x; };
+  if (width(text) <= room) return text;
+  const auto cut = [&](std::size_t kept) {
+    return keep == Keep::kEnd ? ".." + text.substr(text.size() - kept) : text.substr(0, kept) + "..";
+  };
+  std::size_t kept = text.size();
+  while (kept > 4 && width(cut(kept)) > room) --kept;
+  return cut(kept);
+}
+
 class LabelingWindow {
  public:
   explicit LabelingWindow(Document& document) : document_(document), canvas_(document) {
-    if (document.editsSkeleton() || document.editsMotion()) canvas_.tool = Tool::kJoints;
+    if (document.subject() == Subject::kClasses) canvas_.tool = class_tool_;
   }
 
   NextFrame frame() {
     keys();
+    // A drawing is seen before its joints are looked for.
+    const bool wants_joints = canvas_.tool == Tool::kJoints && document_.wantsJoints();
+    if (wants_joints && std::exchange(seen_, document_.current()) == document_.current())
+      document_.findJoints();
     const ImGuiIO& io = ImGui::GetIO();
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize(io.DisplaySize);
@@ -100,10 +117,14 @@ class LabelingWindow {
     drawStatus();
     ImGui::End();
     if (help_) drawHelp();
-    return moving ? NextFrame::kAtOnce : NextFrame::kOnInput;
+    return moving || wants_joints ? NextFrame::kAtOnce : NextFrame::kOnInput;
   }
 
  private:
+  Subject subject() const {
+    return static_cast<int>(canvas_.tool) < kFirstClassTool ? Subject::kJoints : Subject::kClasses;
+  }
+
   void keys() {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.KeyCtrl) {
@@ -123,11 +144,12 @@ class LabelingWindow {
         if (pressed(class_keys[c])) chooseClass(static_cast<JointClass>(c), true);
       if (pressed(key::k0) || pressed(key::kDelete) || pressed(key::kBackspace)) labelSelected(std::nullopt);
     }
-    const key::Code tool_keys[] = {key::kV, key::kB, key::kL, key::kJ, key::kM, key::kG};
+    const key::Code tool_keys[] = {key::kJ, key::kM, key::kG, key::kV, key::kB, key::kL};
     for (int t = 0; t < kToolCount; ++t)
       if (pressed(tool_keys[t])) chooseTool(static_cast<Tool>(t));
     if (pressed(key::kN) || pressed(key::kTab)) nextUnsure();
-    if (pressed(key::kEnter) || pressed(key::kSpace)) acceptSelected();
+    if (pressed(key::kEnter) || pressed(key::kSpace))
+      subject() == Subject::kJoints ? acceptJoints() : acceptSelected();
     if (pressed(key::kA)) acceptAll();
     if (pressed(key::kD)) labelFromJoints();
     if (pressed(key::kR)) rig(io.KeyShift);
@@ -159,6 +181,13 @@ class LabelingWindow {
   void chooseTool(Tool tool) {
     canvas_.cancel();
     canvas_.tool = tool;
+    if (subject() == Subject::kClasses) class_tool_ = tool;
+  }
+
+  void acceptJoints() {
+    canvas_.cancel();
+    document_.acceptJoints();
+    goToUnfinished();
   }
 
   int limbCount() const { return static_cast<int>(document_.bodyPlan().limbs.size()); }
@@ -200,17 +229,16 @@ class LabelingWindow {
     const int count = static_cast<int>(document_.items().size());
     for (int by = 1; by < count; ++by) {
       const int item = (document_.current() + by) % count;
-      if (!document_.items()[static_cast<size_t>(item)].done()) return goTo(item);
+      if (!document_.items()[static_cast<size_t>(item)].of(subject()).isWhole()) return goTo(item);
     }
   }
 
   void drawList(float height) {
     const auto& items = document_.items();
-    const int done =
-        static_cast<int>(std::count_if(items.begin(), items.end(), [](const Item& i) { return i.done(); }));
+    const auto done = static_cast<int>(std::count_if(
+        items.begin(), items.end(), [&](const Item& item) { return item.of(subject()).isWhole(); }));
     ImGui::BeginChild("list", {kListWidth, height}, true);
-    ImGui::Text("%d of %d finished", done, static_cast<int>(items.size()));
-    bar(static_cast<float>(done) / static_cast<float>(items.size()), 10);
+    progressBar({static_cast<int>(items.size()), done}, "finished");
     ImGui::BeginChild("items", {0, -kButtonHeight - 10});
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(items.size()), kRowHeight + ImGui::GetStyle().ItemSpacing.y);
@@ -233,6 +261,7 @@ class LabelingWindow {
 
   void drawRow(int index) {
     const Item& item = document_.items()[static_cast<size_t>(index)];
+    const Progress& progress = item.of(subject());
     ImGui::PushID(index);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     if (ImGui::Selectable("##row", index == document_.current(), 0, {0, kRowHeight})) goTo(index);
@@ -240,90 +269,66 @@ class LabelingWindow {
       ImGui::SetTooltip(
           "%s\n%s", item.files.name.c_str(),
           !item.problem.empty() ? item.problem.c_str()
-          : item.parts == 0
+          : progress.parts == 0
               ? "not looked at yet"
-              : (std::to_string(item.parts_done) + " of " + std::to_string(item.parts)).c_str());
+              : (std::to_string(progress.done) + " of " + std::to_string(progress.parts)).c_str());
     ImDrawList* list = ImGui::GetWindowDrawList();
     const ImVec2 c{corner.x + 16, corner.y + kRowHeight / 2};
     if (!item.problem.empty()) {
       list->AddCircleFilled(c, 9, IM_COL32(214, 58, 48, 255));
       list->AddRectFilled({c.x - 1.5f, c.y - 5}, {c.x + 1.5f, c.y + 1}, IM_COL32_WHITE);
       list->AddRectFilled({c.x - 1.5f, c.y + 3}, {c.x + 1.5f, c.y + 6}, IM_COL32_WHITE);
-    } else if (item.done()) {
+    } else if (progress.isWhole()) {
       list->AddCircleFilled(c, 9, IM_COL32(38, 160, 84, 255));
       const ImVec2 tick[] = {{c.x - 4.5f, c.y}, {c.x - 1, c.y + 3.5f}, {c.x + 4.5f, c.y - 3.5f}};
       list->AddPolyline(tick, 3, IM_COL32_WHITE, 0, 2.5f);
     } else {
       list->AddCircle(c, 8, IM_COL32(170, 178, 192, 255), 24, 2.5f);
-      if (item.parts_done > 0) {
-        const float share = static_cast<float>(item.parts_done) / static_cast<float>(item.parts);
+      if (progress.done > 0) {
+        const float share = static_cast<float>(progress.done) / static_cast<float>(progress.parts);
         list->PathArcTo(c, 8, -1.5708f, -1.5708f + 6.2832f * share, 24);
         list->PathStroke(IM_COL32(38, 160, 84, 255), 0, 3.5f);
       }
     }
     // The end of a long name tells more than its beginning.
-    std::string name = std::filesystem::path(item.files.name).replace_extension().string();
-    const float room = ImGui::GetContentRegionAvail().x - 40;
-    while (name.size() > 4 && ImGui::CalcTextSize(name.c_str()).x > room)
-      name = ".." + name.substr(name.starts_with("..") ? 3 : 1);
+    const std::string name = shortened(std::filesystem::path(item.files.name).replace_extension().string(),
+                                       ImGui::GetContentRegionAvail().x - 40, Keep::kEnd);
     list->AddText({corner.x + 36, corner.y + (kRowHeight - ImGui::GetTextLineHeight()) / 2},
                   ImGui::GetColorU32(ImGuiCol_Text), name.c_str());
     ImGui::PopID();
   }
 
-  static void bar(float share, float height) {
+  static void progressBar(const Progress& progress, const char* what) {
+    ImGui::Text("%d of %d %s", progress.done, progress.parts, what);
     ImGui::PushStyleColor(ImGuiCol_PlotHistogram, {0.15f, 0.63f, 0.33f, 1});
     ImGui::PushStyleColor(ImGuiCol_FrameBg, {0.88f, 0.90f, 0.93f, 1});
-    ImGui::ProgressBar(share, {-1, height}, "");
+    const float parts = static_cast<float>(std::max(progress.parts, 1));
+    ImGui::ProgressBar(static_cast<float>(progress.done) / parts, {-1, 10}, "");
     ImGui::PopStyleColor(2);
   }
 
+  // In a row, `width` wide each.
+  void toolButton(int tool, const char* label, bool in_use, float width) {
+    if (colorButton(label, {width, kButtonHeight}, in_use ? Color{44, 92, 180} : Color{190, 200, 220},
+                    in_use))
+      chooseTool(static_cast<Tool>(tool));
+    tip((std::string(kToolHelp[tool]) + "  (key " + kToolKeys[tool] + ")").c_str());
+  }
+
   void drawTools() {
-    for (int t = 0; t < kToolCount; ++t) {
-      if (t > 0) ImGui::SameLine();
-      const bool in_use = static_cast<int>(canvas_.tool) == t;
-      if (colorButton(kToolNames[t], {76, kButtonHeight}, in_use ? Color{44, 92, 180} : Color{190, 200, 220},
-                      in_use))
-        chooseTool(static_cast<Tool>(t));
-      tip((std::string(kToolHelp[t]) + "  (key " + kToolKeys[t] + ")").c_str());
-    }
-    if (canvas_.tool != Tool::kLimbs) ImGui::SameLine(0, 24);
-    if (canvas_.tool == Tool::kMask) {
-      if (colorButton("Add", {100, kButtonHeight}, {30, 140, 60}, canvas_.mask_adds))
-        canvas_.mask_adds = true;
+    constexpr float kWidth = 110;
+    for (int t = 0; t < kFirstClassTool; ++t) {
+      toolButton(t, kToolNames[t], static_cast<int>(canvas_.tool) == t, kWidth);
       ImGui::SameLine();
-      if (colorButton("Erase", {100, kButtonHeight}, {210, 50, 40}, !canvas_.mask_adds))
-        canvas_.mask_adds = false;
-    } else if (canvas_.tool == Tool::kLimbs) {
-      for (int limb = 0; limb <= limbCount(); ++limb) {
-        if (limb > 0) ImGui::SameLine();
-        const std::string name = limb == 0 ? "body" : limbName(document_.bodyPlan(), limb);
-        const auto rgb = layerColor(limb);
-        if (colorButton((std::to_string(limb) + " " + name).c_str(), {112, kButtonHeight},
-                        {rgb[0], rgb[1], rgb[2]}, canvas_.active_limb == limb))
-          canvas_.active_limb = limb;
-      }
-    } else {
-      for (int c = 0; c < kJointClassCount; ++c) {
-        if (c > 0) ImGui::SameLine();
-        const char* name = kJointClassNames[static_cast<size_t>(c)];
-        const std::string label = std::to_string(c + 1) + " " + name;
-        if (colorButton(label.c_str(), {80, kButtonHeight}, classColor(name),
-                        static_cast<int>(canvas_.active_class) == c))
-          chooseClass(static_cast<JointClass>(c), false);
-      }
     }
+    toolButton(static_cast<int>(class_tool_), "Classes", subject() == Subject::kClasses, kWidth);
     ImGui::Spacing();
   }
 
   // True while the model moves.
   bool drawPanel(float height) {
     ImGui::BeginChild("panel", {kPanelWidth, height}, true);
-    const auto& labels = document_.state().labels;
-    const auto labelled = static_cast<int>(
-        std::count_if(labels.begin(), labels.end(), [](const auto& label) { return label.has_value(); }));
-    const auto candidates = static_cast<int>(labels.size());
-    const float width = ImGui::GetContentRegionAvail().x, half = (width - 8) / 2;
+    const float width = ImGui::GetContentRegionAvail().x;
     const float third = (width - kButtonHeight - 16) / 2;
     enabledButton(
         "Undo", {third, kButtonHeight}, document_.canUndo(), [&] { undo(); }, "Ctrl Z");
@@ -334,15 +339,86 @@ class LabelingWindow {
     if (ImGui::Button("?", {kButtonHeight, kButtonHeight})) help_ = !help_;
     tip("All keys  (key H)");
     ImGui::Spacing();
+    if (canvas_.tool == Tool::kJoints) drawJoints(width);
+    if (canvas_.tool == Tool::kMask) drawMask(width);
+    if (canvas_.tool == Tool::kLimbs) drawLimbs(width);
+    if (subject() == Subject::kClasses) drawClasses(width);
+    ImGui::Spacing();
+    enabledButton(
+        "Rig it", {width, kButtonHeight}, document_.figure().silhouette.found(), [&] { rig(false); }, "R");
+    bool moving = false;
+    if (document_.rigged())
+      moving = preview_.draw(*document_.rigged(), width,
+                             std::clamp(ImGui::GetContentRegionAvail().y, 120.f, 1.25f * width));
+    ImGui::EndChild();
+    return moving;
+  }
 
-    if (const Item& item = document_.item(); document_.editsSkeleton() || document_.editsMotion()) {
-      ImGui::Text("%d of %d joints found", item.parts_done, item.parts);
-      bar(item.parts > 0 ? static_cast<float>(item.parts_done) / static_cast<float>(item.parts) : 0, 10);
+  void drawJoints(float width) {
+    const Progress& joints = document_.item().joints;
+    progressBar(joints,
+                document_.editsSkeleton() || document_.editsMotion() ? "joints found" : "joints placed");
+    enabledButton(
+        "All right, next", {width, kButtonHeight}, joints.parts > 0, [&] { acceptJoints(); }, "Enter");
+    if (document_.editsMotion())
+      enabledButton(
+          "As in the frame before", {width, kButtonHeight}, document_.current() > 0,
+          [&] { takeJointsOfFrameBefore(); }, "C");
+  }
+
+  void drawMask(float width) {
+    const float half = (width - 8) / 2;
+    if (colorButton("Add", {half, kButtonHeight}, {30, 140, 60}, canvas_.mask_adds)) canvas_.mask_adds = true;
+    tip("With the left button; the right one erases  (key X)");
+    ImGui::SameLine();
+    if (colorButton("Erase", {half, kButtonHeight}, {210, 50, 40}, !canvas_.mask_adds))
+      canvas_.mask_adds = false;
+    tip("With the left button; the right one adds  (key X)");
+    enabledButton(
+        "Mask from the picture", {width, kButtonHeight}, document_.state().mask != nullptr,
+        [&] {
+          canvas_.cancel();
+          document_.forgetMask();
+        },
+        "Find the figure in the picture again");
+  }
+
+  void drawLimbs(float width) {
+    for (int limb = 0; limb <= limbCount(); ++limb) {
+      if (limb > 0 && limb % 2 == 0) ImGui::SameLine();
+      const std::string name = limb == 0 ? "body" : limbName(document_.bodyPlan(), limb);
+      const auto rgb = layerColor(limb);
+      if (colorButton((std::to_string(limb) + " " + name).c_str(),
+                      {limb == 0 ? width : (width - 8) / 2, kButtonHeight}, {rgb[0], rgb[1], rgb[2]},
+                      canvas_.active_limb == limb))
+        canvas_.active_limb = limb;
     }
-    ImGui::Text("%d of %d labelled", labelled, candidates);
-    bar(candidates > 0 ? static_cast<float>(labelled) / static_cast<float>(candidates) : 0, 10);
-    const bool found = document_.figure().silhouette.found();
-    const bool open = found && labelled < candidates;
+    enabledButton(
+        "Limbs from the picture", {width, kButtonHeight}, document_.state().layers != nullptr,
+        [&] {
+          canvas_.cancel();
+          document_.forgetLayers();
+          document_.rig();
+        },
+        "Find the limbs before the body in the picture again");
+  }
+
+  void drawClasses(float width) {
+    const float half = (width - 8) / 2;
+    for (int t = kFirstClassTool; t < kToolCount; ++t) {
+      if (t > kFirstClassTool) ImGui::SameLine();
+      toolButton(t, kToolNames[t], static_cast<int>(canvas_.tool) == t, (width - 16) / 3);
+    }
+    for (int c = 0; c < kJointClassCount; ++c) {
+      if (c % 2 != 0) ImGui::SameLine();
+      const char* name = kJointClassNames[static_cast<size_t>(c)];
+      if (colorButton((std::to_string(c + 1) + " " + name).c_str(), {half, kButtonHeight}, classColor(name),
+                      static_cast<int>(canvas_.active_class) == c))
+        chooseClass(static_cast<JointClass>(c), false);
+    }
+    const Progress& classes = document_.item().classes;
+    progressBar(classes, "labelled");
+    const bool found = document_.figure().silhouette.found(), open = found && classes.done < classes.parts;
     enabledButton(
         "Next unsure", {half, kButtonHeight}, open, [&] { nextUnsure(); }, "N");
     ImGui::SameLine();
@@ -353,38 +429,6 @@ class LabelingWindow {
     ImGui::SameLine();
     enabledButton(
         "From joints", {half, kButtonHeight}, found, [&] { labelFromJoints(); }, "D");
-    ImGui::Spacing();
-    enabledButton(
-        "Rig it", {width, kButtonHeight}, found, [&] { rig(false); }, "R");
-    if (document_.editsMotion())
-      enabledButton(
-          "As in the frame before", {width, kButtonHeight}, document_.current() > 0,
-          [&] { takeJointsOfFrameBefore(); }, "C");
-    bool moving = false;
-    if (document_.rigged()) {
-      const float room = ImGui::GetContentRegionAvail().y -
-                         (document_.state().mask || document_.state().layers ? kButtonHeight + 12 : 0);
-      moving = preview_.draw(*document_.rigged(), width, std::clamp(room, 120.f, 1.25f * width));
-    }
-    if (canvas_.tool == Tool::kMask && document_.state().mask)
-      enabledButton(
-          "Mask from the picture", {width, kButtonHeight}, true,
-          [&] {
-            canvas_.cancel();
-            document_.forgetMask();
-          },
-          "Find the figure in the picture again");
-    if (canvas_.tool == Tool::kLimbs && document_.state().layers)
-      enabledButton(
-          "Limbs from the picture", {width, kButtonHeight}, true,
-          [&] {
-            canvas_.cancel();
-            document_.forgetLayers();
-            document_.rig();
-          },
-          "Find the limbs before the body in the picture again");
-    ImGui::EndChild();
-    return moving;
   }
 
   template <class Action>
@@ -398,13 +442,17 @@ class LabelingWindow {
 
   void drawStatus() {
     ImGui::Dummy({0, 2});
-    const std::string& message = document_.message();
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(message.empty() ? kToolHelp[static_cast<size_t>(canvas_.tool)] : message.c_str());
     const std::string& problem = document_.saveProblem();
     const std::string saved = problem.empty() ? "saved" : "NOT SAVED: " + problem;
-    const float width = ImGui::CalcTextSize(saved.c_str()).x + 40;
-    ImGui::SameLine(std::max(20.f, ImGui::GetWindowWidth() - width - 14));
+    const float saved_at =
+        std::max(20.f, ImGui::GetWindowWidth() - ImGui::CalcTextSize(saved.c_str()).x - 54);
+    const std::string message =
+        document_.message().empty() ? kToolHelp[static_cast<size_t>(canvas_.tool)] : document_.message();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(
+        shortened(message, saved_at - ImGui::GetCursorPosX() - 8, Keep::kBeginning).c_str());
+    tip(message.c_str());
+    ImGui::SameLine(saved_at);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const ImU32 color = problem.empty() ? IM_COL32(38, 160, 84, 255) : IM_COL32(214, 58, 48, 255);
     ImGui::GetWindowDrawList()->AddCircleFilled({at.x + 10, at.y + 19}, 7, color);
@@ -444,6 +492,8 @@ class LabelingWindow {
   Document& document_;
   CanvasView canvas_;
   Preview preview_;
+  Tool class_tool_ = Tool::kTouch;  // the last one used
+  int seen_ = -1;                   // the last drawing whose joints were wanted
   bool help_ = false;
   bool scroll_to_current_ = true;
 };

@@ -1,6 +1,5 @@
 #include "labeler/make_motion.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -8,7 +7,6 @@
 #include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
-#include "libskel/core/natural_order.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
 #include "libskel/image/read_image.h"
@@ -52,9 +50,7 @@ MotionCounts makeMotion(const std::string& dir, const MotionOptions& given, cons
     const fs::path name = folder.has_filename() ? folder.filename() : folder.parent_path().filename();
     options.output = "out/" + name.string() + kMotionFileEnding;
   }
-  std::vector<DrawingFiles> drawings = findDrawings(dir);
-  std::sort(drawings.begin(), drawings.end(),
-            [](const DrawingFiles& a, const DrawingFiles& b) { return comesBefore(a.name, b.name); });
+  const std::vector<DrawingFiles> drawings = findDrawings(dir);
   noteOutput(options.output);
   for (const DrawingFiles& drawing : drawings) noteInput(drawing.image);
   if (!options.force) requireNoEdits(options.output, options.body_plan);

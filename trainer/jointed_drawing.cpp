@@ -31,8 +31,7 @@ JointedDrawing fromSkeleton(const std::string& path) {
   return drawing;
 }
 
-JointedDrawing fromLabels(const std::string& path) {
-  const LabelFile file = readLabelFile(path);
+JointedDrawing fromLabels(const std::string& path, const LabelFile& file) {
   JointedDrawing drawing{besideLabelFile(path, file.image.file), std::nullopt, path, file.joints, false};
   if (file.mask) drawing.mask = besideLabelFile(path, file.mask->file);
   return drawing;
@@ -50,9 +49,10 @@ std::vector<JointedDrawing> findJointedDrawings(const std::string& dir) {
   const std::vector<std::string> all = filesBelow(dir);
   for (const std::string& path : all) {
     if (!path.ends_with(kLabelFileEnding)) continue;
-    JointedDrawing drawing = fromLabels(path);
-    if (!drawing.joints.empty())
-      by_image.try_emplace(fs::path(drawing.image).lexically_normal().string(), drawing);
+    const LabelFile file = readLabelFile(path);
+    if (!file.hasPlacedJoint()) continue;
+    JointedDrawing drawing = fromLabels(path, file);
+    by_image.try_emplace(fs::path(drawing.image).lexically_normal().string(), std::move(drawing));
   }
   for (const std::string& path : all) {
     if (!path.ends_with(kSkeletonFileEnding) || !hasEditedJoint(path)) continue;
@@ -61,8 +61,8 @@ std::vector<JointedDrawing> findJointedDrawings(const std::string& dir) {
   }
   if (by_image.empty())
     throw InputError(dir,
-                     "has no drawing with known joints: *.joints.json, *.labels.json or *.skeleton.json of "
-                     "which a person has placed a joint");
+                     "has no drawing with known joints: *.joints.json, or *.labels.json or *.skeleton.json "
+                     "of which a person has placed a joint");
   std::vector<JointedDrawing> drawings;
   for (auto& [image, drawing] : by_image) drawings.push_back(std::move(drawing));
   return drawings;

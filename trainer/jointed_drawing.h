@@ -19,8 +19,8 @@ struct JointedDrawing {
   bool side_view = false;
 };
 
-// All below `dir`, at any depth, sorted by the image's path: annotated ones (see findAnnotatedImages), label
-// files with joints, and skeleton files in which a person has placed a joint. Of several files that speak of
+// All below `dir`, at any depth, sorted by the image's path: annotated ones (see findAnnotatedImages), and
+// label files and skeleton files in which a person has placed a joint. Of several files that speak of
 // one image the first of these kinds counts. Throws InputError if there are none, or one cannot be read.
 std::vector<JointedDrawing> findJointedDrawings(const std::string& dir);
 // Of several folders, one after the other.

@@ -170,6 +170,16 @@ std::string show(Number number) {
 
 }  // namespace
 
+bool LabelFile::isPlaced(const std::string& joint) const {
+  return std::any_of(joints.begin(), joints.end(),
+                     [&](const auto& known) { return known.first == joint && known.second.has_value(); }) &&
+         std::find(recognized.begin(), recognized.end(), joint) == recognized.end();
+}
+
+bool LabelFile::hasPlacedJoint() const {
+  return std::any_of(joints.begin(), joints.end(), [&](const auto& joint) { return isPlaced(joint.first); });
+}
+
 std::string labelFileFor(const std::string& image) {
   return std::filesystem::path(image).replace_extension().string() + kLabelFileEnding;
 }

@@ -32,6 +32,9 @@ struct LabelFile {
   std::vector<std::string> recognized;            // those of `joints` that no person has placed
 
   int gridSize() const { return std::max(grid_width, grid_height); }
+  // Whether a person has placed the joint of that name, or any.
+  bool isPlaced(const std::string& joint) const;
+  bool hasPlacedJoint() const;
 };
 
 inline constexpr const char* kLabelFileEnding = ".labels.json";

@@ -96,12 +96,12 @@ TEST_CASE("labels are set, undone, done again, and are on the disk at once") {
   copyCharacter("cap_boy", dir.path());
   Document document(dir.path(), documentOptions());
   const DrawingState empty = document.state();
-  REQUIRE(document.item().parts > 20);
-  CHECK(document.item().parts_done == 0);
+  REQUIRE(document.item().classes.parts > 20);
+  CHECK(document.item().classes.done == 0);
   CHECK_FALSE(document.canUndo());
 
   document.label({3, 5}, JointClass::kHand);
-  CHECK(document.item().parts_done == 2);
+  CHECK(document.item().classes.done == 2);
   const LabelFile saved = readLabelFile(dir.file("cap_boy.labels.json"));
   CHECK(saved.labels[3] == JointClass::kHand);
   CHECK_FALSE(saved.labels[4]);
@@ -112,7 +112,7 @@ TEST_CASE("labels are set, undone, done again, and are on the disk at once") {
   CHECK(document.state() == empty);
   CHECK_FALSE(readLabelFile(dir.file("cap_boy.labels.json")).labels[3]);
   CHECK(document.redo());
-  CHECK(document.item().parts_done == 2);
+  CHECK(document.item().classes.done == 2);
   CHECK_FALSE(document.redo());
 }
 
@@ -225,7 +225,74 @@ TEST_CASE("undo goes to the drawing of the step") {
   REQUIRE(document.go(1));
   CHECK(document.undo());
   CHECK(document.current() == 0);
-  CHECK(document.item().parts_done == 0);
+  CHECK(document.item().classes.done == 0);
+}
+
+TEST_CASE(
+    "a folder's drawings are looked through: joints are found unasked, accepted, and finished next time") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  copyCharacter("runner", dir.path());
+  const auto hand = static_cast<size_t>(loadTemplate("biped").find("left_hand"));
+  Eigen::Vector2d placed;
+  {
+    Document document(dir.path(), documentOptions());
+    CHECK(document.subject() == Subject::kJoints);
+    CHECK(document.item().joints.parts == 0);
+    REQUIRE(document.wantsJoints());
+    document.findJoints();
+    CHECK_FALSE(document.wantsJoints());
+    CHECK(document.rigged());
+    CHECK_FALSE(document.canUndo());
+    CHECK_FALSE(fs::exists(document.item().files.labels));  // who only looks leaves nothing behind
+    CHECK(document.item().joints.parts == 14);
+    CHECK(document.item().joints.done == 0);
+
+    document.moveJoint(int(hand), document.state().joints[hand]->image + Eigen::Vector2d(5, 0));
+    placed = document.state().joints[hand]->image;
+    CHECK(document.item().joints.done == 1);
+    document.acceptJoints();
+    CHECK(document.item().joints.isWhole());
+    CHECK(document.undo());
+    CHECK(document.item().joints.done == 1);
+    CHECK(document.redo());
+  }
+  Document document(dir.path(), documentOptions());
+  CHECK(document.items()[0].joints.isWhole());
+  CHECK(document.current() == 1);
+  REQUIRE(document.go(0));
+  CHECK_FALSE(document.wantsJoints());
+  CHECK(document.state().joints[hand]->image == placed);
+  // Middles are no one's decision: they go on following.
+  CHECK(document.state().joints[size_t(document.bodyPlan().find("pelvis"))]->origin != JointOrigin::kEdited);
+}
+
+TEST_CASE("a folder opens where it was left off: at joints, or at the candidates' classes") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  copyCharacter("runner", dir.path());
+  { Document(dir.path(), documentOptions()).acceptSuggestions(); }
+  {
+    Document document(dir.path(), documentOptions());
+    CHECK(document.subject() == Subject::kClasses);
+    CHECK(document.current() == 1);
+    document.go(0);
+    document.rig();
+    document.moveJoint(document.bodyPlan().find("head"), {300, 150});
+  }
+  const Document document(dir.path(), documentOptions());
+  CHECK(document.subject() == Subject::kJoints);
+  CHECK(document.current() == 0);
+}
+
+TEST_CASE("drawings of a folder stand in the order in which people count") {
+  const TempDir dir;
+  for (const char* name : {"10.png", "9.png", "Ada.png"})
+    fs::copy(kCharacters + "cap_boy.png", dir.file(name));
+  const Document document(dir.path(), documentOptions());
+  std::vector<std::string> names;
+  for (const Item& item : document.items()) names.push_back(item.files.name);
+  CHECK(names == std::vector<std::string>{"9.png", "10.png", "Ada.png"});
 }
 
 TEST_CASE("suggestions: the least sure first, and all at once") {
@@ -242,7 +309,7 @@ TEST_CASE("suggestions: the least sure first, and all at once") {
     document.label({unsure}, document.figure().suggestions[static_cast<size_t>(unsure)]);
   }
   document.acceptSuggestions();
-  CHECK(document.item().done());
+  CHECK(document.item().classes.isWhole());
   CHECK(document.mostUnsure() == -1);
   for (size_t i = 0; i < document.state().labels.size(); ++i)
     CHECK(document.state().labels[i] == document.figure().suggestions[i]);
@@ -308,14 +375,14 @@ TEST_CASE("candidates follow the mask, labels stay where the figure stays") {
   CHECK((document.figure().silhouette.mask != 0).count() > figure_pixels + 1000);
   CHECK(document.state().labels.size() == document.figure().centers_px.size());
   CHECK(document.figure().centers_px.size() != before);
-  CHECK(document.item().parts_done > 0.7 * static_cast<double>(before));
+  CHECK(document.item().classes.done > 0.7 * static_cast<double>(before));
   const LabelFile labels = readLabelFile(dir.file("cap_boy.labels.json"));
   REQUIRE(labels.mask);
   CHECK(labels.mask->file == "cap_boy.mask.png");
   CHECK(findProblems(dir.file("cap_boy.labels.json")).empty());
 
   CHECK(document.undo());
-  CHECK(document.item().done());
+  CHECK(document.item().classes.isWhole());
   CHECK_FALSE(fs::exists(dir.file("cap_boy.mask.png")));
 }
 
@@ -560,7 +627,7 @@ TEST_CASE("a motion file: the joints of its frames are moved, undone, done again
   const SkeletonTemplate plan = loadTemplate("biped");
   Document document(path, documentOptions());
   REQUIRE(document.items().size() == 2);
-  CHECK(document.items()[0].done());
+  CHECK(document.items()[0].joints.isWhole());
   CHECK(document.current() == 1);  // the first unfinished
   CHECK(document.item().files.name == "frames/box_robot.png");
 
@@ -599,7 +666,7 @@ TEST_CASE("a frame takes its joints from the frame before, but for those placed 
   document.takeJointsOfFrameBefore();
   CHECK(document.state().joints[hand]->image == Eigen::Vector2d(90, 90));
   CHECK(document.state().joints[0] == PlacedJoint{{300, 200}, 0, JointOrigin::kCompleted});
-  CHECK_FALSE(document.item().done());
+  CHECK_FALSE(document.item().joints.isWhole());
   CHECK(readMotionFile(path, document.bodyPlan()).frames[1].joints == document.state().joints);
   document.go(0);
   document.takeJointsOfFrameBefore();
@@ -709,7 +776,7 @@ TEST_CASE("a step that cannot be saved is kept, said, and saved later") {
   fs::create_directories(labels + "/in the way");
   document.label({0}, JointClass::kHead);
   CHECK_FALSE(document.saveProblem().empty());
-  CHECK(document.item().parts_done == 1);
+  CHECK(document.item().classes.done == 1);
   CHECK_FALSE(document.go(1));
   fs::remove_all(labels);
   CHECK(document.go(1));
@@ -729,7 +796,7 @@ TEST_CASE("labels are carried over when the picture's candidates are no longer t
   writeLabelFile(dir.file("cap_boy.labels.json"), labels);
   const Document document(dir.path(), documentOptions());
   CHECK(contains(document.message(), "look through the labels"));
-  CHECK(document.item().parts_done >= document.item().parts - 1);
+  CHECK(document.item().classes.done >= document.item().classes.parts - 1);
 }
 
 TEST_CASE("folders without pictures and pictures that share a label file are refused") {

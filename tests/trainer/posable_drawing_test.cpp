@@ -7,6 +7,8 @@
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
+#include "libskel/labels/annotated_image.h"
+#include "libskel/labels/label_file.h"
 #include "libskel/skeleton/skeleton_file.h"
 #include "tests/support/catch.h"
 #include "tests/support/marked_figure.h"
@@ -143,6 +145,20 @@ TEST_CASE("a skeleton counts once a person has placed a joint of it, labels befo
   writeFile(dir.file("a.skeleton.json"), formatSkeletonFile(file));
   CHECK(read(dir).size() == 1);
   CHECK(findJointedDrawings(dir.path())[0].joints_file == dir.file("a.skeleton.json"));
+}
+
+TEST_CASE("joints of a label file that were found, not placed, are not learned from") {
+  const TempDir dir;
+  write(dir);
+  LabelFile labels = labelImage(dir.file("a.png"), dir.file("a.mask.png"),
+                                findJointedDrawings(dir.path())[0].joints, loadTemplate("biped"));
+  std::filesystem::remove(dir.file("a.joints.json"));
+  for (const auto& [name, place] : labels.joints) labels.recognized.push_back(name);
+  writeLabelFile(dir.file("a.labels.json"), labels);
+  CHECK(complaint(dir).find("of which a person has placed a joint") != std::string::npos);
+  labels.recognized.pop_back();
+  writeLabelFile(dir.file("a.labels.json"), labels);
+  CHECK(read(dir).size() == 1);
 }
 
 }  // namespace
