@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
+#include <functional>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "animator/document.h"
 #include "animator/key_marks.h"
@@ -17,6 +19,8 @@
 #include "libskel/core/caught_error.h"
 #include "libskel/core/file_names.h"
 #include "libskel/draw/color.h"
+#include "libskel/image/result_picture.h"
+#include "libskel/window/file_dialog.h"
 #include "libskel/window/keys.h"
 #include "libskel/window/window.h"
 
@@ -93,25 +97,13 @@ void heading(const char* text) {
   ImGui::TextDisabled("%s", text);
 }
 
-// Asks for a path, and does something with it.
-struct PathDialog {
-  std::string title, button;
-  std::function<bool(const std::string&)> action;
-  std::array<char, 1024> path{};
-  bool opens = false, tried = false;
-  bool film = false;
-
-  void ask(const std::string& for_what, const std::string& does, const std::string& suggestion,
-           std::function<bool(const std::string&)> then, bool is_film = false) {
-    title = for_what;
-    button = does;
-    action = std::move(then);
-    std::snprintf(path.data(), path.size(), "%s", suggestion.c_str());
-    opens = true;
-    tried = false;
-    film = is_film;
-  }
-};
+// Of what names of files end with.
+std::function<bool(const std::string&)> endsWith(std::vector<std::string> endings) {
+  return [endings = std::move(endings)](const std::string& name) {
+    return std::any_of(endings.begin(), endings.end(),
+                       [&](const std::string& ending) { return name.ends_with(ending); });
+  };
+}
 
 class AnimationWindow {
  public:
@@ -119,7 +111,7 @@ class AnimationWindow {
 
   NextFrame frame() {
     const bool moves = document_.advance(double(ImGui::GetIO().DeltaTime));
-    if (!ImGui::GetIO().WantTextInput && !ImGui::IsPopupOpen("path")) keys();
+    if (!ImGui::GetIO().WantTextInput && !dialog_.isOpen()) keys();
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
     // Fields are seen on white, the menu bar belongs to the window.
@@ -147,7 +139,7 @@ class AnimationWindow {
     ImGui::SameLine();
     drawPanel(panel_width, height);
     drawStatus();
-    drawDialog();
+    dialog_.draw();
     ImGui::End();
     ImGui::PopStyleColor(3);
     if (help_) drawHelp(corner, room);
@@ -212,25 +204,74 @@ class AnimationWindow {
     return "out/" + std::filesystem::path(document_.path()).stem().string() + ending;
   }
 
+  using Action = bool (AnimationDocument::*)(const std::string&);
+
+  // Has a question answered by an action of the document.
+  void ask(FileQuestion question, Action action) {
+    question.answer = [this, action](const std::string& path) {
+      return (document_.*action)(path) ? "" : document_.message();
+    };
+    dialog_.ask(std::move(question));
+  }
+
   void askModel() {
-    dialog_.ask("Open a character", "Open", document_.path(),
-                [&](const std::string& p) { return document_.openModel(p); });
+    ask({"Open a character: a drawing, or a model (.glb)", "Open", "character", document_.path(),
+         FileUse::kOpen,
+         [](const std::string& name) { return isDrawingName(name) || name.ends_with(".glb"); }},
+        &AnimationDocument::openModel);
   }
   void askSaveModel() {
-    dialog_.ask("Save the character with its clips (.glb)", "Save", suggestion(".glb"),
-                [&](const std::string& p) { return document_.saveModel(p); });
+    ask({"Save the character with its clips (.glb)", "Save", "saved character", suggestion(".glb"),
+         FileUse::kSave, endsWith({".glb"})},
+        &AnimationDocument::saveModel);
+  }
+  void askPose() {
+    ask({"Load a pose", "Load", "pose", suggestion(kPoseFileEnding), FileUse::kOpen, endsWith({".json"})},
+        &AnimationDocument::loadPose);
+  }
+  void askSavePose() {
+    ask({"Save the pose", "Save", "pose", suggestion(kPoseFileEnding), FileUse::kSave,
+         endsWith({kPoseFileEnding})},
+        &AnimationDocument::savePose);
+  }
+  void askClip() {
+    ask({"Load a clip (.clip.json, .bvh, key frames)", "Load", "clip", suggestion(kClipFileEnding),
+         FileUse::kOpen, endsWith({".json", ".bvh"})},
+        &AnimationDocument::loadClip);
+  }
+  void askSaveClip() {
+    ask({"Save the clip", "Save", "clip",
+         "out/" + (document_.clip() ? safeFileName(document_.clip()->name) : "clip") + kClipFileEnding,
+         FileUse::kSave, endsWith({kClipFileEnding})},
+        &AnimationDocument::saveClip);
+  }
+  void askSkeleton() {
+    ask({"Load a skeleton; the weights are computed anew", "Load", "skeleton", suggestion(".rig.json"),
+         FileUse::kOpen, endsWith({".json"})},
+        &AnimationDocument::loadSkeleton);
+  }
+  void askSaveSkeleton() {
+    ask({"Save the skeleton", "Save", "skeleton", suggestion(".rig.json"), FileUse::kSave,
+         endsWith({".json"})},
+        &AnimationDocument::saveSkeleton);
+  }
+  void askWeights() {
+    ask({"Load weights", "Load", "weights", suggestion(".weights.json"), FileUse::kOpen, endsWith({".json"})},
+        &AnimationDocument::loadWeights);
+  }
+  void askSaveWeights() {
+    ask({"Save the weights", "Save", "weights", suggestion(".weights.json"), FileUse::kSave,
+         endsWith({".weights.json"})},
+        &AnimationDocument::saveWeights);
   }
   void askFilm() {
     film_size_ = {2 * std::max(8, stage_.width() * 256 / std::max(1, stage_.height())), 512};
     const std::string name = document_.clip() ? "-" + safeFileName(document_.clip()->name) : "";
-    dialog_.ask(
-        "Write a film of what is seen (" + videoFormatNames() + ")", "Write", suggestion(name + ".mp4"),
-        [&](const std::string& p) { return startFilm(p); }, true);
-  }
-  void askSaveClip() {
-    dialog_.ask("Save the clip", "Save",
-                "out/" + (document_.clip() ? safeFileName(document_.clip()->name) : "clip") + kClipFileEnding,
-                [&](const std::string& p) { return document_.saveClip(p); });
+    dialog_.ask({"Write a film of what is seen (" + videoFormatNames() + ")", "Write", "film",
+                 suggestion(name + ".mp4"), FileUse::kSaveFileOrFolder,
+                 endsWith({".mp4", ".gif", ".webp", ".png"}),
+                 [this](const std::string& path) { return startFilm(path) ? "" : document_.message(); },
+                 [this] { drawFilmOptions(); }});
   }
 
   bool startFilm(const std::string& path) {
@@ -259,29 +300,16 @@ class AnimationWindow {
       if (ImGui::MenuItem("Open character ...", "Ctrl O")) askModel();
       if (ImGui::MenuItem("Save character ...", "Ctrl S")) askSaveModel();
       ImGui::Separator();
-      if (ImGui::MenuItem("Load pose ..."))
-        dialog_.ask("Load a pose", "Load", suggestion(kPoseFileEnding),
-                    [&](const std::string& p) { return document_.loadPose(p); });
-      if (ImGui::MenuItem("Save pose ..."))
-        dialog_.ask("Save the pose", "Save", suggestion(kPoseFileEnding),
-                    [&](const std::string& p) { return document_.savePose(p); });
+      if (ImGui::MenuItem("Load pose ...")) askPose();
+      if (ImGui::MenuItem("Save pose ...")) askSavePose();
       ImGui::Separator();
-      if (ImGui::MenuItem("Load clip ..."))
-        dialog_.ask("Load a clip", "Load", "", [&](const std::string& p) { return document_.loadClip(p); });
+      if (ImGui::MenuItem("Load clip ...")) askClip();
       if (ImGui::MenuItem("Save clip ...", nullptr, false, has_clip)) askSaveClip();
       ImGui::Separator();
-      if (ImGui::MenuItem("Load skeleton ..."))
-        dialog_.ask("Load a skeleton; the weights are computed anew", "Load", suggestion(".rig.json"),
-                    [&](const std::string& p) { return document_.loadSkeleton(p); });
-      if (ImGui::MenuItem("Save skeleton ..."))
-        dialog_.ask("Save the skeleton", "Save", suggestion(".rig.json"),
-                    [&](const std::string& p) { return document_.saveSkeleton(p); });
-      if (ImGui::MenuItem("Load weights ..."))
-        dialog_.ask("Load weights", "Load", suggestion(".weights.json"),
-                    [&](const std::string& p) { return document_.loadWeights(p); });
-      if (ImGui::MenuItem("Save weights ..."))
-        dialog_.ask("Save the weights", "Save", suggestion(".weights.json"),
-                    [&](const std::string& p) { return document_.saveWeights(p); });
+      if (ImGui::MenuItem("Load skeleton ...")) askSkeleton();
+      if (ImGui::MenuItem("Save skeleton ...")) askSaveSkeleton();
+      if (ImGui::MenuItem("Load weights ...")) askWeights();
+      if (ImGui::MenuItem("Save weights ...")) askSaveWeights();
       ImGui::Separator();
       if (ImGui::MenuItem("Write film ...", "Ctrl E")) askFilm();
       ImGui::EndMenu();
@@ -491,20 +519,10 @@ class AnimationWindow {
 
     heading("Pose");
     enabledButton(
-        "Load ...", {half, kButtonHeight}, true,
-        [&] {
-          dialog_.ask("Load a pose", "Load", suggestion(kPoseFileEnding),
-                      [&](const std::string& p) { return document_.loadPose(p); });
-        },
-        "A pose that was saved");
+        "Load ...", {half, kButtonHeight}, true, [&] { askPose(); }, "A pose that was saved");
     ImGui::SameLine();
     enabledButton(
-        "Save ...", {half, kButtonHeight}, true,
-        [&] {
-          dialog_.ask("Save the pose", "Save", suggestion(kPoseFileEnding),
-                      [&](const std::string& p) { return document_.savePose(p); });
-        },
-        "The pose that is shown");
+        "Save ...", {half, kButtonHeight}, true, [&] { askSavePose(); }, "The pose that is shown");
     enabledButton(
         "Reset all", {width, kButtonHeight}, true, [&] { document_.resetPose(); }, "Shift R");
 
@@ -600,55 +618,23 @@ class AnimationWindow {
                                : document_.message().c_str());
   }
 
-  void drawDialog() {
-    if (dialog_.opens) {
-      ImGui::OpenPopup("path");
-      dialog_.opens = false;
+  void drawFilmOptions() {
+    ImGui::SetNextItemWidth(220);
+    ImGui::InputInt2("width, height, px", film_size_.data());
+    for (int& side : film_size_) side = std::clamp(side, 2, 8192);
+    ImGui::SetNextItemWidth(106);
+    ImGui::InputInt("frames a second", &film_rate_, 0);
+    film_rate_ = std::clamp(film_rate_, 1, 240);
+    ImGui::SetNextItemWidth(220);
+    if (ImGui::BeginCombo("background", kBackgrounds[film_background_].label)) {
+      for (std::size_t i = 0; i < std::size(kBackgrounds); ++i)
+        if (ImGui::Selectable(kBackgrounds[i].label, i == film_background_)) film_background_ = i;
+      ImGui::EndCombo();
     }
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(24, 20));
-    ImGui::PushStyleVar(ImGuiStyleVar_PopupRounding, 12);
-    if (ImGui::BeginPopupModal("path", nullptr,
-                               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize)) {
-      ImGui::TextUnformatted(dialog_.title.c_str());
-      ImGui::SetNextItemWidth(620);
-      if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-      bool done = ImGui::InputText("##path", dialog_.path.data(), dialog_.path.size(),
-                                   ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-      if (dialog_.film) {
-        ImGui::SetNextItemWidth(220);
-        ImGui::InputInt2("width, height, px", film_size_.data());
-        for (int& side : film_size_) side = std::clamp(side, 2, 8192);
-        ImGui::SetNextItemWidth(106);
-        ImGui::InputInt("frames a second", &film_rate_, 0);
-        film_rate_ = std::clamp(film_rate_, 1, 240);
-        ImGui::SetNextItemWidth(220);
-        if (ImGui::BeginCombo("background", kBackgrounds[film_background_].label)) {
-          for (std::size_t i = 0; i < std::size(kBackgrounds); ++i)
-            if (ImGui::Selectable(kBackgrounds[i].label, i == film_background_)) film_background_ = i;
-          ImGui::EndCombo();
-        }
-        if (!kBackgrounds[film_background_].name) {
-          ImGui::SameLine();
-          ImGui::ColorEdit3("##colour", film_color_.data(), ImGuiColorEditFlags_NoInputs);
-        }
-      }
-      if (dialog_.tried) {
-        ImGui::PushTextWrapPos(640);
-        ImGui::TextColored({0.84f, 0.23f, 0.19f, 1}, "%s", document_.message().c_str());
-        ImGui::PopTextWrapPos();
-      }
-      done |= ImGui::Button(dialog_.button.c_str(), {120, kButtonHeight});
+    if (!kBackgrounds[film_background_].name) {
       ImGui::SameLine();
-      if (ImGui::Button("Cancel", {120, kButtonHeight}) || pressed(key::kEscape)) ImGui::CloseCurrentPopup();
-      if (done) {
-        dialog_.tried = !dialog_.action(dialog_.path.data());
-        if (!dialog_.tried) ImGui::CloseCurrentPopup();
-      }
-      ImGui::EndPopup();
+      ImGui::ColorEdit3("##colour", film_color_.data(), ImGuiColorEditFlags_NoInputs);
     }
-    ImGui::PopStyleVar(2);
   }
 
   // Over the figure and the time line, never over the lists beside them.
@@ -685,7 +671,7 @@ class AnimationWindow {
 
   AnimationDocument& document_;
   StageView stage_;
-  PathDialog dialog_;
+  FileDialog dialog_;
   std::unique_ptr<FilmExport> film_;
   std::array<int, 2> film_size_ = {512, 512};
   int film_rate_ = int(kFrameRate);

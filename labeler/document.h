@@ -86,6 +86,7 @@ class Document {
   // InputError.
   Document(const std::string& path, DocumentOptions options);
 
+  const std::string& path() const { return path_; }  // that was opened
   const std::vector<Item>& items() const { return items_; }
   int current() const { return current_; }
   const Item& item() const { return items_[static_cast<size_t>(current_)]; }
@@ -208,8 +209,8 @@ class Document {
   std::unique_ptr<RiggedDrawing> rigged_;
   std::shared_ptr<const LayerMap> found_layers_;  // in the picture, for the mask and joints that are there
   bool looked_for_joints_ = false;                // in the picture, with the mask that is there
-  std::string path_;                              // that was opened
-  std::optional<SkeletonFile> skeleton_file_;     // what `path_` holds
+  std::string path_;
+  std::optional<SkeletonFile> skeleton_file_;  // what `path_` holds
   std::optional<MotionFile> motion_file_;
   std::set<std::string> given_masks_;               // mask files that were there before
   std::shared_ptr<const MaskVersion> opened_mask_;  // of the current drawing when it was opened

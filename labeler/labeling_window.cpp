@@ -4,11 +4,16 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include "labeler/canvas_view.h"
 #include "labeler/preview.h"
+#include "libskel/core/caught_error.h"
 #include "libskel/draw/color.h"
+#include "libskel/image/result_picture.h"
+#include "libskel/skeleton/motion_file.h"
+#include "libskel/window/file_dialog.h"
 #include "libskel/window/keys.h"
 #include "libskel/window/window.h"
 
@@ -43,6 +48,7 @@ constexpr struct {
     {"A", "accept all suggestions that are left"},
     {"D", "classes from the joints"},
     {"[  ]", "smaller, larger brush"},
+    {"Ctrl O", "open another folder, drawing, skeleton or motion"},
     {"Ctrl Z", "undo"},
     {"Ctrl Y  Ctrl Shift Z", "redo"},
     {"Page Up  Page Down", "previous, next drawing; so do the arrow keys"},
@@ -86,12 +92,13 @@ std::string shortened(const std::string& text, float room, Keep keep) {
 
 class LabelingWindow {
  public:
-  explicit LabelingWindow(Document& document) : document_(document), canvas_(document) {
+  LabelingWindow(Document& document, const DocumentOptions& options)
+      : document_(document), options_(options), canvas_(document) {
     if (document.subject() == Subject::kClasses) canvas_.tool = class_tool_;
   }
 
   NextFrame frame() {
-    keys();
+    if (!ImGui::GetIO().WantTextInput && !dialog_.isOpen()) keys();
     // A drawing is seen before its joints are looked for.
     const bool wants_joints = canvas_.tool == Tool::kJoints && document_.wantsJoints();
     if (wants_joints && std::exchange(seen_, document_.current()) == document_.current())
@@ -115,10 +122,14 @@ class LabelingWindow {
     ImGui::SameLine();
     const bool moving = drawPanel(height);
     drawStatus();
+    dialog_.draw();
     ImGui::End();
     if (help_) drawHelp();
-    return moving || wants_joints ? NextFrame::kAtOnce : NextFrame::kOnInput;
+    return moving || wants_joints || opened_ ? NextFrame::kAtOnce : NextFrame::kOnInput;
   }
+
+  // What is to be shown instead; null: nothing else.
+  std::unique_ptr<Document> takeOpened() { return std::move(opened_); }
 
  private:
   Subject subject() const {
@@ -130,6 +141,7 @@ class LabelingWindow {
     if (io.KeyCtrl) {
       if (pressed(key::kZ, true)) io.KeyShift ? redo() : undo();
       if (pressed(key::kY, true)) redo();
+      if (pressed(key::kO)) askOpen();
       return;
     }
     if (pressed(key::kH) || pressed(key::kSlash) || pressed(key::kF1)) help_ = !help_;
@@ -176,6 +188,28 @@ class LabelingWindow {
     canvas_.cancel();
     if (forget) document_.forgetJoints();
     document_.rig();
+  }
+
+  void askOpen() {
+    canvas_.cancel();
+    dialog_.ask({"Open a folder of drawings, a drawing, a skeleton or a motion", "Open", "drawings",
+                 document_.path(), FileUse::kOpenFileOrFolder,
+                 [](const std::string& name) {
+                   return isDrawingName(name) || name.ends_with(".skeleton.json") ||
+                          name.ends_with(kMotionFileEnding);
+                 },
+                 [this](const std::string& path) { return open(path); }});
+  }
+
+  // Why not; "" if it was.
+  std::string open(const std::string& path) {
+    if (!document_.saveProblem().empty()) return "not saved yet: " + document_.saveProblem();
+    try {
+      opened_ = std::make_unique<Document>(path, options_);
+    } catch (...) {
+      return caughtError(path).what();
+    }
+    return "";
   }
 
   void chooseTool(Tool tool) {
@@ -322,6 +356,9 @@ class LabelingWindow {
       ImGui::SameLine();
     }
     toolButton(static_cast<int>(class_tool_), "Classes", subject() == Subject::kClasses, kWidth);
+    ImGui::SameLine(ImGui::GetContentRegionAvail().x - kWidth);
+    if (ImGui::Button("Open ...", {kWidth, kButtonHeight})) askOpen();
+    tip("Other drawings  (Ctrl O)");
     ImGui::Spacing();
   }
 
@@ -490,8 +527,11 @@ class LabelingWindow {
   static constexpr float kRowHeight = 34;
 
   Document& document_;
+  DocumentOptions options_;  // of what is opened
   CanvasView canvas_;
   Preview preview_;
+  FileDialog dialog_;
+  std::unique_ptr<Document> opened_;
   Tool class_tool_ = Tool::kTouch;  // the last one used
   int seen_ = -1;                   // the last drawing whose joints were wanted
   bool help_ = false;
@@ -501,10 +541,17 @@ class LabelingWindow {
 }  // namespace
 
 ExitCode runLabelingWindow(const std::string& path, DocumentOptions options) {
-  Document document(path, std::move(options));
+  auto document = std::make_unique<Document>(path, options);
   Window window({"skel-label: " + path, 1320, 860});
-  LabelingWindow content(document);
-  window.run([&] { return content.frame(); });
+  auto content = std::make_unique<LabelingWindow>(*document, options);
+  window.run([&] {
+    if (auto opened = content->takeOpened()) {
+      content = std::make_unique<LabelingWindow>(*opened, options);
+      document = std::move(opened);
+      window.setTitle("skel-label: " + document->path());
+    }
+    return content->frame();
+  });
   return ExitCode::kDone;
 }
 

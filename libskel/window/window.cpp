@@ -137,7 +137,8 @@ void chooseStyle(float scale) {
 struct Gui {
   explicit Gui(GLFWwindow* window) {
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+    ImGui::GetIO().IniFilename = nullptr;        // leaves no file behind
+    ImGui::GetIO().MouseDoubleClickTime = 0.5f;  // s, as on most desktops
     float scale_x = 1, scale_y = 1;
     glfwGetWindowContentScale(window, &scale_x, &scale_y);
     const float scale = std::clamp(std::max(scale_x, scale_y), 1.f, 4.f);
