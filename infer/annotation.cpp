@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
 #include "libskel/image/read_image.h"
+#include "libskel/labels/annotated_image.h"
+#include "libskel/labels/label_file.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -67,24 +70,64 @@ void swapPairsThatFitBetter(const AnnotatedDrawing& truth, const SkeletonTemplat
   }
 }
 
+constexpr std::string_view kJointsEnding = ".joints.json";
+
+// The file's name below `root` without its ending.
+std::string idOf(const fs::path& file, const std::string& root, std::string_view ending) {
+  const std::string name = file.lexically_relative(root).string();
+  return name.substr(0, name.size() - ending.size());
+}
+
+// Whoever reads it says what is wrong with it.
+bool holdsPlacedJoint(const std::string& label_file) {
+  try {
+    return readLabelFile(label_file).hasPlacedJoint();
+  } catch (const InputError&) {
+    return true;
+  }
+}
+
+// What a person has placed. A figure without a mask is right as it is found.
+AnnotatedDrawing fromLabels(const std::string& path) {
+  const LabelFile labels = readLabelFile(path);
+  const std::string image = besideLabelFile(path, labels.image.file);
+  AnnotatedDrawing drawing;
+  drawing.image = readImage(image);
+  std::optional<std::string> mask;
+  if (labels.mask) mask = besideLabelFile(path, labels.mask->file);
+  drawing.mask = silhouetteOf(image, mask).mask;
+  for (const auto& [name, place] : labels.joints)
+    if (labels.isPlaced(name)) drawing.joints.emplace(name, place);
+  return drawing;
+}
+
 }  // namespace
 
 std::vector<std::string> findDrawings(const std::string& root) {
-  constexpr std::string_view kJoints = ".joints.json";
-  std::vector<std::string> ids;
-  for (const fs::path file : filesBelow(root)) {
-    const fs::path below = file.lexically_relative(root);
-    if (below.filename() == "image.png") ids.push_back(below.parent_path().string());
-    if (const std::string name = below.string(); name.ends_with(kJoints))
-      ids.push_back(name.substr(0, name.size() - kJoints.size()));
+  std::set<std::string> ids;
+  const std::vector<std::string> files = filesBelow(root);
+  for (const fs::path file : files) {
+    if (file.filename() == "image.png") ids.insert(file.lexically_relative(root).parent_path().string());
+    if (file.string().ends_with(kJointsEnding)) ids.insert(idOf(file, root, kJointsEnding));
   }
-  if (ids.empty()) throw InputError(root, "holds no folder with an image.png and no <name>.joints.json");
-  std::sort(ids.begin(), ids.end());
-  return ids;
+  for (const fs::path file : files)
+    if (file.string().ends_with(kLabelFileEnding) && file.filename() != "image.labels.json" &&
+        holdsPlacedJoint(file.string()))
+      ids.insert(idOf(file, root, kLabelFileEnding));
+  if (ids.empty())
+    throw InputError(root,
+                     "holds no folder with an image.png, no <name>.joints.json and no <name>.labels.json of "
+                     "which a person has placed a joint");
+  return {ids.begin(), ids.end()};
 }
 
 AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string& id) {
   const bool own_folder = fs::is_directory(root + "/" + id);
+  if (!own_folder && !fs::exists(root + "/" + id + std::string(kJointsEnding))) {
+    AnnotatedDrawing drawing = fromLabels(root + "/" + id + kLabelFileEnding);
+    drawing.id = id;
+    return drawing;
+  }
   const std::string stem = root + "/" + id + (own_folder ? "/" : ".");
   const std::string image = own_folder ? stem + "image.png" : stem + "png";
   const std::string mask = stem + "mask.png", annotation = stem + "joints.json";

@@ -14,7 +14,7 @@
 namespace skel {
 
 // image.png, and beside it mask.png and joints.json where the figure is annotated; or <name>.png,
-// <name>.mask.png and <name>.joints.json.
+// <name>.mask.png and <name>.joints.json; or what a person has placed in <name>.labels.json.
 struct AnnotatedDrawing {
   std::string id;  // folder or name relative to the set's
   Image image;

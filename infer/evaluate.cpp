@@ -88,9 +88,10 @@ std::string interval(const std::vector<Row>& rows, const std::function<double(co
 void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
   app.option_defaults()->always_capture_default();
   options.infer.body_plan = "biped";
-  app.add_option("DIR", options.dir,
-                 "Folders of image.png, mask.png and joints.json, or files <name>.png, <name>.mask.png and\n"
-                 "<name>.joints.json, at any depth")
+  app.add_option(
+         "DIR", options.dir,
+         "Folders of image.png, mask.png and joints.json, files <name>.png, <name>.mask.png and\n"
+         "<name>.joints.json, or <name>.labels.json with joints that a person has placed, at any depth")
       ->required();
   app.add_option("--json", options.json_file, "Write the figures to this file, too")
       ->always_capture_default(false)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -10,8 +11,10 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
+#include "libskel/core/sha256.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/skeleton/motion_file.h"
+#include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
 namespace {
@@ -34,7 +37,7 @@ AnnotatedDrawing readCharCfg(const fs::path& path, const SkeletonTemplate& body_
   for (const fs::path& needed : {image, mask})
     if (!fs::is_regular_file(needed))
       throw InputError(path.string(), "needs " + needed.filename().string() + " beside it");
-  AnnotatedDrawing drawing{path.string(), image.string(), mask.string(), {}, {}};
+  AnnotatedDrawing drawing{path.string(), image.string(), mask.string(), {}, {}, {}};
   const CharCfg cfg = parseCharCfg(readFile(path.string()), path.string());
   for (const auto& [theirs, ours] : charCfgJointNames())
     for (const auto& [name, point] : cfg.joints)
@@ -46,7 +49,7 @@ AnnotatedDrawing readCharCfg(const fs::path& path, const SkeletonTemplate& body_
 
 AnnotatedDrawing readJoints(const AnnotatedImage& annotated, const SkeletonTemplate& body_plan) {
   AnnotatedDrawing drawing{
-      annotated.joints, annotated.image, annotated.mask, {}, readJointsFile(annotated.joints)};
+      annotated.joints, annotated.image, annotated.mask, {}, readJointsFile(annotated.joints), {}};
   for (const auto& [name, place] : drawing.joints)
     if (body_plan.find(name) < 0)
       throw InputError(annotated.joints,
@@ -54,10 +57,32 @@ AnnotatedDrawing readJoints(const AnnotatedImage& annotated, const SkeletonTempl
   return drawing;
 }
 
+bool isSkeletonOf(const std::string& path, const SkeletonTemplate& body_plan) {
+  return path.ends_with(kSkeletonFileEnding) && templateOfSkeleton(readFile(path), path) == body_plan.name;
+}
+
+// Nothing where it is of another figure than the first: label files are of that one.
+std::optional<AnnotatedDrawing> readSkeleton(const std::string& path, const SkeletonTemplate& body_plan) {
+  const SkeletonFile file = readSkeletonFile(path, body_plan);
+  if (file.figure.number != 1) return std::nullopt;
+  const auto beside = [&](const std::string& name) {
+    return (fs::path(path).parent_path() / name).lexically_normal().string();
+  };
+  AnnotatedDrawing drawing{path, beside(file.image_file), std::nullopt, {}, {}, {}};
+  if (!file.image_sha256.empty() && sha256(readFile(drawing.image)) != file.image_sha256)
+    throw InputError(path, drawing.image + " has changed since; find its joints anew (skel-infer)");
+  if (file.mask) drawing.mask = beside(file.mask->file);
+  for (const Joint& joint : file.skeleton.joints) {
+    drawing.joints.emplace_back(joint.name, joint.image);
+    if (joint.origin != JointOrigin::kEdited) drawing.recognized.push_back(joint.name);
+  }
+  return drawing;
+}
+
 bool isCoco(const fs::path& path) {
   const std::string name = path.filename().string();
   if (!name.ends_with(".json") || name == "joints.json") return false;
-  for (const char* ending : {kLabelFileEnding, ".skeleton.json", ".joints.json", kMotionFileEnding})
+  for (const char* ending : {kLabelFileEnding, kSkeletonFileEnding, ".joints.json", kMotionFileEnding})
     if (name.ends_with(ending)) return false;
   const JsonDocument document = JsonDocument::readFile(path.string());
   const JsonValue root = document.root();
@@ -77,6 +102,13 @@ std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir,
       for (AnnotatedDrawing& drawing : readCoco(file.string(), body_plan))
         drawings.push_back(std::move(drawing));
   }
+  std::set<std::string> annotated;
+  for (const AnnotatedDrawing& drawing : drawings)
+    annotated.insert(fs::path(drawing.image).lexically_normal().string());
+  for (const std::string& file : filesBelow(dir))
+    if (isSkeletonOf(file, body_plan))
+      if (auto drawing = readSkeleton(file, body_plan); drawing && !annotated.contains(drawing->image))
+        drawings.push_back(std::move(*drawing));
   std::sort(drawings.begin(), drawings.end(), [](const AnnotatedDrawing& a, const AnnotatedDrawing& b) {
     return std::tie(a.image, a.source) < std::tie(b.image, b.source);
   });

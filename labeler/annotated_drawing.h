@@ -18,6 +18,7 @@ struct AnnotatedDrawing {
   std::optional<std::string> mask;     // path
   std::vector<Polygon> mask_polygons;  // instead of a file, image px; empty: none
   NamedJoints joints;
+  std::vector<std::string> recognized;  // those of `joints` that no person has placed
 };
 
 // All below `dir`, by path:
@@ -25,7 +26,10 @@ struct AnnotatedDrawing {
 //   joints.json with image.png and, if there is one, mask.png
 //   <stem>.joints.json with <stem>.png and, if there is one, <stem>.mask.png
 //   a COCO file (.json with "images" and "annotations") with keypoints and polygons
-// Throws InputError: a file that is broken, two annotations of one picture, a picture that is missing.
+//   <stem>.skeleton.json of the body plan and of its picture's first figure; not of pictures of which others
+//   speak
+// Throws InputError: a file that is broken, two annotations of one picture, a picture that is missing or has
+// changed since its skeleton was found.
 std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir,
                                                     const SkeletonTemplate& body_plan);
 

@@ -96,13 +96,14 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
   };
   command("candidates", "Make an empty label file for every picture that has none",
           [&] { return report(makeLabelFiles(options.dir, loadTemplate(options.body_plan), complaints())); });
-  CLI::App* import = command(
-      "import",
-      "Make label files from annotations: char_cfg.yaml, joints.json, <stem>.joints.json, COCO keypoints",
-      [&] {
-        return report(
-            importLabels(options.dir, loadTemplate(options.body_plan), options.import, complaints()));
-      });
+  CLI::App* import = command("import",
+                             "Make label files from annotations: char_cfg.yaml, joints.json, "
+                             "<stem>.joints.json, COCO keypoints, and "
+                             "from skeletons that skel-infer has found",
+                             [&] {
+                               return report(importLabels(options.dir, loadTemplate(options.body_plan),
+                                                          options.import, complaints()));
+                             });
   import->add_option("-o,--output", options.import.output,
                      "Copy pictures and masks here, with their label files");
   import->add_flag("--force", options.import.force,

@@ -250,10 +250,9 @@ class Document::StepScope {
 
 Document::Document(const std::string& path, DocumentOptions options)
     : options_(std::move(options)), path_(path) {
-  constexpr std::string_view kSkeletonEnding = ".skeleton.json";
   if (fs::is_directory(path)) {
     for (DrawingFiles& files : findDrawings(path)) items_.push_back({std::move(files), {}, {}, {}});
-  } else if (path.ends_with(kSkeletonEnding)) {
+  } else if (path.ends_with(kSkeletonFileEnding)) {
     skeleton_file_ = readSkeletonFile(path, options_.body_plan);
     items_.push_back({drawingFiles(besideFile(path, skeleton_file_->image_file),
                                    fs::path(skeleton_file_->image_file).filename().string()),

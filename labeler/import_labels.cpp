@@ -29,7 +29,7 @@ std::string destination(const std::string& file, const std::string& dir, const I
   const fs::path below =
       fs::path(file).lexically_normal().lexically_relative(fs::path(dir).lexically_normal());
   if (below.empty() || *below.begin() == "..")
-    throw InputError(file, "lies outside " + dir + "; import it from there");
+    throw InputError(file, "lies outside " + dir + "; import it from there, or leave out -o");
   return (fs::path(options.output) / below).string();
 }
 
@@ -72,7 +72,9 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
     mask = drawingFiles(image_path, {}).mask;
     writeNew(*mask, encodePng(maskFromPolygons(drawing.mask_polygons, image.width, image.height)), options);
   }
-  writeLabelFile(label_path, labelImage(image_path, mask, drawing.joints, body_plan));
+  LabelFile labels = labelImage(image_path, mask, drawing.joints, body_plan);
+  labels.recognized = drawing.recognized;
+  writeLabelFile(label_path, labels);
   return true;
 }
 
@@ -101,10 +103,11 @@ ImportCounts importLabels(const std::string& dir, const SkeletonTemplate& body_p
                           const ImportOptions& options, const OnError& on_error) {
   const std::vector<AnnotatedDrawing> drawings = findAnnotatedDrawings(dir, body_plan);
   if (drawings.empty())
-    throw InputError(
-        dir,
-        "holds nothing to import (char_cfg.yaml, joints.json, <stem>.joints.json, or a COCO file with "
-        "keypoints)");
+    throw InputError(dir,
+                     "holds nothing to import (char_cfg.yaml, joints.json, <stem>.joints.json, a COCO file "
+                     "with keypoints, "
+                     "or a skeleton file of the template " +
+                         body_plan.name + ")");
   return forEach(drawings, "import", on_error, [&](const AnnotatedDrawing& drawing) {
     return importDrawing(drawing, dir, body_plan, options);
   });

@@ -13,6 +13,7 @@
 #include "libskel/draw/color.h"
 #include "libskel/image/result_picture.h"
 #include "libskel/skeleton/motion_file.h"
+#include "libskel/skeleton/skeleton_file.h"
 #include "libskel/window/file_dialog.h"
 #include "libskel/window/keys.h"
 #include "libskel/window/window.h"
@@ -195,7 +196,7 @@ class LabelingWindow {
     dialog_.ask({"Open a folder of drawings, a drawing, a skeleton or a motion", "Open", "drawings",
                  document_.path(), FileUse::kOpenFileOrFolder,
                  [](const std::string& name) {
-                   return isDrawingName(name) || name.ends_with(".skeleton.json") ||
+                   return isDrawingName(name) || name.ends_with(kSkeletonFileEnding) ||
                           name.ends_with(kMotionFileEnding);
                  },
                  [this](const std::string& path) { return open(path); }});

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kSkeletonFileEnding = ".skeleton.json";
-
 std::string beside(const std::string& file, const std::string& relative) {
   return (fs::path(file).parent_path() / relative).lexically_normal().string();
 }

@@ -37,6 +37,8 @@ struct SkeletonFile {
   std::optional<Labels> labels;  // whose joints, placed by a person, are among these
 };
 
+inline constexpr const char* kSkeletonFileEnding = ".skeleton.json";
+
 std::string formatSkeletonFile(const SkeletonFile& file);
 
 // Throws InputError: joints that are not the template's (any order), outside the image, of another parent,

@@ -5,6 +5,9 @@
 #include <sstream>
 
 #include "libskel/core/json.h"
+#include "libskel/labels/annotated_image.h"
+#include "libskel/labels/label_file.h"
+#include "libskel/skeleton/template.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 
@@ -54,6 +57,38 @@ TEST_CASE("evaluate draws what it found and writes the figures") {
   const skel::JsonDocument figures = skel::JsonDocument::readFile(dir.path() + "/figures.json");
   CHECK(figures.root().at("characters").at("cap_boy").at("pck10").asNumber() == 1);
   CHECK_FALSE(figures.root().at("characters").at("cap_boy").at("worst_joint").asString().empty());
+}
+
+TEST_CASE("evaluate measures by the joints of label files that a person has placed, by no others") {
+  const skel::TempDir dir;
+  const std::string set = dir.file("set");
+  std::filesystem::create_directories(set);
+  for (const char* name : {"cap_boy", "runner"})
+    std::filesystem::copy_file(SKEL_DATASETS "/characters/" + std::string(name) + ".png",
+                               set + "/" + name + ".png");
+  const std::string image = set + "/cap_boy.png", label_file = set + "/cap_boy.labels.json";
+  const skel::NamedJoints joints = {
+      {"head", {{301, 198}}}, {"left_hand", {{20, 20}}}, {"right_hand", {{5, 5}}}};
+  skel::LabelFile labels = skel::labelImage(image, {}, joints, skel::loadTemplate("biped"));
+  labels.recognized = {"right_hand"};
+  skel::writeLabelFile(label_file, labels);
+  const auto figures_of = [&](const std::string& name) {
+    const auto run = skel::runTool("'" SKEL_INFER "' evaluate '" + set + "' --json '" + dir.file(name) + "'");
+    CAPTURE(run.err);
+    REQUIRE(run.exit_code == 0);
+    return skel::JsonDocument::readFile(dir.file(name));
+  };
+  const skel::JsonDocument figures = figures_of("figures.json");
+  REQUIRE(figures.root().at("characters").keys().size() == 1);
+  const skel::JsonValue boy = figures.root().at("characters").at("cap_boy");
+  CHECK(boy.at("pck10").asNumber() == 0.5);  // the head, not the hand
+  CHECK(boy.at("worst_joint").asString() == "left_hand");
+
+  labels.recognized = {"head", "left_hand", "right_hand"};
+  skel::writeLabelFile(label_file, labels);
+  const auto run = skel::runTool("'" SKEL_INFER "' evaluate '" + set + "'");
+  CHECK(run.exit_code == 2);
+  CHECK(run.err.find("of which a person has placed a joint") != std::string::npos);
 }
 
 TEST_CASE("evaluate goes on after a drawing that cannot be read, and says so") {

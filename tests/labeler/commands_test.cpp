@@ -6,10 +6,12 @@
 #include "labeler/make_motion.h"
 #include "libskel/core/files.h"
 #include "libskel/core/natural_order.h"
+#include "libskel/core/sha256.h"
 #include "libskel/image/write_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/labels/label_folder.h"
 #include "libskel/skeleton/motion_file.h"
+#include "libskel/skeleton/skeleton_file.h"
 #include "tests/labeler/drawing_folder.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
@@ -142,6 +144,48 @@ TEST_CASE("import: beside the pictures, or copied, and labels of a person are ke
   CHECK(readFile(path) == by_hand);
   CHECK(label(dir, "import in --force").out == "2 label files made, 0 kept as they were, 0 failed\n");
   CHECK(readFile(path) == made);
+}
+
+TEST_CASE("import: skeletons that skel-infer has found; what a person has moved counts as placed") {
+  const TempDir dir;
+  const SkeletonTemplate plan = loadTemplate("biped");
+  for (const char* name : {"cap_boy", "box_robot", "runner"})
+    fs::copy(kCharacters + name + ".png", dir.file(name + std::string(".png")));
+  const auto write = [&](const std::string& name, const SkeletonTemplate& body_plan, int figure,
+                         bool edited) {
+    SkeletonFile file;
+    file.image_file = name + ".png";
+    file.image_sha256 = sha256(readFile(dir.file(file.image_file)));
+    file.image_width = file.image_height = 600;
+    file.figure.number = figure;
+    file.skeleton = presetSkeleton(body_plan, {150, 50}, {450, 550});
+    if (edited) file.skeleton.joints[file.skeleton.index("head")].origin = JointOrigin::kEdited;
+    const std::string number = figure > 1 ? "-" + std::to_string(figure) : "";
+    file.image_file = "../" + file.image_file;
+    writeFile(dir.file("found/" + name + number + ".skeleton.json"), formatSkeletonFile(file));
+  };
+  write("cap_boy", plan, 1, true);
+  write("cap_boy", plan, 2, true);                       // label files are of the first figure
+  write("runner", loadTemplate("quadruped"), 1, false);  // of another body plan
+  write("box_robot", plan, 1, true);
+  fs::copy(kCharacters + "box_robot.joints.json", dir.file("box_robot.joints.json"));  // says more
+  CHECK(label(dir, "import .").out == "2 label files made, 0 kept as they were, 0 failed\n");
+  CHECK(label(dir, "check .").exit_code == 0);
+  CHECK_FALSE(fs::exists(dir.file("runner.labels.json")));
+  CHECK(readLabelFile(dir.file("box_robot.labels.json")).recognized.empty());
+
+  const LabelFile labels = readLabelFile(dir.file("cap_boy.labels.json"));
+  CHECK(labels.joints.size() == plan.joints.size());
+  CHECK(labels.isPlaced("head"));
+  CHECK_FALSE(labels.isPlaced("left_hand"));
+  CHECK(std::any_of(labels.labels.begin(), labels.labels.end(), [](const auto& l) { return l.has_value(); }));
+  CHECK(label(dir, "import found --template quadruped").out ==
+        "1 label files made, 0 kept as they were, 0 failed\n");
+
+  fs::copy_file(kCharacters + "runner.png", dir.file("cap_boy.png"), fs::copy_options::overwrite_existing);
+  const ToolRun run = label(dir, "import found --force");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.err, "found/cap_boy.skeleton.json: cap_boy.png has changed since"));
 }
 
 TEST_CASE("import: a joint outside its picture, a mask of another size, a joint of no template") {
