@@ -14,6 +14,7 @@
 #include "animator/document.h"
 #include "animator/key_marks.h"
 #include "animator/pose_file.h"
+#include "animator/rig_text.h"
 #include "animator/stage_view.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/core/caught_error.h"
@@ -539,7 +540,7 @@ class AnimationWindow {
 
     ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), ImGui::GetWindowHeight() - 56));
     const TriangleMesh& mesh = document_.character().mesh;
-    ImGui::TextDisabled("%d joints, %d bones", document_.jointCount(), document_.boneCount());
+    ImGui::TextDisabled("%d joints, %d bones", document_.jointCount(), boneCount(document_.skeleton()));
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6);
     ImGui::TextDisabled("%d vertices, %d triangles", int(mesh.vertices.rows()), int(mesh.triangles.rows()));
     ImGui::PopStyleVar();

@@ -126,11 +126,6 @@ const Clip* AnimationDocument::clip() const {
   return state_.clip < 0 ? nullptr : &(*state_.clips)[std::size_t(state_.clip)];
 }
 
-int AnimationDocument::boneCount() const {
-  return int(std::count_if(skeleton().joints.begin(), skeleton().joints.end(),
-                           [](const Joint& joint) { return joint.parent >= 0; }));
-}
-
 JointTransforms AnimationDocument::posed() const {
   return posedFromRest(skeleton(), state_.pose, heightOf(character()));
 }

@@ -61,7 +61,6 @@ class AnimationDocument {
   const Clip* clip() const;  // null: none
   const std::string& path() const { return source_.path; }
   int jointCount() const { return int(skeleton().joints.size()); }
-  int boneCount() const;  // joints that hang on another
   // One line about the last step, or why it was refused.
   const std::string& message() const { return message_; }
   void say(const std::string& message) { message_ = message; }

@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "animator/rig_source.h"
+#include "animator/rig_text.h"
 #include "libskel/core/text.h"
 #include "libskel/mesh/read_mesh.h"
-#include "libskel/skin/bones.h"
 #include "libskel/skin/parts.h"
 
 namespace skel {
@@ -32,7 +32,7 @@ void printMesh(const TriangleMesh& mesh) {
 
 void printSkeleton(const Skeleton& skeleton) {
   std::printf("skeleton: %d joints, %d bones%s%s\n", static_cast<int>(skeleton.joints.size()),
-              static_cast<int>(skeletonBones(skeleton).size()), skeleton.template_name.empty() ? "" : ", ",
+              boneCount(skeleton), skeleton.template_name.empty() ? "" : ", ",
               printable(skeleton.template_name).c_str());
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     int depth = 1;

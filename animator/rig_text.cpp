@@ -1,5 +1,7 @@
 #include "animator/rig_text.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "libskel/animation/retarget.h"
@@ -43,6 +45,11 @@ std::string formatRig(const Skeleton& skeleton) {
   const nlohmann::ordered_json document = {{"joints", std::move(joints)},
                                            {"hierarchy", std::move(hierarchy)}};
   return document.dump(1) + "\n";
+}
+
+int boneCount(const Skeleton& skeleton) {
+  return static_cast<int>(std::count_if(skeleton.joints.begin(), skeleton.joints.end(),
+                                        [](const Joint& joint) { return joint.parent >= 0; }));
 }
 
 }  // namespace skel

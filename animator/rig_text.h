@@ -10,4 +10,7 @@ namespace skel {
 // Positions in the model frame, y up; each joint's tail is its child's head, or the middle of its children's.
 std::string formatRig(const Skeleton& skeleton);
 
+// From joint to joint: of the joints that hang on another.
+int boneCount(const Skeleton& skeleton);
+
 }  // namespace skel

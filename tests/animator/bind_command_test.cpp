@@ -7,6 +7,7 @@
 #include "libskel/core/files.h"
 #include "libskel/image/write_image.h"
 #include "libskel/import/read_character.h"
+#include "tests/animator/figure_file.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 #include "tests/support/skin_checks.h"
@@ -104,6 +105,12 @@ TEST_CASE("the elk is bound, and its weights are saved and taken again") {
        {"5 parts", "38 joints, 37 bones", "neck_3 (0.000, 1.670, 0.780)", "weights: up to 4 joints"})
     CHECK(info.out.find(text) != std::string::npos);
   CHECK(animate(dir, "info '" + kElk + "'").out.find("5 parts") != std::string::npos);
+}
+
+TEST_CASE("info counts as many bones of a drawing's model as the window does") {
+  const TempDir dir;
+  figureFile(dir);
+  CHECK(animate(dir, "info figure.glb").out.find("17 joints, 16 bones") != std::string::npos);
 }
 
 TEST_CASE("the up axis of a skeleton is found by where it lies, or given") {
