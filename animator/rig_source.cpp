@@ -12,6 +12,7 @@
 #include "libskel/skeleton/place_in_mesh.h"
 #include "libskel/skeleton/rig_file.h"
 #include "libskel/skeleton/skeleton_file.h"
+#include "libskel/skin/skin_weights.h"
 
 namespace skel {
 namespace {
@@ -54,6 +55,7 @@ Skeleton readSkeletonFor(const TriangleMesh& mesh, const std::string& path, cons
   }
   std::string unused;
   const Skeleton as_is = readRigFile(path, &unused), turned = yUpFromZUp(as_is);
+  checkBindable(mesh, as_is.joints.size(), path);
   const double y = shareInside(as_is, mesh), z = shareInside(turned, mesh);
   const bool z_up = up == "z" || (up == "auto" && z > y);
   if (note)

@@ -50,7 +50,7 @@ ExitCode motion(const LabelerOptions& options) {
                  {options.output, options.frame_rate, options.force, mlpOf(options),
                   loadTemplate(options.body_plan), recognizerOf(options)},
                  [](const Error& error) { std::fprintf(stderr, "%s\n", error.what()); });
-  print(counts.output + ": " + std::to_string(counts.frames) + " frames, " +
+  print(printable(counts.output) + ": " + std::to_string(counts.frames) + " frames, " +
         std::to_string(counts.without_figure) + " without a figure\n");
   return ExitCode::kDone;
 }
@@ -70,7 +70,7 @@ ExitCode exportLabels(const LabelerOptions& options) {
   noteOutput(output);
   writeFile(output, options.coco ? labelsAsCoco(options.dir, loadTemplate(options.body_plan))
                                  : labelsAsCsv(options.dir));
-  print(output + "\n");
+  print(printable(output) + "\n");
   return ExitCode::kDone;
 }
 

@@ -36,10 +36,16 @@ Image stickFigure(const Eigen::VectorXd& pose, const SkeletonTemplate& plan) {
 // The frame's picture with its joints, or the joints alone.
 Image keyPicture(const MotionFrame& frame, const Eigen::VectorXd& pose, const std::string& motion,
                  const SkeletonTemplate& plan) {
-  Image image = blankImage(frame.image_width, frame.image_height);
-  if (!frame.image_file.empty())
-    blit(image, readImage((fs::path(motion).parent_path() / frame.image_file).string()), 0, 0);
-  drawBones(image, pose, plan, std::max(image.width, image.height) / 90.);
+  // What the file says of its frames need not be so.
+  constexpr int kMost_px = 4000;
+  const double scale = std::min(1., double(kMost_px) / std::max(frame.image_width, frame.image_height));
+  const auto scaled = [&](int side) { return std::max(1, int(std::lround(scale * side))); };
+  Image image = blankImage(scaled(frame.image_width), scaled(frame.image_height));
+  if (!frame.image_file.empty()) {
+    const Image picture = readImage((fs::path(motion).parent_path() / frame.image_file).string());
+    blit(image, resized(picture, scaled(picture.width), scaled(picture.height)), 0, 0);
+  }
+  drawBones(image, scale * pose, plan, std::max(image.width, image.height) / 90.);
   return fitted(image, kCell_px, kCell_px);
 }
 

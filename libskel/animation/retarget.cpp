@@ -501,7 +501,8 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
 
   const float duration = clip.duration_s();
   const int keys = int(std::ceil(duration * options.rate_hz - 1e-3f)) + 1;
-  checkMoments(clip, keys, count);
+  // Feet are planted contact by contact.
+  checkMoments(clip, keys * std::max(1., double(clip.contacts.size()) / 16), count);
   std::vector<std::pair<Pose, double>> moments;
   std::vector<ModelPose> poses(keys);
   for (int k = 0; k < keys; ++k) {

@@ -406,6 +406,16 @@ void standOnGround(const Source& source, bool recorded, const Skeleton& target, 
   }
 }
 
+bool isFinite(const Clip& clip) {
+  const auto isTurn = [](const Eigen::Quaternionf& turn) { return turn.coeffs().allFinite(); };
+  const auto isPlace = [](const Eigen::Vector3f& place) { return place.allFinite(); };
+  return std::all_of(clip.root_translations.begin(), clip.root_translations.end(), isPlace) &&
+         std::all_of(clip.tracks.begin(), clip.tracks.end(), [&](const JointTrack& track) {
+           return std::all_of(track.rotations.begin(), track.rotations.end(), isTurn) &&
+                  std::all_of(track.translations_m.begin(), track.translations_m.end(), isPlace);
+         });
+}
+
 }  // namespace
 
 RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file, const Skeleton& target,
@@ -441,6 +451,7 @@ RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file
   options.thin_keys = false;
   result.clip = retargetToRest(clip, target, options);
   standOnGround(source, !mapping.same_names, target, shape, scale, result.clip);
+  if (!isFinite(result.clip)) throw InputError(file, "has bones without length, which point nowhere");
   return result;
 }
 

@@ -158,6 +158,8 @@ void removeTemporaryFilesOnSignals() {
     if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_DFL)
       ::sigaction(signal, &action, nullptr);
   }
+  // A write beyond the limit of a file's size fails, and says so.
+  ::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace skel

@@ -24,6 +24,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
+constexpr float kMaxWidth = 1e4f;  // of a model, in its heights
 constexpr double kRigid = 1e-4;  // how far a rest transform may be from a rotation, a scale from an even one
 
 std::optional<std::vector<double>> numbersAt(const JsonValue& object, std::string_view key,
@@ -314,6 +315,11 @@ TriangleMesh readMesh(const GlbContainer& glb, const JsonValue& primitive, const
     primitive.at("attributes").at("POSITION").fail("has a vertex farther than 1e6 from the origin");
   if ((mesh.vertices.rowwise() - mesh.vertices.row(0)).isZero(0))
     primitive.at("attributes").at("POSITION").fail("has all vertices at one place");
+  const Eigen::RowVector3f size = mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff();
+  if (!(size.y() * kMaxWidth > size.maxCoeff()))
+    primitive.at("attributes")
+        .at("POSITION")
+        .fail("is flat: it has no height along y; turn it so that y points up");
   readTriangles(glb, primitive, mesh);
   readTexture(glb, primitive, file, mesh);
   return mesh;
@@ -433,14 +439,13 @@ std::vector<Eigen::Quaternionf> quaternions(const GlbContainer::Numbers& numbers
 
 // `keys` counts those of all clips so far: channels may share their numbers.
 Clip readClip(const GlbContainer& glb, const JsonValue& animation, const RiggedCharacter& character,
-              const Joints& joints, const std::string& otherwise, std::size_t& keys) {
+              const Joints& joints, float height, const std::string& otherwise, std::size_t& keys) {
   Clip clip;
   const std::optional<JsonValue> name = animation.find("name");
   clip.name = name ? name->asString() : otherwise;
   const std::vector<JsonValue> samplers = animation.at("samplers").items();
   if (samplers.empty()) animation.at("samplers").fail("is empty");
   const std::vector<Joint>& all = character.skeleton.joints;
-  const float height = character.mesh.vertices.col(1).maxCoeff() - character.mesh.vertices.col(1).minCoeff();
   std::set<std::pair<int, std::string>> moved;
   std::vector<int> tracks(all.size(), -1);
   for (const JsonValue& channel : animation.at("channels").items()) {
@@ -529,9 +534,12 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
   makeWhole(character);
   if (const auto animations = glb.root().find("animations")) {
     const std::vector<JsonValue> all = animations->items();
+    const auto heights = character.mesh.vertices.col(1);
+    const float height = heights.maxCoeff() - heights.minCoeff();
     std::size_t keys = 0;
     for (std::size_t i = 0; i < all.size(); ++i)
-      result.clips.push_back(readClip(glb, all[i], character, joints, "clip " + std::to_string(i + 1), keys));
+      result.clips.push_back(
+          readClip(glb, all[i], character, joints, height, "clip " + std::to_string(i + 1), keys));
   }
   result.bones = joints.style();
   if (const auto name = mesh.find("name")) result.name = name->asString();

@@ -118,6 +118,9 @@ SkeletonTemplate parseTemplate(std::string_view text, const std::string& file) {
   readJoints(body_plan, root.at("joints"));
   body_plan.head = recognizedJointAt(body_plan, root.at("head"));
   body_plan.body = recognizedJointAt(body_plan, root.at("body"));
+  constexpr size_t kMostLimbs = 100;
+  if (root.at("limbs").size() > kMostLimbs)
+    root.at("limbs").fail("has more than " + std::to_string(kMostLimbs) + " limbs");
   for (const JsonValue& item : root.at("limbs").items()) {
     item.allowOnly({"class", "joints"});
     TemplateLimb limb;

@@ -102,6 +102,10 @@ struct Body {
 JointWeights bodyWeights(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<Bone>& bones,
                          const Method& way, const SkinOptions& options) {
   JointWeights weights = way.weights({mesh, skeleton, bones, options});
+  if (!(weights.maxCoeff() > 0))
+    throw InputError(options.file, "lies so far from all bones, for its size, that none reaches it by " +
+                                       std::string(way.name) +
+                                       "; look at the skeleton's unit, or take --skin geodesic");
   fillFromNearest(mesh.vertices, weights);
   // What is known of bends is known of drawings, whose limbs bend in their plane or out of it.
   const bool flat = nearlyFlat(bones);
@@ -186,6 +190,18 @@ std::vector<SkinMethod> skinMethods() {
 
 std::string_view skinMethodName(SkinMethod method) { return find(method).name; }
 
+void checkBindable(const TriangleMesh& mesh, std::size_t joints, const std::string& file) {
+  const auto check = [&](Eigen::Index count, std::int64_t most, const std::string& what) {
+    most /= static_cast<std::int64_t>(joints);
+    if (count > most)
+      throw InputError(file, "has " + std::to_string(count) + " " + what + " for " + std::to_string(joints) +
+                                 " joints; at most " + std::to_string(most) + " " + what +
+                                 " can be bound to so many: take a coarser mesh or fewer joints");
+  };
+  check(mesh.vertices.rows(), kMostVertexJoints, "vertices");
+  check(mesh.triangles.rows(), kMostTriangleJoints, "triangles");
+}
+
 SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleton, SkinMethod method,
                                const SkinOptions& options, const std::vector<int>& joint_layers) {
   SKEL_CHECK(options.max_influences >= 1 && options.max_influences <= 4);
@@ -193,13 +209,7 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
   if (mesh.vertices.rows() == 0) return {};
   SKEL_CHECK(mesh.vertices.allFinite());
 
-  const auto joints = static_cast<std::int64_t>(skeleton.joints.size());
-  if (mesh.vertices.rows() * joints > kMostVertexJoints)
-    throw InputError(options.file,
-                     "has " + std::to_string(mesh.vertices.rows()) + " vertices for " +
-                         std::to_string(joints) + " joints; at most " +
-                         std::to_string(kMostVertexJoints / joints) +
-                         " vertices can be bound to so many: take a coarser mesh or fewer joints");
+  checkBindable(mesh, skeleton.joints.size(), options.file);
   const Method& way = find(method);
   if (mesh.vertices.rows() > way.most_vertices)
     throw UsageError("weights by " + std::string(way.name) + " are for at most " +

@@ -43,6 +43,10 @@ struct SkinOptions {
 
 // Vertices times joints: each pair has a few numbers while weights are computed.
 inline constexpr std::int64_t kMostVertexJoints = 32'000'000;
+// Triangles times joints: where a bone lies is asked of each triangle.
+inline constexpr std::int64_t kMostTriangleJoints = 128'000'000;
+// Throws InputError where there are more of these, or of those.
+void checkBindable(const TriangleMesh& mesh, std::size_t joints, const std::string& file);
 
 // A joint moves the segment from itself to its tail if it has one; else to its child, a leaf a short tip
 // segment beyond it, and the head also the upper half of the segment that leads to it. Any mesh will do:

@@ -112,6 +112,20 @@ TEST_CASE("a BVH of ours comes back as it was") {
   }
 }
 
+TEST_CASE("a BVH whose bones have no length is refused, where it made a model of NaNs") {
+  const TempDir dir;
+  const std::string figure = figureFile(dir);
+  std::string flat;
+  std::istringstream lines(readFile(kMotions + "mixamo_prefixed.bvh"));
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find("OFFSET");
+    flat += (at == std::string::npos ? line : line.substr(0, at) + "OFFSET 0 0 0") + "\n";
+  }
+  writeFile(dir.file("flat.bvh"), flat);
+  checkFails("retarget " + dir.file("flat.bvh") + " --to " + figure + " -o " + dir.file("b.glb"), 2,
+             dir.file("flat.bvh") + ": has bones without length, which point nowhere");
+}
+
 TEST_CASE("a clip file that puts the pelvis on the ground, or lasts 1e5 s, is one line") {
   const TempDir dir;
   const std::string to = " --to " + figureFile(dir) + " -o " + dir.file("a.glb");

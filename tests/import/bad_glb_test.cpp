@@ -218,6 +218,13 @@ TEST_CASE("GLB files that mean something else are refused with their place") {
          setWord(binary, d["bufferViews"][view].value("byteOffset", 0u) + 4, 0);
        },
        "animations[0].samplers[0].input: time 1 is not later than the one before"},
+      {[](json& d, std::string& binary) {
+         const json& positions =
+             d["accessors"][d["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<int>()];
+         const std::size_t at = d["bufferViews"][positions["bufferView"].get<int>()].value("byteOffset", 0u);
+         for (std::size_t v = 0; v < positions["count"]; ++v) setWord(binary, at + 12 * v + 4, 0);
+       },
+       "POSITION: is flat: it has no height along y"},
       {[](json& d, std::string&) { d["images"][0]["uri"] = "a.png"; },
        "images[0].uri: lies outside of the file"},
       {[](json& d, std::string& binary) {

@@ -102,6 +102,11 @@ TEST_CASE("a template with a value that makes no sense is refused") {
                     "t: limbs[0].class: is \"arm\", must be head, body, hand or leg");
   CHECK_THROWS_WITH(parseTemplate(changed("{\"class\": \"leg\"", "{\"class\": \"head\""), "t"),
                     "t: limbs[2].class: must be hand or leg: the rules look for no other limbs");
+  std::string many;
+  for (int i = 0; i < 100; ++i)
+    many += R"({"class": "hand", "joints": ["right_shoulder", "right_elbow", "right_hand"]}, )";
+  CHECK_THROWS_WITH(parseTemplate(changed("\"limbs\": [", "\"limbs\": [" + many), "t"),
+                    "t: limbs: has more than 100 limbs");
   CHECK_THROWS_WITH(
       parseTemplate(changed("[\"right_shoulder\", \"right_elbow\"", "[\"right_shoulder\", \"right_elbo\""),
                     "t"),

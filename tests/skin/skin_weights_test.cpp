@@ -395,6 +395,21 @@ TEST_CASE("heat refuses triangles that are no surface, by the file's name") {
                         Catch::Matchers::Contains("take --skin geodesic"));
 }
 
+// It was an abort.
+TEST_CASE("heat refuses a model that no bone is near to, by the file's name") {
+  TriangleMesh mesh;
+  mesh.vertices = Eigen::MatrixX3f::Random(4, 3) * 1e-2f;
+  mesh.triangles.resize(4, 3);
+  mesh.triangles << 0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2;
+  Skeleton skeleton;
+  skeleton.joints.push_back({"a", -1, {}, {9e5, 0, 0}});
+  skeleton.joints[0].tail = Eigen::Vector3d(9e5, 1, 0);
+  SkinOptions options;
+  options.file = "far.obj";
+  CHECK_THROWS_WITH(computeSkinWeights(mesh, skeleton, SkinMethod::kHeat, options),
+                    Catch::Matchers::Contains("far.obj: lies so far from all bones"));
+}
+
 // Gigabytes, of a file of a few megabytes.
 TEST_CASE("more vertices times joints than fit into memory are refused, by the file's name") {
   Skeleton chain;
@@ -410,6 +425,10 @@ TEST_CASE("more vertices times joints than fit into memory are refused, by the f
     CHECK_THROWS_WITH(computeSkinWeights(mesh, chain, method, options),
                       "big.obj: has 8001 vertices for 4000 joints; at most 8000 vertices can be bound to so "
                       "many: take a coarser mesh or fewer joints");
+  mesh.vertices.conservativeResize(10, 3);
+  mesh.triangles = Eigen::MatrixX3i::Zero(32'001, 3);
+  CHECK_THROWS_WITH(checkBindable(mesh, 4000, "big.obj"),
+                    Catch::Matchers::Contains("at most 32000 triangles can be bound to so many"));
 }
 
 // It took minutes: each joint looked at all vertices and all joints below it.

@@ -58,6 +58,10 @@ TEST_CASE("a file's name commands no terminal, whatever a tool says of it") {
   for (const std::string name : {"elk.obj", "elk.mtl"})
     fs::copy_file(SKEL_SOURCE_DIR "/datasets/elk/" + name, dir.file(name));
   fs::copy_file(SKEL_SOURCE_DIR "/datasets/elk/elk.rig.json", dir.file(esc + ".rig.json"));
+  fs::create_directory(dir.file("labelled"));
+  for (const char* ending : {".png", ".mask.png", ".labels.json"})
+    fs::copy_file(SKEL_SOURCE_DIR "/datasets/characters/cap_boy" + std::string(ending),
+                  dir.file("labelled/cap_boy" + std::string(ending)));
   const std::string film = " --fps 4 --duration 0.5 --size 64x64 ";
   for (const std::string& command :
        {"skel-animate bind elk.obj --skeleton '" + esc + ".rig.json' -o '" + esc + ".glb'",
@@ -65,6 +69,7 @@ TEST_CASE("a file's name commands no terminal, whatever a tool says of it") {
         "skel-animate list '" + esc + ".glb'",
         "skel-animate retarget idle --to '" + esc + ".glb' -o 'to " + esc + ".glb'",
         "skel-animate render '" + esc + ".glb' --clip idle" + film + "-o '" + esc + ".gif'",
+        "skel-label export labelled --csv -o '" + esc + ".csv'",
         "skel-style keyframes film -o '" + esc + " keys'",
         "skel-style keypoints film -o '" + esc + ".motion.json'"}) {
     CAPTURE(command);

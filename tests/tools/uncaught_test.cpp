@@ -99,6 +99,38 @@ TEST_CASE("a long key before a long list takes no memory for each item") {
   CHECK(run.err.find("a.joints.json: joints.kkkkk") != std::string::npos);
 }
 
+TEST_CASE("a motion whose frames are said to be huge is looked at in little memory") {
+  if (!kLimitsWork) return;
+  const TempDir dir;
+  fs::create_directory(dir.file("film"));
+  for (const char* name : {"film/1.png", "film/2.png"}) fs::copy_file(kDrawing, dir.file(name));
+  REQUIRE(runTool("cd '" + dir.path() + "' && " SKEL_TOOLS "/skel-style keypoints film -o a.motion.json")
+              .exit_code == 0);
+  std::string motion = readFile(dir.file("a.motion.json"));
+  for (const char* side : {"\"width\":", "\"height\":"})
+    for (std::size_t at = motion.find(side); at != std::string::npos; at = motion.find(side, at + 1)) {
+      const std::size_t number = at + std::string_view(side).size();
+      motion.replace(number, motion.find_first_not_of("0123456789", number) - number, "40000");
+    }
+  for (std::size_t at = motion.find("\"film/"); at != std::string::npos; at = motion.find("\"film/"))
+    motion.replace(at, motion.find('"', at + 1) + 1 - at, "null");
+  writeFile(dir.file("a.motion.json"), motion);
+  const ToolRun run = limited(dir, 1000, "skel-style inspect a.motion.json -o a.png");
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 0);
+}
+
+TEST_CASE("a file larger than the system allows is an output error, and leaves nothing") {
+  const TempDir dir;
+  fs::copy_file(kDrawing, dir.file("a.png"));
+  const ToolRun run = runTool("cd '" + dir.path() +
+                              "' && ulimit -f 10 && " SKEL_TOOLS "/skel-infer a.png -o out --formats glb");
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 4);
+  CHECK(run.err.find("out/a.glb: cannot be written") != std::string::npos);
+  CHECK(fs::is_empty(dir.file("out")));
+}
+
 TEST_CASE("threads that cannot be had end no tool") {
   if (!kLimitsWork) return;
   const TempDir dir;
