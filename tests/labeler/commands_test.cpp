@@ -146,7 +146,7 @@ TEST_CASE("import: beside the pictures, or copied, and labels of a person are ke
   CHECK(readFile(path) == made);
 }
 
-TEST_CASE("import: skeletons that skel-infer has found; what a person has moved counts as placed") {
+TEST_CASE("import: skeletons that skel-infer has found, of which what a person has moved counts as placed") {
   const TempDir dir;
   const SkeletonTemplate plan = loadTemplate("biped");
   for (const char* name : {"cap_boy", "box_robot", "runner"})
