@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "libskel/core/error.h"
@@ -22,6 +23,8 @@ namespace {
 // and so long to fade what a dialog has dimmed.
 constexpr int kSettlingFrames = 4;
 constexpr double kSettling_s = 0.25;
+// Between the two clicks of a double click; as on most desktops.
+constexpr double kDoubleClick_s = 0.5;
 
 std::string glfwProblem() {
   const char* text = nullptr;
@@ -37,24 +40,49 @@ struct Glfw {
   ~Glfw() { glfwTerminate(); }
 };
 
+// What came from the keyboard and the left button since the last frame. GLFW's callbacks are plain functions;
+// there is one window.
+struct Input {
+  std::vector<int> pressed_keys;
+  int clicks = 0;  // presses that no frame has shown
+  bool changed = false;
+};
+Input& input() {
+  static Input input;
+  return input;
+}
+
+void watchInput(GLFWwindow* window) {
+  glfwSetKeyCallback(window, [](GLFWwindow*, int key, int, int action, int) {
+    input().changed = true;
+    if (key >= 0 && action == GLFW_PRESS) input().pressed_keys.push_back(key);
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow*, int button, int action, int) {
+    input().changed = true;
+    if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS) ++input().clicks;
+  });
+}
+
 #if IMGUI_VERSION_NUM < 18700
 // Up to 1.86, Dear ImGui sees only what is down when a frame begins: a key that is pressed and released
-// between two frames would be lost. Such keys are held down for one frame. From 1.87 on it has a queue of its
-// own.
-class KeyTaps {
+// between two frames would be lost, and of two clicks the second. Such keys are held down for one frame, such
+// clicks are shown in frames of their own. From 1.87 on it has a queue of its own.
+class Taps {
  public:
-  static void note(GLFWwindow*, int key, int, int action, int) {
-    if (key >= 0 && action == GLFW_PRESS) pressed().push_back(key);
-  }
   // Before ImGui::NewFrame().
   void hold() {
     ImGuiIO& io = ImGui::GetIO();
-    for (const int key : pressed())
+    for (const int key : input().pressed_keys)
       if (!io.KeysDown[key]) {
         io.KeysDown[key] = true;
         held_.push_back(key);
       }
-    pressed().clear();
+    input().pressed_keys.clear();
+    if (input().clicks > 0) {
+      io.MouseDown[0] = !was_down_;
+      if (!was_down_) --input().clicks;
+    }
+    was_down_ = io.MouseDown[0];
   }
   // After it.
   void release() {
@@ -63,17 +91,15 @@ class KeyTaps {
   }
 
  private:
-  // GLFW's callbacks are plain functions; there is one window.
-  static std::vector<int>& pressed() {
-    static std::vector<int> keys;
-    return keys;
-  }
   std::vector<int> held_;
+  bool was_down_ = false;  // the left button, in the last frame
 };
 #else
-struct KeyTaps {
-  static void note(GLFWwindow*, int, int, int, int) {}
-  void hold() {}
+struct Taps {
+  void hold() {
+    input().pressed_keys.clear();
+    input().clicks = 0;
+  }
   void release() {}
 };
 #endif
@@ -137,14 +163,13 @@ void chooseStyle(float scale) {
 struct Gui {
   explicit Gui(GLFWwindow* window) {
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;        // leaves no file behind
-    ImGui::GetIO().MouseDoubleClickTime = 0.5f;  // s, as on most desktops
+    ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
     float scale_x = 1, scale_y = 1;
     glfwGetWindowContentScale(window, &scale_x, &scale_y);
     const float scale = std::clamp(std::max(scale_x, scale_y), 1.f, 4.f);
     chooseFont(scale);
     chooseStyle(scale);
-    glfwSetKeyCallback(window, KeyTaps::note);  // Dear ImGui calls it before its own
+    watchInput(window);  // Dear ImGui calls what it finds before its own
     ImGui_ImplGlfw_InitForOpenGL(window, true);
     ImGui_ImplOpenGL3_Init("#version 330 core");
   }
@@ -155,7 +180,7 @@ struct Gui {
   }
 };
 
-NextFrame drawFrame(GLFWwindow* window, KeyTaps& taps, const std::function<NextFrame()>& frame) {
+NextFrame drawFrame(GLFWwindow* window, Taps& taps, const std::function<NextFrame()>& frame) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   taps.hold();
@@ -190,15 +215,21 @@ void Window::setTitle(const std::string& title) { glfwSetWindowTitle(parts_->win
 void Window::run(const std::function<NextFrame()>& frame) {
   int settling = kSettlingFrames;
   double settled_s = glfwGetTime() + kSettling_s;
-  KeyTaps taps;
+  Taps taps;
   while (!glfwWindowShouldClose(parts_->window)) {
+    const double begun_s = glfwGetTime();
     const NextFrame next = drawFrame(parts_->window, taps, frame);
+    // Clicks are seen when a frame begins: where frames are slow, the second one up to three of them later.
+    ImGui::GetIO().MouseDoubleClickTime = static_cast<float>(kDoubleClick_s + 3 * (glfwGetTime() - begun_s));
     if (!glfwGetWindowAttrib(parts_->window, GLFW_VISIBLE)) glfwShowWindow(parts_->window);
     if (next == NextFrame::kClose) break;
-    if (next == NextFrame::kAtOnce || --settling > 0 || glfwGetTime() < settled_s) {
-      glfwPollEvents();
-    } else {
+    const bool sleeps = next == NextFrame::kOnInput && --settling <= 0 && glfwGetTime() >= settled_s;
+    if (sleeps)
       glfwWaitEvents();
+    else
+      glfwPollEvents();
+    // A press and its release may have come at once: each of them has a frame before the next sleep.
+    if (std::exchange(input().changed, false) || sleeps) {
       settling = kSettlingFrames;
       settled_s = glfwGetTime() + kSettling_s;
     }
