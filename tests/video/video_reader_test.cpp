@@ -118,14 +118,15 @@ TEST_CASE("a film whose header claims too many pixels, or 16x65535, is refused b
 
 TEST_CASE("a film of large frames is read smaller") {
   const TempDir dir;
-  for (const char* name : {
+  const std::vector<std::string> names = {
 #ifdef SKEL_VIDEO_MP4
-           "a.mp4",
+      "a.mp4",
 #endif
 #ifdef SKEL_VIDEO_WEBP
-           "a.webp",
+      "a.webp",
 #endif
-       }) {
+  };
+  for (const std::string& name : names) {
     CAPTURE(name);
     const auto video = openVideo(dir.file(name), {.width = 2400, .height = 1200, .frame_rate = 10});
     Image image = blankImage(2400, 1200);
