@@ -505,9 +505,10 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
   checkMoments(clip, keys * std::max(1., double(clip.contacts.size()) / 16), count);
   std::vector<std::pair<Pose, double>> moments;
   std::vector<ModelPose> poses(keys);
+  const ClipSampler sampler(clip, skeleton);
   for (int k = 0; k < keys; ++k) {
     poses[k].time_s = keys == 1 ? 0 : duration * float(k) / float(keys - 1);
-    moments.emplace_back(samplePose(clip, skeleton, poses[k].time_s), canonicalShare(clip, poses[k].time_s));
+    moments.emplace_back(sampler.at(poses[k].time_s), canonicalShare(clip, poses[k].time_s));
   }
   if (options.clear_of_head) swingClearOfHead(retargeter, moments, canonical, shape.head_half_width_m);
 
@@ -567,11 +568,11 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
     track.rotations.clear();
     track.angles_rad.clear();
   }
-  for (const ModelPose& pose : poses) {
-    const std::vector<Quaterniond>& globals = pose.globals;
-    for (JointTrack& track : result.tracks) {
-      if (track.times_s.empty()) continue;
-      const int joint = skeleton.index(track.joint), parent = skeleton.joints[joint].parent;
+  for (JointTrack& track : result.tracks) {
+    if (track.times_s.empty()) continue;
+    const int joint = skeleton.index(track.joint), parent = skeleton.joints[joint].parent;
+    for (const ModelPose& pose : poses) {
+      const std::vector<Quaterniond>& globals = pose.globals;
       Quaterniond local =
           parent < 0 ? globals[joint] : (globals[parent].conjugate() * globals[joint]).normalized();
       Eigen::Quaternionf rotation = local.cast<float>().normalized();

@@ -386,6 +386,7 @@ void standOnGround(const Source& source, bool recorded, const Skeleton& target, 
   const std::vector<float>& times = source.times_s;
   const double ground = lowestSole(our_legs, shape, restPositions(target),
                                    std::vector<Quaterniond>(target.joints.size(), Quaterniond::Identity()));
+  const ClipSampler sampler(clip, target);
   for (std::size_t k = 0; k < clip.root_times_s.size(); ++k) {
     const float time_s = clip.root_times_s[k];
     const std::size_t after =
@@ -394,7 +395,7 @@ void standOnGround(const Source& source, bool recorded, const Skeleton& target, 
     const double step = double(times[next]) - double(times[before]);
     const double t = step > 0 ? std::clamp((double(time_s) - double(times[before])) / step, 0.0, 1.0) : 0;
     const double air = scale * ((1 - t) * heights[before] + t * heights[next]);
-    const Pose pose = samplePose(clip, target, time_s);
+    const Pose pose = sampler.at(time_s);
     ModelPose ours;
     for (std::size_t j = 0; j < target.joints.size(); ++j) {
       const int parent = target.joints[j].parent;

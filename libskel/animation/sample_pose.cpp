@@ -56,30 +56,41 @@ Eigen::Quaternionf rotationOfAngles(const Eigen::Vector3f& angles_rad) {
       .cast<float>();
 }
 
-Pose samplePose(const Clip& clip, const Skeleton& skeleton, float time_s) {
-  const std::size_t count = skeleton.joints.size();
-  Pose pose;
-  pose.rotations.assign(count, Eigen::Quaternionf::Identity());
+ClipSampler::ClipSampler(const Clip& clip, const Skeleton& skeleton)
+    : clip_(clip), joint_count_(skeleton.joints.size()) {
   for (const JointTrack& track : clip.tracks) {
-    SKEL_CHECK(!track.times_s.empty() || !track.translation_times_s.empty() || !track.scale_times_s.empty());
-    const int joint = skeleton.find(track.joint);
-    if (joint < 0)
+    joints_.push_back(skeleton.find(track.joint));
+    if (joints_.back() < 0)
       throw UsageError("the clip \"" + clip.name + "\" moves \"" + track.joint +
                        "\", which this skeleton lacks; use a clip for the template \"" +
                        skeleton.template_name + "\"");
-    if (!track.times_s.empty()) pose.rotations[joint] = rotationAt(track, clip.interpolation, time_s);
+  }
+}
+
+Pose ClipSampler::at(float time_s) const {
+  Pose pose;
+  pose.rotations.assign(joint_count_, Eigen::Quaternionf::Identity());
+  for (std::size_t t = 0; t < clip_.tracks.size(); ++t) {
+    const JointTrack& track = clip_.tracks[t];
+    const auto joint = std::size_t(joints_[t]);
+    SKEL_CHECK(!track.times_s.empty() || !track.translation_times_s.empty() || !track.scale_times_s.empty());
+    if (!track.times_s.empty()) pose.rotations[joint] = rotationAt(track, clip_.interpolation, time_s);
     if (!track.translation_times_s.empty()) {
-      pose.translations_m.resize(count, Eigen::Vector3f::Zero());
+      pose.translations_m.resize(joint_count_, Eigen::Vector3f::Zero());
       pose.translations_m[joint] = between(track.translation_times_s, track.translations_m, time_s);
     }
     if (!track.scale_times_s.empty()) {
-      pose.scales.resize(count, Eigen::Vector3f::Ones());
+      pose.scales.resize(joint_count_, Eigen::Vector3f::Ones());
       pose.scales[joint] = between(track.scale_times_s, track.scales, time_s);
     }
   }
-  if (!clip.root_times_s.empty())
-    pose.root_translation = between(clip.root_times_s, clip.root_translations, time_s);
+  if (!clip_.root_times_s.empty())
+    pose.root_translation = between(clip_.root_times_s, clip_.root_translations, time_s);
   return pose;
+}
+
+Pose samplePose(const Clip& clip, const Skeleton& skeleton, float time_s) {
+  return ClipSampler(clip, skeleton).at(time_s);
 }
 
 Clip withSlerp(const Clip& clip, float rate_hz) {

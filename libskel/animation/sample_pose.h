@@ -1,6 +1,8 @@
 // A clip at one moment.
 #pragma once
 
+#include <vector>
+
 #include "libskel/animation/clip.h"
 
 namespace skel {
@@ -17,8 +19,21 @@ struct Pose {
 // R = Rz · Ry · Rx.
 Eigen::Quaternionf rotationOfAngles(const Eigen::Vector3f& angles_rad);
 
-// Times before the first and after the last key hold that key. Throws UsageError if the clip moves a joint
-// that the skeleton lacks.
+// A clip for a skeleton, at any moments; both must outlive it.
+class ClipSampler {
+ public:
+  // Throws UsageError if the clip moves a joint that the skeleton lacks.
+  ClipSampler(const Clip& clip, const Skeleton& skeleton);
+  // Times before the first and after the last key hold that key.
+  Pose at(float time_s) const;
+
+ private:
+  const Clip& clip_;
+  std::size_t joint_count_;
+  std::vector<int> joints_;  // of the tracks
+};
+
+// At one moment. Throws as ClipSampler does.
 Pose samplePose(const Clip& clip, const Skeleton& skeleton, float time_s);
 
 // The same motion with slerp between keys of an even rate (tracks that are so already stay), for formats that

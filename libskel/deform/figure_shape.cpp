@@ -33,6 +33,12 @@ struct Flesh {
         sum += double(weights.weights(v, k));
     return sum;
   }
+  // The joint that has more than half of the vertex; -1: none.
+  int owner(Eigen::Index v) const {
+    for (int k = 0; k < 4; ++k)
+      if (const int joint = weights.joints(v, k); share(v, {joint}) > 0.5) return joint;
+    return -1;
+  }
 };
 
 // The angle at which a stick that turns about `pivot` lies beside the trunk, seen from the front. `side`: 1
@@ -137,23 +143,36 @@ double legLength(const Flesh& flesh, int foot) {
 void measureFeet(const Flesh& flesh, FigureShape& shape) {
   constexpr int kDirections = 16;
   constexpr double kReach = 0.6;  // of the leg's length; what is farther from the joint is not the foot
-  for (std::size_t j = 0; j < flesh.skeleton.joints.size(); ++j) {
-    if (!flesh.skeleton.joints[j].name.ends_with("foot")) continue;
-    const double reach = kReach * legLength(flesh, int(j));
+  struct Foot {
+    double reach = -1;  // negative: no foot
     std::array<double, kDirections> farthest;
-    farthest.fill(-1e9);
-    std::vector<Vector3d> points(kDirections);
-    for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v) {
-      const Vector3d point = flesh.at(v) - flesh.joint(int(j));
-      if (point.head<2>().norm() > reach || flesh.share(v, {int(j)}) <= 0.5) continue;
-      for (int k = 0; k < kDirections; ++k) {
-        const double angle = 2 * std::numbers::pi * k / kDirections;
-        const double far = point.x() * std::cos(angle) + point.y() * std::sin(angle);
-        if (far > farthest[k]) farthest[k] = far, points[k] = point;
-      }
-    }
-    if (farthest[0] > -1e9) shape.feet_m[j] = std::move(points);
+    std::vector<Vector3d> points;
+  };
+  std::vector<Foot> feet(flesh.skeleton.joints.size());
+  for (std::size_t j = 0; j < feet.size(); ++j)
+    if (flesh.skeleton.joints[j].name.ends_with("foot")) feet[j].reach = kReach * legLength(flesh, int(j));
+  std::array<Vector2d, kDirections> directions;
+  for (int k = 0; k < kDirections; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kDirections;
+    directions[k] = {std::cos(angle), std::sin(angle)};
   }
+  for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v) {
+    const int j = flesh.owner(v);
+    if (j < 0) continue;
+    Foot& foot = feet[std::size_t(j)];
+    const Vector3d point = flesh.at(v) - flesh.joint(j);
+    if (point.head<2>().norm() > foot.reach) continue;
+    if (foot.points.empty()) {
+      foot.points.resize(kDirections);
+      foot.farthest.fill(-1e9);
+    }
+    for (int k = 0; k < kDirections; ++k) {
+      const double far = point.x() * directions[k].x() + point.y() * directions[k].y();
+      if (far > foot.farthest[k]) foot.farthest[k] = far, foot.points[k] = point;
+    }
+  }
+  for (std::size_t j = 0; j < feet.size(); ++j)
+    if (!feet[j].points.empty()) shape.feet_m[j] = std::move(feet[j].points);
 }
 
 // How much further the foot reaches to the right of the picture than to the left of its joint, in heights.

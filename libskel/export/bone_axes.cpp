@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <unordered_set>
 
 #include "libskel/animation/retarget.h"
 
@@ -10,23 +12,6 @@ namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-// How far the vertices that a joint moves lie from it on the whole, along the ground, m.
-Vector3d reachOnGround(const Eigen::MatrixX3f& vertices, const SkinWeights& skin, int joint,
-                       const Vector3d& from) {
-  Vector3d sum = Vector3d::Zero();
-  double all = 0;
-  for (Eigen::Index v = 0; v < skin.weights.rows(); ++v) {
-    for (int k = 0; k < skin.weights.cols(); ++k) {
-      if (skin.joints(v, k) != joint) continue;
-      sum += double(skin.weights(v, k)) * vertices.row(v).transpose().cast<double>();
-      all += skin.weights(v, k);
-    }
-  }
-  if (all == 0) return Vector3d::Zero();
-  const Vector3d reach = sum / all - from;
-  return {reach.x(), 0, reach.z()};
-}
 
 Quaterniond withUpAlong(const Vector3d& direction) {
   const Vector3d y = direction.normalized();
@@ -37,24 +22,36 @@ Quaterniond withUpAlong(const Vector3d& direction) {
   return Quaterniond(axes);
 }
 
-bool stretchesUnevenly(const Clip& clip, const std::string& joint) {
-  return std::any_of(clip.tracks.begin(), clip.tracks.end(), [&](const JointTrack& track) {
-    return track.joint == joint &&
-           std::any_of(track.scales.begin(), track.scales.end(), [](const Eigen::Vector3f& s) {
-             return s.maxCoeff() - s.minCoeff() > 1e-4f * s.cwiseAbs().maxCoeff();
-           });
+bool stretchesUnevenly(const JointTrack& track) {
+  return std::any_of(track.scales.begin(), track.scales.end(), [](const Eigen::Vector3f& s) {
+    return s.maxCoeff() - s.minCoeff() > 1e-4f * s.cwiseAbs().maxCoeff();
   });
 }
 
 }  // namespace
+
+MovedVertices::MovedVertices(const TriangleMesh& mesh, const SkinWeights& skin, std::size_t joints)
+    : places(Eigen::Matrix3Xd::Zero(3, Eigen::Index(joints))), any(joints, false), most(joints) {
+  std::vector<double> all(joints, 0);
+  for (Eigen::Index v = 0; v < skin.weights.rows(); ++v) {
+    most[skin.joints(v, 0)].push_back(int(v));
+    for (int k = 0; k < skin.weights.cols(); ++k) {
+      const int joint = skin.joints(v, k);
+      places.col(joint) += double(skin.weights(v, k)) * mesh.vertices.row(v).transpose().cast<double>();
+      all[std::size_t(joint)] += skin.weights(v, k);
+    }
+  }
+  for (std::size_t j = 0; j < joints; ++j)
+    if ((any[j] = all[j] != 0)) places.col(Eigen::Index(j)) /= all[j];
+  if (mesh.vertices.rows() > 0) ground_m = double(mesh.vertices.col(1).minCoeff());
+}
 
 bool isLeaf(const Skeleton& skeleton, int joint) {
   return std::none_of(skeleton.joints.begin(), skeleton.joints.end(),
                       [&](const Joint& other) { return other.parent == joint; });
 }
 
-Vector3d boneDirection(const Skeleton& skeleton, int index, const TriangleMesh& mesh,
-                       const SkinWeights& skin) {
+Vector3d boneDirection(const Skeleton& skeleton, int index, const MovedVertices& moved) {
   const Joint& joint = skeleton.joints[std::size_t(index)];
   const Vector3d on = restBone(skeleton, index);
   if (!isLeaf(skeleton, index)) return on;
@@ -62,21 +59,27 @@ Vector3d boneDirection(const Skeleton& skeleton, int index, const TriangleMesh& 
   if (joint.parent < 0) return bone;
   // As long as its parent's is how programs draw a bone without a child.
   const double length = (joint.position - skeleton.joints[std::size_t(joint.parent)].position).norm();
-  if (joint.position.y() + length * bone.y() >= double(mesh.vertices.col(1).minCoeff())) return bone;
-  const Vector3d reach = reachOnGround(mesh.vertices, skin, index, joint.position);
-  if (reach.norm() > .1 * length) return reach;
+  if (joint.position.y() + length * bone.y() >= moved.ground_m) return bone;
+  if (moved.any[std::size_t(index)]) {
+    const Vector3d reach = moved.places.col(index) - joint.position;
+    const Vector3d along_ground(reach.x(), 0, reach.z());
+    if (along_ground.norm() > .1 * length) return along_ground;
+  }
   return Vector3d::UnitZ();
 }
 
 std::vector<Quaterniond> boneAxes(const Skeleton& skeleton, const TriangleMesh& mesh, const SkinWeights& skin,
                                   const std::vector<Clip>& clips) {
+  std::unordered_set<std::string> stretched;
+  for (const Clip& clip : clips)
+    for (const JointTrack& track : clip.tracks)
+      if (stretchesUnevenly(track)) stretched.insert(track.joint);
+  const MovedVertices moved(mesh, skin, skeleton.joints.size());
   std::vector<Quaterniond> axes;
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-    const std::string& name = skeleton.joints[j].name;
-    const bool stretched = std::any_of(clips.begin(), clips.end(),
-                                       [&](const Clip& clip) { return stretchesUnevenly(clip, name); });
-    axes.push_back(stretched ? Quaterniond::Identity()
-                             : withUpAlong(boneDirection(skeleton, int(j), mesh, skin)));
+    axes.push_back(stretched.contains(skeleton.joints[j].name)
+                       ? Quaterniond::Identity()
+                       : withUpAlong(boneDirection(skeleton, int(j), moved)));
   }
   return axes;
 }

@@ -16,15 +16,14 @@ constexpr double kFarEnd = .2;     // the share of its length that tells where t
 constexpr double kShortest = .05;  // of its parent's bone
 
 std::optional<Vector3d> boneEnd(const Skeleton& skeleton, int index, const TriangleMesh& mesh,
-                                const SkinWeights& skin) {
+                                const MovedVertices& by_joint) {
   const Joint& joint = skeleton.joints[std::size_t(index)];
   if (joint.tail) return joint.tail;
   if (joint.parent < 0) return std::nullopt;
-  const Vector3d direction = boneDirection(skeleton, index, mesh, skin).normalized();
+  const Vector3d direction = boneDirection(skeleton, index, by_joint).normalized();
   std::vector<Vector3d> moved;  // from the joint
   double length = 0;
-  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
-    if (skin.joints(v, 0) != index) continue;
+  for (const int v : by_joint.most[std::size_t(index)]) {
     moved.push_back(mesh.vertices.row(v).transpose().cast<double>() - joint.position);
     length = std::max(length, moved.back().dot(direction));
   }
@@ -46,10 +45,11 @@ std::string boneEndName(const std::string& joint) { return joint + "_end"; }
 
 Skeleton withBoneEnds(const Skeleton& skeleton, const TriangleMesh& mesh, const SkinWeights& skin) {
   Skeleton result = skeleton;
+  const MovedVertices by_joint(mesh, skin, skeleton.joints.size());
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const std::string name = boneEndName(skeleton.joints[j].name);
     if (!isLeaf(skeleton, int(j)) || skeleton.find(name) >= 0) continue;
-    const std::optional<Vector3d> position = boneEnd(skeleton, int(j), mesh, skin);
+    const std::optional<Vector3d> position = boneEnd(skeleton, int(j), mesh, by_joint);
     if (!position) continue;
     Joint end;
     end.name = name;

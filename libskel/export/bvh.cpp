@@ -105,8 +105,9 @@ std::string encodeBvh(const ExportInput& input, const Clip& clip) {
   text += '\n';
   const auto heights = input.character.mesh.vertices.col(1);
   const double height = heights.size() > 0 ? heights.maxCoeff() - heights.minCoeff() : 0;
+  const ClipSampler sampler(clip, skeleton);
   for (int frame = 0; frame < frames; ++frame) {
-    const Pose pose = samplePose(clip, skeleton, float(frame / kRate_hz));
+    const Pose pose = sampler.at(float(frame / kRate_hz));
     const std::size_t line = text.size();
     for (const int joint : order) {
       if (moved[joint]) {

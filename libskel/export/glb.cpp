@@ -354,8 +354,9 @@ RootPath rootPath(const Clip& clip, const JointTrack* track, const Skeleton& ske
     root.tracks[0].times_s.clear();
     root.tracks[0].rotations.clear();
   }
+  const ClipSampler sampler(root, skeleton);
   for (const float time_s : path.times_s) {
-    const Pose pose = samplePose(root, skeleton, time_s);
+    const Pose pose = sampler.at(time_s);
     Eigen::Vector3f at = rest + height_m * pose.root_translation;
     if (!pose.translations_m.empty()) at += pose.translations_m[0];
     path.positions.push_back(at);

@@ -24,6 +24,7 @@ namespace skel {
 namespace {
 
 constexpr double kEqually = 1.0001;           // near: two bones that differ by less both heat a vertex
+constexpr int kMostEqual = 32;                // bones so near to one vertex: more lie at one place
 constexpr double kLeast = 1e-3, kMost = 1e3;  // of a cotangent: slivers neither part nor tie the surface
 
 using Matrix = Eigen::SparseMatrix<double>;
@@ -94,8 +95,10 @@ JointWeights heatWeights(const SkinInput& input) {
     }
     const double near = std::max(*std::min_element(distances.begin(), distances.end()), 1e-3);
     heat[i] = std::max(area[i], least_area) / (near * near);
+    int equal = 0;
     for (std::size_t b = 0; b < input.bones.size(); ++b) {
       if (distances[b] > kEqually * near) continue;
+      if (++equal > kMostEqual) break;
       const int joint = input.bones[b].joint;
       std::vector<int>& mine = solid.sees(p, feet[b]) ? heaters[i] : unseen[i];
       if (std::find(mine.begin(), mine.end(), joint) == mine.end()) mine.push_back(joint);

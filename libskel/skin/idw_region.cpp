@@ -9,11 +9,32 @@
 namespace skel {
 namespace {
 
-// Whether one of the joints is above the other in the tree, or both are the same.
-bool onOneChain(const Skeleton& skeleton, int a, int b) {
-  int joint = std::max(a, b);
-  while (joint > std::min(a, b)) joint = skeleton.joints[joint].parent;
-  return joint == std::min(a, b);
+// For each pair of joints (row, column) whether both have bones that may share a vertex that is nearest to a
+// bone of the first.
+std::vector<char> mixingJoints(const SkinRegions& table, const std::vector<int>& region_of,
+                               const Skeleton& skeleton) {
+  const std::size_t regions = table.regions.size(), joints = region_of.size();
+  std::vector<char> regions_mix(regions * regions, 0);
+  for (std::size_t r = 0; r < regions; ++r)
+    for (const int other : table.regions[r].mixes) regions_mix[r * regions + std::size_t(other)] = 1;
+  std::vector<char> mixes(joints * joints), on_chain(joints);
+  for (std::size_t joint = 0; joint < joints; ++joint) {
+    // Above it in the tree, itself, and below it.
+    std::fill(on_chain.begin(), on_chain.end(), 0);
+    for (int above = int(joint); above >= 0; above = skeleton.joints[above].parent) on_chain[above] = 1;
+    for (std::size_t other = joint + 1; other < joints; ++other) {
+      const int parent = skeleton.joints[other].parent;
+      on_chain[other] = parent >= int(joint) && on_chain[parent];
+    }
+    const auto region = std::size_t(region_of[joint]);
+    for (std::size_t other = 0; other < joints; ++other) {
+      const auto another = std::size_t(region_of[other]);
+      mixes[joint * joints + other] =
+          regions_mix[region * regions + another] &&
+          (!table.regions[region].own_chain || !table.regions[another].own_chain || on_chain[other]);
+    }
+  }
+  return mixes;
 }
 
 }  // namespace
@@ -22,18 +43,7 @@ JointWeights idwRegionWeights(const SkinInput& input) {
   const SkinRegions& table = input.options.regions ? *input.options.regions : defaultRegions();
   const std::vector<int> region_of = table.ofJoints(input.skeleton);
   const int joints = input.jointCount();
-  // Whether the bones of `other` may share a vertex that is nearest to one of `joint`.
-  std::vector<char> mixes(static_cast<std::size_t>(joints) * joints);
-  for (int joint = 0; joint < joints; ++joint) {
-    const SkinRegion& region = table.regions[region_of[joint]];
-    for (int other = 0; other < joints; ++other) {
-      const SkinRegion& another = table.regions[region_of[other]];
-      const bool allowed =
-          std::find(region.mixes.begin(), region.mixes.end(), region_of[other]) != region.mixes.end();
-      const bool chain = !region.own_chain || !another.own_chain || onOneChain(input.skeleton, joint, other);
-      mixes[static_cast<std::size_t>(joint) * joints + other] = allowed && chain;
-    }
-  }
+  const std::vector<char> mixes = mixingJoints(table, region_of, input.skeleton);
   JointWeights weights = JointWeights::Zero(input.mesh.vertices.rows(), joints);
   std::vector<BoneDistance> bones;
   for (Eigen::Index v = 0; v < weights.rows(); ++v) {

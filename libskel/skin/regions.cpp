@@ -1,6 +1,7 @@
 #include "libskel/skin/regions.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "embedded/skin_regions.h"
 #include "libskel/core/files.h"
@@ -9,6 +10,8 @@
 namespace skel {
 
 namespace {
+
+constexpr std::size_t kMostRegions = 256;
 
 // "mixamorig:LeftForeArm" has the words mixamorig, left, fore, arm.
 std::vector<std::string> wordsOf(const std::string& name) {
@@ -26,17 +29,19 @@ std::vector<std::string> wordsOf(const std::string& name) {
 }  // namespace
 
 std::vector<int> SkinRegions::ofJoints(const Skeleton& skeleton) const {
+  std::unordered_map<std::string, int> first_with;  // by word
+  int others = 0;
+  for (int r = static_cast<int>(regions.size()) - 1; r >= 0; --r) {
+    for (const std::string& word : regions[r].words) first_with[word] = r;
+    if (regions[r].words.empty()) others = r;
+  }
   std::vector<int> result;
   for (const Joint& joint : skeleton.joints) {
-    const std::vector<std::string> words = wordsOf(joint.name);
-    auto found = std::find_if(regions.begin(), regions.end(), [&](const SkinRegion& region) {
-      return std::find_first_of(words.begin(), words.end(), region.words.begin(), region.words.end()) !=
-             words.end();
-    });
-    if (found == regions.end())
-      found =
-          std::find_if(regions.begin(), regions.end(), [](const SkinRegion& r) { return r.words.empty(); });
-    result.push_back(static_cast<int>(found - regions.begin()));
+    int region = static_cast<int>(regions.size());
+    for (const std::string& word : wordsOf(joint.name))
+      if (const auto found = first_with.find(word); found != first_with.end())
+        region = std::min(region, found->second);
+    result.push_back(region < static_cast<int>(regions.size()) ? region : others);
   }
   return result;
 }
@@ -49,14 +54,15 @@ SkinRegions parseRegions(std::string_view text, const std::string& file) {
   SkinRegions result;
   const JsonValue list = root.at("regions");
   const std::vector<JsonValue> items = list.items();
+  if (items.size() > kMostRegions) list.fail("more than " + std::to_string(kMostRegions) + " regions");
   int others = 0;
+  std::unordered_map<std::string, int> numbers;  // by name
   for (const JsonValue& item : items) {
     item.allowOnly({"name", "words", "mixes", "own_chain", "rigid", "power"});
     SkinRegion region;
     region.name = item.at("name").asString();
-    for (const SkinRegion& other : result.regions)
-      if (other.name == region.name)
-        item.at("name").fail("\"" + region.name + "\" is the name of two regions");
+    if (!numbers.emplace(region.name, static_cast<int>(result.regions.size())).second)
+      item.at("name").fail("\"" + region.name + "\" is the name of two regions");
     for (const JsonValue& word : item.at("words").items()) {
       region.words.push_back(word.asString());
       if (region.words.back().empty() || wordsOf(region.words.back()) != std::vector{region.words.back()})
@@ -75,10 +81,9 @@ SkinRegions parseRegions(std::string_view text, const std::string& file) {
     SkinRegion& region = result.regions[i];
     region.mixes.push_back(static_cast<int>(i));
     for (const JsonValue& item : items[i].at("mixes").items()) {
-      const auto other = std::find_if(result.regions.begin(), result.regions.end(),
-                                      [&](const SkinRegion& r) { return r.name == item.asString(); });
-      if (other == result.regions.end()) item.fail("there is no region \"" + item.asString() + "\"");
-      region.mixes.push_back(static_cast<int>(other - result.regions.begin()));
+      const auto other = numbers.find(item.asString());
+      if (other == numbers.end()) item.fail("there is no region \"" + item.asString() + "\"");
+      region.mixes.push_back(other->second);
     }
   }
   return result;

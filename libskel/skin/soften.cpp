@@ -35,9 +35,10 @@ constexpr float kClear = 0.01f;          // of a triangle's area: thinner than t
 constexpr int kRounds = 16;              // of all limits in turn
 constexpr int kTries = 40, kSweeps = 60;  // of smoothing and cutting, of smoothing
 
-// Of a limb, and in all: each hinge looks at all vertices, several times. A chain of more joints bends a
-// little at each of them, which folds nothing.
-constexpr std::size_t kMostOfLimb = 32, kMostHinges = 256;
+// A chain of more joints bends a little at each of them, which folds nothing.
+constexpr std::size_t kMostOfLimb = 32;
+// Each hinge looks at all vertices, several times: some seconds. A drawing's largest model has a quarter.
+constexpr std::size_t kMostHingeVertices = 8'000'000;
 
 // The joints each of which bends the middle of a limb.
 struct Hinge {
@@ -57,7 +58,6 @@ std::vector<Hinge> hinges(const Skeleton& skeleton, const std::vector<int>& limb
     const int parent = skeleton.joints[joint].parent;
     if (limbs[joint] < 0 || limbs[joint] == joint || limbs[parent] != limbs[joint]) continue;
     if (length[limbs[joint]] > kMostOfLimb) continue;
-    if (result.size() == kMostHinges) return {};
     Hinge hinge{joint, skeleton.joints[joint].position.cast<float>().transpose(), {}, {}, {}};
     for (int other = 1; other < count; ++other) {
       if (limbs[other] == limbs[joint]) (other < joint ? hinge.above : hinge.moved).push_back(other);
@@ -314,6 +314,7 @@ void softenWeights(const TriangleMesh& mesh, const Skeleton& skeleton, int max_i
                    JointWeights& weights) {
   const std::vector<int> limbs = jointLimbs(skeleton);
   std::vector<Hinge> bends = hinges(skeleton, limbs);
+  if (bends.size() * static_cast<std::size_t>(weights.rows()) > kMostHingeVertices) bends.clear();
   std::vector<int> all(weights.rows()), vertices;
   std::iota(all.begin(), all.end(), 0);
   for (const int v : all) weights.row(v) /= weights.row(v).sum();

@@ -14,6 +14,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/mesh/inflate.h"
 #include "libskel/skin/bones.h"
+#include "libskel/skin/regions.h"
 #include "tests/support/catch.h"
 #include "tests/support/skin_checks.h"
 #include "tests/support/synthetic_figure.h"
@@ -460,4 +461,116 @@ TEST_CASE("a chain of a thousand joints binds a tube") {
   // What lies beside a joint follows joints near it.
   for (int v = 0; v < tube.vertices.rows(); ++v)
     CHECK(std::abs(float(weights.joints(v, 0)) / kJoints - tube.vertices(v, 1)) < 0.1f);
+}
+
+// It took minutes where one of them lies far away: cubes of space of an even size were large there.
+TEST_CASE("crumbs beside a body follow what is near to them, however far the farthest lies") {
+  Body body = capsuleBody({});
+  constexpr int kCrumbs = 20'000;
+  const Eigen::Index vertices = body.mesh.vertices.rows(), triangles = body.mesh.triangles.rows();
+  body.mesh.vertices.conservativeResize(vertices + 3 * kCrumbs, 3);
+  body.mesh.triangles.conservativeResize(triangles + kCrumbs, 3);
+  std::mt19937 random(1);
+  const int left = body.skeleton.index("left_hand"), right = body.skeleton.index("right_hand");
+  for (int crumb = 0; crumb < kCrumbs; ++crumb) {
+    const int first = int(vertices) + 3 * crumb;
+    Eigen::RowVector3f at = body.skeleton.joints[crumb % 2 ? left : right].position.cast<float>().transpose();
+    at.x() += (crumb % 2 ? 1 : -1) * (0.2f + float(random() % 1000) * 1e-4f) *
+              (body.skeleton.joints[left].position.x() > 0 ? 1.f : -1.f);
+    if (crumb == 0) at.x() = 100;
+    body.mesh.vertices.row(first) = at;
+    body.mesh.vertices.row(first + 1) = at + Eigen::RowVector3f(1e-3f, 0, 0);
+    body.mesh.vertices.row(first + 2) = at + Eigen::RowVector3f(0, 1e-3f, 0);
+    body.mesh.triangles.row(triangles + crumb) << first, first + 1, first + 2;
+  }
+  const SkinWeights weights = computeSkinWeights(body.mesh, body.skeleton, SkinMethod::kGeodesic);
+  for (int crumb = 1; crumb < kCrumbs; ++crumb) {
+    const Eigen::Index first = vertices + 3 * crumb;
+    REQUIRE(weights.weights(first, 0) == 1);
+    const std::string& name = body.skeleton.joints[weights.joints(first, 0)].name;
+    REQUIRE(name.starts_with(crumb % 2 ? "left_" : "right_"));
+  }
+}
+
+// Each vertex asked all of them whether it sees them.
+TEST_CASE("thousands of bones at one place share the heat like some") {
+  Body body = capsuleBody({});
+  for (int j = 0; j < 3000; ++j) {
+    Joint twin = body.skeleton.joints[body.skeleton.index("left_elbow")];
+    twin.name = "twin" + std::to_string(j);
+    body.skeleton.joints.push_back(twin);
+  }
+  checkRows(computeSkinWeights(body.mesh, body.skeleton, SkinMethod::kHeat), 3017, 4);
+}
+
+// They took a minute, and gigabytes.
+TEST_CASE("a flat star of hundreds of hinges binds a disc of a hundred thousand vertices") {
+  constexpr int kSide = 320, kLimbs = 8, kLength = 32;
+  TriangleMesh disc;
+  disc.vertices.resize(kSide * kSide, 3);
+  disc.triangles.resize(2 * (kSide - 1) * (kSide - 1), 3);
+  Eigen::Index t = 0;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const int a = y * kSide + x, right = a + 1, below = a + kSide;
+      disc.vertices.row(a) << float(x) / kSide - 0.5f, float(y) / kSide - 0.5f, 0.01f;
+      if (x + 1 == kSide || y + 1 == kSide) continue;
+      disc.triangles.row(t++) << a, right, below;
+      disc.triangles.row(t++) << right, below + 1, below;
+    }
+  Skeleton star;
+  star.joints.push_back({"middle", -1, {}, {0, 0, 0}});
+  for (int limb = 0; limb < kLimbs; ++limb)
+    for (int k = 1; k <= kLength; ++k) {
+      const double angle = 2 * std::numbers::pi * limb / kLimbs, out = 0.45 * k / kLength;
+      star.joints.push_back({"j" + std::to_string(star.joints.size()),
+                             k == 1 ? 0 : int(star.joints.size()) - 1,
+                             {},
+                             {out * std::cos(angle), out * std::sin(angle), 0}});
+    }
+  const SkinWeights weights = computeSkinWeights(disc, star, SkinMethod::kGeodesic);
+  CHECK((weights.weights.rowwise().sum().array() - 1).abs().maxCoeff() < 1e-4f);
+  // What lies on a limb goes with a joint near it.
+  for (Eigen::Index v = 0; v < disc.vertices.rows(); v += 101) {
+    const Eigen::Vector3d from = disc.vertices.row(v).transpose().cast<double>();
+    double nearest = 1;
+    for (const Joint& joint : star.joints) nearest = std::min(nearest, (joint.position - from).norm());
+    if (nearest < 0.02 && from.norm() > 0.2)
+      CHECK((star.joints[weights.joints(v, 0)].position - from).norm() < nearest + 0.1);
+  }
+}
+
+TEST_CASE("bones of a region that keeps to its chain mix along it alone, however long it is") {
+  Skeleton skeleton;
+  skeleton.joints.push_back({"body", -1, {}, {0, 0, 0}});
+  // Two arms of 1500 joints each, side by side.
+  constexpr int kLength = 1500;
+  for (int arm = 0; arm < 2; ++arm)
+    for (int k = 0; k < kLength; ++k)
+      skeleton.joints.push_back({"arm" + std::to_string(arm) + "_" + std::to_string(k),
+                                 k == 0 ? 0 : int(skeleton.joints.size()) - 1,
+                                 {},
+                                 {1e-3 * (k + 1), arm ? 0.02 : 0, 0}});
+  TriangleMesh mesh;
+  mesh.vertices.resize(100, 3);
+  for (int v = 0; v < 100; ++v) mesh.vertices.row(v) << 0.5f + 5e-3f * float(v), v % 2 ? 0.02f : 0, 0.001f;
+  mesh.triangles.resize(1, 3);
+  mesh.triangles << 0, 1, 2;
+  const SkinWeights weights = computeSkinWeights(mesh, skeleton, SkinMethod::kIdwRegion);
+  for (int v = 0; v < 100; ++v)
+    for (int k = 0; k < 4; ++k) {
+      if (weights.weights(v, k) == 0) continue;
+      CHECK(skeleton.joints[weights.joints(v, k)].name.starts_with(v % 2 ? "arm1" : "arm0"));
+    }
+}
+
+// Each was compared with all before it.
+TEST_CASE("more than 256 regions are refused, by the file's name") {
+  std::string text = R"({"format": "skel-regions", "version": 1, "regions": [)";
+  for (int r = 0; r < 300; ++r)
+    text += (r ? "," : "") + std::string(R"({"name": "r)") + std::to_string(r) +
+            R"(", "words": [], "mixes": []})";
+  CHECK_THROWS_WITH(
+      parseRegions(text + "]}", "many.json"),
+      Catch::Matchers::Contains("many.json") && Catch::Matchers::Contains("more than 256 regions"));
 }
