@@ -1,7 +1,6 @@
 #include "libskel/mesh/shoes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -20,7 +19,6 @@ constexpr double kMostByShin = 1.2;        // of the shin's length
 constexpr double kToe = 0.7, kHeel = 0.3;  // before and behind the drawing, as shares of the length
 constexpr double kHigh = 0.5;              // half as deep as high is the least
 constexpr double kSole = 1.2;              // cells above the outline that are flattened
-constexpr int kColumns = 12;               // across the foot, each with a sole of its own
 
 // Across and down the shin, from the foot's joint.
 struct FootFrame {
@@ -64,15 +62,21 @@ void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, cons
     const double least = kHigh * std::min(width, height);
     const double toe = std::max(kToe * long_px, least);
     const double heel = std::max(kHeel * long_px, least);
-    std::array<double, kColumns> soles;
-    soles.fill(-std::numeric_limits<double>::infinity());
-    const auto columnOf = [&](double x) {
-      return std::clamp(static_cast<int>((x - left) / width * kColumns), 0, kColumns - 1);
-    };
-    for (const auto& [v, at] : own) {
-      double& there = soles[static_cast<std::size_t>(columnOf(at.x()))];
-      there = std::max(there, at.y());
+    std::vector<std::pair<Vector2d, Vector2d>> rim;
+    for (const auto& [a, b] : mesh.rim) {
+      const Vector2d from = frame(mesh.vertices[a]), to = frame(mesh.vertices[b]);
+      if (std::max(from.y(), to.y()) >= -kAbove * r) rim.emplace_back(from, to);
     }
+    // How far down the shin the foot goes below a point.
+    const auto soleBelow = [&](const Vector2d& at) {
+      double there = at.y();
+      for (const auto& [a, b] : rim) {
+        if ((a.x() <= at.x()) == (b.x() <= at.x())) continue;
+        const double y = a.y() + (b.y() - a.y()) * (at.x() - a.x()) / (b.x() - a.x());
+        if (y <= sole) there = std::max(there, y);
+      }
+      return there;
+    };
     for (const auto& [v, at] : own) {
       if (v >= mesh.inner_count) continue;
       const double line = bands.front[static_cast<std::size_t>(v)];
@@ -81,7 +85,7 @@ void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, cons
       const double round = std::sqrt(std::max(0.0, 1 - across * across));
       const double up = std::clamp((sole - at.y()) / height, 0.0, 1.0);
       const double instep = std::sqrt(1 - up * up), counter = std::sqrt(1 - std::pow(up, 4));
-      const double drop = soles[static_cast<std::size_t>(columnOf(at.x()))] - at.y();
+      const double drop = soleBelow(at) - at.y();
       // But for the sole, a drawn outline stays the flange that it is.
       const bool at_sole = drop < line + kSole * mesh.cell_px;
       if (line == 0 || at_sole) heights.front[v] = std::max(heights.front[v], round * toe * instep);

@@ -1,0 +1,35 @@
+#include "libskel/mesh/shoes.h"
+
+#include "libskel/mesh/planar_mesh.h"
+#include "tests/support/catch.h"
+
+using namespace skel;
+
+// Notches stood in it where no vertex of the rim lay below one inside.
+TEST_CASE("a sole that is drawn straight is straight, wherever the grid's lines lie") {
+  const auto ground = [](double x) { return 160 + 0.2 * (x - 100); };
+  Plane8 mask = Plane8::Zero(200, 200);
+  mask.block(20, 90, 120, 20) = 255;  // a shin
+  for (int x = 55; x < 145; ++x) mask.block(130, x, int(ground(x + 0.5)) - 130, 1) = 255;
+  const Silhouette silhouette = silhouetteFromMask(mask);
+  std::vector<Polygon> outline;
+  for (const Polygon& curve : silhouette.outline) outline.push_back(sideMiddles(curve));
+  int came_down = 0;
+  for (double cell_px = 5; cell_px < 12; cell_px += 0.5) {
+    CAPTURE(cell_px);
+    const PlanarMesh mesh = triangulateFigure(mask, figureBox(mask), outline, cell_px);
+    const std::vector<double> bare(mesh.vertices.size(), 0);
+    Heights heights{Eigen::VectorXd::Zero(mesh.inner_count), Eigen::VectorXd::Zero(mesh.inner_count)};
+    std::vector<Eigen::Vector2d> place = mesh.vertices;
+    putOnShoes(mesh, {{.knee = {100, 40}, .foot = {100, 140}, .radius_px = 20}}, {bare, bare}, heights,
+               place);
+    for (int v = 0; v < mesh.inner_count; ++v) {
+      const Eigen::Vector2d& p = mesh.vertices[v];
+      const double above = ground(p.x()) - p.y();
+      if (above > cell_px || std::abs(p.x() - 100) > 35) continue;
+      CHECK(ground(p.x()) - place[v].y() < 0.1 * above + 0.15 * cell_px);
+      came_down += 1;
+    }
+  }
+  CHECK(came_down > 50);
+}
