@@ -23,6 +23,8 @@ struct PieceOptions {
   bool leave_ground = true;
   // What has no limbs (a house, a sun, a heart) comes after figures that are not too much smaller.
   bool limbs_first = false;
+  // Paper that shines through long narrow gaps of a figure is taken for it.
+  bool close_slits = false;
 };
 
 // One figure of a picture: its pieces joined by bridges across the gaps.

@@ -7,6 +7,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/sha256.h"
+#include "libskel/silhouette/close_slits.h"
 #include "libskel/silhouette/fill_holes.h"
 #include "libskel/silhouette/line_art.h"
 #include "libskel/silhouette/outline.h"
@@ -71,8 +72,9 @@ Silhouette finish(const Plane8& foreground, const SilhouetteOptions& options, in
         "there is no figure " + std::to_string(options.figure) + ", only " + std::to_string(out.figure_count);
     return out;
   }
-  const JoinedFigure figure = std::move(figures[static_cast<std::size_t>(options.figure - 1)]);
+  JoinedFigure figure = std::move(figures[static_cast<std::size_t>(options.figure - 1)]);
   figures.clear();
+  if (piece_options.close_slits) closeSlits(figure.mask);
   out.status = SilhouetteStatus::kFound;
   out.mask = figure.inPicture(figure.mask, foreground.rows(), foreground.cols());
   out.bridges = figure.inPicture(figure.bridges, foreground.rows(), foreground.cols());
@@ -143,6 +145,7 @@ PieceOptions piecesOnPaper() {
   pieces.widest_gap = 0.06;
   pieces.smallest_share = 0.01;
   pieces.limbs_first = true;
+  pieces.close_slits = true;
   return pieces;
 }
 

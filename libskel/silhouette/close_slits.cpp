@@ -1,0 +1,44 @@
+// What a morphological closing (J. Serra, "Image analysis and mathematical morphology", 1982) by a small disc
+// adds, where it is long: what it adds in a corner is not.
+#include "libskel/silhouette/close_slits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace skel {
+namespace {
+
+constexpr double kNarrow = 0.006;  // half as wide, of the figure's long side
+constexpr int kLong = 16;          // its area, in squares of half its width
+
+cv::Mat within(const cv::Mat& mask, float reach_px) {
+  cv::Mat distance;
+  cv::distanceTransform(mask == 0, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  return distance <= reach_px;
+}
+
+}  // namespace
+
+void closeSlits(Plane8& figure) {
+  const auto reach = std::max(
+      1,
+      static_cast<int>(std::lround(kNarrow * static_cast<double>(std::max(figure.rows(), figure.cols())))));
+  cv::Mat view(static_cast<int>(figure.rows()), static_cast<int>(figure.cols()), CV_8U, figure.data());
+  cv::Mat framed;
+  const int frame = reach + 1;
+  cv::copyMakeBorder(view, framed, frame, frame, frame, frame, cv::BORDER_CONSTANT, cv::Scalar(0));
+  const auto reach_px = static_cast<float>(reach);
+  const cv::Mat added = ~within(~within(framed, reach_px), reach_px) & (framed == 0);
+  cv::Mat labels, stats, centres;
+  cv::connectedComponentsWithStats(added, labels, stats, centres, 8);
+  for (int y = 0; y < view.rows; ++y)
+    for (int x = 0; x < view.cols; ++x) {
+      const int label = labels.at<int>(y + frame, x + frame);
+      if (label > 0 && stats.at<int>(label, cv::CC_STAT_AREA) >= kLong * reach * reach)
+        view.at<std::uint8_t>(y, x) = 255;
+    }
+}
+
+}  // namespace skel
