@@ -11,6 +11,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/deform/figure_shape.h"
+#include "libskel/skeleton/joint_lookup.h"
 
 namespace skel {
 namespace {
@@ -93,11 +94,12 @@ Clip loadClipFor(const std::string& path, const RiggedCharacter& character, cons
     return parseKeyframeClip(text, path, character.skeleton, options, note);
   }
   const Clip clip = parseClip(text, path);
+  const JointLookup joints(character.skeleton);
   for (const JointTrack& track : clip.tracks)
-    if (character.skeleton.find(track.joint) < 0)
+    if (joints.find(track.joint) < 0)
       throw InputError(path, "moves \"" + track.joint + "\", which this character lacks");
   for (const FootContact& contact : clip.contacts)
-    if (character.skeleton.find(contact.joint) < 0)
+    if (joints.find(contact.joint) < 0)
       throw InputError(path, "puts \"" + contact.joint + "\" on the ground, which this character lacks");
   return fitted(clip, character, source);
 }

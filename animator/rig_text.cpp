@@ -12,6 +12,7 @@ std::string formatRig(const Skeleton& skeleton) {
   constexpr double kTip = 0.5;  // of a leaf, as a share of the bone that leads to it
   nlohmann::ordered_json joints = nlohmann::ordered_json::array();
   nlohmann::ordered_json hierarchy = nlohmann::ordered_json::object();
+  const std::vector<Eigen::Vector3d> bones = restBones(skeleton);
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const Joint& joint = skeleton.joints[j];
     Eigen::Vector3d tail = Eigen::Vector3d::Zero();
@@ -26,7 +27,7 @@ std::string formatRig(const Skeleton& skeleton) {
       const double length =
           joint.parent < 0 ? 1
                            : (joint.position - skeleton.joints[std::size_t(joint.parent)].position).norm();
-      tail = joint.position + kTip * length * restBone(skeleton, int(j));
+      tail = joint.position + kTip * length * bones[j];
     }
     nlohmann::ordered_json entry;
     entry["name"] = joint.name;

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxJoints = 1000;
 constexpr std::size_t kMaxNumbers = 100'000'000;  // of the motion
+constexpr std::size_t kMaxTurns = 20'000'000;     // frames times joints, with channels or without
 constexpr double kMaxNumber = 1e6;
 constexpr double kMaxFrameTime_s = 100;
 constexpr std::array<std::string_view, 6> kChannels = {"Xposition", "Yposition", "Zposition",
@@ -52,18 +53,18 @@ class Words {
     if (word != wanted) fail("has " + shown(word) + " where \"" + std::string(wanted) + "\" should be");
   }
 
-  double number() {
+  double number(double most = kMaxNumber) {
     const std::string_view word = next();
     double value = 0;
     const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
     if (word.empty() || error != std::errc() || end != word.data() + word.size() ||
-        !(std::abs(value) <= kMaxNumber))
+        !(std::abs(value) <= most))
       fail("has " + shown(word) + " where a number should be");
     return value;
   }
 
   std::size_t count(std::size_t most) {
-    const double value = number();
+    const double value = number(1e15);
     if (!(value >= 0 && value <= double(most) && value == std::floor(value)))
       fail("has a count outside 0 to " + std::to_string(most));
     return std::size_t(value);
@@ -210,6 +211,10 @@ struct Reader {
       numbers += channels[j].size();
     }
     if (numbers == 0 || count > kMaxNumbers / numbers) words.fail("has too many frames, or no channels");
+    if (count > kMaxTurns / channels.size())
+      words.fail("has " + std::to_string(count) + " frames of " + std::to_string(channels.size()) +
+                 " joints; at most " + std::to_string(kMaxTurns / channels.size()) +
+                 " can be read of so many");
     float before_s = -1;
     for (std::size_t f = 0; f < count; ++f) {
       if (words.atEnd())

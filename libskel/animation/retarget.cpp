@@ -12,6 +12,7 @@
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
+#include "libskel/skeleton/joint_lookup.h"
 
 namespace skel {
 
@@ -398,15 +399,18 @@ void swingClearOfHead(Retargeter& retargeter, const std::vector<std::pair<Pose, 
 
 }  // namespace
 
-Vector3d restBone(const Skeleton& skeleton, int joint) {
-  for (; joint >= 0; joint = skeleton.joints[joint].parent) {
-    Vector3d sum = Vector3d::Zero();
-    for (const Joint& child : skeleton.joints)
-      if (child.parent == joint) sum += child.position - skeleton.joints[joint].position;
-    const double length = sum.norm();
-    if (length > 1e-9) return sum / length;
+std::vector<Vector3d> restBones(const Skeleton& skeleton) {
+  std::vector<Vector3d> bones(skeleton.joints.size(), Vector3d::Zero());
+  for (const Joint& child : skeleton.joints)
+    if (child.parent >= 0) bones[child.parent] += child.position - skeleton.joints[child.parent].position;
+  for (std::size_t j = 0; j < bones.size(); ++j) {
+    const int parent = skeleton.joints[j].parent;
+    if (bones[j].norm() > 1e-9)
+      bones[j].normalize();
+    else
+      bones[j] = parent >= 0 ? bones[parent] : Vector3d::UnitY();
   }
-  return {0, 1, 0};
+  return bones;
 }
 
 Quaterniond BoneTurn::share(double weight) const {
@@ -427,6 +431,7 @@ BoneTurn boneTurn(const Vector3d& canonical, const Vector3d& drawn, double near_
 
 std::vector<BoneTurn> turnsFromCanonical(const Skeleton& skeleton, const std::vector<Vector3d>& canonical) {
   std::vector<BoneTurn> turns(skeleton.joints.size());
+  const std::vector<Vector3d> bones = restBones(skeleton);
   for (std::size_t j = 0; j < turns.size(); ++j) {
     if (canonical[j].isZero()) continue;
     const int parent = skeleton.joints[j].parent;
@@ -437,7 +442,7 @@ std::vector<BoneTurn> turnsFromCanonical(const Skeleton& skeleton, const std::ve
       near = turns[parent].angle_rad;
     else
       near = outwards(skeleton, int(j)) * kPi / 2;
-    turns[j] = boneTurn(canonical[j], restBone(skeleton, int(j)), near);
+    turns[j] = boneTurn(canonical[j], bones[j], near);
   }
   return turns;
 }
@@ -568,9 +573,10 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
     track.rotations.clear();
     track.angles_rad.clear();
   }
+  const JointLookup joints(skeleton);
   for (JointTrack& track : result.tracks) {
     if (track.times_s.empty()) continue;
-    const int joint = skeleton.index(track.joint), parent = skeleton.joints[joint].parent;
+    const int joint = joints.find(track.joint), parent = skeleton.joints[joint].parent;
     for (const ModelPose& pose : poses) {
       const std::vector<Quaterniond>& globals = pose.globals;
       Quaterniond local =

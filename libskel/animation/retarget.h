@@ -59,9 +59,9 @@ struct RetargetOptions {
 // lacks, Error (refused input) if it puts one on the ground that is no foot, or is too long.
 Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOptions& options = {});
 
-// Where the joint's bone points in the rest pose: to its child, or to the middle of its children; that of its
-// parent for a leaf. A unit vector.
-Eigen::Vector3d restBone(const Skeleton& skeleton, int joint);
+// Where each joint's bone points in the rest pose: to its child, or to the middle of its children; that of
+// its parent for a leaf. Unit vectors.
+std::vector<Eigen::Vector3d> restBones(const Skeleton& skeleton);
 
 // The rotation R with R · canonical = drawn, as a planar turn (about z) followed by whatever leaves the
 // plane. `near_angle_rad`: the turn is taken in [near − π, near + π).

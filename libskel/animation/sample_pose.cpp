@@ -6,6 +6,7 @@
 #include "libskel/animation/clip_limits.h"
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
+#include "libskel/skeleton/joint_lookup.h"
 
 namespace skel {
 
@@ -58,8 +59,9 @@ Eigen::Quaternionf rotationOfAngles(const Eigen::Vector3f& angles_rad) {
 
 ClipSampler::ClipSampler(const Clip& clip, const Skeleton& skeleton)
     : clip_(clip), joint_count_(skeleton.joints.size()) {
+  const JointLookup joints(skeleton);
   for (const JointTrack& track : clip.tracks) {
-    joints_.push_back(skeleton.find(track.joint));
+    joints_.push_back(joints.find(track.joint));
     if (joints_.back() < 0)
       throw UsageError("the clip \"" + clip.name + "\" moves \"" + track.joint +
                        "\", which this skeleton lacks; use a clip for the template \"" +

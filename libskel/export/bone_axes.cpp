@@ -30,9 +30,12 @@ bool stretchesUnevenly(const JointTrack& track) {
 
 }  // namespace
 
-MovedVertices::MovedVertices(const TriangleMesh& mesh, const SkinWeights& skin, std::size_t joints)
-    : places(Eigen::Matrix3Xd::Zero(3, Eigen::Index(joints))), any(joints, false), most(joints) {
-  std::vector<double> all(joints, 0);
+MovedVertices::MovedVertices(const TriangleMesh& mesh, const SkinWeights& skin, const Skeleton& skeleton)
+    : bones(restBones(skeleton)),
+      places(Eigen::Matrix3Xd::Zero(3, Eigen::Index(skeleton.joints.size()))),
+      any(skeleton.joints.size(), false),
+      most(skeleton.joints.size()) {
+  std::vector<double> all(any.size(), 0);
   for (Eigen::Index v = 0; v < skin.weights.rows(); ++v) {
     most[skin.joints(v, 0)].push_back(int(v));
     for (int k = 0; k < skin.weights.cols(); ++k) {
@@ -41,7 +44,7 @@ MovedVertices::MovedVertices(const TriangleMesh& mesh, const SkinWeights& skin, 
       all[std::size_t(joint)] += skin.weights(v, k);
     }
   }
-  for (std::size_t j = 0; j < joints; ++j)
+  for (std::size_t j = 0; j < any.size(); ++j)
     if ((any[j] = all[j] != 0)) places.col(Eigen::Index(j)) /= all[j];
   if (mesh.vertices.rows() > 0) ground_m = double(mesh.vertices.col(1).minCoeff());
 }
@@ -53,7 +56,7 @@ bool isLeaf(const Skeleton& skeleton, int joint) {
 
 Vector3d boneDirection(const Skeleton& skeleton, int index, const MovedVertices& moved) {
   const Joint& joint = skeleton.joints[std::size_t(index)];
-  const Vector3d on = restBone(skeleton, index);
+  const Vector3d on = moved.bones[std::size_t(index)];
   if (!isLeaf(skeleton, index)) return on;
   const Vector3d bone = joint.tail ? (*joint.tail - joint.position).normalized() : on;
   if (joint.parent < 0) return bone;
@@ -74,7 +77,7 @@ std::vector<Quaterniond> boneAxes(const Skeleton& skeleton, const TriangleMesh& 
   for (const Clip& clip : clips)
     for (const JointTrack& track : clip.tracks)
       if (stretchesUnevenly(track)) stretched.insert(track.joint);
-  const MovedVertices moved(mesh, skin, skeleton.joints.size());
+  const MovedVertices moved(mesh, skin, skeleton);
   std::vector<Quaterniond> axes;
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     axes.push_back(stretched.contains(skeleton.joints[j].name)

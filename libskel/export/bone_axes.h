@@ -15,7 +15,8 @@ bool isLeaf(const Skeleton& skeleton, int joint);
 
 // What the joints of a model move.
 struct MovedVertices {
-  MovedVertices(const TriangleMesh& mesh, const SkinWeights& skin, std::size_t joints);
+  MovedVertices(const TriangleMesh& mesh, const SkinWeights& skin, const Skeleton& skeleton);
+  std::vector<Eigen::Vector3d> bones;  // restBones()
   Eigen::Matrix3Xd places;             // by joint: of what it moves, in the mean by weight, m
   std::vector<bool> any;               // whether it moves something
   std::vector<std::vector<int>> most;  // the vertices that it moves first, ascending

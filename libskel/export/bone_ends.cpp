@@ -45,7 +45,7 @@ std::string boneEndName(const std::string& joint) { return joint + "_end"; }
 
 Skeleton withBoneEnds(const Skeleton& skeleton, const TriangleMesh& mesh, const SkinWeights& skin) {
   Skeleton result = skeleton;
-  const MovedVertices by_joint(mesh, skin, skeleton.joints.size());
+  const MovedVertices by_joint(mesh, skin, skeleton);
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const std::string name = boneEndName(skeleton.joints[j].name);
     if (!isLeaf(skeleton, int(j)) || skeleton.find(name) >= 0) continue;

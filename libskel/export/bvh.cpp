@@ -10,6 +10,7 @@
 #include "libskel/export/formats.h"
 #include "libskel/export/joint_names.h"
 #include "libskel/export/number_text.h"
+#include "libskel/skeleton/joint_lookup.h"
 #include "libskel/skin/bones.h"
 
 namespace skel {
@@ -95,8 +96,10 @@ std::string encodeBvh(const ExportInput& input, const Clip& clip) {
   std::vector<int> order;
   std::vector<bool> moved(skeleton.joints.size(), false);
   moved[0] = true;
+  const JointLookup joints(skeleton);
   for (const JointTrack& track : clip.tracks)
-    if (!track.translation_times_s.empty()) moved[skeleton.index(track.joint)] = true;
+    if (const int joint = joints.find(track.joint); joint >= 0 && !track.translation_times_s.empty())
+      moved[joint] = true;
   appendHierarchy(text, order, input, moved);
   const int frames = int(std::lround(clip.duration_s() * kRate_hz)) + 1;
   checkMoments(clip, frames, order.size());

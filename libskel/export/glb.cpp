@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -17,6 +18,7 @@
 #include "libskel/image/write_image.h"
 #include "libskel/mesh/split_seams.h"
 #include "libskel/mesh/vertex_normals.h"
+#include "libskel/skeleton/joint_lookup.h"
 
 namespace skel {
 
@@ -377,12 +379,11 @@ void addClip(GlbBuilder& glb, const Clip& any_clip, const RiggedCharacter& chara
   tinygltf::Animation animation;
   animation.name = clip.name;
   // Tracks that share their times share an accessor.
-  std::vector<std::pair<std::vector<float>, int>> time_accessors;
+  std::map<std::vector<float>, int> time_accessors;
   const auto timesAccessor = [&](const std::vector<float>& times) {
-    for (const auto& [known, accessor] : time_accessors)
-      if (known == times) return accessor;
-    time_accessors.emplace_back(times, glb.addBoundedAccessor(times, 1, TINYGLTF_TYPE_SCALAR, kNoTarget));
-    return time_accessors.back().second;
+    const auto [known, is_new] = time_accessors.try_emplace(times, 0);
+    if (is_new) known->second = glb.addBoundedAccessor(times, 1, TINYGLTF_TYPE_SCALAR, kNoTarget);
+    return known->second;
   };
   // An animation of glTF ends with its last key: the first channel holds its value until the clip's end.
   bool first = true;
@@ -399,8 +400,10 @@ void addClip(GlbBuilder& glb, const Clip& any_clip, const RiggedCharacter& chara
     addChannel(animation, first_joint + joint, path, input, glb.addAccessor(values, width, type, kNoTarget));
   };
   const JointTrack* root_track = nullptr;
+  const JointLookup joints(skeleton);
   for (const JointTrack& track : clip.tracks) {
-    const int joint = skeleton.index(track.joint);
+    const int joint = joints.find(track.joint);
+    SKEL_CHECK(joint >= 0);
     if (!track.times_s.empty()) {
       SKEL_CHECK_EQ(track.times_s.size(), track.rotations.size());
       std::vector<float> values;

@@ -73,8 +73,9 @@ BvhMotion withRestPose(BvhMotion motion, const std::vector<Eigen::Quaterniond>& 
 // bone somewhere, and each bone where it was but turned about itself.
 std::vector<Eigen::Quaterniond> oddRestPose(const Skeleton& skeleton, int kind) {
   std::vector<Eigen::Quaterniond> turns;
+  const std::vector<Eigen::Vector3d> bones = restBones(skeleton);
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-    const Eigen::Vector3d bone = restBone(skeleton, int(j));
+    const Eigen::Vector3d& bone = bones[j];
     const Eigen::Vector3d goals[] = {
         Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(),
         Eigen::Vector3d(std::sin(3.0 * double(j)), std::cos(5.0 * double(j)), std::sin(7.0 * double(j) + 1))
@@ -123,6 +124,18 @@ TEST_CASE("a BVH that makes no sense is refused with the line") {
   refused("Frame Time: 0.5", "Frame Time: 0", "line 18: has a frame time outside 0 to 100 s");
   refused(" }\n}\nMOTION", " }\nMOTION",
           "line 15: has \"MOTION\" where \"JOINT\", \"End Site\" or \"}\" should be");
+}
+
+// A pose for each joint of each frame: gigabytes of a small file.
+TEST_CASE("a BVH of many frames whose joints have no channels is refused with the line") {
+  std::string text = "HIERARCHY\nROOT hips\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
+  for (int joint = 0; joint < 200; ++joint)
+    text += "JOINT j" + std::to_string(joint) +
+            "\n{\nOFFSET 0 1 0\nCHANNELS 0\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n";
+  text += "}\nMOTION\nFrames: 2500000\nFrame Time: 0.001\n";
+  CHECK_THROWS_WITH(parseBvh(text, "many.bvh"),
+                    Catch::Matchers::Contains("many.bvh: line ") &&
+                        Catch::Matchers::Contains("has 2500000 frames of 201 joints; at most 99502"));
 }
 
 TEST_CASE("every family's joints are found, and by shape where the names say nothing") {

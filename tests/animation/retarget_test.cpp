@@ -304,3 +304,14 @@ TEST_CASE("limbs that point at the viewer turn into the picture, as far as asked
   CHECK(half.z() < 0.8f * ahead.z());
   CHECK(model.isApprox(ahead));
 }
+
+// Each looked at all joints above it, and at all children of these.
+TEST_CASE("thousands of joints at one place point where the bone above them does") {
+  Skeleton chain;
+  for (int j = 0; j < 4000; ++j)
+    chain.joints.push_back({"j" + std::to_string(j), j - 1, {}, {j == 0 ? 0. : 1., 0, 0}});
+  const std::vector<Eigen::Vector3d> bones = restBones(chain);
+  REQUIRE(bones.size() == 4000);
+  CHECK(std::all_of(bones.begin(), bones.end(),
+                    [](const Eigen::Vector3d& bone) { return bone == Eigen::Vector3d::UnitX(); }));
+}

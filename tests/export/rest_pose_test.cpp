@@ -27,12 +27,12 @@ TEST_CASE("in A and T the limbs are straight, as long as before, and stand on th
         CHECK(length(after.skeleton, int(j)) == Approx(length(before.skeleton, int(j))).epsilon(1e-4));
       const double slope = pose == RestPose::kT ? 0 : -std::sqrt(0.5);
       for (const char* joint : {"left_shoulder", "left_elbow", "right_shoulder", "right_elbow"}) {
-        const Eigen::Vector3d bone = restBone(after.skeleton, after.skeleton.index(joint));
+        const Eigen::Vector3d bone = restBones(after.skeleton)[std::size_t(after.skeleton.index(joint))];
         CHECK(bone.y() == Approx(slope).margin(1e-4));
         CHECK(bone.x() * (joint[0] == 'l' ? 1 : -1) > 0.7);
       }
       for (const char* joint : {"left_hip", "left_knee", "right_hip", "right_knee"})
-        CHECK(restBone(after.skeleton, after.skeleton.index(joint)).y() < -0.99);
+        CHECK(restBones(after.skeleton)[std::size_t(after.skeleton.index(joint))].y() < -0.99);
       // Twice changes nothing, and clips fit the new pose.
       const RiggedCharacter again = poseToRest(after, pose);
       CHECK((again.mesh.vertices - after.mesh.vertices).cwiseAbs().maxCoeff() < 1e-4f);
