@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "libskel/core/check.h"
 #include "libskel/mesh/label_grid.h"
@@ -141,33 +143,99 @@ class Builder {
   PlanarMesh mesh_;
 };
 
-// Vertices near the rim and on it move where the worst of their triangles gains; those of the rim stay on the
-// rim's own line.
-void improve(PlanarMesh& mesh) {
-  const int count = static_cast<int>(mesh.vertices.size());
-  std::vector<std::array<int, 2>> beside(count, {-1, -1});
-  for (const auto& [a, b] : mesh.rim) beside[a][1] = b, beside[b][0] = a;
-  std::vector<int> first(count + 1, 0), around(3 * mesh.triangles.size());
-  for (const auto& t : mesh.triangles) {
-    for (const int v : t) ++first[v + 1];
+// The triangles around each vertex: of v around[first[v]] to around[first[v + 1] - 1].
+struct Fans {
+  explicit Fans(const PlanarMesh& mesh)
+      : first(mesh.vertices.size() + 1, 0), around(3 * mesh.triangles.size()) {
+    for (const auto& t : mesh.triangles) {
+      for (const int v : t) ++first[v + 1];
+    }
+    for (std::size_t v = 0; v + 1 < first.size(); ++v) first[v + 1] += first[v];
+    std::vector<int> next(first.begin(), first.end() - 1);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (const int v : mesh.triangles[t]) around[next[v]++] = static_cast<int>(t);
+    }
   }
-  for (int v = 0; v < count; ++v) first[v + 1] += first[v];
-  std::vector<int> next(first.begin(), first.end() - 1);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const int v : mesh.triangles[t]) around[next[v]++] = static_cast<int>(t);
-  }
-  const auto worst = [&](int v) {
+  // The shape of v's worst triangle.
+  double worst(const PlanarMesh& mesh, int v) const {
     double result = 1;
     for (int k = first[v]; k < first[v + 1]; ++k) {
       const auto& t = mesh.triangles[around[k]];
       result = std::min(result, shape(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]));
     }
     return result;
+  }
+  std::vector<int> first, around;
+};
+
+// The points where a curve of points one px apart turns sharply, within about a cell, and most of all beside.
+void addCorners(const Polygon& curve, double cell_px, std::vector<Eigen::Vector2d>& corners) {
+  constexpr double kSharp = 0.64;  // cosine: half of a right angle and more
+  const int count = static_cast<int>(curve.size());
+  const int reach = std::max(4, static_cast<int>(std::lround(0.8 * cell_px)));
+  if (count < 6 * reach) return;
+  const auto straight = [&](int i) {  // cosine of the turn
+    const Eigen::Vector2d to = curve[i] - curve[(i + count - reach) % count],
+                          on = curve[(i + reach) % count] - curve[i];
+    return to.dot(on) / std::max(1e-9, to.norm() * on.norm());
   };
+  for (int i = 0; i < count; ++i) {
+    const double here = straight(i);
+    bool sharpest = here < kSharp;
+    for (int k = 1; sharpest && k <= reach; ++k)
+      sharpest = straight((i + count - k) % count) > here && straight((i + k) % count) >= here;
+    if (sharpest) corners.push_back(curve[i]);
+  }
+}
+
+// A vertex of the rim that is near moves into each corner of the outline, where its triangles bear it.
+// Returns which did.
+std::vector<char> meetCorners(const std::vector<Eigen::Vector2d>& corners, const Fans& fans,
+                              PlanarMesh& mesh) {
+  constexpr double kNear = 0.75;   // cells
+  constexpr double kShape = 0.15;  // that the triangles keep
+  const auto squareOf = [&](const Eigen::Vector2d& p, int right, int down) {
+    return std::pair(static_cast<int>(std::floor(p.y() / mesh.cell_px)) + down,
+                     static_cast<int>(std::floor(p.x() / mesh.cell_px)) + right);
+  };
+  std::map<std::pair<int, int>, std::vector<int>> rim;  // by square of a cell's size
+  for (int v = mesh.inner_count; v < static_cast<int>(mesh.vertices.size()); ++v)
+    rim[squareOf(mesh.vertices[v], 0, 0)].push_back(v);
+  std::vector<char> met(mesh.vertices.size(), 0);
+  std::vector<std::pair<double, int>> near;
+  for (const Eigen::Vector2d& corner : corners) {
+    near.clear();
+    for (int down = -1; down <= 1; ++down)
+      for (int right = -1; right <= 1; ++right)
+        if (const auto square = rim.find(squareOf(corner, right, down)); square != rim.end())
+          for (const int v : square->second) {
+            const double distance = (mesh.vertices[v] - corner).norm();
+            if (!met[v] && distance < kNear * mesh.cell_px) near.emplace_back(distance, v);
+          }
+    std::sort(near.begin(), near.end());
+    for (const auto& [distance, v] : near) {
+      const Eigen::Vector2d old = mesh.vertices[v];
+      mesh.vertices[v] = corner;
+      met[v] = fans.worst(mesh, v) >= kShape;
+      if (met[v]) break;
+      mesh.vertices[v] = old;
+    }
+  }
+  return met;
+}
+
+// Vertices near the rim and on it move where the worst of their triangles gains; those of the rim stay on the
+// rim's own line, those in corners there.
+void improve(const Fans& fans, const std::vector<char>& in_corner, PlanarMesh& mesh) {
+  const int count = static_cast<int>(mesh.vertices.size());
+  std::vector<std::array<int, 2>> beside(count, {-1, -1});
+  for (const auto& [a, b] : mesh.rim) beside[a][1] = b, beside[b][0] = a;
+  const std::vector<int>&first = fans.first, &around = fans.around;
   for (int pass = 0; pass < kSmoothingPasses; ++pass) {
     // The rim first: the inner vertices make room for it.
     for (int n = 0; n < count; ++n) {
       const int v = (n + mesh.inner_count) % count;
+      if (in_corner[v]) continue;
       const Eigen::Vector2d old = mesh.vertices[v];
       Eigen::Vector2d target = Eigen::Vector2d::Zero();
       if (v >= mesh.inner_count) {
@@ -184,9 +252,9 @@ void improve(PlanarMesh& mesh) {
         target = (target - triangles * old) / (2 * triangles);
       }
       if ((target - old).squaredNorm() < 1e-6 * mesh.cell_px * mesh.cell_px) continue;
-      const double before = worst(v);
+      const double before = fans.worst(mesh, v);
       mesh.vertices[v] = target;
-      if (worst(v) <= before) mesh.vertices[v] = old;
+      if (fans.worst(mesh, v) <= before) mesh.vertices[v] = old;
     }
   }
 }
@@ -196,12 +264,15 @@ void improve(PlanarMesh& mesh) {
 PlanarMesh triangulateFigure(const Plane8& mask, const PixelBox& box, std::vector<Polygon> outline,
                              double cell_px) {
   SKEL_CHECK(box.width() > 0 && cell_px > 0);
+  std::vector<Eigen::Vector2d> corners;
   for (Polygon& curve : outline) {
+    addCorners(curve, cell_px, corners);
     smoothOutline(curve, std::max(2, static_cast<int>(std::lround(0.4 * cell_px))),
                   0.5 * std::max(1.0, cell_px));
   }
   PlanarMesh mesh = Builder(labelGrid(mask, box, outline, cell_px)).build();
-  improve(mesh);
+  const Fans fans(mesh);
+  improve(fans, meetCorners(corners, fans, mesh), mesh);
   return mesh;
 }
 

@@ -288,3 +288,25 @@ TEST_CASE("the mesh does not depend on the order in which a compiler evaluates a
   const std::vector<std::array<int, 3>> expected = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {0, 4, 3}};
   CHECK(mesh.triangles == expected);
 }
+
+TEST_CASE("where an outline turns sharply, the mesh does") {
+  Plane8 mask = Plane8::Zero(200, 200);
+  for (int y = 0; y < 150; ++y)
+    mask.block(20 + y, 30 + y / 3, 1, 140 - 2 * (y / 3)) = 255;  // a tapering foot
+  const Silhouette silhouette = silhouetteFromMask(mask);
+  std::vector<Polygon> outline;
+  for (const Polygon& curve : silhouette.outline) outline.push_back(sideMiddles(curve));
+  int met = 0, all = 0;
+  for (double cell_px = 5; cell_px < 14; cell_px += 0.7) {
+    const PlanarMesh mesh = triangulateFigure(mask, figureBox(mask), outline, cell_px);
+    for (const Eigen::Vector2d& corner : {Eigen::Vector2d(30, 20), {170, 20}, {79, 170}, {121, 170}}) {
+      double least = 1e9;
+      for (std::size_t v = std::size_t(mesh.inner_count); v < mesh.vertices.size(); ++v)
+        least = std::min(least, (mesh.vertices[v] - corner).norm());
+      met += least < 2;
+      all += 1;
+    }
+  }
+  // Not where a triangle would be too thin.
+  CHECK(met > 0.9 * all);
+}
