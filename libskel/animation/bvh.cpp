@@ -15,8 +15,8 @@ namespace skel {
 namespace {
 
 constexpr std::size_t kMaxJoints = 1000;
-constexpr std::size_t kMaxNumbers = 100'000'000;  // of the motion
-constexpr std::size_t kMaxTurns = 20'000'000;     // frames times joints, with channels or without
+constexpr std::size_t kMaxNumbers = 100'000'000;     // of the motion
+constexpr std::size_t kMaxJointFrames = 20'000'000;  // frames times joints, with channels or without
 constexpr double kMaxNumber = 1e6;
 constexpr double kMaxFrameTime_s = 100;
 constexpr std::array<std::string_view, 6> kChannels = {"Xposition", "Yposition", "Zposition",
@@ -211,9 +211,9 @@ struct Reader {
       numbers += channels[j].size();
     }
     if (numbers == 0 || count > kMaxNumbers / numbers) words.fail("has too many frames, or no channels");
-    if (count > kMaxTurns / channels.size())
+    if (count > kMaxJointFrames / channels.size())
       words.fail("has " + std::to_string(count) + " frames of " + std::to_string(channels.size()) +
-                 " joints; at most " + std::to_string(kMaxTurns / channels.size()) +
+                 " joints; at most " + std::to_string(kMaxJointFrames / channels.size()) +
                  " can be read of so many");
     float before_s = -1;
     for (std::size_t f = 0; f < count; ++f) {

@@ -1,9 +1,10 @@
 #include "libskel/skin/parts.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "libskel/skeleton/place_in_mesh.h"
 #include "libskel/skin/vertex_tree.h"
@@ -89,14 +90,7 @@ void followTouchedParts(const TriangleMesh& mesh, const MeshParts& parts, const 
       limit = std::min(limit, known.nearest(mesh.vertices.row(v), limit).distance_m);
     return limit;
   };
-  // The nearest last, so that a pupil follows its eye.
-  std::vector<std::pair<float, int>> waiting;
-  for (int part = 0; part < parts.count; ++part)
-    if (!with_bones[part]) waiting.emplace_back(gap(part, kFar), part);
-  std::sort(waiting.begin(), waiting.end(), std::greater<>());
-  while (!waiting.empty()) {
-    const auto [least, part] = waiting.back();
-    waiting.pop_back();
+  const auto follow = [&](int part, float least) {
     Eigen::VectorXf sums = Eigen::VectorXf::Zero(weights.cols());
     for (const int v : members[part]) {
       const int touched = known.nearest(mesh.vertices.row(v), least + edge_m).vertex;
@@ -109,9 +103,42 @@ void followTouchedParts(const TriangleMesh& mesh, const MeshParts& parts, const 
       weights(v, joint) = 1;
     }
     for (const int v : members[part]) known.add(v);
-    if (waiting.size() > 64) continue;  // crumbs: whatever they touch, they lie by the body
-    for (auto& [distance, other] : waiting) distance = gap(other, distance);
-    std::sort(waiting.begin(), waiting.end(), std::greater<>());
+  };
+  // The nearest first, so that a pupil follows its eye.
+  struct Waiting {
+    float least;  // no nearer than this to what is known
+    int part;
+    float measured;  // as near as this, at least
+    bool operator<(const Waiting& other) const {
+      return std::pair(least, part) < std::pair(other.least, other.part);
+    }
+  };
+  std::vector<Waiting> waiting;
+  for (int part = 0; part < parts.count; ++part) {
+    if (with_bones[part]) continue;
+    const float distance = gap(part, kFar);
+    waiting.push_back({distance, part, distance});
+  }
+  // Crumbs: whatever they touch, they lie by the body.
+  if (waiting.size() > 64) {
+    std::sort(waiting.rbegin(), waiting.rend());
+    for (; waiting.size() > 64; waiting.pop_back()) follow(waiting.back().part, waiting.back().measured);
+    for (Waiting& one : waiting) one.least = 0;
+  }
+  std::vector<Eigen::AlignedBox3f> boxes(static_cast<std::size_t>(parts.count));
+  for (const Waiting& one : waiting)
+    for (const int v : members[one.part]) boxes[one.part].extend(mesh.vertices.row(v).transpose());
+  while (!waiting.empty()) {
+    const auto next = std::min_element(waiting.begin(), waiting.end());
+    if (next->least < next->measured) {
+      next->least = next->measured = gap(next->part, next->measured);
+      continue;
+    }
+    const Waiting nearest = *next;
+    waiting.erase(next);
+    follow(nearest.part, nearest.measured);
+    for (Waiting& one : waiting)
+      one.least = std::min(one.least, boxes[one.part].exteriorDistance(boxes[nearest.part]));
   }
 }
 

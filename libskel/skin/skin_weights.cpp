@@ -10,6 +10,7 @@
 #include "libskel/skin/parts.h"
 #include "libskel/skin/smooth.h"
 #include "libskel/skin/soften.h"
+#include "libskel/skin/vertex_tree.h"
 #include "libskel/skin/welding.h"
 
 namespace skel {
@@ -44,26 +45,17 @@ constexpr int kSmoothing = 6;  // rounds, of weights that come by distance alone
 
 // Rows of zeros become those of the nearest vertex that has weights.
 void fillFromNearest(const Eigen::MatrixX3f& vertices, JointWeights& weights) {
-  std::vector<int> known, empty;
-  for (int v = 0; v < vertices.rows(); ++v) (weights.row(v).maxCoeff() > 0 ? known : empty).push_back(v);
-  if (empty.empty()) return;
-  SKEL_CHECK(!known.empty());
-  // By height: the search goes up and down from the vertex's own height until nothing can be nearer.
-  std::stable_sort(known.begin(), known.end(), [&](int a, int b) { return vertices(a, 1) < vertices(b, 1); });
+  std::vector<int> empty;
+  VertexTree known(vertices);
+  for (int v = 0; v < vertices.rows(); ++v) {
+    if (weights.row(v).maxCoeff() > 0)
+      known.add(v);
+    else
+      empty.push_back(v);
+  }
   for (const int v : empty) {
-    const auto middle = std::lower_bound(known.begin(), known.end(), vertices(v, 1),
-                                         [&](int a, float y) { return vertices(a, 1) < y; });
-    int nearest = -1;
-    float best = std::numeric_limits<float>::infinity();
-    const auto consider = [&](int other) {
-      const float dy = vertices(other, 1) - vertices(v, 1);
-      if (dy * dy >= best) return false;
-      const float distance2 = (vertices.row(other) - vertices.row(v)).squaredNorm();
-      if (distance2 < best) best = distance2, nearest = other;
-      return true;
-    };
-    for (auto up = middle; up != known.end() && consider(*up);) ++up;
-    for (auto down = middle; down != known.begin() && consider(*(down - 1));) --down;
+    const int nearest = known.nearest(vertices.row(v), std::numeric_limits<float>::infinity()).vertex;
+    SKEL_CHECK(nearest >= 0);
     weights.row(v) = weights.row(nearest);
   }
 }

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <string>
 
+#include "libskel/core/error.h"
 #include "libskel/core/segment.h"
 #include "libskel/skin/fronts.h"
 #include "libskel/skin/solid.h"
@@ -16,6 +19,7 @@ namespace {
 
 constexpr float kDetour = 1.14f;  // of steps to 26 neighbours
 constexpr float kPenalty = 2;     // how much a way around something counts beyond its own length
+constexpr std::int64_t kMostSteps = 60'000'000;  // cubes that the ways of all bones come to: some seconds
 constexpr float kFar = std::numeric_limits<float>::infinity();
 
 float straight(const Eigen::Vector3f& p, const Bone& bone) {
@@ -94,16 +98,19 @@ class Ways {
     for (const Seed& seed : seeds) reach(seed.cube, seed.length_m);
     for (Fronts::Front front; fronts.pop(front);) {
       if (front.distance > lengths_[static_cast<std::size_t>(front.place)]) continue;
+      ++steps_;
       solid_.forNeighbours(front.place,
                            [&](const Solid::Step& step) { reach(step.to, front.distance + step.length_m); });
     }
   }
   const std::vector<float>& lengths() const { return lengths_; }
+  std::int64_t steps() const { return steps_; }
 
  private:
   const Solid& solid_;
   std::vector<float> lengths_;
   std::vector<int> touched_;
+  std::int64_t steps_ = 0;  // of all spreads
 };
 
 }  // namespace
@@ -128,6 +135,9 @@ JointWeights volumetricWeights(const SkinInput& input) {
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) cubes.push_back(solid.at(mesh.vertices.row(v)));
   BoneDistances distances2 = BoneDistances::Constant(mesh.vertices.rows(), count, kFar);  // m²
   for (int b = 0; b < count; ++b) {
+    if (ways.steps() > kMostSteps)
+      throw InputError(input.options.file, "has too many bones (" + std::to_string(count) +
+                                               ") that lie close together; take fewer joints, or --skin idw");
     // A way this much longer than the nearest bone's brings no weight, nor does any that goes on from it.
     ways.spread(seeds[static_cast<std::size_t>(b)], [&](int cube, float length) {
       return length <= kDetour * (1.6f * nearest[static_cast<std::size_t>(cube)] + 3 * cell_m);

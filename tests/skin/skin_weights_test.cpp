@@ -574,3 +574,95 @@ TEST_CASE("more than 256 regions are refused, by the file's name") {
       parseRegions(text + "]}", "many.json"),
       Catch::Matchers::Contains("many.json") && Catch::Matchers::Contains("more than 256 regions"));
 }
+
+// Each bone went through nearly all cubes.
+TEST_CASE("thousands of long bones at one place in a deep skeleton are refused, by the file's name") {
+  Skeleton skeleton;
+  skeleton.joints.push_back({"root", -1, {}, {0, 0, 0}});
+  for (int j = 0; j < 4000; ++j) {
+    Joint joint{"j" + std::to_string(j), 0, {}, {-0.4, -0.4, -0.3}};
+    joint.tail = Eigen::Vector3d(0.4, 0.4, 0.3);
+    skeleton.joints.push_back(joint);
+  }
+  TriangleMesh box;
+  box.vertices.resize(8, 3);
+  for (int v = 0; v < 8; ++v)
+    box.vertices.row(v) << float(v & 1) - 0.5f, float(v >> 1 & 1) - 0.5f, float(v >> 2) - 0.5f;
+  box.triangles.resize(12, 3);
+  box.triangles << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6,
+      1, 3, 5, 3, 7, 5;
+  // Small triangles: small cubes.
+  constexpr int kSmall = 4000;
+  box.vertices.conservativeResize(8 + 3 * kSmall, 3);
+  box.triangles.conservativeResize(12 + kSmall, 3);
+  for (int t = 0; t < kSmall; ++t) {
+    const int v = 8 + 3 * t;
+    box.vertices.row(v) << 0.5f, float(t) / kSmall - 0.5f, 0;
+    box.vertices.row(v + 1) << 0.5f, float(t) / kSmall - 0.499f, 0;
+    box.vertices.row(v + 2) << 0.5f, float(t) / kSmall - 0.5f, 0.001f;
+    box.triangles.row(12 + t) << v, v + 1, v + 2;
+  }
+  box.vertices.conservativeResize(7'900, 3);
+  box.triangles.conservativeResize(12 + (7'900 - 8) / 3, 3);
+  SkinOptions options;
+  options.file = "dense.obj";
+  CHECK_THROWS_WITH(
+      computeSkinWeights(box, skeleton, SkinMethod::kGeodesic, options),
+      Catch::Matchers::Contains("dense.obj: has too many bones (4000) that lie close together"));
+}
+
+// It asked all parts for all their vertices after each.
+TEST_CASE("sheets side by side follow their neighbours") {
+  constexpr int kSheets = 60, kSide = 40;
+  TriangleMesh sheets;
+  sheets.vertices.resize(kSheets * kSide * kSide, 3);
+  sheets.triangles.resize(kSheets * 2 * (kSide - 1) * (kSide - 1), 3);
+  Eigen::Index t = 0;
+  for (int sheet = 0; sheet < kSheets; ++sheet)
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        const int a = (sheet * kSide + y) * kSide + x;
+        sheets.vertices.row(a) << float(x) / kSide, float(y) / kSide, 0.1f * float(sheet);
+        if (x + 1 == kSide || y + 1 == kSide) continue;
+        sheets.triangles.row(t++) << a, a + 1, a + kSide;
+        sheets.triangles.row(t++) << a + 1, a + 1 + kSide, a + kSide;
+      }
+  Skeleton skeleton;
+  skeleton.joints.push_back({"near", -1, {}, {0.5, 0.5, 0}});
+  skeleton.joints[0].tail = Eigen::Vector3d(0.6, 0.5, 0.01);
+  skeleton.joints.push_back({"far", 0, {}, {0.5, 0.5, 0.1 * (kSheets - 1)}});
+  skeleton.joints[1].tail = Eigen::Vector3d(0.6, 0.5, 0.1 * (kSheets - 1) - 0.01);
+  const SkinWeights weights = computeSkinWeights(sheets, skeleton, SkinMethod::kGeodesic);
+  int before = 0;
+  for (int sheet = 0; sheet < kSheets; ++sheet) {
+    const int joint = weights.joints(sheet * kSide * kSide, 0);
+    CAPTURE(sheet);
+    CHECK(joint >= before);
+    before = joint;
+  }
+  CHECK(weights.joints(kSide * kSide, 0) == 0);
+  CHECK(weights.joints((kSheets - 1) * kSide * kSide, 0) == 1);
+}
+
+// Each of them looked at all vertices at its height.
+TEST_CASE("a part that no way reaches takes the weights beside it, however many lie at one height") {
+  constexpr int kLength = 100'000;
+  TriangleMesh strips;
+  strips.vertices.resize(4 * kLength, 3);
+  strips.triangles.resize(2 * 2 * (kLength - 1), 3);
+  Eigen::Index t = 0;
+  for (int strip = 0; strip < 2; ++strip)
+    for (int x = 0; x < kLength; ++x) {
+      const int a = 2 * (strip * kLength + x);
+      strips.vertices.row(a) << float(x) / kLength, 0, 1 + 0.2f * float(strip);
+      strips.vertices.row(a + 1) << float(x) / kLength, 0, 1.1f + 0.2f * float(strip);
+      if (x + 1 == kLength) continue;
+      strips.triangles.row(t++) << a, a + 1, a + 2;
+      strips.triangles.row(t++) << a + 1, a + 3, a + 2;
+    }
+  Skeleton skeleton;
+  skeleton.joints.push_back({"bone", -1, {}, {0, 0, 0}});
+  skeleton.joints[0].tail = Eigen::Vector3d(1, 0.2, 0);
+  const SkinWeights weights = computeSkinWeights(strips, skeleton, SkinMethod::kGeodesic);
+  CHECK((weights.weights.col(0).array() == 1).all());
+}
