@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
 
 #include "labeler/annotated_drawing.h"
 #include "libskel/core/error.h"
@@ -116,13 +117,17 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTe
         for (const JsonValue& name : names->items()) list.push_back(name.asString());
       }
 
-  std::map<double, std::string> file_of;  // by image
+  std::map<double, std::string> file_of;                    // by image
+  std::unordered_map<std::string, std::string> file_named;  // looked for once, however often it is named
   for (const JsonValue& image : root.at("images").items()) {
     const JsonValue name = image.at("file_name");
-    // Masks are written beside the pictures.
-    const std::string file = pathInside(fs::path(path).parent_path().string(), name.asFileName(), path);
-    if (!fs::is_regular_file(file)) name.fail("there is no " + file);
-    file_of[image.at("id").asNumber()] = file;
+    const auto [named, is_new] = file_named.try_emplace(name.asFileName());
+    if (is_new) {
+      // Masks are written beside the pictures.
+      named->second = pathInside(fs::path(path).parent_path().string(), named->first, path);
+      if (!fs::is_regular_file(named->second)) name.fail("there is no " + named->second);
+    }
+    file_of[image.at("id").asNumber()] = named->second;
   }
 
   std::map<std::string, std::pair<double, AnnotatedDrawing>> largest;  // by picture

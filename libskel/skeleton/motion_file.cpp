@@ -19,6 +19,7 @@ constexpr const char* kFormat = "skel-motion";
 constexpr int kVersion = 2;  // 1 knows no source, action, key frame or frame without a picture
 constexpr int kMaxImageSide = 1'000'000;
 constexpr double kMaxTime_s = 1e6;
+constexpr std::size_t kMostFrameJoints = 10'000'000;
 
 MotionFrame frameAt(const JsonValue& value, const SkeletonTemplate& body_plan) {
   value.allowOnly({"image", "time_s", "key", "joints"});
@@ -103,7 +104,12 @@ MotionFile readMotionFile(const std::string& path, const SkeletonTemplate& body_
   motion.frame_rate = root.at("frame_rate").asNumber(kMinFrameRate, kMaxFrameRate);
   if (const auto source = root.find("source")) motion.source = source->asFileName();
   if (const auto action = root.find("action")) motion.action = action->asString();
-  for (const JsonValue& item : root.at("frames").items()) {
+  const JsonValue frames = root.at("frames");
+  const std::vector<JsonValue> items = frames.items();
+  if (items.size() > kMostFrameJoints / std::max<std::size_t>(1, body_plan.joints.size()))
+    frames.fail("are " + std::to_string(items.size()) + ", each with " +
+                std::to_string(body_plan.joints.size()) + " joints of the template: too many");
+  for (const JsonValue& item : items) {
     motion.frames.push_back(frameAt(item, body_plan));
     const size_t count = motion.frames.size();
     if (count > 1 &&

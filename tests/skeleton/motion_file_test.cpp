@@ -122,3 +122,16 @@ TEST_CASE("a motion without frames is refused") {
   writeFile(dir.file("m"), formatMotionFile(motion, biped()));
   CHECK_THROWS_WITH(readMotionFile(dir.file("m"), biped()), dir.file("m") + ": frames: is empty");
 }
+
+// Room for each joint of each frame: gigabytes of a small file.
+TEST_CASE("a motion of more frames than a template of many joints bears is refused") {
+  const TempDir dir;
+  SkeletonTemplate plan = biped();
+  plan.joints.resize(1000);
+  std::string text = R"({"format": "skel-motion", "version": 1, "template": ")" + plan.name +
+                     R"(", "frame_rate": 10, "frames": [)";
+  for (int f = 0; f < 10'001; ++f) text += f ? ",0" : "0";
+  writeFile(dir.file("m.motion.json"), text + "]}");
+  CHECK_THROWS_WITH(readMotionFile(dir.file("m.motion.json"), plan),
+                    Catch::Matchers::Contains("frames: are 10001, each with 1000 joints"));
+}
