@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libskel/core/error.h"
+#include "libskel/core/progress.h"
 
 namespace skel {
 namespace {
@@ -125,8 +126,12 @@ MotionTransferReport transferMotion(const std::vector<NamedMotion>& content,
                         (options.mirror == MirrorStyle::kAutomatic && facing_ours * facing_theirs < 0 &&
                          std::min(std::abs(facing_ours), std::abs(facing_theirs)) > kFacing);
     if (mirror) theirs = mirroredPoses(theirs, plan);
-    MotionPair pair{canonicalPoses(ours, plan), canonicalPoses(theirs, plan), loops(ours, options.loop),
-                    loops(theirs, options.loop)};
+    MotionPair pair{canonicalPoses(ours, plan),
+                    canonicalPoses(theirs, plan),
+                    loops(ours, options.loop),
+                    loops(theirs, options.loop),
+                    c->path,
+                    s->path};
     for (std::size_t f = 0; f < c->motion.frames.size(); ++f)
       if (c->motion.frames[f].key) pair.keys.push_back(int(f));
     // Two poses tell nothing of a motion.
@@ -140,8 +145,11 @@ MotionTransferReport transferMotion(const std::vector<NamedMotion>& content,
     pairs.push_back(std::move(pair));
     actions.push_back(c->motion.action);
   }
-  const Transfer transfer = options.by_signatures ? transferBySignatures(pairs, actions, options.transfer)
-                                                  : transferStyle(pairs, options.transfer);
+  TransferOptions how = options.transfer;
+  ProgressBar bar("transfer", pairs.size() * kPhaseBeginnings + how.coding.iterations());
+  how.on_beginning = how.coding.on_iteration = [&] { bar.advance(); };
+  const Transfer transfer =
+      options.by_signatures ? transferBySignatures(pairs, actions, how) : transferStyle(pairs, how);
   report.error = transfer.coding.error;
   const PoseMatrix& poses = transfer.poses[0];
   report.phase_correlation = correlation(stride(poses, plan), stride(pairs[0].content, plan));

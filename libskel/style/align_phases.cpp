@@ -3,22 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "libskel/core/check.h"
+#include "libskel/core/error.h"
 #include "libskel/style/smooth_series.h"
 
 namespace skel {
 namespace {
 
+using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // For a step that differs from the mean speed by as much as it is: so much of a squared difference of poses.
 constexpr double kUnevenStep = 0.05;
-// On a circle, beginnings are tried so many at most.
-constexpr Index kBeginnings = 60;
 constexpr double kSmoothing = 2;
+// Frames of the one times those of the other; times the steps that each may take on a circle.
+constexpr Index kMostPairs = 16'000'000, kMostSteps = 100'000'000;
 
 MatrixXd spreadOut(const PoseMatrix& poses) {
   MatrixXd centred = poses.colwise() - poses.rowwise().mean();
@@ -72,11 +75,13 @@ Warp straightWarp(const MatrixXd& d) {
   return warp;
 }
 
-// Frames after which the content looks most as before: its number of frames if it shows one cycle.
+// Frames after which the content, having changed, looks as before: its number of frames if it shows one
+// cycle.
 double period(const MatrixXd& content, bool loops) {
-  const Index n = content.cols();
+  const Index n = content.cols(), shortest = 4;
   const double spread = 2;  // of two frames that have nothing in common
-  for (Index lag = 4; lag <= n / 2; ++lag) {
+  bool changed = false;
+  for (Index lag = 1; lag <= n / 2; ++lag) {
     double sum = 0;
     int count = 0;
     for (Index i = 0; i < n; ++i) {
@@ -84,52 +89,76 @@ double period(const MatrixXd& content, bool loops) {
       sum += (content.col((i + lag) % n) - content.col(i)).squaredNorm();
       ++count;
     }
-    if (sum / count < 0.15 * spread) return double(lag);
+    const bool alike = sum / count < 0.15 * spread;
+    if (alike && changed && lag >= shortest) return double(lag);
+    changed = changed || !alike;
   }
   return double(n);
 }
 
+// So many style frames a content frame goes on by at most.
+Index largestStep(double speed) { return Index(std::ceil(2 * speed)) + 1; }
+
+// The step's cost and the step, where it costs less than those before.
+void keepLess(double* __restrict sum, double* __restrict steps, const double* __restrict before,
+              const double* __restrict here, double pace, double step, Index count) {
+  for (Index j = 0; j < count; ++j) {
+    const double cost = before[j] + pace + here[j];
+    steps[j] = cost < sum[j] ? step : steps[j];
+    sum[j] = cost < sum[j] ? cost : sum[j];
+  }
+}
+
 // On a circle: each content frame goes on by 0 or more style frames. A content that loops comes back to where
-// it began.
-Warp circularWarp(const MatrixXd& d, double speed, bool closes) {
-  const Index n = d.rows(), m = d.cols();
-  const int largest = int(std::ceil(2 * speed)) + 1;
-  const auto stepCost = [&](int step) {
-    return kUnevenStep * std::pow((step - speed) / std::max(speed, 0.5), 2);
+// it began. d: m×n, of style frames and content frames.
+Warp circularWarp(const MatrixXd& d, double speed, bool closes, const std::function<void()>& on_beginning) {
+  const Index n = d.cols(), m = d.rows();
+  const Index largest = largestStep(speed);
+  const auto stepCost = [&](Index step) {
+    return kUnevenStep * std::pow((double(step) - speed) / std::max(speed, 0.5), 2);
   };
   Warp best;
-  const Index beginnings = closes ? std::min(m, kBeginnings) : 1;
+  const Index beginnings = closes ? std::min(m, Index(kPhaseBeginnings)) : 1;
+  Eigen::ArrayXXi step(m, n);
+  ArrayXd sum(m), before(m);
   for (Index s = 0; s < beginnings; ++s) {
     const Index start = s * m / beginnings;
-    std::vector<std::vector<double>> sum(std::size_t(n), std::vector<double>(std::size_t(m), kInfinity));
-    std::vector<std::vector<int>> step(std::size_t(n), std::vector<int>(std::size_t(m), 0));
-    if (closes)
-      sum[0][std::size_t(start)] = d(0, start);
-    else
-      for (Index j = 0; j < m; ++j) sum[0][std::size_t(j)] = d(0, j);
-    for (std::size_t i = 1; i < std::size_t(n); ++i)
-      for (Index j = 0; j < m; ++j)
-        for (int k = 0; k <= largest && k < m; ++k) {
-          const double cost = sum[i - 1][std::size_t((j - k + m) % m)] + stepCost(k) + d(Index(i), j);
-          if (cost < sum[i][std::size_t(j)]) sum[i][std::size_t(j)] = cost, step[i][std::size_t(j)] = k;
-        }
-    for (Index end = 0; end < m; ++end) {
-      double cost = sum.back()[std::size_t(end)];
-      if (closes) {
-        const Index left = (start - end + m) % m;
-        cost += left <= largest ? stepCost(int(left)) : kInfinity;
-      }
-      if (!(cost / double(n) < best.cost)) continue;
-      best.cost = cost / double(n);
-      std::vector<int> steps(static_cast<std::size_t>(n));
-      Index j = end;
-      for (std::size_t i = std::size_t(n) - 1; i > 0; --i) {
-        steps[i] = step[i][std::size_t(j)];
-        j = (j - steps[i] + m) % m;
-      }
-      best.frames.assign(1, double(j));
-      for (std::size_t i = 1; i < std::size_t(n); ++i) best.frames.push_back(best.frames.back() + steps[i]);
+    if (closes) {
+      sum.setConstant(kInfinity);
+      sum(start) = d(start, 0);
+    } else {
+      sum = d.col(0);
     }
+    for (Index i = 1; i < n; ++i) {
+      std::swap(sum, before);
+      sum.setConstant(kInfinity);
+      const double* const here = d.col(i).data();
+      ArrayXd steps = ArrayXd::Zero(m);
+      for (Index k = 0; k <= largest && k < m; ++k) {
+        const double pace = stepCost(k);
+        // From frames j - k: before the end, and round it.
+        keepLess(sum.data() + k, steps.data() + k, before.data(), here + k, pace, double(k), m - k);
+        keepLess(sum.data(), steps.data(), before.data() + m - k, here, pace, double(k), k);
+      }
+      step.col(i) = steps.cast<int>();
+    }
+    if (closes)
+      for (Index end = 0; end < m; ++end) {
+        const Index left = (start - end + m) % m;
+        sum(end) += left <= largest ? stepCost(left) : kInfinity;
+      }
+    if (on_beginning) on_beginning();
+    Index j;
+    const double cost = sum.minCoeff(&j) / double(n);
+    if (!(cost < best.cost)) continue;
+    best.cost = cost;
+    best.frames.assign(std::size_t(n), 0);
+    for (Index i = n - 1; i > 0; --i) {
+      best.frames[std::size_t(i)] = step(j, i);
+      j = (j - step(j, i) + m) % m;
+    }
+    best.frames[0] = double(j);
+    std::partial_sum(best.frames.begin(), best.frames.end(), best.frames.begin());
   }
   return best;
 }
@@ -149,22 +178,31 @@ void smoothFrames(std::vector<double>& frames, double pace, bool loops) {
 PhaseAlignment alignPhases(const PoseMatrix& content, const PoseMatrix& style, const PhaseOptions& options) {
   SKEL_CHECK_EQ(content.rows(), style.rows());
   SKEL_CHECK(content.cols() > 0 && style.cols() > 0);
+  const Index n = content.cols(), m = style.cols();
+  const auto refuse = [&](const std::string& both) {
+    throw InputError(options.content_path, "has " + std::to_string(n) + " frames and " + options.style_path +
+                                               " has " + std::to_string(m) + ": " + both);
+  };
+  if (n * m > kMostPairs) refuse("one times the other are 16 million at most; cut them, or one of them");
   const MatrixXd a = spreadOut(content), b = spreadOut(style);
-  const MatrixXd d = squaredDifferences(a, b);
-  const Index n = a.cols(), m = b.cols();
   Warp warp;
   if (options.style_loops && n > 1) {
-    const double cycles = std::max(1., std::round(double(n) / period(a, options.content_loops)));
-    const double pace =
-        options.content_loops ? cycles * double(m) / double(n) : double(m) / period(a, options.content_loops);
-    warp = circularWarp(d, pace, options.content_loops);
-    if (warp.frames.empty()) warp = circularWarp(d, pace, false);
+    const double cycle = period(a, options.content_loops);
+    const double pace = options.content_loops
+                            ? std::max(1., std::round(double(n) / cycle)) * double(m) / double(n)
+                            : double(m) / cycle;
+    if (n * m * std::min(largestStep(pace) + 1, m) > kMostSteps)
+      refuse("all of these would pass in " + std::to_string(int(std::lround(double(m) / pace))) +
+             " of the content's, too many to choose from; cut the style to one cycle, or give --loop no");
+    const MatrixXd d = squaredDifferences(b, a);
+    warp = circularWarp(d, pace, options.content_loops, options.on_beginning);
+    if (warp.frames.empty()) warp = circularWarp(d, pace, false, options.on_beginning);
     // What a loop really goes round.
     const double turns = std::round((warp.frames.back() - warp.frames.front() + pace) / double(m));
     smoothFrames(warp.frames, options.content_loops ? turns * double(m) / double(n) : pace,
                  options.content_loops);
   } else {
-    warp = straightWarp(d);
+    warp = straightWarp(squaredDifferences(a, b));
     smoothFrames(warp.frames, double(m) / double(n), false);
     for (double& frame : warp.frames) frame = std::clamp(frame, 0., double(m - 1));
   }

@@ -90,6 +90,7 @@ class Run {
       else
         std::swap(v, v_);
       result.objectives.push_back(now);
+      if (options_.on_iteration) options_.on_iteration();
       // One small step may be that of a column that shrank to nothing on the way; many are the end.
       quiet = before - now <= options_.tolerance * std::max(std::abs(now), 1e-12 * x2_) ? quiet + 1 : 0;
       if (quiet == kQuietIterations) break;

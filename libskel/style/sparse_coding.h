@@ -4,7 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace skel {
@@ -16,6 +18,10 @@ struct SparseCodingOptions {
   double tolerance = 1e-7;  // stops where an iteration lowers the objective by less than this share of it
   int restarts = 3;         // from other beginnings; the best is kept
   std::uint64_t seed = 1;
+  std::function<void()> on_iteration = {};  // after each; may be empty
+
+  // At most, of all beginnings.
+  std::size_t iterations() const { return std::size_t(std::max(1, restarts)) * std::size_t(max_iterations); }
 };
 
 // X ≈ U·V.

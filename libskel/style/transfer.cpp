@@ -53,8 +53,9 @@ Transfer transferStyle(const std::vector<MotionPair>& pairs, const TransferOptio
   Transfer result;
   std::vector<MotionPair> aligned = pairs;
   for (MotionPair& pair : aligned) {
-    result.alignments.push_back(
-        alignPhases(pair.content, pair.style, {pair.content_loops, pair.style_loops}));
+    result.alignments.push_back(alignPhases(
+        pair.content, pair.style,
+        {pair.content_loops, pair.style_loops, pair.content_path, pair.style_path, options.on_beginning}));
     pair.style = posesAt(pair.style, result.alignments.back().style_frame, pair.style_loops);
   }
   for (MotionPair& pair : aligned) {

@@ -3,6 +3,7 @@
 // Patent CN102231209A: X̃ = U_B·V_A.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "libskel/style/align_phases.h"
@@ -12,13 +13,15 @@ namespace skel {
 
 struct TransferOptions {
   SparseCodingOptions coding;
-  double amount = 1;  // 0: the content as it is; 1: the style; beyond: more of it
+  double amount = 1;                        // 0: the content as it is; 1: the style; beyond: more of it
+  std::function<void()> on_beginning = {};  // of a pair's phases; may be empty
 };
 
 // A motion of each of two characters that show the same action, as canonical poses (2J rows).
 struct MotionPair {
   PoseMatrix content, style;
   bool content_loops = false, style_loops = false;
+  std::string content_path = "the content", style_path = "the style";  // for complaints
   std::vector<int> keys = {};  // ascending frames of the content that are factored; empty: all
 };
 
@@ -33,7 +36,8 @@ struct Transfer {
 // both show), all share one basis. What the factors cannot express is the content's own and stays:
 // X̃ = X_A + amount · (U_B − U_A)·V. With more components than frames that are
 // independent of each other, there are as many as those. Frames
-// that are no keys come by inBetweens() (in_between.h). Throws UsageError: no pair, no frame, no component.
+// that are no keys come by inBetweens() (in_between.h). Throws UsageError: no pair, no frame, no component;
+// InputError as alignPhases().
 Transfer transferStyle(const std::vector<MotionPair>& pairs, const TransferOptions& options = {});
 
 // The two factored each by itself, matched by what their components say of the actions (semantics.h):

@@ -7,6 +7,7 @@
 #include "tests/support/catch.h"
 
 using namespace skel;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -46,6 +47,32 @@ TEST_CASE("a content of two cycles goes twice round a style of one") {
   const PhaseAlignment found = alignPhases(canonical(twice), style, {true, true});
   const PoseMatrix at = posesAt(style, found.style_frame, true);
   CHECK(correlation(stride(at), stride(canonical(twice))) > 0.98);
+}
+
+TEST_CASE("a cycle of 800 frames is one cycle, though frames that follow each other are alike") {
+  Gait slow = kPlain, slow_style = kStiff;
+  slow.frames = slow_style.frames = 800;
+  const PhaseAlignment found = alignPhases(canonical(slow), canonical(slow_style), {true, true});
+  int rounds = 0;
+  for (std::size_t f = 0; f < found.style_frame.size(); ++f) {
+    const double next = found.style_frame[(f + 1) % found.style_frame.size()];
+    rounds += next < found.style_frame[f] - 400;
+  }
+  CHECK(rounds == 1);
+}
+
+TEST_CASE("motions whose frames are too many to be compared are refused by their names") {
+  const auto refused = [](int content, int style, bool loop, const std::string& why) {
+    const PoseMatrix a = canonical({.frames = content, .cycles = content / 24.0}),
+                     b = canonical({.frames = style, .cycles = style / 24.0});
+    CHECK_THROWS_WITH(
+        alignPhases(a, b, {loop, loop, "a.motion.json", "b.motion.json"}),
+        Contains("a.motion.json: has ") && Contains(" and b.motion.json has ") && Contains(why));
+  };
+  refused(4008, 4008, false, "one times the other are 16 million at most");
+  refused(1608, 9960, true, "16 million");
+  // A style of 100 cycles is taken for one, so that each frame of the content may go on by hundreds of it.
+  refused(2400, 2400, true, "of the content's, too many to choose from; cut the style to one cycle");
 }
 
 TEST_CASE("motions that do not loop are aligned from end to end") {
