@@ -2,11 +2,18 @@
 #include <cstdio>
 
 #include "libskel/core/files.h"
+#include "libskel/core/progress.h"
 #include "libskel/core/text.h"
 #include "stylizer/commands.h"
 #include "stylizer/style_file.h"
 
 namespace skel {
+
+SparseCoding sparseCodingWithBar(const Eigen::MatrixXd& data, SparseCodingOptions options) {
+  ProgressBar bar("factors", options.iterations());
+  options.on_iteration = [&] { bar.advance(); };
+  return sparseCoding(data, options);
+}
 
 ExitCode runFit(const FitOptions& options) {
   const SkeletonTemplate plan = loadTemplate("biped");
@@ -18,15 +25,17 @@ ExitCode runFit(const FitOptions& options) {
       const PoseMatrix poses = canonicalPoses(posesOf(m.motion, plan, m.path), plan);
       const bool any_key = std::any_of(m.motion.frames.begin(), m.motion.frames.end(),
                                        [](const MotionFrame& frame) { return frame.key; });
+      const std::size_t before = columns.size();
       for (std::size_t f = 0; f < m.motion.frames.size(); ++f) {
         if (any_key && !options.all_frames && !m.motion.frames[f].key) continue;
         columns.push_back(poses.col(Eigen::Index(f)));
         style.frames.push_back({m.path, m.motion.action, int(f)});
       }
+      requireFewPoses(Eigen::Index(columns.size() - before), m.path);
     }
   Eigen::MatrixXd data(columns[0].size(), Eigen::Index(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) data.col(Eigen::Index(i)) = columns[i];
-  style.coding = sparseCoding(data, options.coding);
+  style.coding = sparseCodingWithBar(data, options.coding);
   std::vector<std::string> actions;
   for (const StyleFrame& frame : style.frames) actions.push_back(frame.action);
   if (std::find(actions.begin(), actions.end(), "") == actions.end())

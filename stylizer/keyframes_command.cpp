@@ -63,7 +63,8 @@ ExitCode runKeyframes(const KeyframesOptions& options) {
   Eigen::VectorXd successive;
   double largest = 0;
   if (options.matrix) {
-    matrix = distanceMatrix(outlines);
+    ProgressBar bar("distances", outlines.size());
+    matrix = distanceMatrix(outlines, 0, [&] { bar.advance(); });
     successive = matrix.diagonal(1);
     largest = matrix.maxCoeff();
   } else {

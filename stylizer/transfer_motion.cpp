@@ -136,6 +136,8 @@ MotionTransferReport transferMotion(const std::vector<NamedMotion>& content,
       if (c->motion.frames[f].key) pair.keys.push_back(int(f));
     // Two poses tell nothing of a motion.
     if (pair.keys.size() < 3 || options.by_signatures) pair.keys.clear();
+    requireFewPoses(pair.keys.empty() ? pair.content.cols() : Index(pair.keys.size()), c->path);
+    if (options.by_signatures) requireFewPoses(pair.style.cols(), s->path);
     if (pairs.empty()) {
       first_content = ours;
       report.mirrored = mirror;

@@ -78,10 +78,10 @@ Warp straightWarp(const MatrixXd& d) {
 // Frames after which the content, having changed, looks as before: its number of frames if it shows one
 // cycle.
 double period(const MatrixXd& content, bool loops) {
-  const Index n = content.cols(), shortest = 4;
+  const Index n = content.cols(), shortest = 4, longest = 1000;
   const double spread = 2;  // of two frames that have nothing in common
   bool changed = false;
-  for (Index lag = 1; lag <= n / 2; ++lag) {
+  for (Index lag = 1; lag <= std::min(n / 2, longest); ++lag) {
     double sum = 0;
     int count = 0;
     for (Index i = 0; i < n; ++i) {

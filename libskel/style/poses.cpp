@@ -25,6 +25,13 @@ double bend(const PoseMatrix& poses, const std::array<int, 3>& joints, Index fra
 
 }  // namespace
 
+void requireFewPoses(Index count, const std::string& path) {
+  if (count > kMostPoses)
+    throw InputError(path, "has " + std::to_string(count) + " poses to make a style from; " +
+                               std::to_string(kMostPoses) +
+                               " are the most: mark fewer key frames (\"key\") or cut it");
+}
+
 PoseMatrix posesOf(const MotionFile& motion, const SkeletonTemplate& body_plan, const std::string& path) {
   const std::size_t frames = motion.frames.size();
   PoseMatrix poses(rowsOf(body_plan), Index(frames));

@@ -13,6 +13,10 @@ namespace skel {
 // Rows 2j and 2j + 1 hold x and y of joint j; a column is a frame.
 using PoseMatrix = Eigen::MatrixXd;
 
+// So many poses of one motion are taken to make its style from. Throws InputError that names `path`: more.
+void requireFewPoses(Eigen::Index count, const std::string& path);
+inline constexpr Eigen::Index kMostPoses = 10'000;
+
 inline Eigen::Vector2d jointOf(const PoseMatrix& poses, int joint, Eigen::Index frame) {
   return poses.col(frame).segment<2>(2 * joint);
 }

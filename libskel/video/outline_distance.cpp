@@ -79,7 +79,8 @@ Eigen::VectorXd successiveDistances(const std::vector<FrameOutline>& outlines, i
   return distances;
 }
 
-Eigen::MatrixXd distanceMatrix(const std::vector<FrameOutline>& outlines, int threads) {
+Eigen::MatrixXd distanceMatrix(const std::vector<FrameOutline>& outlines, int threads,
+                               const std::function<void()>& on_frame) {
   const Eigen::Index n = Eigen::Index(outlines.size());
   Eigen::MatrixXd one_way = Eigen::MatrixXd::Zero(n, n);
   cv::Rect box;
@@ -92,11 +93,12 @@ Eigen::MatrixXd distanceMatrix(const std::vector<FrameOutline>& outlines, int th
     if (to.points.empty()) {
       for (Eigen::Index k = 0; k < n; ++k)
         one_way(Eigen::Index(i), k) = outlines[std::size_t(k)].points.empty() ? 0 : diagonal(to);
-      return;
+    } else {
+      const DistanceTo distance(to, box);
+      for (Eigen::Index k = 0; k < n; ++k)
+        one_way(Eigen::Index(i), k) = distance.farthestOf(outlines[std::size_t(k)]);
     }
-    const DistanceTo distance(to, box);
-    for (Eigen::Index k = 0; k < n; ++k)
-      one_way(Eigen::Index(i), k) = distance.farthestOf(outlines[std::size_t(k)]);
+    if (on_frame) on_frame();
   });
   return one_way.cwiseMax(one_way.transpose());
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "libskel/image/image.h"
@@ -26,8 +27,9 @@ double hausdorffDistance(const FrameOutline& a, const FrameOutline& b);
 // Between each frame and the next, n − 1 entries, px.
 Eigen::VectorXd successiveDistances(const std::vector<FrameOutline>& outlines, int threads = 0);
 
-// Between all frames, n×n, symmetric, px.
-Eigen::MatrixXd distanceMatrix(const std::vector<FrameOutline>& outlines, int threads = 0);
+// Between all frames, n×n, symmetric, px. `on_frame` is called after each, by several threads; may be empty.
+Eigen::MatrixXd distanceMatrix(const std::vector<FrameOutline>& outlines, int threads = 0,
+                               const std::function<void()>& on_frame = {});
 
 // The first frame, the last, and each that differs from the one before by more than `threshold` of the
 // largest such difference (patent CN102231209A). `successive`: px; `largest`: what they are divided by, > 0,

@@ -168,6 +168,57 @@ TEST_CASE("a motion of more than an hour becomes no clip, and a film in part alo
   CHECK_THAT(done(film + dir.file("fast.motion.json") + " --rate 10").out, Contains("1 frames"));
 }
 
+TEST_CASE("of a motion of thousands of frames some are looked at, and too many are not learned from") {
+  const TempDir dir;
+  const std::string motion = dir.file("m.motion.json");
+  const SkeletonTemplate plan = loadTemplate("biped");
+  MotionFile many = readMotionFile((writeFile(motion, motionText(2, 1, 1)), motion), plan);
+  const MotionFrame first = many.frames[0];
+  many.frames.clear();
+  for (int f = 0; f <= 10'000; ++f) {
+    many.frames.push_back(first);
+    many.frames.back().time_s = f;
+    many.frames.back().key = true;
+    if (f > 0) std::fill(many.frames.back().joints.begin(), many.frames.back().joints.end(), std::nullopt);
+  }
+  writeFile(motion, formatMotionFile(many, plan));
+  const std::string message = "m.motion.json: has 10001 poses to make a style from; 10000 are the most";
+  const std::string twice = "--content " + motion + " --style " + motion;
+  for (const std::string& command :
+       std::vector<std::string>{"fit " + motion, "fit --all-frames " + motion, "transfer " + twice,
+                                "transfer --match signatures " + twice}) {
+    CAPTURE(command);
+    const ToolRun run = style(command + " -o " + dir.file("x"));
+    CHECK(run.exit_code == 2);
+    CHECK_THAT(run.err, Contains(message));
+  }
+  CHECK_FALSE(fs::exists(dir.file("x")));
+  CHECK_THAT(done("inspect --iterations 2 " + motion + " -o " + dir.file("x.png")).out,
+             Contains("10001 frames, of which 10000 are factored"));
+}
+
+TEST_CASE("a picture that hundreds of frames name is read once, and pictures may differ in size") {
+  const TempDir dir;
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const std::string motion = dir.file("m.motion.json");
+  writeFile(motion, motionText(450, 1, 500));
+  MotionFile frames = readMotionFile(motion, plan);
+  const auto picture = [&](const std::string& name, int side) {
+    Image image = blankImage(side, side);
+    fillPolygons(image, {{{.2 * side, .2 * side}, {.4 * side, .8 * side}, {.7 * side, .3 * side}}}, kInk);
+    writeFile(dir.file(name), encodePng(image));
+  };
+  picture("large.png", 3000);
+  picture("small.png", 200);
+  for (MotionFrame& frame : frames.frames) frame.image_file = "large.png", frame.key = true;
+  writeFile(motion, formatMotionFile(frames, plan));
+  // Each by itself, 450 times, would take minutes.
+  done("inspect --iterations 2 " + motion + " -o " + dir.file("one.png"));
+  frames.frames[7].image_file = "small.png";
+  writeFile(motion, formatMotionFile(frames, plan));
+  done("inspect --iterations 2 " + motion + " -o " + dir.file("two.png"));
+}
+
 TEST_CASE("a database takes no motion that no command could use") {
   const TempDir dir;
   writeFile(dir.file("m.motion.json"), motionText(2, 1, 1, "head"));
