@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "libskel/core/check.h"
+#include "libskel/recognition/nearest_pixel.h"
 
 namespace skel {
 namespace {
 
 using Eigen::Vector2d;
-
-bool onFigure(const Plane8& mask, const Vector2d& point) {
-  const long x = std::lround(point.x()), y = std::lround(point.y());
-  return x >= 0 && y >= 0 && x < mask.cols() && y < mask.rows() && mask(y, x) != 0;
-}
 
 // Shepard's interpolation (1968): what the found joints differ from their presets, weighted by inverse
 // squared distance.
@@ -77,27 +72,6 @@ void separate(Skeleton& skeleton, const Skeleton& preset, double least_px) {
 
 }  // namespace
 
-Vector2d ontoFigure(const Plane8& mask, const Vector2d& point) {
-  if (onFigure(mask, point)) return point;
-  const long width = mask.cols(), height = mask.rows();
-  const long x0 = std::clamp(std::lround(point.x()), 0L, width - 1),
-             y0 = std::clamp(std::lround(point.y()), 0L, height - 1);
-  Vector2d nearest = point;
-  double least = std::numeric_limits<double>::infinity();
-  const auto look = [&](long x, long y) {
-    if (x < 0 || y < 0 || x >= width || y >= height || mask(y, x) == 0) return;
-    const Vector2d pixel(static_cast<double>(x), static_cast<double>(y));
-    const double distance = (pixel - point).squaredNorm();
-    if (distance < least) least = distance, nearest = pixel;
-  };
-  // Squares around the point, until no pixel of a larger one can be nearer.
-  for (long r = 0; r <= std::max(width, height) && static_cast<double>((r - 1) * (r - 1)) <= least; ++r) {
-    for (long k = -r; k <= r; ++k) look(x0 + k, y0 - r), look(x0 + k, y0 + r);
-    for (long k = -r + 1; k < r; ++k) look(x0 - r, y0 + k), look(x0 + r, y0 + k);
-  }
-  return nearest;
-}
-
 void completeSkeleton(Skeleton& skeleton, const std::vector<bool>& found, const SkeletonTemplate& body_plan,
                       const Silhouette& silhouette) {
   SKEL_CHECK_EQ(found.size(), skeleton.joints.size());
@@ -107,11 +81,11 @@ void completeSkeleton(Skeleton& skeleton, const std::vector<bool>& found, const 
                                          grid.imageFromGrid({grid.width - 0.5, grid.height - 0.5}));
   placeMissing(skeleton, found, preset, kWorkingGridSize / grid.scale);
   separate(skeleton, preset, body_plan.rules.separation_px / grid.scale);
+  const NearestPixel nearest(silhouette.mask);
   for (size_t i = 0; i < skeleton.joints.size(); ++i)
-    if (!body_plan.joints[i].derived)
-      skeleton.joints[i].image = ontoFigure(silhouette.mask, skeleton.joints[i].image);
+    if (!body_plan.joints[i].derived) skeleton.joints[i].image = nearest.to(skeleton.joints[i].image);
   derive(skeleton, body_plan, silhouette.mask);
-  for (Joint& joint : skeleton.joints) joint.image = ontoFigure(silhouette.mask, joint.image);
+  for (Joint& joint : skeleton.joints) joint.image = nearest.to(joint.image);
 }
 
 }  // namespace skel

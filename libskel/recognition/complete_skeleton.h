@@ -16,7 +16,4 @@ namespace skel {
 void completeSkeleton(Skeleton& skeleton, const std::vector<bool>& found, const SkeletonTemplate& body_plan,
                       const Silhouette& silhouette);
 
-// The nearest pixel of the figure, or `point` itself where its pixel is of the figure.
-Eigen::Vector2d ontoFigure(const Plane8& mask, const Eigen::Vector2d& point);
-
 }  // namespace skel

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "libskel/core/rng.h"
+#include "libskel/recognition/nearest_pixel.h"
 #include "tests/support/catch.h"
 
 using namespace skel;
@@ -26,7 +27,7 @@ TEST_CASE("a point moves to the nearest pixel of the figure, and stays if it is 
   for (int round = 0; round < 50; ++round) {
     const Plane8 mask = randomMask(rng, 40, 30);
     const Vector2d p(rng.uniform(-20, 60), rng.uniform(-20, 50));
-    const Vector2d moved = ontoFigure(mask, p);
+    const Vector2d moved = NearestPixel(mask).to(p);
     double least = std::numeric_limits<double>::infinity();
     for (int y = 0; y < 30; ++y)
       for (int x = 0; x < 40; ++x)
@@ -34,6 +35,20 @@ TEST_CASE("a point moves to the nearest pixel of the figure, and stays if it is 
     REQUIRE(lies(mask, moved));
     if (moved != p) CHECK((moved - p).norm() == Approx(least));
   }
+}
+
+TEST_CASE("a hundred thousand joints far from a thin figure find it") {
+  Plane8 mask = Plane8::Zero(3000, 3000);
+  mask.row(2999).setConstant(255);
+  mask.col(0).setConstant(255);
+  const NearestPixel nearest(mask);
+  // In squares that grow round each, 4e11 pixels would be looked at.
+  for (int y = 0; y < 1000; y += 10)
+    for (int x = 0; x < 1000; ++x) {
+      const Vector2d p(1999.5 + x, y), moved = nearest.to(p);
+      const Vector2d wanted = p.x() < 2999 - p.y() ? Vector2d(0, p.y()) : Vector2d(std::round(p.x()), 2999);
+      if ((moved - p).norm() > (wanted - p).norm() + 1e-9) FAIL(p.transpose() << " to " << moved.transpose());
+    }
 }
 
 TEST_CASE("missing joints follow the found ones around them") {
