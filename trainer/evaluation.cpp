@@ -50,7 +50,8 @@ void Evaluation::add(const Evaluation& other) {
   characters.insert(characters.end(), other.characters.begin(), other.characters.end());
 }
 
-Evaluation evaluateOn(const Mlp& mlp, const Characters& characters) {
+Evaluation evaluateOn(const Mlp& mlp, const Characters& characters,
+                      const std::function<void()>& on_character) {
   Evaluation evaluation;
   for (const LabelledCharacter* character : characters) {
     const ClassProbabilities classes = classify(mlp, character->features);
@@ -64,6 +65,7 @@ Evaluation evaluateOn(const Mlp& mlp, const Characters& characters) {
       score.right += static_cast<std::size_t>(found) == truth;
       ++score.samples;
     }
+    if (on_character) on_character();
   }
   return evaluation;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,9 @@ struct Evaluation {
   void add(const Evaluation& other);
 };
 
-Evaluation evaluateOn(const Mlp& mlp, const Characters& characters);
+// `on_character` is called after each; may be empty.
+Evaluation evaluateOn(const Mlp& mlp, const Characters& characters,
+                      const std::function<void()>& on_character = {});
 
 // Keys accuracy, balanced_accuracy, samples, classes, confusion, characters.
 std::string formatEvaluation(const Evaluation& evaluation);

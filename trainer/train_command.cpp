@@ -272,7 +272,11 @@ ExitCode runEvaluateWeights(const EvaluateWeightsOptions& options) {
   const LabelledSet set =
       from_labels ? readLabelledSet(options.dir) : labelAnnotatedImages(options.dir, {options.candidates});
   const Mlp mlp = options.weights.empty() ? defaultMlp() : readMlp(options.weights);
-  const Evaluation evaluation = evaluateOn(mlp, pointersTo(set.characters));
+  Evaluation evaluation;
+  {
+    ProgressBar bar("evaluation", set.characters.size());
+    evaluation = evaluateOn(mlp, pointersTo(set.characters), [&] { bar.advance(); });
+  }
   std::printf("%s", describeEvaluation(evaluation).c_str());
   if (!options.json.empty()) writeFile(options.json, formatEvaluation(evaluation));
   return ExitCode::kDone;

@@ -23,7 +23,8 @@ constexpr const char* kFormat = "skel-labels";
 constexpr int kVersion = 2;  // 1: without `recognized`
 constexpr int kMaxImageSide = 100'000;
 constexpr int kMaxGridSide = 4096;
-constexpr std::size_t kMostComplaints = 100;  // of one file; more help nobody
+constexpr std::size_t kMostCandidates = 10'000;  // the densest comb of 128 px has fewer
+constexpr std::size_t kMostComplaints = 100;     // of one file; more help nobody
 
 // Runs each step; the complaints of those that fail are kept, so that a check can name all of them.
 class Problems {
@@ -69,6 +70,9 @@ JointCandidate readCandidate(const JsonValue& value, const LabelFile& file) {
 }
 
 void readCandidates(const JsonValue& list, LabelFile& file, Problems& problems) {
+  if (list.size() > kMostCandidates)
+    list.fail("holds " + std::to_string(list.size()) + " candidates; " + std::to_string(kMostCandidates) +
+              " are the most");
   std::set<std::pair<float, float>> places;
   for (const JsonValue& item : list.items()) {
     problems.attempt([&] {

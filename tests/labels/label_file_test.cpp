@@ -48,6 +48,15 @@ using Lines = std::vector<std::string>;
 
 }  // namespace
 
+TEST_CASE("more candidates than any figure has are refused by their place in the file") {
+  std::string many;
+  for (int i = 0; i < 9'998; ++i)
+    many += ",{\"x\":" + std::to_string(i / 128 + .5) + ",\"y\":" + std::to_string(i % 128) +
+            ",\"radius\":1,\"label\":null}";
+  CHECK(problems("\n  ],", many + "\n  ],") ==
+        Lines{"candidates: holds 10001 candidates; 10000 are the most"});
+}
+
 TEST_CASE("label files come back as they were") {
   const TempDir dir;
   const std::string path = dir.file("a.labels.json");
