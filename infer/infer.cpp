@@ -216,10 +216,8 @@ ExitCode runInfer(const InferOptions& asked) {
   std::vector<DrawingResult> drawings(jobs.size());
   {
     ProgressBar progress("rigging", jobs.size(), !options.quiet);
-    parallelFor(jobs.size(), options.jobs, [&](std::size_t i) {
-      drawings[i] = rigDrawing(options, rig, jobs[i]);
-      progress.advance();
-    });
+    parallelFor(jobs.size(), options.jobs,
+                [&](std::size_t i) { drawings[i] = rigDrawing(options, rig, jobs[i], progress); });
   }
   ExitCode code = ExitCode::kDone;
   for (const DrawingResult& drawing : drawings) {

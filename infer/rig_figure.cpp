@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 
 #include "infer/advice.h"
 #include "infer/mended.h"
@@ -112,10 +113,23 @@ std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, co
   return notes;
 }
 
+// A drawing whose figures are rigged one after the other.
+struct OpenDrawing {
+  OpenDrawing(const std::string& file, const SilhouetteOptions& silhouette) : figures(silhouette) {
+    const std::string bytes = readFile(file);
+    image = decodeImage(bytes, file);
+    image_sha256 = sha256(bytes);
+  }
+
+  Image image;
+  std::string image_sha256;
+  FigureFinder figures;
+};
+
 // Rigs one figure, writes its files and adds what became of it. Returns how many figures there are in the
-// drawing.
+// drawing, which is opened by the first of them.
 int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& job, int figure,
-              std::vector<FigureResult>& results) {
+              std::unique_ptr<OpenDrawing>& open, std::vector<FigureResult>& results) {
   const std::string& handed_in = options.skeleton_file;
   std::optional<SkeletonFile> given;
   if (!handed_in.empty() && !handed_in.ends_with(kLabelFileEnding)) {
@@ -135,9 +149,16 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   RigInput input;
   std::string image_sha256;
   if (!options.images.empty()) {
-    const std::string bytes = readFile(job.source);
-    input.image = decodeImage(bytes, job.source);
-    image_sha256 = sha256(bytes);
+    SilhouetteOptions silhouette = rig.silhouette;
+    silhouette.all = options.figure == "all";
+    if (!open) open = std::make_unique<OpenDrawing>(job.source, silhouette);
+    image_sha256 = open->image_sha256;
+    if (silhouette.all) {
+      input.image = open->image;
+      input.figures = &open->figures;
+    } else {
+      input.image = std::move(open->image);
+    }
   }
   if (!options.model_file.empty()) input.model = readMesh(options.model_file);
   if (given) {
@@ -231,15 +252,22 @@ void noteResults(const InferOptions& options, const RigJob& job, const std::vect
     noteOutputs(options, stemOf(options, job, figure), clips);
 }
 
-DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, const RigJob& job) {
+DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, const RigJob& job,
+                         ProgressBar& progress) {
   DrawingResult result;
   result.source = job.source;
+  std::size_t left = 1;  // figures
+  std::unique_ptr<OpenDrawing> open;
   try {
-    if (options.figure == "all") {
-      const int count = rigFigure(options, rig, job, 1, result.figures);
-      for (int figure = 2; figure <= count; ++figure) rigFigure(options, rig, job, figure, result.figures);
-    } else {
-      rigFigure(options, rig, job, std::stoi(options.figure), result.figures);
+    const bool all = options.figure == "all";
+    const int first = all ? 1 : std::stoi(options.figure);
+    const int count = rigFigure(options, rig, job, first, open, result.figures);
+    if (all) left = std::size_t(count);
+    progress.expect(left - 1);
+    for (int figure = 2; left > 1; ++figure) {
+      progress.advance();
+      --left;
+      rigFigure(options, rig, job, figure, open, result.figures);
     }
   } catch (...) {
     const Error error = caughtError(job.source);
@@ -251,6 +279,7 @@ DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, con
     else if (result.code == ExitCode::kUsage)  // for this drawing, if not for others
       result.error = start + result.problem;
   }
+  progress.advance(left);
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "infer/figure_result.h"
 #include "infer/infer_options.h"
+#include "libskel/core/progress.h"
 
 namespace skel {
 
@@ -18,8 +19,10 @@ struct RigJob {
 // any work. Throws UsageError.
 void noteResults(const InferOptions& options, const RigJob& job, const std::vector<Clip>& clips);
 
-// What is thrown on the way is the result's error.
-DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, const RigJob& job);
+// What is thrown on the way is the result's error. `progress` counts figures, and one for a drawing whose
+// figures are not yet counted.
+DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, const RigJob& job,
+                         ProgressBar& progress);
 
 // What --back and --layers name, if that is a file.
 bool isBackPicture(const std::string& back);

@@ -55,6 +55,11 @@ void ProgressBar::advance(std::size_t steps, const std::string& note) {
   }
 }
 
+void ProgressBar::expect(std::size_t more) {
+  const std::lock_guard lock(mutex_);
+  total_ += more;
+}
+
 void ProgressBar::clear() {
   if (drawn_) std::fputs("\r\033[K", stderr);
   drawn_ = false;

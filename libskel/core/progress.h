@@ -20,6 +20,8 @@ class ProgressBar {
 
   // `note` stands behind the bar, e.g. the loss.
   void advance(std::size_t steps = 1, const std::string& note = {});
+  // There are so many more than was thought.
+  void expect(std::size_t more);
   // Takes the bar away so that a message can be printed; the next advance() draws it again.
   void clear();
 

@@ -225,8 +225,9 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   drawing.image = std::move(input.image);
 
   drawing.silhouette = timed("silhouette", [&] {
-    return input.mask ? silhouetteFromMask(*input.mask, options.silhouette)
-                      : extractSilhouette(drawing.image, options.silhouette);
+    if (input.mask) return silhouetteFromMask(*input.mask, options.silhouette);
+    return input.figures ? input.figures->take(drawing.image, options.silhouette.figure)
+                         : extractSilhouette(drawing.image, options.silhouette);
   });
   if (!drawing.found()) return drawing;
   const Silhouette& silhouette = drawing.silhouette;

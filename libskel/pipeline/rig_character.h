@@ -36,6 +36,7 @@ struct NamedPicture {
 struct RigInput {
   Image image;
   std::optional<Plane8> mask;          // the figure, given by hand; of the image's size
+  FigureFinder* figures = nullptr;     // of the image, where several of its figures are rigged; null: its own
   std::optional<TriangleMesh> model;   // take this mesh instead of inflating the silhouette
   std::optional<NamedPicture> back;    // the figure seen from behind, for the back of the model
   int turned_deg = 0;                  // of the `skeleton`'s figure, clockwise against upright

@@ -56,28 +56,39 @@ std::string cutSides(const Plane8& mask) {
   return sides;
 }
 
-// From any foreground to one clean figure and all that is made of it.
-Silhouette finish(const Plane8& foreground, const SilhouetteOptions& options, int min_long_side,
-                  const PieceOptions& piece_options = {}) {
+// All figures of a picture.
+struct Cut {
+  std::vector<JoinedFigure> figures = {};  // the largest first
+  Eigen::Index height = 0, width = 0;
+  bool close_slits = false;
+  std::string reason;  // why there are none
+};
+
+Cut cutOut(const Plane8& foreground, int min_long_side, const PieceOptions& pieces = {}) {
+  Cut cut{joinPieces(foreground, min_long_side, pieces), foreground.rows(), foreground.cols(),
+          pieces.close_slits, ""};
+  if (cut.figures.empty())
+    cut.reason =
+        (foreground != 0).any() ? "what is drawn is too small to be a figure" : "the picture is blank";
+  return cut;
+}
+
+// One clean figure and all that is made of it.
+Silhouette finish(const Cut& cut, const SilhouetteOptions& options) {
   SKEL_CHECK(options.figure >= 1);
-  std::vector<JoinedFigure> figures = joinPieces(foreground, min_long_side, piece_options);
-  if (figures.empty()) {
-    return noFigure((foreground != 0).any() ? "what is drawn is too small to be a figure"
-                                            : "the picture is blank");
-  }
+  if (!cut.reason.empty()) return noFigure(cut.reason);
   Silhouette out;
-  out.figure_count = static_cast<int>(figures.size());
+  out.figure_count = static_cast<int>(cut.figures.size());
   if (options.figure > out.figure_count) {
     out.reason =
         "there is no figure " + std::to_string(options.figure) + ", only " + std::to_string(out.figure_count);
     return out;
   }
-  JoinedFigure figure = std::move(figures[static_cast<std::size_t>(options.figure - 1)]);
-  figures.clear();
-  if (piece_options.close_slits) closeSlits(figure.mask);
+  JoinedFigure figure = cut.figures[static_cast<std::size_t>(options.figure - 1)];
+  if (cut.close_slits) closeSlits(figure.mask);
   out.status = SilhouetteStatus::kFound;
-  out.mask = figure.inPicture(figure.mask, foreground.rows(), foreground.cols());
-  out.bridges = figure.inPicture(figure.bridges, foreground.rows(), foreground.cols());
+  out.mask = figure.inPicture(figure.mask, cut.height, cut.width);
+  out.bridges = figure.inPicture(figure.bridges, cut.height, cut.width);
   if (options.fill_holes) fillHoles(out.mask);
   if (out.figure_count > 1 && options.figure == 1 && !options.all) {
     out.warnings.push_back("the picture shows " + std::to_string(out.figure_count) +
@@ -149,11 +160,13 @@ PieceOptions piecesOnPaper() {
   return pieces;
 }
 
-// Of an opaque picture.
-Silhouette silhouetteOnPaper(const Image& image, const SilhouetteOptions& options) {
+Cut cutOffPaper(const Image& image, const SilhouetteOptions& options) {
   const Segmentation segmentation = segment(image, options.page_net.get());
-  if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
-  Silhouette out = finish(segmentation.foreground, options, leastLongSide(image), piecesOnPaper());
+  if (!segmentation.reason.empty()) return {.reason = segmentation.reason};
+  return cutOut(segmentation.foreground, leastLongSide(image), piecesOnPaper());
+}
+
+void warnOfSheet(Silhouette& out) {
   constexpr double kMuch = 0.45, kCompact = 0.1;  // of the picture; open share
   out.is_sheet =
       out.found() &&
@@ -163,49 +176,71 @@ Silhouette silhouetteOnPaper(const Image& image, const SilhouetteOptions& option
     out.warnings.push_back(
         "the sheet itself was probably taken for the figure: crop the photo, or paint a mask (skel-label "
         "FILE)");
-  return out;
 }
 
 // Of line art: there is paper around it, too.
-Silhouette silhouetteOfLines(const Image& image, const SilhouetteOptions& options) {
+Cut cutOfLines(const Image& image, const SilhouetteOptions& options) {
   const int margin = std::max(4, std::max(image.width, image.height) / 16);
   Image wide(image.width + 2 * margin, image.height + 2 * margin);
   wide.rgba.setZero();
   for (int y = 0; y < image.height; ++y)
     std::copy_n(image.pixel(0, y), 4 * image.width, wide.pixel(margin, margin + y));
   const Segmentation segmentation = segment(laidOnPaper(std::move(wide)), options.page_net.get());
-  if (!segmentation.reason.empty()) return noFigure(segmentation.reason);
-  return finish(segmentation.foreground.block(margin, margin, image.height, image.width), options,
+  if (!segmentation.reason.empty()) return {.reason = segmentation.reason};
+  return cutOut(segmentation.foreground.block(margin, margin, image.height, image.width),
                 leastLongSide(image), piecesOnPaper());
+}
+
+Cut cutByAlpha(const Image& image, const AlphaMask& alpha, const SilhouetteOptions& options) {
+  if ((alpha.opaque != 0).any()) return cutOut(alpha.opaque, kMinLongSide);
+  return {.reason = image.rgba.col(3).maxCoeff() > 0 && options.alpha
+                        ? "nothing in the picture is as opaque as --alpha asks for"
+                        : "the picture is fully transparent"};
 }
 
 }  // namespace
 
-Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& options) {
+struct FigureFinder::Found {
+  bool by_alpha = false;
+  std::optional<Cut> lines, all;  // all: whatever is drawn, looked for where the lines are no line art
+};
+
+FigureFinder::FigureFinder(SilhouetteOptions options) : options_(std::move(options)) {}
+FigureFinder::~FigureFinder() = default;
+
+Silhouette FigureFinder::take(const Image& image, int figure) {
+  options_.figure = figure;
   if (image.empty()) return noFigure("the picture is empty");
-  if (options.method == SilhouetteMethod::kPaper) {
-    SilhouetteOptions filled = options;
-    filled.fill_holes = true;
-    return finish(paperForeground(image), filled, leastLongSide(image));
+  if (!found_) found_ = std::make_unique<Found>();
+  if (options_.method == SilhouetteMethod::kPaper) {
+    options_.fill_holes = true;
+    if (!found_->all) found_->all = cutOut(paperForeground(image), leastLongSide(image));
+    return finish(*found_->all, options_);
   }
-  const AlphaMask alpha = alphaMask(image, options.alpha);
-  if (alpha.meaningful && mayBeLineArt(alpha.opaque)) {
-    Silhouette drawn = silhouetteOfLines(image, options);
+  if (!found_->lines && !found_->all) {
+    const AlphaMask alpha = alphaMask(image, options_.alpha);
+    found_->by_alpha = alpha.meaningful;
+    if (alpha.meaningful && mayBeLineArt(alpha.opaque)) found_->lines = cutOfLines(image, options_);
+  }
+  if (found_->lines) {
+    Silhouette drawn = finish(*found_->lines, options_);
     if (drawn.found() && needsPaper(image, drawn.mask)) return drawn;
   }
-  if (alpha.meaningful) {
-    if ((alpha.opaque == 0).all())
-      return noFigure(image.rgba.col(3).maxCoeff() > 0 && options.alpha
-                          ? "nothing in the picture is as opaque as --alpha asks for"
-                          : "the picture is fully transparent");
-    Silhouette out = finish(alpha.opaque, options, kMinLongSide);
-    if (out.found() && muchIsSoft(image, out.mask))
-      out.warnings.push_back(
-          "much of the figure is half-transparent: if that is a glow or a shadow, leave it out by --alpha "
-          "0.9");
-    return out;
-  }
-  return silhouetteOnPaper(image, options);
+  if (!found_->all)
+    found_->all = found_->by_alpha ? cutByAlpha(image, alphaMask(image, options_.alpha), options_)
+                                   : cutOffPaper(image, options_);
+  Silhouette out = finish(*found_->all, options_);
+  if (!found_->by_alpha)
+    warnOfSheet(out);
+  else if (out.found() && muchIsSoft(image, out.mask))
+    out.warnings.push_back(
+        "much of the figure is half-transparent: if that is a glow or a shadow, leave it out by --alpha "
+        "0.9");
+  return out;
+}
+
+Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& options) {
+  return FigureFinder(options).take(image, options.figure);
 }
 
 SilhouetteSteps silhouetteSteps(const Image& image) {
@@ -220,7 +255,7 @@ Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& optio
   PieceOptions pieces;
   pieces.leave_ground = false;
   pieces.widest_gap = 0.16;
-  Silhouette out = finish(figures, options, kMinLongSide, pieces);
+  Silhouette out = finish(cutOut(figures, kMinLongSide, pieces), options);
   if (!out.found() && out.reason == "the picture is blank") out.reason = "the mask is blank";
   return out;
 }

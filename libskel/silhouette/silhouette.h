@@ -76,6 +76,21 @@ struct SilhouetteOptions {
 // From the picture alone. An empty picture has no figure.
 Silhouette extractSilhouette(const Image& image, const SilhouetteOptions& options = {});
 
+// The same of several figures of one picture, which is looked at once.
+class FigureFinder {
+ public:
+  explicit FigureFinder(SilhouetteOptions options);
+  ~FigureFinder();
+
+  // `image` is the same each time. `figure` stands for that of the options.
+  Silhouette take(const Image& image, int figure);
+
+ private:
+  struct Found;
+  SilhouetteOptions options_;
+  std::unique_ptr<Found> found_;
+};
+
 // SHA-256 of the figure's outline, to tell whether a skeleton was found in this figure. `silhouette` must be
 // found.
 std::string outlineHash(const Silhouette& silhouette);

@@ -574,6 +574,35 @@ TEST_CASE("of several figures the one asked for is taken, the largest first") {
   CHECK(third.reason == "there is no figure 3, only 2");
 }
 
+TEST_CASE("all figures of a picture are found by one look at it") {
+  const auto two = [](bool clear) {
+    Image image = paint(400, 300, [](double x, double y) {
+      return mix(kWhite, {30, 90, 180},
+                 0.5 - std::min(distanceTo({{120, 150, 120, 150, 80}}, x, y),
+                                distanceTo({{310, 150, 310, 150, 60}}, x, y)));
+    });
+    for (int y = 0; clear && y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) image.pixel(x, y)[3] = image.pixel(x, y)[0] < 140 ? 255 : 0;
+    return image;
+  };
+  for (const bool clear : {false, true}) {
+    CAPTURE(clear);
+    const Image image = two(clear);
+    SilhouetteOptions options;
+    FigureFinder finder(options);
+    for (const int figure : {2, 1, 3}) {
+      options.figure = figure;
+      const Silhouette one = extractSilhouette(image, options), found = finder.take(image, figure);
+      CHECK(found.outline == one.outline);
+      CHECK(found.warnings == one.warnings);
+      CHECK(found.reason == one.reason);
+    }
+    // What it has seen it does not look for again.
+    const Silhouette again = finder.take(Image(image.width, image.height), 2);
+    CHECK((again.mask == finder.take(image, 2).mask).all());
+  }
+}
+
 TEST_CASE("a figure that is cut by the border is found, and the side is named") {
   std::vector<Capsule> figure = kPerson;
   for (Capsule& c : figure) c.y0 += 90, c.y1 += 90;
