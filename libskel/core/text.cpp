@@ -22,6 +22,9 @@ Character firstOf(std::string_view text) {
     if ((byte(k) & 0xc0) != 0x80) return {byte(0), 1};
     code = code << 6 | (byte(k) & 0x3f);
   }
+  constexpr char32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xd800 && code < 0xe000;
+  if (code < kLeast[count] || surrogate || code > 0x10ffff) return {byte(0), 1};
   return {code, count};
 }
 

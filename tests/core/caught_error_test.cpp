@@ -78,6 +78,11 @@ TEST_CASE(
   CHECK(printable("Bär 走 🦌") == "Bär 走 🦌");
   CHECK(printable("\t\r\x7f\x1b[2J\n") == "\\x09\\x0d\\x7f\\x1b[2J\\n");
   CHECK(printable("\xc2\x9b[2J") == "\\x9b[2J");
+  // A surrogate, overlong forms and what lies beyond Unicode are bytes.
+  CHECK(printable("\xed\xa0\x80") == "\\xed\\xa0\\x80");
+  CHECK(printable("\xe0\x82\x9b") == "\\xe0\\x82\\x9b");
+  CHECK(printable("\xf0\x80\x82\x9b") == "\\xf0\\x80\\x82\\x9b");
+  CHECK(printable("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");
   CHECK(printable("a\u202eb\u2066c\u2028d\u2029e\u061cf\u200fg") ==
         "a\\u202eb\\u2066c\\u2028d\\u2029e\\u061cf\\u200fg");
   CHECK(printable("\x9b[2J\xe4\xf0\x9f\xa6") == "\\x9b[2J\\xe4\\xf0\\x9f\\xa6");
