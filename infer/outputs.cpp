@@ -19,6 +19,13 @@ namespace skel {
 namespace fs = std::filesystem;
 namespace {
 
+// Whether the report would go where `path` goes, by whatever spelling.
+bool isReport(const InferOptions& options, const std::string& path) {
+  const fs::path report = options.report_file;
+  if (report.filename() != fs::path(path).filename()) return false;
+  return fs::weakly_canonical(fs::absolute(report)) == fs::weakly_canonical(fs::absolute(path));
+}
+
 struct Request {
   const InferOptions& options;
   const std::string& stem;
@@ -128,8 +135,11 @@ std::string formatNames() { return joined(allFormats()); }
 void noteOutputs(const InferOptions& options, const std::string& stem, const std::vector<Clip>& clips) {
   for (const std::string& name : options.formats)
     for (const std::string& suffix : formatNamed(name).suffixes(stem, clips))
-      if (const std::string path = options.out_dir + "/" + stem + suffix; !goesOnFrom(options, path))
+      if (const std::string path = options.out_dir + "/" + stem + suffix; !goesOnFrom(options, path)) {
         noteOutput(path);
+        if (isReport(options, path))
+          throw UsageError(path + " is to be written twice, also as the report; name another --report");
+      }
 }
 
 std::vector<std::string> writeOutputs(const InferOptions& options, const std::string& stem,

@@ -46,6 +46,17 @@ TEST_CASE("the report shows each drawing beside its moving figure, and what to t
   CHECK_THAT(html, Contains("@media print") && Contains("prefers-color-scheme: dark"));
 }
 
+TEST_CASE("a report does not go over a result of its own run") {
+  const TempDir dir;
+  writeFile(dir.file("boy.png"), encodePng(capsuleImage()));
+  for (const char* report : {"o/boy.glb", "./x/../o/boy.skeleton.json"}) {
+    const ToolRun run = infer(dir, std::string("boy.png -o o --report ") + report);
+    CHECK(run.exit_code == 1);
+    CHECK_THAT(run.err, Contains("is to be written twice, also as the report; name another --report"));
+  }
+  CHECK_FALSE(std::filesystem::exists(dir.file("o")));
+}
+
 TEST_CASE("names in the report are text, whatever stands in them") {
   const TempDir dir;
   const std::string html = reportOf(dir);
