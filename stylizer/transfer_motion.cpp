@@ -54,7 +54,7 @@ Eigen::RowVectorXd lowestFoot(const PoseMatrix& poses, const SkeletonTemplate& p
 
 // The content's body with other bones: its lengths, its way, its feet as far from the ground as they were.
 MotionFile asMotion(const PoseMatrix& canonical, const PoseMatrix& content, const MotionFile& source,
-                    const SkeletonTemplate& plan) {
+                    const std::string& path, const SkeletonTemplate& plan) {
   PoseMatrix poses =
       posesFromBones(boneDirections(canonical, plan), boneLengths(content, plan), content.topRows(2), plan);
   const Eigen::RowVectorXd off = lowestFoot(content, plan) - lowestFoot(poses, plan);
@@ -71,6 +71,9 @@ MotionFile asMotion(const PoseMatrix& canonical, const PoseMatrix& content, cons
   motion.frame_rate = source.frame_rate;
   motion.action = source.action;
   const Eigen::Vector2d size = high - low + Eigen::Vector2d::Constant(2 * kMargin_px);
+  if (!(size.maxCoeff() <= kLongestMotionSide_px))
+    throw InputError(path, "would leave a frame of " + std::to_string(kLongestMotionSide_px) +
+                               " px in this style; scale its joints down, or give less --amount");
   for (Index f = 0; f < poses.cols(); ++f) {
     MotionFrame frame;
     frame.image_width = int(std::ceil(size.x()));
@@ -156,7 +159,7 @@ MotionTransferReport transferMotion(const std::vector<NamedMotion>& content,
   const PoseMatrix& poses = transfer.poses[0];
   report.phase_correlation = correlation(stride(poses, plan), stride(pairs[0].content, plan));
   report.mean_pose_moved = shareOfWay(pairs[0].content, pairs[0].style, poses, plan);
-  report.motion = asMotion(poses, first_content, matched[0].first->motion, plan);
+  report.motion = asMotion(poses, first_content, matched[0].first->motion, matched[0].first->path, plan);
   const auto nameOf = [](const NamedMotion& m) { return m.motion.source.empty() ? m.path : m.motion.source; };
   report.motion.source = nameOf(*matched[0].first) + " in the style of " + nameOf(*matched[0].second);
   return report;

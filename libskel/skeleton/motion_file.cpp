@@ -17,7 +17,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "skel-motion";
 constexpr int kVersion = 2;  // 1 knows no source, action, key frame or frame without a picture
-constexpr int kMaxImageSide = 1'000'000;
 constexpr double kMaxTime_s = 1e6;
 constexpr std::size_t kMostFrameJoints = 10'000'000;
 
@@ -31,8 +30,8 @@ MotionFrame frameAt(const JsonValue& value, const SkeletonTemplate& body_plan) {
     if (frame.image_file.empty()) file.fail("must be the path of the frame's picture, or null");
   }
   if (const auto key = value.find("key")) frame.key = key->asBool();
-  frame.image_width = image.at("width").asInt(1, kMaxImageSide);
-  frame.image_height = image.at("height").asInt(1, kMaxImageSide);
+  frame.image_width = image.at("width").asInt(1, kLongestMotionSide_px);
+  frame.image_height = image.at("height").asInt(1, kLongestMotionSide_px);
   frame.time_s = value.at("time_s").asNumber(0, kMaxTime_s);
   frame.joints.resize(body_plan.joints.size());
   for (const JsonValue& item : value.at("joints").items()) {

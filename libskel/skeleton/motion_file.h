@@ -36,6 +36,7 @@ struct MotionFile {
 };
 
 inline constexpr const char* kMotionFileEnding = ".motion.json";
+inline constexpr int kLongestMotionSide_px = 1'000'000;  // of a frame
 inline constexpr double kMinFrameRate = 0.001, kMaxFrameRate = 1000;
 
 // Version 1 where that holds all, as older programs read it. Places to the hundredth of a pixel, confidences

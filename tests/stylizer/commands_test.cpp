@@ -197,6 +197,31 @@ TEST_CASE("of a motion of thousands of frames some are looked at, and too many a
              Contains("10001 frames, of which 10000 are factored"));
 }
 
+TEST_CASE("no transfer is written that cannot be read again") {
+  const TempDir dir;
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const std::string straight = dir.file("straight.motion.json"), folded = dir.file("folded.motion.json");
+  writeFile(straight, motionText(5, 1, 5));
+  // Bones as long as the widest frame, folded into it.
+  MotionFile zigzag = readMotionFile(straight, plan);
+  for (MotionFrame& frame : zigzag.frames) {
+    frame.image_width = frame.image_height = 1'000'000;
+    for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+      const int parent = plan.joints[j].parent;
+      const double before = parent < 0 ? 1 : frame.joints[std::size_t(parent)]->image.x();
+      frame.joints[j]->image = {before > 0 ? 0 : 999'999, 10.0 * double(j)};
+    }
+  }
+  writeFile(folded, formatMotionFile(zigzag, plan));
+  const std::string out = dir.file("t.motion.json");
+  const ToolRun run = style("transfer --content " + folded + " --style " + straight + " --loop no -o " + out);
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("folded.motion.json: would leave a frame of 1000000 px in this style"));
+  CHECK_FALSE(fs::exists(out));
+  done("transfer --content " + straight + " --style " + folded + " --loop no -o " + out);
+  CHECK_NOTHROW(readMotionFile(out, plan));
+}
+
 TEST_CASE("a picture that hundreds of frames name is read once, and pictures may differ in size") {
   const TempDir dir;
   const SkeletonTemplate plan = loadTemplate("biped");
