@@ -109,9 +109,11 @@ std::vector<std::string> readRecognized(const JsonValue& list, const NamedJoints
   for (const auto& [name, place] : joints)
     if (place) placed.insert(name);
   std::vector<std::string> names;
+  std::set<std::string> seen;
   for (const JsonValue& item : list.items()) {
-    names.push_back(item.asString());
-    if (!placed.contains(names.back())) item.fail("\"" + names.back() + "\" has no place in joints");
+    const std::string name = item.asString();
+    if (!placed.contains(name)) item.fail("\"" + name + "\" has no place in joints");
+    if (seen.insert(name).second) names.push_back(name);
   }
   return names;
 }

@@ -135,6 +135,7 @@ TEST_CASE("each problem of a label file is named with file, path and reason") {
         Lines{"candidates[2]: lies where an earlier candidate lies"});
   CHECK(problems("\"radius\"", "\"size\"") == Lines{"candidates[0]: has the unknown key \"size\""});
   CHECK(problems("300.25", "700") == Lines{"joints.head: lies outside the image"});
+  CHECK(problems("[\"head\"]", "[\"head\", \"head\"]").empty());
   CHECK(problems("[\"head\"]", "[\"left_hand\"]") ==
         Lines{"recognized[0]: \"left_hand\" has no place in joints"});
   CHECK(problems("\"a.png\"", "\"../a.png\"") ==
