@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double kGravity = 9.81;
 constexpr double kStiffness = 1.5;  // of the spring: so many times what a pendulum of the length has
+constexpr double kHeldUp = 6;       // the same of what does not hang down, but holds itself: wings, seats
 constexpr double kDamping = 0.3;    // of the critical one
 constexpr double kVivid = 1.6;      // so many times what moves it pushes it, as drawn cloth is
 constexpr double kPlumb = 0.5;      // so far what hangs straight down keeps to the vertical
@@ -50,14 +51,17 @@ bool repeats(const std::vector<ModelPose>& poses, double size_m) {
   return true;
 }
 
-// What pushes the pendulum at each moment, rad/s², and where it would rest, rad.
+// What pushes the pendulum at each moment, rad/s², where it would rest, rad, and how it is pulled there,
+// 1/s².
 struct Drive {
   std::vector<Vector3d> push, rest;
+  double stiff;
 };
 
 Drive driveOf(const Moments& moments, const std::vector<Vector3d>& pivot,
               const std::vector<Quaterniond>& carried, const Vector3d& bone, double length_m) {
-  Drive drive;
+  const double down = std::max(0.0, -bone.y());
+  Drive drive{{}, {}, (down * kStiffness + (1 - down) * kHeldUp) * kGravity / length_m};
   const double step2 = moments.step_s * moments.step_s;
   for (int k = 0; k < moments.count; ++k) {
     const std::size_t now = std::size_t(k), next = std::size_t(moments.after(k)),
@@ -70,15 +74,14 @@ Drive driveOf(const Moments& moments, const std::vector<Vector3d>& pivot,
     Vector3d push = -along.cross(moved) / length_m - turned;
     push -= push.dot(along) * along;
     drive.push.push_back(kVivid * push);
-    drive.rest.push_back(kPlumb * std::max(0.0, -bone.y()) *
-                         logarithm(Quaterniond::FromTwoVectors(along, bone)));
+    drive.rest.push_back(kPlumb * down * logarithm(Quaterniond::FromTwoVectors(along, bone)));
   }
   return drive;
 }
 
 // How the bone is turned against what carries it, at each moment.
-std::vector<Vector3d> swing(const Moments& moments, const Drive& drive, double length_m) {
-  const double stiff = kStiffness * kGravity / length_m, damp = 2 * kDamping * std::sqrt(stiff);
+std::vector<Vector3d> swing(const Moments& moments, const Drive& drive) {
+  const double damp = 2 * kDamping * std::sqrt(drive.stiff);
   const double step = moments.step_s / kSteps;
   std::vector<Vector3d> turns(std::size_t(moments.count), Vector3d::Zero());
   Vector3d turn = drive.rest[0], speed = Vector3d::Zero();
@@ -91,7 +94,7 @@ std::vector<Vector3d> swing(const Moments& moments, const Drive& drive, double l
         const auto between = [&](const std::vector<Vector3d>& of) -> Vector3d {
           return (1 - t) * of[std::size_t(k)] + t * of[std::size_t(k) + 1];
         };
-        speed += step * (between(drive.push) - stiff * (turn - between(drive.rest)) - damp * speed);
+        speed += step * (between(drive.push) - drive.stiff * (turn - between(drive.rest)) - damp * speed);
         turn += step * speed;
       }
     }
@@ -116,7 +119,7 @@ Vector3d bounded(Vector3d turn) {
 
 }  // namespace
 
-void followThrough(const Skeleton& skeleton, std::vector<ModelPose>& poses) {
+void followThrough(const Skeleton& skeleton, const Clip& clip, std::vector<ModelPose>& poses) {
   constexpr double kShortest = 0.05;  // bone, of the height of the root
   const std::vector<Joint>& joints = skeleton.joints;
   if (poses.size() < 3 || std::none_of(joints.begin(), joints.end(), hangs)) return;
@@ -125,20 +128,24 @@ void followThrough(const Skeleton& skeleton, std::vector<ModelPose>& poses) {
       (double(poses.back().time_s) - double(poses.front().time_s)) / double(poses.size() - 1),
       repeats(poses, size_m), int(poses.size())};
   if (!(moments.step_s > 0)) return;
+  const std::vector<ModelPose> before = poses;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (!hangs(joints[j])) continue;
     const std::size_t parent = std::size_t(joints[j].parent);
+    for (std::size_t k = 0; k < poses.size(); ++k)
+      poses[k].globals[j] =
+          poses[k].globals[parent] * before[k].globals[parent].conjugate() * before[k].globals[j];
+    const auto turnsIt = [&](const JointTrack& track) { return track.joint == joints[j].name; };
+    if (std::any_of(clip.tracks.begin(), clip.tracks.end(), turnsIt)) continue;
     std::vector<Vector3d> pivot;
     std::vector<Quaterniond> carried;
-    for (ModelPose& pose : poses) {
-      pose.globals[j] = pose.globals[parent];
+    for (const ModelPose& pose : poses) {
       pivot.push_back(jointPositions(skeleton, pose)[j]);
       carried.push_back(pose.globals[j]);
     }
     const Vector3d bone = restBones(skeleton)[j];
     const double length_m = std::max(kShortest * size_m, lengthOf(skeleton, j));
-    const std::vector<Vector3d> turns =
-        swing(moments, driveOf(moments, pivot, carried, bone, length_m), length_m);
+    const std::vector<Vector3d> turns = swing(moments, driveOf(moments, pivot, carried, bone, length_m));
     for (std::size_t k = 0; k < poses.size(); ++k)
       poses[k].globals[j] = exponential(poses[k].share * bounded(turns[k])) * carried[k];
   }

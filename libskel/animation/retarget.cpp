@@ -561,7 +561,7 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
     poses[k].root_offset_m = offset + share * stand * Vector3d::UnitY();
   }
   plantFeet(skeleton, clip.contacts, planting, poses);
-  followThrough(skeleton, poses);
+  followThrough(skeleton, clip, poses);
 
   Clip result = clip;
   result.lead_s = 0;

@@ -42,7 +42,7 @@ std::vector<ModelPose> moved(const Skeleton& skeleton, double seconds,
     pose.globals.assign(skeleton.joints.size(), Quaterniond::Identity());
     motion(k / 30., pose);
   }
-  followThrough(skeleton, poses);
+  followThrough(skeleton, {}, poses);
   return poses;
 }
 
@@ -109,4 +109,26 @@ TEST_CASE("clips of one who wears a skirt close where they did, and begin at res
         CHECK(a.rotations[j].angularDistance(b.rotations[j]) < 0.03f);  // keys are thinned by all joints
     }
   }
+}
+
+TEST_CASE("a clip that turns what hangs has its way") {
+  const Skeleton skeleton = withSkirt();
+  Clip run = clipNamed(builtinClips(), "run");
+  JointTrack still;
+  still.joint = hangingJointName("skirt", 2);
+  still.times_s = {0};
+  still.rotations = {Eigen::Quaternionf::Identity()};
+  run.tracks.push_back(still);
+  const Clip clip = retargetToRest(run, skeleton);
+  float upper = 0, lower = 0;
+  for (int k = 0; k < 20; ++k) {
+    const Pose pose = samplePose(clip, skeleton, clip.duration_s() * float(k) / 20);
+    const auto turn = [&](const char* joint) {
+      return pose.rotations[std::size_t(skeleton.index(joint))].angularDistance(
+          Eigen::Quaternionf::Identity());
+    };
+    upper = std::max(upper, turn("hanging_skirt_1")), lower = std::max(lower, turn("hanging_skirt_2"));
+  }
+  CHECK(upper > 0.05f);
+  CHECK(lower < 1e-3f);
 }
