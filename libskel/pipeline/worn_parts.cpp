@@ -26,6 +26,7 @@ constexpr float kLeast = .01f;     // of all vertices
 constexpr float kHeld = .3f;       // of the thighs, and of what lies between them: less is no skirt
 constexpr float kSwing = .4f;      // of a leg: so far down a skirt's hem would go with the thigh altogether
 constexpr float kMostSwing = .8f;  // of the thigh's turn, of the shortest skirt
+constexpr float kTail = .25f;      // of a piece: moved so far by the joints of a tail, it is the tail
 constexpr float kApart = .15f;     // of a leg: hips so far apart in the picture push a side each
 
 bool isWorn(Part part) {
@@ -204,6 +205,31 @@ void ride(const Edges& edges, const std::vector<int>& limbs, const std::vector<i
   for (const int v : piece) weights.row(v) = carried;
 }
 
+// Which joints are those of a tail, if the body plan has any: of a limb that is no arm, leg or head.
+std::vector<char> tailJoints(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
+                             const std::vector<int>& limbs) {
+  std::vector<int> others;
+  const auto add = [&](int joint_of_plan) {
+    if (joint_of_plan < 0) return;
+    const int joint = skeleton.find(body_plan.joints[static_cast<std::size_t>(joint_of_plan)].name);
+    if (joint >= 0) others.push_back(limbs[static_cast<std::size_t>(joint)]);
+  };
+  add(body_plan.head);
+  for (const TemplateLimb& limb : body_plan.limbs) add(limb.joints[2]);
+  std::vector<char> tail;
+  for (const int limb : limbs)
+    tail.push_back(limb >= 0 && std::find(others.begin(), others.end(), limb) == others.end());
+  return tail;
+}
+
+bool isMovedBy(const std::vector<char>& joints, const std::vector<int>& piece, const JointWeights& weights) {
+  float sum = 0;
+  for (const int v : piece)
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      if (joints[j]) sum += weights(v, static_cast<Index>(j));
+  return sum > kTail * static_cast<float>(piece.size());
+}
+
 }  // namespace
 
 void carryWornParts(const TriangleMesh& mesh, const SkeletonTemplate& body_plan, const LayerMap& layers,
@@ -217,6 +243,7 @@ void carryWornParts(const TriangleMesh& mesh, const SkeletonTemplate& body_plan,
   const JointWeights flesh = unpackWeights(weights, static_cast<int>(skeleton.joints.size()));
   JointWeights rows = flesh;
   const std::vector<int> limbs = jointLimbs(skeleton);
+  const std::vector<char> tail = tailJoints(skeleton, body_plan, limbs);
   const std::optional<Legs> legs = legsOf(skeleton, body_plan);
   const bool skirted = legs && wearsSkirt(layers, skeleton, *legs);
   std::vector<Hanging> hanging;
@@ -229,6 +256,7 @@ void carryWornParts(const TriangleMesh& mesh, const SkeletonTemplate& body_plan,
   };
   for (const std::vector<int>& piece : found) {
     const Part part = parts[static_cast<std::size_t>(piece[0])];
+    if (part == Part::kAppendix && isMovedBy(tail, piece, flesh)) continue;
     if (part == Part::kAppendix || part == Part::kThing)
       ride(edges, limbs, piece, part == Part::kAppendix, rows);
     if (part == Part::kSkirt && skirted) add("skirt", hang(mesh, *legs, piece, rows));

@@ -11,7 +11,8 @@ namespace skel {
 // Of the parts that the layer map tells:
 // - a skirt hangs from the pelvis and is pushed by both thighs, more towards its hem, each on its own side:
 //   it swings, and never becomes two legs;
-// - a cape, wing or tail goes with the trunk that it touches, not with the limbs before it;
+// - a cape, wing or tail goes with the trunk that it touches, not with the limbs before it; a tail that the
+//   body plan has joints for is moved by those;
 // - a thing held rides rigidly with what touches it most, a hand mostly;
 // - skirts, capes, wings, tails and hair that hangs get a chain of two joints each (skeleton/hanging.h),
 // which
