@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <unordered_set>
 
 #include "libskel/animation/retarget.h"
 #include "libskel/skeleton/hanging.h"
@@ -101,12 +103,17 @@ std::vector<Vector3d> swing(const Moments& moments, const Drive& drive) {
   return turns;
 }
 
-// To the next joint of the chain; the last is as long as the one before.
-double lengthOf(const Skeleton& skeleton, std::size_t joint) {
-  const std::vector<Joint>& joints = skeleton.joints;
-  for (const Joint& child : joints)
-    if (child.parent == int(joint)) return (child.position - joints[joint].position).norm();
-  return (joints[joint].position - joints[std::size_t(joints[joint].parent)].position).norm();
+// Of each joint that hangs: to the next of its chain; the last is as long as the one before.
+std::vector<double> hangingLengths(const std::vector<Joint>& joints) {
+  std::vector<double> lengths(joints.size(), 0);
+  for (std::size_t j = joints.size(); j-- > 1;) {
+    if (!hangs(joints[j])) continue;
+    const std::size_t parent = std::size_t(joints[j].parent);
+    const double above = (joints[j].position - joints[parent].position).norm();
+    if (lengths[j] == 0) lengths[j] = above;
+    if (hangs(joints[parent])) lengths[parent] = above;
+  }
+  return lengths;
 }
 
 // No farther than cloth and bodies let it.
@@ -128,24 +135,28 @@ void followThrough(const Skeleton& skeleton, const Clip& clip, std::vector<Model
       (double(poses.back().time_s) - double(poses.front().time_s)) / double(poses.size() - 1),
       repeats(poses, size_m), int(poses.size())};
   if (!(moments.step_s > 0)) return;
+  std::unordered_set<std::string_view> turned;
+  for (const JointTrack& track : clip.tracks) turned.insert(track.joint);
+  const std::vector<Vector3d> bones = restBones(skeleton);
+  const std::vector<double> lengths = hangingLengths(joints);
   const std::vector<ModelPose> before = poses;
+  std::vector<std::vector<Vector3d>> at;
+  for (const ModelPose& pose : poses) at.push_back(jointPositions(skeleton, pose));
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (!hangs(joints[j])) continue;
+    if (!hangs(joints[j]) || joints[j].parent < 0) continue;
     const std::size_t parent = std::size_t(joints[j].parent);
-    for (std::size_t k = 0; k < poses.size(); ++k)
-      poses[k].globals[j] =
-          poses[k].globals[parent] * before[k].globals[parent].conjugate() * before[k].globals[j];
-    const auto turnsIt = [&](const JointTrack& track) { return track.joint == joints[j].name; };
-    if (std::any_of(clip.tracks.begin(), clip.tracks.end(), turnsIt)) continue;
     std::vector<Vector3d> pivot;
     std::vector<Quaterniond> carried;
-    for (const ModelPose& pose : poses) {
-      pivot.push_back(jointPositions(skeleton, pose)[j]);
-      carried.push_back(pose.globals[j]);
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      std::vector<Quaterniond>& globals = poses[k].globals;
+      globals[j] = globals[parent] * before[k].globals[parent].conjugate() * before[k].globals[j];
+      at[k][j] = at[k][parent] + globals[parent] * (joints[j].position - joints[parent].position);
+      pivot.push_back(at[k][j]);
+      carried.push_back(globals[j]);
     }
-    const Vector3d bone = restBones(skeleton)[j];
-    const double length_m = std::max(kShortest * size_m, lengthOf(skeleton, j));
-    const std::vector<Vector3d> turns = swing(moments, driveOf(moments, pivot, carried, bone, length_m));
+    if (turned.count(joints[j].name)) continue;
+    const double length_m = std::max(kShortest * size_m, lengths[j]);
+    const std::vector<Vector3d> turns = swing(moments, driveOf(moments, pivot, carried, bones[j], length_m));
     for (std::size_t k = 0; k < poses.size(); ++k)
       poses[k].globals[j] = exponential(poses[k].share * bounded(turns[k])) * carried[k];
   }

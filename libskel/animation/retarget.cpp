@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string>
 
 #include "libskel/animation/clip_limits.h"
@@ -568,10 +569,10 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
   result.interpolation = RotationInterpolation::kSlerp;
   result.frame = ClipFrame::kPicture;
   result.contacts.clear();
+  std::set<std::string> turned;
+  for (const JointTrack& track : clip.tracks) turned.insert(track.joint);
   const auto turnToo = [&](const Joint& joint) {
-    if (std::any_of(result.tracks.begin(), result.tracks.end(),
-                    [&](const JointTrack& track) { return track.joint == joint.name; }))
-      return;
+    if (!turned.insert(joint.name).second) return;
     result.tracks.emplace_back().joint = joint.name;
     result.tracks.back().times_s = {0};
   };
