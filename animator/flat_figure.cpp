@@ -2,6 +2,7 @@
 
 #include "libskel/core/parallel.h"
 #include "libskel/draw/draw_skeleton.h"
+#include "libskel/skeleton/hanging.h"
 
 namespace skel {
 namespace {
@@ -14,8 +15,8 @@ Eigen::Vector3d onPlane(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0}; }
 
 FlatFigure::FlatFigure(const RiggedDrawing& drawing)
     : drawing_(drawing),
-      cut_out_(makeCutOut({drawing.image, drawing.silhouette, drawing.character.skeleton, drawing.body_plan,
-                           drawing.layers, drawing.character.mesh.model_from_image})) {}
+      cut_out_(makeCutOut({drawing.image, drawing.silhouette, withoutHanging(drawing.character.skeleton),
+                           drawing.body_plan, drawing.layers, drawing.character.mesh.model_from_image})) {}
 
 FlatPose FlatFigure::poseAt(const Clip& clip, double time_s) const {
   return flatPose(drawing_.character.skeleton, drawing_.body_plan, posedAt(drawing_.character, clip, time_s));

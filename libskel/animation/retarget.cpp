@@ -4,14 +4,17 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string>
 
 #include "libskel/animation/clip_limits.h"
+#include "libskel/animation/follow_through.h"
 #include "libskel/animation/mirror_clip.h"
 #include "libskel/animation/plant_feet.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
+#include "libskel/skeleton/hanging.h"
 #include "libskel/skeleton/joint_lookup.h"
 
 namespace skel {
@@ -194,38 +197,53 @@ double motionOf(const Clip& clip, const std::string& side) {
   return sum;
 }
 
-// A clip that is one arm's, for a figure that cannot move this one: by the other, or, if it has none to move,
-// by the trunk.
+// Instead of what the arm does, the trunk rocks from side to side, unless it bows as far anyway.
+Clip rocking(const Clip& clip, const Skeleton& skeleton, const std::string& side) {
+  constexpr double kRock_rad = 16 * kPi / 180, kSwing_s = 0.75, kRate_hz = 30;
+  Clip result = clip;
+  std::erase_if(result.tracks, [&](const JointTrack& track) {
+    return track.joint == side + "shoulder" || track.joint == side + "elbow" || track.joint == side + "hand";
+  });
+  const double duration_s = double(clip.duration_s());
+  const double keys = std::ceil(duration_s * kRate_hz),
+               swings = std::max(1.0, std::round(duration_s / kSwing_s));
+  checkMoments(clip, keys, skeleton.joints.size());
+  result.least_duration_s = clip.duration_s();
+  JointTrack rock;
+  rock.joint = "body";
+  double most_rad = 0;
+  for (double k = 0; k <= keys; ++k) {
+    const double time_s = duration_s * k / keys;
+    const Eigen::Quaternionf trunk =
+        samplePose(clip, skeleton, float(time_s)).rotations[skeleton.index("body")];
+    most_rad = std::max(most_rad, double(Eigen::AngleAxisf(trunk).angle()));
+    rock.times_s.push_back(float(time_s));
+    rock.rotations.push_back(
+        aboutZ(kRock_rad * canonicalShare(clip, time_s) * std::sin(2 * kPi * swings * k / keys))
+            .cast<float>());
+  }
+  if (most_rad > kRock_rad) return result;
+  std::erase_if(result.tracks, [](const JointTrack& track) { return track.joint == "body"; });
+  result.tracks.push_back(std::move(rock));
+  return result;
+}
+
+// A clip that is one arm's, for a figure whose arm does not show it: by the other, if that shows it better,
+// or, if neither shows it, by the trunk.
 Clip asItCan(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
-  constexpr double kOneArm = 3, kSway_rad = 20 * kPi / 180;
-  const auto canMove = [&](const std::string& side) {
+  constexpr double kOneArm = 3;
+  const auto shown = [&](const std::string& side) {
     const int elbow = skeleton.find(side + "elbow");
-    return elbow >= 0 && joinedAt(shape, elbow) < kGrownArm;
+    if (elbow < 0 || joinedAt(shape, elbow) >= kGrownArm) return 0.;
+    return shape.taken.empty() ? 1 : shape.taken[elbow];
   };
   for (const std::string side : {"left_", "right_"}) {
     const std::string other = side == "left_" ? "right_" : "left_";
-    if (canMove(side) || motionOf(clip, side) <= kOneArm * motionOf(clip, other)) continue;
-    if (canMove(other)) return mirrored(clip);
-    Clip swaying = clip;
-    std::vector<JointTrack*> trunk;
-    float most = 0;
-    for (JointTrack& track : swaying.tracks) {
-      if (track.joint.starts_with("left_") || track.joint.starts_with("right_")) continue;
-      trunk.push_back(&track);
-      for (const Eigen::Quaternionf& rotation : track.rotations)
-        most = std::max(most, Eigen::AngleAxisf(rotation).angle());
-      for (const Eigen::Vector3f& angles : track.angles_rad) most = std::max(most, angles.norm());
-    }
-    const float larger = most > 0 ? std::max(1.f, float(kSway_rad) / most) : 1;
-    for (JointTrack* track : trunk) {
-      for (Eigen::Quaternionf& rotation : track->rotations) {
-        Eigen::AngleAxisf turn(rotation);
-        turn.angle() *= larger;
-        rotation = turn;
-      }
-      for (Eigen::Vector3f& angles : track->angles_rad) angles *= larger;
-    }
-    return swaying;
+    if (motionOf(clip, side) <= kOneArm * motionOf(clip, other)) continue;
+    const double own = shown(side), others = shown(other);
+    if (own >= kStump) continue;
+    if (others >= kStump) return mirrored(clip);
+    if (skeleton.find("body") >= 0) return rocking(clip, skeleton, side);
   }
   return clip;
 }
@@ -402,7 +420,8 @@ void swingClearOfHead(Retargeter& retargeter, const std::vector<std::pair<Pose, 
 std::vector<Vector3d> restBones(const Skeleton& skeleton) {
   std::vector<Vector3d> bones(skeleton.joints.size(), Vector3d::Zero());
   for (const Joint& child : skeleton.joints)
-    if (child.parent >= 0) bones[child.parent] += child.position - skeleton.joints[child.parent].position;
+    if (child.parent >= 0 && hangs(child) == hangs(skeleton.joints[child.parent]))
+      bones[child.parent] += child.position - skeleton.joints[child.parent].position;
   for (std::size_t j = 0; j < bones.size(); ++j) {
     const int parent = skeleton.joints[j].parent;
     if (bones[j].norm() > 1e-9)
@@ -543,20 +562,26 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
     poses[k].root_offset_m = offset + share * stand * Vector3d::UnitY();
   }
   plantFeet(skeleton, clip.contacts, planting, poses);
+  followThrough(skeleton, clip, poses);
 
   Clip result = clip;
   result.lead_s = 0;
   result.interpolation = RotationInterpolation::kSlerp;
   result.frame = ClipFrame::kPicture;
   result.contacts.clear();
+  std::set<std::string> turned;
+  for (const JointTrack& track : clip.tracks) turned.insert(track.joint);
+  const auto turnToo = [&](const Joint& joint) {
+    if (!turned.insert(joint.name).second) return;
+    result.tracks.emplace_back().joint = joint.name;
+    result.tracks.back().times_s = {0};
+  };
   for (const FootContact& contact : clip.contacts)
     for (int joint = skeleton.index(contact.joint), bones = 0; bones < 3;
          ++bones, joint = skeleton.joints[joint].parent)
-      if (std::none_of(result.tracks.begin(), result.tracks.end(),
-                       [&](const JointTrack& track) { return track.joint == skeleton.joints[joint].name; })) {
-        result.tracks.emplace_back().joint = skeleton.joints[joint].name;
-        result.tracks.back().times_s = {0};
-      }
+      turnToo(skeleton.joints[joint]);
+  for (const Joint& joint : skeleton.joints)
+    if (hangs(joint)) turnToo(joint);
   if (options.thin_keys) {
     std::vector<ModelPose> kept;
     for (const std::size_t k : keysWithin(skeleton, poses, kTolerance * shape.height_m))

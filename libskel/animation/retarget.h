@@ -10,6 +10,8 @@ namespace skel {
 
 // From this share of FigureShape::joined on, an arm is one piece with the body.
 inline constexpr double kGrownArm = 0.6;
+// An arm that takes less than this share along (FigureShape::taken) is a stump that shows nothing.
+inline constexpr double kStump = 0.5;
 
 // What there is around the bones (measureFigure() in libskel/deform), as far as motions must know.
 struct FigureShape {
@@ -27,6 +29,9 @@ struct FigureShape {
   std::vector<std::vector<Eigen::Vector3d>> feet_m;
   // Of a drawing: the side of the picture to which it rather looks, 1 right, -1 left. 0: no drawing.
   double looks = 0;
+  // One a joint, or empty; 0…1. Of arms: the share of what is seen from the front where the arm and its hand
+  // are drawn, half of it the hand, that the arm takes along. 1 for the others.
+  std::vector<double> taken;
   // One a joint, or empty; 0…1. Of arms: the share of the forearm that hangs on the body; 1 for one that
   // moves nothing, or is folded and in one piece with the body. Of legs: how far down they are one piece, 0
   // for trousers, 1 for a gown. 0 for the others.

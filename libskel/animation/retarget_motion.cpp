@@ -10,6 +10,7 @@
 #include "libskel/animation/plant_feet.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/error.h"
+#include "libskel/skeleton/hanging.h"
 
 namespace skel {
 namespace {
@@ -127,7 +128,9 @@ struct Mapping {
 Mapping mapJoints(const Source& source, const std::string& file, const Skeleton& target) {
   Mapping mapping;
   for (const Joint& joint : target.joints) mapping.theirs.push_back(source.motion.skeleton.find(joint.name));
-  mapping.same_names = std::count(mapping.theirs.begin(), mapping.theirs.end(), -1) == 0;
+  mapping.same_names = true;
+  for (std::size_t j = 0; j < target.joints.size(); ++j)
+    if (mapping.theirs[j] < 0 && !hangs(target.joints[j])) mapping.same_names = false;
   if (mapping.same_names) return mapping;
   const JointRoles ours = findJointRoles(target);
   if (ours.joint("left_hip") < 0)
@@ -151,6 +154,7 @@ JointMatch matchOf(const Mapping& mapping, const Source& source, const Skeleton&
   const std::vector<Joint>& joints = source.motion.skeleton.joints;
   std::set<int> used;
   for (std::size_t j = 0; j < target.joints.size(); ++j) {
+    if (hangs(target.joints[j])) continue;
     if (mapping.theirs[j] < 0) {
       match.ours_left.push_back(target.joints[j].name);
       continue;
@@ -283,7 +287,8 @@ Vector3d restBoneOf(const BvhMotion& motion, const Mapping& mapping, const Skele
   const std::vector<Joint>& joints = motion.skeleton.joints;
   const Vector3d& from = joints[std::size_t(mapping.theirs[std::size_t(ours)])].position;
   for (std::size_t j = 0; j < target.joints.size(); ++j)
-    if (target.joints[j].parent == ours) return joints[std::size_t(mapping.theirs[j])].position - from;
+    if (target.joints[j].parent == ours && !hangs(target.joints[j]))
+      return joints[std::size_t(mapping.theirs[j])].position - from;
   const int parent = target.joints[std::size_t(ours)].parent;
   return parent < 0 ? Vector3d::Zero()
                     : Vector3d(from - joints[std::size_t(mapping.theirs[std::size_t(parent)])].position);
@@ -295,6 +300,7 @@ bool isLimb(const std::string& name) { return name.starts_with("left_") || name.
 void takeTurns(const Source& source, const Mapping& mapping, const Skeleton& target, Clip& clip) {
   clip.frame = ClipFrame::kPicture;
   for (std::size_t j = 0; j < target.joints.size(); ++j) {
+    if (hangs(target.joints[j])) continue;
     JointTrack track;
     track.joint = target.joints[j].name;
     track.times_s = source.times_s;

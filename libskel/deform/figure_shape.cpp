@@ -9,6 +9,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/segment.h"
+#include "libskel/skeleton/hanging.h"
 #include "libskel/skin/bones.h"
 #include "libskel/skin/parts.h"
 
@@ -82,6 +83,33 @@ double joinedArm(const Flesh& flesh, int elbow, int hand) {
   return arm ? double(joined) / arm : 1;
 }
 
+// FigureShape::taken of an arm: of the foremost vertices at places along its bones, and of those at the hand.
+double takenAlong(const Flesh& flesh, int shoulder, int elbow, int hand, double height_m) {
+  constexpr double kReach = 0.02;  // of the height
+  constexpr int kPlaces = 5;       // of each of the three
+  double sum = 0;
+  int seen = 0;
+  const auto look = [&](int from, int to, double way, int weight) {
+    const Vector2d begin = flesh.joint(from).head<2>(), along = flesh.joint(to).head<2>() - begin;
+    const Vector2d at = begin + way * along;
+    Eigen::Index foremost = -1;
+    for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v)
+      if ((flesh.at(v).head<2>() - at).norm() < kReach * height_m &&
+          (foremost < 0 || flesh.mesh.vertices(v, 2) > flesh.mesh.vertices(foremost, 2)))
+        foremost = v;
+    if (foremost < 0) return;
+    sum += weight * flesh.share(foremost, {shoulder, elbow, hand});
+    seen += weight;
+  };
+  for (int k = 1; k <= kPlaces; ++k) {
+    const double t = double(k) / kPlaces;
+    look(shoulder, elbow, t, 1);
+    look(elbow, hand, t, 1);
+    look(elbow, hand, 0.8 + 0.4 * t, 2);
+  }
+  return seen > 0 ? sum / seen : 1;
+}
+
 // The separate body of the mesh in which most of what these joints carry lies.
 int bodyOf(const Flesh& flesh, const std::vector<int>& of_vertex, std::initializer_list<int> joints) {
   std::map<int, double> shares;
@@ -110,6 +138,8 @@ void measureArms(const Flesh& flesh, FigureShape& shape) {
         hangBeside(flesh, {pelvis, body, neck}, flesh.joint(shoulder), upper + 1.2 * lower, width, side);
     const bool apart = bodyOf(flesh, bodies, {elbow, hand}) != trunk;
     const double joined = !apart && isFolded(skeleton, elbow, hand) ? 1 : joinedArm(flesh, elbow, hand);
+    const double taken = takenAlong(flesh, shoulder, elbow, hand, shape.height_m);
+    shape.taken[shoulder] = shape.taken[elbow] = shape.taken[hand] = taken;
     shape.joined[shoulder] = shape.joined[elbow] = shape.joined[hand] = joined;
     shape.hang_rad[shoulder] = shape.hang_rad[elbow] = shape.hang_rad[hand] = hang;
   }
@@ -262,6 +292,16 @@ double bipedYaw(const Flesh& flesh, double height_m, double& side) {
   return 0;
 }
 
+// What hangs belongs to what it hangs on.
+SkinWeights ofCarriers(const SkinWeights& weights, const Skeleton& skeleton) {
+  std::vector<std::uint16_t> carriers;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
+    carriers.push_back(static_cast<std::uint16_t>(carrierOf(skeleton, int(j))));
+  SkinWeights carried = weights;
+  carried.joints = carried.joints.unaryExpr([&](std::uint16_t joint) { return carriers[joint]; });
+  return carried;
+}
+
 }  // namespace
 
 FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton) {
@@ -271,9 +311,11 @@ FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, 
   shape.hang_rad.assign(skeleton.joints.size(), 0);
   shape.feet_m.resize(skeleton.joints.size());
   shape.joined.assign(skeleton.joints.size(), 0);
+  shape.taken.assign(skeleton.joints.size(), 1);
   if (vertices.rows() == 0) return shape;
+  const SkinWeights carried = ofCarriers(weights, skeleton);
   shape.height_m = double(vertices.col(1).maxCoeff() - vertices.col(1).minCoeff());
-  const Flesh flesh{mesh, weights, skeleton};
+  const Flesh flesh{mesh, carried, skeleton};
   measureFeet(flesh, shape);
   if (skeleton.find("left_front_foot") < 0) {
     measureArms(flesh, shape);

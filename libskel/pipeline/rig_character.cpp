@@ -21,6 +21,7 @@
 #include "libskel/recognition/tree_recognition.h"
 #include "libskel/silhouette/line_art.h"
 #include "libskel/silhouette/outline.h"
+#include "libskel/skeleton/hanging.h"
 #include "libskel/skeleton/lift.h"
 
 namespace skel {
@@ -293,7 +294,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     SkinWeights weights = computeSkinWeights(drawing.character.mesh, drawing.character.skeleton,
                                              options.skin_method, options.skin, joint_layers);
     if (inflated)
-      carryWornParts(drawing.character.mesh, drawing.character.skeleton, body_plan, drawing.layers, weights);
+      carryWornParts(drawing.character.mesh, body_plan, drawing.layers, drawing.character.skeleton, weights);
     return weights;
   });
   if (inflated) {
@@ -303,7 +304,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
       partLimbsInDepth(parted.mesh, parted.skeleton, parted.weights, body_plan, yaw_rad, drawing.layers.far);
       return parted;
     });
-    drawing.recognition.skeleton = drawing.character.skeleton;
+    drawing.recognition.skeleton = withoutHanging(drawing.character.skeleton);
   }
   if (options.rest_pose != RestPose::kDrawn)
     drawing.character = timed("rest pose", [&] { return poseToRest(drawing.character, options.rest_pose); });

@@ -4,9 +4,13 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "libskel/pipeline/hanging_chains.h"
 #include "libskel/skin/bones.h"
 #include "libskel/skin/edges.h"
 #include "libskel/skin/falloff.h"
@@ -22,9 +26,12 @@ constexpr float kLeast = .01f;     // of all vertices
 constexpr float kHeld = .3f;       // of the thighs, and of what lies between them: less is no skirt
 constexpr float kSwing = .4f;      // of a leg: so far down a skirt's hem would go with the thigh altogether
 constexpr float kMostSwing = .8f;  // of the thigh's turn, of the shortest skirt
+constexpr float kTail = .25f;      // of a piece: moved so far by the joints of a tail, it is the tail
 constexpr float kApart = .15f;     // of a leg: hips so far apart in the picture push a side each
 
-bool isWorn(Part part) { return part == Part::kSkirt || part == Part::kAppendix || part == Part::kThing; }
+bool isWorn(Part part) {
+  return part == Part::kHair || part == Part::kSkirt || part == Part::kAppendix || part == Part::kThing;
+}
 
 // Of each vertex, by its place in the drawing; where that shows another body of the mesh, by its neighbours.
 std::vector<Part> partsOfVertices(const TriangleMesh& mesh, const LayerMap& layers, const Edges& edges) {
@@ -133,21 +140,27 @@ float smoothStep(float t) {
   return t * t * (3 - 2 * t);
 }
 
-// Above the hips it goes with the trunk as it did, limbs apart.
-void hang(const TriangleMesh& mesh, const Legs& legs, const std::vector<int>& skirt, JointWeights& weights) {
+// Above the hips it goes with the trunk as it did, limbs apart. What hangs from there, if anything.
+std::optional<Hanging> hang(const TriangleMesh& mesh, const Legs& legs, const std::vector<int>& skirt,
+                            JointWeights& weights) {
   float hem = legs.top_m, left = mesh.vertices(skirt[0], 0), right = left;
   for (const int v : skirt) {
     hem = std::min(hem, mesh.vertices(v, 1));
     left = std::min(left, mesh.vertices(v, 0)), right = std::max(right, mesh.vertices(v, 0));
   }
   const float drop = legs.top_m - hem, width = right - left;
-  if (drop <= 0 || width <= 0) return;
+  if (drop <= 0 || width <= 0) return std::nullopt;
   const float swing = std::min(kMostSwing, kSwing * legs.length_m / drop);
   const float apart = legs.x_m[1] - legs.x_m[0];
   const float turned = std::clamp(apart / (kApart * legs.length_m), -1.f, 1.f);
+  Hanging hanging;
+  float depth = 0;
   for (const int v : skirt) {
     const float down = legs.top_m - mesh.vertices(v, 1);
     if (down <= 0) continue;
+    hanging.vertices.push_back(v);
+    hanging.along.push_back(down / drop);
+    depth += mesh.vertices(v, 2);
     const float across = (mesh.vertices(v, 0) - (left + right) / 2) / width;  // -.5….5
     const float second = .5f + turned * across, push = swing * smoothStep(down / drop);
     weights.row(v).setZero();
@@ -155,6 +168,12 @@ void hang(const TriangleMesh& mesh, const Legs& legs, const std::vector<int>& sk
     weights(v, legs.hips[0]) = push * (1 - second);
     weights(v, legs.hips[1]) = push * second;
   }
+  hanging.carrier = legs.pelvis;
+  depth /= static_cast<float>(hanging.vertices.size());
+  hanging.from = {(legs.x_m[0] + legs.x_m[1]) / 2, legs.top_m, depth};
+  hanging.to = {(left + right) / 2, hem, depth};
+  hanging.share = std::min(1.f, drop / width);  // a wide hem that turned as far would dip into the ground
+  return hanging;
 }
 
 // As one with the joint that moves most of what the piece touches; with `trunk_alone`, what limbs move apart.
@@ -186,10 +205,35 @@ void ride(const Edges& edges, const std::vector<int>& limbs, const std::vector<i
   for (const int v : piece) weights.row(v) = carried;
 }
 
+// Which joints are those of a tail, if the body plan has any: of a limb that is no arm, leg or head.
+std::vector<char> tailJoints(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
+                             const std::vector<int>& limbs) {
+  std::vector<int> others;
+  const auto add = [&](int joint_of_plan) {
+    if (joint_of_plan < 0) return;
+    const int joint = skeleton.find(body_plan.joints[static_cast<std::size_t>(joint_of_plan)].name);
+    if (joint >= 0) others.push_back(limbs[static_cast<std::size_t>(joint)]);
+  };
+  add(body_plan.head);
+  for (const TemplateLimb& limb : body_plan.limbs) add(limb.joints[2]);
+  std::vector<char> tail;
+  for (const int limb : limbs)
+    tail.push_back(limb >= 0 && std::find(others.begin(), others.end(), limb) == others.end());
+  return tail;
+}
+
+bool isMovedBy(const std::vector<char>& joints, const std::vector<int>& piece, const JointWeights& weights) {
+  float sum = 0;
+  for (const int v : piece)
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      if (joints[j]) sum += weights(v, static_cast<Index>(j));
+  return sum > kTail * static_cast<float>(piece.size());
+}
+
 }  // namespace
 
-void carryWornParts(const TriangleMesh& mesh, const Skeleton& skeleton, const SkeletonTemplate& body_plan,
-                    const LayerMap& layers, SkinWeights& weights) {
+void carryWornParts(const TriangleMesh& mesh, const SkeletonTemplate& body_plan, const LayerMap& layers,
+                    Skeleton& skeleton, SkinWeights& weights) {
   const int count = static_cast<int>(mesh.vertices.rows());
   if (layers.part.size() == 0 || count == 0) return;
   const Edges edges = edgesOf(count, mesh.triangles);
@@ -199,16 +243,28 @@ void carryWornParts(const TriangleMesh& mesh, const Skeleton& skeleton, const Sk
   const JointWeights flesh = unpackWeights(weights, static_cast<int>(skeleton.joints.size()));
   JointWeights rows = flesh;
   const std::vector<int> limbs = jointLimbs(skeleton);
+  const std::vector<char> tail = tailJoints(skeleton, body_plan, limbs);
   const std::optional<Legs> legs = legsOf(skeleton, body_plan);
   const bool skirted = legs && wearsSkirt(layers, skeleton, *legs);
+  std::vector<Hanging> hanging;
+  std::map<std::string, int> named;
+  const auto add = [&](const std::string& what, std::optional<Hanging> hangs) {
+    if (!hangs) return;
+    const int nth = ++named[what];
+    hangs->what = nth == 1 ? what : what + std::to_string(nth);
+    hanging.push_back(std::move(*hangs));
+  };
   for (const std::vector<int>& piece : found) {
     const Part part = parts[static_cast<std::size_t>(piece[0])];
-    if (part != Part::kSkirt)
+    if (part == Part::kAppendix && isMovedBy(tail, piece, flesh)) continue;
+    if (part == Part::kAppendix || part == Part::kThing)
       ride(edges, limbs, piece, part == Part::kAppendix, rows);
-    else if (skirted)
-      hang(mesh, *legs, piece, rows);
+    if (part == Part::kSkirt && skirted) add("skirt", hang(mesh, *legs, piece, rows));
+    if (part == Part::kAppendix) add("cape", hangingFrom(mesh, edges, skeleton, piece, rows));
+    if (part == Part::kHair) add("hair", hangingFrom(mesh, edges, skeleton, piece, rows));
   }
-  if (rows == flesh) return;
+  if (rows == flesh && hanging.empty()) return;
+  for (const Hanging& it : hanging) hangOnChain(mesh, it, skeleton, rows);
   keepHeaviest(4, rows);
   weights = packWeights(rows);
 }

@@ -277,6 +277,23 @@ TEST_CASE("an arm across the belly is free where it is a body of its own, else o
   CHECK(joined(inflate(drawing.image, drawing.silhouette)) == 1);
 }
 
+TEST_CASE("an arm that leaves its hand with the body takes less than half of itself along") {
+  const Drawing drawing;
+  const TriangleMesh mesh = drawing.mesh();
+  Skeleton skeleton = drawing.skeleton;
+  const std::vector<int> joint_layers = jointLayers(skeleton, drawing.body_plan, mesh);
+  liftToModel(skeleton, mesh, joint_layers);
+  SkinWeights weights = computeSkinWeights(mesh, skeleton, SkinMethod::kGeodesic, {}, joint_layers);
+  const auto taken = [&] {
+    return measureFigure(mesh, weights, skeleton).taken[std::size_t(skeleton.index("right_elbow"))];
+  };
+  CHECK(taken() > 0.8);
+  for (const char* name : {"right_elbow", "right_hand"})
+    weights.joints = (weights.joints.array() == std::uint16_t(skeleton.index(name)))
+                         .select(std::uint16_t(skeleton.index("body")), weights.joints);
+  CHECK(taken() < 0.5);
+}
+
 TEST_CASE("an arm that nothing tells from the body, and whose hand is a guess, moves nothing") {
   Drawing drawing(false, {.size = 400, .right_arm = -30, .right_forearm = -30});
   CHECK(drawing.layers().hidden.empty());

@@ -118,6 +118,26 @@ TEST_CASE("feet that stand do not slide, loops close, on drawings of all views")
   CHECK(worst.size() == 15);
 }
 
+TEST_CASE("an animal that is asked to wag its tail is seen to do it") {
+  for (const std::string name : {"box_dog", "grazing_cow", "sitting_cat", "trotting_horse"}) {
+    CAPTURE(name);
+    const RiggedDrawing drawing = rigged(SKEL_SOURCE_DIR "/datasets/animals/" + name + ".png", "quadruped");
+    const RiggedCharacter& character = drawing.character;
+    const Clip& wag = clipNamed(drawing.clips, "wag");
+    const float height_m = heightOf(character.mesh);
+    const Joint& tail = character.skeleton.joints[std::size_t(character.skeleton.index("tail"))];
+    const Eigen::RowVector2f at = tail.position.head<2>().cast<float>().transpose();
+    Eigen::Index tip = 0;
+    (character.mesh.vertices.leftCols<2>().rowwise() - at).rowwise().squaredNorm().minCoeff(&tip);
+    float most = 0;
+    for (int k = 0; k < 24; ++k) {
+      const Eigen::MatrixX3f posed = posedVertices(character, wag, wag.duration_s() * float(k) / 24);
+      most = std::max(most, (posed.row(tip) - character.mesh.vertices.row(tip)).head<2>().norm());
+    }
+    CHECK(most > 0.06f * height_m);
+  }
+}
+
 TEST_CASE("nothing is mirrored, and a figure in side view walks within the picture") {
   const auto swing = [](const char* name, const char* clip_name, double into_picture) {
     RigOptions options = rigOptions("biped");

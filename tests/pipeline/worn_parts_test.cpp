@@ -6,6 +6,7 @@
 #include <string>
 
 #include "libskel/mesh/inflate.h"
+#include "libskel/skeleton/hanging.h"
 #include "libskel/skeleton/lift.h"
 #include "tests/support/catch.h"
 #include "tests/support/synthetic_figure.h"
@@ -39,7 +40,7 @@ struct Dressed {
     mesh = inflate(capsuleImage(of), silhouetteFromMask(mask), {});
     liftToModel(skeleton, mesh);
     flesh = worn = computeSkinWeights(mesh, skeleton, SkinMethod::kGeodesic);
-    carryWornParts(mesh, skeleton, loadTemplate("biped"), layers, worn);
+    carryWornParts(mesh, loadTemplate("biped"), layers, skeleton, worn);
   }
   float share(const SkinWeights& weights, Eigen::Index v, const std::string& joint) const {
     float sum = 0;
@@ -72,11 +73,14 @@ TEST_CASE(
   CHECK(std::abs(moved(0, hem - 6, "left_hip") - moved(0, hem - 6, "right_hip")) < .1f);
   CHECK(moved(45, hem - 6, "left_hip") > 3 * moved(45, hem - 6, "right_hip"));
   CHECK(moved(-45, hem - 6, "right_hip") > 3 * moved(-45, hem - 6, "left_hip"));
-  CHECK(moved(45, hem - 6, "pelvis") < .6f * moved(45, pelvis.y() + 20, "pelvis"));
+  const auto trunk = [&](double y) {
+    return moved(45, y, "pelvis") + moved(45, y, "hanging_skirt_1") + moved(45, y, "hanging_skirt_2");
+  };
+  CHECK(trunk(hem - 6) < .6f * trunk(pelvis.y() + 20));
   CHECK(moved(45, hem - 6, "left_hip") > .2f);
   for (const double x : {-45., 0., 45.}) {
     CHECK(moved(x, hem - 8, "left_knee") + moved(x, hem - 8, "right_knee") == 0);
-    CHECK(moved(x, hem - 8, "pelvis") > .1f);
+    CHECK(moved(x, hem - 8, "pelvis") + moved(x, hem - 8, "hanging_skirt_2") > .1f);
   }
   // The shins below move as they did.
   const Eigen::Index foot = figure.nearest(figure.at("left_foot"));
@@ -124,6 +128,34 @@ TEST_CASE("a cape goes with the trunk, also where it hangs against a leg") {
   CHECK(legs(figure.worn) == 0);
 }
 
+TEST_CASE("what hangs free is moved by a chain the more the farther it is from where it hangs") {
+  Dressed figure;
+  const Eigen::Vector2d pelvis = figure.at("pelvis"), foot = figure.at("left_foot");
+  figure.draw(Part::kAppendix, {pelvis.x() + 30, pelvis.y() - 60}, {pelvis.x() + 120, foot.y() - 60});
+  figure.wear();
+  const int upper = figure.skeleton.find("hanging_cape_1"), lower = figure.skeleton.find("hanging_cape_2");
+  REQUIRE(upper >= 0);
+  REQUIRE(lower == upper + 1);
+  CHECK(figure.skeleton.joints[std::size_t(lower)].parent == upper);
+  const auto share = [&](double x, double y, const char* joint) {
+    return figure.share(figure.worn, figure.nearest({pelvis.x() + x, y}), joint);
+  };
+  const double low = foot.y() - 66;
+  CHECK(share(114, low, "hanging_cape_2") > .8f);
+  CHECK(share(114, low, "hanging_cape_2") > 2 * share(80, pelvis.y(), "hanging_cape_2"));
+  CHECK(share(44, pelvis.y() - 40, "hanging_cape_1") + share(44, pelvis.y() - 40, "hanging_cape_2") < .3f);
+  for (Eigen::Index v = 0; v < figure.mesh.vertices.rows(); ++v)
+    CHECK(figure.worn.weights.row(v).sum() == Approx(1).margin(1e-4));
+}
+
+TEST_CASE("what stands on the ground beside a figure, as a chair does, hangs on no chain") {
+  Dressed figure;
+  const Eigen::Vector2d pelvis = figure.at("pelvis"), foot = figure.at("left_foot");
+  figure.draw(Part::kAppendix, {pelvis.x() + 30, pelvis.y() - 60}, {pelvis.x() + 120, foot.y() + 14});
+  figure.wear();
+  CHECK(std::none_of(figure.skeleton.joints.begin(), figure.skeleton.joints.end(), hangs));
+}
+
 TEST_CASE("crumbs of parts, and maps without parts, change nothing") {
   Dressed figure;
   const Eigen::Vector2d knee = figure.at("left_knee");
@@ -131,6 +163,6 @@ TEST_CASE("crumbs of parts, and maps without parts, change nothing") {
   figure.wear();
   CHECK(figure.unchanged());
   SkinWeights weights = figure.flesh;
-  carryWornParts(figure.mesh, figure.skeleton, loadTemplate("biped"), {}, weights);
+  carryWornParts(figure.mesh, loadTemplate("biped"), {}, figure.skeleton, weights);
   CHECK(weights.weights == figure.flesh.weights);
 }

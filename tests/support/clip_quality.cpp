@@ -1,9 +1,11 @@
-// Figures of the built-in clips on drawings: how far the skin is stretched, and how much of the limbs goes
-// into the rest of the body.
+// Figures of the built-in clips on drawings: how far the skin is stretched, how much of the limbs goes
+// into the rest of the body, and for how many drawings a clip shows nothing.
 //   clip_quality [--one-skin] [--stretch-only] TEMPLATE DRAWING...
 // A line a clip, then the ten drawings that stretch most, each with its worst clip and where in it. Stretch:
 // see libskel/deform/stretch.h. Inside: the winding
-// number of the skin just above a limb's surface is 1 more than at rest.
+// number of the skin just above a limb's surface is 1 more than at rest. Nothing shown: in the picture no
+// hand, by what lies where it was drawn, goes a tenth of the figure's height, and less than a twentieth of
+// its area .15 of it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -75,10 +77,49 @@ std::vector<bool> insideOthers(const Eigen::MatrixX3f& vertices, const TriangleM
   return inside;
 }
 
+// How far each vertex goes in the picture, in heights.
+Eigen::VectorXf waysInPicture(const RiggedCharacter& character, const Clip& clip) {
+  constexpr int kTimes = 24;
+  Eigen::MatrixX2f low = character.mesh.vertices.leftCols<2>(), high = low;
+  for (int k = 0; k < kTimes; ++k) {
+    const Eigen::MatrixX3f posed = posedVertices(character, clip, clip.duration_s() * float(k) / kTimes);
+    low = low.cwiseMin(posed.leftCols<2>()), high = high.cwiseMax(posed.leftCols<2>());
+  }
+  return (high - low).rowwise().norm() / heightOf(character.mesh);
+}
+
+// One a vertex: a third of the triangles about it, in the picture.
+Eigen::VectorXf areasInPicture(const TriangleMesh& mesh) {
+  Eigen::VectorXf areas = Eigen::VectorXf::Zero(mesh.vertices.rows());
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    const Vector3d a = corner(mesh.vertices, mesh, t, 0), b = corner(mesh.vertices, mesh, t, 1),
+                   c = corner(mesh.vertices, mesh, t, 2);
+    for (int k = 0; k < 3; ++k) areas[mesh.triangles(t, k)] += float(std::abs((b - a).cross(c - a).z()) / 6);
+  }
+  return areas;
+}
+
+bool showsNothing(const RiggedCharacter& character, const Clip& clip) {
+  constexpr float kHand = 0.1f, kMost = 0.15f, kOfArea = 0.05f, kReach = 0.05f;
+  const TriangleMesh& mesh = character.mesh;
+  const Eigen::VectorXf ways = waysInPicture(character, clip), areas = areasInPicture(mesh);
+  if ((ways.array() > kMost).select(areas, 0).sum() > kOfArea * areas.sum()) return false;
+  for (const Joint& joint : character.skeleton.joints) {
+    if (!joint.name.ends_with("hand")) continue;
+    const Eigen::RowVector2f at = joint.position.head<2>().cast<float>().transpose();
+    const Eigen::ArrayXf there =
+        ((mesh.vertices.leftCols<2>().rowwise() - at).rowwise().norm().array() < kReach * heightOf(mesh))
+            .select(areas.array(), 0);
+    if (there.sum() > 0 && (there * ways.array()).sum() > kHand * there.sum()) return false;
+  }
+  return true;
+}
+
 struct Quality {
   double stretched = 0, inside = 0;  // shares, means over the frames
   double most_stretched = 0;         // of a frame
   float at_s = 0;                    // when
+  bool shows_nothing = false;
 };
 
 struct Measured {
@@ -108,6 +149,7 @@ Measured measure(const std::string& path, const Request& request) {
   result.layered = mesh.layer.size() > 0;
   for (const Clip& clip : drawing.clips) {
     Quality& quality = result.clips[clip.name];
+    quality.shows_nothing = showsNothing(character, clip);
     for (int frame = 0; frame < kFrames; ++frame) {
       const float time_s = clip.duration_s() * (float(frame) + 0.5f) / kFrames;
       const Eigen::MatrixX3f posed = posedVertices(character, clip, time_s);
@@ -172,17 +214,20 @@ void run(int argc, char** argv) {
   std::printf(
       "no triangle above %.1f in any clip: %.3f of the drawings; at most 5: %.3f, 20: %.3f, 100: %.3f\n",
       kMostStretch, share(0), share(5), share(20), share(100));
-  std::printf("clip       area stretched > 3: mean  worst     limbs inside others: mean  worst\n");
+  std::printf(
+      "clip       area stretched > 3: mean  worst     limbs inside others: mean  worst     nothing shown\n");
   for (const auto& [clip, qualities] : by_clip) {
     Quality mean, most;
+    double nothing = 0;
     for (const Quality& q : qualities) {
       mean.stretched += q.stretched / double(qualities.size());
       mean.inside += q.inside / double(qualities.size());
       most.stretched = std::max(most.stretched, q.stretched);
       most.inside = std::max(most.inside, q.inside);
+      nothing += q.shows_nothing / double(qualities.size());
     }
-    std::printf("%-10s %24.2f %% %6.2f %% %24.2f %% %6.2f %%\n", clip.c_str(), 100 * mean.stretched,
-                100 * most.stretched, 100 * mean.inside, 100 * most.inside);
+    std::printf("%-10s %24.2f %% %6.2f %% %24.2f %% %6.2f %% %15.1f %%\n", clip.c_str(), 100 * mean.stretched,
+                100 * most.stretched, 100 * mean.inside, 100 * most.inside, 100 * nothing);
   }
   const auto worst = [](const char* what, std::vector<Case>& list) {
     std::printf("%s most:\n", what);

@@ -1,0 +1,21 @@
+// Joints of what hangs on a figure: a skirt, a cape, a tail, hair. No motion names them: they follow those
+// that carry them (animation/follow_through.h).
+#pragma once
+
+#include <string>
+
+#include "libskel/skeleton/skeleton.h"
+
+namespace skel {
+
+// "hanging_skirt_1": of the chain `what`, the `link`-th joint from where it hangs, from 1 on.
+std::string hangingJointName(const std::string& what, int link);
+bool hangs(const Joint& joint);
+
+// The joint that it hangs on, through all of its chain; `joint` itself if it does not hang.
+int carrierOf(const Skeleton& skeleton, int joint);
+
+// Those of the body plan alone. Joints that hang stand after all others that stay.
+Skeleton withoutHanging(const Skeleton& skeleton);
+
+}  // namespace skel
