@@ -6,6 +6,7 @@
 #include <queue>
 #include <utility>
 
+#include "libskel/pipeline/smooth_step.h"
 #include "libskel/skeleton/hanging.h"
 #include "libskel/skin/bones.h"
 
@@ -18,11 +19,6 @@ using Eigen::Vector3f;
 constexpr float kShortest = .06f;  // of the figure's height
 constexpr float kGround = .03f;    // of the figure's height: what reaches so far down stands on it
 constexpr float kTip = .85f;       // of the way along: what lies beyond is the end
-
-float smoothStep(float t) {
-  t = std::clamp(t, 0.f, 1.f);
-  return t * t * (3 - 2 * t);
-}
 
 // From the nearest of the `begin` along edges that stay among the `inside`, m. Dijkstra, 1959.
 std::vector<float> distancesAlong(const TriangleMesh& mesh, const Edges& edges,

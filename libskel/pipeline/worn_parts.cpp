@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "libskel/pipeline/hanging_chains.h"
+#include "libskel/pipeline/smooth_step.h"
 #include "libskel/skin/bones.h"
 #include "libskel/skin/edges.h"
 #include "libskel/skin/falloff.h"
@@ -133,11 +134,6 @@ bool wearsSkirt(const LayerMap& layers, const Skeleton& skeleton, const Legs& le
   const Eigen::Vector2d a = at(legs.hips[0]), b = at(legs.hips[1]), c = at(legs.knees[0]),
                         d = at(legs.knees[1]);
   return held(a, c) && held(b, d) && held((a + b) / 2, (c + d) / 2);
-}
-
-float smoothStep(float t) {
-  t = std::clamp(t, 0.f, 1.f);
-  return t * t * (3 - 2 * t);
 }
 
 // Above the hips it goes with the trunk as it did, limbs apart. What hangs from there, if anything.
