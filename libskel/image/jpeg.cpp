@@ -6,6 +6,7 @@
 #include <jerror.h>
 // clang-format on
 
+#include <algorithm>
 #include <csetjmp>
 #include <string>
 
@@ -42,12 +43,14 @@ void onMessage(j_common_ptr jpeg, int level) {
   std::longjmp(session->leave, 1);
 }
 
-// A small file may ask for thousands of passes over a large picture.
+// A small file may ask for thousands of passes over a large picture. Programs write about ten.
 void onProgress(j_common_ptr jpeg) {
-  constexpr int kMaxScans = 100;
+  constexpr double kMaxScans = 100, kMaxScannedPixels = 1.6e9;
   Session* session = sessionOf(jpeg);
-  if (session->jpeg.input_scan_number <= kMaxScans) return;
-  std::snprintf(session->message, sizeof session->message, "more than %d scans", kMaxScans);
+  const double pixels = double(session->jpeg.image_width) * double(session->jpeg.image_height);
+  const int most = static_cast<int>(std::min(kMaxScans, kMaxScannedPixels / pixels));
+  if (session->jpeg.input_scan_number <= most) return;
+  std::snprintf(session->message, sizeof session->message, "more than %d scans", most);
   std::longjmp(session->leave, 1);
 }
 

@@ -309,6 +309,22 @@ TEST_CASE("JPEG: every EXIF orientation shows the picture upright") {
   CHECK(pixel(image, 14, 6)[0] > 200);
 }
 
+// The last scan of a JPEG, so many times more.
+std::string withMoreScans(const std::string& jpeg, int more) {
+  const std::string scan = jpeg.substr(jpeg.rfind("\xff\xda"), jpeg.size() - 2 - jpeg.rfind("\xff\xda"));
+  std::string bytes = jpeg.substr(0, jpeg.size() - 2);
+  for (int i = 0; i < more; ++i) bytes += scan;
+  return bytes + jpeg.substr(jpeg.size() - 2);
+}
+
+TEST_CASE("JPEG: hundreds of passes over a picture are refused, the more px it has the fewer") {
+  const std::string small = makeJpeg(8, 8, 1, Bytes(64, 9), 0, true);
+  CHECK(decodeImage(withMoreScans(small, 90), "x").width == 8);
+  CHECK_THAT(complaint(withMoreScans(small, 100), "x.jpg"), Contains("x.jpg: is a broken JPEG (more than 100 scans)"));
+  const std::string large = makeJpeg(8000, 8000, 1, Bytes(64'000'000, 9), 0, true);
+  CHECK_THAT(complaint(withMoreScans(large, 90), "x.jpg"), Contains("more than 25 scans"));
+}
+
 TEST_CASE("JPEG: CMYK and truncated files are refused with what to do") {
   CHECK_THAT(complaint(makeJpeg(8, 8, 4, Bytes(256, 9)), "a.jpg"),
              Contains("a.jpg: is a CMYK JPEG") && Contains("magick"));
