@@ -39,26 +39,29 @@ Semantics fitSemantics(const MatrixXd& activations, const std::vector<std::strin
 
   const Eigen::Index k = activations.rows(), m = activations.cols();
   const Eigen::Index r = Eigen::Index(result.classes.size());
-  MatrixXd y = MatrixXd::Zero(r, m);
   std::vector<int> truth;
   for (const std::string& action : actions)
     truth.push_back(
         int(std::lower_bound(result.classes.begin(), result.classes.end(), action) - result.classes.begin()));
-  for (Eigen::Index i = 0; i < m; ++i) y(truth[std::size_t(i)], i) = 1;
 
   result.rebuilt = rebuiltFromLeading(activations, int(std::min(r, k)));
   const MatrixXd& v = result.rebuilt;
   const double ridge = options.ridge * std::max(v.squaredNorm() / double(k), 1e-12);
   const MatrixXd normal = v * v.transpose() + ridge * MatrixXd::Identity(k, k);
-  result.class_weights = normal.ldlt().solve(v * y.transpose()).transpose();
-  const MatrixXd scores = result.class_weights * v;
-  result.residual = (scores - y).squaredNorm();
+  // Y, one row a class and one column a frame, is 1 at each frame's class: never held, it may be huge.
+  MatrixXd sums = MatrixXd::Zero(k, r);  // V·Yᵀ
+  for (Eigen::Index i = 0; i < m; ++i) sums.col(truth[std::size_t(i)]) += v.col(i);
+  result.class_weights = normal.ldlt().solve(sums).transpose();
   int right = 0;
   for (Eigen::Index i = 0; i < m; ++i) {
+    const int true_class = truth[std::size_t(i)];
+    Eigen::VectorXd scores = result.class_weights * v.col(i);
     Eigen::Index best;
-    scores.col(i).maxCoeff(&best);
+    scores.maxCoeff(&best);
     result.predicted.push_back(int(best));
-    right += int(best) == truth[std::size_t(i)];
+    right += int(best) == true_class;
+    scores[true_class] -= 1;
+    result.residual += scores.squaredNorm();
   }
   result.accuracy = double(right) / double(m);
   return result;
