@@ -204,8 +204,11 @@ Joints readJoints(const Nodes& nodes, const JsonValue& skin) {
     joints.axes.push_back(Quaterniond(rest.linear()).normalized());
     joints.model_from_parent.push_back(parent);
     joint.position = rest.translation();
-    if (!(joint.position.cwiseAbs().maxCoeff() <= kFarthest))
+    // A joint's place is a sum of floats.
+    constexpr double kRounding = 1e-5;
+    if (!(joint.position.cwiseAbs().maxCoeff() <= kFarthest * (1 + kRounding)))
       value.fail("the joint \"" + joint.name + "\" is farther than 1e6 from the origin");
+    joint.position = joint.position.cwiseMax(-kFarthest).cwiseMin(kFarthest);
     if (const auto extras = value.find("extras"); extras && extras->isObject())
       if (const auto tail = numbersAt(*extras, "tail", 3))
         joint.tail = Vector3d((*tail)[0], (*tail)[1], (*tail)[2]);
