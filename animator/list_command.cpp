@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "animator/rig_text.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/core/text.h"
 
@@ -16,11 +17,9 @@ void printClip(const Clip& clip, const char* note) {
 
 void printJoints(const Skeleton& skeleton) {
   std::printf("joints:\n");
-  std::vector<int> depth;
-  for (const Joint& joint : skeleton.joints) {
-    depth.push_back(joint.parent < 0 ? 0 : depth[std::size_t(joint.parent)] + 1);
-    std::printf("  %*s%s\n", 2 * depth.back(), "", printable(joint.name).c_str());
-  }
+  const std::vector<std::string> spaces = indentation(skeleton);
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
+    std::printf("%s%s\n", spaces[j].c_str(), printable(skeleton.joints[j].name).c_str());
 }
 
 }  // namespace

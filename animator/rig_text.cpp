@@ -53,4 +53,14 @@ int boneCount(const Skeleton& skeleton) {
                                         [](const Joint& joint) { return joint.parent >= 0; }));
 }
 
+std::vector<std::string> indentation(const Skeleton& skeleton) {
+  constexpr std::size_t kStep = 2, kMost = 80;
+  std::vector<std::string> spaces;
+  spaces.reserve(skeleton.joints.size());
+  for (const Joint& joint : skeleton.joints)
+    spaces.emplace_back(
+        joint.parent < 0 ? kStep : std::min(spaces[std::size_t(joint.parent)].size() + kStep, kMost), ' ');
+  return spaces;
+}
+
 }  // namespace skel

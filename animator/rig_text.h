@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "libskel/skeleton/skeleton.h"
 
@@ -12,5 +13,8 @@ std::string formatRig(const Skeleton& skeleton);
 
 // From joint to joint: of the joints that hang on another.
 int boneCount(const Skeleton& skeleton);
+
+// Of each joint, where a list shows the hierarchy: spaces, two a level, no more than a line has room for.
+std::vector<std::string> indentation(const Skeleton& skeleton);
 
 }  // namespace skel

@@ -57,7 +57,7 @@ ExitCode motion(const LabelerOptions& options) {
 
 ExitCode check(const LabelerOptions& options) {
   const std::vector<std::string> lines = checkLabels(options.dir, loadTemplate(options.body_plan));
-  for (const std::string& line : lines) std::fprintf(stderr, "skel-label: %s\n", printable(line).c_str());
+  for (const std::string& line : lines) std::fprintf(stderr, "skel-label: %s\n", messageLine(line).c_str());
   if (lines.empty()) print("no inconsistencies\n");
   return lines.empty() ? ExitCode::kDone : ExitCode::kInput;
 }

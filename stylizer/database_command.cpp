@@ -29,7 +29,7 @@ ExitCode runDatabase(const DatabaseOptions& options) {
     return ExitCode::kDone;
   }
   const std::vector<std::string> problems = checkDatabase(options.folder);
-  for (const std::string& problem : problems) std::fprintf(stderr, "%s\n", printable(problem).c_str());
+  for (const std::string& problem : problems) std::fprintf(stderr, "%s\n", messageLine(problem).c_str());
   std::printf("%d motions, %d problems\n", int(entries.size()), int(problems.size()));
   return problems.empty() ? ExitCode::kDone : ExitCode::kInput;
 }

@@ -9,8 +9,7 @@ namespace skel {
 
 enum class ExitCode { kDone = 0, kUsage = 1, kInput = 2, kUnavailable = 3, kOutput = 4 };
 
-// what() is the whole line for the user, printable(): which file, where in it, what is wrong, what to do. Of
-// more than 600 bytes the middle is left out.
+// what() is the whole line for the user, a messageLine(): which file, where in it, what is wrong, what to do.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode exit_code, const std::string& message);

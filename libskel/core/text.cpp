@@ -65,4 +65,15 @@ std::string printable(std::string_view text) {
   return out;
 }
 
+std::string messageLine(std::string_view text) {
+  constexpr std::size_t kFirst = 500, kLast = 100;
+  const std::string line = printable(text);
+  if (line.size() <= kFirst + kLast) return line;
+  std::size_t end = kFirst, begin = line.size() - kLast;
+  const auto isInside = [&](std::size_t at) { return (line[at] & 0xc0) == 0x80; };  // a character of UTF-8
+  while (isInside(end)) --end;
+  while (begin < line.size() && isInside(begin)) ++begin;
+  return line.substr(0, end) + "…" + line.substr(begin);
+}
+
 }  // namespace skel
