@@ -141,6 +141,7 @@ AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string
   }
   if (!fs::exists(annotation)) return drawing;
   if (!drawing.mask) throw InputError(annotation, "needs a mask.png beside it");
+  if ((*drawing.mask == 0).all()) throw InputError(mask, "is blank: errors are relative to the figure's size");
   const JsonDocument document = JsonDocument::readFile(annotation);
   if (const auto view = document.root().find("view")) drawing.side_view = view->asString() == "side";
   const JsonValue joints = document.root().at("joints");

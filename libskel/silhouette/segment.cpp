@@ -131,7 +131,7 @@ Drawn figuresIn(const cv::Mat& rgb, const cv::Mat& lab) {
     barrier = (strokes & (difference > low_color)) | far;
   }
   if (cv::countNonZero(barrier) == 0) {
-    out.reason = "the picture is blank";
+    out.reason = textured ? "nothing on the picture stands out from its ground" : "the picture is blank";
     return out;
   }
 

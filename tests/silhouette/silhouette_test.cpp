@@ -256,6 +256,12 @@ TEST_CASE("degenerate pictures are figures or refused with a reason, never a cra
   };
   const auto black = [](double, double) { return kBlack; };
   CHECK(extractSilhouette(Image()).reason == "the picture is empty");
+  Rng random(3);
+  const auto grain = [&](double, double) {
+    const double grey = 200 + random.below(40);
+    return Color{grey, grey, grey};
+  };
+  CHECK(reason(200, 300, grain) == "nothing on the picture stands out from its ground");
   CHECK(reason(1, 1, plainWhite) == "the picture is blank");
   CHECK(reason(1, 1, black) == "the picture is blank");
   CHECK(reason(300, 1, plainWhite) == "the picture is blank");
