@@ -8,63 +8,79 @@
 namespace skel {
 namespace {
 
-// A sentence and the drawings that it holds for.
-struct TableLine {
-  std::string sentence;
-  std::vector<std::string> names;
-};
+constexpr std::size_t kMostSentences = 300;  // where not all names are told
 
-void add(std::vector<TableLine>& lines, const std::string& sentence, const std::string& name) {
-  auto line = std::find_if(lines.begin(), lines.end(),
-                           [&](const TableLine& other) { return other.sentence == sentence; });
-  if (line == lines.end()) line = lines.insert(lines.end(), {sentence, {}});
-  line->names.push_back(name);
-}
-
-std::string withSpaces(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += " " + name;
-  return text;
+// What is said of one figure, what differs from figure to figure behind it.
+std::vector<std::pair<std::string, std::vector<std::string>>> notesOf(const FigureResult& figure) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> notes;
+  for (const Note& note : figure.notes) {
+    const std::string& sentence = note.shared.empty() ? note.text : note.shared;
+    auto one =
+        std::find_if(notes.begin(), notes.end(), [&](const auto& other) { return other.first == sentence; });
+    if (one == notes.end()) one = notes.insert(notes.end(), {sentence, {}});
+    if (!note.what.empty()) one->second.push_back(note.what);
+  }
+  return notes;
 }
 
 }  // namespace
 
-std::string classTable(const std::vector<DrawingResult>& drawings, bool numbered) {
-  std::vector<TableLine> retake, look_at, notes;
-  std::size_t to_retake = 0, to_look_at = 0, fine = 0, failed = 0;
-  for (const DrawingResult& drawing : drawings) {
-    failed += !drawing.error.empty();
-    for (const FigureResult& figure : drawing.figures) {
-      const std::string name =
-          shellWord(drawing.source) + (numbered ? " (figure " + std::to_string(figure.number) + ")" : "");
-      const bool again = figure.verdict == Verdict::kRetake, look = figure.verdict == Verdict::kLookAt;
-      ++(again ? to_retake : look ? to_look_at : fine);
-      for (const std::string& reason : figure.reasons) add(again ? retake : look_at, reason, name);
-      // What differs from figure to figure stands behind its name.
-      std::vector<TableLine> own;
-      for (const Note& note : figure.notes)
-        add(own, note.shared.empty() ? note.text : note.shared, note.what);
-      for (TableLine& line : own) {
-        std::erase(line.names, "");
-        add(notes, line.sentence, name + (line.names.empty() ? "" : " (" + joined(line.names) + ")"));
-      }
-    }
+void ClassTable::add(Lines& all, const std::string& sentence, const std::string& name) const {
+  const auto known = all.places.find(sentence);
+  if (known == all.places.end() && most_names_ > 0 && all.lines.size() == kMostSentences) {
+    ++all.others;
+    return;
   }
-  const std::size_t all = to_retake + to_look_at + fine + failed;
+  const std::size_t place = known == all.places.end() ? all.lines.size() : known->second;
+  if (known == all.places.end()) {
+    all.places.emplace(sentence, place);
+    all.lines.push_back({sentence, {}, 0});
+  }
+  Line& line = all.lines[place];
+  ++line.count;
+  if (most_names_ == 0 || line.names.size() < most_names_) line.names.push_back(name);
+}
+
+void ClassTable::add(const DrawingResult& drawing) {
+  failed_ += !drawing.error.empty();
+  kept_ += drawing.kept;
+  for (const FigureResult& figure : drawing.figures) {
+    const std::string name =
+        shellWord(drawing.source) + (numbered_ ? " (figure " + std::to_string(figure.number) + ")" : "");
+    const bool again = figure.verdict == Verdict::kRetake, look = figure.verdict == Verdict::kLookAt;
+    ++(again ? to_retake_ : look ? to_look_at_ : fine_);
+    for (const std::string& reason : figure.reasons) add(again ? retake_ : look_at_, reason, name);
+    for (const auto& [sentence, own] : notesOf(figure))
+      add(notes_, sentence, name + (own.empty() ? "" : " (" + joined(own) + ")"));
+  }
+}
+
+std::string ClassTable::namesOf(const Line& line, const char* between) const {
+  std::string text;
+  for (const std::string& name : line.names) text += (text.empty() ? "" : between) + name;
+  const std::size_t more = line.count - line.names.size();
+  return text + (more > 0 ? " and " + std::to_string(more) + " more" : "");
+}
+
+std::string ClassTable::text() const {
+  const std::size_t all = to_retake_ + to_look_at_ + fine_ + failed_;
   std::string table =
-      std::to_string(all) + (numbered ? " figures: " : " drawings: ") + std::to_string(fine) + " fine";
+      std::to_string(all) + (numbered_ ? " figures: " : " drawings: ") + std::to_string(fine_) + " fine";
   const auto count = [&](std::size_t some, const char* what) {
     if (some > 0) table += ", " + std::to_string(some) + what;
   };
-  count(to_look_at, " to look at");
-  count(to_retake, " to retake");
-  count(failed, " without a result");
+  count(to_look_at_, " to look at");
+  count(to_retake_, " to retake");
+  count(failed_, " without a result");
+  if (kept_ > 0) table += "; " + std::to_string(kept_) + (numbered_ ? " drawings" : "") + " done before";
   table += "\n";
-  for (const TableLine& line : retake)
-    table += "retake" + withSpaces(line.names) + ": " + line.sentence + "\n";
-  for (const TableLine& line : look_at)
-    table += "look at" + withSpaces(line.names) + ": " + line.sentence + "\n";
-  for (const TableLine& line : notes) table += "note: " + line.sentence + ": " + joined(line.names) + "\n";
+  for (const Line& line : retake_.lines)
+    table += "retake " + namesOf(line, " ") + ": " + line.sentence + "\n";
+  for (const Line& line : look_at_.lines)
+    table += "look at " + namesOf(line, " ") + ": " + line.sentence + "\n";
+  for (const Line& line : notes_.lines) table += "note: " + line.sentence + ": " + namesOf(line, ", ") + "\n";
+  if (const std::size_t others = retake_.others + look_at_.others + notes_.others; others > 0)
+    table += "and " + std::to_string(others) + " times something else\n";
   return table;
 }
 

@@ -1,6 +1,7 @@
 // What became of the drawings that were asked for.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -17,12 +18,19 @@ enum class Verdict {
   kRetake,  // it was not recognised, or is cut off, or cannot be told from the sheet
 };
 
+struct WrittenFile {
+  std::string path;
+  std::size_t bytes = 0;
+  std::string sha256;  // "": nobody asked for it
+};
+
 struct FigureResult {
   int number = 1;         // in the drawing
   std::string mend_file;  // what skel-label opens
-  std::string written;    // the first of its files, "": none
+  std::vector<WrittenFile> outputs;
   double confidence = 0;
   std::string body_plan;
+  std::vector<std::string> missing;  // joints that were not found
   Verdict verdict = Verdict::kFine;
   std::vector<std::string> reasons;  // of the verdict
   std::vector<Note> notes;           // of what is no reason to doubt the figure
@@ -31,12 +39,25 @@ struct FigureResult {
   std::vector<StageTime> times;
 };
 
+// The SHA-256 of what decides what is made of a drawing. "": nobody asked for it, or it could not be read.
+struct Origin {
+  std::string image;
+  std::string mended;   // what a person has left beside the drawing; "": nothing
+  std::string options;  // those that count, and the files that they name
+  std::string nets;     // that are compiled in
+  std::string version;  // of skel, as it is
+  bool operator==(const Origin&) const = default;
+};
+
 struct DrawingResult {
   std::string source;                 // path
   std::vector<FigureResult> figures;  // that were written
   ExitCode code = ExitCode::kDone;
   std::string error;    // what() of what stopped it; "": nothing
   std::string problem;  // the same without the file's name, where the drawing itself is to blame
+  Origin origin;
+  bool kept = false;      // an earlier run has done it
+  bool left_out = false;  // it is no drawing, but was made of one
 };
 
 }  // namespace skel

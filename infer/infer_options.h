@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "libskel/animation/retarget.h"
@@ -13,7 +14,11 @@
 namespace skel {
 
 struct InferOptions {
-  std::vector<std::string> images;  // and folders of them
+  std::vector<std::string> images;  // and folders of them; "-": bytes from the standard input
+  std::string list_file;            // of more of them than a command line holds; "-": the standard input
+  bool null_ended = false;          // the paths in it, instead of by ends of lines
+  std::string shard = "1/1";        // which part of the list
+  std::string name;                 // of the results of one drawing; "": the drawing's
   std::string out_dir = "out";
   std::string weights_file, joint_net_file;  // empty: the built-in ones
   std::string part_net_file;                 // empty: the built-in one
@@ -37,14 +42,29 @@ struct InferOptions {
   double mesh_spacing_px = 0;
   std::vector<std::string> formats = {"glb", "json", "overlay", "silhouette"};
   std::string trace_dir, report_file;
-  bool timings = false, quiet = false;
+  bool timings = false, quiet = false, json_lines = false;
   int jobs = 1;
-  bool force = false;
+  bool force = false, resume = false;
+
+  // The options that were given and decide what is made of a drawing: name and values of each.
+  std::vector<std::pair<std::string, std::vector<std::string>>> deciding;
+  std::string version, nets;  // of this build: skel's, and the hashes of the nets
 };
+
+// --model without a drawing.
+inline bool isModelAlone(const InferOptions& options) {
+  return options.images.empty() && options.list_file.empty();
+}
+// Whether what becomes of drawings is written down beside their results, for a later run to go on from.
+inline bool keepsResults(const InferOptions& options) { return !options.list_file.empty() || options.resume; }
+inline bool tellsHashes(const InferOptions& options) { return options.json_lines || keepsResults(options); }
 
 // Those that decide what is seen in a drawing.
 void bindRecognitionOptions(CLI::App& app, InferOptions& options);
 void bindInferOptions(CLI::App& app, InferOptions& options);
+
+// Throws UsageError where options do not go together. Folders among the images are files by now.
+void checkUsage(const InferOptions& options);
 
 // Rigs all images; the exit code is that of the first failure.
 ExitCode runInfer(const InferOptions& options);

@@ -58,7 +58,7 @@ MendedFiles mendedFiles(const InferOptions& options, const std::string& source, 
   if (isLabelFile(options.skeleton_file)) files.labels = options.skeleton_file;
   if (isLayerMap(options.layers)) files.limbs = options.layers;
   if (isBackPicture(options.back)) files.back = options.back;
-  if (options.force || options.images.empty()) return files;
+  if (options.force || isModelAlone(options)) return files;
 
   const std::string beside = fs::path(source).replace_extension().string();
   if (options.skeleton_file.empty()) {

@@ -24,9 +24,8 @@ struct MendedFiles {
 // Those of figure `figure` of the drawing `source`, whose results are called <out_dir>/<stem>.*, that the
 // command line does not name others for: <source's stem>.mask.png, .labels.json, .limbs.png and .back.png
 // beside the drawing (mask and labels of one figure alone), an edited skeleton among the results. Nothing
-// with
-// --force, and nothing beside a drawing with <stem>.joints.json: that is annotated, not mended. --skeleton
-// may name labels.
+// with --force, and nothing beside a drawing with <stem>.joints.json: that is annotated, not mended.
+// --skeleton may name labels.
 MendedFiles mendedFiles(const InferOptions& options, const std::string& source, const std::string& stem,
                         int figure);
 

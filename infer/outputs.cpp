@@ -10,6 +10,7 @@
 #include "infer/rig_request.h"
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
+#include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
 #include "libskel/draw/draw_skeleton.h"
 #include "libskel/export/formats.h"
@@ -34,6 +35,9 @@ struct Request {
 
   std::string path(const std::string& suffix) const { return options.out_dir + "/" + stem + suffix; }
 };
+
+// By which files of one drawing name each other.
+std::string nameOf(const std::string& stem) { return fs::path(stem).filename().string(); }
 
 struct OutputFile {
   std::string path;
@@ -98,7 +102,7 @@ std::vector<Format> makeFormats() {
   for (const ExportFormat& format : exportFormats())
     all.push_back({format.name, format.suffixes, [&format](const Request& r) {
                      std::vector<OutputFile> files;
-                     const ExportOptions options = exportOptions(r.stem, r.options.joints);
+                     const ExportOptions options = exportOptions(nameOf(r.stem), r.options.joints);
                      for (ExportedFile& file : format.encode({r.drawing.character, r.drawing.clips, options,
                                                               &r.drawing.image, &r.drawing.silhouette.mask}))
                        files.push_back({r.path(file.suffix), std::move(file.bytes)});
@@ -134,7 +138,7 @@ std::string formatNames() { return joined(allFormats()); }
 
 void noteOutputs(const InferOptions& options, const std::string& stem, const std::vector<Clip>& clips) {
   for (const std::string& name : options.formats)
-    for (const std::string& suffix : formatNamed(name).suffixes(stem, clips))
+    for (const std::string& suffix : formatNamed(name).suffixes(nameOf(stem), clips))
       if (const std::string path = options.out_dir + "/" + stem + suffix; !goesOnFrom(options, path)) {
         noteOutput(path);
         if (isReport(options, path))
@@ -142,18 +146,18 @@ void noteOutputs(const InferOptions& options, const std::string& stem, const std
       }
 }
 
-std::vector<std::string> writeOutputs(const InferOptions& options, const std::string& stem,
+std::vector<WrittenFile> writeOutputs(const InferOptions& options, const std::string& stem,
                                       const RiggedDrawing& drawing, const SkeletonFile& file) {
   const Request request{options, stem, drawing, file};
   std::vector<OutputFile> files;
   for (const std::string& name : options.formats)
     for (OutputFile& made : formatNamed(name).make(request)) files.push_back(std::move(made));
-  std::vector<std::string> paths;
+  std::vector<WrittenFile> written;
   for (const OutputFile& made : files) {
     goesOnFrom(options, made.path) ? replaceFile(made.path, made.bytes) : writeFile(made.path, made.bytes);
-    paths.push_back(made.path);
+    written.push_back({made.path, made.bytes.size(), tellsHashes(options) ? sha256(made.bytes) : ""});
   }
-  return paths;
+  return written;
 }
 
 }  // namespace skel

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "infer/figure_result.h"
 #include "infer/infer_options.h"
 #include "libskel/pipeline/rig_character.h"
 #include "libskel/skeleton/skeleton_file.h"
@@ -18,9 +19,9 @@ std::string formatNames();
 // format cannot name files by this stem.
 void noteOutputs(const InferOptions& options, const std::string& stem, const std::vector<Clip>& clips);
 
-// Writes options.out_dir/<stem>.* in the formats asked for and returns the paths in that order. Nothing is
-// written before all of them are ready. Throws OutputError.
-std::vector<std::string> writeOutputs(const InferOptions& options, const std::string& stem,
+// Writes options.out_dir/<stem>.* in the formats asked for and returns the files in that order. Nothing is
+// written before all of them are ready. `stem` may begin with folders. Throws OutputError.
+std::vector<WrittenFile> writeOutputs(const InferOptions& options, const std::string& stem,
                                       const RiggedDrawing& drawing, const SkeletonFile& file);
 
 }  // namespace skel

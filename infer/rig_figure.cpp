@@ -54,17 +54,6 @@ int figureOf(const InferOptions& options, const SkeletonFile& given, int asked) 
   return given.figure.number;
 }
 
-// What was made of one of several figures keeps its name.
-std::string stemOf(const InferOptions& options, const RigJob& job, int figure) {
-  if (options.figure == "all") return job.stem + "-" + std::to_string(figure);
-  const std::string from = fs::path(options.skeleton_file).filename().string(), start = job.stem + "-";
-  constexpr std::string_view kEnding = ".skeleton.json";
-  if (!from.starts_with(start) || !from.ends_with(kEnding)) return job.stem;
-  const std::string number = from.substr(start.size(), from.size() - start.size() - kEnding.size());
-  const bool numbered = !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
-  return numbered ? start + number : job.stem;
-}
-
 // The joints must be this figure's. `file`: where they are from.
 void checkJoints(const Skeleton& skeleton, const std::string& file, int figure, const Plane8& mask) {
   const Joint* stray = jointFarOutside(skeleton, mask);
@@ -115,10 +104,10 @@ std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, co
 
 // A drawing whose figures are rigged one after the other.
 struct OpenDrawing {
-  OpenDrawing(const std::string& file, const SilhouetteOptions& silhouette) : figures(silhouette) {
-    const std::string bytes = readFile(file);
-    image = decodeImage(bytes, file);
-    image_sha256 = sha256(bytes);
+  OpenDrawing(const RigJob& job, const SilhouetteOptions& silhouette) : figures(silhouette) {
+    const std::string bytes = job.read ? "" : readFile(job.source);
+    image = decodeImage(job.read ? job.read->bytes : bytes, job.source);
+    image_sha256 = job.read ? job.read->sha256 : sha256(bytes);
   }
 
   Image image;
@@ -148,10 +137,10 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
 
   RigInput input;
   std::string image_sha256;
-  if (!options.images.empty()) {
+  if (!isModelAlone(options)) {
     SilhouetteOptions silhouette = rig.silhouette;
     silhouette.all = options.figure == "all";
-    if (!open) open = std::make_unique<OpenDrawing>(job.source, silhouette);
+    if (!open) open = std::make_unique<OpenDrawing>(job, silhouette);
     image_sha256 = open->image_sha256;
     if (silhouette.all) {
       input.image = open->image;
@@ -213,20 +202,20 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   file.labels = placed.labels;
   if (file.labels && !mended.labels.empty()) file.labels->file = pathSeenFrom(skeleton_path, mended.labels);
 
-  const std::vector<std::string> written = writeOutputs(options, stem, drawing, file);
+  FigureResult result;
+  result.outputs = writeOutputs(options, stem, drawing, file);
   if (!options.trace_dir.empty()) {
-    const bool given_mask = !mask.empty() || options.images.empty();
+    const bool given_mask = !mask.empty() || isModelAlone(options);
     writeTrace(drawing, given_mask ? SilhouetteSteps{} : silhouetteSteps(drawing.image),
                options.images.size() > 1 || options.figure == "all" ? options.trace_dir + "/" + stem
                                                                     : options.trace_dir);
   }
 
-  FigureResult result;
   result.number = figure;
-  result.mend_file = figure > 1 ? skeleton_path : job.source;
-  if (!written.empty()) result.written = written.front();
+  result.mend_file = fileToMend(options, job, figure);
   result.confidence = file.confidence;
   result.body_plan = drawing.body_plan.name;
+  result.missing = file.missing;
   result.verdict = verdictOf(drawing, file);
   result.reasons = file.warnings;
   result.notes = notesOf(options, rig, drawing);
@@ -246,10 +235,42 @@ bool isBackPicture(const std::string& back) { return !back.empty() && back != "p
 
 bool isLayerMap(const std::string& layers) { return layers != "auto" && layers != "off"; }
 
-void noteResults(const InferOptions& options, const RigJob& job, const std::vector<Clip>& clips) {
+// What was made of one of several figures keeps its name.
+std::string stemOf(const InferOptions& options, const RigJob& job, int figure) {
+  if (options.figure == "all") return job.stem + "-" + std::to_string(figure);
+  const std::string from = fs::path(options.skeleton_file).filename().string(), start = job.stem + "-";
+  constexpr std::string_view kEnding = ".skeleton.json";
+  if (!from.starts_with(start) || !from.ends_with(kEnding)) return job.stem;
+  const std::string number = from.substr(start.size(), from.size() - start.size() - kEnding.size());
+  const bool numbered = !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+  return numbered ? start + number : job.stem;
+}
+
+std::string fileToMend(const InferOptions& options, const RigJob& job, int figure) {
+  return figure > 1 ? options.out_dir + "/" + stemOf(options, job, figure) + ".skeleton.json" : job.source;
+}
+
+FigureRange figuresAskedFor(const InferOptions& options) {
   constexpr int kMostFigures = 99;
-  for (int figure = 1; figure <= (options.figure == "all" ? kMostFigures : 1); ++figure)
+  if (options.figure == "all") return {1, kMostFigures};
+  return {std::stoi(options.figure), std::stoi(options.figure)};
+}
+
+void noteResults(const InferOptions& options, const RigJob& job, const std::vector<Clip>& clips) {
+  const FigureRange range = figuresAskedFor(options);
+  for (int figure = range.first; figure <= range.last; ++figure)
     noteOutputs(options, stemOf(options, job, figure), clips);
+}
+
+void takeError(DrawingResult& result) {
+  const Error error = caughtError(result.source);
+  const std::string start = result.source + ": ";
+  result.code = error.exitCode();
+  result.error = result.problem = error.what();
+  if (result.error.starts_with(start))
+    result.problem = result.error.substr(start.size());
+  else if (result.code == ExitCode::kUsage)  // for this drawing, if not for others
+    result.error = start + result.problem;
 }
 
 DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, const RigJob& job,
@@ -259,10 +280,9 @@ DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, con
   std::size_t left = 1;  // figures
   std::unique_ptr<OpenDrawing> open;
   try {
-    const bool all = options.figure == "all";
-    const int first = all ? 1 : std::stoi(options.figure);
+    const int first = figuresAskedFor(options).first;
     const int count = rigFigure(options, rig, job, first, open, result.figures);
-    if (all) left = std::size_t(count);
+    if (options.figure == "all") left = std::size_t(count);
     progress.expect(left - 1);
     for (int figure = 2; left > 1; ++figure) {
       progress.advance();
@@ -270,14 +290,7 @@ DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, con
       rigFigure(options, rig, job, figure, open, result.figures);
     }
   } catch (...) {
-    const Error error = caughtError(job.source);
-    const std::string start = job.source + ": ";
-    result.code = error.exitCode();
-    result.error = result.problem = error.what();
-    if (result.error.starts_with(start))
-      result.problem = result.error.substr(start.size());
-    else if (result.code == ExitCode::kUsage)  // for this drawing, if not for others
-      result.error = start + result.problem;
+    takeError(result);
   }
   progress.advance(left);
   return result;

@@ -53,12 +53,7 @@ std::string withoutLinks(const std::string& path) {
 }
 
 void writeTo(int fd, std::string_view bytes, const std::string& path) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(fd, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw OutputError(path, "cannot be written: " + reason());
-    bytes.remove_prefix(static_cast<size_t>(count));
-  }
+  if (!writeAll(fd, bytes)) throw OutputError(path, "cannot be written: " + reason());
 }
 
 bool isSame(const struct stat& a, const struct stat& b) {
@@ -101,7 +96,7 @@ void write(const std::string& path, std::string_view bytes) {
     (void)::fchmod(file.fd(), there.st_mode & 07777);
   }
   writeTo(file.fd(), bytes, path);
-  if (::fsync(file.fd()) != 0 && errno != EINVAL) throw OutputError(path, "cannot be written: " + reason());
+  if (!file.flush()) throw OutputError(path, "cannot be written: " + reason());
   struct stat written;
   const bool known = ::fstat(file.fd(), &written) == 0;
   if (!file.becomeTarget()) throw OutputError(path, "cannot be replaced: " + reason());

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "libskel/core/check.h"
 #include "libskel/core/error.h"
 
 namespace skel {
@@ -29,6 +30,13 @@ Lists& lists() {
 }
 
 thread_local int looks = 0;
+
+// Of this thread, for now.
+struct ForNow {
+  bool on = false;
+  std::set<Identity> inputs, outputs, own;
+};
+thread_local ForNow for_now;
 
 bool identify(const std::string& path, Identity& identity) {
   struct stat status;
@@ -55,7 +63,7 @@ void noteInput(const std::string& path) {
   Identity file;
   if (!all.on || looks > 0 || !identify(path, file) || all.own.contains(file)) return;
   if (const auto output = all.outputs.find(file); output != all.outputs.end()) refuse(output->second, path);
-  all.inputs.emplace(file, path);
+  if (all.inputs.emplace(file, path).second && for_now.on) for_now.inputs.insert(file);
 }
 
 void noteOutput(const std::string& path) {
@@ -64,7 +72,7 @@ void noteOutput(const std::string& path) {
   Identity file;
   if (!all.on || !identify(path, file) || all.own.contains(file)) return;
   if (const auto input = all.inputs.find(file); input != all.inputs.end()) refuse(path, input->second);
-  all.outputs.emplace(file, path);
+  if (all.outputs.emplace(file, path).second && for_now.on) for_now.outputs.insert(file);
 }
 
 void noteNamedOutput(const std::string& path) {
@@ -103,11 +111,33 @@ void noteReplaced(const struct stat* before, const struct stat& after) {
   if (before && before->st_nlink <= 1) {
     const Identity gone{before->st_dev, before->st_ino};
     all.inputs.erase(gone), all.outputs.erase(gone), all.own.erase(gone);
+    for_now.inputs.erase(gone), for_now.outputs.erase(gone), for_now.own.erase(gone);
   }
-  all.own.insert({after.st_dev, after.st_ino});
+  const Identity own{after.st_dev, after.st_ino};
+  if (all.own.insert(own).second && for_now.on) for_now.own.insert(own);
 }
 
 LookAtOutputs::LookAtOutputs() { ++looks; }
 LookAtOutputs::~LookAtOutputs() { --looks; }
+
+NotedForNow::NotedForNow() {
+  SKEL_CHECK(!for_now.on);
+  for_now.on = true;
+}
+
+NotedForNow::~NotedForNow() {
+  Lists& all = lists();
+  const std::lock_guard lock(all.mutex);
+  for (const Identity& file : for_now.inputs) all.inputs.erase(file);
+  for (const Identity& file : for_now.outputs) all.outputs.erase(file);
+  for (const Identity& file : for_now.own) all.own.erase(file);
+  for_now = {};
+}
+
+std::size_t notedFiles() {
+  Lists& all = lists();
+  const std::lock_guard lock(all.mutex);
+  return all.inputs.size() + all.outputs.size() + all.own.size();
+}
 
 }  // namespace skel

@@ -9,6 +9,7 @@
 
 #include <sys/stat.h>
 
+#include <cstddef>
 #include <string>
 
 namespace skel {
@@ -44,5 +45,18 @@ class LookAtOutputs {
   LookAtOutputs(const LookAtOutputs&) = delete;
   LookAtOutputs& operator=(const LookAtOutputs&) = delete;
 };
+
+// While it lives, what this thread notes is noted for now: forgotten at its end, so that the lists do not
+// grow with the number of pieces of work, whose files are not each other's. One a thread at a time.
+class NotedForNow {
+ public:
+  NotedForNow();
+  ~NotedForNow();
+  NotedForNow(const NotedForNow&) = delete;
+  NotedForNow& operator=(const NotedForNow&) = delete;
+};
+
+// How many files are on the lists.
+std::size_t notedFiles();
 
 }  // namespace skel

@@ -10,8 +10,11 @@
 
 namespace skel {
 
+std::size_t threadCount(int threads) {
+  return threads > 0 ? static_cast<std::size_t>(threads) : std::max(1u, std::thread::hardware_concurrency());
+}
+
 void parallelFor(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
-  if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
   std::size_t failed_at = count;
@@ -26,8 +29,7 @@ void parallelFor(std::size_t count, int threads, const std::function<void(std::s
       }
     }
   };
-  const std::size_t helpers =
-      std::min<std::size_t>(static_cast<std::size_t>(threads), std::max<std::size_t>(count, 1)) - 1;
+  const std::size_t helpers = std::min(threadCount(threads), std::max<std::size_t>(count, 1)) - 1;
   {
     struct Pool : std::vector<std::thread> {
       ~Pool() {

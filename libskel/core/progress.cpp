@@ -29,7 +29,7 @@ double left_s(std::size_t done, std::size_t total, double elapsed_s) {
 
 ProgressBar::ProgressBar(std::string title, std::size_t total, bool shown)
     : title_(std::move(title)),
-      total_(std::max<std::size_t>(total, 1)),
+      total_(total),
       shown_(shown),
       terminal_(::isatty(STDERR_FILENO) != 0),
       start_(steady_clock::now()),
@@ -46,10 +46,10 @@ void ProgressBar::advance(std::size_t steps, const std::string& note) {
   if (!shown_) return;
   const auto now = steady_clock::now();
   if (terminal_) {
-    if (now - last_ < milliseconds(100) && done_ < total_) return;
+    if (now - last_ < milliseconds(100) && done_ != total_) return;
     last_ = now;
     draw();
-  } else if (done_ < total_ && now - last_ >= duration<double>(pauseBetweenLines_s(elapsed_s()))) {
+  } else if (done_ != total_ && now - last_ >= duration<double>(pauseBetweenLines_s(elapsed_s()))) {
     last_ = now;
     std::fprintf(stderr, "%s\n", progressLine(title_, done_, total_, elapsed_s(), printable(note_)).c_str());
   }
@@ -57,29 +57,35 @@ void ProgressBar::advance(std::size_t steps, const std::string& note) {
 
 void ProgressBar::expect(std::size_t more) {
   const std::lock_guard lock(mutex_);
-  total_ += more;
+  if (total_ > 0) total_ += more;
 }
 
 void ProgressBar::clear() {
+  const std::lock_guard lock(mutex_);
   if (drawn_) std::fputs("\r\033[K", stderr);
   drawn_ = false;
 }
 
 void ProgressBar::draw() {
   constexpr std::size_t kWidth = 30;
-  const double share = std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_));
-  const auto filled = static_cast<std::size_t>(share * kWidth);
-  std::fprintf(stderr, "\r\033[K%s [%s%s] %zu/%zu %s left  %s", title_.c_str(),
-               std::string(filled, '=').c_str(), std::string(kWidth - filled, ' ').c_str(), done_, total_,
-               clockTime(left_s(done_, total_, elapsed_s())).c_str(), printable(note_).c_str());
+  const auto filled = total_ == 0 ? 0 : kWidth * std::min(done_, total_) / total_;
+  if (total_ == 0)
+    std::fprintf(stderr, "\r\033[K%s", progressLine(title_, done_, 0, elapsed_s(), printable(note_)).c_str());
+  else
+    std::fprintf(stderr, "\r\033[K%s [%s%s] %zu/%zu %s left  %s", title_.c_str(),
+                 std::string(filled, '=').c_str(), std::string(kWidth - filled, ' ').c_str(), done_, total_,
+                 clockTime(left_s(done_, total_, elapsed_s())).c_str(), printable(note_).c_str());
   std::fflush(stderr);
   drawn_ = true;
 }
 
 std::string progressLine(const std::string& title, std::size_t done, std::size_t total, double elapsed_s,
                          const std::string& note) {
-  return title + ": " + std::to_string(done) + " of " + std::to_string(total) + ", " +
-         clockTime(left_s(done, total, elapsed_s)) + " left" + (note.empty() ? "" : ", " + note);
+  const std::string line = title + ": " + std::to_string(done);
+  const std::string time = total == 0 ? " in " + clockTime(elapsed_s)
+                                      : " of " + std::to_string(total) + ", " +
+                                            clockTime(left_s(done, total, elapsed_s)) + " left";
+  return line + time + (note.empty() ? "" : ", " + note);
 }
 
 double pauseBetweenLines_s(double elapsed_s) { return std::clamp(elapsed_s / 10, 5.0, 60.0); }

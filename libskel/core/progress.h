@@ -12,7 +12,7 @@ namespace skel {
 // grow with the work. May be called from several threads.
 class ProgressBar {
  public:
-  // `shown`: false says nothing at all.
+  // `total` 0: nobody knows. `shown`: false says nothing at all.
   ProgressBar(std::string title, std::size_t total, bool shown = true);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
@@ -36,7 +36,8 @@ class ProgressBar {
   std::mutex mutex_;
 };
 
-// "rigging: 12 of 24, 0:10 left", and the note if there is one. 0 < done <= total.
+// "rigging: 12 of 24, 0:10 left", and the note if there is one. 0 < done <= total. `total` 0: "rigging: 12 in
+// 0:10".
 std::string progressLine(const std::string& title, std::size_t done, std::size_t total, double elapsed_s,
                          const std::string& note);
 

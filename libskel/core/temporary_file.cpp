@@ -104,6 +104,16 @@ void leave(int slot) {
 
 }  // namespace
 
+bool writeAll(int fd, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(fd, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    bytes.remove_prefix(static_cast<size_t>(count));
+  }
+  return true;
+}
+
 TemporaryFile::TemporaryFile(std::string target) : target_(std::move(target)), path_(target_ + ".skel-tmp") {
   for (;;) {
     bool made = false;
@@ -138,6 +148,8 @@ TemporaryFile::~TemporaryFile() {
   ::close(fd_);
   errno = reason;
 }
+
+bool TemporaryFile::flush() { return ::fsync(fd_) == 0 || errno == EINVAL; }
 
 bool TemporaryFile::becomeTarget() {
   if (::rename(path_.c_str(), target_.c_str()) != 0) {

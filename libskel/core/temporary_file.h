@@ -2,8 +2,12 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace skel {
+
+// All of it to an open file. False: errno says why.
+bool writeAll(int fd, std::string_view bytes);
 
 // <target>.skel-tmp, open for writing and locked: one writer of `target` at a time, in all processes.
 class TemporaryFile {
@@ -17,6 +21,8 @@ class TemporaryFile {
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   int fd() const { return fd_; }
+  // What is in it stays, also where the machine loses its power. False: errno says why.
+  bool flush();
   // Gives it the target's name. False: errno says why.
   bool becomeTarget();
 

@@ -126,3 +126,28 @@ TEST_CASE("a pipe is opened where it was named, and not where a folder or a file
           writer.join();
         }).empty());
 }
+
+TEST_CASE("what is noted for now is guarded meanwhile, and forgotten at the end") {
+  const TempDir dir;
+  const std::string in = dir.file("in"), shared = dir.file("shared");
+  writeFile(in, "precious");
+  writeFile(shared, "of all");
+  CHECK(refusal([&] {
+          const NotedForNow now;
+          readFile(in), writeFile(in, "lost");
+        }).starts_with(in + " would be written over"));
+  CHECK(refusal([&] {
+          readFile(shared);
+          for (int i = 0; i < 20; ++i) {
+            const NotedForNow now;
+            readFile(in);
+            readFile(shared);
+            noteOutput(dir.file("out"));
+            writeFile(dir.file("out"), "made");
+          }
+          if (notedFiles() != 1) throw UsageError(std::to_string(notedFiles()) + " are still noted");
+          writeFile(in, "another's by now");
+          writeFile(shared, "lost");
+        }).starts_with(shared + " would be written over"));
+  CHECK(readFile(shared) == "of all");
+}

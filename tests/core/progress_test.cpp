@@ -12,6 +12,10 @@ TEST_CASE("a line of progress says how far it is, and how long it still takes") 
   CHECK(progressLine("rigging", 24, 24, 70, "") == "rigging: 24 of 24, 0:00 left");
 }
 
+TEST_CASE("of work whose end nobody knows it is said how far it has come") {
+  CHECK(progressLine("rigging", 12, 0, 70, "") == "rigging: 12 in 1:10");
+}
+
 TEST_CASE("a log gets a line every few seconds at first, and one a minute of what takes hours") {
   CHECK(pauseBetweenLines_s(0) == 5);
   CHECK(pauseBetweenLines_s(100) == 10);

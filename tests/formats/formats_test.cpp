@@ -8,6 +8,7 @@
 #include <set>
 
 #include "animator/pose_file.h"
+#include "infer/result_file.h"
 #include "labeler/annotated_drawing.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/keyframe_clip.h"
@@ -111,6 +112,8 @@ const std::map<std::string, Reader>& readers() {
          CHECK(file.regions.size() == 3);
          return "";
        }},
+      {"skel-result",
+       [](const std::string& path) { return formatResult(parseResult(readFile(path), path), path); }},
       {"skel-skeleton",
        [](const std::string& path) { return formatSkeletonFile(readSkeletonFile(path, biped)); }},
       {"skel-skin",

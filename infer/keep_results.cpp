@@ -1,0 +1,152 @@
+#include "infer/keep_results.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+
+#include "infer/deciding_options.h"
+#include "infer/mended.h"
+#include "infer/result_file.h"
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
+#include "libskel/core/sha256.h"
+#include "libskel/core/temporary_file.h"
+
+namespace skel {
+namespace fs = std::filesystem;
+namespace {
+
+// Of all that was left beside the drawing, and of a mended skeleton that is no output of this run (else it is
+// known by the output's hash). "": there is nothing.
+std::string mendedHash(const InferOptions& options, const RigJob& job) {
+  const bool skeleton_is_output =
+      std::count(options.formats.begin(), options.formats.end(), std::string("json")) > 0;
+  std::string all;
+  const FigureRange range = figuresAskedFor(options);
+  for (int figure = range.first; figure <= range.last; ++figure) {
+    const MendedFiles files = mendedFiles(options, job.source, stemOf(options, job, figure), figure);
+    const auto add = [&](const char* what, const std::string& file) {
+      if (!file.empty()) all += std::to_string(figure) + what + sha256(readFile(file)) + "\n";
+    };
+    if (!skeleton_is_output) add(" skeleton ", files.skeleton);
+    add(" labels ", files.labels), add(" mask ", files.mask);
+    add(" limbs ", files.limbs), add(" back ", files.back);
+  }
+  return all.empty() ? "" : sha256(all);
+}
+
+// What an earlier run says. One that cannot be read says nothing: the drawing is done anew.
+std::optional<DrawingResult> earlierResult(const std::string& path) {
+  std::error_code unknown;
+  if (!fs::exists(path, unknown)) return std::nullopt;
+  try {
+    const LookAtOutputs look;
+    return parseResult(readFile(path), path);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+bool isAnother(const std::string& drawing, const std::string& source) {
+  std::error_code not_there;
+  return fs::exists(drawing, not_there) && !fs::equivalent(drawing, source, not_there);
+}
+
+bool areThere(const std::vector<FigureResult>& figures) {
+  const LookAtOutputs look;
+  for (const FigureResult& figure : figures)
+    for (const WrittenFile& file : figure.outputs) {
+      std::error_code not_there;
+      if (fs::file_size(file.path, not_there) != file.bytes || not_there) return false;
+      if (sha256(readFile(file.path)) != file.sha256) return false;
+    }
+  return true;
+}
+
+// The same drawing may be in a list twice, or a machine that was thought dead still at it.
+class Claim {
+ public:
+  explicit Claim(const std::string& path) : path_(path), file_(madeFolderOf(path)) {
+    if (file_.fd() < 0) fail();
+  }
+  void write(const std::string& text) {
+    if (!writeAll(file_.fd(), text) || !file_.flush() || !file_.becomeTarget()) fail();
+  }
+
+ private:
+  static const std::string& madeFolderOf(const std::string& path) {
+    std::error_code failure;
+    fs::create_directories(fs::path(path).parent_path(), failure);
+    if (failure) throw OutputError(path, "cannot make its folder: " + failure.message());
+    return path;
+  }
+  [[noreturn]] void fail() const {
+    throw OutputError(path_, std::string("cannot be written: ") + std::strerror(errno));
+  }
+
+  std::string path_;
+  TemporaryFile file_;
+};
+
+void readOnce(const InferOptions& options, RigJob& job, Origin& origin) {
+  std::string bytes = readFile(job.source);
+  origin.image = sha256(bytes);
+  origin.mended = mendedHash(options, job);
+  job.read = {std::move(bytes), origin.image};
+}
+
+bool drawingDecided(ExitCode code) { return code == ExitCode::kDone || code == ExitCode::kInput; }
+
+DrawingResult rigAndKeep(const InferOptions& options, const RigOptions& rig, Origin origin, RigJob& job,
+                         ProgressBar& progress) {
+  const std::string path = options.out_dir + "/" + job.stem + kResultFileEnding;
+  Claim claim(path);
+  const std::optional<DrawingResult> earlier = earlierResult(path);
+  if (earlier && isAnother(earlier->source, job.source))
+    throw InputError(job.source, "its results would take the place of those of " + earlier->source +
+                                     "; rename one of the two, or delete " + path);
+  readOnce(options, job, origin);
+  if (options.resume && earlier && earlier->origin == origin && areThere(earlier->figures)) {
+    DrawingResult kept = *earlier;
+    kept.source = job.source;
+    kept.kept = true;
+    for (FigureResult& figure : kept.figures) figure.mend_file = fileToMend(options, job, figure.number);
+    progress.advance();
+    return kept;
+  }
+  DrawingResult result = rigDrawing(options, rig, job, progress);
+  result.origin = std::move(origin);
+  if (drawingDecided(result.code)) claim.write(formatResult(result, path) + "\n");
+  return result;
+}
+
+}  // namespace
+
+Origin originOfRun(const InferOptions& options) {
+  if (!tellsHashes(options)) return {};
+  return {"", "", optionsHash(options), sha256(options.nets), options.version};
+}
+
+DrawingResult rigOnce(const InferOptions& options, const RigOptions& rig, const Origin& run, RigJob job,
+                      ProgressBar& progress) {
+  DrawingResult failed;
+  failed.source = job.source;
+  failed.origin = run;
+  try {
+    if (keepsResults(options)) return rigAndKeep(options, rig, run, job, progress);
+    Origin origin = run;
+    if (tellsHashes(options)) readOnce(options, job, origin);
+    DrawingResult result = rigDrawing(options, rig, job, progress);
+    result.origin = std::move(origin);
+    return result;
+  } catch (...) {
+    takeError(failed);
+  }
+  progress.advance();
+  return failed;
+}
+
+}  // namespace skel
