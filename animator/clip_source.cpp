@@ -82,7 +82,9 @@ RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& char
                         intoPicture(source, ClipFrame::kBody));
 }
 
-Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source,
+namespace {
+
+Clip readClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source,
                  std::string* note) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".bvh" || ending == ".BVH") return loadBvhFor(path, character, source).clip;
@@ -102,6 +104,20 @@ Clip loadClipFor(const std::string& path, const RiggedCharacter& character, cons
     if (joints.find(contact.joint) < 0)
       throw InputError(path, "puts \"" + contact.joint + "\" on the ground, which this character lacks");
   return fitted(clip, character, source);
+}
+
+}  // namespace
+
+Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source,
+                 std::string* note) {
+  try {
+    return readClipFor(path, character, source, note);
+  } catch (const InputError&) {
+    throw;
+  } catch (const Error& error) {  // of the clip, whatever file it is from
+    if (error.exitCode() != ExitCode::kInput) throw;
+    throw InputError(path, error.what());
+  }
 }
 
 }  // namespace skel

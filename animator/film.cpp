@@ -14,8 +14,10 @@ namespace {
 
 // Frames that are painted together: enough for all cores, few enough to take little memory.
 constexpr int kBatch = 8;
-// Moments that decide what the camera shows.
+// Moments of a clip that decide what the camera shows, and points of all of them together: a hundred clips of
+// a hundred joints have a quarter of that.
 constexpr int kMoments = 32;
+constexpr std::size_t kMostPoints = 20'000'000;
 
 // Where there is no thread to be had, frames are encoded when they are asked for.
 constexpr auto kAtOnceIfPossible = std::launch::async | std::launch::deferred;
@@ -73,14 +75,18 @@ Eigen::MatrixX3f outermostPoints(const RiggedCharacter& character, const std::ve
   SkinWeights weights;
   weights.joints = character.weights.joints(outermost, Eigen::all);
   weights.weights = character.weights.weights(outermost, Eigen::all);
-  const Eigen::Index count = vertices.rows(), moments = Eigen::Index(clips.size()) * kMoments;
-  Eigen::MatrixX3f all((moments + 1) * count, 3);
+  const Eigen::Index count = vertices.rows();
+  const std::size_t moments = clips.size() * kMoments,
+                    most = kMostPoints / (std::size_t(count) + character.skeleton.joints.size()),
+                    looks = std::min(moments, most);
+  Eigen::MatrixX3f all((Eigen::Index(looks) + 1) * count, 3);
   all.topRows(count) = vertices;
-  parallelFor(std::size_t(moments), 0, [&](std::size_t i) {
-    const Clip& clip = clips[i / kMoments];
+  parallelFor(looks, 0, [&](std::size_t i) {
+    const std::size_t moment = i * moments / looks;  // evenly, where they are too many
+    const Clip& clip = clips[moment / kMoments];
+    const double share = double(moment % kMoments) / kMoments;
     all.middleRows((Eigen::Index(i) + 1) * count, count) =
-        skinVertices(vertices, weights,
-                     posedAt(character, clip, double(clip.duration_s()) * double(i % kMoments) / kMoments));
+        skinVertices(vertices, weights, posedAt(character, clip, double(clip.duration_s()) * share));
   });
   return all;
 }

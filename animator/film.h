@@ -20,7 +20,8 @@ struct FilmOptions {
 // Whole frames, at least one. The last one comes a frame before the end, so that films that loop do not stop.
 int frameCount(const Clip& clip, const FilmOptions& options);
 
-// Points that show where the figure ends: in the rest pose and at 32 moments of each clip.
+// Points that show where the figure ends: in the rest pose and at 32 moments of each clip; of clips that make
+// too many points, at fewer.
 Eigen::MatrixX3f outermostPoints(const RiggedCharacter& character, const std::vector<Clip>& clips);
 
 // Shows all of the clips, from one side: the eye does not move.

@@ -9,6 +9,7 @@
 #include "animator/render_sheet.h"
 #include "animator/rig_source.h"
 #include "libskel/core/caught_error.h"
+#include "libskel/core/error.h"
 #include "libskel/core/text.h"
 #include "libskel/pipeline/drawing_notes.h"
 
@@ -72,6 +73,8 @@ void render(const RenderCommandOptions& options, const std::string& path, const 
       throw UsageError(path + ": " + error.what());
     }
   }();
+  if (clips.empty())
+    throw InputError(path, "can do no clip: it has none, and none that come with skel fit its joints");
   if (drawing) tell(*drawing, path, clips);
   render(std::move(file), drawing ? &*drawing : nullptr, clips);
 }

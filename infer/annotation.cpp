@@ -141,18 +141,12 @@ AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string
   }
   if (!fs::exists(annotation)) return drawing;
   if (!drawing.mask) throw InputError(annotation, "needs a mask.png beside it");
-  if ((*drawing.mask == 0).all()) throw InputError(mask, "is blank: errors are relative to the figure's size");
+  if ((*drawing.mask == 0).all())
+    throw InputError(mask, "is blank: errors are relative to the figure's size");
   const JsonDocument document = JsonDocument::readFile(annotation);
   if (const auto view = document.root().find("view")) drawing.side_view = view->asString() == "side";
   const JsonValue joints = document.root().at("joints");
-  for (const std::string& name : joints.keys()) {
-    std::optional<Vector2d> point;
-    if (const JsonValue value = joints.at(name); !value.isNull()) {
-      const auto numbers = value.asNumbers(2);
-      point = Vector2d(numbers[0], numbers[1]);
-    }
-    drawing.joints.emplace(name, point);
-  }
+  for (const std::string& name : joints.keys()) drawing.joints.emplace(name, jointPlaceAt(joints.at(name)));
   // Some sets say torso where we say body.
   if (const auto torso = drawing.joints.find("torso"); torso != drawing.joints.end() && torso->second)
     if (auto& body = drawing.joints["body"]; !body) body = torso->second;

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t kMaxJoints = 1000;
 constexpr std::size_t kMaxNumbers = 100'000'000;     // of the motion
-constexpr std::size_t kMaxJointFrames = 20'000'000;  // frames times joints, with channels or without
-constexpr double kMaxNumber = 1e6;
+constexpr std::size_t kMaxJointFrames = 10'000'000;  // frames times joints, with channels or without: 1 GB
+constexpr double kMaxNumber = 1e9;  // ours are in centimetres, and models reach a million metres
 constexpr double kMaxFrameTime_s = 100;
 constexpr std::array<std::string_view, 6> kChannels = {"Xposition", "Yposition", "Zposition",
                                                        "Xrotation", "Yrotation", "Zrotation"};

@@ -11,6 +11,9 @@ inline constexpr double kMaxClip_s = 3600;
 // Of all clips of a model together, whose joints and clips may share the same numbers: readers refuse more.
 inline constexpr std::size_t kMaxKeys = 10'000'000;
 
+// Of a model: each is held against the others, by its name or as a whole.
+inline constexpr std::size_t kMostClips = 25'000;
+
 // Throws Error (refused input) if readers would refuse what is written of the clip: it lasts longer, or two
 // keys of a track are at the same time, as floats.
 void checkTimes(const Clip& clip);

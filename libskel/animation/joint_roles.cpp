@@ -274,16 +274,23 @@ std::vector<int> endsNearGround(const Tree& tree) {
 
 // The first of the joints that say so: a tail on the ground is no leg.
 FourFeet feetByNames(const Tree& tree, const std::vector<PlainName>& names, const std::vector<int>& ends) {
+  // Once a name, which may be long: many ends may hang on one way.
+  std::vector<char> says_front(names.size(), 0), says_hind(names.size(), 0);
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    const std::string& base = names[j].base;
+    says_front[j] = hasWord(base, {"front", "fore", "arm", "hand", "shoulder", "scapula", "wrist"});
+    says_hind[j] = hasWord(base, {"hind", "rear", "back", "thigh", "hip", "shin", "leg", "femur", "foot"});
+  }
   FourFeet feet = {-1, -1, -1, -1};
   for (const int end : ends) {
     Side side = Side::kNone;
     bool front = false, hind = false;
     for (int joint = end; joint >= 0; joint = tree.parent(joint)) {
-      const PlainName& name = names[std::size_t(joint)];
-      if (name.side == Side::kNone) continue;
-      side = name.side;
-      front |= hasWord(name.base, {"front", "fore", "arm", "hand", "shoulder", "scapula", "wrist"});
-      hind |= hasWord(name.base, {"hind", "rear", "back", "thigh", "hip", "shin", "leg", "femur", "foot"});
+      const auto j = std::size_t(joint);
+      if (names[j].side == Side::kNone) continue;
+      side = names[j].side;
+      front |= says_front[j] != 0;
+      hind |= says_hind[j] != 0;
     }
     if (side == Side::kNone || !(front || hind)) continue;
     int& foot = feet[std::size_t((front ? 0 : 2) + (side == Side::kRight ? 1 : 0))];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "libskel/animation/clip_limits.h"
 #include "libskel/animation/sample_pose.h"
@@ -29,6 +30,24 @@ void appendVector(std::string& text, const Vector3d& v) {
   }
 }
 
+// As they can stand at the end of a line, on which a program may look for a brace, too, and still all
+// different.
+std::vector<std::string> namesOnLines(const Skeleton& skeleton, JointNaming naming) {
+  std::vector<std::string> names = exportedJointNames(skeleton, naming);
+  std::set<std::string> taken(names.begin(), names.end());
+  for (std::string& name : names) {
+    std::string fit = name;
+    for (char& c : fit)
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '_';
+    if (fit.empty() || fit.back() == ' ' || fit.back() == '{') fit += '_';
+    if (fit.front() == ' ') fit.front() = '_';
+    if (fit == name) continue;
+    while (!taken.insert(fit).second) fit += '_';
+    name = std::move(fit);
+  }
+  return names;
+}
+
 // Nobody reads a line that begins beyond this.
 constexpr int kDeepestIndent = 40;
 
@@ -43,6 +62,7 @@ void appendHierarchy(std::string& text, std::vector<int>& order, const ExportInp
   std::vector<Vector3d> tips(count, Vector3d::Zero());  // of leaves
   for (const Bone& bone : skeletonBones(skeleton))
     tips[std::size_t(bone.joint)] = (bone.to - bone.from).cast<double>();
+  const std::vector<std::string> names = namesOnLines(skeleton, input.options.naming);
   std::vector<int> open;  // from the root to the joint at hand
   const auto indent = [&](int deeper) {
     return std::string(std::size_t(2 * std::min(int(open.size()) + deeper, kDeepestIndent)), ' ');
@@ -50,8 +70,7 @@ void appendHierarchy(std::string& text, std::vector<int>& order, const ExportInp
   const auto begin = [&](int joint) {
     const Joint& self = skeleton.joints[joint];
     const bool root = self.parent < 0;
-    text +=
-        indent(0) + (root ? "ROOT " : "JOINT ") + exportedJointName(self.name, input.options.naming) + "\n";
+    text += indent(0) + (root ? "ROOT " : "JOINT ") + names[std::size_t(joint)] + "\n";
     text += indent(0) + "{\n" + indent(1) + "OFFSET";
     // The root's place is in its position channels.
     appendVector(text,

@@ -280,10 +280,11 @@ Rig rigOf(const RiggedCharacter& character, const std::vector<Clip>& clips, Bone
 
 // One node a joint, from `first` on.
 void addJoints(GlbBuilder& glb, const Rig& rig, JointNaming naming, int first) {
+  const std::vector<std::string> names = exportedJointNames(rig.skeleton, naming);
   for (std::size_t j = 0; j < rig.skeleton.joints.size(); ++j) {
     const Joint& joint = rig.skeleton.joints[j];
     tinygltf::Node node;
-    node.name = exportedJointName(joint.name, naming);
+    node.name = names[j];
     const Vector3d offset = rig.offset(int(j));
     node.translation = {offset.x(), offset.y(), offset.z()};
     const Quaterniond turn = rig.local(int(j), Quaterniond::Identity()).normalized();
@@ -445,8 +446,8 @@ std::string asUtf8(const std::string& name) {
 
 // `name`, with as many underscores as make it differ from all joints' names.
 std::string meshNodeName(std::string name, const Skeleton& skeleton, JointNaming naming) {
-  std::set<std::string> taken;
-  for (const Joint& joint : skeleton.joints) taken.insert(exportedJointName(joint.name, naming));
+  const std::vector<std::string> names = exportedJointNames(skeleton, naming);
+  const std::set<std::string> taken(names.begin(), names.end());
   while (taken.count(name)) name += "_";
   return name;
 }

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "libskel/export/bone_ends.h"
+#include "libskel/skeleton/joint_lookup.h"
 
 namespace skel {
 
@@ -42,6 +43,16 @@ std::string exportedJointName(const std::string& joint, JointNaming naming) {
   if (joint.size() > end.size() && joint.ends_with(end))
     return boneEndName(exportedJointName(joint.substr(0, joint.size() - end.size()), naming));
   return joint;
+}
+
+std::vector<std::string> exportedJointNames(const Skeleton& skeleton, JointNaming naming) {
+  const JointLookup own(skeleton);
+  std::vector<std::string> names;
+  for (const Joint& joint : skeleton.joints) {
+    std::string name = exportedJointName(joint.name, naming);
+    names.push_back(own.find(name) < 0 ? std::move(name) : joint.name);
+  }
+  return names;
 }
 
 }  // namespace skel

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "libskel/export/write_character.h"
 
@@ -10,5 +11,9 @@ namespace skel {
 // kVrm: VRM 1.0's humanoid bones (its 15 required ones are covered). kMixamo: Mixamo's names with their
 // prefix. Joints that those do not know keep their own name.
 std::string exportedJointName(const std::string& joint, JointNaming naming);
+
+// Of all joints, in their order, as different as they are: one whose name there is another joint's already
+// keeps its own.
+std::vector<std::string> exportedJointNames(const Skeleton& skeleton, JointNaming naming);
 
 }  // namespace skel

@@ -11,9 +11,7 @@ std::vector<ExportedFile> exportWeights(const ExportInput& input) {
   nlohmann::ordered_json document;
   document["format"] = "skel-skin";
   document["version"] = 1;
-  auto& names = document["joints"] = nlohmann::ordered_json::array();
-  for (const Joint& joint : input.character.skeleton.joints)
-    names.push_back(exportedJointName(joint.name, input.options.naming));
+  document["joints"] = exportedJointNames(input.character.skeleton, input.options.naming);
   // Vertex by vertex: a document of all of them takes many times the text, and memory even to go.
   std::string text = document.dump();
   text.back() = ',';

@@ -537,6 +537,9 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
   makeWhole(character);
   if (const auto animations = glb.root().find("animations")) {
     const std::vector<JsonValue> all = animations->items();
+    if (all.size() > kMostClips)
+      animations->fail("are " + std::to_string(all.size()) + ", at most " + std::to_string(kMostClips) +
+                       " are read; export fewer");
     const auto heights = character.mesh.vertices.col(1);
     const float height = heights.maxCoeff() - heights.minCoeff();
     std::size_t keys = 0;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libskel/core/json.h"
+#include "libskel/skeleton/joint_lookup.h"
 
 namespace skel {
 namespace {
@@ -34,8 +35,9 @@ SkinWeights readWeights(const std::string& path, const RiggedCharacter& characte
   root.checkFormat("skel-skin", 1);
   root.allowOnly({"format", "version", "joints", "vertices"});
   std::vector<int> joints;
+  const JointLookup known(character.skeleton);
   for (const JsonValue& item : root.at("joints").items()) {
-    joints.push_back(character.skeleton.find(item.asString()));
+    joints.push_back(known.find(item.asString()));
     if (joints.back() < 0) item.fail("the skeleton has no joint \"" + item.asString() + "\"");
   }
   const JsonValue list = root.at("vertices");

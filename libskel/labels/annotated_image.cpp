@@ -1,6 +1,7 @@
 #include "libskel/labels/annotated_image.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "libskel/core/error.h"
@@ -16,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kJointsEnding = ".joints.json";
+constexpr double kFarthest_px = 1e6;  // more than pictures have; joints may lie a little beside them
 
 std::optional<std::string> imageOfStem(const fs::path& stem) {
   for (const char* extension : {".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tif", ".tiff", ".gif"})
@@ -62,11 +64,7 @@ NamedJoints readJointsFile(const std::string& path) {
   for (const std::string& name : list.keys()) {
     const JsonValue place = list.at(name);
     const std::string ours = name == "torso" ? "body" : name == "hip" ? "pelvis" : name;
-    std::optional<Eigen::Vector2d> point;
-    if (!place.isNull()) {
-      const auto xy = place.asNumbers(2);
-      point = Eigen::Vector2d(xy[0], xy[1]);
-    }
+    const std::optional<Eigen::Vector2d> point = jointPlaceAt(place);
     // Some name a joint by both names: ours counts, unless it is open.
     const auto known =
         std::find_if(joints.begin(), joints.end(), [&](const auto& joint) { return joint.first == ours; });
@@ -77,6 +75,13 @@ NamedJoints readJointsFile(const std::string& path) {
   }
   if (joints.empty()) list.fail("is empty");
   return joints;
+}
+
+std::optional<Eigen::Vector2d> jointPlaceAt(const JsonValue& place) {
+  if (place.isNull()) return std::nullopt;
+  const std::vector<double> xy = place.asNumbers(2);
+  if (!(std::abs(xy[0]) <= kFarthest_px && std::abs(xy[1]) <= kFarthest_px)) place.fail("lies in no picture");
+  return Eigen::Vector2d(xy[0], xy[1]);
 }
 
 std::string readView(const std::string& joints_file) {

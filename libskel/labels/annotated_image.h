@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libskel/candidates/candidates.h"
+#include "libskel/core/json.h"
 #include "libskel/image/image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/silhouette/silhouette.h"
@@ -27,6 +28,9 @@ std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir);
 // Joints by the names of the biped template; a file may also call `body` "torso" and `pelvis` "hip".
 // Throws InputError that names file, JSON path and reason.
 NamedJoints readJointsFile(const std::string& path);
+
+// One of its places, px; null: none. Throws InputError where it lies in no picture.
+std::optional<Eigen::Vector2d> jointPlaceAt(const JsonValue& place);
 
 // What such a file says of the view: "front", "three-quarter" or "side"; "" if nothing. Throws InputError.
 std::string readView(const std::string& joints_file);

@@ -135,7 +135,7 @@ std::vector<CandidateLine> candidateLines(const CandidateSet& candidates, const 
       const double distance = (at(candidates, members[a]) - at(candidates, members[b])).norm();
       if (distance > reach * (radius(candidates, members[a]) + radius(candidates, members[b]))) continue;
       const int from = line_of[a], to = line_of[b];
-      std::replace(line_of.begin(), line_of.end(), from, to);
+      if (from != to) std::replace(line_of.begin(), line_of.end(), from, to);
     }
   std::vector<CandidateLine> lines;
   std::vector<int> index(members.size(), -1);

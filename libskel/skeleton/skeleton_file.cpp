@@ -16,7 +16,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<std::string> textsAt(const JsonValue& value) {
+constexpr std::size_t kMostWarnings = 100;  // all are shown, each once; skel gives a handful
+
+std::vector<std::string> textsAt(const JsonValue& value, std::size_t most) {
+  if (value.size() > most)
+    value.fail("are " + std::to_string(value.size()) + ", at most " + std::to_string(most) + " are read");
   std::vector<std::string> texts;
   for (const JsonValue& item : value.items()) texts.push_back(item.asString());
   return texts;
@@ -133,8 +137,8 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
   if (const auto figure = root.find("figure")) file.figure = figureAt(*figure);  // not in version 1
   checkTemplate(root.at("template"), body_plan.name);
   file.confidence = root.at("confidence").asNumber(0, 1);
-  file.missing = textsAt(root.at("missing"));
-  file.warnings = textsAt(root.at("warnings"));
+  file.missing = textsAt(root.at("missing"), body_plan.joints.size());
+  file.warnings = textsAt(root.at("warnings"), kMostWarnings);
   const auto sourceAt = [](const JsonValue& given) {
     given.allowOnly({"file", "sha256"});
     return SkeletonFile::Mask{given.at("file").asFileName(), given.at("sha256").asString()};

@@ -194,3 +194,17 @@ TEST_CASE("a human skeleton with usual names walks as a biped, whichever way it 
   }
   CHECK(high.z() - low.z() > 3 * (high.x() - low.x()));
 }
+
+TEST_CASE("thousands of ends on one long way of long names are looked at in steps of joints") {
+  // Each end read all names above it: minutes for a file of some megabytes.
+  constexpr int kChain = 2048, kJoints = 4096;
+  Skeleton skeleton;
+  for (int j = 0; j < kJoints; ++j) {
+    Joint& joint = skeleton.joints.emplace_back();
+    joint.name = "left " + std::string(4000, 'f') + std::to_string(j);
+    joint.parent = std::min(j, kChain) - 1;
+    joint.position = {0, j < kChain ? 1 - j / double(kChain) : 0, 0.001 * j};
+  }
+  CHECK(findQuadrupedRoles(skeleton).joints.empty());
+  CHECK_FALSE(roleFigure(skeleton));
+}

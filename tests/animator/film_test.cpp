@@ -73,3 +73,15 @@ TEST_CASE("the film's camera sees every moment of the clip") {
         if (x == 0 || y == 0 || x == frame.width - 1 || y == frame.height - 1)
           REQUIRE(frame.pixel(x, y)[3] == 0);
 }
+
+TEST_CASE("the camera of very many clips looks at as many moments as fit into memory") {
+  const RiggedCharacter character = figure();
+  std::vector<Clip> clips(20'000, nodClip());
+  for (std::size_t i = 19'000; i < clips.size(); ++i) {  // all parts of the list are looked at
+    clips[i].root_times_s = {0};
+    clips[i].root_translations = {{0, 3, 0}};
+  }
+  const Eigen::MatrixX3f points = outermostPoints(character, clips);
+  CHECK(points.rows() < 21'000'000);
+  CHECK(points.col(1).maxCoeff() > 3);
+}

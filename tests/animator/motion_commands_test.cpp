@@ -136,7 +136,8 @@ TEST_CASE("a clip file that puts the pelvis on the ground, or lasts 1e5 s, is on
   };
   write(R"("contacts": [{"joint": "pelvis", "from_s": 0, "to_s": 1}], )");
   checkFails("retarget " + dir.file("a.clip.json") + to, 2,
-             "the clip \"a\" puts \"pelvis\" on the ground, which ends no limb of two bones");
+             dir.file("a.clip.json") +
+                 ": the clip \"a\" puts \"pelvis\" on the ground, which ends no limb of two bones");
   write(R"("contacts": [{"joint": "tail", "from_s": 0, "to_s": 1}], )");
   checkFails("retarget " + dir.file("a.clip.json") + to, 2,
              dir.file("a.clip.json") + ": puts \"tail\" on the ground, which this character lacks");

@@ -197,6 +197,21 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
   CHECK(filesBelow(dir.path()).size() == 2);
 }
 
+TEST_CASE("all clips of a model that can do none are no film and no sheet without sprites") {
+  const TempDir dir;
+  RiggedCharacter post = figure();
+  post.skeleton.joints.resize(1);
+  post.weights.joints.setZero();
+  const std::string model = dir.file("post.glb");
+  writeFile(model, encodeGlb(post, {}));
+  for (const std::string output : {"--sheet " + dir.file("s.png"), "-o " + dir.file("films/")}) {
+    const ToolRun run = render(model + " --clip all " + output);
+    CHECK(run.exit_code == 2);
+    CHECK(run.err == "skel-animate: " + model +
+                         ": can do no clip: it has none, and none that come with skel fit its joints\n");
+  }
+}
+
 TEST_CASE("a disk that fills up leaves no broken film") {
   const TempDir dir;
   const std::string model = figureFile(dir);

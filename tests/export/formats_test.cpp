@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
+#include "libskel/animation/bvh.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/animation/sample_pose.h"
@@ -204,6 +206,22 @@ TEST_CASE("a BVH holds the tree in centimetres and the clip in degrees") {
                                Eigen::AngleAxisd(degrees(2), Eigen::Vector3d::UnitY());
   const Pose pose = samplePose(fixture.clips[0], skeleton, 1);
   CHECK(q.angularDistance(pose.rotations[skeleton.index("right_elbow")].cast<double>()) < 1e-3);
+}
+
+TEST_CASE(
+    "joints whose names would break the lines of a BVH get others, all different, and it is read again") {
+  Fixture fixture;
+  const std::vector<std::string> odd = {"a\nJOINT b\n{", " a", "a ", "", "a{", "a_", "a\t{", "\x7f", "_"};
+  for (std::size_t j = 0; j < odd.size(); ++j) fixture.character.skeleton.joints[j].name = odd[j];
+  fixture.clips.clear();
+  const ExportInput input{fixture.character, fixture.clips, {"hero"}};
+  const BvhMotion motion = parseBvh(bySuffix(exportBvh(input)).at(".bvh"), "a.bvh");
+  REQUIRE(motion.skeleton.joints.size() == fixture.character.skeleton.joints.size());
+  std::set<std::string> names;
+  for (const Joint& joint : motion.skeleton.joints) names.insert(joint.name);
+  CHECK(names.size() == motion.skeleton.joints.size());
+  CHECK(names.contains("a_"));
+  CHECK(names.contains("a_JOINT b_{_"));
 }
 
 TEST_CASE("a character folder for AnimatedDrawings holds sixteen joints in the crop's pixels") {

@@ -95,6 +95,14 @@ TEST_CASE("a GLB that lists very many buffers is read as fast as its length says
   CHECK(decodeGlb(bytes, "a.glb").clips.size() > 0);
 }
 
+TEST_CASE("more clips than can be held against each other are refused") {
+  const std::string bytes = changed([](json& d, std::string&) {
+    const json clip = {{"name", "a"}, {"channels", json::array()}, {"samplers", {json::object()}}};
+    d["animations"] = json(25'001, clip);
+  });
+  CHECK(complaint(bytes) == "a.glb: animations: are 25001, at most 25000 are read; export fewer");
+}
+
 TEST_CASE("GLB files that mean something else are refused with their place") {
   struct Case {
     std::function<void(json&, std::string&)> change;

@@ -131,3 +131,15 @@ TEST_CASE("a clip's poses are the same in the joints' own axes and in the model'
   CHECK((back.tracks[0].translations_m[1] - track.translations_m[1]).norm() < 2e-6f);
   CHECK(back.tracks[0].scales[0] == track.scales[0]);
 }
+
+TEST_CASE("a joint keeps its name where another has the one that the target program wants") {
+  RiggedCharacter character = figure();
+  Joint& tip = character.skeleton.joints[character.skeleton.index("head_top")];
+  tip.name = "hips";
+  ExportOptions options;
+  options.naming = JointNaming::kVrm;
+  const Skeleton back = decodeGlb(encodeGlb(character, {}, options), "a.glb").character.skeleton;
+  CHECK(back.find("pelvis") == 0);
+  CHECK(back.find("hips") > 0);
+  CHECK(back.find("spine") > 0);
+}

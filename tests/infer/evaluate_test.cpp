@@ -59,6 +59,18 @@ TEST_CASE("evaluate draws what it found and writes the figures") {
   CHECK_FALSE(figures.root().at("characters").at("cap_boy").at("worst_joint").asString().empty());
 }
 
+TEST_CASE("evaluate refuses a joint that lies in no picture: its error was no number of JSON") {
+  const skel::TempDir dir;
+  for (const char* end : {".png", ".mask.png"})
+    std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/cap_boy") + end,
+                               dir.file(std::string("cap_boy") + end));
+  skel::writeFile(dir.file("cap_boy.joints.json"),
+                  R"({"joints": {"head": [1e308, 0], "body": [-1e308, 0]}})");
+  const auto run = skel::runTool("'" SKEL_INFER "' evaluate '" + dir.path() + "'");
+  CHECK(run.exit_code == 2);
+  CHECK(run.err.find("cap_boy.joints.json: joints.head: lies in no picture") != std::string::npos);
+}
+
 TEST_CASE("evaluate measures by the joints of label files that a person has placed, by no others") {
   const skel::TempDir dir;
   const std::string set = dir.file("set");

@@ -148,6 +148,9 @@ TEST_CASE("annotated pictures that cannot be used are refused") {
   writeFile(dir.file("man.joints.json"), R"({"joints": {"head": [1]}})");
   CHECK_THROWS_WITH(readJointsFile(dir.file("man.joints.json")),
                     dir.file("man.joints.json") + ": joints.head: has 1 numbers, must have 2");
+  writeFile(dir.file("man.joints.json"), R"({"joints": {"head": [1, -1e308]}})");
+  CHECK_THROWS_WITH(readJointsFile(dir.file("man.joints.json")),
+                    dir.file("man.joints.json") + ": joints.head: lies in no picture");
   writeFile(dir.file("blank.png"), encodePng(Plane8(Plane8::Zero(50, 50))));
   CHECK_THROWS_AS(labelImage(dir.file("blank.png"), dir.file("blank.png"), {}, loadTemplate("biped")),
                   InputError);

@@ -77,6 +77,17 @@ TEST_CASE("lines are groups of touching discs with their class shares") {
   CHECK(candidateLines(candidates, {}, classes, 1).empty());
 }
 
+TEST_CASE("lines of thousands of discs that all touch each other are found in steps of pairs") {
+  CandidateSet candidates;
+  std::vector<int> members;
+  for (int i = 0; i < 8000; ++i) {
+    candidates.maxima.push_back({float(i % 128), float(i / 128), 1});
+    members.push_back(i);
+  }
+  const ClassProbabilities classes = ClassProbabilities::Constant(8000, 4, 0.25);
+  CHECK(candidateLines(candidates, members, classes, 100).size() == 1);
+}
+
 TEST_CASE("the rules find a plain figure whose classes are known") {
   const Silhouette silhouette = figure();
   REQUIRE(silhouette.found());

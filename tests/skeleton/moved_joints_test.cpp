@@ -1,6 +1,7 @@
 #include "libskel/skeleton/moved_joints.h"
 
 #include "libskel/core/files.h"
+#include "libskel/core/rng.h"
 #include "libskel/mesh/triangle_mesh.h"
 #include "libskel/skeleton/outside_figure.h"
 #include "libskel/skeleton/skeleton_file.h"
@@ -62,6 +63,25 @@ TEST_CASE("joints whose positions are not known are not taken for moved ones") {
   CHECK(movedJoints(image, nowhere).empty());
   CHECK(movedJoints({image[0], image[1]}, {nowhere[0], nowhere[1]}).empty());
   CHECK(movedJoints(nowhere, image).empty());
+}
+
+TEST_CASE("moved joints are found among a thousand without trying all samples, and junk takes no longer") {
+  Rng rng(4);
+  std::vector<Eigen::Vector2d> image, position;
+  std::vector<int> moved;
+  for (int i = 0; i < 1000; ++i) {
+    image.emplace_back(rng.uniform(0, 500), rng.uniform(0, 900));
+    position.emplace_back(image.back().x() / 500, 1.7 - image.back().y() / 500);
+    if (i % 3 != 1) continue;
+    moved.push_back(i);
+    image.back().x() += 9;
+  }
+  CHECK(movedJoints(image, position) == moved);
+  while (image.size() < 50'000) {
+    image.emplace_back(rng.uniform(0, 500), rng.uniform(0, 900));
+    position.emplace_back(rng.uniform(), rng.uniform());
+  }
+  CHECK_FALSE(movedJoints(image, position).empty());
 }
 
 TEST_CASE("a skeleton file keeps its figure, and one of version 1 is of figure 1") {

@@ -94,6 +94,26 @@ TEST_CASE("a skeleton that lacks a joint is refused") {
                     dir.file("s.json") + ": joints: lacks the joint \"left_foot\"");
 }
 
+TEST_CASE("a skeleton file with more warnings than anybody reads, or more missing joints than there are") {
+  // Each was held against all others.
+  const auto refused = [](const SkeletonFile& file) -> std::string {
+    try {
+      parseSkeletonFile(formatSkeletonFile(file), "s.json", loadTemplate("biped"));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  SkeletonFile file = example();
+  file.warnings.clear();
+  for (int i = 0; i < 101; ++i) file.warnings.push_back("look at " + std::to_string(i));
+  CHECK(refused(file) == "s.json: warnings: are 101, at most 100 are read");
+  file.warnings.pop_back();
+  CHECK(refused(file) == "none");
+  file.missing.assign(18, "left_hand");
+  CHECK(refused(file) == "s.json: missing: are 18, at most 17 are read");
+}
+
 TEST_CASE("a rig whose joints stand children first is read parents first") {
   // By passes over all names it took minutes.
   constexpr int kCount = 4096;
