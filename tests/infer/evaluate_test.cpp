@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "libskel/core/files.h"
 #include "libskel/core/json.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
