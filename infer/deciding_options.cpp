@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <string_view>
 
 #include "libskel/core/files.h"
 #include "libskel/core/sha256.h"

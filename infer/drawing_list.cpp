@@ -2,10 +2,12 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 
 #include "libskel/core/error.h"
 
@@ -20,14 +22,16 @@ constexpr std::size_t kLongestPath = 4096;  // bytes, Linux's PATH_MAX
 Shard shardNamed(const std::string& text) {
   constexpr std::size_t kMost = 1'000'000;
   Shard shard;
-  const char *const end = text.data() + text.size(), *const slash = text.data() + text.find('/');
-  const auto isNumber = [](const char* from, const char* to, std::size_t& number) {
-    const auto [stopped, failure] = std::from_chars(from, to, number);
-    return failure == std::errc() && stopped == to;
+  const auto isNumber = [](std::string_view digits, std::size_t& number) {
+    const char* const end = digits.data() + digits.size();
+    const auto [stopped, failure] = std::from_chars(digits.data(), end, number);
+    return failure == std::errc() && stopped == end;
   };
-  if (text.find('/') == text.npos || !isNumber(text.data(), slash, shard.index) ||
-      !isNumber(slash + 1, end, shard.count) || shard.index < 1 || shard.index > shard.count ||
-      shard.count > kMost)
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::string_view index = std::string_view(text).substr(0, slash),
+                         count = std::string_view(text).substr(std::min(slash + 1, text.size()));
+  if (!isNumber(index, shard.index) || !isNumber(count, shard.count) || shard.index < 1 ||
+      shard.index > shard.count || shard.count > kMost)
     throw UsageError("--shard is \"" + text + "\", must be I/N with I from 1 to N, such as 1/4 to 4/4");
   return shard;
 }

@@ -1,7 +1,8 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <memory>
+#include <utility>
 
 #include "infer/drawing_list.h"
 #include "infer/drawings.h"
@@ -13,6 +14,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/in_order.h"
 #include "libskel/core/input_guard.h"
+#include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
 #include "libskel/core/text.h"
 #include "libskel/image/result_picture.h"
@@ -54,17 +56,16 @@ void ensureFolders(const InferOptions& options) {
 
 // Rigs what `next` gives, until there is no more, and reports it in that order.
 template <class Next, class Rig>
-void rigInOrder(const InferOptions& options, ProgressBar& progress, RunReport& report, const Next& next,
-                const Rig& rig) {
-  std::vector<DrawingResult> results(slotsInOrder(options.jobs));
+void rigInOrder(int threads, ProgressBar& progress, RunReport& report, const Next& next, const Rig& rig) {
+  std::vector<DrawingResult> results(slotsInOrder(threads));
   std::vector<RigJob> jobs(results.size());
-  parallelInOrder(options.jobs, {.next = [&](std::size_t slot) { return next(jobs[slot]); },
-                                 .work = [&](std::size_t slot) { results[slot] = rig(jobs[slot]); },
-                                 .take =
-                                     [&](std::size_t slot) {
-                                       progress.clear();
-                                       report.add(std::move(results[slot]));
-                                     }});
+  parallelInOrder(threads, {.next = [&](std::size_t slot) { return next(jobs[slot]); },
+                            .work = [&](std::size_t slot) { results[slot] = rig(jobs[slot]); },
+                            .take =
+                                [&](std::size_t slot) {
+                                  progress.clear();
+                                  report.add(std::move(results[slot]));
+                                }});
 }
 
 ExitCode rigNamed(const InferOptions& options, const std::vector<std::string>& results) {
@@ -84,9 +85,10 @@ ExitCode rigNamed(const InferOptions& options, const std::vector<std::string>& r
   RunReport report(options, rig, all.size() > 1);
   {
     ProgressBar progress("rigging", all.size(), !options.quiet);
+    const std::size_t threads = std::min(threadCount(options.jobs), all.size());
     std::size_t begun = 0;
     rigInOrder(
-        options, progress, report,
+        int(threads), progress, report,
         [&](RigJob& job) {
           if (begun == all.size()) return false;
           job = all[begun++];
@@ -127,7 +129,8 @@ DrawingResult rigListed(const InferOptions& options, const RigOptions& rig, cons
 }
 
 ExitCode rigList(const InferOptions& options) {
-  DrawingList list(options.list_file, options.null_ended, shardNamed(options.shard));
+  DrawingList list(options.list_file, options.null_ended,
+                   options.shard.empty() ? Shard() : shardNamed(options.shard));
   const RigOptions rig = rigOptions(options);
   if (!options.quiet) noteUnusedWeights(options);
   ensureFolders(options);
@@ -137,7 +140,7 @@ ExitCode rigList(const InferOptions& options) {
   {
     ProgressBar progress("rigging", options.quiet ? 0 : list.length(), !options.quiet);
     rigInOrder(
-        options, progress, report,
+        options.jobs, progress, report,
         [&](RigJob& job) {
           const auto path = list.next();
           if (path) job = {*path, "", {}};

@@ -1,4 +1,5 @@
 #include "infer/infer_options.h"
+
 #include "infer/deciding_options.h"
 #include "infer/outputs.h"
 #include "infer/rig_figure.h"
@@ -19,8 +20,7 @@ void checkListUsage(const InferOptions& options) {
     throw UsageError("--from names the drawings; name none beside it, or put " + options.images.front() +
                      " into the list");
   if (!list && options.null_ended) throw UsageError("--null says how the list of --from is written");
-  if (!list && options.shard != InferOptions().shard)
-    throw UsageError("--shard is a part of the list of --from");
+  if (!list && !options.shard.empty()) throw UsageError("--shard is a part of the list of --from");
   if (!list && !options.resume) return;
   if (!options.report_file.empty())
     throw UsageError("--report holds pictures of all drawings of a run and does not go with " + many +

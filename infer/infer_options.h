@@ -17,7 +17,7 @@ struct InferOptions {
   std::vector<std::string> images;  // and folders of them; "-": bytes from the standard input
   std::string list_file;            // of more of them than a command line holds; "-": the standard input
   bool null_ended = false;          // the paths in it, instead of by ends of lines
-  std::string shard = "1/1";        // which part of the list
+  std::string shard;                // which part of the list, "I/N"; "": all of it
   std::string name;                 // of the results of one drawing; "": the drawing's
   std::string out_dir = "out";
   std::string weights_file, joint_net_file;  // empty: the built-in ones

@@ -1,5 +1,6 @@
 #include "infer/result_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>

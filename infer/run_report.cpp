@@ -19,11 +19,12 @@ std::string numberOf(const InferOptions& options, const FigureResult& figure) {
 
 void print(const InferOptions& options, bool tells_plan, const DrawingResult& drawing) {
   for (const FigureResult& figure : drawing.figures) {
-    std::printf("%s%s: %s  confidence %.2f%s\n", printable(drawing.source).c_str(),
+    std::printf("%s%s: %s  confidence %.2f%s%s\n", printable(drawing.source).c_str(),
                 numberOf(options, figure).c_str(),
                 figure.outputs.empty() ? "nothing to write" : printable(figure.outputs.front().path).c_str(),
-                figure.confidence, tells_plan ? ("  " + figure.body_plan).c_str() : "");
-    if (!options.timings) continue;
+                figure.confidence, tells_plan ? ("  " + figure.body_plan).c_str() : "",
+                drawing.kept ? "  (done before)" : "");
+    if (!options.timings || drawing.kept) continue;
     double total = 0;
     for (const StageTime& time : figure.times) {
       std::printf("  %-12s %8.2f ms\n", time.stage.c_str(), time.time_s * 1e3);
@@ -62,7 +63,7 @@ RunReport::RunReport(const InferOptions& options, const RigOptions& rig, bool ma
 void RunReport::add(DrawingResult drawing) {
   if (options_.json_lines)
     printJson(drawing);
-  else if (!options_.quiet && !drawing.kept)
+  else if (!options_.quiet)
     print(options_, tells_plan_, drawing);
   if (drawing.left_out) {
     if (left_out_++ == 0) first_left_out_ = drawing.source;

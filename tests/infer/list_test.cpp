@@ -149,6 +149,9 @@ TEST_CASE("what is done is left, what is half done or was made otherwise is done
     CHECK(statuses(again) == all_kept);
     CHECK(fs::last_write_time(skeleton) == written);
     CHECK_THAT(again.err, Contains("; 3 done before"));
+    CHECK_THAT(
+        infer(dir, "--from list --resume -o out" + kCheap).out,
+        Contains("in/b/hero.png: out/in/b/hero.skeleton.json  confidence") && Contains("(done before)"));
     auto before = lines(first.out), after = lines(again.out);
     for (auto* some : {&before, &after})
       for (Json& line : *some) line.erase("kept");
