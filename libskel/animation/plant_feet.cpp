@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "libskel/core/check.h"
 
@@ -118,6 +119,24 @@ std::vector<double> smoothedUpper(const std::vector<double>& values) {
   return smooth;
 }
 
+// How much higher, in what it is lifted, a foot has to be lifted that steps: while another one stands.
+double liftGain(const Skeleton& skeleton, int foot, const std::vector<Stand>& stands,
+                const FootPlanting& planting, const std::vector<ModelPose>& poses,
+                const std::vector<double>& lifts_m) {
+  constexpr double kMostOfLeg = 0.5, kNoStep = 0.02;
+  double highest = 0;
+  for (std::size_t k = 0; k + 1 < poses.size(); ++k) {
+    bool stands_here = false, stands_there = false;
+    for (const Stand& stand : stands)
+      (stand.foot == foot ? stands_here : stands_there) |=
+          weightAt(stand, poses[k].time_s, poses.back().time_s, planting.ramp_s) >= 1;
+    if (!stands_here && stands_there) highest = std::max(highest, lifts_m[k]);
+  }
+  const double leg_m = boneLength(skeleton, foot) + boneLength(skeleton, skeleton.joints[foot].parent);
+  if (highest < kNoStep * leg_m) return 0;
+  return std::max(0.0, std::min(planting.least_lift_m, kMostOfLeg * leg_m) / highest - 1);
+}
+
 }  // namespace
 
 std::vector<Vector3d> jointPositions(const Skeleton& skeleton, const ModelPose& pose) {
@@ -184,15 +203,38 @@ void plantFeet(const Skeleton& skeleton, const std::vector<FootContact>& contact
     }
   lower = smoothedUpper(lower);
 
+  struct Step {
+    std::vector<double> lifts_m;  // one a pose: how high above where it stands
+    double gain = 0;
+  };
+  std::map<int, Step> steps;  // by foot
+  for (const Stand& stand : stands) {
+    if (steps.contains(stand.foot)) continue;
+    Step& step = steps[stand.foot];
+    for (std::size_t k = 0; k <= count; ++k)
+      step.lifts_m.push_back(at[k][stand.foot].y() - lower[k % count] - planting.standing_y_m[stand.foot]);
+    step.gain = liftGain(skeleton, stand.foot, stands, planting, poses, step.lifts_m);
+  }
+
   for (std::size_t k = 0; k <= count; ++k) {
     ModelPose& pose = poses[k];
     pose.root_offset_m.y() -= pose.share * lower[k % count];
+    for (const auto& [foot, step] : steps) {
+      if (step.gain > 0 && step.lifts_m[k] > 0) {
+        const Vector3d up(0, pose.share * step.gain * step.lifts_m[k], 0);
+        reach(skeleton, foot, jointPositions(skeleton, pose)[foot] + up, planting.forwards[foot], pose);
+      }
+      if (planting.as_drawn > 0)
+        pose.globals[foot] =
+            pose.globals[foot].slerp(pose.share * planting.as_drawn, planting.standing_turn[foot]);
+    }
     for (const Stand& stand : stands) {
       const double time_s = k == count ? poses[0].time_s : pose.time_s;
       const double weight = pose.share * weightAt(stand, time_s, duration_s, planting.ramp_s);
       if (weight <= 0) continue;
       const Vector3d now = jointPositions(skeleton, pose)[stand.foot];
-      reach(skeleton, stand.foot, now + weight * (goalOf(stand, time_s) - now), planting.forwards, pose);
+      reach(skeleton, stand.foot, now + weight * (goalOf(stand, time_s) - now), planting.forwards[stand.foot],
+            pose);
       pose.globals[stand.foot] = pose.globals[stand.foot].slerp(weight, planting.standing_turn[stand.foot]);
     }
     // A swinging foot does not go below the ground.
@@ -200,7 +242,8 @@ void plantFeet(const Skeleton& skeleton, const std::vector<FootContact>& contact
       const Vector3d now = jointPositions(skeleton, pose)[stand.foot];
       const double depth = planting.standing_y_m[stand.foot] - now.y();
       if (depth > 1e-4 && pose.share > 0)
-        reach(skeleton, stand.foot, now + Vector3d(0, pose.share * depth, 0), planting.forwards, pose);
+        reach(skeleton, stand.foot, now + Vector3d(0, pose.share * depth, 0), planting.forwards[stand.foot],
+              pose);
     }
   }
 }

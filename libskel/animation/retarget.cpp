@@ -28,6 +28,11 @@ using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
 constexpr double kTolerance = 0.0015;  // of thinned keys, in heights
 constexpr float kNoise = 1e-9f;
+// By eye on eight of the unseen drawings that walk, run and jump.
+constexpr double kWaddle_rad = 5;    // for each height that the clip sways, of one who takes no steps
+constexpr double kLeastLift = 0.12;  // of a step, in heights
+constexpr double kAsDrawn = 0.6;     // FootPlanting::as_drawn of feet that come towards the viewer
+constexpr double kShortSquat = 0.6;  // so much less deep squat legs that are one piece
 
 Quaterniond aboutZ(double angle_rad) { return Quaterniond(Eigen::AngleAxisd(angle_rad, Vector3d::UnitZ())); }
 
@@ -54,7 +59,7 @@ struct Retargeter {
   std::vector<double> share_of_motion;  // 1: as the clip says, 0: the joint does not turn
   Quaterniond figure_from_clip = Quaterniond::Identity();  // about the vertical
   std::vector<Vector3d> bones;                             // of pointed joints, canonical
-  std::vector<Vector3d> into_picture;                      // where what points at the viewer turns to
+  std::vector<Vector3d> ahead, behind;  // what is added for each unit that it points at the viewer, or away
 
   // Rotations to the model frame.
   std::vector<Quaterniond> globals(const Pose& canonical, double share) const {
@@ -72,7 +77,7 @@ struct Retargeter {
       if (pointed[j]) {
         const Quaterniond turn = aboutZ(swung[j] * share) * motion[j];
         const Vector3d bone = turn * bones[j];
-        const Vector3d seen = bone + share * bone.z() * into_picture[j];
+        const Vector3d seen = bone + share * bone.z() * (bone.z() > 0 ? ahead : behind)[j];
         result[j] = Quaterniond::FromTwoVectors(bone, seen) * turn * turns[j].share(share).conjugate();
       } else
         result[j] = parent < 0 ? local : result[parent] * local;
@@ -175,16 +180,48 @@ double holdLegs(Retargeter& retargeter, const FigureShape& shape, const std::vec
 
 // What is added to a direction for each unit that it points at the viewer. All to one side, as if the limbs
 // were seen aslant: so steps stay steps.
-Vector3d wayIntoPicture(const FigureShape& shape, double share) {
+Vector3d wayAslant(const FigureShape& shape, double share) {
   share *= std::abs(shape.looks * std::cos(shape.yaw_rad));
   return {shape.looks * share, 0, -share};
 }
 
-std::vector<Vector3d> waysIntoPicture(const Skeleton& skeleton, const FigureShape& shape, double share) {
-  std::vector<Vector3d> ways(skeleton.joints.size(), Vector3d::Zero());
-  if (skeleton.find("left_front_foot") < 0 && share > 0)
-    std::fill(ways.begin(), ways.end(), wayIntoPicture(shape, share));
-  return ways;
+// The same to the right of the picture, by a turn about the vertical: so the bone keeps its height.
+Vector3d wayTurned(double share) {
+  const double angle_rad = share * kPi / 2;
+  return {std::sin(angle_rad), 0, std::cos(angle_rad) - 1};
+}
+
+// One who comes towards the viewer, by his own legs: knees turn out and let shins hang, hands swing across
+// the belly and out behind, as in drawn animation. One whose steps went aslant would walk sideways like a
+// crab.
+bool comesTowardsViewer(const FigureShape& shape, const Clip& clip, const RetargetOptions& options) {
+  return clip.frame == ClipFrame::kBody && shape.looks != 0 && shape.yaw_rad == 0 && !options.aslant;
+}
+
+void turnIntoPicture(const FigureShape& shape, const Clip& clip, const RetargetOptions& options,
+                     Retargeter& retargeter) {
+  const Skeleton& skeleton = retargeter.skeleton;
+  const bool turns = skeleton.find("left_front_foot") < 0 && options.into_picture > 0;
+  const bool aslant = turns && !comesTowardsViewer(shape, clip, options);
+  const Vector3d way = aslant ? wayAslant(shape, options.into_picture) : Vector3d::Zero();
+  retargeter.ahead.assign(skeleton.joints.size(), way);
+  retargeter.behind = retargeter.ahead;
+  if (!turns || aslant) return;
+  // Which way, and how far: by eye on eight of the unseen drawings.
+  struct Limb {
+    std::array<const char*, 3> joints;
+    double ahead, behind;  // of what is asked for; outwards
+  };
+  for (const Limb& limb :
+       {Limb{{"hip", "knee", "foot"}, 1, 0.2}, Limb{{"shoulder", "elbow", "hand"}, -0.5, -1}})
+    for (const std::string side : {"left_", "right_"})
+      for (const char* name : limb.joints) {
+        const int joint = skeleton.find(side + name);
+        if (joint < 0) continue;
+        const double out = side == "left_" ? options.into_picture : -options.into_picture;
+        retargeter.ahead[std::size_t(joint)] = wayTurned(out * limb.ahead);
+        retargeter.behind[std::size_t(joint)] = wayTurned(out * limb.behind);
+      }
 }
 
 // How far the limb's joints go in the clip, rad, all together.
@@ -255,9 +292,9 @@ FootPlanting footPlanting(const Retargeter& retargeter, const Clip& clip, const 
   FootPlanting planting;
   planting.standing_y_m.assign(count, 0);
   planting.standing_turn.assign(count, Quaterniond::Identity());
-  planting.forwards = retargeter.figure_from_clip *
-                      (clip.template_name == "quadruped" ? Vector3d(-1, 0, 0) : Vector3d(0, 0, 1));
-  planting.forwards += planting.forwards.z() * retargeter.into_picture[0];
+  const Vector3d forwards = retargeter.figure_from_clip *
+                            (clip.template_name == "quadruped" ? Vector3d(-1, 0, 0) : Vector3d(0, 0, 1));
+  for (const Vector3d& way : retargeter.ahead) planting.forwards.push_back(forwards + forwards.z() * way);
   const auto drawnAt = [&](int joint) { return skeleton.joints[joint].position.y(); };
   double ground = 1e9;
   for (const FootContact& contact : clip.contacts) {
@@ -514,7 +551,9 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
                         std::vector<double>(count, 1),
                         figure_from_clip,
                         canonical,
-                        waysIntoPicture(skeleton, shape, options.into_picture)};
+                        {},
+                        {}};
+  turnIntoPicture(shape, clip, options, retargeter);
   for (std::size_t j = 0; j < count; ++j) retargeter.pointed[j] = !canonical[j].isZero();
   // Seen from the side, limbs swing where they could else stay away.
   if (clip.frame == ClipFrame::kBody)
@@ -538,27 +577,42 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
 
   const bool points = std::count(retargeter.pointed.begin(), retargeter.pointed.end(), true) > 0;
   const bool moves_root = !clip.contacts.empty() || !clip.root_times_s.empty();
-  double stride = 1, stand = 0;
+  double stride = 1, sway = 1, sink = 1, stand = 0, waddle_rad = 0;
   FootPlanting planting;
   if (!clip.contacts.empty()) {
     planting = footPlanting(retargeter, clip, shape);
-    stride = steps * legShare(skeleton, clip.contacts, shape.height_m);
+    const double legs = legShare(skeleton, clip.contacts, shape.height_m);
+    stride = sway = sink = steps * legs;
+    if (skeleton.find("left_front_foot") < 0) {
+      sway = std::max(steps, stride);
+      waddle_rad = kWaddle_rad * std::max(0., 1 - stride);
+      double joined = 0;
+      for (const FootContact& contact : clip.contacts)
+        joined = std::max(joined, joinedAt(shape, skeleton.index(contact.joint)));
+      sink = legs * std::min(steps, 1 - kShortSquat * smoothStep(0.3, 0.9, joined));
+      planting.least_lift_m = kLeastLift * std::min(1., 2 * steps) * shape.height_m;
+      if (comesTowardsViewer(shape, clip, options)) planting.as_drawn = kAsDrawn;
+    }
     Pose still;
     still.rotations.assign(count, Eigen::Quaternionf::Identity());
     stand = standing(skeleton, positions(skeleton, retargeter.globals(still, 1)), clip.contacts, planting);
   }
+  const Vector3d ahead = figure_from_clip * Vector3d::UnitZ();
   for (int k = 0; k < keys; ++k) {
     const auto& [pose, share] = moments[k];
     poses[k].globals = retargeter.globals(pose, share);
     poses[k].share = share;
     if (!moves_root) continue;
     Vector3d offset = shape.height_m * pose.root_translation.cast<double>();
+    // Who takes small steps rocks from foot to foot.
+    const Quaterniond roll(Eigen::AngleAxisd(-waddle_rad * share * double(pose.root_translation.x()), ahead));
+    for (Quaterniond& turn : poses[k].globals) turn = roll * turn;
     // Steps are as long as the legs; what is jumped is not.
-    offset.x() *= stride;
+    offset.x() *= sway;
     offset.z() *= stride;
-    if (offset.y() < 0) offset.y() *= stride;
+    if (offset.y() < 0) offset.y() *= sink;
     offset = retargeter.figure_from_clip * offset;
-    if (points) offset += share * offset.z() * wayIntoPicture(shape, options.into_picture);
+    if (points) offset += share * offset.z() * retargeter.ahead[0];
     poses[k].root_offset_m = offset + share * stand * Vector3d::UnitY();
   }
   plantFeet(skeleton, clip.contacts, planting, poses);

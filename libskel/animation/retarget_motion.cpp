@@ -455,6 +455,7 @@ RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file
   options.clear_of_head = false;
   options.shape = shape;
   options.into_picture = mapping.same_names ? 0 : into_picture;
+  options.aslant = true;
   options.thin_keys = false;
   result.clip = retargetToRest(clip, target, options);
   standOnGround(source, !mapping.same_names, target, shape, scale, result.clip);

@@ -307,10 +307,11 @@ TEST_CASE(
   CHECK(bow(*options.shape).angularDistance(bow(withFeet(skeleton))) < 0.05f);
 }
 
-TEST_CASE("limbs that point at the viewer turn into the picture, as far as asked for") {
+TEST_CASE("limbs that point at the viewer turn into the picture aslant, as far as asked for") {
   const Skeleton skeleton = figureSkeleton();
   RetargetOptions options;
   options.shape = withFeet(skeleton);
+  options.aslant = true;
   const auto swing = [&](double looks, double share) {
     options.shape->looks = looks;
     options.into_picture = share;
@@ -329,6 +330,99 @@ TEST_CASE("limbs that point at the viewer turn into the picture, as far as asked
   CHECK(half.x() > 2 * ahead.x());
   CHECK(half.z() < 0.8f * ahead.z());
   CHECK(model.isApprox(ahead));
+}
+
+namespace {
+
+// Where the feet are while the figure walks, seen from the front.
+struct Steps {
+  double nearest_m = 1e9;                    // of the left foot to the right of the right one
+  double left_lift_m = 0, right_lift_m = 0;  // of the foot over where it stands
+  double both_lift_m = 0;                    // of the lower foot
+  double knees_m = 0;                        // how far knees go outwards beyond the hips
+  double left_lean = 0, right_lean = 0;      // of the trunk, to each side
+};
+
+Steps stepsOf(const Skeleton& skeleton, const FigureShape& shape, bool aslant) {
+  RetargetOptions options;
+  options.shape = shape;
+  options.aslant = aslant;
+  const Clip walk = retargetToRest(clipNamed(builtinClips(), "walk"), skeleton, options);
+  const auto joint = [&](const char* name) { return std::size_t(skeleton.index(name)); };
+  std::vector<std::vector<Vector3f>> poses;
+  double ground = 1e9;
+  for (int k = 0; k < 40; ++k) {
+    poses.push_back(positions(walk, skeleton, walk.duration_s() * float(k) / 40));
+    // positions() leaves the root where it rests.
+    const Pose pose = samplePose(walk, skeleton, walk.duration_s() * float(k) / 40);
+    for (Vector3f& at : poses.back()) at += float(shape.height_m) * pose.root_translation;
+    for (const char* foot : {"left_foot", "right_foot"})
+      ground = std::min(ground, double(poses.back()[joint(foot)].y()));
+  }
+  Steps steps;
+  for (const auto& at : poses) {
+    const Vector3f left = at[joint("left_foot")], right = at[joint("right_foot")];
+    const double l = double(left.y()) - ground, r = double(right.y()) - ground;
+    steps.nearest_m = std::min(steps.nearest_m, double(left.x() - right.x()));
+    steps.left_lift_m = std::max(steps.left_lift_m, l);
+    steps.right_lift_m = std::max(steps.right_lift_m, r);
+    steps.both_lift_m = std::max(steps.both_lift_m, std::min(l, r));
+    steps.knees_m = std::max({steps.knees_m, double(at[joint("left_knee")].x() - at[joint("left_hip")].x()),
+                              double(at[joint("right_hip")].x() - at[joint("right_knee")].x())});
+    const double lean = double(bone(at, skeleton, "body", "neck").x());
+    steps.left_lean = std::max(steps.left_lean, lean);
+    steps.right_lean = std::max(steps.right_lean, -lean);
+  }
+  return steps;
+}
+
+}  // namespace
+
+TEST_CASE("one drawn from the front comes towards the viewer: feet lift in turn, and legs do not cross") {
+  const Skeleton skeleton = figureSkeleton();
+  FigureShape shape = withFeet(skeleton);
+  shape.looks = 1;
+  const Steps towards = stepsOf(skeleton, shape, false), sideways = stepsOf(skeleton, shape, true);
+  CHECK(towards.nearest_m > 0.3);
+  CHECK(sideways.nearest_m < 0.2);
+  CHECK(towards.left_lift_m > 0.1 * shape.height_m);
+  CHECK(towards.right_lift_m > 0.1 * shape.height_m);
+  CHECK(towards.both_lift_m < 0.01 * shape.height_m);
+  CHECK(towards.knees_m > 0.08);
+}
+
+TEST_CASE("who has short legs lifts them as far as they go, rocks from foot to foot and squats less deep") {
+  FigureShape shape = withFeet(figureSkeleton());
+  shape.looks = 1;
+  const auto shortened = [](double share) {
+    Skeleton skeleton = figureSkeleton();
+    const double lower = (1 - share) * 0.74;
+    for (Joint& joint : skeleton.joints) {
+      if (joint.name.ends_with("knee")) joint.position.y() += lower / 2;
+      if (joint.name.ends_with("foot")) joint.position.y() += lower;
+    }
+    return skeleton;
+  };
+  const Steps tall = stepsOf(figureSkeleton(), shape, false), small = stepsOf(shortened(0.4), shape, false);
+  CHECK(small.left_lift_m > 0.07 * shape.height_m);
+  CHECK(small.right_lift_m > 0.07 * shape.height_m);
+  CHECK(small.nearest_m > 0.1);
+  CHECK(small.left_lean > 1.5 * tall.left_lean);
+  CHECK(small.right_lean > 1.5 * tall.right_lean);
+
+  const auto deepest = [&](double joined) {
+    RetargetOptions options;
+    options.shape = shape;
+    for (const char* foot : {"left_foot", "right_foot"})
+      options.shape->joined[std::size_t(figureSkeleton().index(foot))] = joined;
+    const Clip jump = retargetToRest(clipNamed(builtinClips(), "jump"), figureSkeleton(), options);
+    float least = 0;
+    for (const Vector3f& at : jump.root_translations) least = std::min(least, at.y());
+    return least;
+  };
+  CHECK(deepest(0) < -0.12f);
+  CHECK(deepest(0.55) > 0.85f * deepest(0));
+  CHECK(deepest(0.55) < 0.4f * deepest(0));
 }
 
 // Each looked at all joints above it, and at all children of these.

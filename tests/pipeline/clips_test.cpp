@@ -159,8 +159,7 @@ TEST_CASE("nothing is mirrored, and a figure in side view walks within the pictu
   const Vector3f ahead = swing("cap_boy", "walk", 0), front = swing("cap_boy", "walk", usual),
                  side = swing("runner", "walk", usual);
   CHECK(ahead.z() > 3 * ahead.x());
-  CHECK(front.z() > front.x());
-  CHECK(front.x() > 2 * ahead.x());
+  CHECK(front.z() > 2 * front.x());
   CHECK(side.x() > 3 * side.z());
 
   // The right hand waves at the left of the picture, the left arm dances first at its right.

@@ -5,12 +5,14 @@
 // see libskel/deform/stretch.h. Inside: the winding
 // number of the skin just above a limb's surface is 1 more than at rest. Nothing shown: in the picture no
 // hand, by what lies where it was drawn, goes a tenth of the figure's height, and less than a twentieth of
-// its area .15 of it.
+// its area .15 of it. Feet stay: in the picture one of the two, by what lies where it was drawn, goes less
+// than .08 of the height, of clips that lift feet.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -31,6 +33,7 @@ using Eigen::Vector3d;
 constexpr int kFrames = 8;
 constexpr int kMoments = 11;
 constexpr int kLimbPoints = 150;
+constexpr double kFeet = 0.08;
 constexpr double kAbove_m = 0.003 * kModelHeight_m;
 
 Vector3d corner(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, Eigen::Index t, int k) {
@@ -80,8 +83,8 @@ std::vector<bool> insideOthers(const Eigen::MatrixX3f& vertices, const TriangleM
 // How far each vertex goes in the picture, in heights.
 Eigen::VectorXf waysInPicture(const RiggedCharacter& character, const Clip& clip) {
   constexpr int kTimes = 24;
-  Eigen::MatrixX2f low = character.mesh.vertices.leftCols<2>(), high = low;
-  for (int k = 0; k < kTimes; ++k) {
+  Eigen::MatrixX2f low = posedVertices(character, clip, 0).leftCols<2>(), high = low;
+  for (int k = 1; k < kTimes; ++k) {
     const Eigen::MatrixX3f posed = posedVertices(character, clip, clip.duration_s() * float(k) / kTimes);
     low = low.cwiseMin(posed.leftCols<2>()), high = high.cwiseMax(posed.leftCols<2>());
   }
@@ -99,27 +102,51 @@ Eigen::VectorXf areasInPicture(const TriangleMesh& mesh) {
   return areas;
 }
 
-bool showsNothing(const RiggedCharacter& character, const Clip& clip) {
-  constexpr float kHand = 0.1f, kMost = 0.15f, kOfArea = 0.05f, kReach = 0.05f;
+// The mean of the ways of what lies where the joint was drawn; nothing: nothing lies there.
+std::optional<double> wayAt(const Joint& joint, const TriangleMesh& mesh, const Eigen::VectorXf& ways,
+                            const Eigen::VectorXf& areas) {
+  constexpr float kReach = 0.05f;
+  const Eigen::RowVector2f at = joint.position.head<2>().cast<float>().transpose();
+  const Eigen::ArrayXf there =
+      ((mesh.vertices.leftCols<2>().rowwise() - at).rowwise().norm().array() < kReach * heightOf(mesh))
+          .select(areas.array(), 0);
+  if (!(there.sum() > 0)) return std::nullopt;
+  return double((there * ways.array()).sum() / there.sum());
+}
+
+struct Shown {
+  bool nothing = true;
+  double feet = 1;  // how far the foot goes that goes least
+};
+
+Shown shown(const RiggedCharacter& character, const Clip& clip) {
+  constexpr float kMost = 0.15f, kOfArea = 0.05f;
+  constexpr double kHand = 0.1;
   const TriangleMesh& mesh = character.mesh;
   const Eigen::VectorXf ways = waysInPicture(character, clip), areas = areasInPicture(mesh);
-  if ((ways.array() > kMost).select(areas, 0).sum() > kOfArea * areas.sum()) return false;
+  Shown result;
+  result.nothing = (ways.array() > kMost).select(areas, 0).sum() <= kOfArea * areas.sum();
   for (const Joint& joint : character.skeleton.joints) {
-    if (!joint.name.ends_with("hand")) continue;
-    const Eigen::RowVector2f at = joint.position.head<2>().cast<float>().transpose();
-    const Eigen::ArrayXf there =
-        ((mesh.vertices.leftCols<2>().rowwise() - at).rowwise().norm().array() < kReach * heightOf(mesh))
-            .select(areas.array(), 0);
-    if (there.sum() > 0 && (there * ways.array()).sum() > kHand * there.sum()) return false;
+    const double way = wayAt(joint, mesh, ways, areas).value_or(0);
+    if (joint.name.ends_with("hand") && way > kHand) result.nothing = false;
+    if (joint.name.ends_with("foot")) result.feet = std::min(result.feet, way);
   }
-  return true;
+  return result;
+}
+
+bool liftsFeet(const std::string& clip) {
+  for (const Clip& made : builtinClips())
+    if (made.name == clip)
+      for (const FootContact& contact : made.contacts)
+        if (contact.to_s - contact.from_s < made.duration_s() - 1e-3f) return true;
+  return false;
 }
 
 struct Quality {
   double stretched = 0, inside = 0;  // shares, means over the frames
   double most_stretched = 0;         // of a frame
   float at_s = 0;                    // when
-  bool shows_nothing = false;
+  Shown shown;
 };
 
 struct Measured {
@@ -149,7 +176,7 @@ Measured measure(const std::string& path, const Request& request) {
   result.layered = mesh.layer.size() > 0;
   for (const Clip& clip : drawing.clips) {
     Quality& quality = result.clips[clip.name];
-    quality.shows_nothing = showsNothing(character, clip);
+    quality.shown = shown(character, clip);
     for (int frame = 0; frame < kFrames; ++frame) {
       const float time_s = clip.duration_s() * (float(frame) + 0.5f) / kFrames;
       const Eigen::MatrixX3f posed = posedVertices(character, clip, time_s);
@@ -194,12 +221,13 @@ void run(int argc, char** argv) {
   std::vector<Measured> all(paths.size());
   parallelFor(paths.size(), 0, [&](std::size_t i) { all[i] = measure(paths[i], request); });
   std::map<std::string, std::vector<Quality>> by_clip;
-  std::vector<Case> stretched, inside;
+  std::vector<Case> stretched, inside, still;
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (const auto& [clip, quality] : all[i].clips) {
       by_clip[clip].push_back(quality);
       stretched.push_back({quality.stretched, paths[i], clip, quality.at_s});
       inside.push_back({quality.inside, paths[i], clip, quality.at_s});
+      if (clip == "walk") still.push_back({quality.shown.feet, paths[i], clip, 0});
     }
   std::printf("%d of %d drawings in layers\n",
               int(std::count_if(all.begin(), all.end(), [](const Measured& m) { return m.layered; })),
@@ -215,19 +243,26 @@ void run(int argc, char** argv) {
       "no triangle above %.1f in any clip: %.3f of the drawings; at most 5: %.3f, 20: %.3f, 100: %.3f\n",
       kMostStretch, share(0), share(5), share(20), share(100));
   std::printf(
-      "clip       area stretched > 3: mean  worst     limbs inside others: mean  worst     nothing shown\n");
+      "clip       area stretched > 3: mean  worst     limbs inside others: mean  worst     nothing shown  "
+      "feet: stay  median\n");
   for (const auto& [clip, qualities] : by_clip) {
     Quality mean, most;
-    double nothing = 0;
+    double nothing = 0, stay = 0;
+    std::vector<double> feet;
     for (const Quality& q : qualities) {
       mean.stretched += q.stretched / double(qualities.size());
       mean.inside += q.inside / double(qualities.size());
       most.stretched = std::max(most.stretched, q.stretched);
       most.inside = std::max(most.inside, q.inside);
-      nothing += q.shows_nothing / double(qualities.size());
+      nothing += q.shown.nothing / double(qualities.size());
+      stay += (q.shown.feet < kFeet) / double(qualities.size());
+      feet.push_back(q.shown.feet);
     }
-    std::printf("%-10s %24.2f %% %6.2f %% %24.2f %% %6.2f %% %15.1f %%\n", clip.c_str(), 100 * mean.stretched,
+    std::printf("%-10s %24.2f %% %6.2f %% %24.2f %% %6.2f %% %15.1f %%", clip.c_str(), 100 * mean.stretched,
                 100 * most.stretched, 100 * mean.inside, 100 * most.inside, 100 * nothing);
+    std::nth_element(feet.begin(), feet.begin() + std::ptrdiff_t(feet.size() / 2), feet.end());
+    if (liftsFeet(clip)) std::printf(" %10.1f %% %7.3f", 100 * stay, feet[feet.size() / 2]);
+    std::printf("\n");
   }
   const auto worst = [](const char* what, std::vector<Case>& list) {
     std::printf("%s most:\n", what);
@@ -242,6 +277,12 @@ void run(int argc, char** argv) {
   };
   worst("stretched", stretched);
   worst("inside", inside);
+  std::printf("feet that walk less than %.2f:\n", kFeet);
+  std::sort(still.begin(), still.end(), [](const Case& a, const Case& b) {
+    return std::tie(a.share, a.path) < std::tie(b.share, b.path);
+  });
+  for (const Case& c : still)
+    if (c.share < kFeet) std::printf("%6.3f %s\n", c.share, c.path.c_str());
 }
 
 }  // namespace
