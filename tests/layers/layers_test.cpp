@@ -433,6 +433,24 @@ TEST_CASE("pieces cover the figure, each in its own box, in any part of the pict
   CHECK(pieces[1].box.height() < pieces[0].box.height() / 2);
 }
 
+TEST_CASE("an arm that is seen of its forearm alone hangs on the shoulder all the same") {
+  const Drawing drawing;
+  LayerMap layers = drawing.layers();
+  for (int y = 0; y < drawing.figure.size; ++y)
+    for (int x = 0; x < drawing.figure.size; ++x)
+      if (drawing.toBone(x, y, "right_shoulder", "right_elbow") < 2 * drawing.figure.limb_radius)
+        layers.limb(y, x) = 0;
+  const std::vector<FigurePiece> pieces =
+      figurePieces(layers, drawing.silhouette, drawing.skeleton, drawing.body_plan);
+  REQUIRE(pieces.size() == 2);
+  const FigurePiece& arm = pieces[1];
+  for (const char* joint : {"right_shoulder", "right_elbow", "right_hand"}) {
+    const Vector2d p = drawing.at(joint);
+    INFO(joint);
+    CHECK(arm.mask(int(p.y()) - arm.box.y0, int(p.x()) - arm.box.x0) != 0);
+  }
+}
+
 TEST_CASE("a map of layers survives its picture, and what is no map is refused") {
   const Drawing drawing;
   const LayerMap layers = drawing.layers();
