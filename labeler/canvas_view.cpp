@@ -124,7 +124,7 @@ void CanvasView::updateMaskTexture() {
   mask_tint_.upload(tint, Texture::Zoomed::kSquares);
 }
 
-// Each limb that lies before the body in its colour, the rest of the figure grey.
+// Each limb in its colour, paler where it is one with the body, the rest of the figure grey.
 void CanvasView::updateLimbTexture() {
   document_.findLimbs();
   if (limbs_tinted_ && limb_mask_ == document_.state().mask && tinted_limbs_ == document_.layers()) return;
@@ -135,7 +135,8 @@ void CanvasView::updateLimbTexture() {
   const auto body = layerColor(0);
   for (Eigen::Index i = 0; i < tint.rgba.rows(); ++i)
     if (tint.rgba(i, 3) != 0)
-      tint.rgba(i, 3) = tint.rgba(i, 0) == body[0] && tint.rgba(i, 1) == body[1] ? 60 : 150;
+      tint.rgba(i, 3) =
+          tint.rgba(i, 3) < 255 || (tint.rgba(i, 0) == body[0] && tint.rgba(i, 1) == body[1]) ? 60 : 150;
   limb_tint_.upload(tint, Texture::Zoomed::kSquares);
 }
 

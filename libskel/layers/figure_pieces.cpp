@@ -123,18 +123,22 @@ void grow(Plane8& mask, int reach) {
   }
 }
 
-// What a limb shares with the trunk: around its first joint, and on to where it is seen.
+// What a limb shares with the trunk: around its first joint, and on, along its bones, to where it is seen.
 struct Root {
-  Vector2d from, to;
+  Vector2d from, by, to;
   double radius = 0;  // px
-  bool holds(int x, int y) const { return distanceToSegment<Vector2d>(Vector2d(x, y), from, to) <= radius; }
+  bool holds(int x, int y) const {
+    const Vector2d p(x, y);
+    return std::min(distanceToSegment<Vector2d>(p, from, by), distanceToSegment<Vector2d>(p, by, to)) <=
+           radius;
+  }
   PixelBox box() const {
     const auto at = [&](const Vector2d& p) {
       const auto reach = static_cast<int>(std::ceil(radius)) + 1;
       const auto x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
       return PixelBox{x - reach, y - reach, x + reach + 1, y + reach + 1};
     };
-    return around(at(from), at(to));
+    return around(around(at(from), at(by)), at(to));
   }
 };
 
@@ -146,14 +150,18 @@ struct Limb {
   bool far = false;
 };
 
-// From the first joint to where the limb begins to be seen on its first bone. As wide as half of the limb
+// From the first joint to where the limb begins to be seen on its bones. As wide as half of the limb
 // below: the median of the largest discs about that bone that fit in; of a limb that is hardly seen there,
 // where it is widest. `inside`: of the limb's coarse mask.
-Root rootOf(const Coarse& coarse, const DistanceField& inside, const Vector2d& from, const Vector2d& to) {
+Root rootOf(const Coarse& coarse, const DistanceField& inside, const std::array<Vector2d, 3>& joints) {
+  const auto at = [&](double t) -> Vector2d {  // 0 the first joint, 2 the last
+    const std::size_t bone = t < 1 ? 0 : 1;
+    return joints[bone] + (t - static_cast<double>(bone)) * (joints[bone + 1] - joints[bone]);
+  };
   const auto widestAt = [&](double t) {
-    const Vector2d p = from + t * (to - from);
+    const Vector2d p = at(t);
     const auto x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
-    const int reach = std::max(1, static_cast<int>(0.1 * (to - from).norm() / coarse.step));
+    const int reach = std::max(1, static_cast<int>(0.1 * (joints[1] - joints[0]).norm() / coarse.step));
     float widest = 0;
     const int cx = (x - coarse.box.x0) / coarse.step, cy = (y - coarse.box.y0) / coarse.step;
     for (int v = std::max(0, cy - reach); v <= std::min<int>(cy + reach, int(inside.rows()) - 1); ++v)
@@ -165,9 +173,9 @@ Root rootOf(const Coarse& coarse, const DistanceField& inside, const Vector2d& f
   for (double t = 0.25; t <= 0.75; t += 0.05) radii.push_back(widestAt(t));
   std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2), radii.end());
   double seen = 0;
-  while (seen < 1 && widestAt(seen) == 0) seen += 0.05;
+  while (seen < 2 && widestAt(seen) == 0) seen += 0.05;
   const double median = radii[radii.size() / 2];
-  return {from, from + std::min(seen, 1.) * (to - from),
+  return {joints[0], at(std::min(seen, 1.)), at(std::min(seen, 2.)),
           median > 0 ? median : static_cast<double>(inside.maxCoeff()) * coarse.step};
 }
 
@@ -268,8 +276,9 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
       if (joint < 0) return std::nullopt;
       return skeleton.joints[static_cast<std::size_t>(joint)].image;
     };
-    const std::optional<Vector2d> from = jointAt(0), to = jointAt(1);
-    if (!(static_cast<double>((limb != 0).count()) >= kLeastLimb * figure_px && from && to)) limb.setZero();
+    const std::optional<Vector2d> from = jointAt(0), by = jointAt(1), to = jointAt(2);
+    if (!(static_cast<double>((limb != 0).count()) >= kLeastLimb * figure_px && from && by && to))
+      limb.setZero();
     within(labels, own) =
         Plane8((all != limb).select(Plane8::Zero(limb.rows(), limb.cols()), within(labels, own)));
     if (!limb.any()) continue;
@@ -277,8 +286,8 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
     const DistanceField inside = distanceField(coarse.shrink(limb));
     const Vector2d corner(own.x0, own.y0);
     const bool far = std::find(layers.far.begin(), layers.far.end(), layer) != layers.far.end();
-    Root root = rootOf(coarse, inside, *from - corner, *to - corner);
-    root.from += corner, root.to += corner;
+    Root root = rootOf(coarse, inside, {*from - corner, *by - corner, *to - corner});
+    root.from += corner, root.by += corner, root.to += corner;
     limbs.push_back({layer, own, static_cast<double>(inside.maxCoeff()) * step, root, far});
   }
   if (limbs.empty()) return {};

@@ -24,7 +24,8 @@ constexpr double kContrast = .12;      // of the range of colours: what is drawn
 constexpr double kLeastSure = .55;     // mean probability of its pixels
 constexpr double kGrown = .4;  // of a limb's border against the body: it is hidden where it is a guess
 constexpr double kSeen = .25;  // of an arm's bones beyond its root: of less nothing is seen
-constexpr double kSure = .75;  // confidence in the end of a limb that is not hidden
+constexpr double kEnd = 1.5, kHand = .4;  // from there on a limb's bones, of less its hand stays behind
+constexpr double kSure = .75;             // confidence in the end of a limb that is not hidden
 
 // The picture for OpenCV; it must live as long.
 struct Look {
@@ -120,26 +121,19 @@ Border borderOf(const Look& picture, const PartSkeleton& skeleton, int limb, con
   return border;
 }
 
-// Whether it is better off as a body of its own: it lies against the rest of the figure, so that it would
-// drag that along, and what divides the two is drawn, so that neither is torn.
-bool standsOut(const Look& picture, int limb, const Border& border) {
-  return cv::countNonZero(picture.of(limbPart(limb))) >= kLeastLimb * cv::countNonZero(picture.mask) &&
-         picture.sure[static_cast<std::size_t>(limb)] >= kLeastSure && border.beside > 0 &&
-         border.beside >= kLeastContact * border.all && border.beside_drawn >= kLeastDrawn * border.beside;
-}
-
 // Grown to the body all along, and nothing tells the two apart.
 bool isGrown(const Border& border) {
   return border.against >= kGrown * border.all && border.drawn < kLeastDrawn * border.against;
 }
 
-// Of the points on an arm's bones beyond its root, the share that shows the arm.
-double seenAlong(const Look& picture, const PartSkeleton& skeleton, int limb) {
+// Of the points on a limb's bones from `from` on, 0 at its root and 2 at its end, the share that shows the
+// limb.
+double seenAlong(const Look& picture, const PartSkeleton& skeleton, int limb, double from) {
   const auto& [a, b, c] = skeleton.limbs[static_cast<std::size_t>(limb)];
   constexpr int kSamples = 16;
   int seen = 0;
   for (int i = 0; i < kSamples; ++i) {
-    const double t = .4 + 1.6 * i / (kSamples - 1);
+    const double t = from + (2 - from) * i / (kSamples - 1);
     const Vec p = picture.scale * ((t < 1 ? Vec(a + t * (b - a)) : Vec(b + (t - 1) * (c - b))) -
                                    Vec(picture.box.x0, picture.box.y0));
     const cv::Point q(static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())));
@@ -148,6 +142,15 @@ double seenAlong(const Look& picture, const PartSkeleton& skeleton, int limb) {
             picture.part.at<std::uint8_t>(q) == static_cast<int>(limbPart(limb));
   }
   return static_cast<double>(seen) / kSamples;
+}
+
+// Whether it is better off as a body of its own: it lies against the rest of the figure, so that it would
+// drag that along, what divides the two is drawn, so that neither is torn, and its end goes with it.
+bool standsOut(const Look& picture, const PartSkeleton& skeleton, int limb, const Border& border) {
+  return cv::countNonZero(picture.of(limbPart(limb))) >= kLeastLimb * cv::countNonZero(picture.mask) &&
+         picture.sure[static_cast<std::size_t>(limb)] >= kLeastSure && border.beside > 0 &&
+         border.beside >= kLeastContact * border.all && border.beside_drawn >= kLeastDrawn * border.beside &&
+         seenAlong(picture, skeleton, limb, kEnd) >= kHand;
 }
 
 // What lies before the trunk is nearer than what it hides.
@@ -214,7 +217,7 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
     if (k == 2 && cv::countNonZero(limbs) != 0)
       arms = (limbs != 0) & picture.mask, edge = edges(picture, arms);
     const Border border = borderOf(picture, *bones, k, arms, edge, found.range);
-    if (standsOut(picture, k, border)) {
+    if (standsOut(picture, *bones, k, border)) {
       limbs.setTo(k + 1, picture.part == static_cast<int>(limbPart(k)));
       continue;
     }
@@ -222,7 +225,7 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
     const int end = skeleton.find(body_plan.joints[static_cast<std::size_t>(limb.joints[2])].name);
     if (limb.limb_class == JointClass::kHand &&
         skeleton.joints[static_cast<std::size_t>(end)].confidence < kSure &&
-        (seenAlong(picture, *bones, k) < kSeen || isGrown(border)))
+        (seenAlong(picture, *bones, k, .4) < kSeen || isGrown(border)))
       map.hidden.push_back(k + 1);
   }
   map.part = enlarged(picture, picture.part, silhouette.mask);

@@ -9,6 +9,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/segment.h"
+#include "libskel/layers/spread_parts.h"
 
 namespace skel {
 namespace {
@@ -20,14 +21,18 @@ constexpr int kLookSize = 400;  // px, the long side of the figure when borders 
 constexpr double kLineWidth = .02;    // lines are no wider
 constexpr double kInkReach = .0125;   // how far a limb takes the ink that it is drawn with
 constexpr double kInkContrast = .15;  // of the range of brightness
-constexpr float kCertain = .9f;       // probability of what borders do not move through
+constexpr float kCertain = .8f;       // probability of what borders do not move through
 // Log-odds that the net's are corrected by: it was taught limbs with more weight than the rest, and seldom
 // saw what hangs or is held, which must not become a limb.
-constexpr std::array<float, kPartCount> kCorrection = {0, 0, 1, -.7f, -.7f, -.7f, -.7f, 1.5f, .7f, .5f};
+constexpr std::array<float, kPartCount> kCorrection = {0, 0, 1, -.7f, -.7f, -.2f, -.2f, 1.5f, .7f, .5f};
 // A limb is about its bones: log-odds less for each px of the net's beyond so many.
 constexpr float kFartherLess = .15f, kReach = 14;
+// A hand lies about the end of its arm's bones, before whatever it lies: log-odds more there, the less the
+// farther, in lower arms.
+constexpr float kHandMore = 1.5f;
+constexpr double kHandReach = .3;
 constexpr float kLeastSeen = .3f;  // probability somewhere, of a part that is there
-constexpr float kPossible = .12f;  // probability of what may flood a px
+constexpr float kPossible = .3f;   // probability of what may flood a px
 constexpr double kIsland = .25;    // of a limb's area: smaller parts apart are not of it
 
 // What becomes the PartPicture.
@@ -77,6 +82,12 @@ void cut(const Image& image, const Plane8& mask, Sketch& picture) {
   picture.mask = picture.mask > 127;
 }
 
+// How much more likely what lies here is this arm for being near its hand.
+float nearHand(const std::array<Vec, 3>& arm, const Vec& p) {
+  const double reach2 = kHandReach * kHandReach * (arm[2] - arm[1]).squaredNorm();
+  return kHandMore * static_cast<float>(std::exp(-(p - arm[2]).squaredNorm() / std::max(1e-9, 2 * reach2)));
+}
+
 // The net's probabilities, one plane a part, of the picture's size, empty for parts that are not there; also
 // fills `before` and `sure`.
 std::vector<cv::Mat> ask(const PartNet& net, const PartSkeleton& skeleton, Sketch& picture) {
@@ -108,6 +119,10 @@ std::vector<cv::Mat> ask(const PartNet& net, const PartSkeleton& skeleton, Sketc
       for (std::size_t k = 0; k < 4; ++k)
         z[static_cast<std::size_t>(limbPart(static_cast<int>(k)))] -=
             kFartherLess * std::max(0.f, static_cast<float>(toLimb(bones, k, Vec(x + .5, y + .5))) - kReach);
+      if (!bones.animal)
+        for (const std::size_t k : {0, 1})
+          z[static_cast<std::size_t>(limbPart(static_cast<int>(k)))] +=
+              nearHand(bones.limbs[k], Vec(x + .5, y + .5));
       const float most = *std::max_element(z.begin(), z.begin() + kPartCount);
       std::array<float, kPartCount> p;
       float sum = 0;
@@ -262,9 +277,10 @@ PartPicture findParts(const Image& image, const Plane8& mask, const PartSkeleton
   sketch.box = figureBox(mask);
   SKEL_CHECK(sketch.box.width() > 0);
   cut(image, mask, sketch);
-  const std::vector<cv::Mat> probabilities =
+  std::vector<cv::Mat> probabilities =
       ask(net, scaled(skeleton, Vec(sketch.box.x0, sketch.box.y0), sketch.scale), sketch);
   findInk(sketch);
+  spreadParts(sketch.rgb, sketch.mask, sketch.range, probabilities);
   snap(probabilities, sketch);
   shareInk(sketch);
   removeIslands(sketch);

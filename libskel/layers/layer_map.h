@@ -59,12 +59,13 @@ std::array<std::uint8_t, 3> partColor(Part part);
 // "left arm" for a limb that ends in left_hand, "right hind leg" for one that ends in right_hind_foot.
 std::string limbName(const SkeletonTemplate& body_plan, int limb);
 
-// As a picture, one colour a limb: the figure's other pixels grey or in the colour of their part, the rest
-// clear.
+// As a picture, one colour a limb, translucent where the limb is one with the body: the figure's other pixels
+// grey or in the colour of their part, the rest clear.
 Image layerPicture(const LayerMap& layers, const Plane8& mask);
 
-// The map of such a picture. Throws InputError: another size than the figure's picture, a colour that is no
-// limb's; `file` is what it calls the picture.
+// The map of such a picture: what is as good as opaque of a limb's colour is a body of its own. Throws
+// InputError: another size than the figure's picture, a colour that is no limb's; `file` is what it calls the
+// picture.
 LayerMap layersOfPicture(const Image& picture, const Silhouette& silhouette,
                          const SkeletonTemplate& body_plan, const std::string& file);
 

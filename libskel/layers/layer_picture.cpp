@@ -17,6 +17,16 @@ using Rgb = std::array<std::uint8_t, 3>;
 // Those that are neither limbs nor grey.
 constexpr std::array kColoured = {Part::kHair, Part::kSkirt, Part::kAppendix, Part::kThing};
 
+// Of a limb that is one with the body; less is none of the figure.
+constexpr std::uint8_t kGrownAlpha = 170, kLeastAlpha = 128, kApartAlpha = 213;
+
+// The limb that the part is, numbered from 1; 0: none.
+int limbOf(Part part) {
+  for (int k = 0; k < 4; ++k)
+    if (part == limbPart(k)) return k + 1;
+  return 0;
+}
+
 }  // namespace
 
 // Far apart for the first limbs; no two alike.
@@ -59,9 +69,12 @@ Image layerPicture(const LayerMap& layers, const Plane8& mask) {
       if (mask(y, x) == 0) continue;
       const int limb = layers.any() ? layers.limb(y, x) : 0;
       const Part part = layers.part.size() != 0 ? static_cast<Part>(layers.part(y, x)) : Part::kTrunk;
-      const Rgb color = limb == 0 || part == Part::kThing ? partColor(part) : layerColor(limb);
+      const int grown = limb == 0 ? limbOf(part) : 0;
+      const Rgb color = grown != 0                          ? layerColor(grown)
+                        : limb == 0 || part == Part::kThing ? partColor(part)
+                                                            : layerColor(limb);
       std::copy(color.begin(), color.end(), picture.pixel(x, y));
-      picture.pixel(x, y)[3] = 255;
+      picture.pixel(x, y)[3] = grown != 0 ? kGrownAlpha : 255;
     }
   return picture;
 }
@@ -81,7 +94,7 @@ LayerMap layersOfPicture(const Image& picture, const Silhouette& silhouette,
     for (int x = 0; x < picture.width; ++x) {
       const std::uint8_t* p = picture.pixel(x, y);
       const bool grey = p[0] == p[1] && p[1] == p[2];
-      if (p[3] < 128 || grey || mask(y, x) == 0) continue;
+      if (p[3] < kLeastAlpha || grey || mask(y, x) == 0) continue;
       const auto is = [&](Part part) { return partColor(part) == Rgb{p[0], p[1], p[2]}; };
       if (const auto* part = std::find_if(kColoured.begin(), kColoured.end(), is); part != kColoured.end()) {
         layers.part(y, x) = static_cast<std::uint8_t>(*part);
@@ -96,7 +109,8 @@ LayerMap layersOfPicture(const Image& picture, const Silhouette& silhouette,
              << int(p[2]) << "), which is no limb's; paint with the colours that --formats layers writes";
         throw InputError(file, text.str());
       }
-      layers.limb(y, x) = static_cast<std::uint8_t>(limb);
+      if (p[3] >= kApartAlpha) layers.limb(y, x) = static_cast<std::uint8_t>(limb);
+      if (limb <= 4) layers.part(y, x) = static_cast<std::uint8_t>(limbPart(limb - 1));
     }
   if (!layers.limb.any()) layers.limb.resize(0, 0);
   giveThingsToLimbs(silhouette, layers);

@@ -433,6 +433,24 @@ TEST_CASE("pieces cover the figure, each in its own box, in any part of the pict
   CHECK(pieces[1].box.height() < pieces[0].box.height() / 2);
 }
 
+TEST_CASE("an arm that is seen of its forearm alone hangs on the shoulder all the same") {
+  const Drawing drawing;
+  LayerMap layers = drawing.layers();
+  for (int y = 0; y < drawing.figure.size; ++y)
+    for (int x = 0; x < drawing.figure.size; ++x)
+      if (drawing.toBone(x, y, "right_shoulder", "right_elbow") < 2 * drawing.figure.limb_radius)
+        layers.limb(y, x) = 0;
+  const std::vector<FigurePiece> pieces =
+      figurePieces(layers, drawing.silhouette, drawing.skeleton, drawing.body_plan);
+  REQUIRE(pieces.size() == 2);
+  const FigurePiece& arm = pieces[1];
+  for (const char* joint : {"right_shoulder", "right_elbow", "right_hand"}) {
+    const Vector2d p = drawing.at(joint);
+    INFO(joint);
+    CHECK(arm.mask(int(p.y()) - arm.box.y0, int(p.x()) - arm.box.x0) != 0);
+  }
+}
+
 TEST_CASE("a map of layers survives its picture, and what is no map is refused") {
   const Drawing drawing;
   const LayerMap layers = drawing.layers();
@@ -452,6 +470,45 @@ TEST_CASE("a map of layers survives its picture, and what is no map is refused")
                     "map.png: pixel (" + pixel +
                         ") has the colour (7, 150, 150), which is no limb's; paint with the colours that "
                         "--formats layers writes");
+}
+
+TEST_CASE("a limb that is one with the body is translucent in the picture, and stays one with it") {
+  const Drawing drawing;
+  LayerMap layers = drawing.layers();
+  const Vector2d arm = drawing.at("right_elbow"), leg = drawing.at("left_knee");
+  REQUIRE(layers.limb(int(arm.y()), int(arm.x())) == 1);
+  REQUIRE(layers.limb(int(leg.y()), int(leg.x())) == 0);
+  REQUIRE(layers.part(int(leg.y()), int(leg.x())) == std::uint8_t(Part::kLeftLeg));
+  Image picture = layerPicture(layers, drawing.silhouette.mask);
+  const auto pixelAt = [&](const Vector2d& p) {
+    const std::uint8_t* c = picture.pixel(int(p.x()), int(p.y()));
+    return std::array<int, 4>{c[0], c[1], c[2], c[3]};
+  };
+  CHECK(pixelAt(arm) == std::array{230, 60, 60, 255});
+  CHECK(pixelAt(leg) == std::array{40, 170, 80, 170});
+  const auto read = [&] {
+    return layersOfPicture(picture, drawing.silhouette, drawing.body_plan, "map.png");
+  };
+  CHECK((read().limb == layers.limb).all());
+  CHECK(read().part(int(leg.y()), int(leg.x())) == std::uint8_t(Part::kLeftLeg));
+  CHECK((layerPicture(read(), drawing.silhouette.mask).rgba == picture.rgba).all());
+  // Painted, it is a body of its own.
+  picture.pixel(int(leg.x()), int(leg.y()))[3] = 255;
+  CHECK(read().limb(int(leg.y()), int(leg.x())) == 4);
+}
+
+TEST_CASE("an arm whose hand is not told from the body is no body of its own: the hand would stay behind") {
+  Drawing drawing;
+  REQUIRE((drawing.layers().limb == 1).any());
+  // The forearm is in a pocket: nothing is drawn of it.
+  const Image blue = capsuleImage(drawing.figure);
+  for (int y = 0; y < drawing.figure.size; ++y)
+    for (int x = 0; x < drawing.figure.size; ++x)
+      if (drawing.toBone(x, y, "right_elbow", "right_hand") <= drawing.figure.limb_radius + 1 &&
+          drawing.toBone(x, y, "right_shoulder", "right_elbow") > drawing.figure.limb_radius)
+        std::copy_n(blue.pixel(x, y), 4, drawing.image.pixel(x, y));
+  const LayerMap layers = drawing.layers();
+  CHECK_FALSE((layers.limb == 1).any());
 }
 
 TEST_CASE(

@@ -1,0 +1,98 @@
+// L. Grady, "Multilabel random walker image segmentation using prior models" (2005): the probability that a
+// walker who starts at a px, and steps the more seldom the more colours change there, stops at a px of the
+// part. He stops anywhere, as often as to come so far on flat ground; on lines, of which a net knows least,
+// hardly.
+#include "libskel/layers/spread_parts.h"
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace skel {
+namespace {
+
+constexpr int kSpreadSize = 240;       // px, the long side of the figure
+constexpr double kSpreadReach = .06;   // of the long side: how far a walker comes on flat ground
+constexpr double kOpenContrast = .02;  // of the range of colours: what lets 1/e of the walkers through
+constexpr double kLeastOpen = 1e-4;    // so many pass any line
+
+// How many walkers each px lets through, 1 where it is flat.
+cv::Mat openness(const cv::Mat& rgb, const cv::Mat& mask, double range, const cv::Size& size) {
+  cv::Mat high, low, change, channels[3], open(size, CV_64F);
+  cv::GaussianBlur(rgb, high, cv::Size(3, 3), 0);
+  low = high.clone();
+  const cv::Mat outside = mask == 0;
+  high.setTo(cv::Scalar::all(0), outside), low.setTo(cv::Scalar::all(255), outside);
+  cv::dilate(high, high, cv::Mat::ones(3, 3, CV_8U)), cv::erode(low, low, cv::Mat::ones(3, 3, CV_8U));
+  cv::split(high - low, channels);
+  change = cv::max(channels[0], cv::max(channels[1], channels[2]));
+  cv::resize(change, change, size, 0, 0, cv::INTER_NEAREST);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      open.at<double>(y, x) =
+          std::max(kLeastOpen, std::exp(-change.at<std::uint8_t>(y, x) / (kOpenContrast * range)));
+  return open;
+}
+
+}  // namespace
+
+void spreadParts(const cv::Mat& rgb, const cv::Mat& mask, double range, std::vector<cv::Mat>& probabilities) {
+  const double scale = std::min(1., static_cast<double>(kSpreadSize) / std::max(rgb.cols, rgb.rows));
+  const cv::Size size(std::max(1, cvRound(rgb.cols * scale)), std::max(1, cvRound(rgb.rows * scale)));
+  const cv::Mat open = openness(rgb, mask, range, size);
+  cv::Mat seen, number(size, CV_32S, cv::Scalar(-1));
+  cv::resize(mask, seen, size, 0, 0, cv::INTER_AREA);  // any of it
+  std::vector<cv::Point> pixels;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      if (seen.at<std::uint8_t>(y, x) != 0) {
+        number.at<int>(y, x) = static_cast<int>(pixels.size());
+        pixels.emplace_back(x, y);
+      }
+  const auto count = static_cast<Eigen::Index>(pixels.size());
+  if (count == 0) {
+    for (cv::Mat& plane : probabilities) plane = cv::Scalar(0);
+    return;
+  }
+
+  const double reach = kSpreadReach * std::max(size.width, size.height), stops = 1 / (reach * reach);
+  Eigen::VectorXd own(count), sum(count);
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(3 * pixels.size());
+  for (Eigen::Index i = 0; i < count; ++i)
+    sum[i] = own[i] = stops * open.at<double>(pixels[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (const cv::Point& step : {cv::Point(1, 0), cv::Point(0, 1)}) {
+      const cv::Point from = pixels[static_cast<std::size_t>(i)], to = from + step;
+      if (to.x >= size.width || to.y >= size.height || number.at<int>(to) < 0) continue;
+      const Eigen::Index j = number.at<int>(to);
+      const double passes = std::min(open.at<double>(from), open.at<double>(to));
+      sum[i] += passes, sum[j] += passes;
+      entries.emplace_back(j, i, -passes);  // the lower half
+    }
+  for (Eigen::Index i = 0; i < count; ++i) entries.emplace_back(i, i, sum[i]);
+  Eigen::SparseMatrix<double> matrix(count, count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+
+  for (cv::Mat& plane : probabilities) {
+    if (plane.empty()) continue;
+    cv::Mat small;
+    cv::resize(plane, small, size, 0, 0, cv::INTER_AREA);
+    Eigen::VectorXd said(count);
+    for (Eigen::Index i = 0; i < count; ++i)
+      said[i] = own[i] * static_cast<double>(small.at<float>(pixels[static_cast<std::size_t>(i)]));
+    const Eigen::VectorXd spread = solver.solve(said);
+    small = cv::Scalar(0);
+    for (Eigen::Index i = 0; i < count; ++i)
+      small.at<float>(pixels[static_cast<std::size_t>(i)]) = static_cast<float>(spread[i]);
+    cv::resize(small, plane, rgb.size(), 0, 0, cv::INTER_NEAREST);
+    plane.setTo(0, mask == 0);
+  }
+}
+
+}  // namespace skel
