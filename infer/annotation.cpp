@@ -141,7 +141,8 @@ AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string
   }
   if (!fs::exists(annotation)) return drawing;
   if (!drawing.mask) throw InputError(annotation, "needs a mask.png beside it");
-  if ((*drawing.mask == 0).all()) throw InputError(mask, "is blank: errors are relative to the figure's size");
+  if ((*drawing.mask == 0).all())
+    throw InputError(mask, "is blank: errors are relative to the figure's size");
   const JsonDocument document = JsonDocument::readFile(annotation);
   if (const auto view = document.root().find("view")) drawing.side_view = view->asString() == "side";
   const JsonValue joints = document.root().at("joints");
@@ -193,6 +194,7 @@ Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const
   if (!recognition) return result;
   const double size = longSide(*truth.mask);
   result.confidence = recognition->confidence;
+  result.likeness = recognition->likeness;
   std::map<std::string, Guess> guesses;
   for (const Joint& joint : recognition->skeleton.joints)
     guesses[joint.name] = {joint.image, joint.confidence};
