@@ -22,19 +22,20 @@ double shareCutOff(const Plane8& mask, const WorkingGrid& grid) {
   return most * grid.scale / kWorkingGridSize;
 }
 
-constexpr double kCutOff = 0.25;        // share that says that the figure goes on beyond the border
-constexpr double kCutConfidence = 0.4;  // the most that such a figure can have
+constexpr double kCutOff = 0.25;   // share that says that the figure goes on beyond the border
+constexpr double kNotWhole = 0.4;  // the most that such a figure can have
+constexpr double kHardlyOne =
+    0.5;  // likeness below which it is said that this is hardly a figure of the body plan
 
 // What a person should know of the joints; "" if nothing.
 std::string jointNote(const Recognition& recognition, const std::string& body_plan) {
   std::string missing;
   for (const std::string& name : recognition.missing) missing += (missing.empty() ? "" : ", ") + name;
-  if (recognition.likeness < 0.5)
+  if (recognition.likeness < kHardlyOne)
     return "this hardly looks like one whole " + body_plan +
            (missing.empty() ? "" : "; not found: " + missing);
   if (recognition.confidence < 0.5)
-    return "some joints may be wrong, look at them" +
-           (missing.empty() ? "" : "; not found: " + missing);
+    return "some joints may be wrong, look at them" + (missing.empty() ? "" : "; not found: " + missing);
   return missing.empty() ? "" : "not found: " + missing + " (placed where they probably are)";
 }
 
@@ -68,8 +69,9 @@ Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
   recognition.confidence = sure.figure;
   recognition.likeness = tree.likeness;
   if (shareCutOff(silhouette.mask, grid) > kCutOff)
-    for (double* sure_of : {&recognition.confidence, &recognition.likeness})
-      *sure_of = std::min(*sure_of, kCutConfidence);
+    recognition.likeness = std::min(recognition.likeness, kNotWhole);
+  // Where there is no figure nobody can be sure of its joints.
+  if (recognition.likeness < kHardlyOne) recognition.confidence = std::min(recognition.confidence, kNotWhole);
   if (const std::string note = jointNote(recognition, body_plan.name); !note.empty())
     recognition.warnings.push_back(note);
   recognition.turned_deg = static_cast<int>(std::lround(tree.turned * 180 / std::numbers::pi));
