@@ -36,12 +36,17 @@ std::vector<std::string> adviceOn(const RiggedDrawing& drawing, const SkeletonFi
   const auto& joints = file.skeleton.joints;
   const bool edited = std::any_of(joints.begin(), joints.end(),
                                   [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; });
-  if (file.confidence < kRecognized && !edited) {
+  if (drawing.recognition.likeness < kRecognized && !edited) {
     if (!advice.empty()) return advice;
     advice.push_back(
         "No whole figure could be made out. Go over thin lines with a felt pen, and take the photo by day, "
         "from "
         "straight above.");
+  } else if (file.confidence < kRecognized && !edited) {
+    advice.push_back("Some joints may be wrong" +
+                     (file.missing.empty() ? std::string() : ", most likely " + listed(file.missing)) +
+                     ". Look how the figure moves; skel-label mends joints, and a drawing with the limbs "
+                     "apart is found better.");
   } else if (!file.missing.empty()) {
     advice.push_back("Not seen: " + listed(file.missing) +
                      ". A likely place was taken; look whether the figure moves as it should.");

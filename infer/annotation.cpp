@@ -187,6 +187,7 @@ Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const
   if (!recognition) return result;
   const double size = longSide(*truth.mask);
   result.confidence = recognition->confidence;
+  result.likeness = recognition->likeness;
   std::map<std::string, Guess> guesses;
   for (const Joint& joint : recognition->skeleton.joints)
     guesses[joint.name] = {joint.image, joint.confidence};

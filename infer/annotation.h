@@ -41,7 +41,7 @@ struct Score {
   double inside = 0;                            // share of found joints on the true mask, 2 px of slack
   double iou = 0;                               // of the silhouette
   int annotated = 0, sure = 0, sure_right = 0;  // joints; of confidence >= 0.8; of those within 0.10 L
-  double confidence = 0;
+  double confidence = 0, likeness = 0;
   std::string worst_joint;
 };
 

@@ -19,6 +19,7 @@
 #include "libskel/core/text.h"
 #include "libskel/draw/draw_skeleton.h"
 #include "libskel/image/write_image.h"
+#include "libskel/recognition/calibration.h"
 
 namespace skel {
 namespace {
@@ -51,7 +52,7 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
     row.score = score(truth, drawing.found() ? &drawing.recognition : nullptr, drawing.silhouette.mask,
                       rig.body_plan);
   else
-    row.score.confidence = drawing.recognition.confidence;
+    row.score.confidence = drawing.recognition.confidence, row.score.likeness = drawing.recognition.likeness;
   if (!options.overlays.empty() && row.found) {
     Image picture = drawing.image;
     drawSkeleton(picture, drawing.character.skeleton);
@@ -143,10 +144,11 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     std::printf("%-34s  %6.2f %6.2f %6.3f %6.0f %5.2f %6.2f %5.2f  %s\n", printable(row.id).c_str(), s.pck05,
                 s.pck10, s.error, s.usable, s.limbs, s.inside, s.iou,
                 row.found ? s.worst_joint.c_str() : ("no skeleton: " + row.reason).c_str());
-    json["characters"][jsonFromFileName(row.id)] = {
-        {"pck05", s.pck05},   {"pck10", s.pck10},           {"error", s.error},
-        {"usable", s.usable}, {"limbs", s.limbs},           {"inside", s.inside},
-        {"iou", s.iou},       {"confidence", s.confidence}, {"worst_joint", s.worst_joint}};
+    json["characters"][jsonFromFileName(row.id)] = {{"pck05", s.pck05},       {"pck10", s.pck10},
+                                                    {"error", s.error},       {"usable", s.usable},
+                                                    {"limbs", s.limbs},       {"inside", s.inside},
+                                                    {"iou", s.iou},           {"confidence", s.confidence},
+                                                    {"likeness", s.likeness}, {"worst_joint", s.worst_joint}};
   }
   for (const Row& row : hard)
     std::printf(
@@ -162,6 +164,9 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     const auto pck05 = of(&Score::pck05), pck10 = of(&Score::pck10), usable = of(&Score::usable);
     const auto sharp = [](const Row& row) { return row.score.iou >= 0.9 ? 1.0 : 0.0; };
     const auto confident = [](const Row& row) { return row.score.confidence >= 0.5 ? 1.0 : 0.0; };
+    const auto whole = [](const Row& row) { return row.score.likeness >= 0.5 ? 1.0 : 0.0; };
+    std::vector<Forecast> forecasts;  // of figures: that they are usable
+    for (const Row& row : rows) forecasts.push_back({row.score.confidence, row.score.usable == 1});
     const double annotated = sum(&Score::annotated), sure = sum(&Score::sure),
                  right = sum(&Score::sure_right);
     Json& figures = json["mean"];
@@ -175,7 +180,10 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
                {"iou90", mean(rows, sharp)},
                {"sure_share", sure / std::max(annotated, 1.0)},
                {"sure_precision", right / std::max(sure, 1.0)},
-               {"confident_figures", mean(rows, confident)}};
+               {"confident_figures", mean(rows, confident)},
+               {"whole_figures", mean(rows, whole)},
+               {"confidence_auc", areaUnderRoc(forecasts)},
+               {"confidence_error", calibrationError(forecasts)}};
     const auto figure = [&](const char* key) { return figures[key].get<double>(); };
     std::printf(
         "mean over %zu characters: PCK@.05 %.3f %s  PCK@.10 %.3f %s  error %.3f  usable %.3f %s  limbs %.3f  "
@@ -185,9 +193,11 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
         figure("limbs"), figure("inside"));
     std::printf(
         "silhouette IoU %.3f, >= .9 in %.3f  |  confidence >= .8 for %.2f of joints, %.3f of those within "
-        ".10; figure confidence >= .5 for %.2f\n",
+        ".10; figure confidence >= .5 for %.2f, likeness for %.2f\n"
+        "confidence against usable: area under ROC %.3f, calibration error %.3f\n",
         figure("iou"), figure("iou90"), figure("sure_share"), figure("sure_precision"),
-        figure("confident_figures"));
+        figure("confident_figures"), figure("whole_figures"), figure("confidence_auc"),
+        figure("confidence_error"));
   }
   if (!hard.empty()) {
     const auto refused = std::count_if(hard.begin(), hard.end(), [](const Row& row) { return !row.found; });

@@ -85,7 +85,7 @@ std::vector<std::string> warningsOf(const SkeletonFile& given, const RiggedDrawi
 Verdict verdictOf(const RiggedDrawing& drawing, const SkeletonFile& file) {
   constexpr double kRecognized = .5;
   const Silhouette& silhouette = drawing.silhouette;
-  const bool guessed = file.confidence < kRecognized && !wasEdited(file.skeleton);
+  const bool guessed = drawing.recognition.likeness < kRecognized && !wasEdited(file.skeleton);
   if (guessed || silhouette.is_sheet || !silhouette.cut_sides.empty()) return Verdict::kRetake;
   return file.warnings.empty() ? Verdict::kFine : Verdict::kLookAt;
 }

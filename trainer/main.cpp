@@ -1,6 +1,7 @@
 #include "libskel/cli/tool.h"
 #include "trainer/average_nets.h"
 #include "trainer/bone_lengths.h"
+#include "trainer/confidence_training.h"
 #include "trainer/joint_net_figures.h"
 #include "trainer/joint_net_training.h"
 #include "trainer/page_net_training.h"
@@ -37,11 +38,16 @@ int main(int argc, char** argv) {
   skel::BoneLengthsOptions bone_lengths;
   CLI::App* bones = app.add_subcommand("bones", "Tells a joint net how long the bones of drawn figures are");
   skel::bindBoneLengthsOptions(*bones, bone_lengths);
+  skel::ConfidenceTrainingOptions confidence_training;
+  CLI::App* confidence =
+      app.add_subcommand("confidence", "Learns how sure the recognition may be of what it finds");
+  skel::bindConfidenceTrainingOptions(*confidence, confidence_training);
   return skel::runTool(app, argc, argv, [&] {
     if (*evaluation) return skel::runEvaluateWeights(evaluate);
     if (*figures) return skel::runFigureSheet(sheet);
     if (*joints) return skel::runJointTraining(joint_training);
     if (*bones) return skel::runBoneLengths(bone_lengths);
+    if (*confidence) return skel::runConfidenceTraining(confidence_training);
     if (*averaging) return skel::runAverageNets(average);
     if (*pages) return skel::runPageTraining(page_training);
     if (*parts) return skel::runPartTraining(part_training);

@@ -26,8 +26,8 @@ constexpr double kSurelyUpright = 4.5, kTurnLogit = 0, kTurnMargin = 1.5, kEight
 constexpr double kEntropyShare = 2, kLargestLogit = 6;
 constexpr int kOrientations = 8;
 
-// The figure's confidence: logistic in the net's log-odds of a whole figure (within ±kLargestLogit) and in
-// the joints' mean confidence. The constant lets most hand-drawn figures exceed 0.5 that the nets have not
+// The figure's likeness: logistic in the net's log-odds of a whole figure (within ±kLargestLogit) and in
+// the joints' mean mass. The constant lets most hand-drawn figures exceed 0.5 that the nets have not
 // been trained on, which are less clear than generated ones; both built-in nets want the same.
 constexpr double kFigureLogit = .9, kFigureJoints = 8, kFigureConstant = -9;
 // Off the log-odds of a figure that was turned: of eight views of an animal one may look human.
@@ -35,9 +35,24 @@ constexpr double kTurnedOdds = 1.5;
 
 struct Heatmaps {
   std::vector<Heatmap> joints;  // probabilities, each sums to 1
+  std::vector<double> entropies, disagreements;
   double figure_logit = 0;
   double entropy = 0;
 };
+
+// Of a joint's logits in the net's last map.
+double logSumExp(const float* map, int channels, int joint) {
+  float highest = -std::numeric_limits<float>::infinity();
+  const auto each = [&](const auto& take) {
+    for (int y = 0; y < kHeatmapSize; ++y)
+      for (int x = 0; x < kHeatmapSize; ++x)
+        take(map[static_cast<std::size_t>(paddedIndex(kHeatmapSize, y, x)) * channels + joint]);
+  };
+  each([&](float l) { highest = std::max(highest, l); });
+  double sum = 0;
+  each([&](float l) { sum += std::exp(l - highest); });
+  return highest + std::log(sum);
+}
 
 // Logits averaged over one or two passes, then softmax.
 Heatmaps evaluateNet(const Plane8& mask, const FigureLook& look, const JointNet& net, const NetJoints& joints,
@@ -45,6 +60,8 @@ Heatmaps evaluateNet(const Plane8& mask, const FigureLook& look, const JointNet&
   const int count = joints.count(), channels = heatmapChannels(count), figure_channel = net.figureChannel();
   Heatmaps out;
   out.joints.assign(static_cast<std::size_t>(count), Heatmap{});
+  out.entropies.assign(out.joints.size(), 0);
+  out.disagreements.assign(out.joints.size(), 0);
   ConvNetMaps maps(net);
   const int passes = mirror ? 2 : 1;
   for (int pass = 0; pass < passes; ++pass) {
@@ -62,8 +79,12 @@ Heatmaps evaluateNet(const Plane8& mask, const FigureLook& look, const JointNet&
         out.figure_logit += a[figure_channel] / (static_cast<double>(kHeatmapCells) * passes);
       }
     }
+    if (mirror)
+      for (int j = 0; j < count; ++j)
+        out.disagreements[mirrored ? joints.mirrored[j] : j] += logSumExp(map, channels, j) / passes;
   }
-  for (Heatmap& map : out.joints) {
+  for (int j = 0; j < count; ++j) {
+    Heatmap& map = out.joints[j];
     const float highest = *std::max_element(map.begin(), map.end());
     double sum = 0, mean = 0;  // of e^l and of l·e^l, l relative to the highest
     for (float& v : map) {
@@ -73,7 +94,11 @@ Heatmaps evaluateNet(const Plane8& mask, const FigureLook& look, const JointNet&
       mean += static_cast<double>(l) * v;
     }
     for (float& v : map) v /= static_cast<float>(sum);
-    out.entropy += (std::log(sum) - mean / sum) / count;
+    out.entropies[j] = std::log(sum) - mean / sum;
+    out.entropy += out.entropies[j] / count;
+    // The overlap of p and q, the sum of sqrt(p·q), is that of the exponentials of the mean logits over the
+    // root of both sums.
+    if (mirror) out.disagreements[j] = std::max(0., out.disagreements[j] - (highest + std::log(sum)));
   }
   return out;
 }
@@ -162,6 +187,16 @@ double massAround(const Heatmap& map, const Vec& centre) {
   return mass;
 }
 
+// Around the likeliest cell that lies 2·kNear away.
+double rivalMass(const Heatmap& map, const Vec& centre) {
+  int best = -1;
+  for (int i = 0; i < kHeatmapCells; ++i) {
+    const Vec cell(i % kHeatmapSize, i / kHeatmapSize);
+    if ((cell - centre).squaredNorm() >= 4 * kNear * kNear && (best < 0 || map[i] > map[best])) best = i;
+  }
+  return best < 0 ? 0 : massAround(map, Vec(best % kHeatmapSize, best / kHeatmapSize));
+}
+
 // The nearest point of the figure; itself if it lies in it.
 Vec insideFigure(const Plane8& mask, const Vec& p) {
   const int px = static_cast<int>(std::lround(p.x())), py = static_cast<int>(std::lround(p.y()));
@@ -210,18 +245,27 @@ TreeRecognition recognizeByJointNet(const Plane8& mask, const FigureLook& look, 
   const Vec offset((one.offset_x + other.offset_x) / 2., one.offset_y);
   const std::vector<int> cells = searchTree(figure.mask, offset, maps.joints, joints, net.bones);
   result.joints.resize(cells.size());
-  double mean_confidence = 0;
+  double mean_mass = 0;
   for (int j = 0; j < joints.count(); ++j) {
     const Vec cell = refined(maps.joints[j], cells[j]);
     const Vec at = insideFigure(figure.mask, frameFromCell(cell) - offset);
-    result.joints[j].position = insideFigure(mask, figure.original(at));
-    result.joints[j].confidence = massAround(maps.joints[j], cell);
-    mean_confidence += result.joints[j].confidence / joints.count();
+    TreeJoint& joint = result.joints[j];
+    const Heatmap& map = maps.joints[j];
+    joint.position = insideFigure(mask, figure.original(at));
+    joint.mass = massAround(map, cell);
+    joint.rival = rivalMass(map, cell);
+    if (joints.mirrored[j] != j) joint.counterpart = massAround(maps.joints[joints.mirrored[j]], cell);
+    joint.entropy = maps.entropies[j];
+    joint.likelihood =
+        std::log(static_cast<double>(map[cells[j]]) / *std::max_element(map.begin(), map.end()));
+    joint.disagreement = maps.disagreements[j];
+    mean_mass += joint.mass / joints.count();
   }
+  result.figure_logit = maps.figure_logit;
   result.entropy = maps.entropy;
-  const double logit = kFigureLogit * figureLogit(maps) + kFigureJoints * mean_confidence + kFigureConstant -
+  const double logit = kFigureLogit * figureLogit(maps) + kFigureJoints * mean_mass + kFigureConstant -
                        (result.turned != 0 ? kTurnedOdds : 0);
-  result.figure_confidence = 1 / (1 + std::exp(-logit));
+  result.likeness = 1 / (1 + std::exp(-logit));
   return result;
 }
 

@@ -8,14 +8,22 @@
 
 namespace skel {
 
+// A joint, and what the heatmaps say of the place. A mass is the share of a heatmap that lies within 10 % of
+// the figure's long side around a place, [0, 1].
 struct TreeJoint {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // grid px, inside the figure
-  double confidence = 0;  // [0, 1]: chance that it lies within 10 % of the figure's long side
+  double mass = 0;                                     // of its own heatmap
+  double rival = 0;         // the same around the likeliest place that is twice as far away
+  double counterpart = 0;   // of the heatmap of the same joint of the other side; of the middle 0
+  double entropy = 0;       // nats, of its heatmap
+  double likelihood = 0;    // log, <= 0: of the place that the search took against the heatmap's likeliest
+  double disagreement = 0;  // >= 0: of the figure's heatmap and the mirror image's, -log of their overlap
 };
 
 struct TreeRecognition {
   std::vector<TreeJoint> joints;  // as NetJoints
-  double figure_confidence = 0;   // [0, 1]: below 0.5 it is hardly one whole figure of the body plan
+  double figure_logit = 0;        // of the net: log-odds of one whole upright figure of the body plan
+  double likeness = 0;            // [0, 1]: below 0.5 it hardly looks like one whole figure of the body plan
   double turned = 0;   // radians: how far (from +x towards +y) the figure is turned against upright
   double entropy = 0;  // nats, mean over the heatmaps
 };

@@ -97,7 +97,7 @@ std::optional<std::string> betterBodyPlan(const Image& image, const Silhouette& 
     if (name == options.body_plan.name) continue;
     const Recognition other =
         recognizeByTree(image, silhouette, loadTemplate(std::string(name)), nets.of(name));
-    if (other.confidence >= 0.5) return std::string(name);
+    if (other.likeness >= 0.5) return std::string(name);
   }
   return std::nullopt;
 }
@@ -114,13 +114,13 @@ Recognition recognizeByNet(const RigOptions& options, RiggedDrawing& drawing) {
   };
   Recognition found = recognize(options.body_plan);
   if (options.otherwise) {
-    if (found.confidence >= kSure) return found;
+    if (found.likeness >= kSure) return found;
     Recognition other = recognize(options.otherwise->body_plan);
-    if (other.confidence < kFits || other.confidence <= found.confidence) return found;
+    if (other.likeness < kFits || other.likeness <= found.likeness) return found;
     drawing.body_plan = options.otherwise->body_plan;
     return other;
   }
-  if (found.confidence < kFits)
+  if (found.likeness < kFits)
     if (const auto better = betterBodyPlan(drawing.image, drawing.silhouette, options))
       found.warnings.push_back("it looks like a " + *better + ": try --template " + *better);
   return found;
@@ -244,6 +244,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     if (input.skeleton) {
       drawing.body_plan = planNamed(input.skeleton->template_name, options);
       found.skeleton = *input.skeleton;
+      found.likeness = 1;  // as whoever hands it in says
       found.turned_deg = input.turned_deg;
     } else if (options.recognizer == Recognizer::kPaper) {
       found = recognizeByRules(silhouette, drawing.candidates, drawing.classes, options.body_plan);

@@ -211,7 +211,7 @@ Recognition recognizeByRules(const Silhouette& silhouette, const CandidateSet& c
     confidence += joint.confidence;
     ++recognized;
   }
-  recognition.confidence = confidence / recognized;
+  recognition.confidence = recognition.likeness = confidence / recognized;
   completeSkeleton(recognition.skeleton, found, body_plan, silhouette);
   return recognition;
 }

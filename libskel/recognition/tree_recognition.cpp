@@ -7,6 +7,7 @@
 #include "libskel/core/check.h"
 #include "libskel/jointnet/figure_look.h"
 #include "libskel/recognition/complete_skeleton.h"
+#include "libskel/recognition/confidence_model.h"
 
 namespace skel {
 namespace {
@@ -21,8 +22,22 @@ double shareCutOff(const Plane8& mask, const WorkingGrid& grid) {
   return most * grid.scale / kWorkingGridSize;
 }
 
-constexpr double kCutOff = 0.25;        // share that says that the figure goes on beyond the border
-constexpr double kCutConfidence = 0.4;  // the most that such a figure can have
+constexpr double kCutOff = 0.25;   // share that says that the figure goes on beyond the border
+constexpr double kNotWhole = 0.4;  // the most that such a figure can have
+constexpr double kHardlyOne =
+    0.5;  // likeness below which it is said that this is hardly a figure of the body plan
+
+// What a person should know of the joints; "" if nothing.
+std::string jointNote(const Recognition& recognition, const std::string& body_plan) {
+  std::string missing;
+  for (const std::string& name : recognition.missing) missing += (missing.empty() ? "" : ", ") + name;
+  if (recognition.likeness < kHardlyOne)
+    return "this hardly looks like one whole " + body_plan +
+           (missing.empty() ? "" : "; not found: " + missing);
+  if (recognition.confidence < 0.5)
+    return "some joints may be wrong, look at them" + (missing.empty() ? "" : "; not found: " + missing);
+  return missing.empty() ? "" : "not found: " + missing + " (placed where they probably are)";
+}
 
 }  // namespace
 
@@ -35,6 +50,8 @@ Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
   const FigureLook look = figureLook(gridColours(image, grid.corner_px, grid.scale, grid.width, grid.height),
                                      silhouette.grid_mask);
   const TreeRecognition tree = recognizeByJointNet(silhouette.grid_mask, look, net, joints, options);
+  const Confidences sure =
+      confidencesOf(evidenceOf(tree, silhouette.grid_mask, net, joints, body_plan), builtInConfidenceModel());
 
   Recognition recognition;
   recognition.skeleton = presetSkeleton(body_plan, {0, 0}, {1, 1});
@@ -43,23 +60,20 @@ Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
     const int index = recognition.skeleton.index(joints.names[j]);
     Joint& joint = recognition.skeleton.joints[static_cast<size_t>(index)];
     joint.image = grid.imageFromGrid(tree.joints[j].position);
-    joint.confidence = tree.joints[j].confidence;
+    joint.confidence = sure.joints[j];
     placed[static_cast<size_t>(index)] = true;
     const bool found = joint.confidence >= kFoundConfidence;
     joint.origin = found ? JointOrigin::kRecognized : JointOrigin::kCompleted;
     if (!found) recognition.missing.push_back(joint.name);
   }
-  recognition.confidence = tree.figure_confidence;
+  recognition.confidence = sure.figure;
+  recognition.likeness = tree.likeness;
   if (shareCutOff(silhouette.mask, grid) > kCutOff)
-    recognition.confidence = std::min(recognition.confidence, kCutConfidence);
-  std::string not_found;
-  for (const std::string& name : recognition.missing)
-    not_found += (not_found.empty() ? "not found: " : ", ") + name;
-  if (recognition.confidence < 0.5)
-    recognition.warnings.push_back("this hardly looks like one whole " + body_plan.name +
-                                   (not_found.empty() ? "" : "; " + not_found));
-  else if (!not_found.empty())
-    recognition.warnings.push_back(not_found + " (placed where they probably are)");
+    recognition.likeness = std::min(recognition.likeness, kNotWhole);
+  // Where there is no figure nobody can be sure of its joints.
+  if (recognition.likeness < kHardlyOne) recognition.confidence = std::min(recognition.confidence, kNotWhole);
+  if (const std::string note = jointNote(recognition, body_plan.name); !note.empty())
+    recognition.warnings.push_back(note);
   recognition.turned_deg = static_cast<int>(std::lround(tree.turned * 180 / std::numbers::pi));
   if (recognition.turned_deg != 0)
     recognition.warnings.push_back("the figure is turned by " + std::to_string(recognition.turned_deg) +

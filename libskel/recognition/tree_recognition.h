@@ -11,9 +11,8 @@
 namespace skel {
 
 // Joints of a confidence below this are named in Recognition::missing: they stand where the rest of the
-// figure suggests. Of the drawn characters' joints below it most are wrong, of those just above it most
-// right.
-inline constexpr double kFoundConfidence = 0.4;
+// figure suggests, more likely wrong than right.
+inline constexpr double kFoundConfidence = 0.5;
 
 // `silhouette` must be found and belong to `image`, whose inner lines show limbs before the body. `body_plan`
 // must have the joints that the net knows; throws UsageError otherwise.

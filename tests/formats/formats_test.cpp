@@ -21,6 +21,7 @@
 #include "libskel/jointnet/joint_net.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/layers/part_net.h"
+#include "libskel/recognition/confidence_model.h"
 #include "libskel/silhouette/page_net.h"
 #include "libskel/skeleton/motion_file.h"
 #include "libskel/skeleton/rig_file.h"
@@ -91,6 +92,10 @@ const std::map<std::string, Reader>& readers() {
          return "";
        }},
       {"skel-clip", [](const std::string& path) { return formatClip(readClipFile(path)); }},
+      {"skel-confidence",
+       [](const std::string& path) {
+         return formatConfidenceModel(parseConfidenceModel(readFile(path), path));
+       }},
       {"skel-joint-net",
        [](const std::string& path) { return formatJointNet(parseJointNet(readFile(path), path)); }},
       {"skel-labels", [](const std::string& path) { return formatLabelFile(readLabelFile(path)); }},

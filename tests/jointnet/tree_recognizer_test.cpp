@@ -51,9 +51,12 @@ TEST_CASE("Joints of generated figures are found, all inside the figure") {
     found.push_back(recognizeByJointNet(f.mask, f.look, net, joints));
     for (const TreeJoint& joint : found.back().joints) {
       CHECK(isInside(f.mask, joint.position));
-      CHECK((joint.confidence >= 0 && joint.confidence <= 1));
+      CHECK((joint.mass >= 0 && joint.mass <= 1));
+      CHECK((joint.rival >= 0 && joint.mass + joint.rival <= 1 + 1e-5));
+      CHECK((joint.counterpart >= 0 && joint.counterpart <= 1));
+      CHECK((joint.entropy >= 0 && joint.likelihood <= 0 && joint.disagreement >= 0));
     }
-    CHECK((found.back().figure_confidence >= 0 && found.back().figure_confidence <= 1));
+    CHECK((found.back().likeness >= 0 && found.back().likeness <= 1));
   }
   CHECK(shareWithin(figures, found, .1) > .8);
   CHECK(shareWithin(figures, found, .05) > .6);
@@ -109,7 +112,7 @@ TEST_CASE("Degenerate figures come out unsure and without a crash") {
     const TreeRecognition r = recognizeByJointNet(mask, {}, net, joints);
     for (const TreeJoint& joint : r.joints) CHECK(isInside(mask, joint.position));
     INFO(mask.rows() << "×" << mask.cols());
-    CHECK(r.figure_confidence < .5);
+    CHECK(r.likeness < .5);
   }
 }
 

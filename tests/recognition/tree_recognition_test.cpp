@@ -210,6 +210,19 @@ TEST_CASE("a figure that the picture's border cuts is no sure figure") {
   CHECK(recognize(tight).confidence >= 0.5);
 }
 
+TEST_CASE("of what hardly looks like a figure no joints are sure to be right") {
+  for (const auto& [rows, columns] : {std::pair{20, 20}, {10, 300}, {300, 10}, {200, 300}}) {
+    Plane8 mask = Plane8::Zero(rows + 40, columns + 40);
+    mask.block(20, 20, rows, columns).setConstant(255);
+    const Recognition recognition = recognize(mask);
+    INFO(rows << "×" << columns);
+    CHECK(recognition.likeness < 0.5);
+    CHECK(recognition.confidence < 0.5);
+    REQUIRE(!recognition.warnings.empty());
+    CHECK(recognition.warnings.front().starts_with("this hardly looks like one whole biped"));
+  }
+}
+
 TEST_CASE("an arm that is closed off against the body is found all the same") {
   CapsuleFigure figure = poses()[0];
   Plane8 mask = capsuleMask(figure);

@@ -4,7 +4,7 @@ import { say } from './words.js';
 
 const kSvg = 'http://www.w3.org/2000/svg';
 const kDot_px = 4.5, kGrip_px = 15; // at least, on the screen
-const kSure = 0.4; // below, a joint stands where the rest of the figure suggests
+const kSure = 0.5; // below, a joint stands where the rest of the figure suggests
 
 const element = (name, attributes) => {
   const made = document.createElementNS(kSvg, name);

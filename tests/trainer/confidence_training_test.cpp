@@ -1,0 +1,119 @@
+// What confidence is learned from, and skel-train confidence as a user runs it.
+#include <algorithm>
+#include <filesystem>
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/recognition/confidence_model.h"
+#include "tests/support/catch.h"
+#include "tests/support/run_tool.h"
+#include "trainer/confidence_samples.h"
+#include "trainer/confidence_table.h"
+
+namespace skel {
+namespace {
+
+std::string folderOf(const TempDir& dir, const std::string& folder, const std::string& set,
+                     const std::vector<std::string>& names) {
+  std::filesystem::create_directories(dir.file(folder));
+  for (const std::string& name : names)
+    for (const char* end : {".png", ".mask.png", ".joints.json"})
+      std::filesystem::copy_file(SKEL_DATASETS "/" + set + "/" + name + end,
+                                 dir.file(folder + "/" + name) + end);
+  return dir.file(folder);
+}
+
+TEST_CASE("samples of drawings that the net knows well are right, cut ones and pairs never usable") {
+  const TempDir dir;
+  const std::string folder = folderOf(dir, "d", "characters", {"cap_boy", "ninja"});
+  const std::vector<JointedDrawing> drawings = findJointedDrawings(folder),
+                                    animals =
+                                        findJointedDrawings(folderOf(dir, "a", "animals", {"walking_dog"}));
+  const std::vector<ConfidenceSample> samples =
+      confidenceSamples(drawings, animals, builtInJointNets().of("biped"), 2, 1, 2);
+  const auto count = [&](Disturbance disturbance) {
+    return std::count_if(samples.begin(), samples.end(),
+                         [&](const ConfidenceSample& s) { return s.disturbance == disturbance; });
+  };
+  CHECK(count(Disturbance::kNone) == 2);
+  CHECK(count(Disturbance::kOtherPlan) == 1);
+  for (const Disturbance disturbance : {Disturbance::kWarped, Disturbance::kTurned, Disturbance::kThing,
+                                        Disturbance::kLimb, Disturbance::kBite, Disturbance::kCut})
+    CHECK(count(disturbance) == 4);
+  for (const ConfidenceSample& s : samples) {
+    INFO(s.drawing << " " << static_cast<int>(s.disturbance));
+    CHECK(s.right.size() == 14);
+    if (s.disturbance == Disturbance::kNone) {
+      CHECK(s.usable);
+      CHECK(std::count(s.right.begin(), s.right.end(), 1) == 14);
+    }
+    const bool whole = s.disturbance != Disturbance::kCut && s.disturbance != Disturbance::kPair &&
+                       s.disturbance != Disturbance::kOtherPlan;
+    if (!whole) CHECK(!s.usable);
+    if (!whole) CHECK(std::count(s.right.begin(), s.right.end(), -1) == 14);
+  }
+}
+
+TEST_CASE(
+    "confidence is learned to the same bytes whatever the number of threads, and is measured on hands left "
+    "out") {
+  const TempDir dir;
+  const std::string people = folderOf(dir, "p", "characters", {"cap_boy", "ninja", "pirate"}),
+                    animals = folderOf(dir, "a", "animals", {"walking_dog"});
+  writeFile(dir.file("hands.json"), R"({"first": ["ninja"], "second": ["cap_boy"], "third": ["pirate"]})");
+  const auto run = [&](const std::string& output, const std::string& more) {
+    return runTool("'" SKEL_TRAIN "' confidence --biped '" + people + "' --quadruped '" + animals +
+                   "' --hands '" + dir.file("hands.json") + "' --copies 1 --folds 2 -o '" + dir.file(output) +
+                   "' " + more);
+  };
+  const auto one = run("one.json", "--threads 1 --table '" + dir.file("table.csv") + "'");
+  INFO(one.err);
+  REQUIRE(one.exit_code == 0);
+  CHECK(one.out.find("on hands left out") != std::string::npos);
+  REQUIRE(run("three.json", "--threads 3").exit_code == 0);
+  CHECK(readFile(dir.file("one.json")) == readFile(dir.file("three.json")));
+  CHECK(parseConfidenceModel(readFile(dir.file("one.json")), "one.json").joint.hidden.rows() > 0);
+  const std::string table = readFile(dir.file("table.csv"));
+  CHECK(table.find("ninja,none,biped,") != std::string::npos);
+  CHECK(table.find("walking_dog,other plan,biped,") != std::string::npos);
+
+  REQUIRE(run("second.json", "--first-hand second --table '" + dir.file("table.csv") + "'").exit_code == 0);
+  CHECK(readFile(dir.file("table.csv")).find("ninja") == std::string::npos);
+  CHECK(readFile(dir.file("second.json")) != readFile(dir.file("one.json")));
+  const auto nobody = run("n.json", "--first-hand nobody");
+  CHECK(nobody.exit_code == 1);
+  CHECK(nobody.err.find("knows no such hand") != std::string::npos);
+}
+
+TEST_CASE("a table of samples is read again as it was written, and what is none is refused by its line") {
+  const TempDir dir;
+  const std::vector<ConfidenceSample> samples =
+      confidenceSamples(findJointedDrawings(folderOf(dir, "d", "characters", {"cap_boy"})), {},
+                        builtInJointNets().of("biped"), 0, 1, 1);
+  REQUIRE(!samples.empty());
+  const std::string table = formatConfidenceTable(samples);
+  const std::vector<ConfidenceSample> read = parseConfidenceTable(table, "t.csv");
+  CHECK(formatConfidenceTable(read) == table);
+  REQUIRE(read.size() == samples.size());
+  CHECK(read[0].right == samples[0].right);
+  CHECK(read[0].evidence.counts == samples[0].evidence.counts);
+  CHECK((read[0].evidence.joints - samples[0].evidence.joints).abs().maxCoeff() < 1e-3);
+  const auto complaint = [](const std::string& text) -> std::string {
+    try {
+      parseConfidenceTable(text, "t.csv");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  constexpr const char* kSecond = "t.csv: line 2 is none of a table that skel-train confidence writes";
+  const std::string first = table.substr(0, table.find('\n') + 1);
+  CHECK(complaint(first).empty());
+  CHECK(complaint(first + "J,a,none,biped,1,nan\n") == kSecond);
+  CHECK(complaint(first + first.substr(0, first.rfind(',')) + "\n") == kSecond);
+  CHECK(complaint("J" + first.substr(1)) ==
+        "t.csv: line 1 is none of a table that skel-train confidence writes");
+}
+
+}  // namespace
+}  // namespace skel

@@ -1,0 +1,103 @@
+#include "trainer/confidence_table.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <locale>
+#include <sstream>
+
+#include "libskel/core/error.h"
+
+namespace skel {
+namespace {
+
+constexpr std::array<std::string_view, kDisturbances> kDisturbanceNames = {
+    "none", "found", "warped", "turned", "thing", "limb", "bite", "cut", "pair", "other plan"};
+
+std::vector<std::string_view> cells(std::string_view line) {
+  std::vector<std::string_view> out;
+  while (true) {
+    const std::size_t end = line.find(',');
+    out.push_back(line.substr(0, end));
+    if (end == line.npos) return out;
+    line.remove_prefix(end + 1);
+  }
+}
+
+struct BadCell {};
+
+double numberOf(std::string_view cell) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(number)) throw BadCell();
+  return number;
+}
+
+// Adds the line, whose cells these are.
+void addLine(const std::vector<std::string_view>& line, std::vector<ConfidenceSample>& samples) {
+  constexpr std::size_t kFigure = 6, kJoint = 7;  // cells before the inputs
+  if (line[0] == "F" && line.size() == kFigure + kFigureInputs.size()) {
+    ConfidenceSample sample;
+    sample.drawing = line[1];
+    const auto kind = std::find(kDisturbanceNames.begin(), kDisturbanceNames.end(), line[2]);
+    if (kind == kDisturbanceNames.end()) throw BadCell();
+    sample.disturbance = static_cast<Disturbance>(kind - kDisturbanceNames.begin());
+    sample.body_plan = line[3];
+    sample.usable = numberOf(line[4]) != 0;
+    sample.likeness = numberOf(line[5]);
+    sample.evidence.figure.resize(static_cast<Eigen::Index>(kFigureInputs.size()));
+    for (std::size_t i = 0; i < kFigureInputs.size(); ++i)
+      sample.evidence.figure[static_cast<Eigen::Index>(i)] = numberOf(line[kFigure + i]);
+    samples.push_back(std::move(sample));
+    return;
+  }
+  if (line[0] != "J" || line.size() != kJoint + kJointInputs.size() || samples.empty()) throw BadCell();
+  ConfidenceSample& sample = samples.back();
+  sample.right.push_back(static_cast<int>(numberOf(line[4])));
+  sample.masses.push_back(numberOf(line[5]));
+  sample.evidence.counts.push_back(numberOf(line[6]) != 0);
+  Eigen::ArrayXXd& joints = sample.evidence.joints;
+  joints.conservativeResize(joints.rows() + 1, static_cast<Eigen::Index>(kJointInputs.size()));
+  for (std::size_t i = 0; i < kJointInputs.size(); ++i)
+    joints(joints.rows() - 1, static_cast<Eigen::Index>(i)) = numberOf(line[kJoint + i]);
+}
+
+}  // namespace
+
+std::string formatConfidenceTable(const std::vector<ConfidenceSample>& samples) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(5);
+  for (const ConfidenceSample& s : samples) {
+    const std::string head = s.drawing + "," +
+                             std::string(kDisturbanceNames[static_cast<std::size_t>(s.disturbance)]) + "," +
+                             s.body_plan;
+    out << "F," << head << "," << s.usable << "," << s.likeness;
+    for (const double v : s.evidence.figure) out << "," << v;
+    out << "\n";
+    for (std::size_t j = 0; j < s.right.size(); ++j) {
+      out << "J," << head << "," << s.right[j] << "," << s.masses[j] << "," << s.evidence.counts[j];
+      for (const double v : s.evidence.joints.row(static_cast<Eigen::Index>(j))) out << "," << v;
+      out << "\n";
+    }
+  }
+  return out.str();
+}
+
+std::vector<ConfidenceSample> parseConfidenceTable(std::string_view text, const std::string& file) {
+  std::vector<ConfidenceSample> samples;
+  for (std::size_t line = 1; !text.empty(); ++line) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    try {
+      addLine(cells(text.substr(0, end)), samples);
+    } catch (const BadCell&) {
+      throw InputError(
+          file, "line " + std::to_string(line) + " is none of a table that skel-train confidence writes");
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return samples;
+}
+
+}  // namespace skel

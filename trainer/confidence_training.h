@@ -1,0 +1,28 @@
+// skel-train confidence: learns how sure the recognition may be of what it finds.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "libskel/core/error.h"
+
+namespace skel {
+
+struct ConfidenceTrainingOptions {
+  std::map<std::string, std::vector<std::string>>
+      drawings;  // by body plan: folders, see findJointedDrawings()
+  std::vector<std::string> tables;
+  std::string hands, first_hand;
+  std::string output, table;
+  int copies = 1;
+  int folds = 5;
+  int seed = 1;
+  int threads = 0;
+};
+
+void bindConfidenceTrainingOptions(CLI::App& command, ConfidenceTrainingOptions& options);
+ExitCode runConfidenceTraining(const ConfidenceTrainingOptions& options);
+
+}  // namespace skel
