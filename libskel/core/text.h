@@ -15,8 +15,8 @@ std::string joined(const std::vector<std::string>& words);
 // such (\xe4). Errors do so by themselves.
 std::string printable(std::string_view text);
 
-// The same, and of more than 600 bytes without its middle, where a value out of a file makes it long: the file
-// and the place come first, what to do last.
+// The same, and of more than 600 bytes without its middle, where a value out of a file makes it long: the
+// file and the place come first, what to do last.
 std::string messageLine(std::string_view text);
 
 }  // namespace skel

@@ -320,7 +320,8 @@ std::string withMoreScans(const std::string& jpeg, int more) {
 TEST_CASE("JPEG: hundreds of passes over a picture are refused, the more px it has the fewer") {
   const std::string small = makeJpeg(8, 8, 1, Bytes(64, 9), 0, true);
   CHECK(decodeImage(withMoreScans(small, 90), "x").width == 8);
-  CHECK_THAT(complaint(withMoreScans(small, 100), "x.jpg"), Contains("x.jpg: is a broken JPEG (more than 100 scans)"));
+  CHECK_THAT(complaint(withMoreScans(small, 100), "x.jpg"),
+             Contains("x.jpg: is a broken JPEG (more than 100 scans)"));
   const std::string large = makeJpeg(8000, 8000, 1, Bytes(64'000'000, 9), 0, true);
   CHECK_THAT(complaint(withMoreScans(large, 90), "x.jpg"), Contains("more than 25 scans"));
 }
