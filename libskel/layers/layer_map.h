@@ -63,9 +63,8 @@ std::string limbName(const SkeletonTemplate& body_plan, int limb);
 // grey or in the colour of their part, the rest clear.
 Image layerPicture(const LayerMap& layers, const Plane8& mask);
 
-// The map of such a picture: what is as good as opaque of a limb's colour is a body of its own. Throws
-// InputError: another size than the figure's picture, a colour that is no limb's; `file` is what it calls the
-// picture.
+// The map of such a picture; translucent limbs are one with the body. Throws InputError: another size than
+// the figure's picture, a colour that is no limb's; `file` is what it calls the picture.
 LayerMap layersOfPicture(const Image& picture, const Silhouette& silhouette,
                          const SkeletonTemplate& body_plan, const std::string& file);
 
