@@ -170,7 +170,7 @@ void checkUsage(const InferOptions& options) {
                      safeFileName(options.name) + "\" is one");
   checkListUsage(options);
   if (isModelAlone(options) && options.model_file.empty())
-    throw UsageError("name an image, --from, or --model; see --help");
+    throw UsageError("name an image, or --model; see --help");
   if (isModelAlone(options) && !options.mask_file.empty())
     throw UsageError("--mask needs the image that it belongs to");
   if (isModelAlone(options) && !options.skeleton_file.empty())
