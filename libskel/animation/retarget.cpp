@@ -610,7 +610,9 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
     // Steps are as long as the legs; what is jumped is not.
     offset.x() *= sway;
     offset.z() *= stride;
-    if (offset.y() < 0) offset.y() *= sink;
+    // Breath is no squat.
+    const double deep = smoothStep(0, 0.1, -double(pose.root_translation.y()));
+    if (offset.y() < 0) offset.y() *= stride + deep * (sink - stride);
     offset = retargeter.figure_from_clip * offset;
     if (points) offset += share * offset.z() * retargeter.ahead[0];
     poses[k].root_offset_m = offset + share * stand * Vector3d::UnitY();
