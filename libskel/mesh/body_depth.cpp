@@ -18,7 +18,7 @@ constexpr double kThinning = 1.5;
 
 DepthThere depthAt(const std::vector<DepthBone>& bones, const Eigen::Vector2d& p) {
   if (bones.empty()) return {};
-  double weights = 0, source = 0, most = 0, nearest = std::numeric_limits<double>::infinity();
+  double weights = 0, source = 0, most = 0, forward = 0, nearest = std::numeric_limits<double>::infinity();
   for (const DepthBone& bone : bones) {
     const double away = distanceToSegment<Eigen::Vector2d>(p, bone.from, bone.to) / bone.radius_px;
     nearest = std::min(nearest, away);
@@ -26,8 +26,10 @@ DepthThere depthAt(const std::vector<DepthBone>& bones, const Eigen::Vector2d& p
     weights += weight;
     source += weight * bone.source;
     most += weight * bone.most_px;
+    forward += weight * bone.forward;
   }
-  return {source / weights, most / weights / std::pow(std::max(1.0, nearest / kFlesh), kThinning)};
+  return {source / weights, most / weights / std::pow(std::max(1.0, nearest / kFlesh), kThinning),
+          forward / weights};
 }
 
 }  // namespace skel

@@ -15,6 +15,9 @@ struct DepthBone {
   double source = 2.5;
   double most_px = 1;
   int layer = 0;  // FigurePiece::layer of the limb that it is in, 0 of trunk and head
+  // How far the rim lies before the middle of the body, as a share of its half depth: what faces the viewer
+  // shows its own colours to him and those of its back to who looks from the side.
+  double forward = 0;
 };
 
 // A foot that stands, drawn from the front: it becomes a shoe with a flat sole.
@@ -29,11 +32,12 @@ struct BodyDepth {
   std::vector<DepthFoot> feet;
 };
 
-// The bones' `source` and most half depth at one point, blended from bone to bone; beyond the flesh of all
-// (brims, capes, the width of a skirt) the body gets thin.
+// The bones' `source`, most half depth and `forward` at one point, blended from bone to bone; beyond the
+// flesh of all (brims, capes, the width of a skirt) the body gets thin.
 struct DepthThere {
   double source = 2.5;
   double most_px = 0;  // 0: no bound
+  double forward = 0;
 };
 DepthThere depthAt(const std::vector<DepthBone>& bones, const Eigen::Vector2d& p);
 

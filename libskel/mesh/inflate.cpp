@@ -13,6 +13,7 @@
 #include "libskel/core/error.h"
 #include "libskel/mesh/fill_hidden.h"
 #include "libskel/mesh/lay_over.h"
+#include "libskel/mesh/local_mean.h"
 #include "libskel/mesh/outline.h"
 #include "libskel/mesh/outline_band.h"
 #include "libskel/mesh/planar_mesh.h"
@@ -180,7 +181,8 @@ struct Sheet {
   OutlineBand outline_band;
   std::vector<Eigen::Vector2d> place;  // of all vertices, image px: where they stand
   Heights z;
-  std::vector<double> lip;     // px before the drawing, of the rim's vertices
+  Eigen::VectorXd middle;      // px before the drawing, of all vertices
+  std::vector<double> lip;     // and of the rim's before that
   std::vector<double> offset;  // px, of all vertices
   DrawingTexture front;
   std::optional<BackTexture> back;
@@ -309,17 +311,26 @@ void dressPiece(const Image& image, const FigurePiece& piece, const Plane8& draw
 // The bones and feet of a piece of a figure; of one in one piece all.
 BodyDepth depthOf(const BodyDepth& body, const std::vector<FigurePiece>& pieces, std::size_t piece) {
   if (pieces.empty()) return body;
-  const auto isOf = [&](int limb) {
-    // What is no piece of its own belongs to the trunk.
-    const bool apart =
-        std::any_of(pieces.begin(), pieces.end(), [&](const FigurePiece& p) { return p.layer == limb; });
-    return pieces[piece].layer == (apart ? limb : 0);
+  const auto holds = [](const FigurePiece& p, const Eigen::Vector2d& at) {
+    const int x = static_cast<int>(std::lround(at.x())) - p.box.x0,
+              y = static_cast<int>(std::lround(at.y())) - p.box.y0;
+    return x >= 0 && y >= 0 && x < p.mask.cols() && y < p.mask.rows() && p.mask(y, x) != 0;
+  };
+  // What its limb's piece does not hold belongs to the first that does.
+  const auto isOf = [&](int limb, const Eigen::Vector2d& at) {
+    const auto first = [&](const auto& fits) {
+      return static_cast<std::size_t>(std::find_if(pieces.begin(), pieces.end(), fits) - pieces.begin());
+    };
+    std::size_t owner = first([&](const FigurePiece& p) { return p.layer == limb && holds(p, at); });
+    if (owner == pieces.size()) owner = first([&](const FigurePiece& p) { return holds(p, at); });
+    if (owner == pieces.size()) owner = first([&](const FigurePiece& p) { return p.layer == limb; });
+    return owner == piece || (owner == pieces.size() && piece == 0);
   };
   BodyDepth own;
   for (const DepthBone& bone : body.bones)
-    if (isOf(bone.layer)) own.bones.push_back(bone);
+    if (isOf(bone.layer, (bone.from + bone.to) / 2)) own.bones.push_back(bone);
   for (const DepthFoot& foot : body.feet)
-    if (isOf(foot.layer)) own.feet.push_back(foot);
+    if (isOf(foot.layer, foot.foot)) own.feet.push_back(foot);
   return own;
 }
 
@@ -363,28 +374,62 @@ std::vector<double> lipOf(const PlanarMesh& mesh, const std::vector<double>& ban
   return lip;
 }
 
-// How thick it is, and where its points stand.
-void giveDepth(const BodyDepth& body, bool own_back, Sheet& sheet) {
+// Behind a flange, z of the inner vertices rises to the height that the body has without one (`plain`): an
+// outline that is wide for its limb must not make that flat.
+Eigen::VectorXd heightsBehind(const PlanarMesh& mesh, const std::vector<DepthThere>& depths,
+                              const std::vector<double>& band, const Eigen::VectorXd& plain,
+                              const Eigen::VectorXd& plain_mean, double range_px) {
+  Eigen::VectorXd z = inflatedHeights(mesh, depths, band);
+  const Eigen::VectorXd mean = localMean(mesh, z, range_px);
+  for (int v = 0; v < mesh.inner_count; ++v)
+    if (band[v] == 0) z[v] = std::max(z[v], std::min(z[v] * plain_mean[v] / mean[v], plain[v]));
+  return z;
+}
+
+// How thick it is, and where its points stand. `long_px`: the figure's long side.
+void giveDepth(const BodyDepth& body, bool own_back, double long_px, Sheet& sheet) {
+  constexpr double kAround = 0.07;       // of the figure's long side: how far the depth of a part reaches
+  constexpr double kMiddleOfMean = 1.3;  // half depth in the middle of a tube or a ball by its mean, about
   const std::vector<DepthThere> depths = depthsOf(sheet.planar, body.bones);
   const std::vector<double>& band = sheet.outline_band.width_px;
-  sheet.z.front = inflatedHeights(sheet.planar, depths, band);
+  const std::vector<double> none(band.size(), 0);
   // A back that shows no outline is round up to the rim.
   const std::vector<double> behind = own_back ? bandBehind(sheet) : band;
-  sheet.z.back = behind == band ? sheet.z.front : inflatedHeights(sheet.planar, depths, behind);
+  const Eigen::VectorXd plain = inflatedHeights(sheet.planar, depths, none);
+  const double range_px = kAround * long_px;
+  const Eigen::VectorXd plain_mean = localMean(sheet.planar, plain, range_px);
+  const auto heights = [&](const std::vector<double>& flange) {
+    return flange == none ? plain : heightsBehind(sheet.planar, depths, flange, plain, plain_mean, range_px);
+  };
+  sheet.z.front = heights(band);
+  sheet.z.back = behind == band ? sheet.z.front : heights(behind);
   sheet.lip = lipOf(sheet.planar, band, behind);
   sheet.place = sheet.planar.vertices;
+  sheet.middle = Eigen::VectorXd::Zero(sheet.size());
+  if (own_back) {
+    Eigen::VectorXd forward(sheet.inner());
+    for (int v = 0; v < sheet.inner(); ++v) forward[v] = depths[v].forward;
+    sheet.middle = kMiddleOfMean * localMean(sheet.planar, forward.cwiseProduct(plain), range_px);
+    sheet.z.front.array() *= 1 - forward.array();
+    sheet.z.back.array() *= 1 + forward.array();
+  }
   putOnShoes(sheet.planar, body.feet, {band, behind}, sheet.z, sheet.place);
 }
 
 // Brings each piece before those behind it.
 void layPieces(std::vector<Sheet>& sheets, const std::vector<FigurePiece>& pieces, const PixelBox& box) {
-  for (Sheet& sheet : sheets) sheet.offset.assign(sheet.planar.vertices.size(), 0);
+  for (Sheet& sheet : sheets) sheet.offset.assign(sheet.middle.begin(), sheet.middle.end());
   if (sheets.size() == 1) return;
   const double cell_px = sheets.front().planar.cell_px, margin = 2 * cell_px + 2;
   Relief relief({box.x0 - margin, box.y0 - margin}, {box.x1 + margin, box.y1 + margin}, cell_px / 2);
   for (std::size_t i = 0; i < sheets.size(); ++i) {
     if (i > 0 && pieces[i].behind) continue;
-    if (i > 0) sheets[i].offset = layOver(relief, sheets[i].planar, sheets[i].z.back, pieces[i]);
+    if (i > 0) {
+      Eigen::VectorXd behind = -sheets[i].middle;
+      behind.head(sheets[i].inner()) += sheets[i].z.back;
+      const std::vector<double> lift = layOver(relief, sheets[i].planar, behind, pieces[i]);
+      for (std::size_t v = 0; v < lift.size(); ++v) sheets[i].offset[v] += lift[v];
+    }
     relief.raise(sheets[i].planar, sheets[i].z.front, sheets[i].offset);
   }
 }
@@ -453,7 +498,8 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
         backTexture(front, sheets[i].box, options, pieces.empty() ? 0 : pieces[i].layer, whole_px);
   }
   for (std::size_t i = 0; i < sheets.size(); ++i)
-    giveDepth(depthOf(options.body, pieces, i), !same_back && !options.back_picture, sheets[i]);
+    giveDepth(depthOf(options.body, pieces, i), !same_back && !options.back_picture,
+              std::max(box.width(), box.height()), sheets[i]);
   layPieces(sheets, pieces, box);
 
   Eigen::Vector2d low = upright(sheets.front().planar.vertices.front()), high = low;

@@ -60,7 +60,7 @@ double Relief::at(const Vector2d& p) const {
          t * ((1 - s) * height_(y + 1, x) + s * height_(y + 1, x + 1));
 }
 
-std::vector<double> layOver(const Relief& below, const PlanarMesh& mesh, const Eigen::VectorXd& z,
+std::vector<double> layOver(const Relief& below, const PlanarMesh& mesh, const Eigen::VectorXd& behind,
                             const FigurePiece& piece) {
   Relief offset = below;
   auto& height = offset.height_;
@@ -72,7 +72,7 @@ std::vector<double> layOver(const Relief& below, const PlanarMesh& mesh, const E
     if (piece.over(y, x) == 0) continue;
     const double base = below.at(p);
     if (base <= 0) continue;
-    const double needed = base + heightOf(mesh, z, v);
+    const double needed = base + behind[v];
     const Vector2d cell = (p - offset.low_) / offset.cell_px_;
     for (int k = 0; k < 4; ++k) {
       double& there =

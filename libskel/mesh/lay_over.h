@@ -21,8 +21,8 @@ class Relief {
   double at(const Eigen::Vector2d& p) const;  // between the points linear; 0 beyond them
 
  private:
-  friend std::vector<double> layOver(const Relief& below, const PlanarMesh& mesh, const Eigen::VectorXd& z,
-                                     const FigurePiece& piece);
+  friend std::vector<double> layOver(const Relief& below, const PlanarMesh& mesh,
+                                     const Eigen::VectorXd& behind, const FigurePiece& piece);
   Eigen::Vector2d low_;
   double cell_px_;
   Eigen::ArrayXXd height_;  // rows × columns
@@ -30,7 +30,8 @@ class Relief {
 
 // By how much each vertex of the piece is brought forward so that its back lies before `below` wherever
 // `piece.over` asks for it; to where it does not, it slopes down.
-std::vector<double> layOver(const Relief& below, const PlanarMesh& mesh, const Eigen::VectorXd& z,
+// `behind`: of all vertices, how far the back lies behind the drawing, px.
+std::vector<double> layOver(const Relief& below, const PlanarMesh& mesh, const Eigen::VectorXd& behind,
                             const FigurePiece& piece);
 
 }  // namespace skel

@@ -23,6 +23,7 @@ constexpr Build kBallBuild{4, 1.3};  // head and trunk in one: a potato, a crab
 constexpr double kNoNeck = 0.95, kInOne = 1.8;
 constexpr Build kSideChestBuild{2.5, 1.4};                               // of a person drawn from the side
 constexpr Build kAnimalTrunkBuild{2, 1.05}, kAnimalHeadBuild{2.2, 1.2};  // drawn from the side, always
+constexpr double kForward = 0.5;     // DepthBone::forward of who faces the viewer; by eye, of .5 and .7
 constexpr double kLimbRadius = 0.4;  // at most, as a share of a bone's length: where it lies on the body
 constexpr double kNeckReach = 0.45;  // of the head's radius
 // The distance of the shoulders as a share of the trunk's length: below the first it is seen from the side,
@@ -41,7 +42,9 @@ class DepthFinder {
     const double head_px = radius(*head), neck_px = radius(*neck), body_px = radius(*body);
     const bool in_one = !body_plan_.from_side && neck_px > kNoNeck * std::max(head_px, body_px) &&
                         (*head - *body).norm() < kInOne * neck_px;
-    const Build trunk = in_one ? kBallBuild : trunkBuild(*pelvis, *neck);
+    const double front = frontal(*pelvis, *neck);
+    forward_ = kForward * front;
+    const Build trunk = in_one ? kBallBuild : trunkBuild(front);
     const double trunk_px = in_one ? neck_px : body_px;
     addBone(*pelvis, *body, trunk_px, trunk);
     addBone(*body, *neck, trunk_px, trunk);
@@ -75,15 +78,20 @@ class DepthFinder {
   void addBone(const Vector2d& from, const Vector2d& to, double radius_px, const Build& build,
                int layer = 0) {
     radius_px = std::max(radius_px, 1.0);
-    depth_.bones.push_back({from, to, radius_px, build.source, build.most * radius_px, layer});
+    depth_.bones.push_back({from, to, radius_px, build.source, build.most * radius_px, layer, forward_});
   }
 
-  Build trunkBuild(const Vector2d& pelvis, const Vector2d& neck) const {
-    if (body_plan_.from_side) return kAnimalTrunkBuild;
+  // 1: drawn from the front or from behind; 0: from the side.
+  double frontal(const Vector2d& pelvis, const Vector2d& neck) const {
+    if (body_plan_.from_side) return 0;
     const auto left = at("left_shoulder"), right = at("right_shoulder");
-    if (!left || !right) return kChestBuild;
+    if (!left || !right) return 1;
     const double wide = (*left - *right).norm() / std::max((pelvis - neck).norm(), 1.0);
-    const double front = std::clamp((wide - kSideShoulders) / (kFrontShoulders - kSideShoulders), 0.0, 1.0);
+    return std::clamp((wide - kSideShoulders) / (kFrontShoulders - kSideShoulders), 0.0, 1.0);
+  }
+
+  Build trunkBuild(double front) const {
+    if (body_plan_.from_side) return kAnimalTrunkBuild;
     return {kSideChestBuild.source + front * (kChestBuild.source - kSideChestBuild.source),
             kSideChestBuild.most + front * (kChestBuild.most - kSideChestBuild.most)};
   }
@@ -94,7 +102,7 @@ class DepthFinder {
     if (down.norm() < head_px) return;  // the head sits on the shoulders
     const Vector2d chin = head + down.normalized() * std::min(1.15 * head_px, down.norm());
     const double reach = kNeckReach * head_px;
-    depth_.bones.push_back({chin, chin, reach, kNeckBuild.source, kNeckBuild.most * head_px, 0});
+    depth_.bones.push_back({chin, chin, reach, kNeckBuild.source, kNeckBuild.most * head_px, 0, forward_});
   }
 
   void addLimb(const TemplateLimb& limb, int layer, const Build& trunk, double trunk_px) {
@@ -115,6 +123,7 @@ class DepthFinder {
   const Skeleton& skeleton_;
   const SkeletonTemplate& body_plan_;
   const Silhouette& silhouette_;
+  double forward_ = 0;  // DepthBone::forward
   BodyDepth depth_;
 };
 

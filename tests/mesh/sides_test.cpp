@@ -6,8 +6,10 @@
 
 #include "libskel/mesh/back_colors.h"
 #include "libskel/mesh/inflate.h"
+#include "libskel/mesh/local_mean.h"
 #include "libskel/mesh/outline_band.h"
 #include "libskel/mesh/part.h"
+#include "libskel/mesh/planar_mesh.h"
 #include "libskel/mesh/split_seams.h"
 #include "tests/support/catch.h"
 #include "tests/support/mesh_checks.h"
@@ -508,6 +510,78 @@ TEST_CASE("the rim stands forward where the back shows no outline, and nowhere e
       REQUIRE(mesh.vertices(v, 2) / px == Approx(11).margin(2.5));
   }
   CHECK(rim > 100);
+}
+
+TEST_CASE("an outline that is wide for its limb does not make that flat") {
+  Image bare(300, 600), outlined(300, 600);
+  bare.rgba.setConstant(255), outlined.rgba.setConstant(255);
+  for (int y = 20; y < 580; ++y)
+    for (int x = 115; x < 185; ++x) {
+      const bool line = y < 38 || y >= 562 || x < 133 || x >= 167;
+      std::fill_n(bare.pixel(x, y), 3, std::uint8_t(200));
+      std::fill_n(outlined.pixel(x, y), 3, std::uint8_t(line ? 0 : 200));
+    }
+  InflateOptions options;
+  options.thin_outline = true;
+  options.back = GENERATE(Back::kPlain, Back::kSame);
+  const auto depthOf = [&](const Image& image) {
+    const TriangleMesh mesh = inflate(image, silhouetteFromMask(notWhite(image)), options);
+    CHECK(checkMesh(mesh).problem == "");
+    return mesh.vertices.col(2).maxCoeff() - mesh.vertices.col(2).minCoeff();
+  };
+  const float round = depthOf(bare), depth = depthOf(outlined);
+  CHECK(depth > 0.85f * round);
+  CHECK(depth <= 1.001f * round);
+}
+
+TEST_CASE("a foot stands in a shoe although its leg is a piece that ends above it") {
+  Image image(300, 600);
+  image.rgba.setConstant(255);
+  for (int y = 20; y < 580; ++y)
+    for (int x = 120; x < 180; ++x) std::fill_n(image.pixel(x, y), 3, std::uint8_t(150));
+  const Silhouette silhouette = silhouetteFromMask(notWhite(image));
+  FigurePiece whole, thigh;
+  whole.box = {120, 20, 180, 580};
+  thigh.box = {120, 20, 180, 200}, thigh.layer = 3;
+  for (FigurePiece* piece : {&whole, &thigh}) {
+    piece->mask = Plane8::Constant(piece->box.height(), piece->box.width(), 255);
+    piece->hidden = piece->over = Plane8::Zero(piece->box.height(), piece->box.width());
+  }
+  InflateOptions options;
+  options.body.bones = {{{150, 30}, {150, 540}, 30, 2.5, 60, 0}};
+  const auto toe = [&] {
+    const TriangleMesh mesh = inflate(image, silhouette, options, {whole, thigh});
+    float front = 0;
+    for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
+      if (mesh.vertices(v, 1) < 0.06f) front = std::max(front, mesh.vertices(v, 2));
+    return front;
+  };
+  const float bare = toe();
+  options.body.feet = {{{150, 380}, {150, 545}, 30, 3}};
+  CHECK(toe() > 1.3f * bare);
+}
+
+TEST_CASE("a mean over the mesh stays within it and keeps what is even") {
+  // Two bars that do not touch.
+  Plane8 mask = Plane8::Zero(120, 200);
+  mask.block(10, 10, 40, 180) = 255, mask.block(60, 10, 40, 180) = 255;
+  mask.block(50, 10, 10, 12) = 255;  // but at one end
+  const Silhouette silhouette = silhouetteFromMask(mask);
+  std::vector<Polygon> outline;
+  for (const Polygon& curve : silhouette.outline) outline.push_back(sideMiddles(curve));
+  const PlanarMesh mesh = triangulateFigure(mask, figureBox(mask), outline, 4);
+  Eigen::VectorXd upper(mesh.inner_count);
+  for (int v = 0; v < mesh.inner_count; ++v) upper[v] = mesh.vertices[v].y() < 55 ? 1 : 0;
+  const Eigen::VectorXd mean = localMean(mesh, upper, 12);
+  REQUIRE(mean.size() == static_cast<Eigen::Index>(mesh.vertices.size()));
+  for (int v = 0; v < mean.size(); ++v) {
+    const Eigen::Vector2d& p = mesh.vertices[v];
+    REQUIRE(mean[v] >= 0);
+    REQUIRE(mean[v] < 1);
+    if (p.x() < 80) continue;
+    if (p.y() > 55) REQUIRE(mean[v] < 0.01);
+    if (p.y() < 50 && p.x() < 160) REQUIRE(mean[v] == Approx(0.9).margin(0.07));
+  }
 }
 
 TEST_CASE("a shoe wears its colour, not the line that is drawn above it") {

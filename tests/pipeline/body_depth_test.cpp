@@ -68,6 +68,18 @@ TEST_CASE("a chest is shallower than wide, a head is round, the neck between the
   CHECK(neck < chest);
 }
 
+TEST_CASE("the rim lies forward on who faces the viewer, in the middle on who is drawn from the side") {
+  const CapsuleFigure figure;
+  const Silhouette silhouette = silhouetteFromMask(capsuleMask(figure));
+  Skeleton skeleton = capsuleSkeleton(figure);
+  for (const DepthBone& bone : bodyDepth(skeleton, loadTemplate("biped"), silhouette).bones)
+    CHECK(bone.forward > 0.3);
+  skeleton.joints[skeleton.index("left_shoulder")].image =
+      skeleton.joints[skeleton.index("right_shoulder")].image;
+  for (const DepthBone& bone : bodyDepth(skeleton, loadTemplate("biped"), silhouette).bones)
+    CHECK(bone.forward == 0);
+}
+
 TEST_CASE("head and trunk in one are as deep as a ball, down to the legs") {
   CapsuleFigure figure;
   figure.trunk_radius = 95;
