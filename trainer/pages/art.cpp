@@ -272,6 +272,113 @@ Art ball(Rng& rng, int size) {
   return e.take();
 }
 
+Art star(Rng& rng, int size) {
+  Easel e(size);
+  const cv::Scalar colour = randomRgb(rng);
+  const double turn = rng.uniform(0, kPi), inner = rng.uniform(.15, .3);
+  const auto at = [&](int i) {
+    const double r = i % 2 == 0 ? .47 : inner, a = turn + kPi * i / 5;
+    return cv::Point2d(.5 + r * std::cos(a), .5 + r * std::sin(a));
+  };
+  for (int i = 0; i < 10; i += 2) e.polygon({{.5, .5}, at(i + 9), at(i), at(i + 1)}, colour);
+  return e.take();
+}
+
+Art car(Rng& rng, int size) {
+  Easel e(size);
+  const cv::Scalar colour = randomRgb(rng), dark = randomRgb(rng, 10, 90);
+  const double roof = rng.uniform(.3, .42);
+  e.polygon({{.02, .55}, {.98, .55}, {.98, .78}, {.02, .78}}, colour);
+  e.polygon({{.2, .56}, {.3, roof}, {.7, roof}, {.82, .56}}, colour);
+  e.polygon({{.27, .54}, {.34, roof + .04}, {.49, roof + .04}, {.49, .54}}, randomRgb(rng, 120));
+  for (const double x : {.24, .76}) e.ellipse({x, .78}, .11, .11, dark);
+  return e.take();
+}
+
+Art mountains(Rng& rng, int size) {
+  Easel e(size);
+  for (int i = 0, count = 2 + static_cast<int>(rng.below(3)); i < count; ++i) {
+    const double x = rng.uniform(.2, .8), half = rng.uniform(.15, .4);
+    e.polygon({{x - half, .98}, {x, rng.uniform(.2, .6)}, {x + half, .98}}, randomRgb(rng));
+  }
+  return e.take();
+}
+
+Art rainbow(Rng& rng, int size) {
+  Easel e(size);
+  const int bands = 3 + static_cast<int>(rng.below(5));
+  const double width = rng.uniform(.02, .06);
+  for (int band = 0; band < bands; ++band) {
+    const cv::Scalar colour = randomRgb(rng);
+    const double r = .47 - band * width;
+    for (int i = 0; i < 24; ++i) {
+      const double a = kPi * (1 + i / 24.), b = kPi * (1 + (i + 1) / 24.);
+      e.line({.5 + r * std::cos(a), .6 + r * std::sin(a)}, {.5 + r * std::cos(b), .6 + r * std::sin(b)},
+             width, colour);
+    }
+  }
+  return e.take();
+}
+
+Art fence(Rng& rng, int size) {
+  Easel e(size);
+  const cv::Scalar colour = randomRgb(rng);
+  const int posts = 4 + static_cast<int>(rng.below(6));
+  for (const double y : {.6, .8}) e.line({.02, y}, {.98, y}, .03, colour);
+  for (int i = 0; i < posts; ++i)
+    e.line({.05 + .9 * i / (posts - 1), .45}, {.05 + .9 * i / (posts - 1), .97}, .05, colour);
+  return e.take();
+}
+
+Art balloon(Rng& rng, int size) {
+  Easel e(size);
+  e.line({.5, .5}, {.5 + rng.uniform(-.15, .15), .98}, .012, {60, 60, 60});
+  e.ellipse({.5, .3}, rng.uniform(.18, .25), rng.uniform(.22, .28), randomRgb(rng));
+  return e.take();
+}
+
+Art furniture(Rng& rng, int size) {
+  Easel e(size);
+  const cv::Scalar colour = randomRgb(rng);
+  const double top = rng.uniform(.35, .55);
+  e.polygon({{.05, top}, {.95, top}, {.95, top + .08}, {.05, top + .08}}, colour);
+  for (const double x : {.12, .88}) e.line({x, top}, {x, .98}, .06, colour);
+  if (rng.chance(.5)) e.line({.12, .04}, {.12, top}, .06, colour);
+  return e.take();
+}
+
+// Said by the figure.
+Art bubble(Rng& rng, int size) {
+  Easel e(size);
+  const cv::Scalar colour = rng.chance(.6) ? cv::Scalar::all(250) : randomRgb(rng, 150);
+  e.ellipse({.5, .35}, .46, .3, {30, 30, 30});
+  e.ellipse({.5, .35}, .445, .285, colour);
+  e.polygon({{.3, .58}, {.45, .6}, {.25, .9}}, colour);
+  for (int line = 0; line < 2; ++line) {
+    double x = .2;
+    while (x < .75) {
+      const double to = x + rng.uniform(.04, .14);
+      e.line({x, .28 + .14 * line}, {to, .28 + .14 * line + rng.uniform(-.03, .03)}, .025, {30, 30, 30});
+      x = to + .04;
+    }
+  }
+  return e.take();
+}
+
+Art scribble(Rng& rng, int size) {
+  Easel e(size);
+  const cv::Scalar colour = randomRgb(rng, 10, 200);
+  cv::Point2d at(rng.uniform(.1, .9), rng.uniform(.1, .9));
+  const double width = rng.uniform(.01, .04);
+  for (int i = 0, count = 3 + static_cast<int>(rng.below(20)); i < count; ++i) {
+    const cv::Point2d to(std::clamp(at.x + rng.normal(0, .25), .02, .98),
+                         std::clamp(at.y + rng.normal(0, .2), .02, .98));
+    e.line(at, to, width, colour);
+    at = to;
+  }
+  return e.take();
+}
+
 // A written name.
 Art letters(Rng& rng, int size) {
   static constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPRSTUVWabdeghiklmnoprstu0123456789";
@@ -339,9 +446,10 @@ Art figureArt(Rng& rng, const PageOptions& options, int long_side) {
 }
 
 Art thingArt(Rng& rng, int long_side) {
-  static constexpr std::array kThings = {house,  house, tree, tree,    sun,    cloud,
-                                         flower, heart, ball, letters, letters};
-  if (rng.chance(.2)) {
+  static constexpr std::array kThings = {house,   house, tree,    tree,      sun,    cloud,   flower,
+                                         heart,   ball,  letters, letters,   star,   car,     mountains,
+                                         rainbow, fence, balloon, furniture, bubble, scribble};
+  if (rng.chance(.15)) {
     const Scene scene = figurePlan("biped").drawOther(rng);
     if (!scene.empty()) return artOf(scene, long_side);
   }

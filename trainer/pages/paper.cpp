@@ -114,6 +114,26 @@ cv::Mat paper(Rng& rng, const cv::Size& size) {
   return page;
 }
 
+cv::Mat evenGround(Rng& rng, const cv::Size& size) {
+  cv::Mat page(size, CV_8UC3, cv::Scalar::all(255));
+  const double r = rng.uniform();
+  if (r < .45) return page;
+  if (r < .6) {
+    const double base = rng.uniform(215, 255);
+    page.setTo(cv::Scalar(base, base * rng.uniform(.97, 1.01), base * rng.uniform(.92, 1.02)));
+    addNoise(rng, page, 1, rng.uniform(.3, 4));
+  } else if (r < .9) {
+    page.setTo(rng.chance(.3) ? cv::Scalar::all(rng.uniform(0, 255)) : randomRgb(rng, 0, 256));
+  } else {
+    const cv::Scalar a = randomRgb(rng, 30, 255), b = randomRgb(rng, 30, 255);
+    for (int y = 0; y < page.rows; ++y) {
+      const double t = static_cast<double>(y) / page.rows;
+      page.row(y).setTo(a * (1 - t) + b * t);
+    }
+  }
+  return page;
+}
+
 namespace {
 
 // An arm that reaches in from outside, often with a telephone or with fingers.

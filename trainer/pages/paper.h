@@ -9,6 +9,8 @@ namespace skel {
 
 // White or coloured paper, plain, ruled, squared or dotted, or a ground as pictures made on a screen have it.
 cv::Mat paper(Rng& rng, const cv::Size& size);
+// An even ground: white, a scanner's white, one colour, two that run into each other.
+cv::Mat evenGround(Rng& rng, const cv::Size& size);
 // Light that falls unevenly, folds, the shadow of a hand.
 void light(Rng& rng, cv::Mat& page);
 
