@@ -204,7 +204,7 @@ TEST_CASE("all clips of a model that can do none are no film and no sheet withou
   post.weights.joints.setZero();
   const std::string model = dir.file("post.glb");
   writeFile(model, encodeGlb(post, {}));
-  for (const std::string output : {"--sheet " + dir.file("s.png"), "-o " + dir.file("films/")}) {
+  for (const std::string& output : {"--sheet " + dir.file("s.png"), "-o " + dir.file("films/")}) {
     const ToolRun run = render(model + " --clip all " + output);
     CHECK(run.exit_code == 2);
     CHECK(run.err == "skel-animate: " + model +
