@@ -173,7 +173,7 @@ class BackPainter {
     }
     Eigen::Vector3f black(30, 30, 30);
     if (!ink.empty()) {
-      const auto middle = ink.begin() + std::ptrdiff_t(ink.size() / 10);
+      const auto middle = ink.begin() + std::ptrdiff_t(ink.size() / 3);
       std::nth_element(ink.begin(), middle, ink.end(), [](const auto& a, const auto& b) {
         return inkLightness(a[0], a[1], a[2]) < inkLightness(b[0], b[1], b[2]);
       });

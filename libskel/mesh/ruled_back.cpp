@@ -285,9 +285,6 @@ class Ruler {
   void rule(const RuledRow& left, const RuledRow& right, std::vector<int>& paint) const {
     int l = left.paint[0], r = right.paint[1];
     double share = 0.5;
-    // A line that crosses is level.
-    if (l == kInkPaint && r == kInkPaint && std::abs(left.row - right.row) > areas_.line_radius)
-      l = left.instead[0], r = right.instead[1];
     if (l != r) {
       if (l == kInkPaint) l = left.instead[0];
       if (r == kInkPaint) r = right.instead[1];
