@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "libskel/convnet/conv_net.h"
-#include "libskel/mesh/part.h"
 #include "libskel/skeleton/template.h"
 
 namespace cv {
@@ -19,6 +18,24 @@ class Mat;
 }
 
 namespace skel {
+
+enum class Part : std::uint8_t {
+  kTrunk,
+  kHead,
+  kHair,      // or a beard, where it hangs below the chin
+  kRightArm,  // or front leg
+  kLeftArm,
+  kRightLeg,  // or hind leg
+  kLeftLeg,
+  kSkirt,     // or the tails of a coat
+  kAppendix,  // cape, wing, tail
+  kThing,     // held or worn
+};
+inline constexpr int kPartCount = 10;
+// The part that is limb 0…3 of a body plan.
+inline constexpr Part limbPart(int limb) {
+  return static_cast<Part>(static_cast<int>(Part::kRightArm) + limb);
+}
 
 // The net looks at a figure whose long side has this many px, in the upper left of a square; its input map
 // has 2×2 px of that in each of its pixels, and so has its output map.

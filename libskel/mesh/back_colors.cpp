@@ -1,65 +1,280 @@
-// Gaps are filled along shortest ways inside the figure (E. Dijkstra, 1959).
+// Lines are found as what a closing of the brightness takes away (the black top hat: F. Meyer, "Contrast
+// feature extraction", 1979), areas as connected pixels of like colour, and gaps are filled along shortest
+// ways inside the figure (E. Dijkstra, 1959).
 #include "libskel/mesh/back_colors.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <queue>
 #include <vector>
 
 #include "libskel/core/check.h"
+#include "libskel/mesh/head_back.h"
 #include "libskel/mesh/ink.h"
-#include "libskel/mesh/ruled_back.h"
-#include "libskel/mesh/seen_behind.h"
 
 namespace skel {
 namespace {
 
-constexpr int kRim_px = 3;         // how near to the rim of its side a colour comes that reaches it
-constexpr double kAtRim = 0.75;    // the least length of it along the rim, as a share of the root of its size
+constexpr int kWorkSize = 200;   // long side of the small picture that decides, px
+constexpr int kRim_px = 3;       // of it: how near to the outline an area comes that lies at the rim
+constexpr double kAtRim = 0.75;  // the least length of it along the rim, as a share of the root of its size
+constexpr double kLine = 0.022;  // half the width of what counts as a line, as a share of that long side
+constexpr double kLeastCore = 0.5;              // of an area: the blurred edges of lines have less
+constexpr double kLeastArea = 0.003;            // as a share of the figure's
+constexpr double kInk = 70;                     // of 255, the lightest
+constexpr double kStroke = 1.5;                 // half widths of a line: a narrower area is a stroke
+constexpr int kLineContrast = 40;               // of 255
+constexpr int kSameColor = 14;                  // the most that neighbours of one area differ in any channel
+constexpr int kLikeArea = 45;                   // and that a px differs from its area
+constexpr float kPaper = 185, kPaperTint = 40;  // all channels of paper are more, and differ by less
+constexpr double kAlone =
+    0.5;  // px of areas around a thing that is drawn by lines alone, as a share of the others
+constexpr double kHatched = 0.4;  // share of lines from which on they are a colour
+// As shares of the head's radius.
+constexpr double kHeadReach = 2;    // hair, ears and cheeks
+constexpr double kBelowHead = 1.1;  // and how far down
+constexpr double kMostOf = 0.5;     // of the rim of what is the head's
+// What a step of the spreading colours costs, sideways 1.
+constexpr double kDown = 1.5, kUp = 3;
+constexpr double kBelowHair = 4;
 constexpr double kFromHatch = 10;  // half widths of a line: so much nearer is what is no hatching
-constexpr int kAround = 12;        // px, over which light and grain are evened
-constexpr float kShade = 12;       // the most that this changes a channel
-constexpr int kGrain = 45;         // the most that the grain of a colour differs from it
 
-constexpr int kEight[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+constexpr int kNeighbours[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+
+struct Small {
+  int width = 0, height = 0, shrink = 1;
+  std::vector<Eigen::Vector3f> color;
+  std::vector<char> figure;
+
+  int index(int x, int y) const { return y * width + x; }
+  bool holds(int x, int y) const {
+    return x >= 0 && y >= 0 && x < width && y < height && figure[index(x, y)];
+  }
+};
+
+Small shrunk(const Image& front, const Plane8& figure, int whole_px) {
+  Small small;
+  small.shrink = std::max(1, (whole_px + kWorkSize - 1) / kWorkSize);
+  small.width = (front.width + small.shrink - 1) / small.shrink;
+  small.height = (front.height + small.shrink - 1) / small.shrink;
+  small.color.assign(std::size_t(small.width) * small.height, Eigen::Vector3f::Zero());
+  small.figure.assign(small.color.size(), 0);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      int inside = 0;
+      for (int v = y * small.shrink; v < std::min((y + 1) * small.shrink, front.height); ++v)
+        for (int u = x * small.shrink; u < std::min((x + 1) * small.shrink, front.width); ++u) {
+          if (!figure(v, u)) continue;
+          const std::uint8_t* p = front.pixel(u, v);
+          sum += Eigen::Vector3f(p[0], p[1], p[2]), ++inside;
+        }
+      if (inside == 0) continue;
+      small.color[small.index(x, y)] = sum / float(inside);
+      small.figure[small.index(x, y)] = 1;
+    }
+  return small;
+}
+
+// Distance to what is outside, px (chamfer 3-4: G. Borgefors, 1986).
+std::vector<float> distanceToRim(const Small& small) {
+  std::vector<float> distance(small.figure.size(), 0);
+  const auto at = [&](int x, int y) { return small.holds(x, y) ? distance[small.index(x, y)] : 0.0f; };
+  constexpr float kSide = 1, kCorner = 4.0f / 3;
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x)
+      if (small.holds(x, y))
+        distance[small.index(x, y)] = std::min({at(x - 1, y) + kSide, at(x, y - 1) + kSide,
+                                                at(x - 1, y - 1) + kCorner, at(x + 1, y - 1) + kCorner});
+  for (int y = small.height - 1; y >= 0; --y)
+    for (int x = small.width - 1; x >= 0; --x)
+      if (small.holds(x, y)) {
+        float& d = distance[small.index(x, y)];
+        d = std::min({d, at(x + 1, y) + kSide, at(x, y + 1) + kSide, at(x + 1, y + 1) + kCorner,
+                      at(x - 1, y + 1) + kCorner});
+      }
+  return distance;
+}
+
+// The greatest (`grow`) or least value within `radius` px each way, of the figure alone.
+std::vector<float> extreme(const Small& small, std::vector<float> values, int radius, bool grow) {
+  const float sign = grow ? 1 : -1;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = small.figure[i] ? sign * values[i] : std::numeric_limits<float>::lowest();
+  for (const bool across : {true, false}) {
+    const int length = across ? small.width : small.height, stride = across ? 1 : small.width;
+    std::vector<float> result = values;
+    for (int i = 0; i < int(values.size()); ++i) {
+      if (!small.figure[i]) continue;
+      const int at = across ? i % small.width : i / small.width;
+      const int last = std::min(radius, length - 1 - at);
+      for (int step = -std::min(radius, at); step <= last; ++step)
+        result[i] = std::max(result[i], values[i + step * stride]);
+    }
+    values = std::move(result);
+  }
+  for (float& value : values) value *= sign;
+  return values;
+}
+
+// Sums over boxes of the px that `counts` marks (F. Crow, "Summed-area tables for texture mapping", 1984).
+class BoxSums {
+ public:
+  BoxSums(const Small& small, const std::vector<char>& counts)
+      : width_(small.width + 1), height_(small.height + 1), sums_(std::size_t(width_) * height_) {
+    for (auto& sum : sums_) sum.setZero();
+    for (int y = 1; y < height_; ++y)
+      for (int x = 1; x < width_; ++x) {
+        Eigen::Vector4d own = Eigen::Vector4d::Zero();
+        const int i = small.index(x - 1, y - 1);
+        if (counts[i]) own << small.color[i].cast<double>(), 1;
+        at(x, y) = own + at(x - 1, y) + at(x, y - 1) - at(x - 1, y - 1);
+      }
+  }
+  // Red, green, blue and the number of px, up to `reach` px away each way.
+  Eigen::Vector4d around(int x, int y, int reach) {
+    const int x0 = std::max(0, x - reach), x1 = std::min(width_ - 1, x + reach + 1);
+    const int y0 = std::max(0, y - reach), y1 = std::min(height_ - 1, y + reach + 1);
+    return at(x1, y1) - at(x0, y1) - at(x1, y0) + at(x0, y0);
+  }
+
+ private:
+  Eigen::Vector4d& at(int x, int y) { return sums_[std::size_t(y) * width_ + x]; }
+
+  int width_, height_;
+  std::vector<Eigen::Vector4d> sums_;
+};
+
+struct Lines {
+  std::vector<char> line;   // thin dark and thin light things, with their blurred edges
+  std::vector<char> hatch;  // so many of them that they are a colour
+};
+
+Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
+                const std::function<bool(int, int)>& is_face, const std::function<bool(int, int)>& is_head) {
+  std::vector<float> light(small.color.size(), 0);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      if (!small.holds(x, y)) continue;
+      // The middle of five: strokes of crayon are no lines.
+      float five[5];
+      int count = 0;
+      for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        if (!small.holds(x + dx, y + dy)) continue;
+        const Eigen::Vector3f& c = small.color[small.index(x + dx, y + dy)];
+        five[count++] = float(inkLightness(c[0], c[1], c[2]));
+      }
+      std::nth_element(five, five + count / 2, five + count);
+      light[small.index(x, y)] = five[count / 2];
+    }
+  const auto closed = extreme(small, extreme(small, light, radius, true), radius, false);
+  const auto opened = extreme(small, extreme(small, light, radius, false), radius, true);
+  // A line at the rim has what it is drawn around on one side alone.
+  const int wide = (3 * radius + 1) / 2;
+  const auto closed_wide = extreme(small, extreme(small, light, wide, true), wide, false);
+  std::vector<char> thin(light.size(), 0);
+  for (std::size_t i = 0; i < thin.size(); ++i) {
+    // Not at the head, where a narrow dark rim is hair.
+    const bool outer = rim[i] <= 2.0f * float(radius) && !is_head(int(i) % small.width, int(i) / small.width);
+    const float closing = outer ? closed_wide[i] : closed[i];
+    thin[i] =
+        small.figure[i] && (closing - light[i] > kLineContrast || light[i] - opened[i] > 2 * kLineContrast);
+  }
+  Lines lines{std::vector<char>(thin.size(), 0), std::vector<char>(thin.size(), 0)};
+  // The outline is no hatching.
+  std::vector<char> deep = small.figure, deep_thin = thin;
+  for (std::size_t i = 0; i < thin.size(); ++i)
+    if (rim[i] <= 2.0f * float(radius)) deep[i] = deep_thin[i] = 0;
+  BoxSums thin_sums(small, deep_thin), figure_sums(small, deep);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      if (!small.holds(x, y)) continue;
+      const int i = small.index(x, y), reach = 3 * radius;
+      lines.hatch[i] =
+          !is_face(x, y) && thin_sums.around(x, y, reach)[3] > kHatched * figure_sums.around(x, y, reach)[3];
+      if (thin[i] && rim[i] <= float(radius)) lines.hatch[i] = 0;  // nor is its inner edge
+      if (lines.hatch[i]) continue;
+      lines.line[i] = thin[i];
+      for (const auto& step : kNeighbours)
+        if (small.holds(x + step[0], y + step[1]))
+          lines.line[i] |= thin[small.index(x + step[0], y + step[1])];
+    }
+  return lines;
+}
+
+// Without the grain of crayon and paper, so that areas hold together, and without mixing them: the mean of
+// what is like the pixel (J.-S. Lee, "Digital image smoothing and the sigma filter", 1983).
+std::vector<Eigen::Vector3f> smoothed(const Small& small, const Lines& lines, int radius) {
+  std::vector<char> plain = small.figure;
+  for (std::size_t i = 0; i < plain.size(); ++i) plain[i] &= !lines.line[i];
+  BoxSums sums(small, plain);
+  std::vector<Eigen::Vector3f> result = small.color;
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      const int i = small.index(x, y);
+      if (!plain[i]) continue;
+      if (lines.hatch[i]) {
+        const Eigen::Vector4d sum = sums.around(x, y, 2 * radius);
+        result[i] = (sum.head<3>() / sum[3]).cast<float>();
+        continue;
+      }
+      constexpr int kReach = 2;
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      int count = 0;
+      for (int v = std::max(0, y - kReach); v <= std::min(small.height - 1, y + kReach); ++v)
+        for (int u = std::max(0, x - kReach); u <= std::min(small.width - 1, x + kReach); ++u) {
+          const int j = small.index(u, v);
+          if (!plain[j] || (small.color[j] - small.color[i]).cwiseAbs().maxCoeff() > kLikeArea) continue;
+          sum += small.color[j], ++count;
+        }
+      result[i] = sum / float(count);
+    }
+  return result;
+}
 
 class BackPainter {
  public:
-  BackPainter(const Image& front, const Plane8& figure, const Plane8& part,
-              const std::optional<HeadDisc>& head, int whole_px)
-      : areas_(drawnAreas(front, figure, head, whole_px)) {
-    Eigen::Vector2d middle(areas_.width / 2, areas_.height / 2);
-    if (head) middle = (head->center / areas_.shrink).array().round();
-    const UprightRows rows(areas_, middle, head ? head->up : Eigen::Vector2d(0, -1));
-    seen_ = seenBehind(areas_, rows, part, head);
-    paint_.assign(areas_.figure.size(), kUnpainted);
-    if (head) ruleBack(areas_, seen_, rows, Side::kHead, head, paint_);
-    if (part.size() != 0) ruleBack(areas_, seen_, rows, Side::kBody, head, paint_);
-    keep();
+  BackPainter(const Image& front, const Plane8& figure, std::optional<HeadDisc> head, int whole_px)
+      : small_(shrunk(front, figure, whole_px)),
+        head_(std::move(head)),
+        line_radius_(std::max(1, int(std::lround(kLine * ((whole_px + small_.shrink - 1) / small_.shrink))))),
+        rim_(distanceToRim(small_)) {
+    if (head_) head_->center /= small_.shrink, head_->radius /= small_.shrink;
+    lines_ = findLines(
+        small_, line_radius_, rim_,
+        [&](int x, int y) {
+          return fromHead({x, y}) < 1;
+        },
+        [&](int x, int y) {
+          return fromHead({x, y}) < kHeadReach;
+        });
+    color_ = smoothed(small_, lines_, line_radius_);
+    findOutline();
+    findAreas();
+    keepAreas();
     fill();
-    mix();
-    keepLines(head);
+    keepLines();
+    soften();
   }
 
   Image paint(const Image& front) const {
     Image back = front;
-    const int shrink = areas_.shrink;
+    const int shrink = small_.shrink;
     for (int y = 0; y < back.height; ++y)
       for (int x = 0; x < back.width; ++x) {
         const int u = x / shrink, v = y / shrink;
-        if (!areas_.holds(u, v)) continue;
-        const std::size_t i = std::size_t(areas_.index(u, v));
+        if (!small_.holds(u, v)) continue;
+        const int i = small_.index(u, v);
         if (drawn_[i]) continue;
         std::uint8_t* p = back.pixel(x, y);
         const Eigen::Vector3f own(p[0], p[1], p[2]);
-        const int at = colorAt((x + 0.5) / shrink - 0.5, (y + 0.5) / shrink - 0.5, own);
-        if (at < 0) continue;
-        const Eigen::Vector3f color = at == key_[i] ? local_[i] : color_[std::size_t(at)];
-        // The grain of what stays stays, paper that shines through included; the edges of lines do not.
-        if (same_[i] && at == key_[i] &&
-            ((color - own).cwiseAbs().maxCoeff() <= kGrain || (own.sum() > color.sum() && inner_[i])))
+        const Eigen::Vector3f color =
+            kept_[i] ? likest(u, v, own) : filledAt((x + 0.5) / shrink - 0.5, (y + 0.5) / shrink - 0.5);
+        // The grain of what stays stays; the edge of a line beside it does not.
+        if (kept_[i] && ((color - own).cwiseAbs().maxCoeff() <= kLikeArea || own.sum() > color.sum()))
           continue;
         for (int c = 0; c < 3; ++c) p[c] = std::uint8_t(std::lround(std::clamp(color[c], 0.0f, 255.0f)));
       }
@@ -67,293 +282,260 @@ class BackPainter {
   }
 
  private:
-  int paints() const { return int(areas_.palette.size()); }
-  std::size_t key(Side side, int paint) const {
-    return std::size_t(int(side) * (paints() + 1) + paint + (paint == kInkPaint ? paints() + 2 : 0));
-  }
+  struct Area {
+    int size = 0, at_rim = 0;
+    int core = 0;  // px whose neighbours belong to it as well
+    int at_head_rim = 0;
+    Eigen::Vector3f color = Eigen::Vector3f::Zero();
+  };
 
-  // What is not ruled keeps the colours that reach its rim.
-  void keep() {
-    std::vector<int> size(std::size_t(kSideCount) * paints(), 0), at_rim = size;
+  // Lines near the rim that hang together with it.
+  void findOutline() {
+    outline_.assign(small_.figure.size(), 0);
+    const auto mayBe = [&](int i) { return lines_.line[i] && rim_[i] <= 2.0f * float(line_radius_); };
     std::vector<int> open;
-    std::vector<int>& distance = rim_;
-    distance.assign(areas_.figure.size(), -1);
-    for (int i = 0; i < int(distance.size()); ++i) {
-      if (!areas_.figure[i]) continue;
-      const int x = i % areas_.width, y = i / areas_.width;
-      bool edge = areas_.outline[i];
-      for (int k = 0; k < 4 && !edge; ++k)
-        edge = !areas_.holds(x + kEight[k][0], y + kEight[k][1]) ||
-               seen_.back[areas_.index(x + kEight[k][0], y + kEight[k][1])] != seen_.back[i];
-      if (edge) distance[i] = areas_.outline[i] ? 0 : 1, open.push_back(i);
-    }
-    std::stable_sort(open.begin(), open.end(), [&](int a, int b) { return distance[a] < distance[b]; });
-    for (std::size_t next = 0; next < open.size(); ++next) {
-      const int x = open[next] % areas_.width, y = open[next] / areas_.width;
-      for (int k = 0; k < 4; ++k) {
-        if (!areas_.holds(x + kEight[k][0], y + kEight[k][1])) continue;
-        const int j = areas_.index(x + kEight[k][0], y + kEight[k][1]);
-        if (distance[j] < 0) distance[j] = distance[open[next]] + 1, open.push_back(j);
-      }
-    }
-    const auto each = [&](auto visit) {
-      for (int i = 0; i < int(paint_.size()); ++i)
-        if (areas_.figure[i] && paint_[i] == kUnpainted && areas_.paint[i] >= 0 &&
-            seen_.front[i] == seen_.back[i])
-          visit(i, std::size_t(int(seen_.back[i]) * paints() + areas_.paint[i]));
-    };
-    each([&](int i, std::size_t k) { ++size[k], at_rim[k] += distance[i] <= kRim_px; });
-    std::vector<char> any(kSideCount, 0);
-    for (std::size_t k = 0; k < size.size(); ++k)
-      any[k / std::size_t(paints())] |=
-          size[k] > 0 && at_rim[k] >= kAtRim * kRim_px * std::sqrt(double(size[k]));
-    each([&](int i, std::size_t k) {
-      if (!any[std::size_t(seen_.back[i])] || at_rim[k] >= kAtRim * kRim_px * std::sqrt(double(size[k])))
-        paint_[i] = areas_.paint[i];
-    });
-  }
-
-  // From what is nearest on its side, else from anywhere.
-  void fill() {
-    for (const bool across : {false, true}) {
-      std::vector<double> cost(paint_.size(), 1e9);
-      std::vector<char> fixed(paint_.size(), 0);
-      using Entry = std::pair<double, int>;
-      std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-      for (int i = 0; i < int(paint_.size()); ++i)
-        if (areas_.figure[i] && paint_[i] != kUnpainted && paint_[i] != kInkPaint) {
-          cost[i] = areas_.hatched[paint_[i]] ? kFromHatch * areas_.line_radius : 0;
-          open.emplace(cost[i], i);
-          fixed[i] = 1;
-        }
-      while (!open.empty()) {
-        const auto [reached, i] = open.top();
-        open.pop();
-        if (reached > cost[i]) continue;
-        for (int k = 0; k < 8; ++k) {
-          const int u = i % areas_.width + kEight[k][0], v = i / areas_.width + kEight[k][1];
-          if (!areas_.holds(u, v)) continue;
-          const int j = areas_.index(u, v);
-          const double there = reached + (k < 4 ? 1 : 1.4142);
-          // What is drawn by lines alone wears them.
-          if (across && paint_[j] == kUnpainted && areas_.line[j]) continue;
-          if (fixed[j] || there >= cost[j] || (!across && seen_.back[j] != seen_.back[i]) ||
-              paint_[j] == kInkPaint)
-            continue;
-          cost[j] = there, paint_[j] = paint_[i];
-          open.emplace(there, j);
-        }
-      }
-    }
-  }
-
-  // The colour of each paint on each side.
-  void mix() {
-    const std::size_t all = std::size_t(kSideCount) * std::size_t(paints() + 1);
-    color_.assign(all, Eigen::Vector3f::Zero());
-    std::vector<float> count(all, 0);
-    pure_.assign(paint_.size(), 0);
-    std::vector<std::array<float, 3>> ink;
-    for (std::size_t i = 0; i < paint_.size(); ++i) {
-      if (!areas_.figure[i]) continue;
-      if (areas_.line[i] && areas_.outline[i] && areas_.rim[i] > 1)
-        ink.push_back({areas_.color[i][0], areas_.color[i][1], areas_.color[i][2]});
-      if (areas_.paint[i] < 0 || seen_.front[i] != seen_.back[i]) continue;
-      if (areas_.hatch[i] && !areas_.hatched[areas_.paint[i]]) continue;
-      // Away from lines and other colours, where there is such.
-      int like = 1;
-      for (const auto& step : kEight) {
-        const int u = int(i) % areas_.width + step[0], v = int(i) / areas_.width + step[1];
-        like += areas_.holds(u, v) && areas_.paint[areas_.index(u, v)] == areas_.paint[i];
-      }
-      pure_[i] = like == 9;
-      const std::size_t k = key(seen_.back[i], areas_.paint[i]);
-      const float weight = like == 9 ? 1000 : 1;
-      color_[k] += weight * areas_.color[i], count[k] += weight;
-    }
-    Eigen::Vector3f black(30, 30, 30);
-    if (!ink.empty()) {
-      const auto middle = ink.begin() + std::ptrdiff_t(ink.size() / 3);
-      std::nth_element(ink.begin(), middle, ink.end(), [](const auto& a, const auto& b) {
-        return inkLightness(a[0], a[1], a[2]) < inkLightness(b[0], b[1], b[2]);
-      });
-      black = {(*middle)[0], (*middle)[1], (*middle)[2]};
-    }
-    for (int s = 0; s < kSideCount; ++s) {
-      for (int p = 0; p < paints(); ++p) {
-        const std::size_t k = key(Side(s), p);
-        color_[k] = count[k] > 0 ? Eigen::Vector3f(color_[k] / count[k]) : areas_.palette[p];
-      }
-      color_[key(Side(s), kInkPaint)] = black;
-    }
-    key_.assign(paint_.size(), -1);
-    same_.assign(paint_.size(), 0);
-    for (std::size_t i = 0; i < paint_.size(); ++i) {
-      if (!areas_.figure[i] || paint_[i] == kUnpainted) continue;
-      key_[i] = int(key(seen_.back[i], paint_[i]));
-    }
-    shade();
-    // What hangs together with the rim.
-    std::vector<int> open;
-    const auto add = [&](int i) {
-      if (same_[i] || key_[i] < 0 || areas_.paint[i] != paint_[i] || seen_.front[i] != seen_.back[i]) return;
-      same_[i] = 1, open.push_back(i);
-    };
-    for (int i = 0; i < int(paint_.size()); ++i)
-      if (areas_.figure[i] && rim_[i] <= kRim_px) add(i);
+    for (int i = 0; i < int(outline_.size()); ++i)
+      if (mayBe(i) && rim_[i] <= 1.5f) outline_[i] = 1, open.push_back(i);
     for (std::size_t next = 0; next < open.size(); ++next)
-      for (int k = 0; k < 4; ++k)
-        if (const int u = open[next] % areas_.width + kEight[k][0],
-            v = open[next] / areas_.width + kEight[k][1];
-            areas_.holds(u, v))
-          if (const int j = areas_.index(u, v); seen_.back[j] == seen_.back[open[next]]) add(j);
-  }
-
-  // Paper and crayon are lighter here than there.
-  void shade() {
-    local_.assign(paint_.size(), Eigen::Vector3f::Zero());
-    struct Box {
-      int x0 = 1 << 30, y0 = 1 << 30, x1 = 0, y1 = 0;
-    };
-    std::vector<Box> boxes(color_.size());
-    for (int i = 0; i < int(key_.size()); ++i) {
-      if (key_[i] < 0) continue;
-      Box& box = boxes[std::size_t(key_[i])];
-      const int x = i % areas_.width, y = i / areas_.width;
-      box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), std::max(box.y1, y + 1)};
-    }
-    std::vector<Eigen::Vector4f> sums;
-    for (std::size_t k = 0; k < boxes.size(); ++k) {
-      const Box& box = boxes[k];
-      if (box.x1 == 0) continue;
-      const int side = int(k) / (paints() + 1), paint = int(k) % (paints() + 1);
-      const int width = box.x1 - box.x0 + 1, height = box.y1 - box.y0 + 1;
-      sums.assign(std::size_t(width) * height, Eigen::Vector4f::Zero());
-      for (int y = 1; y < height; ++y)
-        for (int x = 1; x < width; ++x) {
-          Eigen::Vector4f own = Eigen::Vector4f::Zero();
-          const int i = areas_.index(x - 1 + box.x0, y - 1 + box.y0);
-          if (areas_.figure[i] && areas_.paint[i] == paint && int(seen_.front[i]) == side && pure_[i])
-            own << areas_.color[i], 1;
-          const std::size_t at = std::size_t(y) * width + x;
-          sums[at] = own + sums[at - 1] + sums[at - width] - sums[at - width - 1];
-        }
-      for (int y = box.y0; y < box.y1; ++y)
-        for (int x = box.x0; x < box.x1; ++x) {
-          const int i = areas_.index(x, y);
-          if (key_[i] != int(k)) continue;
-          const int u0 = std::max(0, x - box.x0 - kAround),
-                    u1 = std::min(width - 1, x - box.x0 + kAround + 1);
-          const int v0 = std::max(0, y - box.y0 - kAround),
-                    v1 = std::min(height - 1, y - box.y0 + kAround + 1);
-          const Eigen::Vector4f sum = sums[std::size_t(v1) * width + u1] -
-                                      sums[std::size_t(v0) * width + u1] -
-                                      sums[std::size_t(v1) * width + u0] + sums[std::size_t(v0) * width + u0];
-          constexpr float kWhole = 4;
-          const Eigen::Vector3f near =
-              (sum.head<3>() + kWhole * color_[k]) / (std::max(0.f, sum[3]) + kWhole);
-          local_[i] = color_[k] + (near - color_[k]).cwiseMax(-kShade).cwiseMin(kShade);
-        }
-    }
-  }
-
-  void keepLines(const std::optional<HeadDisc>& head) {
-    drawn_.assign(paint_.size(), 0), inner_ = same_;
-    for (int i = 0; i < int(same_.size()); ++i)
-      for (const auto& step : kEight) {
-        const int u = i % areas_.width + step[0], v = i / areas_.width + step[1];
-        inner_[i] &= areas_.holds(u, v) && same_[areas_.index(u, v)] && key_[areas_.index(u, v)] == key_[i];
-      }
-    const auto ofHead = [&](int x, int y) {
-      return head && (Eigen::Vector2d(x, y) * areas_.shrink - head->center).norm() < head->radius;
-    };
-    for (int y = 0; y < areas_.height; ++y)
-      for (int x = 0; x < areas_.width; ++x) {
-        if (!areas_.holds(x, y)) continue;
-        const std::size_t i = std::size_t(areas_.index(x, y));
-        if (key_[i] < 0 || (areas_.alone[i] && seen_.back[i] != Side::kHead)) {
-          drawn_[i] = 1;
-          continue;
-        }
-        if (areas_.hatch[i] && areas_.paint[i] == paint_[i] && seen_.front[i] == seen_.back[i]) drawn_[i] = 1;
-        const bool paper = isPaper(color_[std::size_t(key_[i])]);
-        if (!areas_.line[i] && areas_.paint[i] >= 0) continue;
-        if (areas_.outline[i]) {
-          drawn_[i] |= paper && (seen_.back[i] != Side::kHead || areas_.rim[i] <= float(areas_.line_radius));
-          continue;
-        }
-        if (paper && areas_.line[i] && !ofHead(x, y) && isBorder(x, y)) drawn_[i] = 1;
+      for (int k = 0; k < 4; ++k) {
+        const int u = open[next] % small_.width + kNeighbours[k][0];
+        const int v = open[next] / small_.width + kNeighbours[k][1];
+        if (!small_.holds(u, v)) continue;
+        const int j = small_.index(u, v);
+        if (!outline_[j] && mayBe(j)) outline_[j] = 1, open.push_back(j);
       }
   }
 
-  // Whether two colours meet near by, on the back as in front.
+  Eigen::Vector2d place(int i) const { return {i % small_.width, i / small_.width}; }
+
+  // In radii of the head, 0 at its middle.
+  double fromHead(const Eigen::Vector2d& p) const {
+    if (!head_ || head_->radius <= 0) return 1e9;
+    return (p - head_->center).norm() / head_->radius;
+  }
+  bool nearHead(const Eigen::Vector2d& p) const {
+    return fromHead(p) < kHeadReach && (p - head_->center).dot(head_->up) > -kBelowHead * head_->radius;
+  }
+
+  void findAreas() {
+    area_.assign(small_.figure.size(), -1);
+    Small inside = small_;
+    for (std::size_t i = 0; i < outline_.size(); ++i) inside.figure[i] &= !outline_[i];
+    const std::vector<float> to_rim = distanceToRim(inside);
+    std::vector<int> open;
+    for (int start = 0; start < int(area_.size()); ++start) {
+      if (!small_.figure[start] || lines_.line[start] || area_[start] >= 0) continue;
+      const int id = int(areas_.size());
+      Area area;
+      open.assign(1, start);
+      area_[start] = id;
+      for (std::size_t next = 0; next < open.size(); ++next) {
+        const int i = open[next];
+        const bool at_rim = to_rim[i] <= kRim_px;
+        area.at_rim += at_rim;
+        area.at_head_rim += at_rim && nearHead(place(i));
+        area.color += color_[i];
+        const Eigen::Vector3f mean = area.color / float(next + 1);
+        for (int k = 0; k < 4; ++k) {
+          const int u = i % small_.width + kNeighbours[k][0], v = i / small_.width + kNeighbours[k][1];
+          if (!small_.holds(u, v)) continue;
+          const int j = small_.index(u, v);
+          if (area_[j] >= 0 || lines_.line[j] || (color_[i] - color_[j]).cwiseAbs().maxCoeff() > kSameColor ||
+              (mean - color_[j]).cwiseAbs().maxCoeff() > kLikeArea)
+            continue;
+          area_[j] = id;
+          open.push_back(j);
+        }
+      }
+      area.size = int(open.size());
+      area.color /= float(area.size);
+      areas_.push_back(area);
+    }
+    core_.assign(area_.size(), 0);
+    for (int i = 0; i < int(area_.size()); ++i) {
+      if (area_[i] < 0) continue;
+      bool core = true;
+      for (const auto& step : kNeighbours) {
+        const int u = i % small_.width + step[0], v = i / small_.width + step[1];
+        core &= small_.holds(u, v) && area_[small_.index(u, v)] == area_[i];
+      }
+      areas_[area_[i]].core += core;
+      core_[i] = core;
+    }
+  }
+
+  // Those at the rim.
+  void keepAreas() {
+    kept_.assign(small_.figure.size(), 0);
+    const double figure_area = double(std::count(small_.figure.begin(), small_.figure.end(), 1));
+    bool any = false;
+    for (int i = 0; i < int(kept_.size()); ++i) {
+      if (area_[i] < 0) continue;
+      const Area& area = areas_[area_[i]];
+      kept_[i] = area.size >= kLeastArea * figure_area && area.core >= kLeastCore * area.size &&
+                 area.at_rim >= kAtRim * kRim_px * std::sqrt(double(area.size));
+      any |= kept_[i] && !isStroke(area_[i]);
+    }
+    if (any || areas_.empty()) return;
+    const auto largest = std::max_element(areas_.begin(), areas_.end(), [&](const Area& a, const Area& b) {
+      return std::pair(!isStroke(a), a.size) < std::pair(!isStroke(b), b.size);
+    });
+    for (int i = 0; i < int(kept_.size()); ++i) kept_[i] |= area_[i] == int(largest - areas_.begin());
+  }
+
+  // Hair, a hat: its rim lies about the head.
+  bool isOfHead(const Area& area) const { return area.at_head_rim > kMostOf * area.at_rim; }
+
+  // Narrow and dark like a line: it wears its own colour, but gives it to nothing around it.
+  bool isStroke(const Area& area) const {
+    return !isOfHead(area) && inkLightness(area.color[0], area.color[1], area.color[2]) < kInk &&
+           2 * area.size < kStroke * line_radius_ * std::max(1, area.size - area.core);
+  }
+  bool isStroke(int area) const { return isStroke(areas_[area]); }
+
+  // What went takes the nearest colour that stays, from the sides rather than from above, and from there
+  // rather than from below. Colours come out of the areas' inside: their edges may be mixed with lines.
+  void fill() {
+    filled_ = color_;
+    source_ = area_;
+    const Eigen::Vector2d up = head_ ? head_->up : Eigen::Vector2d(0, -1);
+    double costs[8];
+    for (int k = 0; k < 8; ++k) {
+      const Eigen::Vector2d step(kNeighbours[k][0], kNeighbours[k][1]);
+      const double rise = step.dot(up);
+      costs[k] = step.norm() + (rise > 0 ? (kUp - 1) * rise : -(kDown - 1) * rise);
+    }
+    std::vector<double> cost(kept_.size(), 1e9);
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    for (int i = 0; i < int(kept_.size()); ++i)
+      if (kept_[i] && core_[i] && !isStroke(area_[i]))
+        cost[i] = lines_.hatch[i] ? kFromHatch * line_radius_ : 0, open.emplace(cost[i], i);
+    while (!open.empty()) {
+      const auto [reached, i] = open.top();
+      open.pop();
+      if (reached > cost[i]) continue;
+      for (int k = 0; k < 8; ++k) {
+        const int u = i % small_.width + kNeighbours[k][0], v = i / small_.width + kNeighbours[k][1];
+        if (!small_.holds(u, v)) continue;
+        const int j = small_.index(u, v);
+        // Hair covers the skull, not the back.
+        const bool runs = source_[i] >= 0 && isOfHead(areas_[source_[i]]) && !nearHead(place(j));
+        const double there = reached + costs[k] * (runs ? kBelowHair : 1);
+        if (there >= cost[j]) continue;
+        cost[j] = there;
+        filled_[j] = filled_[i];
+        source_[j] = source_[i];
+        open.emplace(cost[j], j);
+      }
+    }
+  }
+
+  // Hatching stays as it is drawn, and lines do where they are all there is (the limbs of a stick figure) and
+  // where they tell paper from paper: around and between white parts.
+  void keepLines() {
+    drawn_.assign(kept_.size(), 0);
+    std::vector<char> plain = small_.figure;
+    for (int i = 0; i < int(plain.size()); ++i)
+      plain[i] &= area_[i] >= 0 && areas_[area_[i]].core >= kLeastCore * areas_[area_[i]].size;
+    BoxSums plain_sums(small_, plain), all_sums(small_, small_.figure);
+    for (int y = 0; y < small_.height; ++y)
+      for (int x = 0; x < small_.width; ++x) {
+        const int i = small_.index(x, y);
+        if (kept_[i] && (lines_.hatch[i] || isStroke(area_[i]))) drawn_[i] = 1;
+        if (!small_.figure[i] || kept_[i]) continue;
+        const int reach = 4 * line_radius_;
+        const double plain_px = plain_sums.around(x, y, reach)[3], all_px = all_sums.around(x, y, reach)[3];
+        const bool alone = rim_[i] <= 2.0f * float(line_radius_) && plain_px < kAlone * (all_px - plain_px);
+        drawn_[i] = alone || ((lines_.line[i] || area_[i] < 0) && isPaper(filled_[i]) &&
+                              (outline_[i] || (fromHead(place(i)) > 1 && isBorder(x, y))));
+      }
+  }
+
+  static bool isPaper(const Eigen::Vector3f& color) {
+    return color.minCoeff() > kPaper && color.maxCoeff() - color.minCoeff() < kPaperTint;
+  }
+
+  // Whether parts of two areas meet near by.
   bool isBorder(int x, int y) const {
-    int one = -1;
-    for (int step = -areas_.line_radius; step <= areas_.line_radius; ++step)
-      for (const auto& [u, v] : {std::pair{x + step, y}, {x, y + step}}) {
-        if (!areas_.holds(u, v)) continue;
-        const std::size_t j = std::size_t(areas_.index(u, v));
-        if (!same_[j] || key_[j] == one) continue;
-        if (one >= 0) return true;
-        one = key_[j];
-      }
+    const int own = source_[small_.index(x, y)];
+    for (int step = -line_radius_; step <= line_radius_; ++step)
+      for (const auto& [u, v] : {std::pair{x + step, y}, {x, y + step}})
+        if (small_.holds(u, v) && source_[small_.index(u, v)] != own) return true;
     return false;
   }
 
-  // Which colour a place of the small picture has: the one that most around it have; where front and back
-  // agree, of these the one that is likest to what is drawn there.
-  int colorAt(double x, double y, const Eigen::Vector3f& own) const {
-    constexpr double kReach = 1.6;
-    std::array<std::pair<int, double>, 16> votes;
-    int found = 0;
-    bool agree = true;
-    for (int v = int(std::ceil(y - kReach)); v <= int(std::floor(y + kReach)); ++v)
-      for (int u = int(std::ceil(x - kReach)); u <= int(std::floor(x + kReach)); ++u) {
-        if (!areas_.holds(u, v)) continue;
-        const std::size_t i = std::size_t(areas_.index(u, v));
-        if (key_[i] < 0) continue;
-        agree = agree && same_[i];
-        const double near = std::max(0., 1 - ((u - x) * (u - x) + (v - y) * (v - y)) / (kReach * kReach));
-        auto* vote = std::find_if(votes.begin(), votes.begin() + found,
-                                  [&](const auto& w) { return w.first == key_[i]; });
-        if (vote == votes.begin() + found) *vote = {key_[i], 0}, ++found;
-        vote->second += near * near;
-      }
-    if (found == 0) return -1;
-    if (agree && found > 1)
-      return std::min_element(votes.begin(), votes.begin() + found,
-                              [&](const auto& a, const auto& b) {
-                                return (color_[std::size_t(a.first)] - own).squaredNorm() <
-                                       (color_[std::size_t(b.first)] - own).squaredNorm();
-                              })
-          ->first;
-    return std::max_element(votes.begin(), votes.begin() + found,
-                            [](const auto& a, const auto& b) { return a.second < b.second; })
-        ->first;
+  // So that colours that met have no stairs between them.
+  void soften() {
+    constexpr int kPasses = 2;
+    for (int pass = 0; pass < kPasses; ++pass) {
+      const std::vector<Eigen::Vector3f> before = filled_;
+      for (int y = 0; y < small_.height; ++y)
+        for (int x = 0; x < small_.width; ++x) {
+          if (!small_.holds(x, y) || kept_[small_.index(x, y)]) continue;
+          Eigen::Vector3f sum = before[small_.index(x, y)];
+          int count = 1;
+          for (const auto& step : kNeighbours)
+            if (small_.holds(x + step[0], y + step[1]))
+              sum += before[small_.index(x + step[0], y + step[1])], ++count;
+          filled_[small_.index(x, y)] = sum / float(count);
+        }
+    }
   }
 
-  DrawnAreas areas_;
-  SeenBehind seen_;
-  std::vector<int> paint_;              // of each px seen from behind
-  std::vector<Eigen::Vector3f> color_;  // by key()
-  std::vector<Eigen::Vector3f> local_;  // of each px, what is painted with its colour around it
-  std::vector<int> key_;
-  std::vector<int> rim_;     // px to what is not of its side
-  std::vector<char> pure_;   // in front, all around wears the same
-  std::vector<char> inner_;  // all around is the same
-  std::vector<char> same_;   // front and back wear the same there
+  // Of the colours around, so that edges are as sharp as they are drawn.
+  Eigen::Vector3f likest(int x, int y, const Eigen::Vector3f& color) const {
+    Eigen::Vector3f best = filled_[small_.index(x, y)];
+    for (const auto& [dx, dy] : kNeighbours) {
+      if (!small_.holds(x + dx, y + dy) || !kept_[small_.index(x + dx, y + dy)]) continue;
+      const Eigen::Vector3f& other = filled_[small_.index(x + dx, y + dy)];
+      if ((other - color).squaredNorm() < (best - color).squaredNorm()) best = other;
+    }
+    return best;
+  }
+
+  // Bilinear, over the figure's px alone.
+  Eigen::Vector3f filledAt(double x, double y) const {
+    const int x0 = int(std::floor(x)), y0 = int(std::floor(y));
+    const double fx = x - x0, fy = y - y0;
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    double weights = 0;
+    for (int v = 0; v < 2; ++v)
+      for (int u = 0; u < 2; ++u) {
+        if (!small_.holds(x0 + u, y0 + v)) continue;
+        const double weight = (u ? fx : 1 - fx) * (v ? fy : 1 - fy) + 1e-6;
+        sum += float(weight) * filled_[small_.index(x0 + u, y0 + v)];
+        weights += weight;
+      }
+    return sum / float(std::max(weights, 1e-6));
+  }
+
+  Small small_;
+  std::optional<HeadDisc> head_;  // in px of small_
+  int line_radius_;
+  std::vector<float> rim_;
+  Lines lines_;
+  std::vector<char> outline_;
+  std::vector<Eigen::Vector3f> color_, filled_;
+  std::vector<int> area_;  // of each px; -1: none
+  std::vector<Area> areas_;
+  std::vector<char> core_;  // not at its area's edge
+  std::vector<char> kept_;
+  std::vector<int> source_;  // the area that a px takes its colour from
   std::vector<char> drawn_;  // stays as it is drawn
 };
 
 }  // namespace
 
 Image backColors(const Image& front, const Plane8& figure, const std::optional<HeadDisc>& head,
-                 const Plane8& part, int whole_px) {
+                 int whole_px) {
   SKEL_CHECK_EQ(figure.rows(), front.height);
   SKEL_CHECK_EQ(figure.cols(), front.width);
   if (!(figure != 0).any()) return front;
   if (whole_px == 0) whole_px = std::max(front.width, front.height);
-  return BackPainter(front, figure, part, head, whole_px).paint(front);
+  Image back = BackPainter(front, figure, head, whole_px).paint(front);
+  if (head) paintBackOfHead(front, figure, *head, back);
+  return back;
 }
 
 }  // namespace skel

@@ -123,35 +123,18 @@ int halfOf(int max_texture_px, const PixelBox& box) {
   return std::max(kLeastTexture, static_cast<int>(std::min(fitting, double(max_texture_px))));
 }
 
-// What texels show, of what the image's pixels do.
-Plane8 partsOf(const DrawingTexture& front, const Plane8& part) {
-  Plane8 result(front.image.height, front.image.width);
-  const Eigen::Vector2d step = front.size_px.cwiseQuotient(Eigen::Vector2d(result.cols(), result.rows()));
-  const auto at = [&](Eigen::Index texel, int axis, Eigen::Index size) {
-    const double p = front.corner_px[axis] + (double(texel) + 0.5) * step[axis];
-    return std::clamp<Eigen::Index>(std::lround(p), 0, size - 1);
-  };
-  for (Eigen::Index y = 0; y < result.rows(); ++y)
-    for (Eigen::Index x = 0; x < result.cols(); ++x)
-      result(y, x) = part(at(y, 1, part.rows()), at(x, 0, part.cols()));
-  return result;
-}
-
-// `layer`: of a piece, FigurePiece's; `whole_px`: likewise, what backColors() asks for.
+// `whole_px`: of a piece, what backColors() asks for.
 BackTexture backTexture(const DrawingTexture& front, const PixelBox& box, const InflateOptions& options,
-                        int layer, int whole_px) {
+                        int whole_px) {
   BackTexture back;
   if (!options.back_picture) {
     std::optional<HeadDisc> head = options.head;
-    if (layer > 0) head.reset();
     if (head) {
       const Eigen::Vector2d texels(front.image.width, front.image.height);
       head->center = front.uvFromImage(head->center).cwiseProduct(texels);
       head->radius *= front.image.width / front.size_px.x();
     }
-    Plane8 part;
-    if (layer == 0 && options.part.size() != 0) part = partsOf(front, options.part);
-    back.image = backColors(front.image, front.figure, head, part, whole_px);
+    back.image = backColors(front.image, front.figure, head, whole_px);
     return back;
   }
   // Seen from behind, left is right.
@@ -488,14 +471,15 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
   for (std::size_t i = 0; i < sheets.size() && !same_back; ++i) {
     // A picture of the back has all pieces in it.
     if (i > 0 && options.back_picture) break;
+    InflateOptions of_piece = options;
+    if (i > 0) of_piece.head.reset();
     const DrawingTexture& front = sheets[i].front;
     const int whole_px =
         pieces.empty()
             ? 0
             : static_cast<int>(std::max(box.width(), box.height()) * front.image.width / front.size_px.x()) +
                   2 * kTextureMargin;
-    sheets[i].back =
-        backTexture(front, sheets[i].box, options, pieces.empty() ? 0 : pieces[i].layer, whole_px);
+    sheets[i].back = backTexture(front, sheets[i].box, of_piece, whole_px);
   }
   for (std::size_t i = 0; i < sheets.size(); ++i)
     giveDepth(depthOf(options.body, pieces, i), !same_back && !options.back_picture,

@@ -40,8 +40,7 @@ struct InflateOptions {
   bool thin_outline = false;  // a dark outline is a thin flange instead of a part of the round body
   BodyDepth body = {};        // what is known of its parts
   Back back = Back::kSame;
-  std::optional<HeadDisc> head = std::nullopt;  // image px; for a back without a face
-  Plane8 part = {};  // of the image's size, a Part on the figure; likewise. Empty: not known
+  std::optional<HeadDisc> head = std::nullopt;                // image px; for a back without a face
   std::shared_ptr<const BackPicture> back_picture = nullptr;  // if there is one, instead of `back`
 };
 

@@ -158,7 +158,6 @@ InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawin
   inflate.body = bodyDepth(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette);
   inflate.head =
       headDisc(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, inflate.turned_rad);
-  if (inflate.back == Back::kPlain) inflate.part = drawing.layers.part;
   if (input.back) {
     SilhouetteOptions silhouette;
     silhouette.page_net = options.silhouette.page_net;

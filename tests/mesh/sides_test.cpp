@@ -8,8 +8,6 @@
 #include "libskel/mesh/inflate.h"
 #include "libskel/mesh/local_mean.h"
 #include "libskel/mesh/outline_band.h"
-#include "libskel/mesh/part.h"
-#include "libskel/mesh/planar_mesh.h"
 #include "libskel/mesh/split_seams.h"
 #include "tests/support/catch.h"
 #include "tests/support/mesh_checks.h"
@@ -134,127 +132,6 @@ TEST_CASE("a cap covers the back of the head down to the ears, without its badge
       if (y > 120 && y < 168) continue;
       REQUIRE(std::abs(back.pixel(x, y)[0] - (y < 135 ? 30 : 240)) < 25);
     }
-}
-
-namespace {
-
-constexpr std::array<int, 3> kJacket = {60, 110, 200}, kShirt = {240, 240, 235}, kSkin = {240, 200, 160},
-                             kHairColor = {120, 60, 20}, kRed = {220, 40, 40};
-
-// A trunk of two colours before white, with what is painted onto it, and which part each px is.
-struct Painted {
-  Image image{200, 300};
-  Plane8 part = Plane8::Zero(300, 200);
-
-  Painted() { image.rgba.setConstant(255); }
-  void box(int x0, int y0, int x1, int y1, const std::array<int, 3>& color, Part of) {
-    for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x) {
-        for (int c = 0; c < 3; ++c) image.pixel(x, y)[c] = std::uint8_t(color[std::size_t(c)]);
-        part(y, x) = std::uint8_t(of);
-      }
-  }
-  Image back() const { return backColors(image, notWhite(image), HeadDisc{{100, 50}, 40}, part); }
-};
-
-// Of a box, the share of px that have the color.
-double shareOf(const Image& image, int x0, int y0, int x1, int y1, const std::array<int, 3>& color) {
-  int of = 0;
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x) {
-      int most = 0;
-      for (int c = 0; c < 3; ++c)
-        most = std::max(most, std::abs(image.pixel(x, y)[c] - color[std::size_t(c)]));
-      of += most < 16;
-    }
-  return of / double((x1 - x0) * (y1 - y0));
-}
-
-// A head above a jacket above trousers.
-Painted dressed() {
-  Painted figure;
-  figure.box(60, 10, 140, 95, kSkin, Part::kHead);
-  figure.box(50, 95, 150, 200, kJacket, Part::kTrunk);
-  figure.box(50, 200, 98, 290, kHairColor, Part::kRightLeg);
-  figure.box(102, 200, 150, 290, kHairColor, Part::kLeftLeg);
-  return figure;
-}
-
-}  // namespace
-
-TEST_CASE("the back of an open jacket is closed, and what is worn before it is not seen") {
-  Painted figure = dressed();
-  figure.box(85, 95, 115, 200, kShirt, Part::kTrunk);  // down to the hem
-  figure.box(90, 120, 110, 150, kRed, Part::kTrunk);
-  CHECK(shareOf(figure.back(), 50, 100, 150, 195, kJacket) > 0.99);
-}
-
-TEST_CASE("a belt runs around the body, its buckle does not, and a slanted one goes on straight") {
-  Painted figure = dressed();
-  const int slant = GENERATE(0, 16);
-  for (int x = 50; x < 150; ++x) {
-    const int y = 150 + slant * (x - 50) / 100;
-    figure.box(x, y, x + 1, y + 14, kHairColor, Part::kTrunk);
-  }
-  figure.box(90, 146, 110, 180, kRed, Part::kTrunk);
-  const Image back = figure.back();
-  CHECK(shareOf(back, 90, 140, 110, 190, kRed) == 0);
-  for (int x = 54; x < 146; ++x) {
-    const int y = 157 + slant * (x - 50) / 100;
-    CAPTURE(x);
-    REQUIRE(shareOf(back, x, y - 2, x + 1, y + 2, kHairColor) == 1);
-    REQUIRE(shareOf(back, x, y - 30, x + 1, y - 13, kJacket) == 1);
-  }
-}
-
-TEST_CASE("an arm across the body or the head is not seen from behind, beside them it is") {
-  Painted figure = dressed();
-  figure.box(20, 130, 120, 150, kRed, Part::kRightArm);
-  figure.box(80, 40, 180, 60, kRed, Part::kLeftArm);
-  const Image back = figure.back();
-  CHECK(shareOf(back, 52, 100, 148, 195, kJacket) > 0.99);
-  CHECK(shareOf(back, 22, 132, 46, 148, kRed) > 0.95);
-  CHECK(shareOf(back, 62, 20, 130, 90, kSkin) > 0.95);
-}
-
-TEST_CASE("hair that hangs on both sides of the neck hides it from behind, a beard is not seen") {
-  Painted figure = dressed();
-  const bool beard = GENERATE(true, false);
-  CAPTURE(beard);
-  if (beard) {
-    figure.box(80, 85, 120, 150, kHairColor, Part::kHair);
-  } else {
-    figure.box(56, 10, 144, 40, kHairColor, Part::kHead);
-    figure.box(56, 40, 75, 95, kHairColor, Part::kHead);
-    figure.box(125, 40, 144, 95, kHairColor, Part::kHead);
-    figure.box(56, 95, 75, 150, kHairColor, Part::kHair);
-    figure.box(125, 95, 144, 150, kHairColor, Part::kHair);
-  }
-  const Image back = figure.back();
-  CHECK(shareOf(back, 82, 104, 118, 145, beard ? kJacket : kHairColor) > 0.99);
-  CHECK(shareOf(back, 82, 160, 118, 195, kJacket) > 0.99);
-}
-
-TEST_CASE("a cape that shows on both sides covers the back, wings that spread do not") {
-  Painted figure = dressed();
-  const int wide = GENERATE(20, 48);
-  figure.box(50 - wide, 110, 50, 180, kRed, Part::kAppendix);
-  figure.box(150, 110, 150 + wide, 180, kRed, Part::kAppendix);
-  // Wings reach further than the trunk is wide.
-  if (wide > 20) {
-    figure.box(0, 110, 70, 180, kRed, Part::kAppendix);
-    figure.box(130, 110, 200, 180, kRed, Part::kAppendix);
-  }
-  CHECK(shareOf(figure.back(), 75, 115, 125, 175, wide == 20 ? kRed : kJacket) > 0.97);
-}
-
-TEST_CASE("what stands out of a head and is carried beside it is not around it") {
-  Painted figure = dressed();
-  figure.box(60, 10, 140, 55, kHairColor, Part::kHead);
-  figure.box(140, 20, 199, 60, kRed, Part::kHead);
-  const Image back = figure.back();
-  CHECK(shareOf(back, 64, 14, 136, 60, kHairColor) > 0.97);
-  CHECK(shareOf(back, 165, 25, 195, 55, kRed) > 0.95);
 }
 
 TEST_CASE("the back of clothes in red or blue that are drawn by black lines holds no black") {

@@ -1,0 +1,245 @@
+#include "libskel/mesh/head_back.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "libskel/mesh/ink.h"
+
+namespace skel {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3f;
+
+// Lengths are in radii of the head's disc; rows go from its top down.
+constexpr int kRowsPerRadius = 32;
+constexpr double kTop = 1.5, kBottom = -1.05;
+constexpr double kAside = 1.45;    // sideways, to the rim
+constexpr double kSkip = 0.05;     // behind the rim, where paper shines through
+constexpr double kBand = 0.3;      // behind the rim, whose colour counts
+constexpr double kEven = 0.25;     // rows as near as this have one colour
+constexpr double kPlain = 0.25;    // least share of it that is not ink, where ink is but the outline
+constexpr double kFace = 0.6;      // the disc whose commonest colour is the face's
+constexpr double kNape = -0.45;    // down to where hair reaches
+constexpr double kCheek = 0.3;     // share of a row below that a cheek takes of it
+constexpr double kDrawnRim = 0.2;  // behind the rim, where an outline may stay
+constexpr double kHang = 0.25;     // at the middle of a row, what lies so much higher at the rim
+constexpr int kMixedRows = 2;      // rows to both sides whose colours are mixed
+constexpr int kOneColor = 48;      // channels of one colour differ by less
+constexpr double kMostly = 0.5;    // of the rows, of their ends above the middle
+
+bool alike(const Vector3f& a, const Vector3f& b) { return (a - b).cwiseAbs().maxCoeff() < kOneColor; }
+
+Vector3f median(std::vector<Vector3f> colors) {
+  Vector3f out;
+  for (int c = 0; c < 3; ++c) {
+    const auto middle = colors.begin() + std::ptrdiff_t(colors.size() / 2);
+    std::nth_element(colors.begin(), middle, colors.end(),
+                     [c](const Vector3f& a, const Vector3f& b) { return a[c] < b[c]; });
+    out[c] = (*middle)[c];
+  }
+  return out;
+}
+
+// The colour that most of them are like.
+Vector3f commonest(const std::vector<Vector3f>& colors) {
+  std::vector<Vector3f> best;
+  const std::size_t stride = std::max<std::size_t>(1, colors.size() / 64);
+  for (std::size_t i = 0; i < colors.size(); i += stride) {
+    std::vector<Vector3f> like;
+    std::copy_if(colors.begin(), colors.end(), std::back_inserter(like),
+                 [&](const Vector3f& c) { return alike(c, colors[i]); });
+    if (like.size() > best.size()) best = std::move(like);
+  }
+  return median(std::move(best));
+}
+
+struct Side {
+  double rim = 0;  // from the axis
+  Vector3f color;
+  bool face = false;
+};
+
+class Head {
+ public:
+  Head(const Image& front, const Plane8& figure, const HeadDisc& disc)
+      : front_(front), figure_(figure), disc_(disc), right_(-disc.up.y(), disc.up.x()) {
+    std::vector<Vector3f> inner;
+    for (double t = -kFace; t <= kFace; t += 1. / kRowsPerRadius)
+      for (double x = -kFace; x <= kFace; x += 1. / kRowsPerRadius)
+        if (x * x + t * t < kFace * kFace && inside(x, t)) inner.push_back(colorAt(x, t));
+    if (inner.empty()) return;
+    const Vector3f face = commonest(inner);
+    const int rows = int(std::lround((kTop - kBottom) * kRowsPerRadius)) + 1;
+    rows_.resize(std::size_t(rows));
+    for (const int k : {0, 1}) {
+      std::vector<Band> bands;
+      for (int i = 0; i < rows; ++i) bands.push_back(bandOf(height(i), k == 0 ? -1 : 1));
+      constexpr int kAround = int(kEven * kRowsPerRadius);
+      for (int i = 0; i < rows; ++i) {
+        if (bands[std::size_t(i)].rim <= 0) continue;
+        std::vector<Vector3f> plain, all;
+        for (int j = std::max(0, i - kAround); j <= std::min(rows - 1, i + kAround); ++j)
+          for (const Vector3f& color : bands[std::size_t(j)].colors) {
+            all.push_back(color);
+            if (!isInk(color)) plain.push_back(color);
+          }
+        if (all.empty()) continue;
+        Side side{bands[std::size_t(i)].rim,
+                  commonest(double(plain.size()) > kPlain * double(all.size()) ? plain : all)};
+        side.face = alike(side.color, face);
+        rows_[std::size_t(i)][std::size_t(k)] = side;
+      }
+    }
+    const auto found =
+        std::count_if(rows_.begin(), rows_.end(), [](const auto& row) { return row[0] || row[1]; });
+    if (double(found) < kMostly * double(rows_.size())) {
+      rows_.clear();
+      return;
+    }
+    close();
+    dress();
+  }
+
+  // Of the back at a place in the head's frame; nothing where it stays.
+  std::optional<Vector3f> colorBehind(double x, double t, const Vector3f& now) const {
+    if (rows_.empty()) return std::nullopt;
+    const int i = int(std::lround((kTop - t) * kRowsPerRadius));
+    if (i < 0 || i >= int(rows_.size())) return std::nullopt;
+    const auto& [left, right] = rows_[std::size_t(i)];
+    if (!left || !right || x < -left->rim || x > right->rim) return std::nullopt;
+    if (isInk(now) && std::min(x + left->rim, right->rim - x) < kDrawnRim) return std::nullopt;
+    const double share = (x + left->rim) / (left->rim + right->rim);
+    // Hair and brims hang around a ball, lowest in the middle.
+    const double hang = kHang * 4 * share * (1 - share);
+    Vector3f sum = Vector3f::Zero();
+    for (int d = -kMixedRows; d <= kMixedRows; ++d) {
+      const int from = std::clamp(i + d - int(std::lround(hang * kRowsPerRadius)), 0, int(rows_.size()) - 1);
+      const auto& row = rows_[std::size_t(from)];
+      sum += mixed(row[0] ? *row[0] : *left, row[1] ? *row[1] : *right, share);
+    }
+    return Vector3f(sum / (2 * kMixedRows + 1));
+  }
+
+  Vector2d frame(const Vector2d& p) const {
+    const Vector2d d = (p - disc_.center) / disc_.radius;
+    return {d.dot(right_), d.dot(disc_.up)};
+  }
+
+ private:
+  static double height(int row) { return kTop - double(row) / kRowsPerRadius; }
+
+  static Vector3f mixed(const Side& left, const Side& right, double share) {
+    if (left.face == right.face) return left.color + float(share) * (right.color - left.color);
+    constexpr double kEdge = 0.04;
+    const double edge = left.face ? kCheek : 1 - kCheek;
+    const double t = std::clamp((share - edge) / kEdge / 2 + .5, 0., 1.);
+    return left.color + float(t) * (right.color - left.color);
+  }
+
+  bool inside(double x, double t) const {
+    const Eigen::Vector2i p = pixel(x, t);
+    return p.x() >= 0 && p.y() >= 0 && p.x() < front_.width && p.y() < front_.height &&
+           figure_(p.y(), p.x()) != 0;
+  }
+  Eigen::Vector2i pixel(double x, double t) const {
+    const Vector2d p = disc_.center + disc_.radius * (x * right_ + t * disc_.up);
+    return {int(std::lround(p.x())), int(std::lround(p.y()))};
+  }
+  Vector3f colorAt(double x, double t) const {
+    const Eigen::Vector2i at = pixel(x, t);
+    const std::uint8_t* p = front_.pixel(at.x(), at.y());
+    return {float(p[0]), float(p[1]), float(p[2])};
+  }
+  static bool isInk(const Vector3f& c) {
+    constexpr double kInk = 80;
+    return inkLightness(c[0], c[1], c[2]) < kInk;
+  }
+
+  struct Band {
+    double rim = 0;  // 0: the row leaves the head elsewhere
+    std::vector<Vector3f> colors;
+  };
+
+  // What lies behind the rim at one end of a row, towards the middle of the head.
+  Band bandOf(double t, int sign) const {
+    constexpr double kStep = 1. / kRowsPerRadius;
+    if (!inside(0, t)) return {};
+    Band band;
+    while (band.rim < kAside && inside(sign * band.rim, t)) band.rim += kStep;
+    if (band.rim >= kAside) return {};
+    const Vector2d rim(sign * band.rim, t), inwards = -rim.normalized();
+    for (double d = kSkip; d < kBand; d += kStep)
+      if (const Vector2d p = rim + d * inwards; inside(p.x(), p.y()))
+        band.colors.push_back(colorAt(p.x(), p.y()));
+    return band;
+  }
+
+  // Where something stands out of the head or lies at it: the colour of the nearest row that ends at a rim.
+  void close() {
+    for (const std::size_t k : {0, 1}) {
+      std::vector<std::optional<Side>> found;
+      for (const auto& row : rows_) found.push_back(row[k]);
+      for (int i = 0; i < int(rows_.size()); ++i)
+        for (int d = 1; !rows_[std::size_t(i)][k] && d < int(rows_.size()); ++d)
+          for (const int j : {i - d, i + d})
+            if (j >= 0 && j < int(rows_.size()) && found[std::size_t(j)] && !rows_[std::size_t(i)][k]) {
+              rows_[std::size_t(i)][k] = found[std::size_t(j)];
+              rows_[std::size_t(i)][k]->rim = std::sqrt(std::max(0., 1 - height(i) * height(i)));
+            }
+    }
+  }
+
+  // Hair where there is some above, in the place of cheeks.
+  void dress() {
+    int upper = 0, covered = 0;
+    for (std::size_t i = 0; i < rows_.size() && height(int(i)) > 0; ++i)
+      for (const auto& side : rows_[i])
+        if (side) ++upper, covered += !side->face;
+    if (covered < kMostly * upper || upper == 0) return;
+    std::optional<Vector3f> hair;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      auto& [left, right] = rows_[i];
+      if (!left || !right) continue;
+      if (!left->face || !right->face)
+        hair = left->face    ? right->color
+               : right->face ? left->color
+                             : Vector3f((left->color + right->color) / 2);
+      if (!hair || height(int(i)) < kNape) continue;
+      for (Side* side : {&*left, &*right})
+        if (side->face) side->color = *hair, side->face = false;
+    }
+  }
+
+  const Image& front_;
+  const Plane8& figure_;
+  const HeadDisc& disc_;
+  Vector2d right_;
+  std::vector<std::array<std::optional<Side>, 2>> rows_;
+};
+
+}  // namespace
+
+void paintBackOfHead(const Image& front, const Plane8& figure, const HeadDisc& disc, Image& back) {
+  if (disc.radius < 2) return;
+  const Head head(front, figure, disc);
+  const double reach = 2 * kAside * disc.radius;
+  const int x0 = std::max(0, int(disc.center.x() - reach)),
+            x1 = std::min(front.width, int(disc.center.x() + reach) + 1),
+            y0 = std::max(0, int(disc.center.y() - reach)),
+            y1 = std::min(front.height, int(disc.center.y() + reach) + 1);
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) {
+      if (figure(y, x) == 0) continue;
+      const Vector2d at = head.frame({double(x), double(y)});
+      std::uint8_t* p = back.pixel(x, y);
+      const auto color = head.colorBehind(at.x(), at.y(), {float(p[0]), float(p[1]), float(p[2])});
+      if (!color) continue;
+      for (int c = 0; c < 3; ++c) p[c] = std::uint8_t(std::lround(std::clamp((*color)[c], 0.f, 255.f)));
+    }
+}
+
+}  // namespace skel
