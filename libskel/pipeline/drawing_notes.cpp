@@ -28,11 +28,11 @@ std::vector<std::string> figureNotes(const RiggedDrawing& drawing) {
 }
 
 std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip>& clips) {
-  constexpr double kSure = .5;     // of the joints
+  constexpr double kWhole = .5;    // likeness: of less there are no limbs to speak of
   constexpr double kTorn = .02;    // share of the model's area that a clip stretches too far
   constexpr double kOfLimb = .01;  // of which so much is a limb's
   std::vector<Note> notes;
-  if (drawing.recognition.confidence < kSure) return notes;
+  if (drawing.recognition.likeness < kWhole) return notes;
   const SkeletonTemplate& body_plan = drawing.body_plan;
   for (const int limb : drawing.layers.hidden) {
     const std::string name = limbName(body_plan, limb);
