@@ -121,7 +121,10 @@ Image pictureOf(const DrawnFigure& figure, const FigurePiece& piece, const Plane
   picture = fillHidden(std::move(picture), known, hidden);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x)
-      if (known(y, x) == 0 && hidden(y, x) == 0) std::fill_n(picture.pixel(x, y), 4, std::uint8_t(0));
+      if (known(y, x) == 0 && hidden(y, x) == 0)
+        std::fill_n(picture.pixel(x, y), 4, std::uint8_t(0));
+      else if (hidden(y, x) != 0)  // as thick as what hides it, not as the rim that it is filled from
+        picture.pixel(x, y)[3] = figure.image.pixel(box.x0 + x, box.y0 + y)[3];
   return picture;
 }
 
