@@ -9,7 +9,7 @@
 namespace skel {
 namespace {
 
-constexpr double kStep = 0.63;  // cells that a step reaches, root mean square, each way
+constexpr double kStepReach = 0.63;  // cells that a step reaches, root mean square, each way
 constexpr int kMostSteps = 200;
 
 }  // namespace
@@ -25,7 +25,7 @@ Eigen::VectorXd localMean(const PlanarMesh& mesh, const Eigen::VectorXd& inner, 
     areas.push_back(std::abs(e.x() * f.y() - e.y() * f.x()) / 2);
     for (const int v : {a, b, c}) area[v] += areas.back();
   }
-  const double reach = range_px / (kStep * mesh.cell_px);
+  const double reach = range_px / (kStepReach * mesh.cell_px);
   const int steps = static_cast<int>(std::clamp(reach * reach, 1., double(kMostSteps)));
   for (int step = 0; step < steps; ++step) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(size);

@@ -99,7 +99,7 @@ TEST_CASE("a film of a drawing says what skel-infer says of it, once for all fil
   REQUIRE(run.exit_code == 0);
   CHECK_THAT(run.err, Contains("box_dog.png: note: it looks like a quadruped: try --template quadruped"));
   CHECK_THAT(run.err, Contains("this hardly looks like one whole biped; not found: "));
-  CHECK_THAT(run.out, Contains("box_dog.png: biped, confidence 0.1"));
+  CHECK_THAT(run.out, Contains("box_dog.png: biped, confidence 0.2"));
   CHECK(run.err.find("looks like a quadruped") == run.err.rfind("looks like a quadruped"));
 }
 

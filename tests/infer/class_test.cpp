@@ -116,6 +116,6 @@ TEST_CASE("what is said of many drawings is said once, with the names that it ho
 
 TEST_CASE("a path in a note can be pasted into a shell") {
   const TempDir dir;
-  fs::copy(SKEL_DATASETS "/characters/game_ninja.png", dir.file("Eva's photo.png"));
+  fs::copy(SKEL_DATASETS "/characters/box_carrier.png", dir.file("Eva's photo.png"));
   CHECK_THAT(infer(dir, "\"Eva's photo.png\"").err, Contains("(skel-label 'Eva'\\''s photo.png', key G)"));
 }
