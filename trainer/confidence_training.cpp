@@ -60,9 +60,9 @@ double weightOf(const ConfidenceSample& sample) {
                                                                                                : kDisturbed;
 }
 
-using Samples = std::vector<const ConfidenceSample*>;
+using SampleList = std::vector<const ConfidenceSample*>;
 
-ConfidenceModel learn(const Samples& samples, int seed) {
+ConfidenceModel learn(const SampleList& samples, int seed) {
   ConfidenceModel model;
   ConfidenceFitOptions options;
   options.seed = static_cast<std::uint64_t>(seed);
@@ -129,7 +129,7 @@ void crossValidate(const std::vector<ConfidenceSample>& samples, const Hands& ha
   for (const std::string& name : names) fold_of.emplace(name, static_cast<int>(fold_of.size()) % folds);
   std::map<std::string, std::pair<Forecasts, Forecasts>> by_plan;  // learned, and the net's own
   for (int fold = 0; fold < folds; ++fold) {
-    Samples learned;
+    SampleList learned;
     for (const ConfidenceSample& s : samples)
       if (fold_of[hands.of(s.drawing)] != fold) learned.push_back(&s);
     if (learned.empty()) continue;
@@ -206,7 +206,7 @@ ExitCode runConfidenceTraining(const ConfidenceTrainingOptions& options) {
   if (!options.table.empty()) writeFile(options.table, formatConfidenceTable(samples));
   if (options.output.empty()) return ExitCode::kDone;
   if (options.folds > 1) crossValidate(samples, hands, options.folds, options.seed);
-  Samples all;
+  SampleList all;
   for (const ConfidenceSample& sample : samples) all.push_back(&sample);
   ConfidenceModel model = learn(all, options.seed);
   std::set<std::string> names;
