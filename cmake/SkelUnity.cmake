@@ -1,27 +1,10 @@
-# With SKEL_UNITY most rooms are compiled as one unit each: most of the time goes into the headers of Eigen and of JSON.
-# Names of anonymous namespaces differ within each of these rooms, but for the files that stay by themselves.
-if(NOT SKEL_UNITY)
-  return()
+# With SKEL_UNITY every target is compiled as one unit: most of the time goes into the headers of Eigen, JSON and Catch2.
+# Names of anonymous namespaces differ within a target, but for the files that stay by themselves (skel_alone).
+if(SKEL_UNITY)
+  set(CMAKE_UNITY_BUILD ON)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 0)
 endif()
-set(alone mesh/obj mesh/planar_mesh silhouette/page silhouette/ruling skin/geodesic skin/volumetric video/video_writer)
-foreach(room animation candidates classifier convnet core cutout deform draw export import jointnet labels mesh pipeline silhouette
-             skeleton skin style video animating labeling styling training net_training)
-  if(TARGET skel_${room})
-    set_target_properties(skel_${room} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-  endif()
-endforeach()
-foreach(tool animate infer label style train)
-  if(TARGET skel-${tool})
-    set_target_properties(skel-${tool} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-  endif()
-endforeach()
-foreach(file ${alone})
-  get_filename_component(room ${file} DIRECTORY)
-  if(TARGET skel_${room})
-    set_source_files_properties(${PROJECT_SOURCE_DIR}/libskel/${file}.cpp TARGET_DIRECTORY skel_${room} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  endif()
-endforeach()
-if(TARGET skel_styling)
-  set_source_files_properties(${PROJECT_SOURCE_DIR}/stylizer/puppet_film.cpp ${PROJECT_SOURCE_DIR}/stylizer/style_file.cpp
-    TARGET_DIRECTORY skel_styling PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-endif()
+
+function(skel_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()

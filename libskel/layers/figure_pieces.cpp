@@ -17,9 +17,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kCoarse = 200;          // px, the long side of the figure when hidden parts are looked for
-constexpr double kThicker = 1.3;      // than half of what hides: the disc of the closing
-constexpr double kLeastLimb = 0.004;  // of the figure: less is no limb
+constexpr int kCoarse = 200;           // px, the long side of the figure when hidden parts are looked for
+constexpr double kThicker = 1.3;       // than half of what hides: the disc of the closing
+constexpr double kLeastPiece = 0.004;  // of the figure: less is no limb
 
 PixelBox common(const PixelBox& a, const PixelBox& b) {
   const PixelBox box{std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
@@ -277,7 +277,7 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
       return skeleton.joints[static_cast<std::size_t>(joint)].image;
     };
     const std::optional<Vector2d> from = jointAt(0), by = jointAt(1), to = jointAt(2);
-    if (!(static_cast<double>((limb != 0).count()) >= kLeastLimb * figure_px && from && by && to))
+    if (!(static_cast<double>((limb != 0).count()) >= kLeastPiece * figure_px && from && by && to))
       limb.setZero();
     within(labels, own) =
         Plane8((all != limb).select(Plane8::Zero(limb.rows(), limb.cols()), within(labels, own)));

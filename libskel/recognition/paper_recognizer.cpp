@@ -122,7 +122,7 @@ bool sameSide(const SkeletonTemplate& body_plan, const TemplateLimb& limb, const
 
 // How far the rules can be trusted: of the joints that they find about half lie within a tenth of the
 // figure's size.
-constexpr double kFoundConfidence = 0.5, kCompletedConfidence = 0.2;
+constexpr double kFoundByRules = 0.5, kCompletedConfidence = 0.2;
 
 }  // namespace
 
@@ -174,7 +174,7 @@ Recognition recognizeByRules(const Silhouette& silhouette, const CandidateSet& c
   const auto place = [&](int joint, const Vector2d& grid_point, double confidence) {
     Joint& placed = recognition.skeleton.joints[static_cast<size_t>(joint)];
     placed.image = silhouette.grid.imageFromGrid(grid_point);
-    placed.confidence = confidence * kFoundConfidence;
+    placed.confidence = confidence * kFoundByRules;
     placed.origin = JointOrigin::kRecognized;
     found[static_cast<size_t>(joint)] = true;
   };
