@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "libskel/recognition/silhouette_confidence.h"
+
 namespace skel {
 namespace {
 
@@ -33,6 +35,8 @@ std::vector<std::string> adviceOn(const RiggedDrawing& drawing, const SkeletonFi
   if (!silhouette.cut_sides.empty())
     advice.push_back("The figure is cut off at the " + silhouette.cut_sides +
                      ". Step back, so that hands and feet are in the picture.");
+  else if (const auto doubt = silhouetteDoubt(silhouette, builtInSilhouetteConfidence()))
+    advice.push_back("Not sure where the figure ends: " + *doubt + ". A mask can be mended (skel-label).");
   const auto& joints = file.skeleton.joints;
   const bool edited = std::any_of(joints.begin(), joints.end(),
                                   [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; });

@@ -10,7 +10,6 @@
 #include "libskel/cli/number.h"
 #include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
-#include "libskel/core/json.h"
 #include "libskel/core/text.h"
 #include "libskel/jointnet/joint_net.h"
 #include "libskel/recognition/calibration.h"
@@ -18,40 +17,10 @@
 #include "trainer/confidence_fit.h"
 #include "trainer/confidence_samples.h"
 #include "trainer/confidence_table.h"
+#include "trainer/hands.h"
 
 namespace skel {
 namespace {
-
-// Who has drawn what, and what the nets have learned from: the drawings of the hands before the first one.
-struct Hands {
-  std::map<std::string, std::string> of_drawing;
-  std::set<std::string> learned;
-
-  const std::string& of(const std::string& drawing) const {
-    const auto at = of_drawing.find(drawing);
-    return at == of_drawing.end() ? drawing : at->second;  // a hand of its own
-  }
-};
-
-Hands readHands(const ConfidenceTrainingOptions& options) {
-  Hands hands;
-  if (options.hands.empty()) {
-    if (!options.first_hand.empty()) throw UsageError("--first-hand needs --hands");
-    return hands;
-  }
-  const JsonDocument document = JsonDocument::readFile(options.hands);
-  bool learned = !options.first_hand.empty();
-  for (const std::string& hand : document.root().keys()) {
-    learned = learned && hand != options.first_hand;
-    for (const JsonValue& name : document.root().at(hand).items()) {
-      hands.of_drawing[name.asString()] = hand;
-      if (learned) hands.learned.insert(name.asString());
-    }
-  }
-  if (learned)
-    throw UsageError("--first-hand \"" + options.first_hand + "\": " + options.hands + " knows no such hand");
-  return hands;
-}
 
 // How much a sample counts: figures are as people draw them far more often than disturbed.
 double weightOf(const ConfidenceSample& sample) {
@@ -183,7 +152,7 @@ void bindConfidenceTrainingOptions(CLI::App& command, ConfidenceTrainingOptions&
 }
 
 ExitCode runConfidenceTraining(const ConfidenceTrainingOptions& options) {
-  const Hands hands = readHands(options);
+  const Hands hands = readHands(options.hands, options.first_hand);
   std::map<std::string, std::vector<JointedDrawing>> drawings;
   for (const auto& [plan, dirs] : options.drawings)
     for (JointedDrawing& drawing : findJointedDrawings(dirs))

@@ -6,6 +6,7 @@
 #include "trainer/joint_net_training.h"
 #include "trainer/page_net_training.h"
 #include "trainer/part_net_training.h"
+#include "trainer/silhouette_training.h"
 #include "trainer/train_command.h"
 
 int main(int argc, char** argv) {
@@ -42,12 +43,17 @@ int main(int argc, char** argv) {
   CLI::App* confidence =
       app.add_subcommand("confidence", "Learns how sure the recognition may be of what it finds");
   skel::bindConfidenceTrainingOptions(*confidence, confidence_training);
+  skel::SilhouetteTrainingOptions silhouette_training;
+  CLI::App* silhouettes = app.add_subcommand(
+      "silhouettes", "Learns how sure one may be of a silhouette that was found on a page");
+  skel::bindSilhouetteTrainingOptions(*silhouettes, silhouette_training);
   return skel::runTool(app, argc, argv, [&] {
     if (*evaluation) return skel::runEvaluateWeights(evaluate);
     if (*figures) return skel::runFigureSheet(sheet);
     if (*joints) return skel::runJointTraining(joint_training);
     if (*bones) return skel::runBoneLengths(bone_lengths);
     if (*confidence) return skel::runConfidenceTraining(confidence_training);
+    if (*silhouettes) return skel::runSilhouetteTraining(silhouette_training);
     if (*averaging) return skel::runAverageNets(average);
     if (*pages) return skel::runPageTraining(page_training);
     if (*parts) return skel::runPartTraining(part_training);

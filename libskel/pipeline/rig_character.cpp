@@ -18,6 +18,7 @@
 #include "libskel/pipeline/worn_parts.h"
 #include "libskel/recognition/complete_skeleton.h"
 #include "libskel/recognition/paper_recognizer.h"
+#include "libskel/recognition/silhouette_confidence.h"
 #include "libskel/recognition/tree_recognition.h"
 #include "libskel/silhouette/line_art.h"
 #include "libskel/silhouette/outline.h"
@@ -231,6 +232,8 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
                          : extractSilhouette(drawing.image, options.silhouette);
   });
   if (!drawing.found()) return drawing;
+  if (const auto doubt = silhouetteDoubt(drawing.silhouette, builtInSilhouetteConfidence()))
+    drawing.silhouette.warnings.push_back(*doubt + ": look at the mask (skel-label FILE)");
   const Silhouette& silhouette = drawing.silhouette;
   if (needsPaper(drawing.image, silhouette.mask)) drawing.image = laidOnPaper(std::move(drawing.image));
 

@@ -220,7 +220,8 @@ Segmentation segment(const Image& image, const PageNet* page_net, bool keep_step
   }
   if (corners || ruled || !drawn.tidy) {
     const cv::Mat probability = figureProbability(page_net ? *page_net : builtInPageNet(), picture);
-    if (keep_steps) out.steps.figure_share = sharesOf(probability);
+    out.seen = {sharesOf(probability), corners.has_value(), ruled, drawn.soft};
+    if (keep_steps) out.steps.figure_share = out.seen->share;
     figures = agreed(figures, probability);
   }
   if (cv::countNonZero(figures) == 0) {

@@ -1,9 +1,11 @@
 // The figure of an opaque picture from its lines and colours.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "libskel/image/image.h"
+#include "libskel/silhouette/mask_evidence.h"
 #include "libskel/silhouette/steps.h"
 
 namespace skel {
@@ -11,9 +13,10 @@ namespace skel {
 struct PageNet;
 
 struct Segmentation {
-  Plane8 foreground;      // 255 on figures, in any number of parts
-  std::string reason;     // why it is empty, where it is
-  SilhouetteSteps steps;  // only if they are to be kept
+  Plane8 foreground;             // 255 on figures, in any number of parts
+  std::string reason;            // why it is empty, where it is
+  std::optional<SeenPage> seen;  // of pages that are not tidy
+  SilhouetteSteps steps;         // only if they are to be kept
 };
 
 // Works for drawings on paper (also photographed in uneven light), line art whose white fills open to the

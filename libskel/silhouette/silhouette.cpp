@@ -62,11 +62,16 @@ struct Cut {
   Eigen::Index height = 0, width = 0;
   bool close_slits = false;
   std::string reason;  // why there are none
+  std::optional<SeenPage> seen = std::nullopt;
 };
 
 Cut cutOut(const Plane8& foreground, int min_long_side, const PieceOptions& pieces = {}) {
-  Cut cut{joinPieces(foreground, min_long_side, pieces), foreground.rows(), foreground.cols(),
-          pieces.close_slits, ""};
+  Cut cut{joinPieces(foreground, min_long_side, pieces),
+          foreground.rows(),
+          foreground.cols(),
+          pieces.close_slits,
+          "",
+          std::nullopt};
   if (cut.figures.empty())
     cut.reason =
         (foreground != 0).any() ? "what is drawn is too small to be a figure" : "the picture is blank";
@@ -97,6 +102,7 @@ Silhouette finish(const Cut& cut, const SilhouetteOptions& options) {
   out.cut_sides = cutSides(out.mask);
   if (!out.cut_sides.empty())
     out.warnings.push_back("the figure is cut by the border of the picture (" + out.cut_sides + ")");
+  if (cut.seen) out.evidence = evidenceOfMask(out.mask, *cut.seen);
   out.outline = traceOutline(out.mask);
   out.grid = gridOver(out.mask);
   out.grid_mask = sampleMask(out.mask, out.grid);
@@ -163,7 +169,9 @@ PieceOptions piecesOnPaper() {
 Cut cutOffPaper(const Image& image, const SilhouetteOptions& options) {
   const Segmentation segmentation = segment(image, options.page_net.get());
   if (!segmentation.reason.empty()) return {.reason = segmentation.reason};
-  return cutOut(segmentation.foreground, leastLongSide(image), piecesOnPaper());
+  Cut cut = cutOut(segmentation.foreground, leastLongSide(image), piecesOnPaper());
+  cut.seen = segmentation.seen;
+  return cut;
 }
 
 void warnOfSheet(Silhouette& out) {

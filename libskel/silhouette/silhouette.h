@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libskel/image/image.h"
+#include "libskel/silhouette/mask_evidence.h"
 
 namespace skel {
 
@@ -42,6 +43,8 @@ struct Silhouette {
   std::vector<std::string> warnings;  // e.g. other figures in the picture, the figure cut by the border
   std::string cut_sides;              // of the picture, by which the figure is cut: "left, bottom"
   bool is_sheet = false;              // the sheet itself was probably taken for the figure
+
+  std::optional<MaskEvidence> evidence;  // of pages that are not tidy
 
   Plane8 mask;     // size of the image; one 4-connected figure
   Plane8 bridges;  // where the mask joins pieces of the figure across gaps (pieces.h); empty if it joins none

@@ -22,6 +22,7 @@
 #include "libskel/labels/label_file.h"
 #include "libskel/layers/part_net.h"
 #include "libskel/recognition/confidence_model.h"
+#include "libskel/recognition/silhouette_confidence.h"
 #include "libskel/silhouette/page_net.h"
 #include "libskel/skeleton/motion_file.h"
 #include "libskel/skeleton/rig_file.h"
@@ -119,6 +120,10 @@ const std::map<std::string, Reader>& readers() {
        }},
       {"skel-result",
        [](const std::string& path) { return formatResult(parseResult(readFile(path), path), path); }},
+      {"skel-silhouette-confidence",
+       [](const std::string& path) {
+         return formatSilhouetteConfidence(parseSilhouetteConfidence(readFile(path), path));
+       }},
       {"skel-skeleton",
        [](const std::string& path) { return formatSkeletonFile(readSkeletonFile(path, biped)); }},
       {"skel-skin",

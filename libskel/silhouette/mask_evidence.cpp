@@ -1,0 +1,92 @@
+#include "libskel/silhouette/mask_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "libskel/core/check.h"
+
+namespace skel {
+namespace {
+
+struct LargestPiece {
+  double area = 0;  // px
+  cv::Rect box;
+};
+
+LargestPiece largestPiece(const cv::Mat& mask) {
+  cv::Mat labels, stats, centroids;
+  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centroids, 4);
+  LargestPiece out;
+  for (int i = 1; i < count; ++i) {
+    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
+    if (area <= out.area) continue;
+    out.area = area;
+    out.box = {stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+               stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT)};
+  }
+  return out;
+}
+
+// Of `mask`, what is thicker than a strip along its edge.
+cv::Mat core(const cv::Mat& mask, int reach) {
+  cv::Mat out;
+  cv::morphologyEx(mask, out, cv::MORPH_OPEN,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * reach + 1, 2 * reach + 1)));
+  return out;
+}
+
+}  // namespace
+
+MaskEvidence evidenceOfMask(const Plane8& mask, const SeenPage& page) {
+  SKEL_CHECK(mask.size() > 0 && page.share.size() > 0);
+  const cv::Mat probability(static_cast<int>(page.share.rows()), static_cast<int>(page.share.cols()), CV_8U,
+                            const_cast<std::uint8_t*>(page.share.data()));
+  cv::Mat figure;
+  cv::resize(cv::Mat(static_cast<int>(mask.rows()), static_cast<int>(mask.cols()), CV_8U,
+                     const_cast<std::uint8_t*>(mask.data())),
+             figure, probability.size(), 0, 0, cv::INTER_AREA);
+  figure = figure >= 128;
+  constexpr int kPerhaps = 77, kSurely = 178;  // of 255
+  const int long_side = std::max(figure.cols, figure.rows);
+  const int reach = std::max(1, cvRound(long_side / 100.));
+  const double area = std::max(1, cv::countNonZero(figure));
+  const auto sumOver = [&](const cv::Mat& where) { return cv::mean(probability, where)[0] / 255; };
+
+  cv::Mat undecided;
+  probability.convertTo(undecided, CV_32F, 1 / 255.);
+  const double seen = std::max(1e-9, cv::sum(undecided)[0]);
+  const double both = sumOver(figure) * area;
+  undecided = undecided.mul(1 - undecided);
+  const cv::Mat not_seen = core(figure & (probability < kPerhaps), reach),
+                not_taken = core(~figure & (probability > kSurely), reach);
+  cv::Mat around;
+  cv::dilate(figure, around,
+             cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(8 * reach + 1, 8 * reach + 1)));
+  around &= ~figure;
+  cv::Mat edge;
+  cv::morphologyEx(figure, edge, cv::MORPH_GRADIENT, cv::Mat::ones(3, 3, CV_8U));
+  double at_border = 0;
+  for (const cv::Mat& side :
+       {figure.row(0), figure.row(figure.rows - 1), figure.col(0), figure.col(figure.cols - 1)})
+    at_border += cv::countNonZero(side);
+
+  MaskEvidence out;
+  const LargestPiece doubtful = largestPiece(not_seen);
+  out.inputs.resize(static_cast<Eigen::Index>(kMaskInputs.size()));
+  const auto damped = [](double share) { return std::log10(share + 1e-3); };
+  out.inputs << both / std::max(1e-9, area + seen - both), damped(cv::countNonZero(not_seen) / area),
+      damped(doubtful.area / area), damped(cv::countNonZero(not_taken) / area),
+      damped(largestPiece(not_taken).area / area), sumOver(figure), sumOver(around),
+      damped(cv::sum(undecided)[0] / area), damped(area / static_cast<double>(figure.total())),
+      cv::countNonZero(edge) / std::sqrt(area), at_border / (2. * (figure.cols + figure.rows)), page.sheet,
+      page.ruled, page.soft;
+  if (doubtful.area > 0) {
+    const double x = double(mask.cols()) / figure.cols, y = double(mask.rows()) / figure.rows;
+    out.doubtful = {doubtful.box.x * x, doubtful.box.y * y, doubtful.box.width * x, doubtful.box.height * y};
+  }
+  return out;
+}
+
+}  // namespace skel
