@@ -189,6 +189,7 @@ class LabelingWindow {
     canvas_.cancel();
     if (forget) document_.forgetJoints();
     document_.rig();
+    preview_.play();
   }
 
   void askOpen() {
