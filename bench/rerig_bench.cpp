@@ -1,12 +1,12 @@
 // What a change of a drawing costs that is rigged already, beside rigging it anew:
 //
-//   bench-rerig DRAWING...
+//   bench-rerig [--once] DRAWING...
 //
 // Prints the fastest of three, ms. Instructions, which do not depend on what else the machine does:
 //
-//   valgrind --tool=callgrind bench-rerig DRAWING; callgrind_annotate --inclusive=yes callgrind.out.*
+//   valgrind --tool=callgrind bench-rerig --once DRAWING; callgrind_annotate --inclusive=yes callgrind.out.*
 //
-// tells those of each function of this file, three calls each.
+// tells those of each function of this file, one call each.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -33,12 +33,14 @@ using Rigged = std::shared_ptr<const RiggedDrawing>;
 
 namespace {
 
+int repeats = 3;
+
 // `change` is not measured, `rig` is.
 template <class Change, class Rig>
 void measure(const char* what, RigDocument& document, const Change& change, const Rig& rig) {
   double fastest_ms = 1e9;
   std::string stages;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < repeats; ++i) {
     change(i);
     const auto start = std::chrono::steady_clock::now();
     const Rigged rigged = rig(document);
@@ -97,5 +99,9 @@ void measure(const std::string& drawing) {
 }  // namespace skel
 
 int main(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) skel::measure(argv[i]);
+  for (int i = 1; i < argc; ++i)
+    if (std::string(argv[i]) == "--once")
+      skel::repeats = 1;
+    else
+      skel::measure(argv[i]);
 }

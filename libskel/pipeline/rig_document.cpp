@@ -65,23 +65,24 @@ void RigDocument::setSkeleton(std::optional<Skeleton> skeleton, int turned_deg) 
 }
 
 void RigDocument::moveJoint(const std::string& name, const Eigen::Vector2d& image_px) {
-  // Joints that were given or dragged before are where they were put, whether rigged or not.
-  if (!input_.skeleton || !input_.placed.empty()) {
+  Skeleton skeleton;
+  int turned_deg = input_.turned_deg;
+  if (input_.skeleton && input_.placed.empty()) {
+    skeleton = *input_.skeleton;
+  } else {
     const std::shared_ptr<const RiggedDrawing> drawing = rigged();
-    const Recognition& found = drawing->recognition;
-    Skeleton skeleton = found.skeleton;
-    const int turned_deg = found.turned_deg;
-    setSkeleton(std::move(skeleton), turned_deg);
-    input_.placed.clear();
+    skeleton = drawing->recognition.skeleton;
+    turned_deg = drawing->recognition.turned_deg;
   }
-  Skeleton skeleton = *input_.skeleton;
   const int index = skeleton.find(name);
   if (index < 0) throw UsageError("\"" + name + "\" is no joint of this figure");
   Joint& joint = skeleton.joints[static_cast<std::size_t>(index)];
   joint.image = image_px;
   joint.confidence = 1;
   joint.origin = JointOrigin::kEdited;
-  setSkeleton(std::move(skeleton), input_.turned_deg);
+  input_.placed.clear();  // they are where they were placed
+  note(RigPart::kSkeleton);
+  setSkeleton(std::move(skeleton), turned_deg);
 }
 
 std::shared_ptr<const RiggedDrawing> RigDocument::rigged() {

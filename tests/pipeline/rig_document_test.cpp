@@ -255,6 +255,7 @@ TEST_CASE("a document that cannot be rigged says why, and goes on when it can") 
   CHECK_THROWS_AS(document.moveJoint("left_wing", {1, 1}), UsageError);
   document.setMask(Plane8(Plane8::Zero(600, 600)));
   CHECK_FALSE(document.rigged()->found());
+  CHECK_THROWS_AS(document.moveJoint("left_hand", {1, 1}), UsageError);
   document.setMask(std::nullopt);
   CHECK(document.rigged()->found());
 }
