@@ -146,6 +146,11 @@ async function follow() {
   } catch (error) {
     wanted = null;
     drawing.showSkeleton(JSON.parse(work.skeleton)); // what cannot be is taken back
+    if (!error.fatal) { // and no draft stays
+      await core.rig({ mask: work.mask, ...given(JSON.parse(work.skeleton)) });
+      work.glb = await core.glb();
+      await model?.show(work.glb, true);
+    }
     await complain(error);
   } finally {
     running = false;
