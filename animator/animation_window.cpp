@@ -23,6 +23,7 @@
 #include "libskel/image/result_picture.h"
 #include "libskel/window/file_dialog.h"
 #include "libskel/window/keys.h"
+#include "libskel/window/widgets.h"
 #include "libskel/window/window.h"
 
 namespace skel {
@@ -35,9 +36,7 @@ constexpr float kKeysApart_px = 14;
 
 constexpr const char* kSides[] = {"Front", "Left side", "Back", "Right side"};
 
-constexpr struct {
-  const char *keys, *what;
-} kHelp[] = {
+constexpr KeyHelp kHelp[] = {
     {"Left drag", "turn the view, or a joint by its ring (Shift: by steps of 15 degrees)"},
     {"Right drag", "move the view (the middle button, too)"},
     {"Wheel  +  -", "zoom"},
@@ -64,12 +63,6 @@ constexpr struct {
                     {"a colour", nullptr},
                     {"none (transparent)", "none"}};
 
-bool pressed(key::Code code, bool repeat = false) { return ImGui::IsKeyPressed(code, repeat); }
-
-void tip(const char* text) {
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
-}
-
 // A button that stays down.
 bool toggle(const char* label, const ImVec2& size, bool on, const char* hint) {
   if (on) {
@@ -82,15 +75,6 @@ bool toggle(const char* label, const ImVec2& size, bool on, const char* hint) {
   if (on) ImGui::PopStyleColor(4);
   tip(hint);
   return clicked;
-}
-
-template <class Action>
-void enabledButton(const char* label, const ImVec2& size, bool enabled, const Action& action,
-                   const char* hint) {
-  ImGui::BeginDisabled(!enabled);
-  if (ImGui::Button(label, size)) action();
-  ImGui::EndDisabled();
-  tip(hint);
 }
 
 void heading(const char* text) {
@@ -653,13 +637,7 @@ class AnimationWindow {
     if (ImGui::BeginTable("keys", 2)) {
       ImGui::TableSetupColumn("keys", ImGuiTableColumnFlags_WidthFixed);
       ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthStretch);
-      for (const auto& line : kHelp) {
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        ImGui::TextColored({0.17f, 0.36f, 0.71f, 1}, "%s", line.keys);
-        ImGui::TableNextColumn();
-        ImGui::TextWrapped("%s", line.what);
-      }
+      keyHelpRows(kHelp, [](const char* what) { ImGui::TextWrapped("%s", what); });
       ImGui::EndTable();
     }
     ImGui::Spacing();

@@ -20,7 +20,6 @@ namespace skel {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostSteps = 200;
 // Keys nearer than this are one.
 constexpr double kSameTime_s = 1e-3;
 
@@ -494,29 +493,24 @@ void AnimationDocument::beginStep() {
 
 void AnimationDocument::endStep() {
   if (--open_steps_ > 0) return;
-  undo_.push_back(std::move(before_));
-  if (undo_.size() > kMostSteps) undo_.pop_front();
-  redo_.clear();
+  history_.push(std::move(before_));
 }
 
-bool AnimationDocument::travel(std::deque<AnimationState>& from, std::deque<AnimationState>& to) {
-  if (from.empty()) return false;
+bool AnimationDocument::travel(AnimationState& step) {
   playing = false;
-  to.push_back(std::move(state_));
-  state_ = std::move(from.back());
-  from.pop_back();
+  std::swap(state_, step);
   if (chosen_ >= jointCount()) chosen_ = -1;
   return true;
 }
 
 bool AnimationDocument::undo() {
-  if (!travel(undo_, redo_)) return false;
+  if (!history_.undo([&](AnimationState& step) { return travel(step); })) return false;
   message_ = "undone";
   return true;
 }
 
 bool AnimationDocument::redo() {
-  if (!travel(redo_, undo_)) return false;
+  if (!history_.redo([&](AnimationState& step) { return travel(step); })) return false;
   message_ = "done again";
   return true;
 }

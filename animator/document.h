@@ -3,7 +3,6 @@
 #pragma once
 
 #include <atomic>
-#include <deque>
 #include <future>
 #include <memory>
 #include <string>
@@ -13,6 +12,7 @@
 #include "animator/load_character.h"
 #include "libskel/animation/clip.h"
 #include "libskel/animation/sample_pose.h"
+#include "libskel/core/undo_history.h"
 #include "libskel/export/write_character.h"
 #include "libskel/scene/scene.h"
 
@@ -120,8 +120,8 @@ class AnimationDocument {
 
   void beginStep();
   void endStep();
-  bool canUndo() const { return !undo_.empty(); }
-  bool canRedo() const { return !redo_.empty(); }
+  bool canUndo() const { return history_.canUndo(); }
+  bool canRedo() const { return history_.canRedo(); }
   bool undo();
   bool redo();
 
@@ -131,7 +131,7 @@ class AnimationDocument {
   bool attempt(const Action& action);
   void takePoseFromClip();
   void replaceClip(Clip clip);
-  bool travel(std::deque<AnimationState>& from, std::deque<AnimationState>& to);
+  bool travel(AnimationState& step);
 
   CharacterSource source_;
   ClipSource library_;
@@ -141,7 +141,7 @@ class AnimationDocument {
   int chosen_ = -1;
   int open_steps_ = 0;
   AnimationState before_;
-  std::deque<AnimationState> undo_, redo_;
+  UndoHistory<AnimationState> history_{200};
   std::string message_;
 };
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <set>
@@ -11,15 +10,17 @@
 #include <vector>
 
 #include "labeler/drawing_list.h"
-#include "libskel/candidates/candidates.h"
+#include "labeler/drawing_state.h"
+#include "labeler/figure.h"
+#include "labeler/label_document.h"
+#include "labeler/layer_document.h"
+#include "labeler/mask_document.h"
+#include "labeler/motion_document.h"
+#include "labeler/placed_joints.h"
+#include "labeler/skeleton_document.h"
 #include "libskel/classifier/mlp.h"
-#include "libskel/image/image.h"
-#include "libskel/layers/layer_map.h"
-#include "libskel/pipeline/rig_character.h"
-#include "libskel/silhouette/silhouette.h"
-#include "libskel/skeleton/motion_file.h"
-#include "libskel/skeleton/skeleton_file.h"
-#include "libskel/skeleton/template.h"
+#include "libskel/core/undo_history.h"
+#include "libskel/pipeline/rig_document.h"
 
 namespace skel {
 
@@ -27,12 +28,6 @@ namespace skel {
 enum class Subject {
   kJoints,   // with the mask and the limbs before the body
   kClasses,  // of the candidates
-};
-
-struct Progress {
-  int parts = 0, done = 0;  // 0 parts: not looked at yet
-
-  bool isWhole() const { return parts > 0 && done == parts; }
 };
 
 // A drawing in the list.
@@ -45,33 +40,6 @@ struct Item {
   std::string problem;  // why it cannot be labelled; else empty
 
   const Progress& of(Subject subject) const { return subject == Subject::kJoints ? joints : classes; }
-};
-
-// A mask file as it is, or is to be, on the disk.
-struct MaskVersion {
-  Plane8 pixels;       // of the image's size
-  std::string file;    // name, beside the image
-  std::string png;     // its bytes; empty while a stroke is being drawn
-  std::string sha256;  // of these
-};
-
-// What steps change and undo brings back. Masks are shared and never change, so that copies are cheap.
-struct DrawingState {
-  std::shared_ptr<const MaskVersion> mask;         // null: the figure is found in the picture
-  std::vector<std::optional<JointClass>> labels;   // one a candidate (CandidateSet::maxima)
-  std::vector<std::optional<PlacedJoint>> joints;  // one a joint of the template
-  std::shared_ptr<const LayerMap> layers;          // painted by hand; null: found in the picture
-
-  bool operator==(const DrawingState&) const;
-};
-
-// What follows from picture and mask.
-struct Figure {
-  Silhouette silhouette;
-  CandidateSet candidates;
-  std::vector<Eigen::Vector2d> centers_px;  // of the candidates, image px
-  std::vector<JointClass> suggestions;      // by the current weights
-  std::vector<double> certainties;          // their probabilities
 };
 
 struct DocumentOptions {
@@ -92,8 +60,8 @@ class Document {
   const Item& item() const { return items_[static_cast<size_t>(current_)]; }
   const SkeletonTemplate& bodyPlan() const { return options_.body_plan; }
   // Joints are what this is about: they are kept in a file of their own.
-  bool editsSkeleton() const { return skeleton_file_.has_value(); }
-  bool editsMotion() const { return motion_file_.has_value(); }
+  bool editsSkeleton() const { return skeleton_.has_value(); }
+  bool editsMotion() const { return motion_.has_value(); }
   // Where the last session has left off: classes if candidates have labels and no joint was placed.
   Subject subject() const { return subject_; }
   // False, and stays, where there is no such item or the last step is not on the disk.
@@ -147,21 +115,26 @@ class Document {
 
   void beginStep();
   void endStep();
-  bool canUndo() const { return !undo_.empty() || open_step_; }
-  bool canRedo() const { return !redo_.empty(); }
+  bool canUndo() const { return history_.canUndo() || open_step_; }
+  bool canRedo() const { return history_.canRedo(); }
   // Goes to the drawing of that step. False if there is none.
   bool undo();
   bool redo();
 
-  // The unlabelled candidate that the weights are least sure about; -1 if all are labelled.
-  int mostUnsure() const;
-  // The one whose centre is nearest to an image point, within `radius_px`; else, of the discs that hold the
-  // point, the kept one with the nearest centre; -1 if there is none.
-  int candidateAt(const Eigen::Vector2d& image_px, double radius_px) const;
-  // The nearest within `radius_px`; -1 if there is none.
-  int jointAt(const Eigen::Vector2d& image_px, double radius_px) const;
-  std::vector<int> candidatesNear(const Eigen::Vector2d& image_px, double radius_px) const;
-  std::vector<int> candidatesInside(const Polygon& lasso) const;
+  // See figure.h and placed_joints.h.
+  int mostUnsure() const { return skel::mostUnsure(*figure_, state_.labels); }
+  int candidateAt(const Eigen::Vector2d& image_px, double radius_px) const {
+    return skel::candidateAt(*figure_, image_px, radius_px);
+  }
+  int jointAt(const Eigen::Vector2d& image_px, double radius_px) const {
+    return skel::jointAt(state_.joints, image_px, radius_px);
+  }
+  std::vector<int> candidatesNear(const Eigen::Vector2d& image_px, double radius_px) const {
+    return skel::candidatesNear(*figure_, image_px, radius_px);
+  }
+  std::vector<int> candidatesInside(const Polygon& lasso) const {
+    return skel::candidatesInside(*figure_, lasso);
+  }
 
  private:
   struct Step {
@@ -177,47 +150,43 @@ class Document {
   Item& mutableItem() { return items_[static_cast<size_t>(current_)]; }
   void load(int item);
   void loadDrawing();
-  // The one that the skeleton file was made with.
-  void loadSkeletonsMask();
   // Says why where it does not.
   void takeModel();
   // Takes a mask and lets the candidates follow; false, with nothing changed, if it shows no figure.
   bool replaceMask(std::shared_ptr<const MaskVersion> mask);
-  bool travel(std::deque<Step>& from, std::deque<Step>& to, DrawingState Step::*target);
+  bool travel(const Step& step, const DrawingState& target);
   void save();
   void writeFiles();
-  int figureNumber() const;  // of the drawing, as the skeleton file says
-  void writeSkeletonFile();
-  void writeMotionFile();
-  std::string layersPath() const;  // of the drawing's figure
-  void readLayers();               // where there is such a file
-  void writeLayers();
+  int figureNumber() const { return skeleton_ ? skeleton_->figureNumber() : 1; }
+  bool editsJointsAlone() const { return skeleton_ || motion_; }
   void forgetRig();  // mask or joints have changed
   RigInput rigInput() const;
   RigOptions rigOptions() const;
-  Progress jointProgress() const;
   void count();
 
   DocumentOptions options_;
+  std::string path_;
   std::vector<Item> items_;
   Subject subject_ = Subject::kJoints;
   int current_ = 0;
+  std::optional<SkeletonDocument> skeleton_;  // what `path_` holds, or neither
+  std::optional<MotionDocument> motion_;
+  std::set<std::string> given_masks_;  // mask files that were there before
+
+  // Of the current drawing.
   Image image_;
-  std::string image_sha256_;
+  LabelDocument labels_;
+  MaskDocument masks_;
+  LayerDocument painted_layers_;
   DrawingState state_;
   std::shared_ptr<const Figure> figure_;
-  std::unique_ptr<RiggedDrawing> rigged_;
+  RigDocument rig_;
+  std::shared_ptr<const RiggedDrawing> rigged_;
   std::shared_ptr<const LayerMap> found_layers_;  // in the picture, for the mask and joints that are there
   bool looked_for_joints_ = false;                // in the picture, with the mask that is there
-  std::string path_;
-  std::optional<SkeletonFile> skeleton_file_;  // what `path_` holds
-  std::optional<MotionFile> motion_file_;
-  std::set<std::string> given_masks_;               // mask files that were there before
-  std::shared_ptr<const MaskVersion> opened_mask_;  // of the current drawing when it was opened
-  std::shared_ptr<const MaskVersion> saved_mask_;   // beside the drawing
-  std::shared_ptr<const LayerMap> saved_layers_;    // the same
+
   std::optional<OpenStep> open_step_;
-  std::deque<Step> undo_, redo_;
+  UndoHistory<Step> history_;
   std::string message_, save_problem_;
 };
 

@@ -44,4 +44,16 @@ std::vector<DrawingFiles> findDrawings(const std::string& dir) {
   return drawings;
 }
 
+std::string besideFile(const std::string& file, const std::string& name) {
+  return (fs::path(file).parent_path() / name).lexically_normal().string();
+}
+
+void checkMeansPicture(const Image& image, const std::string& image_path, int width, int height,
+                       const std::string& file, const std::string& place) {
+  const auto size = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
+  if (width != image.width || height != image.height)
+    throw InputError(file, place + ": has " + size(width, height) + " px, " + image_path + " has " +
+                               size(image.width, image.height) + "; find the joints anew");
+}
+
 }  // namespace skel

@@ -5,7 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "libskel/image/image.h"
+
 namespace skel {
+
+struct Progress {
+  int parts = 0, done = 0;  // 0 parts: not looked at yet
+
+  bool isWhole() const { return parts > 0 && done == parts; }
+};
 
 struct DrawingFiles {
   std::string name;   // below the folder
@@ -19,6 +27,13 @@ std::string layersFile(const DrawingFiles& files, int figure);
 
 // A mask that lies beside the drawing: <stem>.mask.png, or mask.png beside image.png and texture.png.
 std::optional<std::string> givenMask(const DrawingFiles& files);
+
+// The path of what a file names beside itself.
+std::string besideFile(const std::string& file, const std::string& name);
+// A file that says where joints are in a picture of that size must mean this picture; throws InputError, with
+// the place in the file, if it does not.
+void checkMeansPicture(const Image& image, const std::string& image_path, int width, int height,
+                       const std::string& file, const std::string& place);
 
 DrawingFiles drawingFiles(const std::string& image, const std::string& name);
 

@@ -16,6 +16,7 @@
 #include "libskel/skeleton/skeleton_file.h"
 #include "libskel/window/file_dialog.h"
 #include "libskel/window/keys.h"
+#include "libskel/window/widgets.h"
 #include "libskel/window/window.h"
 
 namespace skel {
@@ -33,9 +34,7 @@ constexpr const char* kToolHelp[kToolCount] = {
     "Draw a line around discs"};
 constexpr int kFirstClassTool = static_cast<int>(Tool::kTouch);
 
-constexpr struct {
-  const char *keys, *what;
-} kHelp[] = {
+constexpr KeyHelp kHelp[] = {
     {"J", "drag joints"},
     {"Enter  Space", "all joints are right: the next unfinished drawing"},
     {"R  Shift R", "rig and show the model; forget all joints first"},
@@ -59,8 +58,6 @@ constexpr struct {
     {"H  ?  F1", "this help; Esc closes it"},
 };
 
-bool pressed(key::Code code, bool repeat = false) { return ImGui::IsKeyPressed(code, repeat); }
-
 // A flat button of one colour, with a frame if it is the one in use.
 bool colorButton(const char* label, const ImVec2& size, const Color& color, bool in_use) {
   const ImVec4 c(color.r / 255.f, color.g / 255.f, color.b / 255.f, in_use ? 1.f : 0.42f);
@@ -71,10 +68,6 @@ bool colorButton(const char* label, const ImVec2& size, const Color& color, bool
   const bool clicked = ImGui::Button(label, size);
   ImGui::PopStyleColor(in_use ? 4 : 3);
   return clicked;
-}
-
-void tip(const char* text) {
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
 }
 
 enum class Keep { kBeginning, kEnd };
@@ -189,6 +182,7 @@ class LabelingWindow {
     canvas_.cancel();
     if (forget) document_.forgetJoints();
     document_.rig();
+    preview_.play();
   }
 
   void askOpen() {
@@ -469,15 +463,6 @@ class LabelingWindow {
         "From joints", {half, kButtonHeight}, found, [&] { labelFromJoints(); }, "D");
   }
 
-  template <class Action>
-  static void enabledButton(const char* label, const ImVec2& size, bool enabled, const Action& action,
-                            const char* hint) {
-    ImGui::BeginDisabled(!enabled);
-    if (ImGui::Button(label, size)) action();
-    ImGui::EndDisabled();
-    tip(hint);
-  }
-
   void drawStatus() {
     ImGui::Dummy({0, 2});
     const std::string& problem = document_.saveProblem();
@@ -510,13 +495,7 @@ class LabelingWindow {
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings);
     if (ImGui::BeginTable("keys", 2)) {
-      for (const auto& line : kHelp) {
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        ImGui::TextColored({0.17f, 0.36f, 0.71f, 1}, "%s", line.keys);
-        ImGui::TableNextColumn();
-        ImGui::Text("   %s", line.what);
-      }
+      keyHelpRows(kHelp, [](const char* what) { ImGui::Text("   %s", what); });
       ImGui::EndTable();
     }
     ImGui::Spacing();

@@ -13,6 +13,7 @@
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
+#include "libskel/pipeline/rig_document.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/silhouette/page_net.h"
 #include "libskel/skeleton/outside_figure.h"
@@ -75,12 +76,13 @@ Nets nets;
 
 // The character at work.
 struct Character {
-  RiggedDrawing drawing;
+  std::shared_ptr<const RiggedDrawing> drawing = std::make_shared<RiggedDrawing>();
   SkeletonFile file;
   Plane8 given_mask;  // empty: none was given
   std::string stem;
 };
 Character current;
+RigDocument document;  // what it was rigged from
 
 // `body_plan`: "": the one that the figure fits.
 RigOptions optionsFor(const std::string& body_plan, int figure) {
@@ -119,14 +121,14 @@ void checkJoints(const SkeletonFile& given, const std::string& name, const Plane
 val described() {
   val said = val::object();
   val times = val::object();
-  for (const StageTime& time : current.drawing.times) times.set(time.stage, time.time_s * 1e3);
-  const Skeleton& skeleton = current.drawing.recognition.skeleton;
+  for (const StageTime& time : current.drawing->times) times.set(time.stage, time.time_s * 1e3);
+  const Skeleton& skeleton = current.drawing->recognition.skeleton;
   said.set("skeleton", formatSkeletonFile(current.file));
   said.set("plan", skeleton.template_name);
   said.set("confidence", current.file.confidence);
   said.set("warnings", textsOf(current.file.warnings));
-  said.set("figures", current.drawing.silhouette.figure_count);
-  said.set("mask", arrayOf(current.drawing.silhouette.mask));
+  said.set("figures", current.drawing->silhouette.figure_count);
+  said.set("mask", arrayOf(current.drawing->silhouette.mask));
   said.set("times", times);
   return said;
 }
@@ -144,6 +146,7 @@ val useNets(const val& request) {
         std::vector<JointNets::File>{{"biped", given.files[2], "joint net of the biped"},
                                      {"quadruped", given.files[3], "joint net of the quadruped"}});
     nets = std::move(given);
+    document = RigDocument();
     return val::object();
   });
 }
@@ -185,9 +188,11 @@ val maskOf(const val& request) {
   });
 }
 
-// Request: {file, width, height, rgba, mask, skeleton, skeletonFile, plan, figure}. `mask` (width·height
-// bytes, 255 on the figure) and `skeleton` (the text of a skeleton file) may be null, `plan` empty: the one
-// that fits. Returns {skeleton, plan, confidence, warnings, figures, mask, times in ms} or {error}.
+// Request: {file, width, height, rgba, mask, skeleton, skeletonFile, plan, figure, draft}. `mask`
+// (width·height bytes, 255 on the figure) and `skeleton` (the text of a skeleton file) may be null, `plan`
+// empty: the one that fits. What is as it was in the last call is not made anew. With `draft`, joints that
+// have moved since then move in the model that is there, for the eye (RigDocument::draft()). Returns
+// {skeleton, plan, confidence, warnings, figures, mask, times in ms} or {error}.
 val rig(const val& request) {
   const auto file = request["file"].as<std::string>();
   return saying(file, [&] {
@@ -216,9 +221,14 @@ val rig(const val& request) {
       input.turned_deg = given->figure.turned_deg;
       figure = given->figure.number;
     }
-    const auto plan = given ? given->skeleton.template_name : request["plan"].as<std::string>();
-    made.drawing = rigCharacter(input, optionsFor(plan, figure));
-    RiggedDrawing& drawing = made.drawing;
+    // A skeleton says itself of which body plan it is.
+    RigOptions options = optionsFor(given ? "" : request["plan"].as<std::string>(), figure);
+    if (given && planNamed(given->skeleton.template_name, options).name != given->skeleton.template_name)
+      options = optionsFor(given->skeleton.template_name, figure);
+    document.setOptions(std::move(options));
+    document.setInput(std::move(input));
+    made.drawing = request["draft"].as<bool>() ? document.draft() : document.rigged();
+    const RiggedDrawing& drawing = *made.drawing;
     if (!drawing.found()) throw InputError(file, drawing.silhouette.reason);
     made.file.warnings = drawing.silhouette.warnings;
     if (given) {
@@ -233,7 +243,7 @@ val rig(const val& request) {
           if (std::find(made.file.warnings.begin(), made.file.warnings.end(), warning) ==
               made.file.warnings.end())
             made.file.warnings.push_back(warning);
-      if (!input.mask && !given->figure.sha256.empty() &&
+      if (!document.input().mask && !given->figure.sha256.empty() &&
           given->figure.sha256 != outlineHash(drawing.silhouette))
         made.file.warnings.push_back(
             "the figure is not outlined as it was when the joints were found: look at them");
@@ -255,17 +265,17 @@ val rig(const val& request) {
 
 // The .glb of the character at work.
 val glb() {
-  return arrayOf(encodeGlb(current.drawing.character, current.drawing.clips, {.name = current.stem}));
+  return arrayOf(encodeGlb(current.drawing->character, current.drawing->clips, {.name = current.stem}));
 }
 
 // Its texture, as PNG.
-val texture() { return arrayOf(encodePng(current.drawing.character.mesh.texture)); }
+val texture() { return arrayOf(encodePng(current.drawing->character.mesh.texture)); }
 
 // Its drawing and its mask, as PNG.
-val drawing() { return arrayOf(encodePng(current.drawing.image)); }
+val drawing() { return arrayOf(encodePng(current.drawing->image)); }
 val mask() {
   const Plane8& given = current.given_mask;
-  return arrayOf(encodePng(given.size() > 0 ? given : current.drawing.silhouette.mask));
+  return arrayOf(encodePng(given.size() > 0 ? given : current.drawing->silhouette.mask));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "libskel/jointnet/net_joints.h"
 #include "libskel/mesh/front_view.h"
 #include "libskel/pipeline/body_depth.h"
+#include "libskel/pipeline/rig_memory.h"
 #include "libskel/pipeline/worn_parts.h"
 #include "libskel/recognition/complete_skeleton.h"
 #include "libskel/recognition/paper_recognizer.h"
@@ -28,10 +29,10 @@
 namespace skel {
 namespace {
 
-// Runs the stages and notes how long each took.
-class Stopwatch {
+// Runs the stages and notes how long each took; with a memory, only those of which something has changed.
+class StageRunner {
  public:
-  explicit Stopwatch(std::vector<StageTime>& times) : times_(times) {}
+  StageRunner(std::vector<StageTime>& times, RigMemory* memory) : times_(times), memory_(memory) {}
 
   template <class Work>
   auto operator()(const char* stage, const Work& work) {
@@ -42,8 +43,24 @@ class Stopwatch {
     return result;
   }
 
+  // `of`: the changes of all that `work` looks at.
+  template <class T, class Work>
+  T operator()(const char* stage, Made<T> RigMemory::*kept, const std::vector<Change>& of, const Work& work) {
+    if (!memory_) return (*this)(stage, work);
+    Made<T>& made = memory_->*kept;
+    if (!made.isOf(of)) made.take((*this)(stage, work), of);
+    return made.value;
+  }
+
+  Change of(RigPart part) const { return memory_ ? memory_->changes.of(part) : 0; }
+  template <class T>
+  Change of(Made<T> RigMemory::*kept) const {
+    return memory_ ? (memory_->*kept).change : 0;
+  }
+
  private:
   std::vector<StageTime>& times_;
+  RigMemory* memory_;
 };
 
 // To the hundredth of a pixel that a skeleton file keeps, so that to go on from the file is to go on from
@@ -104,27 +121,25 @@ std::optional<std::string> betterBodyPlan(const Image& image, const Silhouette& 
 }
 
 // By the net of the body plan, or of the other one where the first leaves doubt and the other hardly any.
-// Fills drawing.body_plan, too.
-Recognition recognizeByNet(const RigOptions& options, RiggedDrawing& drawing) {
+FoundJoints recognizeByNet(const RigOptions& options, const Image& image, const Silhouette& silhouette) {
   constexpr double kSure = .8, kFits = .5;
   TreeRecognizerOptions recognizer;
   recognizer.try_orientations = !options.upright;
   const auto recognize = [&](const SkeletonTemplate& body_plan) {
-    return recognizeByTree(drawing.image, drawing.silhouette, body_plan, jointNetOf(options, body_plan),
-                           recognizer);
+    return recognizeByTree(image, silhouette, body_plan, jointNetOf(options, body_plan), recognizer);
   };
   Recognition found = recognize(options.body_plan);
   if (options.otherwise) {
-    if (found.likeness >= kSure) return found;
+    if (found.likeness >= kSure) return {std::move(found), options.body_plan};
     Recognition other = recognize(options.otherwise->body_plan);
-    if (other.likeness < kFits || other.likeness <= found.likeness) return found;
-    drawing.body_plan = options.otherwise->body_plan;
-    return other;
+    if (other.likeness < kFits || other.likeness <= found.likeness)
+      return {std::move(found), options.body_plan};
+    return {std::move(other), options.otherwise->body_plan};
   }
   if (found.likeness < kFits)
-    if (const auto better = betterBodyPlan(drawing.image, drawing.silhouette, options))
+    if (const auto better = betterBodyPlan(image, silhouette, options))
       found.warnings.push_back("it looks like a " + *better + ": try --template " + *better);
-  return found;
+  return {std::move(found), options.body_plan};
 }
 
 Image picture(const Plane8& mask) {
@@ -182,24 +197,29 @@ void putAnklesBelowKnees(Skeleton& skeleton, const SkeletonTemplate& body_plan) 
   }
 }
 
-// The clips that were asked for, as this figure can do them, and weights that they do not stretch far. Those
-// are the same whatever is asked for: the clips that come with skel decide.
-std::vector<Clip> fitClips(const std::vector<Clip>& asked, const RigOptions& options,
-                           const SkeletonTemplate& body_plan, bool bound, RiggedCharacter& character) {
+// The clips as this figure can do them.
+std::vector<Clip> clipsOf(const RiggedCharacter& character, const std::vector<Clip>& clips,
+                          const FigureShape& shape, const RigOptions& options) {
   RetargetOptions retarget;
   retarget.into_picture = options.into_picture;
-  const auto made = [&](const std::vector<Clip>& clips) {
-    retarget.shape = measureFigure(character.mesh, character.weights, character.skeleton);
-    std::vector<Clip> result;
-    for (const Clip& clip : clips) result.push_back(retargetToRest(clip, character.skeleton, retarget));
-    return result;
-  };
-  if (!bound) return made(asked);
-  const std::vector<Clip> own = clipsFor(builtinClips(), body_plan), trying = made(own);
+  retarget.shape = shape;
+  std::vector<Clip> result;
+  for (const Clip& clip : clips) result.push_back(retargetToRest(clip, character.skeleton, retarget));
+  return result;
+}
+
+// Weights that clips do not stretch far. Those are the same whatever is asked for: the clips that come with
+// skel decide.
+BoundSkin boundSkin(const RiggedCharacter& character, const SkeletonTemplate& body_plan,
+                    const RigOptions& options) {
+  BoundSkin skin{character.weights, {}, {}};
+  const FigureShape shape = measureFigure(character.mesh, character.weights, character.skeleton);
+  const std::vector<Clip> own = clipsFor(builtinClips(), body_plan);
+  std::vector<Clip> trying = clipsOf(character, own, shape, options);
   const StretchBound stretch =
-      boundStretch(character.mesh, character.skeleton, retarget.shape->joined, trying, character.weights);
-  if (asked == own && !stretch.held_arms) return trying;
-  return made(asked);
+      boundStretch(character.mesh, character.skeleton, shape.joined, trying, skin.weights);
+  if (!stretch.held_arms) skin.own = own, skin.own_fitted = std::move(trying);
+  return skin;
 }
 
 }  // namespace
@@ -210,110 +230,168 @@ const SkeletonTemplate& planNamed(std::string_view name, const RigOptions& optio
 }
 
 RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
+  return rigCharacter(std::move(input), options, nullptr, RigHow::kWhole);
+}
+
+RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory* memory, RigHow how) {
+  using M = RigMemory;
+  const bool draft = how == RigHow::kDraft;
   RiggedDrawing drawing;
   drawing.body_plan = options.body_plan;
-  Stopwatch timed(drawing.times);
+  StageRunner stage(drawing.times, memory);
 
   const bool inflated = !input.model;
   if (input.model) standUpright(*input.model);
   const bool own_view = input.image.empty();
   if (own_view) {
     SKEL_CHECK(input.model);
-    FrontView view = timed("front view", [&] { return frontSilhouette(*input.model); });
+    FrontView view = stage("front view", &M::front_view, {stage.of(RigPart::kModel)},
+                           [&] { return frontSilhouette(*input.model); });
     input.model->model_from_image = view.model_from_image;
     input.image = picture(view.mask);
     input.mask = std::move(view.mask);
   }
-  drawing.image = std::move(input.image);
+  const Change image_change = own_view ? stage.of(&M::front_view) : stage.of(RigPart::kImage);
+  const Change mask_change = own_view ? stage.of(&M::front_view) : stage.of(RigPart::kMask);
 
-  drawing.silhouette = timed("silhouette", [&] {
-    if (input.mask) return silhouetteFromMask(*input.mask, options.silhouette);
-    return input.figures ? input.figures->take(drawing.image, options.silhouette.figure)
-                         : extractSilhouette(drawing.image, options.silhouette);
-  });
+  drawing.silhouette =
+      stage("silhouette", &M::silhouette,
+            {input.mask ? 0 : image_change, mask_change, stage.of(RigPart::kSilhouetteOptions)}, [&] {
+              if (input.mask) return silhouetteFromMask(*input.mask, options.silhouette);
+              return input.figures ? input.figures->take(input.image, options.silhouette.figure)
+                                   : extractSilhouette(input.image, options.silhouette);
+            });
+  drawing.image = std::move(input.image);
   if (!drawing.found()) return drawing;
   if (const auto doubt = silhouetteDoubt(drawing.silhouette, builtInSilhouetteConfidence()))
     drawing.silhouette.warnings.push_back(*doubt + ": look at the mask (skel-label FILE)");
   const Silhouette& silhouette = drawing.silhouette;
   if (needsPaper(drawing.image, silhouette.mask)) drawing.image = laidOnPaper(std::move(drawing.image));
+  // Of the figure as it is drawn: picture and silhouette.
+  const auto figureAnd = [&](std::vector<Change> others) {
+    others.push_back(image_change), others.push_back(stage.of(&M::silhouette));
+    return others;
+  };
 
-  drawing.candidates = timed("candidates", [&] { return extractCandidates(silhouette, options.candidates); });
-  drawing.features = timed("features", [&] { return features(drawing.candidates); });
-  drawing.classes = timed("classes", [&] { return classify(options.mlp, drawing.features); });
+  drawing.candidates =
+      stage("candidates", &M::candidates, {stage.of(&M::silhouette), stage.of(RigPart::kCandidateOptions)},
+            [&] { return extractCandidates(silhouette, options.candidates); });
+  drawing.features = stage("features", [&] { return features(drawing.candidates); });
+  drawing.classes = stage("classes", [&] { return classify(options.mlp, drawing.features); });
 
-  drawing.recognition = timed("recognition", [&] {
-    Recognition found;
-    if (input.skeleton) {
-      drawing.body_plan = planNamed(input.skeleton->template_name, options);
-      found.skeleton = *input.skeleton;
-      found.likeness = 1;  // as whoever hands it in says
-      found.turned_deg = input.turned_deg;
-    } else if (options.recognizer == Recognizer::kPaper) {
-      found = recognizeByRules(silhouette, drawing.candidates, drawing.classes, options.body_plan);
-    } else {
-      found = recognizeByNet(options, drawing);
-    }
-    if (!input.placed.empty()) placeJoints(input, drawing.body_plan, silhouette, found);
-    return found;
-  });
-  roundToFile(drawing.recognition.skeleton);
-
+  FoundJoints joints;
+  if (input.skeleton) {
+    joints.body_plan = planNamed(input.skeleton->template_name, options);
+    joints.recognition.skeleton = *input.skeleton;
+    joints.recognition.likeness = 1;  // as whoever hands it in says
+    joints.recognition.turned_deg = input.turned_deg;
+  } else {
+    joints = stage("recognition", &M::recognized,
+                   figureAnd({stage.of(RigPart::kRecognitionOptions), stage.of(&M::candidates)}), [&] {
+                     if (options.recognizer == Recognizer::kPaper)
+                       return FoundJoints{recognizeByRules(silhouette, drawing.candidates, drawing.classes,
+                                                           options.body_plan),
+                                          options.body_plan};
+                     return recognizeByNet(options, drawing.image, silhouette);
+                   });
+  }
+  drawing.body_plan = std::move(joints.body_plan);
+  drawing.recognition = std::move(joints.recognition);
   const SkeletonTemplate& body_plan = drawing.body_plan;
+  if (!input.placed.empty()) placeJoints(input, body_plan, silhouette, drawing.recognition);
+  roundToFile(drawing.recognition.skeleton);
+  // Of the joints in the picture, and so of whatever they depend on.
+  const auto jointsAnd = [&](std::vector<Change> others) {
+    others.insert(others.end(), {input.skeleton ? 0 : stage.of(&M::recognized), stage.of(RigPart::kSkeleton),
+                                 stage.of(RigPart::kRecognitionOptions)});
+    return figureAnd(std::move(others));
+  };
+
   const std::vector<Clip>& asked_clips =
       body_plan.name == options.body_plan.name ? options.clips : options.otherwise->clips;
   const Skeleton& skeleton = drawing.recognition.skeleton;
   std::vector<FigurePiece> pieces;
   if (inflated && options.layers) {
-    drawing.layers = timed("layers", [&] {
+    const auto find = [&] {
       LayerMap found = findLayers(drawing.image, silhouette, skeleton, body_plan,
                                   options.part_net ? *options.part_net : builtInPartNet());
       // Only the net's confidence tells a guess.
       if (options.recognizer == Recognizer::kPaper) found.hidden.clear();
-      if (!input.layers) return found;
+      return found;
+    };
+    drawing.layers = draft ? memory->layers.value
+                           : stage("layers", &M::layers, jointsAnd({stage.of(RigPart::kLayerOptions)}), find);
+    if (input.layers) {
       LayerMap given = layersOfPicture(input.layers->image, silhouette, body_plan, input.layers->file);
-      for (const int limb : found.hidden)
+      for (const int limb : drawing.layers.hidden)
         if (!(given.limb == limb).any()) given.hidden.push_back(limb);
-      given.far = std::move(found.far);
-      return given;
-    });
-    pieces = timed("pieces", [&] { return figurePieces(drawing.layers, silhouette, skeleton, body_plan); });
+      given.far = std::move(drawing.layers.far);
+      drawing.layers = std::move(given);
+    }
+    if (how == RigHow::kLayers) return drawing;
+    const auto cut = [&] { return figurePieces(drawing.layers, silhouette, skeleton, body_plan); };
+    pieces = draft ? memory->pieces.value
+                   : stage("pieces", &M::pieces,
+                           jointsAnd({stage.of(RigPart::kLayers), stage.of(&M::layers)}), cut);
   }
-  drawing.character.mesh = timed("mesh", [&] {
+  if (how == RigHow::kLayers) return drawing;
+  const std::vector<Change> mesh_of =
+      jointsAnd({stage.of(RigPart::kModel), stage.of(RigPart::kBack), stage.of(RigPart::kMeshOptions),
+                 stage.of(RigPart::kLayerOptions), stage.of(RigPart::kLayers)});
+  const auto makeMesh = [&] {
     if (!input.model)
       return inflate(drawing.image, silhouette, inflateOptions(input, drawing, options), pieces);
     if (!own_view) input.model->model_from_image = bindByBoundingBox(silhouette.mask, *input.model);
     return std::move(*input.model);
-  });
+  };
+  drawing.character.mesh = draft ? memory->mesh.value : stage("mesh", &M::mesh, mesh_of, makeMesh);
   std::vector<int> joint_layers;
   if (!pieces.empty() || !drawing.layers.hidden.empty())
     joint_layers = jointLayers(skeleton, body_plan, drawing.character.mesh, drawing.layers);
-  drawing.recognition.skeleton = timed("lift", [&] {
+  drawing.recognition.skeleton = stage("lift", [&] {
     Skeleton lifted = drawing.recognition.skeleton;
     liftToModel(lifted, drawing.character.mesh, joint_layers);
     if (inflated) putAnklesBelowKnees(lifted, body_plan);
     return lifted;
   });
   drawing.character.skeleton = drawing.recognition.skeleton;
-  drawing.character.weights = timed("skin", [&] {
-    SkinWeights weights = computeSkinWeights(drawing.character.mesh, drawing.character.skeleton,
-                                             options.skin_method, options.skin, joint_layers);
-    if (inflated)
-      carryWornParts(drawing.character.mesh, body_plan, drawing.layers, drawing.character.skeleton, weights);
-    return weights;
-  });
-  if (inflated) {
-    drawing.character = timed("depth", [&] {
-      RiggedCharacter parted = std::move(drawing.character);
-      const double yaw_rad = measureFigure(parted.mesh, parted.weights, parted.skeleton).yaw_rad;
-      partLimbsInDepth(parted.mesh, parted.skeleton, parted.weights, body_plan, yaw_rad, drawing.layers.far);
-      return parted;
-    });
-    drawing.recognition.skeleton = withoutHanging(drawing.character.skeleton);
-  }
+  const auto bind = [&] {
+    TriangleMesh& mesh = drawing.character.mesh;
+    Skinned skinned{{}, drawing.character.skeleton, {}};
+    skinned.weights =
+        computeSkinWeights(mesh, skinned.skeleton, options.skin_method, options.skin, joint_layers);
+    if (inflated) {
+      carryWornParts(mesh, body_plan, drawing.layers, skinned.skeleton, skinned.weights);
+      const double yaw_rad = measureFigure(mesh, skinned.weights, skinned.skeleton).yaw_rad;
+      partLimbsInDepth(mesh, skinned.skeleton, skinned.weights, body_plan, yaw_rad, drawing.layers.far);
+    }
+    skinned.vertices = mesh.vertices;
+    return skinned;
+  };
+  Skinned skinned =
+      draft ? stage("skin", bind)
+            : stage("skin", &M::skinned, {stage.of(&M::mesh), stage.of(RigPart::kSkinOptions)}, bind);
+  drawing.character.mesh.vertices = std::move(skinned.vertices);
+  drawing.character.skeleton = std::move(skinned.skeleton);
+  drawing.character.weights = std::move(skinned.weights);
+  if (inflated) drawing.recognition.skeleton = withoutHanging(drawing.character.skeleton);
   if (options.rest_pose != RestPose::kDrawn)
-    drawing.character = timed("rest pose", [&] { return poseToRest(drawing.character, options.rest_pose); });
-  drawing.clips =
-      timed("clips", [&] { return fitClips(asked_clips, options, body_plan, inflated, drawing.character); });
+    drawing.character = stage("rest pose", [&] { return poseToRest(drawing.character, options.rest_pose); });
+  std::vector<Clip> own, own_fitted;
+  if (inflated && !draft) {
+    BoundSkin bound =
+        stage("stretch", &M::bound,
+              {stage.of(&M::skinned), stage.of(RigPart::kRestPose), stage.of(RigPart::kRetargetOptions)},
+              [&] { return boundSkin(drawing.character, body_plan, options); });
+    drawing.character.weights = std::move(bound.weights);
+    own = std::move(bound.own), own_fitted = std::move(bound.own_fitted);
+  }
+  drawing.clips = stage("clips", [&] {
+    if (!own.empty() && asked_clips == own) return std::move(own_fitted);
+    const RiggedCharacter& character = drawing.character;
+    return clipsOf(character, asked_clips,
+                   measureFigure(character.mesh, character.weights, character.skeleton), options);
+  });
   return drawing;
 }
 

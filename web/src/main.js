@@ -120,7 +120,8 @@ const given = (skeleton) => ({
   skeleton: JSON.stringify({ ...skeleton, mask: null }), skeletonFile: `${stemOf(work.picture.name)}.skeleton.json`,
 });
 
-// While a joint is dragged, the newest place counts; those that came while the core was at work are left out.
+// While a joint is dragged, the newest place counts; those that came while the core was at work are left out. Drafts will
+// do until it rests.
 let wanted = null, running = false;
 async function follow() {
   if (running) return;
@@ -129,7 +130,7 @@ async function follow() {
     while (wanted) {
       const { skeleton, done } = wanted;
       wanted = null;
-      const found = await core.rig({ mask: work.mask, ...given(skeleton) });
+      const found = await core.rig({ mask: work.mask, draft: !done, ...given(skeleton) });
       work.skeleton = found.skeleton;
       if (wanted) continue;
       work.glb = await core.glb();
@@ -145,6 +146,11 @@ async function follow() {
   } catch (error) {
     wanted = null;
     drawing.showSkeleton(JSON.parse(work.skeleton)); // what cannot be is taken back
+    if (!error.fatal) { // and no draft stays
+      await core.rig({ mask: work.mask, ...given(JSON.parse(work.skeleton)) });
+      work.glb = await core.glb();
+      await model?.show(work.glb, true);
+    }
     await complain(error);
   } finally {
     running = false;

@@ -64,7 +64,7 @@ export class Skel {
   // What these calls return is that of the last rig().
   rig({ name, width, height, rgba }, request) {
     return checked(this.#core.rig({
-      mask: null, skeleton: null, skeletonFile: '', plan: '', figure: 1, ...request, file: name, width, height, rgba,
+      mask: null, skeleton: null, skeletonFile: '', plan: '', figure: 1, draft: false, ...request, file: name, width, height, rgba,
     }));
   }
   glb() { return this.#core.glb(); }

@@ -1,0 +1,35 @@
+// The label file of a drawing.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "labeler/drawing_list.h"
+#include "labeler/figure.h"
+#include "labeler/mask_document.h"
+#include "libskel/labels/label_file.h"
+
+namespace skel {
+
+class LabelDocument {
+ public:
+  LabelDocument() = default;
+  // Reads the file, if there is one. `image_sha256`: of the bytes of the image's file. Throws InputError.
+  LabelDocument(DrawingFiles files, std::string image_sha256);
+
+  const std::optional<LabelFile>& opened() const { return opened_; }
+  // Of the file that was opened, the labels of this figure's candidates and the joints. Says what is odd
+  // about them, or nothing; `said`: what has been said before.
+  std::string take(const Figure& figure, const SkeletonTemplate& body_plan, std::string said,
+                   DrawingState& state) const;
+  // Throws OutputError.
+  void write(const DrawingState& state, const Figure& figure, const Image& image,
+             const SkeletonTemplate& body_plan, MaskDocument& masks) const;
+
+ private:
+  DrawingFiles files_;
+  std::string image_sha256_;
+  std::optional<LabelFile> opened_;
+};
+
+}  // namespace skel

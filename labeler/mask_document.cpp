@@ -1,0 +1,56 @@
+#include "labeler/mask_document.h"
+
+#include <filesystem>
+
+#include "labeler/save_drawing.h"
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+
+namespace skel {
+
+namespace fs = std::filesystem;
+
+std::string MaskDocument::openOf(const LabelFile& labels, const Image& image) {
+  open(besideLabelFile(files_.labels, labels.mask->file), image);
+  if (saved_->sha256 == labels.mask->sha256) return {};
+  return labels.mask->file + " has changed since it was labelled: look through the labels";
+}
+
+std::string MaskDocument::openOf(const SkeletonDocument& skeleton, const Image& image) {
+  const std::string path = skeleton.maskPath();
+  auto mask = std::make_shared<MaskVersion>(*readMaskVersion(path, image));
+  std::string said;
+  if (mask->sha256 != skeleton.mask()->sha256)
+    said = path + " has changed since the skeleton was found: look through the joints";
+  std::error_code not_there;
+  // Label files speak of masks in their own folder only: with labels a mask from elsewhere is saved there.
+  const bool beside = fs::equivalent(path, this->path(*mask), not_there);
+  if (!beside) mask->file = fs::path(files_.mask).filename().string();
+  if (!beside && fs::exists(files_.mask) && readFile(files_.mask) != mask->png)
+    throw InputError(files_.mask, "is not the mask that " + skeleton.path() + " was made with, " + path +
+                                      "; take one of them away");
+  opened_ = mask;
+  if (beside || fs::exists(files_.mask)) saved_ = mask;
+  return said;
+}
+
+void MaskDocument::open(const std::string& path, const Image& image) {
+  opened_ = saved_ = readMaskVersion(path, image);
+}
+
+void MaskDocument::write(const std::shared_ptr<const MaskVersion>& mask, const LabelFile& labels) {
+  const bool mended = mask && mask != saved_ && mask->file == fs::path(files_.mask).filename().string();
+  if (mended) {
+    saveWithMask(files_.labels, labels, mask->png);
+    saved_ = mask;
+    return;
+  }
+  writeLabelFile(files_.labels, labels);
+  // A mask that was undone altogether; one that had been there before stays.
+  if (!mask && saved_ && besideLabelFile(files_.labels, saved_->file) == files_.mask && !keep_) {
+    removeFile(files_.mask);
+    saved_ = nullptr;
+  }
+}
+
+}  // namespace skel

@@ -1,0 +1,44 @@
+// What all windows are made of beside Dear ImGui's own.
+#pragma once
+
+#include <imgui.h>
+
+#include "libskel/window/keys.h"
+
+namespace skel {
+
+// In this frame; `repeat`: also while it is held down.
+inline bool pressed(key::Code code, bool repeat = false) { return ImGui::IsKeyPressed(code, repeat); }
+
+// Of the last item, under the mouse.
+inline void tip(const char* text) {
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
+}
+
+template <class Action>
+void enabledButton(const char* label, const ImVec2& size, bool enabled, const Action& action,
+                   const char* hint) {
+  ImGui::BeginDisabled(!enabled);
+  if (ImGui::Button(label, size)) action();
+  ImGui::EndDisabled();
+  tip(hint);
+}
+
+// A line of the help.
+struct KeyHelp {
+  const char *keys, *what;
+};
+
+// Their names in the window's colour, in a table that was begun with two columns.
+template <class Lines, class Text>
+void keyHelpRows(const Lines& lines, const Text& text) {
+  for (const KeyHelp& line : lines) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextColored({0.17f, 0.36f, 0.71f, 1}, "%s", line.keys);
+    ImGui::TableNextColumn();
+    text(line.what);
+  }
+}
+
+}  // namespace skel
