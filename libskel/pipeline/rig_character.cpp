@@ -230,12 +230,12 @@ const SkeletonTemplate& planNamed(std::string_view name, const RigOptions& optio
 }
 
 RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
-  return rigCharacter(std::move(input), options, nullptr, RigHow::kWhole);
+  return rigCharacter(std::move(input), options, nullptr, options.last, false);
 }
 
-RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory* memory, RigHow how) {
+RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory* memory, LastStage last,
+                           bool draft) {
   using M = RigMemory;
-  const bool draft = how == RigHow::kDraft;
   RiggedDrawing drawing;
   drawing.body_plan = options.body_plan;
   StageRunner stage(drawing.times, memory);
@@ -273,11 +273,14 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory*
     return others;
   };
 
+  if (last == LastStage::kSilhouette) return drawing;
+
   drawing.candidates =
       stage("candidates", &M::candidates, {stage.of(&M::silhouette), stage.of(RigPart::kCandidateOptions)},
             [&] { return extractCandidates(silhouette, options.candidates); });
   drawing.features = stage("features", [&] { return features(drawing.candidates); });
   drawing.classes = stage("classes", [&] { return classify(options.mlp, drawing.features); });
+  if (last == LastStage::kClasses) return drawing;
 
   FoundJoints joints;
   if (input.skeleton) {
@@ -300,6 +303,8 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory*
   const SkeletonTemplate& body_plan = drawing.body_plan;
   if (!input.placed.empty()) placeJoints(input, body_plan, silhouette, drawing.recognition);
   roundToFile(drawing.recognition.skeleton);
+  drawing.character.skeleton = drawing.recognition.skeleton;
+  if (last == LastStage::kJoints) return drawing;
   // Of the joints in the picture, and so of whatever they depend on.
   const auto jointsAnd = [&](std::vector<Change> others) {
     others.insert(others.end(), {input.skeleton ? 0 : stage.of(&M::recognized), stage.of(RigPart::kSkeleton),
@@ -328,13 +333,13 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory*
       given.far = std::move(drawing.layers.far);
       drawing.layers = std::move(given);
     }
-    if (how == RigHow::kLayers) return drawing;
+    if (last == LastStage::kLayers) return drawing;
     const auto cut = [&] { return figurePieces(drawing.layers, silhouette, skeleton, body_plan); };
     pieces = draft ? memory->pieces.value
                    : stage("pieces", &M::pieces,
                            jointsAnd({stage.of(RigPart::kLayers), stage.of(&M::layers)}), cut);
   }
-  if (how == RigHow::kLayers) return drawing;
+  if (last == LastStage::kLayers) return drawing;
   const std::vector<Change> mesh_of =
       jointsAnd({stage.of(RigPart::kModel), stage.of(RigPart::kBack), stage.of(RigPart::kMeshOptions),
                  stage.of(RigPart::kLayerOptions), stage.of(RigPart::kLayers)});
@@ -377,6 +382,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory*
   if (inflated) drawing.recognition.skeleton = withoutHanging(drawing.character.skeleton);
   if (options.rest_pose != RestPose::kDrawn)
     drawing.character = stage("rest pose", [&] { return poseToRest(drawing.character, options.rest_pose); });
+  if (last == LastStage::kModel) return drawing;
   std::vector<Clip> own, own_fitted;
   if (inflated && !draft) {
     BoundSkin bound =
@@ -388,6 +394,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory*
   }
   drawing.clips = stage("clips", [&] {
     if (!own.empty() && asked_clips == own) return std::move(own_fitted);
+    if (asked_clips.empty()) return std::vector<Clip>();
     const RiggedCharacter& character = drawing.character;
     return clipsOf(character, asked_clips,
                    measureFigure(character.mesh, character.weights, character.skeleton), options);

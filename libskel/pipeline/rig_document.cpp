@@ -1,5 +1,6 @@
 #include "libskel/pipeline/rig_document.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "libskel/core/check.h"
@@ -88,20 +89,24 @@ void RigDocument::moveJoint(const std::string& name, const Eigen::Vector2d& imag
 std::shared_ptr<const RiggedDrawing> RigDocument::rigged() {
   if (rigged_) return rigged_;
   joints_alone_ = false;
-  rigged_ = std::make_shared<RiggedDrawing>(rigCharacter(input_, options_, memory_.get(), RigHow::kWhole));
+  rigged_ =
+      std::make_shared<RiggedDrawing>(rigCharacter(input_, options_, memory_.get(), options_.last, false));
   drawn_plan_ = rigged_->found() ? rigged_->recognition.skeleton.template_name : "";
   return rigged_;
 }
 
 std::shared_ptr<const RiggedDrawing> RigDocument::draft() {
-  if (!joints_alone_ || !input_.skeleton || input_.skeleton->template_name != drawn_plan_) return rigged();
-  return std::make_shared<RiggedDrawing>(rigCharacter(input_, options_, memory_.get(), RigHow::kDraft));
+  if (!joints_alone_ || !input_.skeleton || options_.last < LastStage::kModel ||
+      input_.skeleton->template_name != drawn_plan_)
+    return rigged();
+  return std::make_shared<RiggedDrawing>(rigCharacter(input_, options_, memory_.get(), options_.last, true));
 }
 
 LayerMap RigDocument::layers() {
   if (rigged_) return rigged_->layers;
   joints_alone_ = false;  // what is kept is no longer of one figure
-  return rigCharacter(input_, options_, memory_.get(), RigHow::kLayers).layers;
+  return rigCharacter(input_, options_, memory_.get(), std::min(options_.last, LastStage::kLayers), false)
+      .layers;
 }
 
 }  // namespace skel

@@ -93,15 +93,11 @@ struct RigMemory {
   Made<BoundSkin> bound;
 };
 
-enum class RigHow {
-  kWhole,
-  kLayers,  // and no further
-  kDraft,   // layers and mesh are those in the memory; skin may be stretched
-};
-
 // rigCharacter() that makes only what is not in the memory, where `memory` is one. Its changes are those of
-// `input` and `options`; RiggedDrawing::times has the stages that ran. A draft needs a memory of one that was
-// whole, and leaves nothing there.
-RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory* memory, RigHow how);
+// `input` and `options`; RiggedDrawing::times has the stages that ran. Goes as far as `last`, not
+// options.last. Of a draft layers and mesh are those in the memory, which is of one that went to the end, and
+// skin may be stretched; it leaves nothing there.
+RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory* memory, LastStage last,
+                           bool draft);
 
 }  // namespace skel

@@ -91,9 +91,9 @@ bool same(const Skeleton& a, const Skeleton& b) {
 }
 
 std::vector<RigPart> changes(const RigOptions& from, const RigOptions& to) {
-  const auto& [silhouette, candidates, mlp, body_plan, otherwise, recognizer, upright, joint_nets, joint_net,
-               layers, part_net, inflate, back, height_m, skin_method, skin, rest_pose, clips, into_picture] =
-      from;
+  const auto& [last, silhouette, candidates, mlp, body_plan, otherwise, recognizer, upright, joint_nets,
+               joint_net, layers, part_net, inflate, back, height_m, skin_method, skin, rest_pose, clips,
+               into_picture] = from;
   const bool other_plan = otherwise.has_value() != to.otherwise.has_value() ||
                           (otherwise && !samePlan(otherwise->body_plan, to.otherwise->body_plan));
   const bool other_clips =
@@ -114,7 +114,7 @@ std::vector<RigPart> changes(const RigOptions& from, const RigOptions& to) {
   note(RigPart::kSkinOptions, skin_method != to.skin_method || members(skin) != members(to.skin));
   note(RigPart::kRestPose, rest_pose != to.rest_pose);
   note(RigPart::kRetargetOptions, into_picture != to.into_picture);
-  note(RigPart::kClips, other_clips);
+  note(RigPart::kClips, other_clips || last != to.last);
   return parts;
 }
 
