@@ -171,39 +171,72 @@ void findInk(Sketch& picture) {
   picture.ink = ((closed - grey) > kInkContrast * picture.range) & picture.mask;
 }
 
+// What probabilities say of each px.
+struct Said {
+  static constexpr std::uint16_t kSure = 1 << 15;
+  static_assert(kPartCount < 15);
+  cv::Mat best;   // CV_8U: the most probable part
+  cv::Mat parts;  // CV_16U, bits: those that are possible here; kSure: the best is certain
+};
+
+// Of the planes' size, then of that one.
+Said whatIsSaid(const std::vector<cv::Mat>& probabilities, const cv::Size& size) {
+  const auto there = std::find_if(probabilities.begin(), probabilities.end(),
+                                  [](const cv::Mat& plane) { return !plane.empty(); });
+  const cv::Size said_size = there == probabilities.end() ? size : there->size();
+  Said said{cv::Mat(said_size, CV_8U, cv::Scalar(0)), cv::Mat(said_size, CV_16U, cv::Scalar(0))};
+  for (int y = 0; y < said_size.height; ++y) {
+    std::array<const float*, kPartCount> rows{};
+    for (std::size_t k = 0; k < kPartCount; ++k)
+      if (!probabilities[k].empty()) rows[k] = probabilities[k].ptr<float>(y);
+    auto* best = said.best.ptr<std::uint8_t>(y);
+    auto* parts = said.parts.ptr<std::uint16_t>(y);
+    for (int x = 0; x < said_size.width; ++x) {
+      float most = -1;
+      for (std::size_t k = 0; k < kPartCount; ++k) {
+        if (rows[k] == nullptr) continue;
+        const float p = rows[k][x];
+        if (p > most) most = p, best[x] = static_cast<std::uint8_t>(k);
+        if (p >= kPossible) parts[x] = static_cast<std::uint16_t>(parts[x] | 1 << k);
+      }
+      if (most >= kCertain) parts[x] |= Said::kSure;
+    }
+  }
+  cv::resize(said.best, said.best, size, 0, 0, cv::INTER_NEAREST);
+  cv::resize(said.parts, said.parts, size, 0, 0, cv::INTER_NEAREST);
+  return said;
+}
+
 // Borders move onto the drawing's edges where the net is not certain: parts flood what lies between them,
 // flat colours first (F. Meyer, "Color image segmentation", 1992).
 void snap(const std::vector<cv::Mat>& probabilities, Sketch& picture) {
   const cv::Size size = picture.rgb.size();
-  cv::Mat best(size, CV_8U, cv::Scalar(0)), most(size, CV_32F, cv::Scalar(-1));
-  for (int k = 0; k < kPartCount; ++k) {
-    const cv::Mat& plane = probabilities[static_cast<std::size_t>(k)];
-    if (plane.empty()) continue;
-    const cv::Mat higher = plane > most;
-    plane.copyTo(most, higher);
-    best.setTo(k, higher);
-  }
+  const Said said = whatIsSaid(probabilities, size);
   cv::Mat markers(size, CV_32S);
   for (int y = 0; y < size.height; ++y) {
     const auto* inside = picture.mask.ptr<std::uint8_t>(y);
-    const auto* part = best.ptr<std::uint8_t>(y);
-    const auto* p = most.ptr<float>(y);
+    const auto* best = said.best.ptr<std::uint8_t>(y);
+    const auto* parts = said.parts.ptr<std::uint16_t>(y);
     auto* marker = markers.ptr<int>(y);
     for (int x = 0; x < size.width; ++x)
-      marker[x] = inside[x] == 0 ? kPartCount + 1 : p[x] >= kCertain ? part[x] + 1 : 0;
+      marker[x] = inside[x] == 0 ? kPartCount + 1 : (parts[x] & Said::kSure) != 0 ? best[x] + 1 : 0;
   }
   cv::Mat smooth;
   cv::GaussianBlur(picture.rgb, smooth, cv::Size(3, 3), 0);
   cv::watershed(smooth, markers);
   picture.part = cv::Mat(size, CV_8U, cv::Scalar(0));
-  for (int y = 0; y < size.height; ++y)
+  for (int y = 0; y < size.height; ++y) {
+    const auto* best = said.best.ptr<std::uint8_t>(y);
+    const auto* parts = said.parts.ptr<std::uint16_t>(y);
+    const auto* marker = markers.ptr<int>(y);
+    auto* out = picture.part.ptr<std::uint8_t>(y);
     for (int x = 0; x < size.width; ++x) {
-      const int part = markers.at<int>(y, x) - 1, guess = best.at<std::uint8_t>(y, x);
+      const int part = marker[x] - 1;
       // Not along a line to where the net sees nothing of it.
-      const bool possible = part >= 0 && part < kPartCount &&
-                            probabilities[static_cast<std::size_t>(part)].at<float>(y, x) >= kPossible;
-      picture.part.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(possible ? part : guess);
+      const bool possible = part >= 0 && part < kPartCount && (parts[x] >> part & 1) != 0;
+      out[x] = possible ? static_cast<std::uint8_t>(part) : best[x];
     }
+  }
 }
 
 // The part takes the lines of `from` that it is drawn with.

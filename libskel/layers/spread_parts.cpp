@@ -7,10 +7,12 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <span>
 
 namespace skel {
 namespace {
@@ -19,6 +21,11 @@ constexpr int kSpreadSize = 240;       // px, the long side of the figure
 constexpr double kSpreadReach = .06;   // of the long side: how far a walker comes on flat ground
 constexpr double kOpenContrast = .02;  // of the range of colours: what lets 1/e of the walkers through
 constexpr double kLeastOpen = 1e-4;    // so many pass any line
+constexpr int kTogether = 8;           // parts that are solved for in one pass over the factor
+
+using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+// Of one px, a number for each of some parts.
+using Shares = Eigen::Array<double, kTogether, 1>;
 
 // How many walkers each px lets through, 1 where it is flat.
 cv::Mat openness(const cv::Mat& rgb, const cv::Mat& mask, double range, const cv::Size& size) {
@@ -31,11 +38,31 @@ cv::Mat openness(const cv::Mat& rgb, const cv::Mat& mask, double range, const cv
   cv::split(high - low, channels);
   change = cv::max(channels[0], cv::max(channels[1], channels[2]));
   cv::resize(change, change, size, 0, 0, cv::INTER_NEAREST);
+  std::array<double, 256> through;
+  for (int c = 0; c < 256; ++c) through[c] = std::max(kLeastOpen, std::exp(-c / (kOpenContrast * range)));
   for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x)
-      open.at<double>(y, x) =
-          std::max(kLeastOpen, std::exp(-change.at<std::uint8_t>(y, x) / (kOpenContrast * range)));
+    for (int x = 0; x < size.width; ++x) open.at<double>(y, x) = through[change.at<std::uint8_t>(y, x)];
   return open;
+}
+
+// From what is said of each px to how it spreads, both in the factor's order: Eigen's own solve() passes over
+// the factor once a part.
+void solve(const Factor& factor, std::vector<Shares>& shares) {
+  const Eigen::SparseMatrix<double>& lower =
+      factor.matrixL().nestedExpression();  // 1 on the diagonal, unsaid
+  const auto diagonal = factor.vectorD();
+  const int count = static_cast<int>(shares.size());
+  const int *first = lower.outerIndexPtr(), *row = lower.innerIndexPtr();
+  const double* value = lower.valuePtr();
+  for (int j = 0; j < count; ++j) {
+    const Shares own = shares[static_cast<std::size_t>(j)];
+    for (int k = first[j]; k < first[j + 1]; ++k) shares[static_cast<std::size_t>(row[k])] -= value[k] * own;
+  }
+  for (int j = count - 1; j >= 0; --j) {
+    Shares own = shares[static_cast<std::size_t>(j)] / diagonal[j];
+    for (int k = first[j]; k < first[j + 1]; ++k) own -= value[k] * shares[static_cast<std::size_t>(row[k])];
+    shares[static_cast<std::size_t>(j)] = own;
+  }
 }
 
 }  // namespace
@@ -53,12 +80,8 @@ void spreadParts(const cv::Mat& rgb, const cv::Mat& mask, double range, std::vec
         number.at<int>(y, x) = static_cast<int>(pixels.size());
         pixels.emplace_back(x, y);
       }
-  const auto count = static_cast<Eigen::Index>(pixels.size());
-  if (count == 0) {
-    for (cv::Mat& plane : probabilities) plane = cv::Scalar(0);
-    return;
-  }
 
+  const auto count = static_cast<Eigen::Index>(pixels.size());
   const double reach = kSpreadReach * std::max(size.width, size.height), stops = 1 / (reach * reach);
   Eigen::VectorXd own(count), sum(count);
   std::vector<Eigen::Triplet<double>> entries;
@@ -77,21 +100,34 @@ void spreadParts(const cv::Mat& rgb, const cv::Mat& mask, double range, std::vec
   for (Eigen::Index i = 0; i < count; ++i) entries.emplace_back(i, i, sum[i]);
   Eigen::SparseMatrix<double> matrix(count, count);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+  Factor factor;
+  if (count > 0) factor.compute(matrix);
+  const auto placeOf = [&](std::size_t i) {  // in the factor's order
+    return static_cast<std::size_t>(factor.permutationP().indices()[static_cast<Eigen::Index>(i)]);
+  };
 
-  for (cv::Mat& plane : probabilities) {
-    if (plane.empty()) continue;
-    cv::Mat small;
-    cv::resize(plane, small, size, 0, 0, cv::INTER_AREA);
-    Eigen::VectorXd said(count);
-    for (Eigen::Index i = 0; i < count; ++i)
-      said[i] = own[i] * static_cast<double>(small.at<float>(pixels[static_cast<std::size_t>(i)]));
-    const Eigen::VectorXd spread = solver.solve(said);
-    small = cv::Scalar(0);
-    for (Eigen::Index i = 0; i < count; ++i)
-      small.at<float>(pixels[static_cast<std::size_t>(i)]) = static_cast<float>(spread[i]);
-    cv::resize(small, plane, rgb.size(), 0, 0, cv::INTER_NEAREST);
-    plane.setTo(0, mask == 0);
+  std::vector<cv::Mat*> there;
+  for (cv::Mat& plane : probabilities)
+    if (!plane.empty()) there.push_back(&plane);
+  std::vector<Shares> shares(pixels.size());
+  for (std::size_t first = 0; first < there.size(); first += kTogether) {
+    const std::span<cv::Mat*> some(there.begin() + static_cast<std::ptrdiff_t>(first),
+                                   std::min<std::size_t>(kTogether, there.size() - first));
+    for (Shares& of_pixel : shares) of_pixel.setZero();
+    for (std::size_t k = 0; k < some.size(); ++k) {
+      cv::Mat small;
+      cv::resize(*some[k], small, size, 0, 0, cv::INTER_AREA);
+      for (std::size_t i = 0; i < pixels.size(); ++i)
+        shares[placeOf(i)][static_cast<Eigen::Index>(k)] =
+            own[static_cast<Eigen::Index>(i)] * static_cast<double>(small.at<float>(pixels[i]));
+      *some[k] = small;
+    }
+    if (count > 0) solve(factor, shares);
+    for (std::size_t k = 0; k < some.size(); ++k) {
+      some[k]->setTo(0);
+      for (std::size_t i = 0; i < pixels.size(); ++i)
+        some[k]->at<float>(pixels[i]) = static_cast<float>(shares[placeOf(i)][static_cast<Eigen::Index>(k)]);
+    }
   }
 }
 
