@@ -110,7 +110,8 @@ void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
 ExitCode runEvaluate(const EvaluateOptions& options) {
   if (options.infer.body_plan == "auto")
     throw UsageError("joints are measured against those of one body plan: name it by --template");
-  const RigOptions rig = rigOptions(options.infer);
+  RigOptions rig = rigOptions(options.infer);
+  rig.last = LastStage::kJoints;
   noteUnusedWeights(options.infer);
   if (!options.overlays.empty()) ensureWritableFolder(options.overlays);
   const std::vector<std::string> ids = findDrawings(options.dir);

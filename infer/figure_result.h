@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct FigureResult {
   int number = 1;         // in the drawing
   std::string mend_file;  // what skel-label opens
   std::vector<WrittenFile> outputs;
-  double confidence = 0;
+  std::optional<double> confidence;  // in the joints, if any were looked for
   std::string body_plan;
   std::vector<std::string> missing;  // joints that were not found
   Verdict verdict = Verdict::kFine;

@@ -48,13 +48,15 @@ using Suffixes = std::vector<std::string>;
 
 struct Format {
   std::string_view name;
+  LastStage needs;
   std::function<Suffixes(const std::string& stem, const std::vector<Clip>& clips)> suffixes;
   std::function<std::vector<OutputFile>(const Request&)> make;
 };
 
 // A format of one file.
-Format single(std::string_view name, const std::string& suffix, std::string (*make)(const Request&)) {
-  return {name, [=](const std::string&, const std::vector<Clip>&) { return Suffixes{suffix}; },
+Format single(std::string_view name, LastStage needs, const std::string& suffix,
+              std::string (*make)(const Request&)) {
+  return {name, needs, [=](const std::string&, const std::vector<Clip>&) { return Suffixes{suffix}; },
           [=](const Request& r) {
             return std::vector<OutputFile>{{r.path(suffix), make(r)}};
           }};
@@ -89,18 +91,24 @@ std::string makeFeatures(const Request& r) {
 
 std::string makeOverlay(const Request& r) {
   Image picture = r.drawing.image;
-  drawSkeleton(picture, r.drawing.character.skeleton);
+  drawSkeleton(picture, r.drawing.recognition.skeleton);
   return encodePng(picture);
+}
+
+// Of the library's formats.
+LastStage stageOfExport(std::string_view name) {
+  return name == "char_cfg" ? LastStage::kJoints : name == "obj" ? LastStage::kModel : LastStage::kClips;
 }
 
 // The pictures and lists of this tool, then what the library exports of a character.
 std::vector<Format> makeFormats() {
-  std::vector<Format> all = {
-      single("json", ".skeleton.json", makeSkeletonJson), single("overlay", ".overlay.png", makeOverlay),
-      single("silhouette", ".silhouette.png", makeSilhouette), single("layers", ".layers.png", makeLayers),
-      single("features", ".features.csv", makeFeatures)};
+  std::vector<Format> all = {single("json", LastStage::kModel, ".skeleton.json", makeSkeletonJson),
+                             single("overlay", LastStage::kJoints, ".overlay.png", makeOverlay),
+                             single("silhouette", LastStage::kSilhouette, ".silhouette.png", makeSilhouette),
+                             single("layers", LastStage::kLayers, ".layers.png", makeLayers),
+                             single("features", LastStage::kClasses, ".features.csv", makeFeatures)};
   for (const ExportFormat& format : exportFormats())
-    all.push_back({format.name, format.suffixes, [&format](const Request& r) {
+    all.push_back({format.name, stageOfExport(format.name), format.suffixes, [&format](const Request& r) {
                      std::vector<OutputFile> files;
                      const ExportOptions options = exportOptions(nameOf(r.stem), r.options.joints);
                      for (ExportedFile& file : format.encode({r.drawing.character, r.drawing.clips, options,
@@ -135,6 +143,14 @@ std::vector<std::string> allFormats() {
 }
 
 std::string formatNames() { return joined(allFormats()); }
+
+LastStage lastStageFor(const InferOptions& options) {
+  if (!options.trace_dir.empty() || !options.report_file.empty()) return LastStage::kClips;
+  // What is kept of a drawing tells how sure its joints are.
+  LastStage last = tellsHashes(options) ? LastStage::kJoints : LastStage::kSilhouette;
+  for (const std::string& name : options.formats) last = std::max(last, formatNamed(name).needs);
+  return last;
+}
 
 void noteOutputs(const InferOptions& options, const std::string& stem, const std::vector<Clip>& clips) {
   for (const std::string& name : options.formats)

@@ -15,6 +15,9 @@ std::vector<std::string> allFormats();
 // All of them, for --help.
 std::string formatNames();
 
+// How far a drawing has to be rigged for what is asked for.
+LastStage lastStageFor(const InferOptions& options);
+
 // Notes these files (input_guard.h) for a character that gets `clips`. Throws UsageError: one is an input, a
 // format cannot name files by this stem.
 void noteOutputs(const InferOptions& options, const std::string& stem, const std::vector<Clip>& clips);

@@ -92,10 +92,11 @@ std::string cardHtml(const Card& card, std::size_t number) {
       "<article id=\"d" + std::to_string(number) + "\"><h2>" + card.name + "</h2>" + verdictChip(card);
   if (!card.figure) return html + "<p class=\"advice\">" + escaped(card.problem) + "</p></article>\n";
   const FigureResult& figure = *card.figure;
+  const double sure = figure.confidence.value_or(0);
   html += "<div class=\"pair\"><img class=\"drawing\" alt=\"" + card.name + ", as drawn\" src=\"" +
           figure.pictures.drawing + "\">" + film(card) + "</div>";
-  html += "<p class=\"sure\"><span><i style=\"width:" + percent(figure.confidence) + "\"></i></span>" +
-          percent(figure.confidence) + " sure of the joints</p>";
+  html += "<p class=\"sure\"><span><i style=\"width:" + percent(sure) + "\"></i></span>" + percent(sure) +
+          " sure of the joints</p>";
   for (const std::string& sentence : figure.advice)
     html += "<p class=\"advice\">" + escaped(sentence) + "</p>";
   return html + "</article>\n";

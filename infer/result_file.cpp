@@ -42,7 +42,7 @@ Json figureJson(const FigureResult& figure, const std::string& beside) {
   for (const StageTime& time : figure.times) times[time.stage] = time.time_s * 1e3;
   return {{"number", figure.number},
           {"template", figure.body_plan},
-          {"confidence", figure.confidence},
+          {"confidence", figure.confidence.value_or(0)},
           {"missing", figure.missing},
           {"verdict", kVerdictNames.at(figure.verdict)},
           {"warnings", figure.reasons},

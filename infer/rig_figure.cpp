@@ -82,10 +82,13 @@ std::vector<std::string> warningsOf(const SkeletonFile& given, const RiggedDrawi
   return warnings;
 }
 
-Verdict verdictOf(const RiggedDrawing& drawing, const SkeletonFile& file) {
+bool looksForJoints(const RigOptions& rig) { return rig.last >= LastStage::kJoints; }
+
+Verdict verdictOf(const RigOptions& rig, const RiggedDrawing& drawing, const SkeletonFile& file) {
   constexpr double kRecognized = .5;
   const Silhouette& silhouette = drawing.silhouette;
-  const bool guessed = drawing.recognition.likeness < kRecognized && !wasEdited(file.skeleton);
+  const bool guessed =
+      looksForJoints(rig) && drawing.recognition.likeness < kRecognized && !wasEdited(file.skeleton);
   if (guessed || silhouette.is_sheet || !silhouette.cut_sides.empty()) return Verdict::kRetake;
   return file.warnings.empty() ? Verdict::kFine : Verdict::kLookAt;
 }
@@ -94,8 +97,9 @@ Verdict verdictOf(const RiggedDrawing& drawing, const SkeletonFile& file) {
 std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, const RiggedDrawing& drawing) {
   std::vector<Note> notes;
   for (const std::string& name : options.clips)
-    if (name != "none" && std::none_of(drawing.clips.begin(), drawing.clips.end(),
-                                       [&](const Clip& clip) { return clip.name == name; }))
+    if (name != "none" && rig.last == LastStage::kClips &&
+        std::none_of(drawing.clips.begin(), drawing.clips.end(),
+                     [&](const Clip& clip) { return clip.name == name; }))
       notes.push_back({"there is no clip \"" + name + "\" for a " + drawing.body_plan.name + ": left out"});
   if (options.model_file.empty() && rig.layers)
     for (Note& note : limbNotes(drawing, drawing.clips)) notes.push_back(std::move(note));
@@ -169,6 +173,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   RigOptions figure_rig = forBodyPlan(rig, placed.body_plan);
   figure_rig.silhouette.figure = std::max(figure, 1);
   figure_rig.silhouette.all = options.figure == "all";
+  if (given || !placed.joints.empty()) figure_rig.last = std::max(figure_rig.last, LastStage::kJoints);
   RiggedDrawing drawing = rigCharacter(std::move(input), figure_rig);
   if (!drawing.found()) throw InputError(mask.empty() ? job.source : mask, drawing.silhouette.reason);
   std::vector<std::string> warnings;
@@ -213,10 +218,10 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
 
   result.number = figure;
   result.mend_file = fileToMend(options, job, figure);
-  result.confidence = file.confidence;
+  if (looksForJoints(figure_rig)) result.confidence = file.confidence;
   result.body_plan = drawing.body_plan.name;
   result.missing = file.missing;
-  result.verdict = verdictOf(drawing, file);
+  result.verdict = verdictOf(figure_rig, drawing, file);
   result.reasons = file.warnings;
   result.notes = notesOf(options, rig, drawing);
   if (const auto note = mendedNote(mended, options, placed)) result.notes.push_back(*note);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "infer/outputs.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/classifier/weights_file.h"
 #include "libskel/core/files.h"
@@ -40,6 +41,7 @@ void keepClips(const std::vector<std::string>& names, RigOptions& rig) {
 
 RigOptions rigOptions(const InferOptions& options) {
   RigOptions rig = rigOptionsWithoutClips(options.body_plan);
+  rig.last = lastStageFor(options);
   rig.mlp = options.weights_file.empty() ? defaultMlp() : readMlp(options.weights_file);
   rig.recognizer = kRecognizerNames.at(options.recognizer);
   rig.upright = options.upright;

@@ -17,13 +17,19 @@ std::string numberOf(const InferOptions& options, const FigureResult& figure) {
   return options.figure == "all" ? ", figure " + std::to_string(figure.number) : "";
 }
 
+// What is said of joints, if any were looked for.
+std::string jointsText(const FigureResult& figure, bool tells_plan) {
+  if (!figure.confidence) return "";
+  char text[32];
+  std::snprintf(text, sizeof text, "  confidence %.2f", *figure.confidence);
+  return text + (tells_plan ? "  " + figure.body_plan : "");
+}
+
 void print(const InferOptions& options, bool tells_plan, const DrawingResult& drawing) {
   for (const FigureResult& figure : drawing.figures) {
-    std::printf("%s%s: %s  confidence %.2f%s%s\n", printable(drawing.source).c_str(),
-                numberOf(options, figure).c_str(),
+    std::printf("%s%s: %s%s%s\n", printable(drawing.source).c_str(), numberOf(options, figure).c_str(),
                 figure.outputs.empty() ? "nothing to write" : printable(figure.outputs.front().path).c_str(),
-                figure.confidence, tells_plan ? ("  " + figure.body_plan).c_str() : "",
-                drawing.kept ? "  (done before)" : "");
+                jointsText(figure, tells_plan).c_str(), drawing.kept ? "  (done before)" : "");
     if (!options.timings || drawing.kept) continue;
     double total = 0;
     for (const StageTime& time : figure.times) {

@@ -603,7 +603,7 @@ void Document::findLimbs() {
       placeJoints(state_.joints, options_.body_plan, *input.skeleton);
     }
     RigOptions options = rigOptions();
-    options.clips.clear();
+    options.last = LastStage::kLayers;
     *found = rigCharacter(std::move(input), options).layers;
   } catch (...) {
     message_ = caughtError(item().files.image).what();

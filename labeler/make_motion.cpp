@@ -27,6 +27,7 @@ MotionFrame frameOf(const DrawingFiles& files, const MotionOptions& options, std
   rig.mlp = options.mlp;
   rig.body_plan = options.body_plan;
   rig.recognizer = options.recognizer;
+  rig.last = LastStage::kJoints;
   MotionFrame frame;
   frame.image_file = pathSeenFrom(options.output, files.image);
   frame.image_width = input.image.width;

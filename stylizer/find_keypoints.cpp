@@ -117,6 +117,7 @@ Keypoints findKeypoints(const KeypointOptions& options) {
   RigOptions rig;
   rig.body_plan = plan;
   rig.upright = true;
+  rig.last = LastStage::kJoints;
 
   Keypoints result;
   result.motion.frame_rate = std::clamp(info.frame_rate, kMinFrameRate, kMaxFrameRate);

@@ -189,13 +189,15 @@ std::vector<Clip> fitClips(const std::vector<Clip>& asked, const RigOptions& opt
   RetargetOptions retarget;
   retarget.into_picture = options.into_picture;
   const auto made = [&](const std::vector<Clip>& clips) {
-    retarget.shape = measureFigure(character.mesh, character.weights, character.skeleton);
     std::vector<Clip> result;
+    if (clips.empty()) return result;
+    retarget.shape = measureFigure(character.mesh, character.weights, character.skeleton);
     for (const Clip& clip : clips) result.push_back(retargetToRest(clip, character.skeleton, retarget));
     return result;
   };
-  if (!bound) return made(asked);
-  const std::vector<Clip> own = clipsFor(builtinClips(), body_plan), trying = made(own);
+  const std::vector<Clip> own = bound ? clipsFor(builtinClips(), body_plan) : std::vector<Clip>();
+  if (own.empty()) return made(asked);
+  const std::vector<Clip> trying = made(own);
   const StretchBound stretch =
       boundStretch(character.mesh, character.skeleton, retarget.shape->joined, trying, character.weights);
   if (asked == own && !stretch.held_arms) return trying;
@@ -237,9 +239,13 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   const Silhouette& silhouette = drawing.silhouette;
   if (needsPaper(drawing.image, silhouette.mask)) drawing.image = laidOnPaper(std::move(drawing.image));
 
+  if (options.last == LastStage::kSilhouette) return drawing;
+
   drawing.candidates = timed("candidates", [&] { return extractCandidates(silhouette, options.candidates); });
   drawing.features = timed("features", [&] { return features(drawing.candidates); });
   drawing.classes = timed("classes", [&] { return classify(options.mlp, drawing.features); });
+
+  if (options.last == LastStage::kClasses) return drawing;
 
   drawing.recognition = timed("recognition", [&] {
     Recognition found;
@@ -257,13 +263,15 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
     return found;
   });
   roundToFile(drawing.recognition.skeleton);
+  drawing.character.skeleton = drawing.recognition.skeleton;
+  if (options.last == LastStage::kJoints) return drawing;
 
   const SkeletonTemplate& body_plan = drawing.body_plan;
   const std::vector<Clip>& asked_clips =
       body_plan.name == options.body_plan.name ? options.clips : options.otherwise->clips;
   const Skeleton& skeleton = drawing.recognition.skeleton;
-  std::vector<FigurePiece> pieces;
-  if (inflated && options.layers) {
+  const bool layered = inflated && options.layers;
+  if (layered)
     drawing.layers = timed("layers", [&] {
       LayerMap found = findLayers(drawing.image, silhouette, skeleton, body_plan,
                                   options.part_net ? *options.part_net : builtInPartNet());
@@ -276,8 +284,11 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
       given.far = std::move(found.far);
       return given;
     });
+  if (options.last == LastStage::kLayers) return drawing;
+
+  std::vector<FigurePiece> pieces;
+  if (layered)
     pieces = timed("pieces", [&] { return figurePieces(drawing.layers, silhouette, skeleton, body_plan); });
-  }
   drawing.character.mesh = timed("mesh", [&] {
     if (!input.model)
       return inflate(drawing.image, silhouette, inflateOptions(input, drawing, options), pieces);
@@ -312,6 +323,7 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   }
   if (options.rest_pose != RestPose::kDrawn)
     drawing.character = timed("rest pose", [&] { return poseToRest(drawing.character, options.rest_pose); });
+  if (options.last == LastStage::kModel) return drawing;
   drawing.clips =
       timed("clips", [&] { return fitClips(asked_clips, options, body_plan, inflated, drawing.character); });
   return drawing;

@@ -57,7 +57,18 @@ enum class Recognizer {
   kPaper,  // the rules of the paper (paper_recognizer.h)
 };
 
+// How far rigCharacter() goes: what comes after that stays empty.
+enum class LastStage {
+  kSilhouette,
+  kClasses,  // candidates, and what the classifier says of them
+  kJoints,   // in the drawing; those of the character, too
+  kLayers,
+  kModel,  // mesh, joints and skin in the rest pose, which is not yet bound to what clips stretch
+  kClips,
+};
+
 struct RigOptions {
+  LastStage last = LastStage::kClips;
   SilhouetteOptions silhouette;
   CandidateOptions candidates;
   Mlp mlp = defaultMlp();  // tells the classes of candidates apart
@@ -106,9 +117,9 @@ struct RiggedDrawing {
   bool found() const { return silhouette.found(); }
 };
 
-// Stages 2 to 8. Where there is no figure, `found()` is false and silhouette.reason says why. Throws
-// UsageError if no net knows the body plan, InputError if input.layers does not fit, or input.back shows no
-// figure.
+// Stages 2 to 8, or up to options.last. Where there is no figure, `found()` is false and silhouette.reason
+// says why. Throws UsageError if no net knows the body plan, InputError if input.layers does not fit, or
+// input.back shows no figure.
 RiggedDrawing rigCharacter(RigInput input, const RigOptions& options);
 
 }  // namespace skel

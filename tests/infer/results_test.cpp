@@ -127,6 +127,44 @@ TEST_CASE("a rest pose is no edit") {
   CHECK(infer(dir, kDrawing + " --rest-pose T").exit_code == 0);
 }
 
+TEST_CASE("each format by itself has the bytes that it has among all") {
+  const TempDir dir;
+  std::string all;
+  for (const std::string format :
+       {"glb", "json", "overlay", "silhouette", "layers", "features", "obj", "weights", "bvh", "char_cfg"}) {
+    REQUIRE(infer(dir, kDrawing + " -o one --formats " + format).exit_code == 0);
+    all += (all.empty() ? "" : ",") + format;
+  }
+  REQUIRE(infer(dir, kDrawing + " -o all --formats " + all).exit_code == 0);
+  int files = 0;
+  for (const auto& file : fs::recursive_directory_iterator(dir.file("all"))) {
+    if (!file.is_regular_file()) continue;
+    const std::string name = file.path().lexically_relative(dir.file("all")).string();
+    CAPTURE(name);
+    CHECK(readFile(dir.file("one/" + name)) == readFile(file.path().string()));
+    ++files;
+  }
+  CHECK(files > 12);
+}
+
+TEST_CASE("who asks for the silhouette alone hears nothing of joints, unless results are kept") {
+  const TempDir dir;
+  const ToolRun run = infer(dir, kDrawing + " --formats silhouette --timings");
+  CHECK(contains(run.out, ": out/cap_boy.silhouette.png\n"));
+  CHECK_FALSE(contains(run.out, "recognition"));
+  const ToolRun kept = infer(dir, kDrawing + " --formats silhouette --json");
+  CHECK(contains(kept.out, "\"recognition\""));
+  CHECK_FALSE(contains(kept.out, "\"confidence\":0.0,"));
+  CHECK_FALSE(contains(kept.out, "\"mesh\""));
+}
+
+TEST_CASE("a format without clips says nothing of clips that were asked for") {
+  const TempDir dir;
+  const std::string asked = kDrawing + " --clips wag";
+  CHECK(contains(infer(dir, asked).err, "there is no clip \"wag\""));
+  CHECK_FALSE(contains(infer(dir, asked + " --formats json").err, "there is no clip"));
+}
+
 TEST_CASE("option --formats obj reports the .obj, not a .png") {
   const TempDir dir;
   CHECK(contains(infer(dir, kDrawing + " --formats obj").out, ": out/cap_boy.obj  confidence"));

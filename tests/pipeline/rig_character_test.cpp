@@ -67,6 +67,36 @@ TEST_CASE("a biped is 1.7 m high, an animal 1.2 m long or high, and both as high
   CHECK(model(boy, "biped", 0).back_uv.rows() > 0);
 }
 
+TEST_CASE("a rig that stops after a stage has what the whole has up to there, and nothing more") {
+  RigInput input;
+  input.image = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");
+  RigOptions options = rigOptions("biped");
+  const RiggedDrawing whole = rigCharacter(input, options);
+  REQUIRE(whole.clips.size() > 1);
+  for (const LastStage last : {LastStage::kSilhouette, LastStage::kClasses, LastStage::kJoints,
+                               LastStage::kLayers, LastStage::kModel}) {
+    CAPTURE(int(last));
+    options.last = last;
+    const RiggedDrawing drawing = rigCharacter(input, options);
+    CHECK((drawing.silhouette.mask == whole.silhouette.mask).all());
+    CHECK(drawing.candidates.maxima.empty() == (last < LastStage::kClasses));
+    CHECK((drawing.classes.rows() == whole.classes.rows()) == (last >= LastStage::kClasses));
+    const std::vector<Joint>& joints = drawing.recognition.skeleton.joints;
+    CHECK(joints.empty() == (last < LastStage::kJoints));
+    CHECK(joints.size() == (last < LastStage::kJoints ? 0 : drawing.character.skeleton.joints.size()));
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const Joint& expected = whole.recognition.skeleton.joints[j];
+      CHECK(joints[j].image == expected.image);
+      CHECK(joints[j].confidence == expected.confidence);
+      if (last == LastStage::kModel) CHECK(joints[j].position == expected.position);
+    }
+    CHECK((drawing.layers.part.size() > 0) == (last >= LastStage::kLayers));
+    CHECK((drawing.character.mesh.vertices.rows() > 0) == (last == LastStage::kModel));
+    if (last == LastStage::kModel) CHECK(drawing.character.mesh.vertices == whole.character.mesh.vertices);
+    CHECK(drawing.clips.empty());
+  }
+}
+
 TEST_CASE("nets that are handed over do what those do that are compiled in") {
   const auto bytesOf = [](const char* file) {
     return readFile(std::string(SKEL_SOURCE_DIR "/weights/") + file);
