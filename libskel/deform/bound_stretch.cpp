@@ -28,9 +28,13 @@ constexpr double kSpare =
     0.9;  // of the bound: between the moments that are looked at it may be a little more
 constexpr float kSame = 0.05f;  // weights that differ by less, in sum, stretch nothing
 
-// A number at each moment.
-using Moments = Eigen::Array<float, 1, Eigen::Dynamic>;
+// Numbers at each moment, a row for each of some quantities; the last moment is repeated, so that rows are
+// whole lanes.
 using MomentRows = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+constexpr Index kLanes = 8;
+using Lanes = Eigen::Array<float, kLanes, 1>;
+
+Lanes lanesAt(const float* row) { return Eigen::Map<const Lanes>(row); }
 
 // So many moments of all clips as differ most, each from those before it: first the one farthest from the
 // rest pose. Far is by the joint whose turn differs most.
@@ -65,10 +69,13 @@ std::vector<JointTransforms> tellingMoments(const TriangleMesh& mesh, const Skel
 
 // Of each joint, rows: the upper three rows of its matrix, number by number; columns: the moments.
 std::vector<MomentRows> byJoint(const std::vector<JointTransforms>& moments, std::size_t joint_count) {
-  std::vector<MomentRows> joints(joint_count, MomentRows(12, Index(moments.size())));
-  for (std::size_t m = 0; m < moments.size(); ++m)
+  const Index columns = (Index(moments.size()) + kLanes - 1) / kLanes * kLanes;
+  std::vector<MomentRows> joints(joint_count, MomentRows(12, columns));
+  for (Index m = 0; m < columns; ++m) {
+    const JointTransforms& moment = moments[std::min(std::size_t(m), moments.size() - 1)];
     for (std::size_t j = 0; j < joint_count; ++j)
-      for (int i = 0; i < 12; ++i) joints[j](i, Index(m)) = moments[m][j].matrix()(i / 4, i % 4);
+      for (int i = 0; i < 12; ++i) joints[j](i, m) = moment[j].matrix()(i / 4, i % 4);
+  }
   return joints;
 }
 
@@ -91,13 +98,13 @@ class Stretched {
 
   // Those at the `changed` vertices that any moment stretches too far, ascending.
   std::vector<int> among(const std::vector<int>& changed, const JointWeights& weights) {
-    std::vector<int> near;
+    std::vector<char> is_near(rest_.size(), 0);
     for (const int v : changed)
-      near.insert(near.end(), triangles_.begin() + first_[std::size_t(v)],
-                  triangles_.begin() + first_[std::size_t(v) + 1]);
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-    std::erase_if(near, [&](int t) { return isRigid(t, weights); });
+      for (int i = first_[std::size_t(v)]; i < first_[std::size_t(v) + 1]; ++i)
+        is_near[std::size_t(triangles_[std::size_t(i)])] = 1;
+    std::vector<int> near;
+    for (int t = 0; t < int(is_near.size()); ++t)
+      if (is_near[std::size_t(t)] && !isRigid(t, weights)) near.push_back(t);
     std::vector<char> corner(std::size_t(mesh_.vertices.rows()), 0);
     for (const int t : near)
       for (int k = 0; k < 3; ++k)
@@ -115,45 +122,62 @@ class Stretched {
   }
 
   void pose(int v, const JointWeights& weights) {
-    auto to = posed_.middleRows(3 * v, 3);
-    to.setZero();
-    for (Index j = 0; j < weights.cols(); ++j) {
-      const float w = weights(v, j);
-      if (w <= 0) continue;
-      const RowVector3f at = w * mesh_.vertices.row(v);
-      for (int i = 0; i < 3; ++i)
-        to.row(i) +=
-            at.x() * joints_[std::size_t(j)].row(4 * i) + at.y() * joints_[std::size_t(j)].row(4 * i + 1) +
-            at.z() * joints_[std::size_t(j)].row(4 * i + 2) + w * joints_[std::size_t(j)].row(4 * i + 3);
-    }
+    carriers_.clear();
+    for (Index j = 0; j < weights.cols(); ++j)
+      if (const float w = weights(v, j); w > 0)
+        carriers_.push_back({joints_[std::size_t(j)].data(), w * mesh_.vertices.row(v), w});
+    const Index columns = posed_.cols();
+    for (int i = 0; i < 3; ++i)
+      for (Index m = 0; m < columns; m += kLanes) {
+        Lanes sum = Lanes::Zero();
+        for (const Carrier& c : carriers_) {
+          const float* row = c.matrix + 4 * i * columns + m;
+          sum += c.at.x() * lanesAt(row) + c.at.y() * lanesAt(row + columns) +
+                 c.at.z() * lanesAt(row + 2 * columns) + c.weight * lanesAt(row + 3 * columns);
+        }
+        Eigen::Map<Lanes>(&posed_(3 * v + i, m)) = sum;
+      }
   }
 
   // The largest singular value of J is above b exactly if b² − JᵀJ is not positive definite.
-  bool isStretched(int t) {
+  bool isStretched(int t) const {
     const RestTriangle& rest = rest_[std::size_t(t)];
     if (rest.inverse.isZero(0)) return false;
     const Eigen::Matrix2f inverse = rest.inverse.cast<float>();
     const float p = inverse(0, 0), q = inverse(0, 1), s = inverse(1, 1);  // below the diagonal there is zero
     constexpr float kMost2 = float(kSpare * kMostStretch * kSpare * kMostStretch);
-    const auto at = [&](int corner) { return posed_.middleRows(3 * mesh_.triangles(t, corner), 3); };
-    u_ = at(1) - at(0);
-    v_ = at(2) - at(0);
-    uu_ = u_.square().colwise().sum();
-    uv_ = (u_ * v_).colwise().sum();
-    vv_ = v_.square().colwise().sum();
-    a_ = kMost2 - p * p * uu_;
-    b_ = p * (q * uu_ + s * uv_);
-    c_ = kMost2 - (q * q * uu_ + 2 * q * s * uv_ + s * s * vv_);
-    return (a_ <= 0).any() || (a_ * c_ <= b_.square()).any();
+    const Index columns = posed_.cols();
+    const float* corner[3];
+    for (int k = 0; k < 3; ++k) corner[k] = posed_.data() + 3 * mesh_.triangles(t, k) * columns;
+    Lanes least = Lanes::Constant(kMost2);
+    for (Index m = 0; m < columns; m += kLanes) {
+      Lanes uu = Lanes::Zero(), uv = uu, vv = uu;
+      for (int i = 0; i < 3; ++i) {
+        const Lanes from = lanesAt(corner[0] + i * columns + m);
+        const Lanes u = lanesAt(corner[1] + i * columns + m) - from,
+                    v = lanesAt(corner[2] + i * columns + m) - from;
+        uu += u * u, uv += u * v, vv += v * v;
+      }
+      const Lanes a = kMost2 - p * p * uu, b = p * (q * uu + s * uv),
+                  c = kMost2 - (q * q * uu + 2 * q * s * uv + s * s * vv);
+      least = least.min(a).min(a * c - b * b);
+    }
+    return least.minCoeff() <= 0;
   }
+
+  // What has part in a vertex.
+  struct Carrier {
+    const float* matrix;  // of joints_
+    RowVector3f at;       // the vertex by the weight
+    float weight;
+  };
 
   const TriangleMesh& mesh_;
   std::vector<MomentRows> joints_;
   std::vector<RestTriangle> rest_;
   MomentRows posed_;                    // three rows a vertex
   std::vector<int> first_, triangles_;  // of each vertex
-  Eigen::Array<float, 3, Eigen::Dynamic, Eigen::RowMajor> u_, v_;
-  Moments uu_, uv_, vv_, a_, b_, c_;
+  std::vector<Carrier> carriers_;
 };
 
 // The four heaviest, with the sum 1.
@@ -193,12 +217,13 @@ std::vector<int> around(const TriangleMesh& mesh, const Edges& edges, const std:
 // Most of the way to the mean of the neighbours, all at once.
 void smoothRows(const Edges& edges, const std::vector<int>& vertices, JointWeights& rows) {
   JointWeights smooth(Index(vertices.size()), rows.cols());
+  Eigen::RowVectorXf sum(rows.cols()), row(rows.cols());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const std::size_t v = std::size_t(vertices[i]);
-    Eigen::RowVectorXf sum = Eigen::RowVectorXf::Zero(rows.cols());
+    sum.setZero();
     const int begin = edges.first[v], end = edges.first[v + 1];
     for (int k = begin; k < end; ++k) sum += rows.row(edges.to[std::size_t(k)]);
-    Eigen::RowVectorXf row = 0.25f * rows.row(Index(v)) + 0.75f / float(std::max(1, end - begin)) * sum;
+    row = 0.25f * rows.row(Index(v)) + 0.75f / float(std::max(1, end - begin)) * sum;
     keepFour(row);
     smooth.row(Index(i)) = row;
   }
