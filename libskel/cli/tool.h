@@ -13,6 +13,9 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "libskel/cli/number.h"
 #include "libskel/cli/outputs.h"
@@ -57,12 +60,22 @@ inline bool printed() {
   return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
 }
 
+// Pictures come and go by the hundred: memory that is handed back to the system after each costs more than it
+// saves, as every page of it must be cleared again.
+inline void keepFreedMemory() {
+#ifdef __GLIBC__
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that it takes
+#endif
+}
+
 // Parses argv into `app`, then calls run(), which returns the exit code. The one place where all that a tool
 // may throw becomes one line and an exit code; CLI11's own codes become 1 (wrong usage). SKEL_VERSION is the
 // project's, SKEL_NETS_SHA256 names the nets that are compiled in; both are given to every tool's main.cpp
 // (cmake/SkelBuild.cmake).
 inline int runTool(CLI::App& app, int argc, char** argv, const std::function<ExitCode()>& run) {
   std::setlocale(LC_ALL, "C");
+  keepFreedMemory();
   const std::string nets = SKEL_NETS_SHA256;
   app.set_version_flag("--version",
                        app.get_name() + " " SKEL_VERSION + (nets.empty() ? "" : "\nnets, SHA-256:" + nets),
