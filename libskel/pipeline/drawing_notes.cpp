@@ -40,6 +40,7 @@ std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip
                      "a limb that cannot be told from the body stays with it" + std::string(kPaintTheLimb),
                      name});
   }
+  if (clips.empty()) return notes;
   const RiggedCharacter& character = drawing.character;
   std::map<int, std::vector<int>> joints_of_limb;  // of those that are no layers
   for (std::size_t k = 0; k < body_plan.limbs.size(); ++k) {
