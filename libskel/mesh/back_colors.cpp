@@ -21,6 +21,8 @@ namespace {
 constexpr int kWorkSize = 200;   // long side of the small picture that decides, px
 constexpr int kRim_px = 3;       // of it: how near to the outline an area comes that lies at the rim
 constexpr double kAtRim = 0.75;  // the least length of it along the rim, as a share of the root of its size
+constexpr double kOpen = 0.15;   // the least share of that length that is the whole figure's rim
+constexpr double kGoesOn = 0.5;  // or where what lies over the piece has its colour
 constexpr double kLine = 0.022;  // half the width of what counts as a line, as a share of that long side
 constexpr double kLeastCore = 0.5;              // of an area: the blurred edges of lines have less
 constexpr double kLeastArea = 0.003;            // as a share of the figure's
@@ -48,6 +50,8 @@ struct Small {
   int width = 0, height = 0, shrink = 1;
   std::vector<Eigen::Vector3f> color;
   std::vector<char> figure;
+  std::vector<char> others;                   // where the figure goes on beyond the piece; empty: nowhere
+  std::vector<Eigen::Vector3f> others_color;  // and what is drawn there
 
   int index(int x, int y) const { return y * width + x; }
   bool holds(int x, int y) const {
@@ -55,15 +59,24 @@ struct Small {
   }
 };
 
-Small shrunk(const Image& front, const Plane8& figure, int whole_px) {
+Small shrunk(const Image& front, const Plane8& figure, const WholeFigure* around, int whole_px) {
   Small small;
   small.shrink = std::max(1, (whole_px + kWorkSize - 1) / kWorkSize);
   small.width = (front.width + small.shrink - 1) / small.shrink;
   small.height = (front.height + small.shrink - 1) / small.shrink;
   small.color.assign(std::size_t(small.width) * small.height, Eigen::Vector3f::Zero());
   small.figure.assign(small.color.size(), 0);
+  if (around) {
+    small.others.assign(small.color.size(), 0);
+    small.others_color.assign(small.color.size(), Eigen::Vector3f::Zero());
+  }
   for (int y = 0; y < small.height; ++y)
     for (int x = 0; x < small.width; ++x) {
+      if (around) {
+        const std::uint8_t* p = around->at((x + 0.5) * small.shrink, (y + 0.5) * small.shrink);
+        small.others[small.index(x, y)] = p != nullptr;
+        if (p != nullptr) small.others_color[small.index(x, y)] << p[0], p[1], p[2];
+      }
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       int inside = 0;
       for (int v = y * small.shrink; v < std::min((y + 1) * small.shrink, front.height); ++v)
@@ -75,14 +88,21 @@ Small shrunk(const Image& front, const Plane8& figure, int whole_px) {
       if (inside == 0) continue;
       small.color[small.index(x, y)] = sum / float(inside);
       small.figure[small.index(x, y)] = 1;
+      if (around) small.others[small.index(x, y)] = 0;
     }
   return small;
 }
 
-// Distance to what is outside, px (chamfer 3-4: G. Borgefors, 1986).
-std::vector<float> distanceToRim(const Small& small) {
+// Distance to what is outside, px (chamfer 3-4: G. Borgefors, 1986); `open`: of the whole figure.
+std::vector<float> distanceToRim(const Small& small, bool open = false) {
   std::vector<float> distance(small.figure.size(), 0);
-  const auto at = [&](int x, int y) { return small.holds(x, y) ? distance[small.index(x, y)] : 0.0f; };
+  const auto at = [&](int x, int y) {
+    if (small.holds(x, y)) return distance[small.index(x, y)];
+    const bool goes_on =
+        open &&
+        small.others[small.index(std::clamp(x, 0, small.width - 1), std::clamp(y, 0, small.height - 1))];
+    return goes_on ? 1e9f : 0.0f;
+  };
   constexpr float kSide = 1, kCorner = 4.0f / 3;
   for (int y = 0; y < small.height; ++y)
     for (int x = 0; x < small.width; ++x)
@@ -153,8 +173,34 @@ struct Lines {
   std::vector<char> hatch;  // so many of them that they are a colour
 };
 
+// Of the connected parts of `marked` those go that do not come near the rim along it: what is drawn by many
+// lines inside of the figure (a shirt between lapels, laces) is no hatching.
+void dropEnclosed(const Small& small, int near_px, const std::vector<float>& rim, std::vector<char>& marked) {
+  std::vector<char> seen(marked.size(), 0);
+  std::vector<int> part;
+  for (int start = 0; start < int(marked.size()); ++start) {
+    if (!marked[start] || seen[start]) continue;
+    part.assign(1, start);
+    seen[start] = 1;
+    int at_rim = 0;
+    for (std::size_t next = 0; next < part.size(); ++next) {
+      const int i = part[next];
+      at_rim += rim[i] <= float(near_px);
+      for (int k = 0; k < 4; ++k) {
+        const int u = i % small.width + kNeighbours[k][0], v = i / small.width + kNeighbours[k][1];
+        if (!small.holds(u, v)) continue;
+        const int j = small.index(u, v);
+        if (marked[j] && !seen[j]) seen[j] = 1, part.push_back(j);
+      }
+    }
+    if (at_rim >= kAtRim * near_px * std::sqrt(double(part.size()))) continue;
+    for (const int i : part) marked[i] = 0;
+  }
+}
+
 Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
-                const std::function<bool(int, int)>& is_face, const std::function<bool(int, int)>& is_head) {
+                const std::vector<float>& open_rim, const std::function<bool(int, int)>& is_face,
+                const std::function<bool(int, int)>& is_head) {
   std::vector<float> light(small.color.size(), 0);
   for (int y = 0; y < small.height; ++y)
     for (int x = 0; x < small.width; ++x) {
@@ -196,7 +242,12 @@ Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
       lines.hatch[i] =
           !is_face(x, y) && thin_sums.around(x, y, reach)[3] > kHatched * figure_sums.around(x, y, reach)[3];
       if (thin[i] && rim[i] <= float(radius)) lines.hatch[i] = 0;  // nor is its inner edge
-      if (lines.hatch[i]) continue;
+    }
+  dropEnclosed(small, 2 * radius, open_rim, lines.hatch);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      const int i = small.index(x, y);
+      if (!small.holds(x, y) || lines.hatch[i]) continue;
       lines.line[i] = thin[i];
       for (const auto& step : kNeighbours)
         if (small.holds(x + step[0], y + step[1]))
@@ -237,14 +288,16 @@ std::vector<Eigen::Vector3f> smoothed(const Small& small, const Lines& lines, in
 
 class BackPainter {
  public:
-  BackPainter(const Image& front, const Plane8& figure, std::optional<HeadDisc> head, int whole_px)
-      : small_(shrunk(front, figure, whole_px)),
+  BackPainter(const Image& front, const Plane8& figure, const WholeFigure* around,
+              std::optional<HeadDisc> head, int whole_px)
+      : small_(shrunk(front, figure, around, whole_px)),
         head_(std::move(head)),
         line_radius_(std::max(1, int(std::lround(kLine * ((whole_px + small_.shrink - 1) / small_.shrink))))),
-        rim_(distanceToRim(small_)) {
+        rim_(distanceToRim(small_)),
+        open_rim_(small_.others.empty() ? rim_ : distanceToRim(small_, true)) {
     if (head_) head_->center /= small_.shrink, head_->radius /= small_.shrink;
     lines_ = findLines(
-        small_, line_radius_, rim_,
+        small_, line_radius_, rim_, open_rim_,
         [&](int x, int y) {
           return fromHead({x, y}) < 1;
         },
@@ -281,10 +334,56 @@ class BackPainter {
     return back;
   }
 
+  // Beyond the figure go the colours next to it, so that what samples the picture there sees no drawn
+  // outline.
+  void goOn(const Plane8& figure, Image& picture) const {
+    constexpr int kReach = 4;
+    std::vector<Eigen::Vector3i> color(small_.figure.size());
+    std::vector<char> steps(small_.figure.size(), 0);  // from the figure, plus 1
+    std::vector<int> open;
+    const auto forTexels = [&](int i, const auto& visit) {
+      const int x = i % small_.width * small_.shrink, y = i / small_.width * small_.shrink;
+      for (int v = y; v < std::min(y + small_.shrink, picture.height); ++v)
+        for (int u = x; u < std::min(x + small_.shrink, picture.width); ++u) visit(u, v);
+    };
+    for (int i = 0; i < int(color.size()); ++i) {
+      if (!small_.figure[i] || rim_[i] > 2) continue;
+      Eigen::Vector3i sum = Eigen::Vector3i::Zero();
+      int count = 0;
+      forTexels(i, [&](int u, int v) {
+        if (figure(v, u) == 0) return;
+        const std::uint8_t* p = picture.pixel(u, v);
+        sum += Eigen::Vector3i(p[0], p[1], p[2]), ++count;
+      });
+      color[i] = sum / std::max(1, count);
+      steps[i] = 1;
+      open.push_back(i);
+    }
+    for (std::size_t next = 0; next < open.size(); ++next) {
+      const int i = open[next];
+      forTexels(i, [&](int u, int v) {
+        if (figure(v, u) != 0) return;
+        for (int c = 0; c < 3; ++c) picture.pixel(u, v)[c] = std::uint8_t(color[i][c]);
+      });
+      if (steps[i] > kReach) continue;
+      for (const auto& [dx, dy] : kNeighbours) {
+        const int u = i % small_.width + dx, v = i / small_.width + dy;
+        if (u < 0 || v < 0 || u >= small_.width || v >= small_.height) continue;
+        const int j = small_.index(u, v);
+        if (steps[j] || small_.figure[j]) continue;
+        steps[j] = char(steps[i] + 1);
+        color[j] = color[i];
+        open.push_back(j);
+      }
+    }
+  }
+
  private:
   struct Area {
     int size = 0, at_rim = 0;
-    int core = 0;  // px whose neighbours belong to it as well
+    int at_open_rim = 0;  // where that is the whole figure's
+    int goes_on = 0;      // or the area goes on beyond it
+    int core = 0;         // px whose neighbours belong to it as well
     int at_head_rim = 0;
     Eigen::Vector3f color = Eigen::Vector3f::Zero();
   };
@@ -322,6 +421,12 @@ class BackPainter {
     Small inside = small_;
     for (std::size_t i = 0; i < outline_.size(); ++i) inside.figure[i] &= !outline_[i];
     const std::vector<float> to_rim = distanceToRim(inside);
+    std::vector<float> to_open_rim = to_rim;
+    if (!small_.others.empty()) {
+      for (std::size_t i = 0; i < outline_.size(); ++i)
+        inside.others[i] |= outline_[i] && open_rim_[i] > 2.0f * float(line_radius_);
+      to_open_rim = distanceToRim(inside, true);
+    }
     std::vector<int> open;
     for (int start = 0; start < int(area_.size()); ++start) {
       if (!small_.figure[start] || lines_.line[start] || area_[start] >= 0) continue;
@@ -333,6 +438,7 @@ class BackPainter {
         const int i = open[next];
         const bool at_rim = to_rim[i] <= kRim_px;
         area.at_rim += at_rim;
+        area.at_open_rim += to_open_rim[i] <= kRim_px;
         area.at_head_rim += at_rim && nearHead(place(i));
         area.color += color_[i];
         const Eigen::Vector3f mean = area.color / float(next + 1);
@@ -351,6 +457,9 @@ class BackPainter {
       area.color /= float(area.size);
       areas_.push_back(area);
     }
+    for (int i = 0; i < int(area_.size()) && !small_.others.empty(); ++i)
+      if (area_[i] >= 0 && to_rim[i] <= kRim_px && to_open_rim[i] > kRim_px)
+        areas_[area_[i]].goes_on += goesOn(i);
     core_.assign(area_.size(), 0);
     for (int i = 0; i < int(area_.size()); ++i) {
       if (area_[i] < 0) continue;
@@ -364,19 +473,38 @@ class BackPainter {
     }
   }
 
+  // Whether its area's colour is that of what lies over the piece near by, across a line.
+  bool goesOn(int i) const {
+    for (const auto& [dx, dy] : kNeighbours)
+      for (int step = 1; step <= 3 * line_radius_; ++step) {
+        const int u = i % small_.width + step * dx, v = i / small_.width + step * dy;
+        if (u < 0 || v < 0 || u >= small_.width || v >= small_.height) break;
+        const int j = small_.index(u, v);
+        if (small_.others[j] &&
+            (small_.others_color[j] - areas_[area_[i]].color).cwiseAbs().maxCoeff() <= kLikeArea)
+          return true;
+      }
+    return false;
+  }
+
   // Those at the rim.
   void keepAreas() {
     kept_.assign(small_.figure.size(), 0);
     const double figure_area = double(std::count(small_.figure.begin(), small_.figure.end(), 1));
-    bool any = false;
-    for (int i = 0; i < int(kept_.size()); ++i) {
-      if (area_[i] < 0) continue;
-      const Area& area = areas_[area_[i]];
-      kept_[i] = area.size >= kLeastArea * figure_area && area.core >= kLeastCore * area.size &&
-                 area.at_rim >= kAtRim * kRim_px * std::sqrt(double(area.size));
-      any |= kept_[i] && !isStroke(area_[i]);
+    for (const double least_open : {kOpen, 0.}) {
+      bool any = false;
+      for (int i = 0; i < int(kept_.size()); ++i) {
+        if (area_[i] < 0) continue;
+        const Area& area = areas_[area_[i]];
+        kept_[i] = area.size >= kLeastArea * figure_area && area.core >= kLeastCore * area.size &&
+                   area.at_rim >= kAtRim * kRim_px * std::sqrt(double(area.size)) &&
+                   (area.at_open_rim >= least_open * area.at_rim ||
+                    area.at_open_rim + area.goes_on >= kGoesOn * area.at_rim);
+        any |= kept_[i] && !isStroke(area_[i]);
+      }
+      if (any) return;
     }
-    if (any || areas_.empty()) return;
+    if (areas_.empty()) return;
     const auto largest = std::max_element(areas_.begin(), areas_.end(), [&](const Area& a, const Area& b) {
       return std::pair(!isStroke(a), a.size) < std::pair(!isStroke(b), b.size);
     });
@@ -513,7 +641,7 @@ class BackPainter {
   Small small_;
   std::optional<HeadDisc> head_;  // in px of small_
   int line_radius_;
-  std::vector<float> rim_;
+  std::vector<float> rim_, open_rim_;  // distance to it, to the whole figure's
   Lines lines_;
   std::vector<char> outline_;
   std::vector<Eigen::Vector3f> color_, filled_;
@@ -527,14 +655,16 @@ class BackPainter {
 
 }  // namespace
 
-Image backColors(const Image& front, const Plane8& figure, const std::optional<HeadDisc>& head,
-                 int whole_px) {
+Image backColors(const Image& front, const Plane8& figure, const std::optional<HeadDisc>& head, int whole_px,
+                 const WholeFigure* around) {
   SKEL_CHECK_EQ(figure.rows(), front.height);
   SKEL_CHECK_EQ(figure.cols(), front.width);
   if (!(figure != 0).any()) return front;
   if (whole_px == 0) whole_px = std::max(front.width, front.height);
-  Image back = BackPainter(front, figure, head, whole_px).paint(front);
+  const BackPainter painter(front, figure, around, head, whole_px);
+  Image back = painter.paint(front);
   if (head) paintBackOfHead(front, figure, *head, back);
+  painter.goOn(figure, back);
   return back;
 }
 

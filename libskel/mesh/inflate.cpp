@@ -123,9 +123,9 @@ int halfOf(int max_texture_px, const PixelBox& box) {
   return std::max(kLeastTexture, static_cast<int>(std::min(fitting, double(max_texture_px))));
 }
 
-// `whole_px`: of a piece, what backColors() asks for.
+// `whole_px`, `around`: of a piece, what backColors() asks for.
 BackTexture backTexture(const DrawingTexture& front, const PixelBox& box, const InflateOptions& options,
-                        int whole_px) {
+                        int whole_px, const WholeFigure* around) {
   BackTexture back;
   if (!options.back_picture) {
     std::optional<HeadDisc> head = options.head;
@@ -134,7 +134,7 @@ BackTexture backTexture(const DrawingTexture& front, const PixelBox& box, const 
       head->center = front.uvFromImage(head->center).cwiseProduct(texels);
       head->radius *= front.image.width / front.size_px.x();
     }
-    back.image = backColors(front.image, front.figure, head, whole_px);
+    back.image = backColors(front.image, front.figure, head, whole_px, around);
     return back;
   }
   // Seen from behind, left is right.
@@ -479,7 +479,9 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
             ? 0
             : static_cast<int>(std::max(box.width(), box.height()) * front.image.width / front.size_px.x()) +
                   2 * kTextureMargin;
-    sheets[i].back = backTexture(front, sheets[i].box, of_piece, whole_px);
+    const WholeFigure around{image, silhouette.mask, front.corner_px, front.size_px.x() / front.image.width};
+    sheets[i].back =
+        backTexture(front, sheets[i].box, of_piece, whole_px, pieces.empty() ? nullptr : &around);
   }
   for (std::size_t i = 0; i < sheets.size(); ++i)
     giveDepth(depthOf(options.body, pieces, i), !same_back && !options.back_picture,

@@ -134,6 +134,20 @@ TEST_CASE("a cap covers the back of the head down to the ears, without its badge
     }
 }
 
+TEST_CASE("many lines inside of the figure are no hatching of its back") {
+  Image image(200, 200);
+  image.rgba.setConstant(255);
+  paintDisc(image, {100, 100}, 90, {120, 80, 60});
+  for (int y = 70; y < 130; ++y)
+    for (int x = 70; x < 130; ++x) {
+      const std::uint8_t value = x / 5 % 2 ? 230 : 10;
+      std::fill_n(image.pixel(x, y), 3, value);
+    }
+  const Image back = backColors(image, notWhite(image), std::nullopt);
+  for (int y = 75; y < 125; ++y)
+    for (int x = 75; x < 125; ++x) REQUIRE(std::abs(back.pixel(x, y)[0] - 120) < 12);
+}
+
 TEST_CASE("the back of clothes in red or blue that are drawn by black lines holds no black") {
   Image image = outlinedBall(300, 120, 9);
   const std::array<int, 3> color =
@@ -152,6 +166,44 @@ TEST_CASE("the back of clothes in red or blue that are drawn by black lines hold
       if (mask(y, x))
         for (int c = 0; c < 3; ++c)
           REQUIRE(std::abs(back.pixel(x, y)[c] - color[static_cast<size_t>(c)]) < 12);
+}
+
+TEST_CASE("beyond the figure its back has no drawn outline, whatever lies there in front") {
+  Image image = outlinedBall(300, 120, 9);
+  const Plane8 mask = notWhite(image);
+  for (int y = 0; y < 300; ++y)
+    for (int x = 0; x < 300; ++x)
+      if (mask(y, x) == 0) std::fill_n(image.pixel(x, y), 3, std::uint8_t(0));
+  const Image back = backColors(image, mask, std::nullopt);
+  const Eigen::Vector2d middle(149.5, 149.5);
+  for (int y = 0; y < 300; ++y)
+    for (int x = 0; x < 300; ++x)
+      if ((Eigen::Vector2d(x, y) - middle).norm() < 125) REQUIRE(back.pixel(x, y)[0] > 200);
+}
+
+TEST_CASE("what reaches the rim of a piece only where the figure goes on is worn in front") {
+  // A blue trunk; between the arms, which are pieces of their own, it is as wide as the brown toy before it.
+  Image image(200, 200);
+  image.rgba.setConstant(255);
+  Image piece = image;
+  Plane8 mask = Plane8::Zero(200, 200), whole = mask;
+  const bool alike = GENERATE(false, true);
+  for (int y = 20; y < 180; ++y)
+    for (int x = 20; x < 180; ++x) {
+      const bool toy = y >= 70 && y < 130, arm = toy && (x < 60 || x >= 140);
+      whole(y, x) = 1, mask(y, x) = !arm;
+      const std::array<std::uint8_t, 3> blue{60, 110, 200}, brown{160, 110, 60};
+      std::copy_n((toy && (!arm || alike) ? brown : blue).data(), 3, image.pixel(x, y));
+      if (!arm) std::copy_n(image.pixel(x, y), 3, piece.pixel(x, y));
+    }
+  const WholeFigure around{image, whole, {-0.5, -0.5}};
+  CHECK(backColors(piece, mask, std::nullopt).pixel(100, 100)[0] == 160);
+  // What has the arms' colour goes on there.
+  CHECK(backColors(piece, mask, std::nullopt, 200, &around).pixel(100, 100)[0] == (alike ? 160 : 60));
+  // Nothing else is known of a piece that lies before others all around.
+  mask.setZero();
+  mask.block(70, 60, 60, 80).setOnes();
+  CHECK(backColors(piece, mask, std::nullopt, 200, &around).pixel(100, 100)[0] == 160);
 }
 
 TEST_CASE("lines that tell paper from paper stay on the back, and what is drawn by lines alone does") {
