@@ -6,6 +6,7 @@
 
 #include "libskel/core/error.h"
 #include "tests/support/catch.h"
+#include "tests/support/synthetic_figure.h"
 
 using namespace skel;
 
@@ -69,15 +70,45 @@ TEST_CASE("what the net does not see in a mask is measured and boxed, in px of a
 }
 
 TEST_CASE("a house grown onto the figure is named with its place, and a missing part as such") {
+  // Sure of a mask unless the net misses a part of it, or sees more.
+  SilhouetteConfidence confidence;
+  const auto count = static_cast<Eigen::Index>(kMaskInputs.size());
+  confidence.net.mean = confidence.net.direct = Eigen::VectorXd::Zero(count);
+  confidence.net.deviation = Eigen::VectorXd::Ones(count);
+  confidence.net.hidden.resize(0, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (kMaskInputs[std::size_t(i)] == "not seen" || kMaskInputs[std::size_t(i)] == "not taken")
+      confidence.net.direct[i] = -2;
+  confidence.net.bias = -9;
+
   const Case c;
-  const SilhouetteConfidence& confidence = builtInSilhouetteConfidence();
   CHECK(!silhouetteDoubt(found(c.figure, c.seen), confidence));
   CHECK(silhouetteDoubt(found(c.with_house, c.seen), confidence).value_or("") ==
         "something may be stuck to the figure (lower right)");
-  Case missing;
-  missing.figure.block(40, 20, 50, 40).setZero();
-  CHECK(silhouetteDoubt(found(missing.figure, missing.seen), confidence).value_or("") ==
+  Plane8 missing = c.figure;
+  missing.block(40, 20, 50, 40).setZero();
+  CHECK(silhouetteDoubt(found(missing, c.seen), confidence).value_or("") ==
         "a part of the figure may be missing");
+  confidence.net.bias = -30;
+  CHECK(silhouetteDoubt(found(c.figure, c.seen), confidence).value_or("") ==
+        "the outline of the figure may be wrong");
+}
+
+TEST_CASE("the built-in numbers are surer of a figure that the net sees than of one with a house") {
+  const CapsuleFigure capsules;
+  const Plane8 figure = capsuleMask(capsules);
+  Plane8 with_house = figure;
+  with_house.block(250, 230, 120, 130).setConstant(255);
+  SeenPage seen;
+  seen.soft = true;
+  seen.share = (figure > 0)
+                   .select(Plane8::Constant(figure.rows(), figure.cols(), 245),
+                           Plane8::Constant(figure.rows(), figure.cols(), 1));
+  const SilhouetteConfidence& confidence = builtInSilhouetteConfidence();
+  const double sure = confidence.of(evidenceOfMask(figure, seen)),
+               less = confidence.of(evidenceOfMask(with_house, seen));
+  CHECK(sure > .5);
+  CHECK(less < .5);
 }
 
 TEST_CASE("nothing is said of a silhouette for which the page net was not asked") {
