@@ -92,9 +92,18 @@ CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& cli
   return file;
 }
 
-void addLibrary(CharacterFile& file, const ClipSource& clips) {
-  for (const Clip& clip : clipsFor(clipLibrary(clips), file.character))
-    if (!hasClip(file.clips, clip.name)) file.clips.push_back(fitted(clip, file.character, clips));
+std::vector<Error> addLibrary(CharacterFile& file, const ClipSource& clips) {
+  std::vector<Error> left_out;
+  for (const Clip& clip : clipsFor(clipLibrary(clips), file.character)) {
+    if (hasClip(file.clips, clip.name)) continue;
+    try {
+      file.clips.push_back(fitted(clip, file.character, clips));
+    } catch (const Error& error) {
+      if (error.exitCode() != ExitCode::kInput) throw;
+      left_out.push_back(error);
+    }
+  }
+  return left_out;
 }
 
 CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips) {

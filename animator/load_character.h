@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "animator/clip_source.h"
+#include "libskel/core/error.h"
 #include "libskel/import/read_character.h"
 #include "libskel/pipeline/rig_character.h"
 
@@ -36,8 +37,9 @@ RiggedDrawing rigDrawing(const CharacterSource& source, const ClipSource& clips 
 // be read, no figure in the drawing, a model without a skeleton, an ending that is no character's.
 CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& clips = {});
 
-// Adds the motions of skel that fit it and whose names its own clips leave free.
-void addLibrary(CharacterFile& file, const ClipSource& clips = {});
+// Adds the motions of skel that fit it and whose names its own clips leave free. Those that it cannot do for
+// all that are returned, as what is wrong with each.
+std::vector<Error> addLibrary(CharacterFile& file, const ClipSource& clips = {});
 // Both.
 CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips = {});
 

@@ -8,6 +8,7 @@
 #include "animator/render_films.h"
 #include "animator/render_sheet.h"
 #include "animator/rig_source.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 #include "libskel/core/text.h"
@@ -27,11 +28,32 @@ void tell(const RiggedDrawing& drawing, const std::string& path, const std::vect
     std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(noteText(note, path)).c_str());
 }
 
-// Those that are asked for, each once.
-std::vector<Clip> askedClips(const RenderCommandOptions& options, CharacterFile file) {
-  std::vector<Clip> clips;
+void complain(const Error& error) { std::fprintf(stderr, "skel-animate: %s\n", error.what()); }
+
+// Which of the user's own clips this character lacks the joints for.
+void noteUnfitting(const RenderCommandOptions& options, const RiggedCharacter& character,
+                   const std::string& path) {
+  if (options.library.clips_dir.empty()) return;
+  const auto isIn = [](const std::vector<Clip>& clips, const Clip& clip) {
+    return std::find(clips.begin(), clips.end(), clip) != clips.end();
+  };
+  const std::vector<Clip> library = clipLibrary(options.library), fitting = clipsFor(library, character);
+  for (const Clip& clip : library)
+    if (!isIn(builtinClips(), clip) && !isIn(fitting, clip))
+      std::fprintf(stderr, "%s: note: the clip \"%s\" does not fit its joints and is left out\n",
+                   printable(path).c_str(), printable(clip.name).c_str());
+}
+
+struct AskedClips {
+  std::vector<Clip> clips;                   // each once
+  ExitCode left_out_code = ExitCode::kDone;  // of the first that the character cannot do; each is named
+};
+
+AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, const std::string& path) {
+  AskedClips asked;
   const auto take = [&](const Clip& clip) {
-    if (std::find(clips.begin(), clips.end(), clip) == clips.end()) clips.push_back(clip);
+    if (std::find(asked.clips.begin(), asked.clips.end(), clip) == asked.clips.end())
+      asked.clips.push_back(clip);
   };
   for (const std::string& name : options.clips) {
     if (name != kAllClips) {
@@ -40,10 +62,14 @@ std::vector<Clip> askedClips(const RenderCommandOptions& options, CharacterFile 
       if (!note.empty()) std::fprintf(stderr, "%s\n", printable(note).c_str());
       continue;
     }
-    addLibrary(file, options.library);
+    noteUnfitting(options, file.character, path);
+    for (const Error& error : addLibrary(file, options.library)) {
+      complain(InputError(path, error.what()));
+      if (asked.left_out_code == ExitCode::kDone) asked.left_out_code = error.exitCode();
+    }
     std::for_each(file.clips.begin(), file.clips.end(), take);
   }
-  return clips;
+  return asked;
 }
 
 // Files are named after characters.
@@ -55,7 +81,7 @@ void checkNames(const std::vector<std::string>& files) {
                        "; rename one");
 }
 
-void render(const RenderCommandOptions& options, const std::string& path, const RenderCharacter& render) {
+ExitCode render(const RenderCommandOptions& options, const std::string& path, const RenderCharacter& render) {
   CharacterSource source = options.source;
   source.path = path;
   std::optional<RiggedDrawing> drawing;
@@ -66,9 +92,9 @@ void render(const RenderCommandOptions& options, const std::string& path, const 
   CharacterFile file = drawing ? CharacterFile{drawing->character, {}, {}} : loadCharacter(source);
   if (drawing && !flat) file.clips = drawing->clips;
   file.name = stemOf(path);
-  const std::vector<Clip> clips = [&] {
+  const auto [clips, left_out_code] = [&] {
     try {
-      return askedClips(options, file);
+      return askedClips(options, file, path);
     } catch (const UsageError& error) {  // others may have it
       throw UsageError(path + ": " + error.what());
     }
@@ -77,6 +103,7 @@ void render(const RenderCommandOptions& options, const std::string& path, const 
     throw InputError(path, "can do no clip: it has none, and none that come with skel fit its joints");
   if (drawing) tell(*drawing, path, clips);
   render(std::move(file), drawing ? &*drawing : nullptr, clips);
+  return left_out_code;
 }
 
 }  // namespace
@@ -91,13 +118,15 @@ ExitCode runRender(const RenderCommandOptions& asked) {
       options.sheet.output.empty() ? filmRenderer(options) : sheetRenderer(options);
   ExitCode code = ExitCode::kDone;
   for (const std::string& path : options.files) {
+    ExitCode of_file = ExitCode::kDone;
     try {
-      render(options, path, rendered);
+      of_file = render(options, path, rendered);
     } catch (...) {
       const Error error = caughtError(path);
-      std::fprintf(stderr, "skel-animate: %s\n", error.what());
-      if (code == ExitCode::kDone) code = error.exitCode();
+      complain(error);
+      of_file = error.exitCode();
     }
+    if (code == ExitCode::kDone) code = of_file;
   }
   return code;
 }

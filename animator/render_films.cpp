@@ -61,7 +61,7 @@ FilmOptions filmOptions(const RenderCommandOptions& options) {
   if (const auto color = backgroundColor(options.background))
     film.look.background = *color;
   else
-    film.look.picture = covering(readImage(options.background), size.width, size.height);
+    film.look.picture = readImage(options.background);
   return film;
 }
 
@@ -84,6 +84,8 @@ struct Films {
       openVideo(options.output, video);
     else if (ensureWritableFolder(options.output); names.format != "png")
       openVideo(names("film", "clip"), video);
+    checkVideo(video);
+    if (!film.look.picture.empty()) film.look.picture = covering(film.look.picture, film.width, film.height);
   }
 
   Camera cameraOf(const RiggedCharacter& character, const std::vector<Clip>& clips) const {

@@ -12,8 +12,8 @@ namespace skel {
 
 namespace {
 
-// Film or sheet: one of both.
-void bindSheetOptions(CLI::App& app, CLI::Option* film, SheetOptions& options) {
+// Film or sheet: one of both. Returns --sheet, for options that only films have.
+CLI::Option* bindSheetOptions(CLI::App& app, CLI::Option* film, SheetOptions& options) {
   CLI::Option* sheet =
       app.add_option("--sheet", options.output,
                      "Instead of films, a sprite sheet (.png) and where its frames are (.json); of several "
@@ -41,6 +41,7 @@ void bindSheetOptions(CLI::App& app, CLI::Option* film, SheetOptions& options) {
       ->needs(pixels);
   add(app.add_flag("--outline", options.outline, "A dark line of one pixel around the figure"))
       ->needs(pixels);
+  return sheet;
 }
 
 }  // namespace
@@ -65,16 +66,18 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
              "The film: " + videoFormatNames() +
                  " (a name that ends with /) of PNG files; of several drawings or clips, a folder of films")
           ->check(outputFile());
-  bindSheetOptions(app, film, options.sheet);
+  CLI::Option* sheet = bindSheetOptions(app, film, options.sheet);
   app.add_option("--format", options.format,
                  "Of the films in a folder, which are called FILE-CLIP (default: " + filmFormats().front() +
                      "); png: folders of PNG files")
-      ->check(CLI::IsMember(filmFormats()));
+      ->check(CLI::IsMember(filmFormats()))
+      ->excludes(sheet);
   app.add_option("--fps", options.frame_rate, "Frames a second (default: 30, of sheets 12)")
       ->check(numberIn(0.1, 240.0));
   bindClipSource(app, options.library);
   app.add_option("--duration", options.duration_s, "In seconds; the clip repeats (default: once)")
-      ->check(numberIn(0.0, 3600.0));
+      ->check(numberIn(0.0, 3600.0))
+      ->excludes(sheet);
   app.add_option("--look", options.look,
                  "solid: the model; flat: the drawing itself, its limbs moved in the picture, unlit")
       ->check(CLI::IsMember({"solid", "flat"}))
@@ -95,15 +98,18 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
       ->capture_default_str();
   app.add_option("--background", options.background,
                  "white, grey, black, #rrggbb, none (transparent), or a picture")
+      ->excludes(sheet)
       ->capture_default_str();
-  app.add_flag("--wireframe", options.wireframe, "The mesh's edges as well");
-  app.add_flag("--translucent", options.translucent, "The body can be seen through");
-  app.add_flag("--show-skeleton", options.skeleton, "The skeleton over the body");
+  app.add_flag("--wireframe", options.wireframe, "The mesh's edges as well")->excludes(sheet);
+  app.add_flag("--translucent", options.translucent, "The body can be seen through")->excludes(sheet);
+  app.add_flag("--show-skeleton", options.skeleton, "The skeleton over the body")->excludes(sheet);
   app.add_option("--show-weights", options.weights_of, "The weights of this joint as colours")
+      ->excludes(sheet)
       ->type_name("JOINT");
-  app.add_flag("--no-shadow", options.no_shadow, "No shadow on the ground");
+  app.add_flag("--no-shadow", options.no_shadow, "No shadow on the ground")->excludes(sheet);
   app.add_option("--blend", options.blend, "How joints move the skin: matrices, or dual quaternions")
       ->check(CLI::IsMember({"linear", "dual"}))
+      ->excludes(sheet)
       ->capture_default_str();
   app.add_option("--painter", options.painter, "What draws: auto takes a graphics card if there is one")
       ->check(CLI::IsMember({"auto", "software", "gl"}))

@@ -70,6 +70,25 @@ struct Sheets {
     return std::max(1, most > 0 ? std::min(count, most) : count);
   }
 
+  // Clip by clip, direction by direction. Throws UsageError where a sheet has no place for them.
+  std::vector<SpriteTag> tagsOf(const std::vector<Clip>& clips,
+                                const std::vector<SpriteDirection>& directions, const SpriteCell& cell,
+                                SpritePacking packing) const {
+    std::vector<SpriteTag> tags;
+    int first = 0;
+    for (const Clip& clip : clips) {
+      const int count = frameCount(clip);
+      for (const SpriteDirection& direction : directions) {
+        if (first > kMostSprites) break;
+        tags.push_back({direction.name.empty() ? clip.name : clip.name + "-" + direction.name, first,
+                        first + count - 1});
+        first += count;
+      }
+    }
+    checkSheetSize(tags, cell, packing);
+    return tags;
+  }
+
   void operator()(CharacterFile file, const RiggedDrawing*, const std::vector<Clip>& clips) const {
     const std::string path = pathOf(file);
     const RiggedCharacter& character = file.character;
@@ -85,6 +104,8 @@ struct Sheets {
                                              options.pitch_deg * std::numbers::pi / 180, size.width,
                                              size.height, options.sheet.outline ? 2 : 1);
 
+    const SpritePacking packing = options.sheet.trim ? SpritePacking::kTrimmed : SpritePacking::kEven;
+    const std::vector<SpriteTag> tags = tagsOf(clips, directions, camera.cell, packing);
     struct Moment {
       const Clip* clip;
       double time_s;
@@ -92,22 +113,17 @@ struct Sheets {
     };
     std::vector<Moment> moments;
     std::vector<Sprite> sprites;
-    std::vector<SpriteTag> tags;
-    for (const Clip& clip : clips) {
-      for (const SpriteDirection& direction : directions) {
-        const std::string tag = direction.name.empty() ? clip.name : clip.name + "-" + direction.name;
-        const int count = frameCount(clip), first = int(sprites.size());
-        const double duration_s = double(clip.duration_s());
-        const auto ms = [&](int i) { return int(std::lround(duration_s * 1000 * i / count)); };
-        for (int i = 0; i < count; ++i) {
-          moments.push_back({&clip, duration_s * i / count, turned(camera, character, direction.yaw_rad)});
-          sprites.push_back({tag + "-" + std::to_string(i), std::max(1, ms(i + 1) - ms(i)), {}});
-        }
-        tags.push_back({tag, first, first + count - 1});
+    for (std::size_t k = 0; k < tags.size(); ++k) {
+      const Clip& clip = clips[k / directions.size()];
+      const SpriteDirection& direction = directions[k % directions.size()];
+      const int count = frameCount(clip);
+      const double duration_s = double(clip.duration_s());
+      const auto ms = [&](int i) { return int(std::lround(duration_s * 1000 * i / count)); };
+      for (int i = 0; i < count; ++i) {
+        moments.push_back({&clip, duration_s * i / count, turned(camera, character, direction.yaw_rad)});
+        sprites.push_back({tags[k].name + "-" + std::to_string(i), std::max(1, ms(i + 1) - ms(i)), {}});
       }
     }
-    const SpritePacking packing = options.sheet.trim ? SpritePacking::kTrimmed : SpritePacking::kEven;
-    checkSheetSize(tags, camera.cell, packing);
     const Scene scene(character, painterFor(options, character.mesh));
     std::vector<Image> images(sprites.size());
     {

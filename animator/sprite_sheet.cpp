@@ -84,8 +84,11 @@ void checkExtent(const Box& sheet) {
 void checkSheetSize(const std::vector<SpriteTag>& tags, const SpriteCell& cell, SpritePacking packing) {
   if (std::max(cell.width, cell.height) > kLongestCell_px)
     throw UsageError("the frames of a sheet have at most " + std::to_string(kLongestCell_px) + " px a side");
-  // Trimmed ones may leave nothing out.
   const double sprites = tags.empty() ? 0 : tags.back().last + 1.0;
+  if (sprites > kMostSprites)
+    throw UsageError("a sheet has at most " + std::to_string(kMostSprites) +
+                     " frames; take fewer --frames, clips or --directions");
+  // Trimmed ones may leave nothing out.
   const int side = int(std::sqrt(sprites * cell.width * cell.height));
   checkExtent(packing == SpritePacking::kEven ? extentOf(placeEven(tags, cell)) : Box{0, 0, side, side});
 }

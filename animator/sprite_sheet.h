@@ -45,7 +45,7 @@ enum class SpritePacking {
 };
 
 // What can be said before there are sprites. Throws UsageError: the sheet would be longer than
-// kLongestSheet_px, a cell than kLongestCell_px.
+// kLongestSheet_px, a cell than kLongestCell_px, or there would be more than kMostSprites.
 void checkSheetSize(const std::vector<SpriteTag>& tags, const SpriteCell& cell, SpritePacking packing);
 
 // Throws UsageError as above.
@@ -54,5 +54,7 @@ SpriteSheet packSprites(const std::vector<Sprite>& sprites, const std::vector<Sp
 
 // What graphics cards of ten years take.
 inline constexpr int kLongestSheet_px = 16384, kLongestCell_px = 2048;
+// 1024 rows of 16: who lists them by name looks for each among all.
+inline constexpr int kMostSprites = 16384;
 
 }  // namespace skel

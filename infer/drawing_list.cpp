@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kLongestPath = 4096;  // bytes, Linux's PATH_MAX
+constexpr std::size_t kMostEmpty = 100'000;
 
 }  // namespace
 
@@ -50,14 +51,17 @@ DrawingList::~DrawingList() {
 
 bool DrawingList::readPath(std::string& path) {
   path.clear();
+  std::size_t empty = 0;
   for (int c; (c = getc_unlocked(stream_)) != EOF;) {
-    if (c == (null_ended_ ? '\0' : '\n')) {
-      if (!path.empty()) return true;
-      continue;
-    }
     const auto refuse = [&](const std::string& problem) {
       throw InputError(file_, "path " + std::to_string(read_ + 1) + " " + problem);
     };
+    if (c == (null_ended_ ? '\0' : '\n')) {
+      if (!path.empty()) return true;
+      // /dev/zero has no end of them.
+      if (++empty > kMostEmpty) refuse("comes after more than " + std::to_string(kMostEmpty) + " empty ones");
+      continue;
+    }
     if (c == '\0') refuse("holds a zero byte: if it is zeros that the paths end with, say so by --null");
     if (path.size() == kLongestPath)
       refuse("is longer than " + std::to_string(kLongestPath) +

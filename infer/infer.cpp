@@ -51,7 +51,10 @@ void sayLeftOut(const std::vector<std::string>& results) {
 void ensureFolders(const InferOptions& options) {
   ensureWritableFolder(options.out_dir);
   if (!options.trace_dir.empty()) ensureWritableFolder(options.trace_dir);
-  if (!options.report_file.empty()) ensureWritableFolderOf(options.report_file);
+  if (options.report_file.empty()) return;
+  if (options.report_file.ends_with('/') || fs::is_directory(options.report_file))
+    throw OutputError(options.report_file, "is a folder; name a file by --report");
+  ensureWritableFolderOf(options.report_file);
 }
 
 // Rigs what `next` gives, until there is no more, and reports it in that order.

@@ -119,7 +119,11 @@ DrawingResult rigAndKeep(const InferOptions& options, const RigOptions& rig, Ori
   }
   DrawingResult result = rigDrawing(options, rig, job, progress);
   result.origin = std::move(origin);
-  if (drawingDecided(result.code)) claim.write(formatResult(result, path) + "\n");
+  try {
+    if (drawingDecided(result.code)) claim.write(formatResult(result, path) + "\n");
+  } catch (...) {
+    takeError(result);
+  }
   return result;
 }
 

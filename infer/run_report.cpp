@@ -94,7 +94,8 @@ ExitCode RunReport::end() {
                  left_out_, printable(first_left_out_).c_str());
   if (!options_.report_file.empty()) {
     writeFile(options_.report_file, reportPage(shown_));
-    if (!options_.quiet) std::printf("%s: the report\n", printable(options_.report_file).c_str());
+    if (!options_.quiet && !options_.json_lines)
+      std::printf("%s: the report\n", printable(options_.report_file).c_str());
   }
   return code_;
 }

@@ -28,15 +28,25 @@ std::vector<std::string_view> cells(std::string_view line) {
 struct BadCell {};
 
 double numberOf(std::string_view cell) {
+  constexpr double kMost = 1e6;  // no input is as large; squares are summed
   double number = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(number)) throw BadCell();
+  if (error != std::errc() || end != cell.data() + cell.size() || !(std::abs(number) <= kMost))
+    throw BadCell();
   return number;
+}
+
+// Right, wrong or not known.
+int rightOf(std::string_view cell) {
+  const double number = numberOf(cell);
+  if (number != -1 && number != 0 && number != 1) throw BadCell();
+  return static_cast<int>(number);
 }
 
 // Adds the line, whose cells these are.
 void addLine(const std::vector<std::string_view>& line, std::vector<ConfidenceSample>& samples) {
   constexpr std::size_t kFigure = 6, kJoint = 7;  // cells before the inputs
+  constexpr std::size_t kMostJoints = 63;         // as of a joint net
   if (line[0] == "F" && line.size() == kFigure + kFigureInputs.size()) {
     ConfidenceSample sample;
     sample.drawing = line[1];
@@ -54,7 +64,8 @@ void addLine(const std::vector<std::string_view>& line, std::vector<ConfidenceSa
   }
   if (line[0] != "J" || line.size() != kJoint + kJointInputs.size() || samples.empty()) throw BadCell();
   ConfidenceSample& sample = samples.back();
-  sample.right.push_back(static_cast<int>(numberOf(line[4])));
+  if (sample.right.size() == kMostJoints) throw BadCell();
+  sample.right.push_back(rightOf(line[4]));
   sample.masses.push_back(numberOf(line[5]));
   sample.evidence.counts.push_back(numberOf(line[6]) != 0);
   Eigen::ArrayXXd& joints = sample.evidence.joints;

@@ -18,15 +18,28 @@
 #include "trainer/confidence_samples.h"
 #include "trainer/confidence_table.h"
 #include "trainer/hands.h"
+#include "trainer/writable_output.h"
 
 namespace skel {
 namespace {
+
+std::vector<ConfidenceSample> readTable(const std::string& file) {
+  std::vector<ConfidenceSample> samples = parseConfidenceTable(readFile(file), file);
+  for (const ConfidenceSample& s : samples)
+    if (std::count(s.evidence.counts.begin(), s.evidence.counts.end(), true) == 0)
+      throw InputError(file, "has no joint that counts of \"" + s.drawing + "\"");
+  return samples;
+}
 
 // How much a sample counts: figures are as people draw them far more often than disturbed.
 double weightOf(const ConfidenceSample& sample) {
   constexpr double kDisturbed = .1;  // of .1, .3 and 1 it was the best calibrated on hands left out
   return sample.disturbance == Disturbance::kNone || sample.disturbance == Disturbance::kFound ? 1
                                                                                                : kDisturbed;
+}
+
+bool knowsAJoint(const ConfidenceSample& sample) {
+  return std::any_of(sample.right.begin(), sample.right.end(), [](int right) { return right >= 0; });
 }
 
 using SampleList = std::vector<const ConfidenceSample*>;
@@ -101,7 +114,7 @@ void crossValidate(const std::vector<ConfidenceSample>& samples, const Hands& ha
     SampleList learned;
     for (const ConfidenceSample& s : samples)
       if (fold_of[hands.of(s.drawing)] != fold) learned.push_back(&s);
-    if (learned.empty()) continue;
+    if (std::none_of(learned.begin(), learned.end(), [](const auto* s) { return knowsAJoint(*s); })) continue;
     const ConfidenceModel model = learn(learned, seed);
     for (const ConfidenceSample& s : samples) {
       if (fold_of[hands.of(s.drawing)] != fold || s.disturbance != Disturbance::kNone) continue;
@@ -112,7 +125,7 @@ void crossValidate(const std::vector<ConfidenceSample>& samples, const Hands& ha
   }
   std::printf("on hands left out (%d folds):\n", folds);
   for (const auto& [plan, forecasts] : by_plan) {
-    forecasts.first.print(plan.c_str());
+    forecasts.first.print(printable(plan).c_str());
     forecasts.second.print("  likeness and masses");
   }
 }
@@ -152,15 +165,17 @@ void bindConfidenceTrainingOptions(CLI::App& command, ConfidenceTrainingOptions&
 }
 
 ExitCode runConfidenceTraining(const ConfidenceTrainingOptions& options) {
+  if (options.table.empty() && options.output.empty()) throw UsageError("-o FILE or --table FILE is needed");
   const Hands hands = readHands(options.hands, options.first_hand);
   std::map<std::string, std::vector<JointedDrawing>> drawings;
   for (const auto& [plan, dirs] : options.drawings)
     for (JointedDrawing& drawing : findJointedDrawings(dirs))
       if (!hands.learned.contains(drawingName(drawing.image))) drawings[plan].push_back(std::move(drawing));
+  for (const std::string& file : {options.output, options.table})
+    if (!file.empty()) ensureWritableFile(file);
   std::vector<ConfidenceSample> samples;
   for (const std::string& table : options.tables)
-    for (ConfidenceSample& sample : parseConfidenceTable(readFile(table), table))
-      samples.push_back(std::move(sample));
+    for (ConfidenceSample& sample : readTable(table)) samples.push_back(std::move(sample));
   for (const auto& [plan, list] : drawings) {
     std::vector<JointedDrawing> others;
     for (const auto& [other, other_list] : drawings)
@@ -171,9 +186,11 @@ ExitCode runConfidenceTraining(const ConfidenceTrainingOptions& options) {
       samples.push_back(std::move(sample));
   }
   if (samples.empty()) throw UsageError("there are no drawings to learn from; name some, see --help");
-  if (options.table.empty() && options.output.empty()) throw UsageError("-o FILE or --table FILE is needed");
   if (!options.table.empty()) writeFile(options.table, formatConfidenceTable(samples));
   if (options.output.empty()) return ExitCode::kDone;
+  if (std::none_of(samples.begin(), samples.end(), knowsAJoint))
+    throw UsageError(
+        "of no joint of these drawings it is known whether it is right; there is nothing to learn");
   if (options.folds > 1) crossValidate(samples, hands, options.folds, options.seed);
   SampleList all;
   for (const ConfidenceSample& sample : samples) all.push_back(&sample);

@@ -120,10 +120,15 @@ void ConvNetTrainer::restore(const std::string& bytes, const std::string& file) 
   const char* at = bytes.data();
   std::memcpy(&state_.step, at, sizeof state_.step);
   at += sizeof state_.step;
+  bool sound = state_.step >= 0;
   for (auto* v : {&state_.parameters, &state_.first_moment, &state_.second_moment, &state_.average}) {
     std::memcpy(v->data(), at, v->size() * sizeof(float));
     at += v->size() * sizeof(float);
+    sound = sound && std::all_of(v->begin(), v->end(), [](float number) { return std::isfinite(number); });
   }
+  const std::vector<float>& squares = state_.second_moment;
+  sound = sound && std::none_of(squares.begin(), squares.end(), [](float square) { return square < 0; });
+  if (!sound) throw InputError(file, "is a damaged checkpoint: remove it to start anew");
 }
 
 }  // namespace skel

@@ -21,6 +21,7 @@
 #include "trainer/joint_loss.h"
 #include "trainer/jointed_drawing.h"
 #include "trainer/posable_drawing.h"
+#include "trainer/writable_output.h"
 
 namespace skel {
 namespace {
@@ -202,6 +203,12 @@ class Training {
       if (kind >= static_cast<int>(plan_.kinds.size()))
         throw UsageError("--hold-back: there is no body kind " + std::to_string(kind) + "; the last is " +
                          std::to_string(plan_.kinds.size() - 1));
+    if (!options.held_back.empty() && kindsOf(plan_, options.held_back, false).empty())
+      throw UsageError("--hold-back leaves no body kind to train on");
+    if (options.batch > options.figures_per_round * options.passes)
+      throw UsageError("--batch " + std::to_string(options.batch) + ": a round has only " +
+                       std::to_string(options.figures_per_round * options.passes) +
+                       " figures (--figures times --passes)");
     if (options.hard_copies > 1 && (options.start.empty() || options.drawings.empty()))
       throw UsageError("--hard needs --start and --drawings: hard is what that net gets wrong");
     figure_options_.body_plan = net_.body_plan;
@@ -232,6 +239,8 @@ class Training {
       const LookAtOutputs look;
       trainer_.restore(readFile(options_.checkpoint), options_.checkpoint);
     }
+    ensureWritableFile(options_.output);
+    if (!options_.checkpoint.empty()) ensureWritableFile(options_.checkpoint);
     const int steps_per_round = options_.figures_per_round * options_.passes / options_.batch;
     reportLeftOut("before", net_);
     ProgressBar bar("training", static_cast<std::size_t>(schedule_.steps));

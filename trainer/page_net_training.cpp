@@ -19,6 +19,7 @@
 #include "trainer/jointed_drawing.h"
 #include "trainer/page_loss.h"
 #include "trainer/pages/page.h"
+#include "trainer/writable_output.h"
 
 namespace skel {
 namespace {
@@ -161,6 +162,8 @@ ExitCode runPageTraining(const PageTrainingOptions& options) {
   } else {
     net = parsePageNet(readFile(options.start), options.start);
   }
+  ensureWritableFile(options.output);
+  if (!options.checkpoint.empty()) ensureWritableFile(options.checkpoint);
   ConvNetSchedule schedule;
   schedule.steps = options.steps;
   schedule.batch = options.batch;

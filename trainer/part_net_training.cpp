@@ -19,6 +19,7 @@
 #include "trainer/part_loss.h"
 #include "trainer/part_samples.h"
 #include "trainer/posed_parts.h"
+#include "trainer/writable_output.h"
 
 namespace skel {
 namespace {
@@ -213,6 +214,7 @@ void writeTruth(const PartTrainingOptions& options) {
   constexpr double kMostly = .75, kDrawn = .5;
   constexpr int kLeastBorder = 30, kContrast = 30;
   const auto files = withShapes(options.held_out, options.shapes);
+  if (files.empty()) throw UsageError("--truth: no drawing of --held-out has shapes in --shapes");
   parallelFor(files.size(), options.threads, [&](std::size_t i) {
     const JointedDrawing& drawing = files[i].first;
     const auto sample = readPartSample(drawing, files[i].second);
@@ -253,9 +255,8 @@ void writeTruth(const PartTrainingOptions& options) {
         if (border.drawn < kDrawn * border.all) unseen += (unseen.empty() ? "" : ", ") + pair;
       }
     const fs::path folder = fs::path(options.truth) / fs::path(drawing.image).stem();
-    fs::create_directories(folder);
-    fs::copy_file(drawing.image, folder / "image.png", fs::copy_options::overwrite_existing);
-    fs::copy_file(*drawing.mask, folder / "mask.png", fs::copy_options::overwrite_existing);
+    writeFile((folder / "image.png").string(), readFile(drawing.image));
+    writeFile((folder / "mask.png").string(), readFile(*drawing.mask));
     writeFile((folder / "parts.png").string(), encodePng(parts));
     writeFile((folder / "order.json").string(),
               "{\"before\": [" + before + "], \"by_eye\": [" + unseen + "]}\n");
@@ -342,6 +343,8 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
   } else {
     net = parsePartNet(readFile(options.start), options.start);
   }
+  ensureWritableFile(options.output);
+  if (!options.checkpoint.empty()) ensureWritableFile(options.checkpoint);
   ConvNetSchedule schedule;
   schedule.steps = options.steps;
   schedule.batch = options.batch;

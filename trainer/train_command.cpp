@@ -17,6 +17,7 @@
 #include "trainer/evaluation.h"
 #include "trainer/generated_characters.h"
 #include "trainer/report.h"
+#include "trainer/writable_output.h"
 
 namespace skel {
 namespace {
@@ -216,6 +217,9 @@ ExitCode runTrain(const TrainOptions& given) {
   const LabelledSet set = readSet(options.dir, options.candidates);
   const Characters characters = pointersTo(set.characters);
   checkCounts(options, characters.size());
+  ensureWritableFile(options.output);
+  if (!options.json.empty()) ensureWritableFile(options.json);
+  if (!options.report.empty()) ensureWritableFolder(options.report);
   const std::vector<LabelledCharacter> drawn_by_program = generateCharacters(
       options.generated, static_cast<std::uint64_t>(training.seed), training.threads, {options.candidates});
   const Characters generated = pointersTo(drawn_by_program);

@@ -13,12 +13,22 @@
 namespace skel {
 namespace {
 
-template <class HasJoint>
-bool fitsJoints(const Clip& clip, const std::string& template_name, const HasJoint& has_joint) {
-  const bool moves_all = std::all_of(clip.tracks.begin(), clip.tracks.end(),
-                                     [&](const JointTrack& track) { return has_joint(track.joint); }) &&
-                         std::all_of(clip.contacts.begin(), clip.contacts.end(),
-                                     [&](const FootContact& contact) { return has_joint(contact.joint); });
+// Of a skeleton or a template: whether the joint ends a limb of two bones, as what stands on the ground must.
+template <class Target>
+bool endsLimb(const Target& target, const std::string& joint) {
+  const int foot = target.find(joint);
+  const int knee = foot < 0 ? -1 : target.joints[std::size_t(foot)].parent;
+  return knee >= 0 && target.joints[std::size_t(knee)].parent >= 0;
+}
+
+template <class Target>
+bool fitsTarget(const Clip& clip, const std::string& template_name, const Target& target) {
+  const auto has_joint = [&](const std::string& joint) { return target.find(joint) >= 0; };
+  const bool moves_all =
+      std::all_of(clip.tracks.begin(), clip.tracks.end(),
+                  [&](const JointTrack& track) { return has_joint(track.joint); }) &&
+      std::all_of(clip.contacts.begin(), clip.contacts.end(),
+                  [&](const FootContact& contact) { return endsLimb(target, contact.joint); });
   if (!moves_all || clip.template_name.empty() || clip.template_name == template_name) return moves_all;
   const std::vector<std::string> known = builtinTemplates();
   if (std::find(known.begin(), known.end(), clip.template_name) == known.end()) return false;
@@ -88,13 +98,11 @@ std::vector<Clip> clipsWithFolder(const std::string& dir) {
 }
 
 bool fits(const Clip& clip, const Skeleton& skeleton) {
-  return fitsJoints(clip, skeleton.template_name,
-                    [&](const std::string& joint) { return skeleton.find(joint) >= 0; });
+  return fitsTarget(clip, skeleton.template_name, skeleton);
 }
 
 bool fits(const Clip& clip, const SkeletonTemplate& body_plan) {
-  return fitsJoints(clip, body_plan.name,
-                    [&](const std::string& joint) { return body_plan.find(joint) >= 0; });
+  return fitsTarget(clip, body_plan.name, body_plan);
 }
 
 std::vector<Clip> clipsFor(const std::vector<Clip>& library, const Skeleton& skeleton) {

@@ -18,7 +18,7 @@ const std::vector<Clip>& builtinClips();
 // InputError: no folder, a file that is no clip, two of the same name.
 std::vector<Clip> clipsWithFolder(const std::string& dir);
 
-// Whether the joints are there that the clip moves, and all those of its template.
+// Whether the joints are there that the clip moves, those of its template, and limbs for its contacts to end.
 bool fits(const Clip& clip, const Skeleton& skeleton);
 bool fits(const Clip& clip, const SkeletonTemplate& body_plan);
 

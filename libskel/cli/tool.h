@@ -13,6 +13,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -54,6 +55,20 @@ inline std::string mainInput(const CLI::App& app) {
   return with_name;
 }
 
+// Throws UsageError where a command would leave out what stands before it, or another command, without a
+// word. Options of the whole tool are a command's as well where it falls through to them.
+inline void requireOneCommand(const CLI::App& app) {
+  const std::vector<CLI::App*> commands = app.get_subcommands();
+  if (commands.empty()) return;
+  const CLI::App& command = *commands.front();
+  if (commands.size() > 1)
+    throw UsageError(command.get_name() + " and " + commands[1]->get_name() + " are two commands; give one");
+  for (const CLI::Option* option : app.get_options([](const CLI::Option* o) { return o->count() > 0; }))
+    if (option->get_positional() || !command.get_fallthrough())
+      throw UsageError(command.get_name() + " takes no " + option->get_name() + " before it; see " +
+                       app.get_name() + " " + command.get_name() + " --help");
+}
+
 // Whether all that was printed has arrived; errno says why not.
 inline bool printed() {
   std::cout.flush();
@@ -92,6 +107,7 @@ inline int runTool(CLI::App& app, int argc, char** argv, const std::function<Exi
   };
   try {
     app.parse(argc, argv);
+    requireOneCommand(app);
     guardInputs();
     removeTemporaryFilesOnSignals();
     noteFiles(app);

@@ -76,6 +76,7 @@ void noteOutput(const std::string& path) {
 }
 
 void noteNamedOutput(const std::string& path) {
+  if (path.empty()) throw UsageError("what is to be written has no name; name a file");
   noteOutput(path);
   std::error_code failure;
   const fs::path canonical = fs::weakly_canonical(fs::absolute(path), failure);

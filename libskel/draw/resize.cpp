@@ -14,10 +14,11 @@ struct Taps {
   std::vector<float> weights;  // sum 1
 };
 
-std::vector<Taps> tapsFor(int from, int to) {
+// Of `count` target pixels from `begin` on, where `from` source pixels become `to`.
+std::vector<Taps> tapsFor(int from, int to, int begin, int count) {
   std::vector<Taps> taps;
   const double scale = double(from) / to;
-  for (int i = 0; i < to; ++i) {
+  for (int i = begin; i < begin + count; ++i) {
     const double center = (i + 0.5) * scale - 0.5;
     // Shrinking: the source pixels that the target pixel covers. Growing: the two nearest.
     const double half = scale > 1 ? scale / 2 : 1;
@@ -37,19 +38,19 @@ std::vector<Taps> tapsFor(int from, int to) {
   return taps;
 }
 
-}  // namespace
-
-Image resized(const Image& image, int width, int height) {
-  SKEL_CHECK(!image.empty() && width >= 1 && height >= 1);
-  if (width == image.width && height == image.height) return image;
-  const std::vector<Taps> across = tapsFor(image.width, width), down = tapsFor(image.height, height);
+// The part of `width` x `height` px at (left, top) of the image resized to `whole_width` x `whole_height`,
+// which may be far more than there is memory for.
+Image resizedPart(const Image& image, int whole_width, int whole_height, int left, int top, int width,
+                  int height) {
+  const std::vector<Taps> across = tapsFor(image.width, whole_width, left, width),
+                          down = tapsFor(image.height, whole_height, top, height);
   // Colours weighted by alpha, so that clear pixels do not bleed. Source rows made narrow, as many as a
   // target row needs: the next one takes the place of the oldest.
   std::size_t most = 0;
   for (const Taps& taps : down) most = std::max(most, taps.weights.size());
   std::vector<Eigen::Array4f> narrow(most * std::size_t(width));
   const auto narrowRow = [&](int y) { return narrow.data() + (std::size_t(y) % most) * std::size_t(width); };
-  int next = 0;
+  int next = down.front().first;
   Image result(width, height);
   for (int y = 0; y < height; ++y) {
     for (; next < down[y].first + int(down[y].weights.size()); ++next)
@@ -75,6 +76,14 @@ Image resized(const Image& image, int width, int height) {
   return result;
 }
 
+}  // namespace
+
+Image resized(const Image& image, int width, int height) {
+  SKEL_CHECK(!image.empty() && width >= 1 && height >= 1);
+  if (width == image.width && height == image.height) return image;
+  return resizedPart(image, width, height, 0, 0, width, height);
+}
+
 Image fitted(const Image& image, int max_width, int max_height) {
   const double scale = std::min(double(max_width) / image.width, double(max_height) / image.height);
   return resized(image, std::clamp(int(std::lround(image.width * scale)), 1, max_width),
@@ -83,10 +92,13 @@ Image fitted(const Image& image, int max_width, int max_height) {
 
 Image covering(const Image& picture, int width, int height) {
   const double scale = std::max(double(width) / picture.width, double(height) / picture.height);
-  const Image sized = resized(picture, std::max(width, int(std::lround(picture.width * scale))),
-                              std::max(height, int(std::lround(picture.height * scale))));
+  const int whole_width = std::max(width, int(std::lround(picture.width * scale))),
+            whole_height = std::max(height, int(std::lround(picture.height * scale)));
+  const int left = (whole_width - width) / 2, top = (whole_height - height) / 2;
+  if (whole_width != picture.width || whole_height != picture.height)
+    return resizedPart(picture, whole_width, whole_height, left, top, width, height);
   Image result = blankImage(width, height, kClear);
-  blit(result, sized, (width - sized.width) / 2, (height - sized.height) / 2);
+  blit(result, picture, -left, -top);
   return result;
 }
 

@@ -47,14 +47,18 @@ std::string videoFormatNames() {
 
 bool keepsTransparency(const std::string& path) { return endingOf(path) != ".mp4"; }
 
-std::unique_ptr<VideoWriter> openVideo(const std::string& path, const VideoOptions& options) {
-  if (path.empty()) throw UsageError("name the film that is to be written");
+void checkVideo(const VideoOptions& options) {
   if (options.width < 1 || options.height < 1 || options.width > kMaxSide_px || options.height > kMaxSide_px)
     throw UsageError("a film of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
                      " px cannot be written; sides go from 1 to " + std::to_string(kMaxSide_px));
   if (!(options.frame_rate >= kMinFrameRate && options.frame_rate <= kMaxFrameRate))
     throw UsageError("a film cannot have " + std::to_string(options.frame_rate) +
                      " frames a second; 0.1 to 240 can be written");
+}
+
+std::unique_ptr<VideoWriter> openVideo(const std::string& path, const VideoOptions& options) {
+  if (path.empty()) throw UsageError("name the film that is to be written");
+  checkVideo(options);
   const std::string ending = endingOf(path);
   if (ending.empty()) return openFrameFolder(path, options);
   ensureWritableFolderOf(path);

@@ -36,6 +36,10 @@ class VideoWriter {
 // cannot be written to, or holds frames of a longer film).
 std::unique_ptr<VideoWriter> openVideo(const std::string& path, const VideoOptions& options);
 
+// What openVideo() refuses of any film, before there is one: sides beyond 1 to 16383 px, rates beyond 0.1 to
+// 240 frames a second. Throws UsageError.
+void checkVideo(const VideoOptions& options);
+
 // The formats that this build can write, for --help: ".mp4, .gif, a folder".
 std::string videoFormatNames();
 

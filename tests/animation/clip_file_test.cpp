@@ -189,6 +189,16 @@ TEST_CASE("each body plan has clips of its own") {
       "there is no clip \"fly\" for this body plan; there are: idle, walk, gallop, graze, nod, wag");
 }
 
+TEST_CASE("a clip that puts the pelvis on the ground fits nobody") {
+  Clip clip = parsed(R"("contacts": [{"joint": "left_foot", "from_s": 0, "to_s": 1}],
+    "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [9, 0, 0, 0]]}])");
+  CHECK(fits(clip, figureSkeleton()));
+  CHECK(fits(clip, loadTemplate("biped")));
+  clip.contacts[0].joint = "pelvis";
+  CHECK_FALSE(fits(clip, figureSkeleton()));
+  CHECK_FALSE(fits(clip, loadTemplate("biped")));
+}
+
 TEST_CASE("an unknown clip lists each clip once, and the one that was probably meant") {
   std::vector<Clip> twice = clipsFor(builtinClips(), loadTemplate("quadruped"));
   for (const Clip& clip : clipsFor(builtinClips(), loadTemplate("quadruped"))) twice.push_back(clip);

@@ -68,11 +68,11 @@ TEST_CASE(
   const auto frame = [&](const std::string& film, int number) {
     return readFile(dir.file(film) + "/frame-000" + std::to_string(number) + ".png");
   };
-  const std::string dog = std::string(SKEL_SOURCE_DIR) + "/datasets/animals/box_dog.png";
+  const std::string dog = std::string(SKEL_SOURCE_DIR) + "/datasets/animals/walking_dog.png";
   films(kDrawing + " " + dog + " --clips idle,walk");
   for (const auto& entry : fs::directory_iterator(dir.path())) CHECK(filesBelow(entry.path()).size() > 4);
   const std::string idle = frame("cap_boy-idle", 1);
-  CHECK(frame("box_dog-walk", 1) != frame("cap_boy-walk", 1));
+  CHECK(frame("walking_dog-walk", 1) != frame("cap_boy-walk", 1));
   films(kDrawing + " --clip jump --clip idle");
   CHECK(frame("cap_boy-idle", 1) == idle);
   films(kDrawing + " --clip idle --frame clips");
@@ -170,6 +170,8 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
       {model + " --clip nod --background none -o " + dir.file("film.mp4"), 1, "MP4 has no transparency"},
       {model + " --clip nod --background '#12' -o " + film, 1, "a colour is written #rrggbb"},
       {model + " --clip nod --background blue.png -o " + film, 2, "blue.png: cannot be read"},
+      {model + " --clip nod --size 200000 --background " + kDrawing + " -o " + film, 1,
+       "a film of 200000x200000 px cannot be written"},
       {model + " --clip nod --show-weights wing -o " + film, 1, "there is no joint \"wing\""},
       {model + " --clips nod,walk -o " + film, 1, "film.gif must be a folder (a name that ends with /)"},
       {model + " --clip nod --format gif -o " + film, 1, "--format is that of films in a folder"},
@@ -210,6 +212,39 @@ TEST_CASE("all clips of a model that can do none are no film and no sheet withou
     CHECK(run.err == "skel-animate: " + model +
                          ": can do no clip: it has none, and none that come with skel fit its joints\n");
   }
+}
+
+TEST_CASE("all clips are filmed but the one that this character cannot do, and that is named") {
+  const TempDir dir;
+  const std::string model = figureFile(dir);
+  const auto write = [&](const std::string& name, const std::string& more) {
+    writeFile(dir.file("clips/" + name + ".clip.json"),
+              R"({"format": "skel-clip", "version": 1, "name": ")" + name + "\", " + more + "}");
+  };
+  write("sink", R"("contacts": [{"joint": "pelvis", "from_s": 0, "to_s": 1}],
+    "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [2, 9, 0, 0]]}])");
+  const std::string film =
+      " --clip all --clips-dir " + dir.file("clips") + " --fps 1 --size 16 --format gif -o ";
+  for (const std::string& figure : {model, kDrawing}) {
+    const ToolRun run = render(figure + film + dir.file("films/"));
+    CAPTURE(run.err);
+    CHECK(run.exit_code == 0);
+    CHECK_THAT(run.err,
+               Contains(figure + ": note: the clip \"sink\" does not fit its joints and is left out\n"));
+  }
+  CHECK(filesBelow(dir.file("films")).size() == 11 + 10);
+  std::string steps;
+  for (int i = 0; i < 64; ++i)
+    steps += (i ? ", " : "") + std::string(R"({"joint": "left_foot", "from_s": )") + std::to_string(i) +
+             R"(, "to_s": )" + std::to_string(i + .5) + "}";
+  fs::remove_all(dir.file("clips"));
+  write("endless", R"("duration_s": 3600, "contacts": [)" + steps +
+                       R"(], "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0]]}])");
+  const ToolRun run = render(model + film + dir.file("more/"));
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("skel-animate: " + model + ": the clip \"endless\" is too long: "));
+  CHECK(filesBelow(dir.file("more")).size() == 11);
 }
 
 TEST_CASE("a disk that fills up leaves no broken film") {

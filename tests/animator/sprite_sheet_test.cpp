@@ -21,7 +21,7 @@ using Json = nlohmann::json;
 namespace {
 
 const std::string kDrawing = std::string(SKEL_SOURCE_DIR) + "/datasets/characters/cap_boy.png";
-const std::string kDog = std::string(SKEL_SOURCE_DIR) + "/datasets/animals/box_dog.png";
+const std::string kDog = std::string(SKEL_SOURCE_DIR) + "/datasets/animals/walking_dog.png";
 
 ToolRun render(const std::string& arguments, const std::string& before = "") {
   return runTool(before + SKEL_ANIMATE + " render " + arguments);
@@ -178,6 +178,9 @@ TEST_CASE("sheets of several drawings go to a folder, and what makes no sense is
           0);
   CHECK(filesBelow(sheets).size() == 4);
   writeFile(dir.file("hero.png"), readFile(kDrawing));
+  writeFile(dir.file("long.clip.json"),
+            R"({"format": "skel-clip", "version": 1, "name": "long", "duration_s": 120,
+               "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0]]}]})");
   const struct {
     std::string arguments, message;
   } cases[] = {
@@ -193,6 +196,9 @@ TEST_CASE("sheets of several drawings go to a folder, and what makes no sense is
        "the sheet would be 32000x"},
       {model + " --clip nod --fps 240 --size 2000x2000 --trim --sheet " + dir.file("s.png"),
        "the sheet would be"},
+      {model + " --clip " + dir.file("long.clip.json") +
+           " --fps 240 --size 1 --directions 16 --trim --sheet " + dir.file("s.png"),
+       "a sheet has at most 16384 frames"},
       {model + " --clip nod --size 4000 --sheet " + dir.file("s.png"), "at most 2048 px a side"},
   };
   for (const auto& one : cases) {

@@ -145,3 +145,31 @@ TEST_CASE("a background is a name, a colour in figures, or neither, and a pictur
   CHECK((covered.width == 30 && covered.height == 20));
   CHECK(covered.rgba.col(0).minCoeff() == 255);
 }
+
+TEST_CASE("a background of 1 x 32766 px covers a film without being made as long as that is wide") {
+  Image stripe = blankImage(1, 32766, {0, 0, 255});
+  for (int y = 16000; y < 16766; ++y) *stripe.pixel(0, y) = 200;
+  const Image covered = covering(stripe, 2048, 1024);  // whole: 2048 x 67 million
+  REQUIRE((covered.width == 2048 && covered.height == 1024));
+  CHECK((covered.rgba.col(0) == 200).all());
+  CHECK((covered.rgba.col(3) == 255).all());
+}
+
+TEST_CASE("a picture that covers is the middle of the picture resized") {
+  Image picture = blankImage(37, 11, {9, 9, 9});
+  for (int y = 0; y < 11; ++y)
+    for (int x = 0; x < 37; ++x) picture.pixel(x, y)[1] = std::uint8_t(x * 7 + y);
+  for (const auto& [width, height] : {std::pair(20, 30), {60, 5}, {10, 11}, {5, 2}}) {
+    const Image covered = covering(picture, width, height);
+    const double scale = std::max(width / 37., height / 11.);
+    const Image whole = resized(picture, std::max(width, int(std::lround(37 * scale))),
+                                std::max(height, int(std::lround(11 * scale))));
+    const int left = (whole.width - width) / 2, top = (whole.height - height) / 2;
+    bool same = true;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        same =
+            same && std::equal(covered.pixel(x, y), covered.pixel(x, y) + 4, whole.pixel(left + x, top + y));
+    CHECK(same);
+  }
+}

@@ -126,6 +126,20 @@ TEST_CASE("a line of JSON says all that became of a drawing, in the order of the
     CHECK(lines(named.out).at(0)["sha256"] == first["sha256"]);
     CHECK_FALSE(fs::exists(dir.file("flat/hero.result.json")));
   }
+  SECTION("one whose result cannot be kept has failed, and says what was written all the same") {
+    fs::create_directories(dir.file("full/in/a/hero.result.json"));
+    const ToolRun failed = infer(dir, "--from list --json -o full" + kCheap);
+    CHECK(failed.exit_code == 4);
+    const Json one = lines(failed.out).at(0);
+    CHECK(one["status"] == "failed");
+    CHECK_THAT(one["error"].get<std::string>(), Contains("hero.result.json: cannot be written: "));
+    CHECK(one["figures"].size() == 1);
+  }
+  SECTION("a report adds no line that is no JSON") {
+    const ToolRun reported = infer(dir, "in/a/hero.png --json --report r.html -o flat" + kCheap);
+    CHECK(lines(reported.out).size() == 1);
+    CHECK(fs::exists(dir.file("r.html")));
+  }
 }
 
 TEST_CASE("what is done is left, what is half done or was made otherwise is done anew") {
@@ -318,6 +332,8 @@ TEST_CASE("a list that is none is refused by name") {
   CHECK_THAT(refusal("."), Contains(".: cannot be read: "));
   CHECK_THAT(refusal("zeros"), Contains("zeros: path 1 holds a zero byte"));
   CHECK_THAT(refusal("long"), Contains("long: path 1 is longer than 4096 bytes"));
+  CHECK_THAT(refusal("/dev/zero --null"),
+             Contains("/dev/zero: path 1 comes after more than 100000 empty ones"));
 }
 
 TEST_CASE("results stay below their folder, whatever the path of the drawing") {

@@ -113,6 +113,35 @@ TEST_CASE("a table of samples is read again as it was written, and what is none 
   CHECK(complaint(first + first.substr(0, first.rfind(',')) + "\n") == kSecond);
   CHECK(complaint("J" + first.substr(1)) ==
         "t.csv: line 1 is none of a table that skel-train confidence writes");
+  // What is neither right nor wrong nor unknown; more joints than any net has.
+  std::string joint = table.substr(first.size(), table.find('\n', first.size()) + 1 - first.size());
+  std::string all = first;
+  for (int i = 0; i < 63; ++i) all += joint;
+  CHECK(complaint(all).empty());
+  CHECK(complaint(all + joint) == "t.csv: line 65 is none of a table that skel-train confidence writes");
+  joint.replace(joint.find("biped,") + 6, 1, "1e300");
+  CHECK(complaint(first + joint) == kSecond);
+}
+
+TEST_CASE("a table of figures without joints, or of joints that nobody knows, is one line") {
+  const TempDir dir;
+  std::vector<ConfidenceSample> samples =
+      confidenceSamples(findJointedDrawings(folderOf(dir, "d", "characters", {"cap_boy"})), {},
+                        builtInJointNets().of("biped"), 0, 1, 1);
+  const auto refused = [&](const std::string& table, int exit_code, const std::string& message) {
+    writeFile(dir.file("t.csv"), table);
+    const auto run =
+        runTool("'" SKEL_TRAIN "' confidence '" + dir.file("t.csv") + "' -o '" + dir.file("c.json") + "'");
+    CHECK(run.exit_code == exit_code);
+    CHECK(run.err == "skel-train: " + message + "\n");
+    CHECK_FALSE(std::filesystem::exists(dir.file("c.json")));
+  };
+  const std::string table = formatConfidenceTable(samples);
+  refused(table.substr(0, table.find('\n') + 1), 2,
+          dir.file("t.csv") + ": has no joint that counts of \"" + samples[0].drawing + "\"");
+  for (ConfidenceSample& s : samples) s.right.assign(s.right.size(), -1);
+  refused(formatConfidenceTable(samples), 1,
+          "of no joint of these drawings it is known whether it is right; there is nothing to learn");
 }
 
 }  // namespace

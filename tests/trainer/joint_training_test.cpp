@@ -1,5 +1,7 @@
 // skel-train joints: the same net whatever the number of threads, and after a stop.
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 
 #include "libskel/core/files.h"
@@ -139,6 +141,27 @@ TEST_CASE("joint training refuses what it cannot go on from or learn from") {
   CHECK(empty.exit_code == 2);
   CHECK(empty.err.find("has no drawing with known joints") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(dir.file("n.bin")));
+}
+
+TEST_CASE("a checkpoint of a negative step, or of what is no number, is refused") {
+  const TempDir dir;
+  const std::string train = command(dir, "n.bin", "--checkpoint '" + dir.file("state") + "'");
+  REQUIRE(runTool(train).exit_code == 0);
+  const std::string state = readFile(dir.file("state"));
+  const std::int64_t step = -7;
+  const float number = std::nanf(""), square = -1;
+  const auto refuses = [&](std::size_t at, const auto& value) {
+    std::string damaged = state;
+    std::memcpy(damaged.data() + at, &value, sizeof value);
+    writeFile(dir.file("state"), damaged);
+    const auto run = runTool(train);
+    CHECK(run.exit_code == 2);
+    CHECK(run.err.find("is a damaged checkpoint: remove it to start anew") != std::string::npos);
+  };
+  const std::size_t quarter = (state.size() - sizeof step) / 4;
+  refuses(0, step);
+  refuses(sizeof step + 4, number);
+  refuses(sizeof step + 2 * quarter, square);
 }
 
 TEST_CASE("the mean of a net and itself is that net, the mean of two lies between them") {
