@@ -12,6 +12,7 @@
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
 #include "libskel/mesh/fill_hidden.h"
+#include "libskel/mesh/hidden_ink.h"
 #include "libskel/mesh/lay_over.h"
 #include "libskel/mesh/local_mean.h"
 #include "libskel/mesh/outline.h"
@@ -271,18 +272,21 @@ void dress(const Image& image, const Plane8& mask, const Plane8& colored, bool t
   sheet.front = drawingTexture(image, colored, figureBox(mask), max_texture_px);
 }
 
-// Within its box; then the sheet goes to its place in the image.
+// Within its box; then the sheet goes to its place in the image. `left_ink_px`: how far lines of what hid the
+// piece may lie beside it.
 void dressPiece(const Image& image, const FigurePiece& piece, const Plane8& drawn, bool thin_outline,
-                int max_texture_px, Sheet& sheet) {
+                int max_texture_px, int left_ink_px, Sheet& sheet) {
   const PixelBox& box = piece.box;
   Image part(box.width(), box.height());
   for (int y = 0; y < part.height; ++y)
     std::copy_n(image.pixel(box.x0, box.y0 + y), 4 * std::size_t(part.width), part.pixel(0, y));
   const Plane8 colored =
       (piece.mask != 0 && drawn.block(box.y0, box.x0, part.height, part.width) != 0).cast<std::uint8_t>();
-  const Image filled =
-      fillHidden(std::move(part), Plane8((colored != 0 && piece.hidden == 0).cast<std::uint8_t>()),
-                 Plane8((colored != 0 && piece.hidden != 0).cast<std::uint8_t>()));
+  const Plane8 covered = (colored != 0 && piece.hidden != 0).cast<std::uint8_t>();
+  const Plane8 unknown = withLeftInk(part, Plane8((colored != 0).cast<std::uint8_t>()), covered, left_ink_px);
+  Image filled =
+      fillHidden(std::move(part), Plane8((colored != 0 && unknown == 0).cast<std::uint8_t>()), unknown);
+  inkHiddenRim(piece.mask, covered, sheet.outline, filled);
   dress(filled, piece.mask, colored, thin_outline, max_texture_px, sheet);
   const Eigen::Vector2d corner(box.x0, box.y0);
   for (std::vector<Eigen::Vector2d>* points :
@@ -464,9 +468,12 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
   if (pieces.empty()) {
     dress(image, silhouette.mask, drawn, options.thin_outline, max_texture_px, sheets.front());
   } else {
+    constexpr double kLeftInk = .0125;  // of the figure's long side
+    const int left_ink_px =
+        std::max(1, static_cast<int>(std::lround(kLeftInk * std::max(box.width(), box.height()))));
     for (std::size_t i = 0; i < sheets.size(); ++i)
       dressPiece(image, pieces[i], drawn, options.thin_outline,
-                 shareOf(max_texture_px / 2, pieces[i].box, box), sheets[i]);
+                 shareOf(max_texture_px / 2, pieces[i].box, box), left_ink_px, sheets[i]);
   }
   for (std::size_t i = 0; i < sheets.size() && !same_back; ++i) {
     // A picture of the back has all pieces in it.
