@@ -206,14 +206,48 @@ void snap(const std::vector<cv::Mat>& probabilities, Sketch& picture) {
     }
 }
 
+// What of `taken`, by a part that had `before`, stands out from it like spikes: lines of others that only
+// begin at it. An opening by a disc tells them from the part's own outline; what touches no other part is its
+// own.
+cv::Mat spikes(const Sketch& picture, const cv::Mat& taken, const cv::Mat& before) {
+  cv::Mat depth, opened, labels;
+  double half = 0;  // of the part's width, px
+  cv::distanceTransform(taken, depth, cv::DIST_L2, 3);
+  cv::minMaxLoc(depth, nullptr, &half);
+  // As wide as any line, if the part is wider.
+  const int radius = std::min(px(picture, kLineWidth / 2), static_cast<int>(half / 2));
+  // A line's blurred edge, which is no ink, must not part it from what it outlines.
+  cv::morphologyEx(taken, opened, cv::MORPH_CLOSE, cv::Mat::ones(5, 5, CV_8U));
+  cv::morphologyEx(opened, opened, cv::MORPH_OPEN, disc(std::max(1, radius)));
+  const cv::Mat out = taken & ~(opened | before);
+  cv::Mat others = picture.mask & ~taken;
+  cv::dilate(others, others, cv::Mat::ones(3, 3, CV_8U));
+  const int count = cv::connectedComponents(out, labels, 4, CV_32S);
+  std::vector<std::uint8_t> touches(static_cast<std::size_t>(count), 0);
+  cv::Mat found = cv::Mat::zeros(out.size(), CV_8U);
+  for (const bool mark : {false, true})
+    for (int y = 0; y < out.rows; ++y)
+      for (int x = 0; x < out.cols; ++x) {
+        std::uint8_t& touched = touches[static_cast<std::size_t>(labels.at<int>(y, x))];
+        if (out.at<std::uint8_t>(y, x) == 0) continue;
+        if (mark)
+          found.at<std::uint8_t>(y, x) = touched;
+        else if (others.at<std::uint8_t>(y, x) != 0)
+          touched = 255;
+      }
+  return found;
+}
+
 // The part takes the lines of `from` that it is drawn with.
 void takeInk(Sketch& picture, Part part, const cv::Mat& from) {
-  cv::Mat own = picture.of(part);
+  const cv::Mat before = picture.of(part);
+  cv::Mat own = before.clone();
   for (int step = px(picture, kInkReach); step > 0; --step) {
     cv::Mat grown;
     cv::dilate(own, grown, cv::Mat::ones(3, 3, CV_8U));
     own |= grown & picture.ink & from;
   }
+  own &= ~spikes(picture, own, before);
   picture.part.setTo(static_cast<int>(part), own);
 }
 

@@ -373,6 +373,22 @@ TEST_CASE("a trunk before the legs keeps its outline, and legs keep theirs, all 
   }
 }
 
+TEST_CASE(
+    "a limb does not take the beginnings of lines that only end at it: they would stand out like spikes") {
+  Drawing drawing;
+  const Vector2d middle = (drawing.at("right_elbow") + drawing.at("right_hand")) / 2;
+  const int x = int(middle.x());
+  int rim = int(middle.y());
+  while (drawing.arm(rim, x) != 0) ++rim;
+  REQUIRE(drawing.silhouette.mask(rim + 20, x) != 0);
+  for (int y = rim; y < rim + 20; ++y)
+    for (int u = x - 1; u <= x + 1; ++u) std::fill_n(drawing.image.pixel(u, y), 3, std::uint8_t(20));
+  const LayerMap layers = drawing.layers();
+  REQUIRE(layers.limb(int(middle.y()), x) != 0);
+  CHECK(layers.limb(rim - 2, x) == layers.limb(int(middle.y()), x));
+  CHECK(int(layers.limb(rim + 2, x)) == 0);
+}
+
 TEST_CASE("short legs reach their hips deep in the trunk") {
   const Animal pig("crayon_pig");
   int legs = 0;
