@@ -318,6 +318,7 @@ std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& 
     FigurePiece& piece = drafts[i].piece;
     piece.layer = i == 0 ? 0 : limbs[i - 1].layer;
     piece.behind = i > 0 && limbs[i - 1].far;
+    piece.root_px = i > 0 ? limbs[i - 1].root.radius : 0;
     piece.box = i == 0 ? box : common(around(limbs[i - 1].box, limbs[i - 1].root.box()), box);
     const Plane8 hidden = hiddenOf(piece.layer);
     piece.mask = piece.hidden = piece.over = Plane8::Zero(piece.box.height(), piece.box.width());

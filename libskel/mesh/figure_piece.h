@@ -13,6 +13,7 @@ struct FigurePiece {
   Plane8 hidden;        // not 0 where the drawing shows something else in its place
   Plane8 over;          // not 0 where it must lie before the pieces that come before it
   bool behind = false;  // the trunk: it lies over nothing
+  double root_px = 0;   // of a limb: half of its width, below where it hangs on the trunk
 };
 
 }  // namespace skel

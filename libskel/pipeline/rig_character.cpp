@@ -15,6 +15,7 @@
 #include "libskel/jointnet/net_joints.h"
 #include "libskel/mesh/front_view.h"
 #include "libskel/pipeline/body_depth.h"
+#include "libskel/pipeline/limb_roots.h"
 #include "libskel/pipeline/worn_parts.h"
 #include "libskel/recognition/complete_skeleton.h"
 #include "libskel/recognition/paper_recognizer.h"
@@ -297,8 +298,11 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
   drawing.character.weights = timed("skin", [&] {
     SkinWeights weights = computeSkinWeights(drawing.character.mesh, drawing.character.skeleton,
                                              options.skin_method, options.skin, joint_layers);
-    if (inflated)
+    if (inflated) {
+      tieLimbRoots(drawing.character.mesh, body_plan, pieces, drawing.layers, drawing.character.skeleton,
+                   weights);
       carryWornParts(drawing.character.mesh, body_plan, drawing.layers, drawing.character.skeleton, weights);
+    }
     return weights;
   });
   if (inflated) {
