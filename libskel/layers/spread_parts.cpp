@@ -111,7 +111,7 @@ void spreadParts(const cv::Mat& rgb, const cv::Mat& mask, double range, std::vec
     if (!plane.empty()) there.push_back(&plane);
   std::vector<Shares> shares(pixels.size());
   for (std::size_t first = 0; first < there.size(); first += kTogether) {
-    const std::span<cv::Mat*> some(there.begin() + static_cast<std::ptrdiff_t>(first),
+    const std::span<cv::Mat*> some(there.data() + first,
                                    std::min<std::size_t>(kTogether, there.size() - first));
     for (Shares& of_pixel : shares) of_pixel.setZero();
     for (std::size_t k = 0; k < some.size(); ++k) {
