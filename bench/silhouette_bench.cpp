@@ -20,6 +20,7 @@
 #include "libskel/labels/annotated_image.h"
 #include "libskel/silhouette/page_net.h"
 #include "libskel/silhouette/silhouette.h"
+#include "libskel/silhouette/working_colors.h"
 #include "trainer/pages/hard_pages.h"
 
 namespace skel {
@@ -40,7 +41,7 @@ void dump(const HardPage& page, const cv::Mat& found, const std::string& path) {
   shown.setTo(cv::Scalar(255, 0, 220), edge);
   const double scale = std::min(1., 400. / std::max(shown.cols, shown.rows));
   cv::resize(shown, shown, {}, scale, scale, cv::INTER_AREA);
-  writeFile(path, encodePng(imageOfPage({shown, {}})));
+  writeFile(path, encodePng(imageOfRgb(shown)));
 }
 
 int run(const std::vector<std::string>& folders, const std::string& net_file,
@@ -61,7 +62,7 @@ int run(const std::vector<std::string>& folders, const std::string& net_file,
     for (std::size_t c = 0; c < all.size(); ++c) {
       Rng rng(i, c);
       const HardPage page = all[c].compose(rng, art, beside);
-      const Silhouette silhouette = extractSilhouette(imageOfPage(page), options);
+      const Silhouette silhouette = extractSilhouette(imageOfRgb(page.rgb), options);
       cv::Mat found = cv::Mat::zeros(page.rgb.size(), CV_8U);
       if (silhouette.found())
         cv::Mat(found.rows, found.cols, CV_8U, const_cast<std::uint8_t*>(silhouette.mask.data()))

@@ -105,19 +105,18 @@ struct Forecasts {
 
 // Learns from all hands but a fold's, and measures on that as drawn; the masses and likeness beside.
 void crossValidate(const std::vector<ConfidenceSample>& samples, const Hands& hands, int folds, int seed) {
-  std::set<std::string> names;
-  for (const ConfidenceSample& s : samples) names.insert(hands.of(s.drawing));
-  std::map<std::string, int> fold_of;
-  for (const std::string& name : names) fold_of.emplace(name, static_cast<int>(fold_of.size()) % folds);
+  std::vector<std::string> drawings;
+  for (const ConfidenceSample& s : samples) drawings.push_back(s.drawing);
+  const std::map<std::string, int> fold_of = foldOfDrawing(drawings, hands, folds);
   std::map<std::string, std::pair<Forecasts, Forecasts>> by_plan;  // learned, and the net's own
   for (int fold = 0; fold < folds; ++fold) {
     SampleList learned;
     for (const ConfidenceSample& s : samples)
-      if (fold_of[hands.of(s.drawing)] != fold) learned.push_back(&s);
+      if (fold_of.at(s.drawing) != fold) learned.push_back(&s);
     if (std::none_of(learned.begin(), learned.end(), [](const auto* s) { return knowsAJoint(*s); })) continue;
     const ConfidenceModel model = learn(learned, seed);
     for (const ConfidenceSample& s : samples) {
-      if (fold_of[hands.of(s.drawing)] != fold || s.disturbance != Disturbance::kNone) continue;
+      if (fold_of.at(s.drawing) != fold || s.disturbance != Disturbance::kNone) continue;
       const Confidences sure = confidencesOf(s.evidence, model);
       by_plan[s.body_plan].first.add(s, sure.figure, sure.joints);
       by_plan[s.body_plan].second.add(s, s.likeness, s.masses);

@@ -29,4 +29,15 @@ Hands readHands(const std::string& file, const std::string& first_hand) {
   return hands;
 }
 
+std::map<std::string, int> foldOfDrawing(const std::vector<std::string>& drawings, const Hands& hands,
+                                         int folds) {
+  std::set<std::string> names;
+  for (const std::string& drawing : drawings) names.insert(hands.of(drawing));
+  std::map<std::string, int> fold_of_hand, fold_of;
+  for (const std::string& name : names)
+    fold_of_hand.emplace(name, static_cast<int>(fold_of_hand.size()) % folds);
+  for (const std::string& drawing : drawings) fold_of[drawing] = fold_of_hand.at(hands.of(drawing));
+  return fold_of;
+}
+
 }  // namespace skel

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace skel {
 
@@ -18,5 +19,9 @@ struct Hands {
 // `file`: a JSON object of lists of names of drawings, by hand; "": none is known. What the hands before
 // `first_hand` drew, nets have learned from; "": nothing. Throws InputError and UsageError.
 Hands readHands(const std::string& file, const std::string& first_hand = "");
+
+// Of each drawing its group of 0 to folds - 1, for cross-validation: all of a hand's are in one.
+std::map<std::string, int> foldOfDrawing(const std::vector<std::string>& drawings, const Hands& hands,
+                                         int folds);
 
 }  // namespace skel

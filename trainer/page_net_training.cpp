@@ -15,6 +15,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "libskel/silhouette/page_net.h"
+#include "libskel/silhouette/working_colors.h"
 #include "trainer/conv_net_trainer.h"
 #include "trainer/jointed_drawing.h"
 #include "trainer/page_loss.h"
@@ -98,14 +99,7 @@ void writeSheet(const PageTrainingOptions& options, const PageOptions& page_opti
     shown.copyTo(
         sheet(cv::Rect(i % kColumns * kPageNetSize, i / kColumns * kPageNetSize, shown.cols, shown.rows)));
   }
-  Image image(sheet.cols, sheet.rows);
-  for (int y = 0; y < sheet.rows; ++y)
-    for (int x = 0; x < sheet.cols; ++x) {
-      const cv::Vec3b& p = sheet.at<cv::Vec3b>(y, x);
-      std::uint8_t* o = image.pixel(x, y);
-      o[0] = p[0], o[1] = p[1], o[2] = p[2], o[3] = 255;
-    }
-  writeFile(options.sheet, encodePng(image));
+  writeFile(options.sheet, encodePng(imageOfRgb(sheet)));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "libskel/core/progress.h"
 #include "libskel/image/write_image.h"
 #include "libskel/layers/part_net.h"
+#include "libskel/silhouette/working_colors.h"
 #include "trainer/conv_net_trainer.h"
 #include "trainer/part_loss.h"
 #include "trainer/part_samples.h"
@@ -198,14 +199,7 @@ void writeSheet(const PartTrainingOptions& options, const std::vector<PartSample
                                         : partColour(partSaid(maps.maps.back(), y, x));
     put(parts, 2);
   }
-  Image image(sheet.cols, sheet.rows);
-  for (int y = 0; y < sheet.rows; ++y)
-    for (int x = 0; x < sheet.cols; ++x) {
-      const cv::Vec3b& p = sheet.at<cv::Vec3b>(y, x);
-      std::uint8_t* o = image.pixel(x, y);
-      o[0] = p[0], o[1] = p[1], o[2] = p[2], o[3] = 255;
-    }
-  writeFile(options.sheet, encodePng(image));
+  writeFile(options.sheet, encodePng(imageOfRgb(sheet)));
 }
 
 // What a ruler of parts measures against: of each drawing a folder with image.png, mask.png, parts.png (grey:

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <set>
 
 #include "libskel/cli/number.h"
 #include "libskel/cli/outputs.h"
@@ -15,10 +14,12 @@
 #include "libskel/labels/annotated_image.h"
 #include "libskel/recognition/calibration.h"
 #include "libskel/recognition/silhouette_confidence.h"
+#include "libskel/silhouette/working_colors.h"
 #include "trainer/confidence_fit.h"
 #include "trainer/confidence_samples.h"
 #include "trainer/hands.h"
 #include "trainer/pages/hard_pages.h"
+#include "trainer/writable_output.h"
 
 namespace skel {
 namespace {
@@ -43,7 +44,7 @@ std::vector<FoundOnPage> findOnPages(const std::vector<AnnotatedImage>& drawings
     for (std::size_t c = 0; c < all.size(); ++c) {
       Rng rng(seed + i, c);
       const HardPage page = all[c].compose(rng, art, other);
-      const Silhouette silhouette = extractSilhouette(imageOfPage(page));
+      const Silhouette silhouette = extractSilhouette(imageOfRgb(page.rgb));
       if (!silhouette.found() || !silhouette.evidence) continue;
       constexpr double kGood = .9;
       found[i].push_back({all[c].name, drawingName(drawings[i].image), silhouette.evidence->inputs,
@@ -86,20 +87,19 @@ void printForecasts(const std::string& title, const std::vector<Forecast>& forec
 
 // Learns from all hands but a fold's, and measures on that.
 void measureOnHandsLeftOut(const std::vector<FoundOnPage>& pages, const Hands& hands, int folds, int seed) {
-  std::set<std::string> names;
-  for (const FoundOnPage& page : pages) names.insert(hands.of(page.drawing));
-  std::map<std::string, int> fold_of;
-  for (const std::string& name : names) fold_of.emplace(name, static_cast<int>(fold_of.size()) % folds);
+  std::vector<std::string> drawings;
+  for (const FoundOnPage& page : pages) drawings.push_back(page.drawing);
+  const std::map<std::string, int> fold_of = foldOfDrawing(drawings, hands, folds);
   std::map<std::string, std::vector<Forecast>> by_circumstance;
   std::vector<Forecast> all;
   for (int fold = 0; fold < folds; ++fold) {
     std::vector<const FoundOnPage*> learned;
     for (const FoundOnPage& page : pages)
-      if (fold_of[hands.of(page.drawing)] != fold) learned.push_back(&page);
+      if (fold_of.at(page.drawing) != fold) learned.push_back(&page);
     if (learned.empty()) continue;
     const SilhouetteConfidence confidence{learnFrom(learned, seed), ""};
     for (const FoundOnPage& page : pages) {
-      if (fold_of[hands.of(page.drawing)] != fold) continue;
+      if (fold_of.at(page.drawing) != fold) continue;
       all.push_back({confidence.of({page.inputs, std::nullopt}), page.good});
       by_circumstance[page.circumstance].push_back(all.back());
     }
@@ -138,6 +138,7 @@ ExitCode runSilhouetteTraining(const SilhouetteTrainingOptions& options) {
     for (AnnotatedImage& drawing : findAnnotatedImages(folder))
       if (drawing.mask) drawings.push_back(std::move(drawing));
   if (drawings.empty()) throw UsageError("there are no drawings with masks to learn from");
+  ensureWritableFile(options.output);
   const std::vector<FoundOnPage> pages =
       findOnPages(drawings, static_cast<std::uint64_t>(options.seed), options.threads);
   std::vector<const FoundOnPage*> all;

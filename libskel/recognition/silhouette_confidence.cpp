@@ -18,19 +18,11 @@ constexpr int kMaskVersion = 1;
 std::vector<std::string> maskInputs() { return {kMaskInputs.begin(), kMaskInputs.end()}; }
 
 // In which ninth of the figure's box the middle of `box` lies: "upper left", "right", "middle".
-std::string placeIn(const Plane8& mask, const Eigen::Array4d& box) {
-  Eigen::Index left = mask.cols(), right = 0, top = mask.rows(), bottom = 0;
-  for (Eigen::Index y = 0; y < mask.rows(); ++y)
-    for (Eigen::Index x = 0; x < mask.cols(); ++x)
-      if (mask(y, x)) {
-        left = std::min(left, x), right = std::max(right, x + 1);
-        top = std::min(top, y), bottom = y + 1;
-      }
-  const auto third = [](double at, Eigen::Index from, Eigen::Index to) {
-    return std::clamp(
-        static_cast<int>(3 * (at - double(from)) / double(std::max<Eigen::Index>(1, to - from))), 0, 2);
-  };
-  const int column = third(box[0] + box[2] / 2, left, right), row = third(box[1] + box[3] / 2, top, bottom);
+std::string placeIn(const WorkingGrid& grid, const Eigen::Array4d& box) {
+  const Eigen::Array2d size = Eigen::Array2d(grid.width, grid.height) / grid.scale;
+  const Eigen::Array2d at = (box.head<2>() + box.tail<2>() / 2 - grid.corner_px.array()) / size;
+  const auto third = [](double share) { return std::clamp(static_cast<int>(3 * share), 0, 2); };
+  const int column = third(at.x()), row = third(at.y());
   std::string text = row == 0 ? "upper" : row == 2 ? "lower" : "";
   if (column != 1) text += (text.empty() ? "" : " ") + std::string(column == 0 ? "left" : "right");
   if (text.empty()) return "middle";
@@ -52,7 +44,7 @@ std::optional<std::string> silhouetteDoubt(const Silhouette& silhouette,
     return evidence.inputs[std::find(kMaskInputs.begin(), kMaskInputs.end(), name) - kMaskInputs.begin()];
   };
   if (evidence.doubtful && input("largest not seen") >= input("largest not taken"))
-    return "something may be stuck to the figure (" + placeIn(silhouette.mask, *evidence.doubtful) + ")";
+    return "something may be stuck to the figure (" + placeIn(silhouette.grid, *evidence.doubtful) + ")";
   if (input("largest not taken") > input("largest not seen")) return "a part of the figure may be missing";
   return "the outline of the figure may be wrong";
 }

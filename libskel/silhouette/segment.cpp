@@ -72,14 +72,6 @@ cv::Mat straightened(const Image& image, cv::Mat& rgb, PageCorners corners) {
   return page_from_image * image_from_picture;
 }
 
-Image imageOf(const cv::Mat& rgb) {
-  Image image(rgb.cols, rgb.rows);
-  cv::Mat rgba(rgb.rows, rgb.cols, CV_8UC4, image.rgba.data());
-  cv::mixChannels(rgb, rgba, {0, 0, 1, 1, 2, 2});
-  image.rgba.col(3).setConstant(255);
-  return image;
-}
-
 Plane8 sharesOf(const cv::Mat& probability) {
   Plane8 shares(probability.rows, probability.cols);
   cv::Mat view(probability.rows, probability.cols, CV_8U, shares.data());
@@ -202,12 +194,12 @@ Segmentation segment(const Image& image, const PageNet* page_net, bool keep_step
   if (corners) {
     page_from_picture = straightened(image, rgb, *corners);
     lab = labOf(rgb);
-    if (keep_steps) out.steps.sheet = imageOf(rgb);
+    if (keep_steps) out.steps.sheet = imageOfRgb(rgb);
   }
   const bool ruled = eraseRuling(rgb);
   if (ruled) {
     lab = labOf(rgb);
-    if (keep_steps) out.steps.unruled = imageOf(rgb);
+    if (keep_steps) out.steps.unruled = imageOfRgb(rgb);
   }
   const Drawn drawn = figuresIn(rgb, lab);
 

@@ -16,6 +16,14 @@ cv::Mat rgbaOf(const Image& image) {
   return {image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data())};
 }
 
+Image imageOfRgb(const cv::Mat& rgb) {
+  Image image(rgb.cols, rgb.rows);
+  cv::Mat rgba(rgb.rows, rgb.cols, CV_8UC4, image.rgba.data());
+  cv::mixChannels(rgb, rgba, {0, 0, 1, 1, 2, 2});
+  image.rgba.col(3).setConstant(255);
+  return image;
+}
+
 cv::Mat workingRgb(const Image& image) {
   const cv::Mat rgba = rgbaOf(image);
   const double scale = std::min(1.0, kWorkSize / static_cast<double>(std::max(image.width, image.height)));

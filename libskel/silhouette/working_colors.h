@@ -11,6 +11,8 @@ namespace skel {
 
 // The whole picture as it is, CV_8UC4; its pixels are not copied and not to be written.
 cv::Mat rgbaOf(const Image& image);
+// An opaque picture. `rgb`: CV_8UC3.
+Image imageOfRgb(const cv::Mat& rgb);
 // RGB on white, 8-bit. Figures are found with the long side at 512 px; larger pictures are reduced.
 cv::Mat workingRgb(const Image& image);
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "libskel/core/error.h"
+#include "libskel/silhouette/working_grid.h"
 #include "tests/support/catch.h"
 #include "tests/support/synthetic_figure.h"
 
@@ -29,6 +30,7 @@ Silhouette found(const Plane8& mask, const SeenPage& seen) {
   Silhouette silhouette;
   silhouette.status = SilhouetteStatus::kFound;
   silhouette.mask = mask;
+  silhouette.grid = gridOver(mask);
   silhouette.evidence = evidenceOfMask(mask, seen);
   return silhouette;
 }

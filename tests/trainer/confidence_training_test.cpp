@@ -5,6 +5,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/recognition/confidence_model.h"
+#include "libskel/recognition/silhouette_confidence.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 #include "trainer/confidence_samples.h"
@@ -83,6 +84,26 @@ TEST_CASE(
   const auto nobody = run("n.json", "--first-hand nobody");
   CHECK(nobody.exit_code == 1);
   CHECK(nobody.err.find("knows no such hand") != std::string::npos);
+}
+
+TEST_CASE(
+    "what tells how sure a silhouette is, is learned to the same bytes whatever the number of threads, and "
+    "nothing is learned where it cannot be written") {
+  const TempDir dir;
+  const std::string people = folderOf(dir, "p", "characters", {"cap_boy", "ninja", "pirate"});
+  const auto run = [&](const std::string& output, const std::string& more) {
+    return runTool("'" SKEL_TRAIN "' silhouettes '" + people + "' --folds 2 -o '" + output + "' " + more);
+  };
+  const auto one = run(dir.file("one.json"), "--threads 1");
+  INFO(one.err);
+  REQUIRE(one.exit_code == 0);
+  CHECK(one.out.find("on hands left out") != std::string::npos);
+  REQUIRE(run(dir.file("three.json"), "--threads 3").exit_code == 0);
+  CHECK(readFile(dir.file("one.json")) == readFile(dir.file("three.json")));
+  CHECK(parseSilhouetteConfidence(readFile(dir.file("one.json")), "one.json").net.hidden.rows() > 0);
+  const auto folder = run(people, "");
+  CHECK(folder.exit_code == 4);
+  CHECK(folder.out.empty());
 }
 
 TEST_CASE("a table of samples is read again as it was written, and what is none is refused by its line") {

@@ -292,18 +292,6 @@ std::vector<Circumstance> circumstances() {
   };
 }
 
-Image imageOfPage(const HardPage& page) {
-  const cv::Mat& rgb = page.rgb;
-  Image image(rgb.cols, rgb.rows);
-  for (int y = 0; y < rgb.rows; ++y)
-    for (int x = 0; x < rgb.cols; ++x) {
-      const cv::Vec3b& p = rgb.at<cv::Vec3b>(y, x);
-      std::uint8_t* o = image.pixel(x, y);
-      o[0] = p[0], o[1] = p[1], o[2] = p[2], o[3] = 255;
-    }
-  return image;
-}
-
 double overlapOnPage(const HardPage& page, const Plane8& mask) {
   const cv::Mat found(static_cast<int>(mask.rows()), static_cast<int>(mask.cols()), CV_8U,
                       const_cast<std::uint8_t*>(mask.data()));

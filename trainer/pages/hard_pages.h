@@ -35,8 +35,6 @@ struct Circumstance {
 // table.
 std::vector<Circumstance> circumstances();
 
-Image imageOfPage(const HardPage& page);
-
 // Of the figure that `mask`, of the page, meets best.
 double overlapOnPage(const HardPage& page, const Plane8& mask);
 
