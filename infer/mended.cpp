@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "infer/earlier_picture.h"
 #include "infer/rig_figure.h"
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
@@ -24,12 +25,6 @@ std::string ifThere(const std::string& path) {
   return fs::is_regular_file(path, unknown) ? path : "";
 }
 
-[[noreturn]] void refuseOther(const std::string& file, const std::string& source) {
-  throw InputError(file, "was made by hand for another picture of this name, " + source +
-                             " has changed since; mend it anew (skel-label " + shellWord(source) +
-                             "), or leave it out by --force");
-}
-
 // Those that a person has placed; of a file that was named also those that were found for it.
 PlacedJoints jointsOfLabels(const std::string& path, bool named, const std::string& source,
                             const std::string& image_sha256) {
@@ -40,7 +35,9 @@ PlacedJoints jointsOfLabels(const std::string& path, bool named, const std::stri
   if (named && placed.joints.empty())
     throw InputError(path, "holds no joints, only classes of candidates; place them (skel-label " +
                                shellWord(source) + ", key J), or name a .skeleton.json");
-  if ((!placed.joints.empty() || file.mask) && file.image.sha256 != image_sha256) refuseOther(path, source);
+  if (named && file.image.sha256 != image_sha256)
+    throw InputError(path, "was made for another picture than " + source +
+                               "; place the joints anew (skel-label " + shellWord(source) + ")");
   return placed;
 }
 
@@ -52,7 +49,7 @@ bool knowsAll(const SkeletonTemplate& body_plan, const PlacedJoints& placed) {
 }  // namespace
 
 MendedFiles mendedFiles(const InferOptions& options, const std::string& source, const std::string& stem,
-                        int figure) {
+                        int figure, const std::string& image_sha256) {
   MendedFiles files;
   files.mask = options.mask_file;
   if (isLabelFile(options.skeleton_file)) files.labels = options.skeleton_file;
@@ -61,21 +58,21 @@ MendedFiles mendedFiles(const InferOptions& options, const std::string& source, 
   if (options.force || isModelAlone(options)) return files;
 
   const std::string beside = fs::path(source).replace_extension().string();
-  if (options.skeleton_file.empty()) {
-    const std::string skeleton = options.out_dir + "/" + stem + ".skeleton.json";
-    if (hasEditedJoint(skeleton)) files.skeleton = skeleton;
+  const std::string skeleton = options.out_dir + "/" + stem + kSkeletonFileEnding;
+  if (options.skeleton_file.empty() && hasEditedJoint(skeleton)) files.skeleton = skeleton;
+  if (!fs::exists(beside + ".joints.json")) {
+    const bool one = figure == 1 && options.figure != "all";
+    if (one && options.skeleton_file.empty()) {
+      files.labels = ifThere(beside + kLabelFileEnding);
+      if (files.mask.empty()) files.mask = ifThere(beside + ".mask.png");
+    }
+    if (options.layers == "auto" && options.model_file.empty())
+      files.limbs = ifThere(beside + (figure > 1 ? "-" + std::to_string(figure) : "") + ".limbs.png");
+    if (options.back.empty() && one)
+      for (const char* ending : {".back.png", ".back.jpg", ".back.jpeg"})
+        if (files.back.empty()) files.back = ifThere(beside + ending);
   }
-  if (fs::exists(beside + ".joints.json")) return files;
-  const bool one = figure == 1 && options.figure != "all";
-  if (one && options.skeleton_file.empty()) {
-    files.labels = ifThere(beside + kLabelFileEnding);
-    if (files.mask.empty()) files.mask = ifThere(beside + ".mask.png");
-  }
-  if (options.layers == "auto" && options.model_file.empty())
-    files.limbs = ifThere(beside + (figure > 1 ? "-" + std::to_string(figure) : "") + ".limbs.png");
-  if (options.back.empty() && one)
-    for (const char* ending : {".back.png", ".back.jpg", ".back.jpeg"})
-      if (files.back.empty()) files.back = ifThere(beside + ending);
+  leaveOutEarlier(files, options, skeleton, image_sha256);
   return files;
 }
 
@@ -88,9 +85,9 @@ PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options,
     const std::string text = readFile(files.skeleton);
     const SkeletonFile file =
         parseSkeletonFile(text, files.skeleton, planOfSkeleton(text, files.skeleton, rig));
-    const bool other_size = file.image_width != image.width || file.image_height != image.height;
-    if (other_size || (!file.image_sha256.empty() && file.image_sha256 != image_sha256))
-      refuseOther(files.skeleton, source);
+    if (file.image_width != image.width || file.image_height != image.height)
+      throw InputError(files.skeleton, "was mended for a picture of another size than " + source +
+                                           " has; move it elsewhere, or lose it by --force");
     if (file.figure.number != figure)
       throw InputError(files.skeleton,
                        "holds joints of figure " + std::to_string(file.figure.number) +

@@ -19,15 +19,21 @@ struct MendedFiles {
   std::string skeleton;  // a result with joints that a person has moved
   std::string labels;    // with joints that a person has placed
   std::string mask, limbs, back;
+
+  // A photo that was taken again has the name of the one before.
+  std::vector<std::string> earlier;  // files made for that one: not among those above
+  bool mask_before = false;          // the mask was there before the picture changed
+  bool limbs_before = false;         // the limbs may have been
 };
 
 // Those of figure `figure` of the drawing `source`, whose results are called <out_dir>/<stem>.*, that the
 // command line does not name others for: <source's stem>.mask.png, .labels.json, .limbs.png and .back.png
 // beside the drawing (mask and labels of one figure alone), an edited skeleton among the results. Nothing
 // with --force, and nothing beside a drawing with <stem>.joints.json: that is annotated, not mended.
-// --skeleton may name labels.
+// --skeleton may name labels. What was made for another picture than the one of that hash is left out
+// (earlier_picture.h).
 MendedFiles mendedFiles(const InferOptions& options, const std::string& source, const std::string& stem,
-                        int figure);
+                        int figure, const std::string& image_sha256);
 
 // Joints that a person has placed.
 struct PlacedJoints {
@@ -38,8 +44,8 @@ struct PlacedJoints {
 };
 
 // Of skeleton and labels. Where both place a joint, the labels count if they have changed since the skeleton
-// was made with them. Throws InputError: made for another picture, another figure; labels that were named and
-// hold no joints.
+// was made with them. Throws InputError: made for another figure; labels that were named and hold no joints,
+// or are of another picture.
 PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options, const RigOptions& rig,
                           const std::string& source, const Image& image, const std::string& image_sha256,
                           int figure);

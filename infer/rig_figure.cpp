@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "infer/advice.h"
+#include "infer/earlier_picture.h"
 #include "infer/mended.h"
 #include "infer/outputs.h"
 #include "libskel/core/caught_error.h"
@@ -162,7 +163,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
     input.skeleton = given->skeleton;
     input.turned_deg = given->figure.turned_deg;
   }
-  const MendedFiles mended = mendedFiles(options, job.source, stem, figure);
+  MendedFiles mended = mendedFiles(options, job.source, stem, figure, image_sha256);
+  leaveOutOtherSizes(mended, input.image);
   const PlacedJoints placed =
       placedJoints(mended, options, rig, job.source, input.image, image_sha256, figure);
   input.placed = placed.joints;
@@ -192,6 +194,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
     if (mask.empty() && !placed.outline_sha256.empty() && placed.outline_sha256 != outline)
       warnings.push_back(kOutlineChanged);
   }
+  for (const char* warning : warningsOfEarlier(mended)) warnings.emplace_back(warning);
 
   SkeletonFile file;
   file.image_file = pathSeenFrom(skeleton_path, job.source);
@@ -207,6 +210,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   file.labels = placed.labels;
   if (file.labels && !mended.labels.empty()) file.labels->file = pathSeenFrom(skeleton_path, mended.labels);
 
+  const std::string kept = writes(options, "json") ? keepEarlier(mended, skeleton_path) : "";
   FigureResult result;
   result.outputs = writeOutputs(options, stem, drawing, file);
   if (!options.trace_dir.empty()) {
@@ -225,6 +229,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   result.reasons = file.warnings;
   result.notes = notesOf(options, rig, drawing);
   if (const auto note = mendedNote(mended, options, placed)) result.notes.push_back(*note);
+  if (const auto note = earlierNote(mended, skeleton_path, kept)) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
     result.advice = adviceOn(drawing, file, options.figure == "all");
     result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front());

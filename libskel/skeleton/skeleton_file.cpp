@@ -46,6 +46,11 @@ Joint jointAt(const JsonValue& item, const SkeletonTemplate& body_plan, const Sk
   return joint;
 }
 
+SkeletonFile::Mask sourceAt(const JsonValue& given) {
+  given.allowOnly({"file", "sha256"});
+  return {given.at("file").asFileName(), given.at("sha256").asString()};
+}
+
 SkeletonFile::Figure figureAt(const JsonValue& value) {
   value.allowOnly({"number", "sha256", "turned"});
   SkeletonFile::Figure figure;
@@ -139,10 +144,6 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
   file.confidence = root.at("confidence").asNumber(0, 1);
   file.missing = textsAt(root.at("missing"), body_plan.joints.size());
   file.warnings = textsAt(root.at("warnings"), kMostWarnings);
-  const auto sourceAt = [](const JsonValue& given) {
-    given.allowOnly({"file", "sha256"});
-    return SkeletonFile::Mask{given.at("file").asFileName(), given.at("sha256").asString()};
-  };
   if (const JsonValue mask = root.at("mask"); !mask.isNull()) file.mask = sourceAt(mask);
   if (const auto labels = root.find("labels")) file.labels = sourceAt(*labels);
   file.skeleton.template_name = body_plan.name;
@@ -159,6 +160,23 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
       root.at("joints").fail("lacks the joint \"" + body_plan.joints[i].name + "\"");
   markMovedJoints(file);
   return file;
+}
+
+std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path) {
+  if (std::error_code unknown; !std::filesystem::exists(path, unknown)) return std::nullopt;
+  const LookAtOutputs look;
+  try {
+    const JsonDocument document = JsonDocument::readFile(path);
+    const JsonValue root = document.root();
+    root.checkFormat("skel-skeleton", 3);
+    SkeletonSource source;
+    if (const auto hash = root.at("image").find("sha256")) source.image_sha256 = hash->asString();
+    if (const auto figure = root.find("figure")) source.outline_sha256 = figureAt(*figure).sha256;
+    if (const JsonValue mask = root.at("mask"); !mask.isNull()) source.mask = sourceAt(mask);
+    return source;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
 bool hasEditedJoint(const std::string& path) {

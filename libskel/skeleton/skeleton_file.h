@@ -52,6 +52,15 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
 // The name of the template that a skeleton file belongs to. Throws InputError: no skeleton file.
 std::string templateOfSkeleton(std::string_view text, const std::string& path);
 
+// What a skeleton was found in; hashes are empty where they are not known.
+struct SkeletonSource {
+  std::string image_sha256, outline_sha256;
+  std::optional<SkeletonFile::Mask> mask;
+};
+
+// Of the skeleton file at `path`. Nothing where there is none, or none that can be read.
+std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path);
+
 // Whether a person has moved a joint in the skeleton file at `path`, said so or not. False where there is no
 // file.
 bool hasEditedJoint(const std::string& path);
