@@ -98,6 +98,7 @@ PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options,
     placed.body_plan = file.skeleton.template_name;
     placed.labels = file.labels;
     placed.outline_sha256 = file.figure.sha256;
+    placed.skeleton = file;
   }
   if (files.labels.empty()) return placed;
   const std::string labels_sha256 = sha256(readFile(files.labels));
@@ -108,6 +109,7 @@ PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options,
   const PlacedJoints labelled =
       jointsOfLabels(files.labels, files.labels == options.skeleton_file, source, image_sha256);
   if (labelled.joints.empty()) return placed;
+  placed.skeleton.reset();
   for (const auto& joint : labelled.joints) {
     std::erase_if(placed.joints, [&](const auto& other) { return other.first == joint.first; });
     placed.joints.push_back(joint);

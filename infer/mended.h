@@ -41,6 +41,9 @@ struct PlacedJoints {
   std::string body_plan;                                        // that they belong to; "": either
   std::optional<SkeletonFile::Labels> labels;                   // where some of them are from; path as given
   std::string outline_sha256;                                   // of the figure when they were mended; or ""
+  // The result that they are in, which stands as it is: a person has seen all of it. Nothing where labels
+  // have changed since.
+  std::optional<SkeletonFile> skeleton;
 };
 
 // Of skeleton and labels. Where both place a joint, the labels count if they have changed since the skeleton

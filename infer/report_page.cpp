@@ -95,8 +95,11 @@ std::string cardHtml(const Card& card, std::size_t number) {
   const double sure = figure.confidence.value_or(0);
   html += "<div class=\"pair\"><img class=\"drawing\" alt=\"" + card.name + ", as drawn\" src=\"" +
           figure.pictures.drawing + "\">" + film(card) + "</div>";
-  html += "<p class=\"sure\"><span><i style=\"width:" + percent(sure) + "\"></i></span>" + percent(sure) +
-          " sure of the joints</p>";
+  html += figure.all_placed ? "<p class=\"sure\">a person has placed the joints</p>"
+                            : "<p class=\"sure\"><span><i style=\"width:" + percent(sure) + "\"></i></span>" +
+                                  percent(sure) +
+                                  (figure.placed > 0 ? " sure of the joints that no person has placed</p>"
+                                                     : " sure of the joints</p>");
   for (const std::string& sentence : figure.advice)
     html += "<p class=\"advice\">" + escaped(sentence) + "</p>";
   return html + "</article>\n";

@@ -16,6 +16,8 @@
 #include "libskel/mesh/read_mesh.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/pipeline/trace.h"
+#include "libskel/recognition/tree_recognition.h"
+#include "libskel/skeleton/mark_placed.h"
 #include "libskel/skeleton/outside_figure.h"
 
 namespace skel {
@@ -74,10 +76,12 @@ bool wasEdited(const Skeleton& skeleton) {
 // What to say of a figure whose joints were given.
 std::vector<std::string> warningsOf(const SkeletonFile& given, const RiggedDrawing& drawing, bool own_mask) {
   std::vector<std::string> warnings = drawing.silhouette.warnings;
-  // What was said of joints before somebody moved them is stale.
-  if (!wasEdited(given.skeleton))
-    for (const std::string& warning : given.warnings)
-      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+  // What was said of joints before somebody moved them is stale, but for what is still missing.
+  std::vector<std::string> of_joints = given.warnings;
+  if (wasEdited(given.skeleton)) of_joints = {missingNote(given.missing)};
+  for (const std::string& warning : of_joints)
+    if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+      warnings.push_back(warning);
   if (!own_mask && !given.figure.sha256.empty() && given.figure.sha256 != outlineHash(drawing.silhouette))
     warnings.push_back(kOutlineChanged);
   return warnings;
@@ -167,7 +171,12 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   leaveOutOtherSizes(mended, input.image);
   const PlacedJoints placed =
       placedJoints(mended, options, rig, job.source, input.image, image_sha256, figure);
-  input.placed = placed.joints;
+  if (placed.skeleton) {
+    input.skeleton = placed.skeleton->skeleton;
+    input.turned_deg = placed.skeleton->figure.turned_deg;
+  } else {
+    input.placed = placed.joints;
+  }
   const std::string mask = useMask(options, mended.mask, given, input);
   if (!mended.limbs.empty()) input.layers = {readImage(mended.limbs), mended.limbs};
   if (!mended.back.empty()) input.back = {readImage(mended.back), mended.back};
@@ -179,11 +188,11 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   RiggedDrawing drawing = rigCharacter(std::move(input), figure_rig);
   if (!drawing.found()) throw InputError(mask.empty() ? job.source : mask, drawing.silhouette.reason);
   std::vector<std::string> warnings;
-  if (given) {
-    checkJoints(given->skeleton, handed_in, figure, drawing.silhouette.mask);
-    drawing.recognition.confidence = given->confidence;
-    drawing.recognition.missing = given->missing;
-    warnings = warningsOf(*given, drawing, !mask.empty());
+  if (given) checkJoints(given->skeleton, handed_in, figure, drawing.silhouette.mask);
+  if (const auto& as_it_stands = given ? given : placed.skeleton) {
+    drawing.recognition.confidence = as_it_stands->confidence;
+    drawing.recognition.missing = as_it_stands->missing;
+    warnings = warningsOf(*as_it_stands, drawing, !mask.empty());
   } else {
     warnings = figureNotes(drawing);
   }
@@ -191,7 +200,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   if (!placed.joints.empty()) {
     checkJoints(drawing.recognition.skeleton, mended.skeleton.empty() ? mended.labels : mended.skeleton,
                 figure, drawing.silhouette.mask);
-    if (mask.empty() && !placed.outline_sha256.empty() && placed.outline_sha256 != outline)
+    if (!placed.skeleton && mask.empty() && !placed.outline_sha256.empty() &&
+        placed.outline_sha256 != outline)
       warnings.push_back(kOutlineChanged);
   }
   for (const char* warning : warningsOfEarlier(mended)) warnings.emplace_back(warning);
@@ -225,6 +235,9 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   if (looksForJoints(figure_rig)) result.confidence = file.confidence;
   result.body_plan = drawing.body_plan.name;
   result.missing = file.missing;
+  result.placed = std::count_if(file.skeleton.joints.begin(), file.skeleton.joints.end(),
+                                [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; });
+  result.all_placed = allPlaced(file.skeleton);
   result.verdict = verdictOf(figure_rig, drawing, file);
   result.reasons = file.warnings;
   result.notes = notesOf(options, rig, drawing);

@@ -9,6 +9,7 @@
 #include "libskel/core/json.h"
 #include "libskel/core/json_names.h"
 #include "libskel/skeleton/joint_json.h"
+#include "libskel/skeleton/mark_placed.h"
 #include "libskel/skeleton/moved_joints.h"
 
 namespace skel {
@@ -60,18 +61,18 @@ SkeletonFile::Figure figureAt(const JsonValue& value) {
   return figure;
 }
 
-void markMovedJoints(SkeletonFile& file) {
+void markPlacedJoints(SkeletonFile& file) {
   std::vector<Eigen::Vector2d> image, position;
   for (const Joint& joint : file.skeleton.joints) {
     image.push_back(joint.image);
     position.push_back(joint.position.head<2>());
   }
-  for (const int moved : movedJoints(image, position)) {
-    Joint& joint = file.skeleton.joints[static_cast<size_t>(moved)];
-    joint.origin = JointOrigin::kEdited;
-    joint.confidence = 1;
-    std::erase(file.missing, joint.name);
-  }
+  std::vector<int> placed = movedJoints(image, position);
+  for (size_t i = 0; i < file.skeleton.joints.size(); ++i)
+    if (file.skeleton.joints[i].origin == JointOrigin::kEdited) placed.push_back(static_cast<int>(i));
+  file.confidence = markPlaced(file.skeleton, placed, file.confidence);
+  for (const int joint : placed)
+    std::erase(file.missing, file.skeleton.joints[static_cast<size_t>(joint)].name);
 }
 
 }  // namespace
@@ -158,7 +159,7 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
   for (size_t i = 0; i < body_plan.joints.size(); ++i)
     if (file.skeleton.joints[i].name.empty())
       root.at("joints").fail("lacks the joint \"" + body_plan.joints[i].name + "\"");
-  markMovedJoints(file);
+  markPlacedJoints(file);
   return file;
 }
 

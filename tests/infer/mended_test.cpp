@@ -7,6 +7,7 @@
 #include "libskel/image/write_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/silhouette/silhouette.h"
+#include "libskel/skeleton/template.h"
 #include "tests/infer/run_infer.h"
 #include "tests/support/catch.h"
 #include "tests/support/synthetic_figure.h"
@@ -165,6 +166,68 @@ TEST_CASE("a mask that was there before the photo was taken again is taken up an
     writeFile(dir.file("boy.png"), encodePng(capsuleImage({.size = 500})));
     fs::copy(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("boy.limbs.png"));
     CHECK_THAT(infer(dir, "boy.png").err, Contains(kEarlier + std::string("boy.mask.png, boy.limbs.png\n")));
+  }
+}
+
+TEST_CASE("joints that nobody moved stay where the edited skeleton file has them") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  // As after a guess: the file is what the person saw, whatever skel would find again.
+  std::string text = readFile(dir.file("out/boy.skeleton.json"));
+  for (const char* name : {"left_hand", "right_shoulder", "right_elbow"}) {
+    const size_t origin = text.find("\"origin\":\"", text.find("\"name\":\"" + std::string(name))) + 10;
+    text.replace(origin, text.find('"', origin) - origin, name[0] == 'l' ? "completed" : "edited");
+  }
+  text.replace(text.find("\"missing\": []"), 13, "\"missing\": [\"left_hand\"]");
+  writeFile(dir.file("out/boy.skeleton.json"), text);
+  moveInFile(dir, "right_elbow", "150");
+  moveInFile(dir, "left_hand", "405.5");
+  moveInFile(dir, "left_foot", "330.25");
+  const auto joints = [&] {
+    std::vector<std::vector<double>> places;
+    const JsonDocument document = JsonDocument::readFile(dir.file("out/boy.skeleton.json"));
+    for (const JsonValue& joint : document.root().at("joints").items())
+      places.push_back(joint.at("image").asNumbers(2));
+    return places;
+  };
+  const auto before = joints();
+  CHECK(infer(dir, "boy.png").exit_code == 0);
+  CHECK(joints() == before);
+}
+
+TEST_CASE("a limb that is still missing is still told of when another joint was placed") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  std::string text = readFile(dir.file("out/boy.skeleton.json"));
+  text.replace(text.find("\"missing\": []"), 13, "\"missing\": [\"left_hand\"]");
+  writeFile(dir.file("out/boy.skeleton.json"), text);
+  moveInFile(dir, "right_hand", "150");
+  constexpr const char* kMissing = "not found: left_hand (placed where they probably are)";
+  CHECK_THAT(infer(dir, "boy.png").err, Contains(kMissing));
+  moveInFile(dir, "left_hand", "420.5");
+  CHECK(infer(dir, "boy.png").err.find("not found") == std::string::npos);
+}
+
+TEST_CASE("joints that a person has all placed are sure, and the report says who placed them") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  LabelFile labels;
+  labels.image = {"boy.png", sha256(readFile(dir.file("boy.png")))};
+  labels.image_width = labels.image_height = 600;
+  labels.grid_width = labels.grid_height = kWorkingGridSize;
+  for (const TemplateJoint& joint : loadTemplate("biped").joints) {
+    const auto place = placeIn(dir, joint.name);
+    if (!joint.derived) labels.joints.emplace_back(joint.name, Eigen::Vector2d(place[0], place[1] - 1));
+  }
+  writeLabelFile(dir.file("boy.labels.json"), labels);
+  for (int time = 0; time < 2; ++time) {
+    CHECK_THAT(infer(dir, "boy.png --report report.html").out, Contains("confidence 1.00"));
+    const std::string html = readFile(dir.file("report.html"));
+    CHECK_THAT(html, Contains("a person has placed the joints"));
+    CHECK(html.find("sure of the joints") == std::string::npos);
   }
 }
 
