@@ -244,7 +244,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   if (const auto note = mendedNote(mended, options, placed)) result.notes.push_back(*note);
   if (const auto note = earlierNote(mended, skeleton_path, kept)) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
-    result.advice = adviceOn(drawing, file, options.figure == "all");
+    result.advice = adviceOn(drawing, file, result.mend_file);
     result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front());
   }
   result.times = drawing.times;
