@@ -30,6 +30,10 @@ std::optional<LabelFile> labelsIn(const std::string& path) {
   }
 }
 
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 bool hasSize(const Plane8& mask, const Image& image) {
   return mask.cols() == image.width && mask.rows() == image.height;
 }
@@ -45,9 +49,13 @@ void leaveOutEarlier(MendedFiles& files, const InferOptions& options, const std:
   const std::optional<SkeletonSource> result = sourceOfSkeleton(skeleton_path);
   const bool changed = result && !result->image_sha256.empty() && result->image_sha256 != image_sha256;
   if (changed && !files.skeleton.empty()) leaveOut(files.skeleton, files);
+  if (changed && files.painted_silhouette) {
+    leaveOut(files.mask, files);
+    files.painted_silhouette = false;
+  }
 
   const bool found_labels = files.labels != options.skeleton_file,
-             found_mask = files.mask != options.mask_file;
+             found_mask = files.mask != options.mask_file && !files.painted_silhouette;
   const std::string mask_sha256 = found_mask ? sha256(readFile(files.mask)) : "";
   const std::optional<LabelFile> labels = labelsIn(found_labels ? files.labels : "");
   const bool are_of_mask = labels && found_mask && labels->mask && labels->mask->sha256 == mask_sha256;
@@ -85,26 +93,38 @@ std::vector<const char*> warningsOfEarlier(const MendedFiles& files) {
   return warnings;
 }
 
-std::string keepEarlier(const MendedFiles& files, const std::string& skeleton_path) {
-  if (std::count(files.earlier.begin(), files.earlier.end(), skeleton_path) == 0) return "";
-  const std::string start =
+std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& options,
+                                  const std::string& skeleton_path) {
+  struct Result {
+    const char *format, *ending, *start, *end;  // <stem><start>, a number, <end>: a drawing is none of them
+  };
+  constexpr Result kResults[] = {{"json", kSkeletonFileEnding, ".skeleton.old", ".json"},
+                                 {"silhouette", ".silhouette.png", ".old", ".silhouette.png"}};
+  const std::string stem =
       skeleton_path.substr(0, skeleton_path.size() - std::string_view(kSkeletonFileEnding).size());
-  std::string kept = start + ".skeleton.old.json";
-  std::error_code failure;
-  for (int number = 2; fs::exists(fs::symlink_status(kept, failure)); ++number)
-    kept = start + ".skeleton.old-" + std::to_string(number) + ".json";
-  fs::rename(skeleton_path, kept, failure);
-  if (failure) throw OutputError(skeleton_path, "cannot be kept as " + kept + ": " + failure.message());
-  return kept;
+  std::vector<KeptFile> all;
+  for (const Result& result : kResults) {
+    const std::string path = stem + result.ending;
+    if (!contains(options.formats, result.format) || !contains(files.earlier, path)) continue;
+    std::string kept = stem + result.start + result.end;
+    std::error_code failure;
+    for (int number = 2; fs::exists(fs::symlink_status(kept, failure)); ++number)
+      kept = stem + result.start + "-" + std::to_string(number) + result.end;
+    fs::rename(path, kept, failure);
+    if (failure) throw OutputError(path, "cannot be kept as " + kept + ": " + failure.message());
+    all.push_back({path, kept});
+  }
+  return all;
 }
 
-std::optional<Note> earlierNote(const MendedFiles& files, const std::string& skeleton_path,
-                                const std::string& kept) {
+std::optional<Note> earlierNote(const MendedFiles& files, const std::vector<KeptFile>& kept) {
   if (files.earlier.empty()) return std::nullopt;
   std::vector<std::string> names;
-  for (const std::string& file : files.earlier)
-    names.push_back(fileName(file) +
-                    (file == skeleton_path && !kept.empty() ? " (now " + fileName(kept) + ")" : ""));
+  for (const std::string& file : files.earlier) {
+    names.push_back(fileName(file));
+    for (const KeptFile& one : kept)
+      if (one.was == file) names.back() += " (now " + fileName(one.is) + ")";
+  }
   const std::string shared = "mended for an earlier picture of this name, not taken up for this one";
   return Note{shared + ": " + joined(names), shared, joined(names)};
 }

@@ -22,13 +22,16 @@ void leaveOutOtherSizes(MendedFiles& files, const Image& image);
 // One sentence of each file that is taken up although it may show the picture before.
 std::vector<const char*> warningsOfEarlier(const MendedFiles& files);
 
-// Gives a skeleton that was left out another name, before it is written over: <stem>.skeleton.old.json, or
-// with a number where that is taken. Returns that name, "" where there is no such skeleton. Throws
-// OutputError.
-std::string keepEarlier(const MendedFiles& files, const std::string& skeleton_path);
+struct KeptFile {
+  std::string was, is;  // paths
+};
+
+// Gives results that were left out another name before they are written over: <stem>.skeleton.old.json,
+// <stem>.old.silhouette.png, or with a number where that is taken. Throws OutputError.
+std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& options,
+                                  const std::string& skeleton_path);
 
 // Which files were left out; nothing where none was.
-std::optional<Note> earlierNote(const MendedFiles& files, const std::string& skeleton_path,
-                                const std::string& kept);
+std::optional<Note> earlierNote(const MendedFiles& files, const std::vector<KeptFile>& kept);
 
 }  // namespace skel

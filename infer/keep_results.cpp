@@ -24,6 +24,7 @@ namespace {
 std::string mendedHash(const InferOptions& options, const RigJob& job, const std::string& image_sha256) {
   const bool skeleton_is_output =
       std::count(options.formats.begin(), options.formats.end(), std::string("json")) > 0;
+  const LookAtOutputs look;  // a silhouette that was painted in place is one of them
   std::string all;
   const FigureRange range = figuresAskedFor(options);
   for (int figure = range.first; figure <= range.last; ++figure) {

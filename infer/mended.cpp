@@ -11,8 +11,10 @@
 #include "libskel/core/input_guard.h"
 #include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
+#include "libskel/image/read_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/pipeline/rig_drawing.h"
+#include "libskel/silhouette/outline.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -23,6 +25,26 @@ bool isLabelFile(const std::string& path) { return path.ends_with(kLabelFileEndi
 std::string ifThere(const std::string& path) {
   std::error_code unknown;
   return fs::is_regular_file(path, unknown) ? path : "";
+}
+
+// Painted since the result was written, or before, when its skeleton file took it for its mask. False where
+// that cannot be told.
+bool isPaintedSilhouette(const std::string& path, const std::string& skeleton_path) {
+  const std::optional<SkeletonSource> result = sourceOfSkeleton(skeleton_path);
+  if (!result || ifThere(path).empty()) return false;
+  if (result->mask) return fs::path(skeleton_path).parent_path() / result->mask->file == fs::path(path);
+  if (result->outline_sha256.empty() || result->number != 1) return false;
+  try {
+    const LookAtOutputs look;
+    const Plane8 grey = readMask(path);
+    const Plane8 mask = (grey >= 128).select(Plane8::Constant(grey.rows(), grey.cols(), 255), grey * 0);
+    Silhouette silhouette;
+    silhouette.status = SilhouetteStatus::kFound;
+    silhouette.outline = traceOutline(mask);
+    return outlineHash(silhouette) != result->outline_sha256;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 // Those that a person has placed; of a file that was named also those that were found for it.
@@ -71,6 +93,12 @@ MendedFiles mendedFiles(const InferOptions& options, const std::string& source, 
     if (options.back.empty() && one)
       for (const char* ending : {".back.png", ".back.jpg", ".back.jpeg"})
         if (files.back.empty()) files.back = ifThere(beside + ending);
+  }
+  const std::string silhouette = options.out_dir + "/" + stem + ".silhouette.png";
+  if (figure == 1 && options.figure != "all" && files.mask.empty() && options.skeleton_file.empty() &&
+      isPaintedSilhouette(silhouette, skeleton)) {
+    files.mask = silhouette;
+    files.painted_silhouette = true;
   }
   leaveOutEarlier(files, options, skeleton, image_sha256);
   return files;
@@ -143,7 +171,7 @@ std::optional<Note> mendedNote(const MendedFiles& files, const InferOptions& opt
   };
   if (const std::size_t count = placed.joints.size(); count > 0 && options.skeleton_file.empty())
     what.push_back(std::to_string(count) + (count == 1 ? " joint" : " joints"));
-  add(files.mask, options.mask_file, "mask");
+  add(files.mask, options.mask_file, files.painted_silhouette ? "silhouette" : "mask");
   add(files.limbs, options.layers, "limbs");
   add(files.back, options.back, "back");
   if (what.empty()) return std::nullopt;

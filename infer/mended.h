@@ -19,6 +19,8 @@ struct MendedFiles {
   std::string skeleton;  // a result with joints that a person has moved
   std::string labels;    // with joints that a person has placed
   std::string mask, limbs, back;
+  bool painted_silhouette =
+      false;  // the mask is the result of that name, painted in place: it is not written
 
   // A photo that was taken again has the name of the one before.
   std::vector<std::string> earlier;  // files made for that one: not among those above
@@ -28,8 +30,9 @@ struct MendedFiles {
 
 // Those of figure `figure` of the drawing `source`, whose results are called <out_dir>/<stem>.*, that the
 // command line does not name others for: <source's stem>.mask.png, .labels.json, .limbs.png and .back.png
-// beside the drawing (mask and labels of one figure alone), an edited skeleton among the results. Nothing
-// with --force, and nothing beside a drawing with <stem>.joints.json: that is annotated, not mended.
+// beside the drawing (mask and labels of one figure alone), an edited skeleton among the results, a
+// silhouette among them that is not outlined as its skeleton file says, or was that file's mask already.
+// Nothing with --force, and nothing beside a drawing with <stem>.joints.json: that is annotated, not mended.
 // --skeleton may name labels. What was made for another picture than the one of that hash is left out
 // (earlier_picture.h).
 MendedFiles mendedFiles(const InferOptions& options, const std::string& source, const std::string& stem,

@@ -10,6 +10,7 @@
 #include "infer/outputs.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/label_file.h"
@@ -30,22 +31,25 @@ bool writes(const InferOptions& options, const char* format) {
 
 std::string sizeText(long width, long height) { return std::to_string(width) + "x" + std::to_string(height); }
 
-// Reads the mask that is used and returns its path, "": none. A skeleton that was handed in brings its own.
-std::string useMask(const InferOptions& options, const std::string& found,
-                    const std::optional<SkeletonFile>& given, RigInput& input) {
-  std::string path = found;
+// Reads the mask that is used and returns its path and hash, "": none. A skeleton that was handed in brings
+// its own.
+SkeletonFile::Mask useMask(const InferOptions& options, const MendedFiles& mended,
+                           const std::optional<SkeletonFile>& given, RigInput& input) {
+  std::optional<LookAtOutputs> look;
+  if (mended.painted_silhouette) look.emplace();
+  std::string path = mended.mask;
   if (path.empty() && given && given->mask) {
     path = (fs::path(options.skeleton_file).parent_path() / given->mask->file).string();
     if (sha256(readFile(path)) != given->mask->sha256)
       throw InputError(path, "has changed since " + options.skeleton_file +
                                  " was made with it; name it by --mask if that is meant");
   }
-  if (path.empty()) return path;
+  if (path.empty()) return {};
   input.mask = readMask(path);
   if (input.mask->cols() != input.image.width || input.mask->rows() != input.image.height)
     throw InputError(path, "is a mask of " + sizeText(input.mask->cols(), input.mask->rows()) +
                                " px, the image has " + sizeText(input.image.width, input.image.height));
-  return path;
+  return {path, sha256(readFile(path))};
 }
 
 // The skeleton says which figure it belongs to; a number that was asked for must be that one.
@@ -177,7 +181,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   } else {
     input.placed = placed.joints;
   }
-  const std::string mask = useMask(options, mended.mask, given, input);
+  const SkeletonFile::Mask used_mask = useMask(options, mended, given, input);
+  const std::string& mask = used_mask.file;
   if (!mended.limbs.empty()) input.layers = {readImage(mended.limbs), mended.limbs};
   if (!mended.back.empty()) input.back = {readImage(mended.back), mended.back};
 
@@ -216,13 +221,13 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   file.confidence = drawing.recognition.confidence;
   file.missing = drawing.recognition.missing;
   file.warnings = std::move(warnings);
-  if (!mask.empty()) file.mask = {pathSeenFrom(skeleton_path, mask), sha256(readFile(mask))};
+  if (!mask.empty()) file.mask = {pathSeenFrom(skeleton_path, mask), used_mask.sha256};
   file.labels = placed.labels;
   if (file.labels && !mended.labels.empty()) file.labels->file = pathSeenFrom(skeleton_path, mended.labels);
 
-  const std::string kept = writes(options, "json") ? keepEarlier(mended, skeleton_path) : "";
+  const std::vector<KeptFile> kept = keepEarlier(mended, options, skeleton_path);
   FigureResult result;
-  result.outputs = writeOutputs(options, stem, drawing, file);
+  result.outputs = writeOutputs(options, stem, drawing, file, mended.painted_silhouette ? mended.mask : "");
   if (!options.trace_dir.empty()) {
     const bool given_mask = !mask.empty() || isModelAlone(options);
     writeTrace(drawing, given_mask ? SilhouetteSteps{} : silhouetteSteps(drawing.image),
@@ -242,7 +247,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   result.reasons = file.warnings;
   result.notes = notesOf(options, rig, drawing);
   if (const auto note = mendedNote(mended, options, placed)) result.notes.push_back(*note);
-  if (const auto note = earlierNote(mended, skeleton_path, kept)) result.notes.push_back(*note);
+  if (const auto note = earlierNote(mended, kept)) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
     result.advice = adviceOn(drawing, file, result.mend_file);
     result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front());

@@ -172,7 +172,11 @@ std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path) {
     root.checkFormat("skel-skeleton", 3);
     SkeletonSource source;
     if (const auto hash = root.at("image").find("sha256")) source.image_sha256 = hash->asString();
-    if (const auto figure = root.find("figure")) source.outline_sha256 = figureAt(*figure).sha256;
+    if (const auto json = root.find("figure")) {
+      const SkeletonFile::Figure figure = figureAt(*json);
+      source.outline_sha256 = figure.sha256;
+      source.number = figure.number;
+    }
     if (const JsonValue mask = root.at("mask"); !mask.isNull()) source.mask = sourceAt(mask);
     return source;
   } catch (const InputError&) {

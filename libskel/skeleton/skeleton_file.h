@@ -56,6 +56,7 @@ std::string templateOfSkeleton(std::string_view text, const std::string& path);
 // What a skeleton was found in; hashes are empty where they are not known.
 struct SkeletonSource {
   std::string image_sha256, outline_sha256;
+  int number = 1;  // of the figure
   std::optional<SkeletonFile::Mask> mask;
 };
 

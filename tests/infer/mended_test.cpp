@@ -4,6 +4,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
+#include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/silhouette/silhouette.h"
@@ -228,6 +229,50 @@ TEST_CASE("joints that a person has all placed are sure, and the report says who
     const std::string html = readFile(dir.file("report.html"));
     CHECK_THAT(html, Contains("a person has placed the joints"));
     CHECK(html.find("sure of the joints") == std::string::npos);
+  }
+}
+
+TEST_CASE(
+    "a silhouette that was painted in place is taken up as the mask, said in one line, and stays as "
+    "painted") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  const std::string path = dir.file("out/boy.silhouette.png"), found = readFile(path);
+  CHECK(infer(dir, "boy.png").err.find("silhouette") == std::string::npos);
+  Plane8 mask = readMask(path);
+  mask.block(300, 240, 60, 120) = 255;
+  mask.block(0, 0, 20, 20) = 255;  // a stray stroke, which is no part of the figure
+  const std::string painted = encodePng(mask);
+  REQUIRE(painted != found);
+  writeFile(path, painted);
+  writeFile(dir.file("named.png"), painted);
+  REQUIRE(infer(dir, "boy.png -o named --mask named.png").exit_code == 0);
+  for (int time = 0; time < 2; ++time) {
+    const ToolRun run = infer(dir, "boy.png");
+    CHECK(run.exit_code == 0);
+    CHECK_THAT(run.err, Contains(kTakenUp + std::string("silhouette\n")));
+    CHECK(readFile(path) == painted);
+    CHECK(readFile(dir.file("out/boy.glb")) == readFile(dir.file("named/boy.glb")));
+  }
+  SECTION("with --resume it is done once more, and then left") {
+    CHECK(infer(dir, "boy.png --resume").out.find("done before") == std::string::npos);
+    CHECK_THAT(infer(dir, "boy.png --resume").out, Contains("done before"));
+    CHECK(readFile(path) == painted);
+  }
+  SECTION("--force leaves it out and writes over it") {
+    CHECK(infer(dir, "boy.png --force").exit_code == 0);
+    CHECK(readFile(path) == found);
+  }
+  SECTION("of a photo that was taken again it is left out and kept") {
+    takeAgain(dir, "clown");
+    CHECK_THAT(infer(dir, "boy.png").err,
+               Contains(kEarlier + std::string("boy.silhouette.png (now boy.old.silhouette.png)\n")));
+    CHECK(readFile(dir.file("out/boy.old.silhouette.png")) == painted);
+  }
+  SECTION("a mask beside the drawing comes first") {
+    fs::copy(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("boy.mask.png"));
+    CHECK_THAT(infer(dir, "boy.png").err, Contains(kTakenUp + std::string("mask\n")));
   }
 }
 
