@@ -1,8 +1,9 @@
 #include "infer/advice.h"
 
 #include <algorithm>
+#include <string_view>
 
-#include "libskel/recognition/silhouette_confidence.h"
+#include "libskel/pipeline/drawing_notes.h"
 
 namespace skel {
 namespace {
@@ -21,46 +22,54 @@ std::string listed(const std::vector<std::string>& joints) {
   return text;
 }
 
+// A clause as a sentence.
+std::string sentence(std::string clause) {
+  if (!clause.empty() && clause[0] >= 'a' && clause[0] <= 'z') clause[0] = char(clause[0] - 'a' + 'A');
+  return clause + ".";
+}
+
+// One of the warnings. What nobody has other words for stays as it is.
+std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawing, const SkeletonFile& file) {
+  constexpr std::string_view kLookAtMask = ": look at the mask (skel-label FILE)";
+  const auto starts = [&](const char* words) { return warning.starts_with(words); };
+  if (starts("the sheet itself"))
+    return "The sheet of paper was taken for the figure. Lay the drawing on something plain and darker, or "
+           "cut "
+           "the photo down to the sheet.";
+  if (starts("the figure is cut by"))
+    return "The figure is cut off at the " + drawing.silhouette.cut_sides +
+           ". Step back, so that hands and feet are in the picture.";
+  if (starts("this hardly looks like"))
+    return "No whole figure could be made out" +
+           (file.missing.empty() ? "" : "; not seen: " + listed(file.missing)) +
+           ". Go over thin lines with a felt pen, and take the photo by day, from straight above.";
+  if (starts("some joints may be wrong"))
+    return "Some joints may be wrong" +
+           (file.missing.empty() ? "" : ", most likely " + listed(file.missing)) +
+           ". Look how the figure moves; skel-label mends joints, and a drawing with the limbs apart is "
+           "found "
+           "better.";
+  if (starts("not found: "))
+    return "Not seen: " + listed(file.missing) +
+           ". A likely place was taken; look whether the figure moves as it should.";
+  if (starts("the picture shows "))
+    return "There are " + std::to_string(drawing.silhouette.figure_count) +
+           " figures in the picture; the largest was taken.";
+  if (starts("the figure is turned by "))
+    return "The figure was taken to be turned by " + std::to_string(file.figure.turned_deg) + " degrees.";
+  if (warning.ends_with(kLookAtMask) && !starts("the mask was there"))
+    return "Not sure where the figure ends: " + warning.substr(0, warning.size() - kLookAtMask.size()) +
+           ". A mask can be mended (skel-label).";
+  return sentence(warning);
+}
+
 }  // namespace
 
-std::vector<std::string> adviceOn(const RiggedDrawing& drawing, const SkeletonFile& file, bool all_figures) {
-  constexpr double kRecognized = .5;
-  const Silhouette& silhouette = drawing.silhouette;
+std::vector<std::string> adviceOn(const RiggedDrawing& drawing, const SkeletonFile& file,
+                                  const std::string& mend_file) {
   std::vector<std::string> advice;
-  if (silhouette.is_sheet)
-    advice.push_back(
-        "The sheet of paper was taken for the figure. Lay the drawing on something plain and darker, or cut "
-        "the "
-        "photo down to the sheet.");
-  if (!silhouette.cut_sides.empty())
-    advice.push_back("The figure is cut off at the " + silhouette.cut_sides +
-                     ". Step back, so that hands and feet are in the picture.");
-  else if (const auto doubt = silhouetteDoubt(silhouette, builtInSilhouetteConfidence()))
-    advice.push_back("Not sure where the figure ends: " + *doubt + ". A mask can be mended (skel-label).");
-  const auto& joints = file.skeleton.joints;
-  const bool edited = std::any_of(joints.begin(), joints.end(),
-                                  [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; });
-  if (drawing.recognition.likeness < kRecognized && !edited) {
-    if (!advice.empty()) return advice;
-    advice.push_back(
-        "No whole figure could be made out. Go over thin lines with a felt pen, and take the photo by day, "
-        "from "
-        "straight above.");
-  } else if (file.confidence < kRecognized && !edited) {
-    advice.push_back("Some joints may be wrong" +
-                     (file.missing.empty() ? std::string() : ", most likely " + listed(file.missing)) +
-                     ". Look how the figure moves; skel-label mends joints, and a drawing with the limbs "
-                     "apart is found better.");
-  } else if (!file.missing.empty()) {
-    advice.push_back("Not seen: " + listed(file.missing) +
-                     ". A likely place was taken; look whether the figure moves as it should.");
-  }
-  if (silhouette.figure_count > 1 && !all_figures && file.figure.number == 1)
-    advice.push_back("There are " + std::to_string(silhouette.figure_count) +
-                     " figures in the picture; the largest was taken.");
-  if (file.figure.turned_deg != 0)
-    advice.push_back("The figure was taken to be turned by " + std::to_string(file.figure.turned_deg) +
-                     " degrees.");
+  for (const std::string& warning : file.warnings)
+    advice.push_back(noteText({inOtherWords(warning, drawing, file)}, mend_file));
   return advice;
 }
 

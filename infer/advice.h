@@ -9,7 +9,8 @@
 
 namespace skel {
 
-// What is unusual, and what helps. Nothing where all is well.
-std::vector<std::string> adviceOn(const RiggedDrawing& drawing, const SkeletonFile& file, bool all_figures);
+// One sentence a warning of the file: what is unusual, and what helps. `mend_file`: what skel-label opens.
+std::vector<std::string> adviceOn(const RiggedDrawing& drawing, const SkeletonFile& file,
+                                  const std::string& mend_file);
 
 }  // namespace skel

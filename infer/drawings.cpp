@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "libskel/core/error.h"
+#include "libskel/core/foreign_files.h"
 #include "libskel/core/natural_order.h"
 #include "libskel/image/result_picture.h"
 
@@ -18,17 +19,27 @@ bool isTexture(const fs::path& picture) {
   return picture.extension() == ".png" && fs::exists(fs::path(picture).replace_extension(".mtl"));
 }
 
-std::vector<std::string> drawingsIn(const fs::path& dir) {
-  std::vector<std::string> names;
+bool isDocument(const fs::path& file) {
+  const std::string ending = file.extension().string();
+  return ending == ".pdf" || ending == ".PDF";
+}
+
+std::vector<std::string> drawingsIn(const fs::path& dir, std::vector<std::string>& documents) {
+  std::vector<std::string> names, passed_over;
   std::error_code failure;
   for (fs::directory_iterator entry(dir, failure), end; !failure && entry != end; entry.increment(failure)) {
     const fs::path& path = entry->path();
     std::error_code unknown;
+    if (isDocument(path)) passed_over.push_back(path.string());
     if (isDrawingName(path.filename().string()) && !entry->is_directory(unknown) &&
         !entry->is_other(unknown) && !isTexture(path))
       names.push_back(path.filename().string());
   }
   if (failure) throw InputError(dir.string(), "cannot be read: " + failure.message());
+  std::sort(passed_over.begin(), passed_over.end(), comesBefore);
+  if (names.empty() && !passed_over.empty())
+    throw InputError(passed_over.front(), howToConvert(passed_over.front()));
+  documents.insert(documents.end(), passed_over.begin(), passed_over.end());
   if (names.empty())
     throw InputError(dir.string(), "holds no drawing (" + std::string(kPictureEndings) +
                                        "); folders in it are not looked into");
@@ -40,6 +51,7 @@ std::vector<std::string> drawingsIn(const fs::path& dir) {
 }  // namespace
 
 NamedDrawings drawingsOf(const std::vector<std::string>& named) {
+  NamedDrawings found;
   std::vector<std::string> pictures;
   std::set<std::string> from_folders;
   for (const std::string& name : named) {
@@ -48,7 +60,7 @@ NamedDrawings drawingsOf(const std::vector<std::string>& named) {
       pictures.push_back(name);
       continue;
     }
-    for (std::string& drawing : drawingsIn(name)) {
+    for (std::string& drawing : drawingsIn(name, found.documents)) {
       from_folders.insert(drawing);
       pictures.push_back(std::move(drawing));
     }
@@ -65,7 +77,6 @@ NamedDrawings drawingsOf(const std::vector<std::string>& named) {
     }
     return false;
   };
-  NamedDrawings found;
   for (std::string& picture : pictures)
     (isResult(picture) ? found.results : found.drawings).push_back(std::move(picture));
   if (found.drawings.empty() && !pictures.empty())

@@ -32,6 +32,8 @@ struct FigureResult {
   std::optional<double> confidence;  // in the joints, if any were looked for
   std::string body_plan;
   std::vector<std::string> missing;  // joints that were not found
+  long placed = 0;                   // joints that a person has placed
+  bool all_placed = false;           // those that do not follow from others
   Verdict verdict = Verdict::kFine;
   std::vector<std::string> reasons;  // of the verdict
   std::vector<Note> notes;           // of what is no reason to doubt the figure

@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -12,10 +14,12 @@
 #include "infer/rig_request.h"
 #include "infer/run_report.h"
 #include "libskel/core/files.h"
+#include "libskel/core/foreign_files.h"
 #include "libskel/core/in_order.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
+#include "libskel/core/temporary_file.h"
 #include "libskel/core/text.h"
 #include "libskel/image/result_picture.h"
 
@@ -48,6 +52,26 @@ void sayLeftOut(const std::vector<std::string>& results) {
                printable(joined(results)).c_str());
 }
 
+// A PDF is no picture, but somebody may wait for its pages.
+void sayPassedOver(const std::vector<std::string>& files) {
+  for (const std::string& file : files)
+    std::fprintf(stderr, "skel-infer: note: %s %s; passed over\n", printable(file).c_str(),
+                 printable(howToConvert(file)).c_str());
+}
+
+// Of a run over many drawings that is stopped by Ctrl+C.
+void sayHowToGoOn(const InferOptions& options) {
+  const std::string start =
+      isatty(STDERR_FILENO) ? "\nskel-infer: " : "skel-infer: ";  // the bar stands there
+  const std::string how = options.resume ? "interrupted; the same line goes on from here"
+                          : keepsResults(options)
+                              ? "interrupted; the same line with --resume goes on from here"
+                              : "interrupted; what is done lies in " + printable(options.out_dir) +
+                                    ". The same line does all again; one with --resume and without --report "
+                                    "goes on where it was stopped";
+  sayOnInterrupt(start + how + "\n");
+}
+
 void ensureFolders(const InferOptions& options) {
   ensureWritableFolder(options.out_dir);
   if (!options.trace_dir.empty()) ensureWritableFolder(options.trace_dir);
@@ -71,7 +95,7 @@ void rigInOrder(int threads, ProgressBar& progress, RunReport& report, const Nex
                                 }});
 }
 
-ExitCode rigNamed(const InferOptions& options, const std::vector<std::string>& results) {
+ExitCode rigNamed(const InferOptions& options, const NamedDrawings& named) {
   const std::vector<RigJob> all = jobsOf(options);
   const RigOptions rig = rigOptions(options);
   for (const RigJob& job : all) noteInput(job.source);
@@ -80,11 +104,13 @@ ExitCode rigNamed(const InferOptions& options, const std::vector<std::string>& r
     if (rig.otherwise) noteResults(options, job, rig.otherwise->clips);
   }
   if (!options.quiet) {
-    sayLeftOut(results);
+    sayLeftOut(named.results);
+    sayPassedOver(named.documents);
     noteUnusedWeights(options);
   }
   ensureFolders(options);
   const Origin run = originOfRun(options);
+  if (all.size() > 1 && !options.quiet) sayHowToGoOn(options);
   RunReport report(options, rig, all.size() > 1);
   {
     ProgressBar progress("rigging", all.size(), !options.quiet);
@@ -139,6 +165,7 @@ ExitCode rigList(const InferOptions& options) {
   ensureFolders(options);
   const fs::path out_dir = fs::canonical(options.out_dir);
   const Origin run = originOfRun(options);
+  if (!options.quiet) sayHowToGoOn(options);
   RunReport report(options, rig, true);
   {
     ProgressBar progress("rigging", options.quiet ? 0 : list.length(), !options.quiet);
@@ -163,7 +190,7 @@ ExitCode runInfer(const InferOptions& asked) {
   for (std::string& image : options.images)
     if (image == "-") notePipe(image = kStandardInput);
   checkUsage(options);
-  return options.list_file.empty() ? rigNamed(options, named.results) : rigList(options);
+  return options.list_file.empty() ? rigNamed(options, named) : rigList(options);
 }
 
 }  // namespace skel

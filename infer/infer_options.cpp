@@ -23,8 +23,12 @@ void checkListUsage(const InferOptions& options) {
   if (!list && !options.shard.empty()) throw UsageError("--shard is a part of the list of --from");
   if (!list && !options.resume) return;
   if (!options.report_file.empty())
-    throw UsageError("--report holds pictures of all drawings of a run and does not go with " + many +
-                     "; name the drawings to be shown");
+    throw UsageError(
+        "--report holds pictures of all drawings, " +
+        std::string(list ? "and a list may name any number: name the drawings, or their folder, "
+                           "instead of --from, or leave out --report"
+                         : "also of those that --resume leaves as they are: leave out --resume to "
+                           "rig all for the page, or --report to go on"));
   if (!options.trace_dir.empty())
     throw UsageError("--trace draws every stage and does not go with " + many +
                      "; name the drawings to look into");

@@ -21,13 +21,15 @@ namespace {
 
 // Of all that was left beside the drawing, and of a mended skeleton that is no output of this run (else it is
 // known by the output's hash). "": there is nothing.
-std::string mendedHash(const InferOptions& options, const RigJob& job) {
+std::string mendedHash(const InferOptions& options, const RigJob& job, const std::string& image_sha256) {
   const bool skeleton_is_output =
       std::count(options.formats.begin(), options.formats.end(), std::string("json")) > 0;
+  const LookAtOutputs look;  // a silhouette that was painted in place is one of them
   std::string all;
   const FigureRange range = figuresAskedFor(options);
   for (int figure = range.first; figure <= range.last; ++figure) {
-    const MendedFiles files = mendedFiles(options, job.source, stemOf(options, job, figure), figure);
+    const MendedFiles files =
+        mendedFiles(options, job.source, stemOf(options, job, figure), figure, image_sha256);
     const auto add = [&](const char* what, const std::string& file) {
       if (!file.empty()) all += std::to_string(figure) + what + sha256(readFile(file)) + "\n";
     };
@@ -94,7 +96,7 @@ class Claim {
 void readOnce(const InferOptions& options, RigJob& job, Origin& origin) {
   std::string bytes = readFile(job.source);
   origin.image = sha256(bytes);
-  origin.mended = mendedHash(options, job);
+  origin.mended = mendedHash(options, job, origin.image);
   job.read = {std::move(bytes), origin.image};
 }
 

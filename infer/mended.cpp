@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "infer/earlier_picture.h"
 #include "infer/rig_figure.h"
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
@@ -10,8 +11,10 @@
 #include "libskel/core/input_guard.h"
 #include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
+#include "libskel/image/read_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/pipeline/rig_drawing.h"
+#include "libskel/silhouette/outline.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -24,10 +27,24 @@ std::string ifThere(const std::string& path) {
   return fs::is_regular_file(path, unknown) ? path : "";
 }
 
-[[noreturn]] void refuseOther(const std::string& file, const std::string& source) {
-  throw InputError(file, "was made by hand for another picture of this name, " + source +
-                             " has changed since; mend it anew (skel-label " + shellWord(source) +
-                             "), or leave it out by --force");
+// Painted since the result was written, or before, when its skeleton file took it for its mask. False where
+// that cannot be told.
+bool isPaintedSilhouette(const std::string& path, const std::string& skeleton_path) {
+  const std::optional<SkeletonSource> result = sourceOfSkeleton(skeleton_path);
+  if (!result || ifThere(path).empty()) return false;
+  if (result->mask) return fs::path(skeleton_path).parent_path() / result->mask->file == fs::path(path);
+  if (result->outline_sha256.empty() || result->number != 1) return false;
+  try {
+    const LookAtOutputs look;
+    const Plane8 grey = readMask(path);
+    const Plane8 mask = (grey >= 128).select(Plane8::Constant(grey.rows(), grey.cols(), 255), grey * 0);
+    Silhouette silhouette;
+    silhouette.status = SilhouetteStatus::kFound;
+    silhouette.outline = traceOutline(mask);
+    return outlineHash(silhouette) != result->outline_sha256;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 // Those that a person has placed; of a file that was named also those that were found for it.
@@ -40,7 +57,9 @@ PlacedJoints jointsOfLabels(const std::string& path, bool named, const std::stri
   if (named && placed.joints.empty())
     throw InputError(path, "holds no joints, only classes of candidates; place them (skel-label " +
                                shellWord(source) + ", key J), or name a .skeleton.json");
-  if ((!placed.joints.empty() || file.mask) && file.image.sha256 != image_sha256) refuseOther(path, source);
+  if (named && file.image.sha256 != image_sha256)
+    throw InputError(path, "was made for another picture than " + source +
+                               "; place the joints anew (skel-label " + shellWord(source) + ")");
   return placed;
 }
 
@@ -52,7 +71,7 @@ bool knowsAll(const SkeletonTemplate& body_plan, const PlacedJoints& placed) {
 }  // namespace
 
 MendedFiles mendedFiles(const InferOptions& options, const std::string& source, const std::string& stem,
-                        int figure) {
+                        int figure, const std::string& image_sha256) {
   MendedFiles files;
   files.mask = options.mask_file;
   if (isLabelFile(options.skeleton_file)) files.labels = options.skeleton_file;
@@ -61,21 +80,27 @@ MendedFiles mendedFiles(const InferOptions& options, const std::string& source, 
   if (options.force || isModelAlone(options)) return files;
 
   const std::string beside = fs::path(source).replace_extension().string();
-  if (options.skeleton_file.empty()) {
-    const std::string skeleton = options.out_dir + "/" + stem + ".skeleton.json";
-    if (hasEditedJoint(skeleton)) files.skeleton = skeleton;
+  const std::string skeleton = options.out_dir + "/" + stem + kSkeletonFileEnding;
+  if (options.skeleton_file.empty() && hasEditedJoint(skeleton)) files.skeleton = skeleton;
+  if (!fs::exists(beside + ".joints.json")) {
+    const bool one = figure == 1 && options.figure != "all";
+    if (one && options.skeleton_file.empty()) {
+      files.labels = ifThere(beside + kLabelFileEnding);
+      if (files.mask.empty()) files.mask = ifThere(beside + ".mask.png");
+    }
+    if (options.layers == "auto" && options.model_file.empty())
+      files.limbs = ifThere(beside + (figure > 1 ? "-" + std::to_string(figure) : "") + ".limbs.png");
+    if (options.back.empty() && one)
+      for (const char* ending : {".back.png", ".back.jpg", ".back.jpeg"})
+        if (files.back.empty()) files.back = ifThere(beside + ending);
   }
-  if (fs::exists(beside + ".joints.json")) return files;
-  const bool one = figure == 1 && options.figure != "all";
-  if (one && options.skeleton_file.empty()) {
-    files.labels = ifThere(beside + kLabelFileEnding);
-    if (files.mask.empty()) files.mask = ifThere(beside + ".mask.png");
+  const std::string silhouette = options.out_dir + "/" + stem + ".silhouette.png";
+  if (figure == 1 && options.figure != "all" && files.mask.empty() && options.skeleton_file.empty() &&
+      isPaintedSilhouette(silhouette, skeleton)) {
+    files.mask = silhouette;
+    files.painted_silhouette = true;
   }
-  if (options.layers == "auto" && options.model_file.empty())
-    files.limbs = ifThere(beside + (figure > 1 ? "-" + std::to_string(figure) : "") + ".limbs.png");
-  if (options.back.empty() && one)
-    for (const char* ending : {".back.png", ".back.jpg", ".back.jpeg"})
-      if (files.back.empty()) files.back = ifThere(beside + ending);
+  leaveOutEarlier(files, options, skeleton, image_sha256);
   return files;
 }
 
@@ -88,9 +113,9 @@ PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options,
     const std::string text = readFile(files.skeleton);
     const SkeletonFile file =
         parseSkeletonFile(text, files.skeleton, planOfSkeleton(text, files.skeleton, rig));
-    const bool other_size = file.image_width != image.width || file.image_height != image.height;
-    if (other_size || (!file.image_sha256.empty() && file.image_sha256 != image_sha256))
-      refuseOther(files.skeleton, source);
+    if (file.image_width != image.width || file.image_height != image.height)
+      throw InputError(files.skeleton, "was mended for a picture of another size than " + source +
+                                           " has; move it elsewhere, or lose it by --force");
     if (file.figure.number != figure)
       throw InputError(files.skeleton,
                        "holds joints of figure " + std::to_string(file.figure.number) +
@@ -101,6 +126,7 @@ PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options,
     placed.body_plan = file.skeleton.template_name;
     placed.labels = file.labels;
     placed.outline_sha256 = file.figure.sha256;
+    placed.skeleton = file;
   }
   if (files.labels.empty()) return placed;
   const std::string labels_sha256 = sha256(readFile(files.labels));
@@ -111,6 +137,7 @@ PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options,
   const PlacedJoints labelled =
       jointsOfLabels(files.labels, files.labels == options.skeleton_file, source, image_sha256);
   if (labelled.joints.empty()) return placed;
+  placed.skeleton.reset();
   for (const auto& joint : labelled.joints) {
     std::erase_if(placed.joints, [&](const auto& other) { return other.first == joint.first; });
     placed.joints.push_back(joint);
@@ -144,7 +171,7 @@ std::optional<Note> mendedNote(const MendedFiles& files, const InferOptions& opt
   };
   if (const std::size_t count = placed.joints.size(); count > 0 && options.skeleton_file.empty())
     what.push_back(std::to_string(count) + (count == 1 ? " joint" : " joints"));
-  add(files.mask, options.mask_file, "mask");
+  add(files.mask, options.mask_file, files.painted_silhouette ? "silhouette" : "mask");
   add(files.limbs, options.layers, "limbs");
   add(files.back, options.back, "back");
   if (what.empty()) return std::nullopt;

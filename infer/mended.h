@@ -19,15 +19,24 @@ struct MendedFiles {
   std::string skeleton;  // a result with joints that a person has moved
   std::string labels;    // with joints that a person has placed
   std::string mask, limbs, back;
+  bool painted_silhouette =
+      false;  // the mask is the result of that name, painted in place: it is not written
+
+  // A photo that was taken again has the name of the one before.
+  std::vector<std::string> earlier;  // files made for that one: not among those above
+  bool mask_before = false;          // the mask was there before the picture changed
+  bool limbs_before = false;         // the limbs may have been
 };
 
 // Those of figure `figure` of the drawing `source`, whose results are called <out_dir>/<stem>.*, that the
 // command line does not name others for: <source's stem>.mask.png, .labels.json, .limbs.png and .back.png
-// beside the drawing (mask and labels of one figure alone), an edited skeleton among the results. Nothing
-// with --force, and nothing beside a drawing with <stem>.joints.json: that is annotated, not mended.
-// --skeleton may name labels.
+// beside the drawing (mask and labels of one figure alone), an edited skeleton among the results, a
+// silhouette among them that is not outlined as its skeleton file says, or was that file's mask already.
+// Nothing with --force, and nothing beside a drawing with <stem>.joints.json: that is annotated, not mended.
+// --skeleton may name labels. What was made for another picture than the one of that hash is left out
+// (earlier_picture.h).
 MendedFiles mendedFiles(const InferOptions& options, const std::string& source, const std::string& stem,
-                        int figure);
+                        int figure, const std::string& image_sha256);
 
 // Joints that a person has placed.
 struct PlacedJoints {
@@ -35,11 +44,14 @@ struct PlacedJoints {
   std::string body_plan;                                        // that they belong to; "": either
   std::optional<SkeletonFile::Labels> labels;                   // where some of them are from; path as given
   std::string outline_sha256;                                   // of the figure when they were mended; or ""
+  // The result that they are in, which stands as it is: a person has seen all of it. Nothing where labels
+  // have changed since.
+  std::optional<SkeletonFile> skeleton;
 };
 
 // Of skeleton and labels. Where both place a joint, the labels count if they have changed since the skeleton
-// was made with them. Throws InputError: made for another picture, another figure; labels that were named and
-// hold no joints.
+// was made with them. Throws InputError: made for another figure; labels that were named and hold no joints,
+// or are of another picture.
 PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options, const RigOptions& rig,
                           const std::string& source, const Image& image, const std::string& image_sha256,
                           int figure);

@@ -163,14 +163,20 @@ void noteOutputs(const InferOptions& options, const std::string& stem, const std
 }
 
 std::vector<WrittenFile> writeOutputs(const InferOptions& options, const std::string& stem,
-                                      const RiggedDrawing& drawing, const SkeletonFile& file) {
+                                      const RiggedDrawing& drawing, const SkeletonFile& file,
+                                      const std::string& painted) {
   const Request request{options, stem, drawing, file};
   std::vector<OutputFile> files;
   for (const std::string& name : options.formats)
     for (OutputFile& made : formatNamed(name).make(request)) files.push_back(std::move(made));
   std::vector<WrittenFile> written;
-  for (const OutputFile& made : files) {
-    goesOnFrom(options, made.path) ? replaceFile(made.path, made.bytes) : writeFile(made.path, made.bytes);
+  for (OutputFile& made : files) {
+    if (made.path == painted) {
+      const LookAtOutputs look;
+      made.bytes = readFile(painted);
+    } else {
+      goesOnFrom(options, made.path) ? replaceFile(made.path, made.bytes) : writeFile(made.path, made.bytes);
+    }
     written.push_back({made.path, made.bytes.size(), tellsHashes(options) ? sha256(made.bytes) : ""});
   }
   return written;

@@ -95,11 +95,34 @@ std::string cardHtml(const Card& card, std::size_t number) {
   const double sure = figure.confidence.value_or(0);
   html += "<div class=\"pair\"><img class=\"drawing\" alt=\"" + card.name + ", as drawn\" src=\"" +
           figure.pictures.drawing + "\">" + film(card) + "</div>";
-  html += "<p class=\"sure\"><span><i style=\"width:" + percent(sure) + "\"></i></span>" + percent(sure) +
-          " sure of the joints</p>";
+  html += figure.all_placed ? "<p class=\"sure\">a person has placed the joints</p>"
+                            : "<p class=\"sure\"><span><i style=\"width:" + percent(sure) + "\"></i></span>" +
+                                  percent(sure) +
+                                  (figure.placed > 0 ? " sure of the joints that no person has placed</p>"
+                                                     : " sure of the joints</p>");
   for (const std::string& sentence : figure.advice)
     html += "<p class=\"advice\">" + escaped(sentence) + "</p>";
+  for (const Note& note : figure.notes)
+    html += "<p class=\"note\">" + escaped(noteText(note, figure.mend_file)) + "</p>";
   return html + "</article>\n";
+}
+
+std::string inOneLine(const std::vector<std::string>& sentences) {
+  std::string line;
+  for (const std::string& sentence : sentences) line += (line.empty() ? "" : " ") + sentence;
+  return line;
+}
+
+// All that is said of it.
+std::string reasonsFor(const Card& card) {
+  return card.figure ? inOneLine(card.figure->advice) : card.problem;
+}
+
+// One line a drawing; "" where there is none.
+std::string listHtml(const char* look, const char* title, const std::string& lines) {
+  if (lines.empty()) return "";
+  return "<section class=\"" + std::string(look) + "\"><h2>" + title + "</h2><ul>\n" + lines +
+         "</ul></section>\n";
 }
 
 }  // namespace
@@ -107,19 +130,15 @@ std::string cardHtml(const Card& card, std::size_t number) {
 std::string reportPage(const std::vector<DrawingResult>& drawings) {
   const std::vector<Card> cards = cardsOf(drawings);
   std::size_t fine = 0, look = 0;
-  std::string again, all;
+  std::string again, look_at, all;
   for (std::size_t i = 0; i < cards.size(); ++i) {
     const Card& card = cards[i];
     all += cardHtml(card, i + 1);
-    if (card.again()) {
-      const std::string why = !card.figure                  ? card.problem
-                              : card.figure->advice.empty() ? ""
-                                                            : card.figure->advice.front();
-      again +=
-          "<li><a href=\"#d" + std::to_string(i + 1) + "\">" + card.name + "</a> " + escaped(why) + "</li>\n";
-    } else {
-      ++(card.figure->verdict == Verdict::kFine ? fine : look);
-    }
+    const bool is_fine = card.figure && card.figure->verdict == Verdict::kFine;
+    if (!card.again()) ++(is_fine ? fine : look);
+    if (!is_fine)
+      (card.again() ? again : look_at) += "<li><a href=\"#d" + std::to_string(i + 1) + "\">" + card.name +
+                                          "</a> " + escaped(reasonsFor(card)) + "</li>\n";
   }
   const std::size_t retake = cards.size() - fine - look;
   const std::string title = counted(cards.size(), "drawing", "drawings");
@@ -135,8 +154,7 @@ std::string reportPage(const std::vector<DrawingResult>& drawings) {
       title + ", moving</title>\n<style>\n" + std::string(embedded::report_css) +
       "</style></head>\n<body>\n<input type=\"checkbox\" id=\"still\">\n<header><h1>" + title + "</h1><p>" +
       summary + "</p><label for=\"still\">stand still</label></header>\n";
-  if (!again.empty())
-    html += "<section class=\"again\"><h2>Photos to take again</h2><ul>\n" + again + "</ul></section>\n";
+  html += listHtml("again", "Photos to take again", again) + listHtml("look", "Drawings to look at", look_at);
   return html + "<main>\n" + all + "</main>\n</body></html>\n";
 }
 

@@ -5,16 +5,20 @@
 #include <memory>
 
 #include "infer/advice.h"
+#include "infer/earlier_picture.h"
 #include "infer/mended.h"
 #include "infer/outputs.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/mesh/read_mesh.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/pipeline/trace.h"
+#include "libskel/recognition/tree_recognition.h"
+#include "libskel/skeleton/mark_placed.h"
 #include "libskel/skeleton/outside_figure.h"
 
 namespace skel {
@@ -27,22 +31,25 @@ bool writes(const InferOptions& options, const char* format) {
 
 std::string sizeText(long width, long height) { return std::to_string(width) + "x" + std::to_string(height); }
 
-// Reads the mask that is used and returns its path, "": none. A skeleton that was handed in brings its own.
-std::string useMask(const InferOptions& options, const std::string& found,
-                    const std::optional<SkeletonFile>& given, RigInput& input) {
-  std::string path = found;
+// Reads the mask that is used and returns its path and hash, "": none. A skeleton that was handed in brings
+// its own.
+SkeletonFile::Mask useMask(const InferOptions& options, const MendedFiles& mended,
+                           const std::optional<SkeletonFile>& given, RigInput& input) {
+  std::optional<LookAtOutputs> look;
+  if (mended.painted_silhouette) look.emplace();
+  std::string path = mended.mask;
   if (path.empty() && given && given->mask) {
     path = (fs::path(options.skeleton_file).parent_path() / given->mask->file).string();
     if (sha256(readFile(path)) != given->mask->sha256)
       throw InputError(path, "has changed since " + options.skeleton_file +
                                  " was made with it; name it by --mask if that is meant");
   }
-  if (path.empty()) return path;
+  if (path.empty()) return {};
   input.mask = readMask(path);
   if (input.mask->cols() != input.image.width || input.mask->rows() != input.image.height)
     throw InputError(path, "is a mask of " + sizeText(input.mask->cols(), input.mask->rows()) +
                                " px, the image has " + sizeText(input.image.width, input.image.height));
-  return path;
+  return {path, sha256(readFile(path))};
 }
 
 // The skeleton says which figure it belongs to; a number that was asked for must be that one.
@@ -73,10 +80,12 @@ bool wasEdited(const Skeleton& skeleton) {
 // What to say of a figure whose joints were given.
 std::vector<std::string> warningsOf(const SkeletonFile& given, const RiggedDrawing& drawing, bool own_mask) {
   std::vector<std::string> warnings = drawing.silhouette.warnings;
-  // What was said of joints before somebody moved them is stale.
-  if (!wasEdited(given.skeleton))
-    for (const std::string& warning : given.warnings)
-      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+  // What was said of joints before somebody moved them is stale, but for what is still missing.
+  std::vector<std::string> of_joints = given.warnings;
+  if (wasEdited(given.skeleton)) of_joints = {missingNote(given.missing)};
+  for (const std::string& warning : of_joints)
+    if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+      warnings.push_back(warning);
   if (!own_mask && !given.figure.sha256.empty() && given.figure.sha256 != outlineHash(drawing.silhouette))
     warnings.push_back(kOutlineChanged);
   return warnings;
@@ -162,11 +171,18 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
     input.skeleton = given->skeleton;
     input.turned_deg = given->figure.turned_deg;
   }
-  const MendedFiles mended = mendedFiles(options, job.source, stem, figure);
+  MendedFiles mended = mendedFiles(options, job.source, stem, figure, image_sha256);
+  leaveOutOtherSizes(mended, input.image);
   const PlacedJoints placed =
       placedJoints(mended, options, rig, job.source, input.image, image_sha256, figure);
-  input.placed = placed.joints;
-  const std::string mask = useMask(options, mended.mask, given, input);
+  if (placed.skeleton) {
+    input.skeleton = placed.skeleton->skeleton;
+    input.turned_deg = placed.skeleton->figure.turned_deg;
+  } else {
+    input.placed = placed.joints;
+  }
+  const SkeletonFile::Mask used_mask = useMask(options, mended, given, input);
+  const std::string& mask = used_mask.file;
   if (!mended.limbs.empty()) input.layers = {readImage(mended.limbs), mended.limbs};
   if (!mended.back.empty()) input.back = {readImage(mended.back), mended.back};
 
@@ -177,11 +193,11 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   RiggedDrawing drawing = rigCharacter(std::move(input), figure_rig);
   if (!drawing.found()) throw InputError(mask.empty() ? job.source : mask, drawing.silhouette.reason);
   std::vector<std::string> warnings;
-  if (given) {
-    checkJoints(given->skeleton, handed_in, figure, drawing.silhouette.mask);
-    drawing.recognition.confidence = given->confidence;
-    drawing.recognition.missing = given->missing;
-    warnings = warningsOf(*given, drawing, !mask.empty());
+  if (given) checkJoints(given->skeleton, handed_in, figure, drawing.silhouette.mask);
+  if (const auto& as_it_stands = given ? given : placed.skeleton) {
+    drawing.recognition.confidence = as_it_stands->confidence;
+    drawing.recognition.missing = as_it_stands->missing;
+    warnings = warningsOf(*as_it_stands, drawing, !mask.empty());
   } else {
     warnings = figureNotes(drawing);
   }
@@ -189,9 +205,11 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   if (!placed.joints.empty()) {
     checkJoints(drawing.recognition.skeleton, mended.skeleton.empty() ? mended.labels : mended.skeleton,
                 figure, drawing.silhouette.mask);
-    if (mask.empty() && !placed.outline_sha256.empty() && placed.outline_sha256 != outline)
+    if (!placed.skeleton && mask.empty() && !placed.outline_sha256.empty() &&
+        placed.outline_sha256 != outline)
       warnings.push_back(kOutlineChanged);
   }
+  for (const char* warning : warningsOfEarlier(mended)) warnings.emplace_back(warning);
 
   SkeletonFile file;
   file.image_file = pathSeenFrom(skeleton_path, job.source);
@@ -203,12 +221,13 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   file.confidence = drawing.recognition.confidence;
   file.missing = drawing.recognition.missing;
   file.warnings = std::move(warnings);
-  if (!mask.empty()) file.mask = {pathSeenFrom(skeleton_path, mask), sha256(readFile(mask))};
+  if (!mask.empty()) file.mask = {pathSeenFrom(skeleton_path, mask), used_mask.sha256};
   file.labels = placed.labels;
   if (file.labels && !mended.labels.empty()) file.labels->file = pathSeenFrom(skeleton_path, mended.labels);
 
+  const std::vector<KeptFile> kept = keepEarlier(mended, options, skeleton_path);
   FigureResult result;
-  result.outputs = writeOutputs(options, stem, drawing, file);
+  result.outputs = writeOutputs(options, stem, drawing, file, mended.painted_silhouette ? mended.mask : "");
   if (!options.trace_dir.empty()) {
     const bool given_mask = !mask.empty() || isModelAlone(options);
     writeTrace(drawing, given_mask ? SilhouetteSteps{} : silhouetteSteps(drawing.image),
@@ -221,12 +240,16 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   if (looksForJoints(figure_rig)) result.confidence = file.confidence;
   result.body_plan = drawing.body_plan.name;
   result.missing = file.missing;
+  result.placed = std::count_if(file.skeleton.joints.begin(), file.skeleton.joints.end(),
+                                [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; });
+  result.all_placed = allPlaced(file.skeleton);
   result.verdict = verdictOf(figure_rig, drawing, file);
   result.reasons = file.warnings;
   result.notes = notesOf(options, rig, drawing);
   if (const auto note = mendedNote(mended, options, placed)) result.notes.push_back(*note);
+  if (const auto note = earlierNote(mended, kept)) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
-    result.advice = adviceOn(drawing, file, options.figure == "all");
+    result.advice = adviceOn(drawing, file, result.mend_file);
     result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front());
   }
   result.times = drawing.times;

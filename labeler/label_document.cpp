@@ -17,7 +17,9 @@ std::string LabelDocument::take(const Figure& figure, const SkeletonTemplate& bo
   state.labels.resize(figure.centers_px.size());
   if (!opened_) return said;
   if (opened_->image.sha256 != image_sha256_)
-    said = opened_->image.file + " has changed since it was labelled: look through the labels";
+    said = opened_->image.file + " has changed since it was labelled: " +
+           (opened_->joints.empty() ? "look through the labels" : "Shift R finds its joints anew") +
+           (opened_->mask ? "; look at the mask (M)" : "");
   takeJoints(*opened_, body_plan, state.joints);
   if (samePlaces(opened_->candidates, figure.candidates.maxima)) {
     state.labels = opened_->labels;

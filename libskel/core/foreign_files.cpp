@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "libskel/core/file_names.h"
+
 namespace skel {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr std::string_view kLoose =
     ": loose triangles without parts, colours or units; open it in Blender and export it as OBJ";
 constexpr std::string_view kPainted = "; open it in Krita or GIMP and export it as PNG";
 
-// `{}` stands for the file.
+// `{}` stands for the file, as a word for the shell.
 struct Kind {
   std::string_view ending, what, remedy;
 };
@@ -46,7 +48,7 @@ std::string howToConvert(const std::string& path) {
   for (const Kind& kind : kKinds) {
     if (kind.ending != ending) continue;
     std::string text = "is " + std::string(kind.what) + std::string(kind.remedy);
-    if (const std::size_t at = text.find("{}"); at != std::string::npos) text.replace(at, 2, path);
+    if (const std::size_t at = text.find("{}"); at != std::string::npos) text.replace(at, 2, shellWord(path));
     return text;
   }
   return {};

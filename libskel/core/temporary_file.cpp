@@ -10,6 +10,8 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstring>
+#include <list>
 #include <utility>
 
 namespace skel {
@@ -26,6 +28,7 @@ struct Slot {
 constexpr int kSlots = 1100;  // --jobs goes to 1024
 Slot slots[kSlots];
 
+std::atomic<const char*> last_words{nullptr};
 std::atomic<bool> dying{false};
 std::atomic<int> making{0};
 
@@ -75,6 +78,8 @@ void onSignal(int signal) {
     // A file that another process has locked is that one's.
     if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) == 0 && isNamed(fd, slot.path)) ::unlink(slot.path);
   }
+  if (const char* words = last_words; words && signal == SIGINT)
+    (void)!::write(STDERR_FILENO, words, std::strlen(words));
   struct sigaction usual = {};
   usual.sa_handler = SIG_DFL;
   ::sigaction(signal, &usual, nullptr);
@@ -158,6 +163,11 @@ bool TemporaryFile::becomeTarget() {
   }
   target_.clear();
   return true;
+}
+
+void sayOnInterrupt(const std::string& text) {
+  static std::list<std::string> texts;  // the handler may be at any of them
+  last_words = texts.emplace_back(text).c_str();
 }
 
 void removeTemporaryFilesOnSignals() {

@@ -35,4 +35,7 @@ class TemporaryFile {
 // by the signal, as it would have.
 void removeTemporaryFilesOnSignals();
 
+// What SIGINT (Ctrl+C) then says on stderr, at the end: how to go on. Each call replaces the text before.
+void sayOnInterrupt(const std::string& text);
+
 }  // namespace skel

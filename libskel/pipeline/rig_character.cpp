@@ -25,6 +25,7 @@
 #include "libskel/silhouette/outline.h"
 #include "libskel/skeleton/hanging.h"
 #include "libskel/skeleton/lift.h"
+#include "libskel/skeleton/mark_placed.h"
 
 namespace skel {
 namespace {
@@ -69,28 +70,35 @@ void roundToFile(Skeleton& skeleton) {
   for (Joint& joint : skeleton.joints) joint.image = (joint.image * 100).array().round() / 100;
 }
 
-// Those that follow from others, or were a guess, follow them. What was said of the joints before is stale.
+// Those that follow from others follow them; of what the rules of the paper have not seen, so do guesses. The
+// net's guesses are its best and stay. What was said of the joints before is stale, but for what is still
+// missing.
 void placeJoints(const RigInput& input, const SkeletonTemplate& body_plan, const Silhouette& silhouette,
-                 Recognition& found) {
+                 bool guesses_stay, Recognition& found) {
+  std::vector<Joint>& joints = found.skeleton.joints;
   std::vector<bool> known;
-  for (const Joint& joint : found.skeleton.joints) known.push_back(joint.origin == JointOrigin::kRecognized);
+  for (const Joint& joint : joints)
+    known.push_back(joint.origin == JointOrigin::kRecognized ||
+                    (guesses_stay && joint.origin == JointOrigin::kCompleted));
+  std::vector<int> placed;
+  for (const auto& [name, image] : input.placed) {
+    placed.push_back(found.skeleton.find(name));
+    if (placed.back() < 0)
+      throw UsageError("\"" + name + "\" is no joint of the template \"" + body_plan.name + "\"");
+    known[std::size_t(placed.back())] = true;
+    std::erase(found.missing, name);
+  }
   const auto place = [&] {
-    for (const auto& [name, image] : input.placed) {
-      const int index = found.skeleton.find(name);
-      if (index < 0)
-        throw UsageError("\"" + name + "\" is no joint of the template \"" + body_plan.name + "\"");
-      Joint& joint = found.skeleton.joints[std::size_t(index)];
-      joint.image = image;
-      joint.confidence = 1;
-      joint.origin = JointOrigin::kEdited;
-      known[std::size_t(index)] = true;
-      std::erase(found.missing, name);
-    }
+    for (std::size_t i = 0; i < placed.size(); ++i)
+      joints[std::size_t(placed[i])].image = input.placed[i].second;
   };
   place();
+  found.confidence = markPlaced(found.skeleton, placed, found.confidence);
   completeSkeleton(found.skeleton, known, body_plan, silhouette);
   place();  // also where a joint lies on another, or outside of the figure
+  markPlaced(found.skeleton, placed, found.confidence);
   found.warnings.clear();
+  if (!found.missing.empty()) found.warnings.push_back(missingNote(found.missing));
 }
 
 const JointNets& jointNetsOf(const RigOptions& options) {
@@ -301,7 +309,8 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory*
   drawing.body_plan = std::move(joints.body_plan);
   drawing.recognition = std::move(joints.recognition);
   const SkeletonTemplate& body_plan = drawing.body_plan;
-  if (!input.placed.empty()) placeJoints(input, body_plan, silhouette, drawing.recognition);
+  if (!input.placed.empty())
+    placeJoints(input, body_plan, silhouette, options.recognizer == Recognizer::kTree, drawing.recognition);
   roundToFile(drawing.recognition.skeleton);
   drawing.character.skeleton = drawing.recognition.skeleton;
   if (last == LastStage::kJoints) return drawing;

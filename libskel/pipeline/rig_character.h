@@ -42,7 +42,8 @@ struct RigInput {
   int turned_deg = 0;                  // of the `skeleton`'s figure, clockwise against upright
   std::optional<NamedPicture> layers;  // layerPicture(), mended: which limbs lie before the body
   std::optional<Skeleton> skeleton;    // go on from these joints (image px) instead of recognising any
-  // Joints of the body plan that a person has placed, image px: they are there, the others are recognised.
+  // Joints of the body plan that a person has placed, image px: they are there and sure, the others are
+  // recognised.
   std::vector<std::pair<std::string, Eigen::Vector2d>> placed;
 };
 

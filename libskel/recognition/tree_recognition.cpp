@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "libskel/core/check.h"
+#include "libskel/core/text.h"
 #include "libskel/jointnet/figure_look.h"
 #include "libskel/recognition/complete_skeleton.h"
 #include "libskel/recognition/confidence_model.h"
@@ -29,17 +30,20 @@ constexpr double kHardlyOne =
 
 // What a person should know of the joints; "" if nothing.
 std::string jointNote(const Recognition& recognition, const std::string& body_plan) {
-  std::string missing;
-  for (const std::string& name : recognition.missing) missing += (missing.empty() ? "" : ", ") + name;
+  const std::string missing = joined(recognition.missing);
   if (recognition.likeness < kHardlyOne)
     return "this hardly looks like one whole " + body_plan +
            (missing.empty() ? "" : "; not found: " + missing);
   if (recognition.confidence < 0.5)
     return "some joints may be wrong, look at them" + (missing.empty() ? "" : "; not found: " + missing);
-  return missing.empty() ? "" : "not found: " + missing + " (placed where they probably are)";
+  return missingNote(recognition.missing);
 }
 
 }  // namespace
+
+std::string missingNote(const std::vector<std::string>& missing) {
+  return missing.empty() ? "" : "not found: " + joined(missing) + " (placed where they probably are)";
+}
 
 Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
                             const SkeletonTemplate& body_plan, const JointNet& net,

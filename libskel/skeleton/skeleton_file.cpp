@@ -9,6 +9,7 @@
 #include "libskel/core/json.h"
 #include "libskel/core/json_names.h"
 #include "libskel/skeleton/joint_json.h"
+#include "libskel/skeleton/mark_placed.h"
 #include "libskel/skeleton/moved_joints.h"
 
 namespace skel {
@@ -46,6 +47,11 @@ Joint jointAt(const JsonValue& item, const SkeletonTemplate& body_plan, const Sk
   return joint;
 }
 
+SkeletonFile::Mask sourceAt(const JsonValue& given) {
+  given.allowOnly({"file", "sha256"});
+  return {given.at("file").asFileName(), given.at("sha256").asString()};
+}
+
 SkeletonFile::Figure figureAt(const JsonValue& value) {
   value.allowOnly({"number", "sha256", "turned"});
   SkeletonFile::Figure figure;
@@ -55,18 +61,18 @@ SkeletonFile::Figure figureAt(const JsonValue& value) {
   return figure;
 }
 
-void markMovedJoints(SkeletonFile& file) {
+void markPlacedJoints(SkeletonFile& file) {
   std::vector<Eigen::Vector2d> image, position;
   for (const Joint& joint : file.skeleton.joints) {
     image.push_back(joint.image);
     position.push_back(joint.position.head<2>());
   }
-  for (const int moved : movedJoints(image, position)) {
-    Joint& joint = file.skeleton.joints[static_cast<size_t>(moved)];
-    joint.origin = JointOrigin::kEdited;
-    joint.confidence = 1;
-    std::erase(file.missing, joint.name);
-  }
+  std::vector<int> placed = movedJoints(image, position);
+  for (size_t i = 0; i < file.skeleton.joints.size(); ++i)
+    if (file.skeleton.joints[i].origin == JointOrigin::kEdited) placed.push_back(static_cast<int>(i));
+  file.confidence = markPlaced(file.skeleton, placed, file.confidence);
+  for (const int joint : placed)
+    std::erase(file.missing, file.skeleton.joints[static_cast<size_t>(joint)].name);
 }
 
 }  // namespace
@@ -139,10 +145,6 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
   file.confidence = root.at("confidence").asNumber(0, 1);
   file.missing = textsAt(root.at("missing"), body_plan.joints.size());
   file.warnings = textsAt(root.at("warnings"), kMostWarnings);
-  const auto sourceAt = [](const JsonValue& given) {
-    given.allowOnly({"file", "sha256"});
-    return SkeletonFile::Mask{given.at("file").asFileName(), given.at("sha256").asString()};
-  };
   if (const JsonValue mask = root.at("mask"); !mask.isNull()) file.mask = sourceAt(mask);
   if (const auto labels = root.find("labels")) file.labels = sourceAt(*labels);
   file.skeleton.template_name = body_plan.name;
@@ -157,8 +159,29 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
   for (size_t i = 0; i < body_plan.joints.size(); ++i)
     if (file.skeleton.joints[i].name.empty())
       root.at("joints").fail("lacks the joint \"" + body_plan.joints[i].name + "\"");
-  markMovedJoints(file);
+  markPlacedJoints(file);
   return file;
+}
+
+std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path) {
+  if (std::error_code unknown; !std::filesystem::exists(path, unknown)) return std::nullopt;
+  const LookAtOutputs look;
+  try {
+    const JsonDocument document = JsonDocument::readFile(path);
+    const JsonValue root = document.root();
+    root.checkFormat("skel-skeleton", 3);
+    SkeletonSource source;
+    if (const auto hash = root.at("image").find("sha256")) source.image_sha256 = hash->asString();
+    if (const auto json = root.find("figure")) {
+      const SkeletonFile::Figure figure = figureAt(*json);
+      source.outline_sha256 = figure.sha256;
+      source.number = figure.number;
+    }
+    if (const JsonValue mask = root.at("mask"); !mask.isNull()) source.mask = sourceAt(mask);
+    return source;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
 bool hasEditedJoint(const std::string& path) {

@@ -43,7 +43,8 @@ std::string formatSkeletonFile(const SkeletonFile& file);
 
 // Throws InputError: joints that are not the template's (any order), outside the image, of another parent,
 // NaN. Positions are read as they stand; the pipeline computes them anew from `image`. A joint that somebody
-// has moved without saying so (moved_joints.h) comes back as edited, and is not missing any more.
+// has moved without saying so (moved_joints.h) comes back as edited; edited ones are sure (mark_placed.h) and
+// not missing.
 SkeletonFile readSkeletonFile(const std::string& path, const SkeletonTemplate& body_plan);
 // `path` is the name that complaints use.
 SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
@@ -51,6 +52,16 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
 
 // The name of the template that a skeleton file belongs to. Throws InputError: no skeleton file.
 std::string templateOfSkeleton(std::string_view text, const std::string& path);
+
+// What a skeleton was found in; hashes are empty where they are not known.
+struct SkeletonSource {
+  std::string image_sha256, outline_sha256;
+  int number = 1;  // of the figure
+  std::optional<SkeletonFile::Mask> mask;
+};
+
+// Of the skeleton file at `path`. Nothing where there is none, or none that can be read.
+std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path);
 
 // Whether a person has moved a joint in the skeleton file at `path`, said so or not. False where there is no
 // file.

@@ -114,6 +114,52 @@ TEST_CASE("what is said of many drawings is said once, with the names that it ho
   }
 }
 
+TEST_CASE("a PDF in a folder is passed over, and one line says what to convert it with") {
+  const TempDir dir;
+  fs::create_directories(dir.file("class"));
+  writeFile(dir.file("class/Scan 1.pdf"), "%PDF");
+  const ToolRun alone = infer(dir, "class");
+  CHECK(alone.exit_code == 2);
+  const std::string how =
+      "is a PDF file; convert its pages by `pdftoppm -r 150 -png 'class/Scan 1.pdf' page`";
+  CHECK_THAT(alone.err, Contains("class/Scan 1.pdf: " + how));
+  fs::copy(kDrawing, dir.file("class/boy.png"));
+  const ToolRun run = infer(dir, "class --formats silhouette");
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err, Contains("note: class/Scan 1.pdf " + how + "; passed over\n"));
+  CHECK(infer(dir, "class --formats silhouette --quiet").err.empty());
+}
+
+TEST_CASE("a run over a folder that is interrupted says how to go on") {
+  const TempDir dir;
+  for (const char* name : {"a", "b", "c", "d", "e", "f"}) {
+    fs::create_directories(dir.file("class"));
+    fs::copy(kDrawing, dir.file(std::string("class/") + name + ".png"));
+  }
+  const auto interrupted = [&](const std::string& out, const std::string& options) {
+    return skel::runTool("cd '" + dir.path() + "'; env --default-signal=INT '" SKEL_INFER "' class -o " +
+                         out + options + " & while [ ! -e " + out +
+                         "/a.glb ]; do sleep .02; done; kill -INT $!; wait $!")
+        .err;
+  };
+  CHECK_THAT(interrupted("out", ""),
+             Contains("skel-infer: interrupted; what is done lies in out. The same line does all "
+                      "again; one with --resume and without --report goes on where it was stopped\n"));
+  CHECK_THAT(interrupted("other", " --resume"),
+             Contains("skel-infer: interrupted; the same line goes on from here\n"));
+}
+
+TEST_CASE("option --report beside --resume or --from is refused with what to do") {
+  const TempDir dir;
+  fs::copy(kDrawing, dir.file("a.png"));
+  const ToolRun resumed = infer(dir, "a.png --report r.html --resume");
+  CHECK(resumed.exit_code == 1);
+  CHECK_THAT(resumed.err, Contains("leave out --resume to rig all for the page, or --report to go on"));
+  writeFile(dir.file("list"), "a.png\n");
+  CHECK_THAT(infer(dir, "--from list --report r.html").err,
+             Contains("name the drawings, or their folder, instead of --from"));
+}
+
 TEST_CASE("a path in a note can be pasted into a shell") {
   const TempDir dir;
   fs::copy(SKEL_DATASETS "/characters/box_carrier.png", dir.file("Eva's photo.png"));

@@ -4,9 +4,11 @@
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
+#include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/silhouette/silhouette.h"
+#include "libskel/skeleton/template.h"
 #include "tests/infer/run_infer.h"
 #include "tests/support/catch.h"
 #include "tests/support/synthetic_figure.h"
@@ -36,10 +38,11 @@ void moveInFile(const TempDir& dir, const std::string& name, const std::string& 
 }
 
 // As skel-label saves them: one joint placed, one that was found.
-void placeInLabels(const TempDir& dir, const Eigen::Vector2d& left_hand) {
+void placeInLabels(const TempDir& dir, const Eigen::Vector2d& left_hand, const std::string& mask = "") {
   LabelFile labels;
   const std::string image = readFile(dir.file("boy.png"));
   labels.image = {"boy.png", sha256(image)};
+  if (!mask.empty()) labels.mask = LabelFile::Source{mask, sha256(readFile(dir.file(mask)))};
   labels.image_width = labels.image_height = 600;
   labels.grid_width = labels.grid_height = kWorkingGridSize;
   labels.joints = {{"left_hand", left_hand}, {"right_hand", Eigen::Vector2d(100, 300)}};
@@ -47,6 +50,12 @@ void placeInLabels(const TempDir& dir, const Eigen::Vector2d& left_hand) {
   writeLabelFile(dir.file("boy.labels.json"), labels);
 }
 
+// Another drawing under the same name.
+void takeAgain(const TempDir& dir, const std::string& character) {
+  writeFile(dir.file("boy.png"), readFile(SKEL_DATASETS "/characters/" + character + ".png"));
+}
+
+constexpr const char* kEarlier = "mended for an earlier picture of this name, not taken up for this one: ";
 constexpr const char* kTakenUp = "made by hand and taken up (--force leaves it out): ";
 
 }  // namespace
@@ -68,14 +77,202 @@ TEST_CASE("a joint that was moved in the skeleton file stays where it was put, a
     CHECK(run.err.find("by hand") == run.err.npos);
     CHECK(placeIn(dir, "left_hand") == before);
   }
-  SECTION("another picture of that name is not rigged by it") {
+}
+
+TEST_CASE(
+    "a photo that was taken again is rigged from scratch, and its mended skeleton is kept under another "
+    "name") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  for (const std::string kept : {"boy.skeleton.old.json", "boy.skeleton.old-2.json"}) {
+    moveInFile(dir, "left_hand", "300.5");
     const std::string mended = readFile(dir.file("out/boy.skeleton.json"));
-    Image image = capsuleImage({.size = 600});
-    writeFile(dir.file("boy.png"), encodePng(image));
+    takeAgain(dir, kept == "boy.skeleton.old.json" ? "clown" : "cap_boy");
+    REQUIRE(infer(dir, "boy.png -o fresh").exit_code == 0);
     const ToolRun run = infer(dir, "boy.png");
-    CHECK(run.exit_code == 2);
-    CHECK_THAT(run.err, Contains("out/boy.skeleton.json: was made by hand for another picture of this name"));
-    CHECK(readFile(dir.file("out/boy.skeleton.json")) == mended);
+    CHECK(run.exit_code == 0);
+    CHECK_THAT(run.err, Contains(kEarlier + std::string("boy.skeleton.json (now ") + kept + ")\n"));
+    CHECK(readFile(dir.file("out/" + kept)) == mended);
+    for (const char* result : {"boy.skeleton.json", "boy.glb"})
+      CHECK(readFile(dir.file(std::string("out/") + result)) ==
+            readFile(dir.file(std::string("fresh/") + result)));
+    CHECK(infer(dir, "boy.png").err.find("earlier picture") == std::string::npos);
+  }
+}
+
+TEST_CASE("a mended skeleton keeps its name where the new photo writes none or is no picture") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  moveInFile(dir, "left_hand", "300.5");
+  const std::string mended = readFile(dir.file("out/boy.skeleton.json"));
+  takeAgain(dir, "clown");
+  CHECK_THAT(infer(dir, "boy.png --formats silhouette").err,
+             Contains(kEarlier + std::string("boy.skeleton.json\n")));
+  CHECK(readFile(dir.file("out/boy.skeleton.json")) == mended);
+  writeFile(dir.file("boy.png"), "no picture");
+  CHECK(infer(dir, "boy.png").exit_code == 2);
+  CHECK(readFile(dir.file("out/boy.skeleton.json")) == mended);
+}
+
+TEST_CASE(
+    "labels of the photo that was there before, and the mask that they speak of, are left out and stay") {
+  const TempDir dir;
+  drawBoy(dir);
+  fs::copy(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("boy.mask.png"));
+  placeInLabels(dir, {420, 300}, "boy.mask.png");
+  takeAgain(dir, "clown");
+  const std::string labels = readFile(dir.file("boy.labels.json"));
+  const ToolRun run = infer(dir, "boy.png");
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err, Contains(kEarlier + std::string("boy.labels.json, boy.mask.png\n")));
+  CHECK(readFile(dir.file("boy.labels.json")) == labels);
+  REQUIRE(infer(dir, "boy.png -o forced --force").exit_code == 0);
+  CHECK(readFile(dir.file("out/boy.glb")) == readFile(dir.file("forced/boy.glb")));
+  SECTION("named by --skeleton they are refused, with what to do") {
+    const ToolRun named = infer(dir, "boy.png --skeleton boy.labels.json");
+    CHECK(named.exit_code == 2);
+    CHECK_THAT(named.err,
+               Contains("boy.labels.json: was made for another picture than boy.png; place the joints "
+                        "anew (skel-label boy.png)"));
+  }
+}
+
+TEST_CASE("a mask that was there before the photo was taken again is taken up and to be looked at") {
+  const TempDir dir;
+  drawBoy(dir);
+  fs::copy(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("boy.mask.png"));
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  const auto said = [&] {
+    return infer(dir, "boy.png")
+               .err.find("the mask was there before the picture changed: look at it (skel-label boy.png)") !=
+           std::string::npos;
+  };
+  SECTION("of the same size") {
+    takeAgain(dir, "clown");
+    CHECK(said());
+    CHECK_FALSE(said());
+  }
+  SECTION("not one that was painted since, nor one that labels of the new picture speak of") {
+    takeAgain(dir, "clown");
+    SECTION("painted") {
+      fs::copy(SKEL_DATASETS "/characters/clown.mask.png", dir.file("boy.mask.png"),
+               fs::copy_options::overwrite_existing);
+    }
+    SECTION("seen in skel-label") { placeInLabels(dir, {300, 300}, "boy.mask.png"); }
+    CHECK_FALSE(said());
+  }
+  SECTION("of another size it is left out, and so are limbs") {
+    writeFile(dir.file("boy.png"), encodePng(capsuleImage({.size = 500})));
+    fs::copy(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("boy.limbs.png"));
+    CHECK_THAT(infer(dir, "boy.png").err, Contains(kEarlier + std::string("boy.mask.png, boy.limbs.png\n")));
+  }
+}
+
+TEST_CASE("joints that nobody moved stay where the edited skeleton file has them") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  // As after a guess: the file is what the person saw, whatever skel would find again.
+  std::string text = readFile(dir.file("out/boy.skeleton.json"));
+  for (const char* name : {"left_hand", "right_shoulder", "right_elbow"}) {
+    const size_t origin = text.find("\"origin\":\"", text.find("\"name\":\"" + std::string(name))) + 10;
+    text.replace(origin, text.find('"', origin) - origin, name[0] == 'l' ? "completed" : "edited");
+  }
+  text.replace(text.find("\"missing\": []"), 13, "\"missing\": [\"left_hand\"]");
+  writeFile(dir.file("out/boy.skeleton.json"), text);
+  moveInFile(dir, "right_elbow", "150");
+  moveInFile(dir, "left_hand", "405.5");
+  moveInFile(dir, "left_foot", "330.25");
+  const auto joints = [&] {
+    std::vector<std::vector<double>> places;
+    const JsonDocument document = JsonDocument::readFile(dir.file("out/boy.skeleton.json"));
+    for (const JsonValue& joint : document.root().at("joints").items())
+      places.push_back(joint.at("image").asNumbers(2));
+    return places;
+  };
+  const auto before = joints();
+  CHECK(infer(dir, "boy.png").exit_code == 0);
+  CHECK(joints() == before);
+}
+
+TEST_CASE("a limb that is still missing is still told of when another joint was placed") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  std::string text = readFile(dir.file("out/boy.skeleton.json"));
+  text.replace(text.find("\"missing\": []"), 13, "\"missing\": [\"left_hand\"]");
+  writeFile(dir.file("out/boy.skeleton.json"), text);
+  moveInFile(dir, "right_hand", "150");
+  constexpr const char* kMissing = "not found: left_hand (placed where they probably are)";
+  CHECK_THAT(infer(dir, "boy.png").err, Contains(kMissing));
+  moveInFile(dir, "left_hand", "420.5");
+  CHECK(infer(dir, "boy.png").err.find("not found") == std::string::npos);
+}
+
+TEST_CASE("joints that a person has all placed are sure, and the report says who placed them") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  LabelFile labels;
+  labels.image = {"boy.png", sha256(readFile(dir.file("boy.png")))};
+  labels.image_width = labels.image_height = 600;
+  labels.grid_width = labels.grid_height = kWorkingGridSize;
+  for (const TemplateJoint& joint : loadTemplate("biped").joints) {
+    const auto place = placeIn(dir, joint.name);
+    if (!joint.derived) labels.joints.emplace_back(joint.name, Eigen::Vector2d(place[0], place[1] - 1));
+  }
+  writeLabelFile(dir.file("boy.labels.json"), labels);
+  for (int time = 0; time < 2; ++time) {
+    CHECK_THAT(infer(dir, "boy.png --report report.html").out, Contains("confidence 1.00"));
+    const std::string html = readFile(dir.file("report.html"));
+    CHECK_THAT(html, Contains("a person has placed the joints"));
+    CHECK(html.find("sure of the joints") == std::string::npos);
+  }
+}
+
+TEST_CASE(
+    "a silhouette that was painted in place is taken up as the mask, said in one line, and stays as "
+    "painted") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  const std::string path = dir.file("out/boy.silhouette.png"), found = readFile(path);
+  CHECK(infer(dir, "boy.png").err.find("silhouette") == std::string::npos);
+  Plane8 mask = readMask(path);
+  mask.block(300, 240, 60, 120) = 255;
+  mask.block(0, 0, 20, 20) = 255;  // a stray stroke, which is no part of the figure
+  const std::string painted = encodePng(mask);
+  REQUIRE(painted != found);
+  writeFile(path, painted);
+  writeFile(dir.file("named.png"), painted);
+  REQUIRE(infer(dir, "boy.png -o named --mask named.png").exit_code == 0);
+  for (int time = 0; time < 2; ++time) {
+    const ToolRun run = infer(dir, "boy.png");
+    CHECK(run.exit_code == 0);
+    CHECK_THAT(run.err, Contains(kTakenUp + std::string("silhouette\n")));
+    CHECK(readFile(path) == painted);
+    CHECK(readFile(dir.file("out/boy.glb")) == readFile(dir.file("named/boy.glb")));
+  }
+  SECTION("with --resume it is done once more, and then left") {
+    CHECK(infer(dir, "boy.png --resume").out.find("done before") == std::string::npos);
+    CHECK_THAT(infer(dir, "boy.png --resume").out, Contains("done before"));
+    CHECK(readFile(path) == painted);
+  }
+  SECTION("--force leaves it out and writes over it") {
+    CHECK(infer(dir, "boy.png --force").exit_code == 0);
+    CHECK(readFile(path) == found);
+  }
+  SECTION("of a photo that was taken again it is left out and kept") {
+    takeAgain(dir, "clown");
+    CHECK_THAT(infer(dir, "boy.png").err,
+               Contains(kEarlier + std::string("boy.silhouette.png (now boy.old.silhouette.png)\n")));
+    CHECK(readFile(dir.file("out/boy.old.silhouette.png")) == painted);
+  }
+  SECTION("a mask beside the drawing comes first") {
+    fs::copy(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("boy.mask.png"));
+    CHECK_THAT(infer(dir, "boy.png").err, Contains(kTakenUp + std::string("mask\n")));
   }
 }
 

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "libskel/core/files.h"
+#include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "tests/infer/run_infer.h"
 #include "tests/support/catch.h"
@@ -44,6 +45,47 @@ TEST_CASE("the report shows each drawing beside its moving figure, and what to t
   CHECK_THAT(html, Contains(">David</a> The figure is cut off at the bottom. Step back"));
   CHECK_THAT(html, Contains(">text</a> is not a picture that can be read"));
   CHECK_THAT(html, Contains("@media print") && Contains("prefers-color-scheme: dark"));
+}
+
+TEST_CASE("the report lists on top what to look at, one line a child, and says all that the terminal says") {
+  const TempDir dir;
+  std::filesystem::create_directories(dir.file("class"));
+  std::filesystem::copy(SKEL_DATASETS "/characters/cap_boy.png", dir.file("class/Ann.png"));
+  const Image boy = readImage(SKEL_DATASETS "/characters/cap_boy.png");
+  Image two(2 * boy.width, boy.height * 2 / 3);
+  for (int y = 0; y < two.height; ++y)
+    for (int x = 0; x < two.width; ++x) std::copy_n(boy.pixel(x % boy.width, y), 4, two.pixel(x, y));
+  writeFile(dir.file("class/Two.png"), encodePng(two));
+  // A mask of another photo: something to look at.
+  std::filesystem::copy(SKEL_DATASETS "/characters/clown.png", dir.file("class/Zoe.png"));
+  std::filesystem::copy(SKEL_DATASETS "/characters/clown.mask.png", dir.file("class/Zoe.mask.png"));
+  infer(dir, "class/Zoe.png -o class --formats json");
+  std::filesystem::copy(SKEL_DATASETS "/characters/cap_boy.png", dir.file("class/Zoe.png"),
+                        std::filesystem::copy_options::overwrite_existing);
+  const ToolRun run = infer(dir, "class -o class --formats json --report class/report.html");
+  const std::string html = readFile(dir.file("class/report.html"));
+  const size_t retake = html.find("<h2>Photos to take again</h2>"),
+               look = html.find("<h2>Drawings to look at</h2>");
+  REQUIRE(retake < look);
+  REQUIRE(look < html.find("<main>"));
+  const std::string top = html.substr(look, html.find("</section>", look) - look);
+  CHECK(countIn(top, "<li>") == 1);
+  CHECK_THAT(top, Contains(">Zoe</a> The mask was there before the picture changed: look at it (skel-label "
+                           "class/Zoe.png)."));
+  const std::string again = html.substr(retake, html.find("</section>", retake) - retake);
+  CHECK(countIn(again, "<li>") == 1);
+  REQUIRE(countIn(run.err, "retake class/Two.png: ") == 3);
+  for (const char* reason :
+       {"There are 2 figures in the picture; the largest was taken.",
+        "The figure is cut off at the bottom. Step back", "No whole figure could be made out"})
+    CHECK_THAT(again, Contains(reason));
+  CHECK_THAT(html, Contains("<p class=\"note\">made by hand and taken up"));
+}
+
+TEST_CASE("a printed report shows the figures at rest") {
+  const TempDir dir;
+  const std::string html = reportOf(dir), print = html.substr(html.find("@media print"));
+  CHECK_THAT(print, Contains(".film > div, .film img { animation: none; }"));
 }
 
 TEST_CASE("a report does not go over a result of its own run") {

@@ -799,6 +799,27 @@ TEST_CASE("labels are carried over when the picture's candidates are no longer t
   CHECK(document.item().classes.done >= document.item().classes.parts - 1);
 }
 
+TEST_CASE(
+    "of a picture that has changed since its joints were placed the message says what to do, and that does "
+    "it") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path(), false);
+  fs::remove(dir.file("cap_boy.joints.json"));
+  {
+    Document document(dir.path(), documentOptions());
+    document.findJoints();
+    document.acceptJoints();
+  }
+  fs::copy(kCharacters + "clown.png", dir.file("cap_boy.png"), fs::copy_options::overwrite_existing);
+  Document document(dir.path(), documentOptions());
+  CHECK(document.message() == "cap_boy.png has changed since it was labelled: Shift R finds its joints anew");
+  document.forgetJoints();  // Shift R
+  document.rig();
+  const LabelFile labels = readLabelFile(dir.file("cap_boy.labels.json"));
+  CHECK(labels.image.sha256 == sha256(readFile(dir.file("cap_boy.png"))));
+  CHECK_FALSE(labels.hasPlacedJoint());
+}
+
 TEST_CASE("folders without pictures and pictures that share a label file are refused") {
   const TempDir dir;
   CHECK_THROWS_AS(Document(dir.path(), documentOptions()), InputError);

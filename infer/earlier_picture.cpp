@@ -1,0 +1,132 @@
+#include "infer/earlier_picture.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/sha256.h"
+#include "libskel/core/text.h"
+#include "libskel/image/read_image.h"
+#include "libskel/labels/label_file.h"
+
+namespace skel {
+namespace fs = std::filesystem;
+namespace {
+
+std::string fileName(const std::string& path) { return fs::path(path).filename().string(); }
+
+void leaveOut(std::string& file, MendedFiles& files) { files.earlier.push_back(std::exchange(file, "")); }
+
+// Nothing of a file that cannot be read: whoever takes it up says what is wrong with it.
+std::optional<LabelFile> labelsIn(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  try {
+    return readLabelFile(path);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+bool hasSize(const Plane8& mask, const Image& image) {
+  return mask.cols() == image.width && mask.rows() == image.height;
+}
+
+bool hasSize(const Image& limbs, const Image& image) {
+  return limbs.width == image.width && limbs.height == image.height;
+}
+
+}  // namespace
+
+void leaveOutEarlier(MendedFiles& files, const InferOptions& options, const std::string& skeleton_path,
+                     const std::string& image_sha256) {
+  const std::optional<SkeletonSource> result = sourceOfSkeleton(skeleton_path);
+  const bool changed = result && !result->image_sha256.empty() && result->image_sha256 != image_sha256;
+  if (changed && !files.skeleton.empty()) leaveOut(files.skeleton, files);
+  if (changed && files.painted_silhouette) {
+    leaveOut(files.mask, files);
+    files.painted_silhouette = false;
+  }
+
+  const bool found_labels = files.labels != options.skeleton_file,
+             found_mask = files.mask != options.mask_file && !files.painted_silhouette;
+  const std::string mask_sha256 = found_mask ? sha256(readFile(files.mask)) : "";
+  const std::optional<LabelFile> labels = labelsIn(found_labels ? files.labels : "");
+  const bool are_of_mask = labels && found_mask && labels->mask && labels->mask->sha256 == mask_sha256;
+  if (labels && labels->image.sha256 != image_sha256 && (labels->mask || labels->hasPlacedJoint())) {
+    leaveOut(files.labels, files);
+    if (are_of_mask) leaveOut(files.mask, files);
+  }
+  // A person who has saved labels of the new picture has seen the mask on it.
+  const bool seen = are_of_mask && labels->image.sha256 == image_sha256;
+  files.mask_before = changed && found_mask && !files.mask.empty() && !seen && result->mask &&
+                      result->mask->sha256 == mask_sha256;
+  files.limbs_before = changed && !files.limbs.empty() && files.limbs != options.layers;
+}
+
+void leaveOutOtherSizes(MendedFiles& files, const Image& image) {
+  if (files.mask_before && !hasSize(readMask(files.mask), image)) {
+    leaveOut(files.mask, files);
+    files.mask_before = false;
+  }
+  if (files.limbs_before && !hasSize(readImage(files.limbs), image)) {
+    leaveOut(files.limbs, files);
+    files.limbs_before = false;
+  }
+}
+
+std::vector<const char*> warningsOfEarlier(const MendedFiles& files) {
+  std::vector<const char*> warnings;
+  if (files.mask_before)
+    warnings.push_back("the mask was there before the picture changed: look at it (skel-label FILE)");
+  if (files.limbs_before)
+    warnings.push_back(
+        "the picture has changed, the limbs may be painted for the one before: look at them (skel-label "
+        "FILE, "
+        "key G)");
+  return warnings;
+}
+
+std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& options,
+                                  const std::string& skeleton_path) {
+  struct Result {
+    const char *format, *ending, *start, *end;  // <stem><start>, a number, <end>: a drawing is none of them
+  };
+  constexpr Result kResults[] = {{"json", kSkeletonFileEnding, ".skeleton.old", ".json"},
+                                 {"silhouette", ".silhouette.png", ".old", ".silhouette.png"}};
+  const std::string stem =
+      skeleton_path.substr(0, skeleton_path.size() - std::string_view(kSkeletonFileEnding).size());
+  std::vector<KeptFile> all;
+  for (const Result& result : kResults) {
+    const std::string path = stem + result.ending;
+    if (!contains(options.formats, result.format) || !contains(files.earlier, path)) continue;
+    std::string kept = stem + result.start + result.end;
+    std::error_code failure;
+    for (int number = 2; fs::exists(fs::symlink_status(kept, failure)); ++number)
+      kept = stem + result.start + "-" + std::to_string(number) + result.end;
+    fs::rename(path, kept, failure);
+    if (failure) throw OutputError(path, "cannot be kept as " + kept + ": " + failure.message());
+    all.push_back({path, kept});
+  }
+  return all;
+}
+
+std::optional<Note> earlierNote(const MendedFiles& files, const std::vector<KeptFile>& kept) {
+  if (files.earlier.empty()) return std::nullopt;
+  std::vector<std::string> names;
+  for (const std::string& file : files.earlier) {
+    names.push_back(fileName(file));
+    for (const KeptFile& one : kept)
+      if (one.was == file) names.back() += " (now " + fileName(one.is) + ")";
+  }
+  const std::string shared = "mended for an earlier picture of this name, not taken up for this one";
+  return Note{shared + ": " + joined(names), shared, joined(names)};
+}
+
+}  // namespace skel

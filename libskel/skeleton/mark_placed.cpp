@@ -1,0 +1,37 @@
+#include "libskel/skeleton/mark_placed.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace skel {
+namespace {
+
+double doubtOf(const Skeleton& skeleton) {
+  constexpr double kLeast = 1e-3;  // as files keep confidences
+  double sum = 0;
+  for (const Joint& joint : skeleton.joints)
+    if (joint.origin != JointOrigin::kDerived) sum -= std::log(std::clamp(joint.confidence, kLeast, 1.0));
+  return sum;
+}
+
+}  // namespace
+
+double markPlaced(Skeleton& skeleton, const std::vector<int>& placed, double confidence) {
+  if (placed.empty()) return confidence;
+  const double before = doubtOf(skeleton);
+  for (const int index : placed) {
+    Joint& joint = skeleton.joints[static_cast<std::size_t>(index)];
+    joint.confidence = 1;
+    joint.origin = JointOrigin::kEdited;
+  }
+  const double left = doubtOf(skeleton);
+  return left > 0 ? std::pow(confidence, std::min(left / before, 1.0)) : 1;
+}
+
+bool allPlaced(const Skeleton& skeleton) {
+  return std::all_of(skeleton.joints.begin(), skeleton.joints.end(), [](const Joint& joint) {
+    return joint.origin == JointOrigin::kEdited || joint.origin == JointOrigin::kDerived;
+  });
+}
+
+}  // namespace skel
