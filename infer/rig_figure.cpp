@@ -101,6 +101,9 @@ std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, co
         std::none_of(drawing.clips.begin(), drawing.clips.end(),
                      [&](const Clip& clip) { return clip.name == name; }))
       notes.push_back({"there is no clip \"" + name + "\" for a " + drawing.body_plan.name + ": left out"});
+  if (std::string note = namingNote(drawing.character.skeleton, options.joints);
+      rig.last >= LastStage::kModel && !note.empty())
+    notes.push_back({std::move(note)});
   if (options.model_file.empty() && rig.layers)
     for (Note& note : limbNotes(drawing, drawing.clips)) notes.push_back(std::move(note));
   return notes;
