@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "animator/rig_text.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
@@ -50,6 +51,15 @@ TEST_CASE("list names the clips there are, and those of a character with its joi
   CHECK(one.out.find("graze") == std::string::npos);
   CHECK(one.out.find("          left_hand\n") != std::string::npos);
   checkFails("list --clips-dir " + dir.file("none"), 2, dir.file("none") + ": is not a folder");
+}
+
+TEST_CASE("a list shows each joint below the one that carries it, in whatever order they come") {
+  Skeleton skeleton;
+  for (const auto& [name, parent] : {std::pair("pelvis", -1), {"tail", 0}, {"body", 0}, {"tail_end", 1}})
+    skeleton.joints.push_back({name, parent, {}});
+  std::string text;
+  for (const auto& [joint, spaces] : asTree(skeleton)) text += spaces + skeleton.joints[joint].name + "\n";
+  CHECK(text == "  pelvis\n    tail\n      tail_end\n    body\n");
 }
 
 TEST_CASE("retarget writes a character, a clip or a BVH, and says what it matched") {
