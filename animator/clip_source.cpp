@@ -97,6 +97,8 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
     return parseKeyframeClip(text, path, character.skeleton, options, note);
   }
   const Clip clip = parseClip(text, path);
+  if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton); figure && fits(clip, *figure))
+    return fitted(clip, character, source);
   const JointLookup joints(character.skeleton);
   for (const JointTrack& track : clip.tracks)
     if (joints.find(track.joint) < 0)
