@@ -81,7 +81,7 @@ struct Sheets {
       for (const SpriteDirection& direction : directions) {
         if (first > kMostSprites) break;
         tags.push_back({direction.name.empty() ? clip.name : clip.name + "-" + direction.name, first,
-                        first + count - 1});
+                        first + count - 1, clip.loops});
         first += count;
       }
     }
