@@ -54,6 +54,8 @@ ExitCode runBind(const BindOptions& options) {
     file = std::move(model.file);
     file.character.weights = readWeights(options.weights, file.character);
   }
+  if (const std::string note = namingNote(file.character.skeleton, options.joints); !note.empty())
+    std::printf("%s\n", note.c_str());
   writeFile(path, encodeGlb(file.character, file.clips, exportOptions(file.name, options.joints)));
   std::printf("wrote %s\n", printable(path).c_str());
   return ExitCode::kDone;

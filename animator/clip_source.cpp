@@ -52,8 +52,11 @@ void bindClipSource(CLI::App& app, ClipSource& source) {
       ->capture_default_str();
 }
 
-std::vector<Clip> clipLibrary(const ClipSource& source) {
-  return source.clips_dir.empty() ? builtinClips() : clipsWithFolder(source.clips_dir);
+std::vector<Clip> clipLibrary(const ClipSource& source, std::vector<std::string>* left_out) {
+  if (source.clips_dir.empty()) return builtinClips();
+  if (source.names.empty()) return clipsWithFolder(source.clips_dir);
+  std::vector<std::string> unheard;
+  return clipsWithFolder(source.clips_dir, source.names, left_out ? *left_out : unheard);
 }
 
 std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharacter& character) {
@@ -62,6 +65,15 @@ std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharact
     for (const Clip& clip : library)
       if (!fits(clip, character.skeleton) && fits(clip, *figure)) fitting.push_back(clip);
   return fitting;
+}
+
+std::vector<std::string> armsThatStay(const Clip& clip, const RiggedCharacter& character) {
+  if (!fits(clip, character.skeleton))
+    if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton);
+        figure && fits(clip, *figure))
+      return armsThatStay(clip, figure->skeleton, measureByRoles(character, *figure));
+  return armsThatStay(clip, character.skeleton,
+                      measureFigure(character.mesh, character.weights, character.skeleton));
 }
 
 Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource& source) {
@@ -97,6 +109,11 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
     return parseKeyframeClip(text, path, character.skeleton, options, note);
   }
   const Clip clip = parseClip(text, path);
+  if (note)
+    for (const std::string& clause : armsThatStay(clip, character))
+      *note += (note->empty() ? path + ": note: " : "; ") + clause;
+  if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton); figure && fits(clip, *figure))
+    return fitted(clip, character, source);
   const JointLookup joints(character.skeleton);
   for (const JointTrack& track : clip.tracks)
     if (joints.find(track.joint) < 0)

@@ -15,6 +15,7 @@ namespace skel {
 
 struct ClipSource {
   std::string clips_dir;                // a folder of clip files beside those that come with skel
+  std::vector<std::string> names;       // that are needed of the folder; empty: all
   std::string interpolation = "slerp";  // of files of the elk system: slerp, or linear on the angles
   std::string clip_up = "z";            // of files of the elk system: the axis that points up
   double into_picture = RetargetOptions().into_picture;
@@ -26,12 +27,16 @@ struct ClipSource {
 // --clips-dir, --interpolation, --clip-up, --into-picture.
 void bindClipSource(CLI::App& app, ClipSource& source);
 
-// Those that come with skel, and those of the folder.
-std::vector<Clip> clipLibrary(const ClipSource& source);
+// Those that come with skel, and those of the folder. `left_out` (or null): which files of it are no clips,
+// where only some are needed.
+std::vector<Clip> clipLibrary(const ClipSource& source, std::vector<std::string>* left_out = nullptr);
 
 // Those of `library` that this character can do: by the names of its joints, or by their parts in it
 // (role_figure.h).
 std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharacter& character);
+
+// What the character's arms do not do of the clip, which is for the canonical pose: a clause an arm.
+std::vector<std::string> armsThatStay(const Clip& clip, const RiggedCharacter& character);
 
 // Made for the canonical pose; the result is for the character's rest pose.
 Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource& source = {});
@@ -41,7 +46,7 @@ RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& char
                             const ClipSource& source = {});
 
 // A clip file, ours or of the elk system, or a .bvh, fitted to the character. `note` (or null) is what is not
-// used of it, for the user. Throws InputError.
+// used of it, or what arms do not do of it, for the user. Throws InputError.
 Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source = {},
                  std::string* note = nullptr);
 

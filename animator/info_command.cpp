@@ -34,10 +34,9 @@ void printSkeleton(const Skeleton& skeleton) {
   std::printf("skeleton: %d joints, %d bones%s%s\n", static_cast<int>(skeleton.joints.size()),
               boneCount(skeleton), skeleton.template_name.empty() ? "" : ", ",
               printable(skeleton.template_name).c_str());
-  const std::vector<std::string> spaces = indentation(skeleton);
-  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+  for (const auto& [j, spaces] : asTree(skeleton)) {
     const Eigen::Vector3d& at = skeleton.joints[j].position;
-    std::printf("%s%s (%.3f, %.3f, %.3f)\n", spaces[j].c_str(), printable(skeleton.joints[j].name).c_str(),
+    std::printf("%s%s (%.3f, %.3f, %.3f)\n", spaces.c_str(), printable(skeleton.joints[j].name).c_str(),
                 at.x(), at.y(), at.z());
   }
 }

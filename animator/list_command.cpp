@@ -17,9 +17,8 @@ void printClip(const Clip& clip, const char* note) {
 
 void printJoints(const Skeleton& skeleton) {
   std::printf("joints:\n");
-  const std::vector<std::string> spaces = indentation(skeleton);
-  for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
-    std::printf("%s%s\n", spaces[j].c_str(), printable(skeleton.joints[j].name).c_str());
+  for (const auto& [j, spaces] : asTree(skeleton))
+    std::printf("%s%s\n", spaces.c_str(), printable(skeleton.joints[j].name).c_str());
 }
 
 }  // namespace

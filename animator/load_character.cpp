@@ -48,6 +48,9 @@ void bindCharacterOptions(CLI::App& app, CharacterSource& source) {
          "How opaque the figure of a drawing is that is seen through elsewhere: leaves a soft glow out "
          "(default: half of the most)")
       ->check(numberIn(0.01, 1.0));
+  app.add_option("--figure", source.figure, "Which figure of a drawing: 1 is the largest")
+      ->check(numberIn(1, 9999))
+      ->capture_default_str();
   app.add_option("--skeleton", source.skeleton, "The skeleton of a model: see skel-animate bind")
       ->type_name("FILE");
   app.add_option("--up", source.up, "The axis that points up in the skeleton's file")
@@ -68,6 +71,7 @@ RiggedDrawing rigDrawing(const CharacterSource& source, const ClipSource& clips)
   if (options.otherwise) options.otherwise->clips = clipsFor(library, options.otherwise->body_plan);
   options.into_picture = clips.into_picture;
   options.silhouette.alpha = source.alpha;
+  options.silhouette.figure = source.figure;
   return rigDrawing(source.path, options);
 }
 
@@ -122,10 +126,14 @@ Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const C
              std::string* note) {
   for (const Clip& clip : file.clips)
     if (clip.name == name_or_path) return clip;
-  std::vector<Clip> fitting = clipsFor(clipLibrary(source), file.character);
+  const std::vector<Clip> library = clipLibrary(source);
+  std::vector<Clip> fitting = clipsFor(library, file.character);
   if (hasClip(fitting, name_or_path)) return fitted(clipNamed(fitting, name_or_path), file.character, source);
   if (name_or_path.find_first_of("./") != std::string::npos)
     return loadClipFor(name_or_path, file.character, source, note);
+  for (const Clip& clip : library)
+    if (const std::string problem = unknownTemplate(clip); clip.name == name_or_path && !problem.empty())
+      throw UsageError("the clip \"" + clip.name + "\" " + problem);
   std::erase_if(fitting, [&](const Clip& clip) { return hasClip(file.clips, clip.name); });
   fitting.insert(fitting.begin(), file.clips.begin(), file.clips.end());
   return clipNamed(fitting, name_or_path);  // names those that there are

@@ -20,12 +20,13 @@ struct CharacterSource {
   std::string path;                  // a .glb, a drawing, or a model with a skeleton of its own
   std::string body_plan = "auto";    // of a drawing
   std::optional<double> alpha = {};  // of a drawing: see SilhouetteOptions
+  int figure = 1;                    // of a drawing: 1 is the largest
   std::string skeleton = {};         // of a model (.obj): see readRigModel()
   std::string up = "auto";
 };
 // FILE, and the options of the next one.
 void bindCharacterSource(CLI::App& app, CharacterSource& source);
-// --template, --alpha, --skeleton, --up.
+// --template, --alpha, --figure, --skeleton, --up.
 void bindCharacterOptions(CLI::App& app, CharacterSource& source);
 
 // By the ending of the source's name.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <optional>
 
@@ -16,6 +17,7 @@
 
 namespace skel {
 namespace {
+namespace fs = std::filesystem;
 
 // What skel-infer says of it, too.
 void tell(const RiggedDrawing& drawing, const std::string& path, const std::vector<Clip>& clips) {
@@ -34,14 +36,29 @@ void complain(const Error& error) { std::fprintf(stderr, "skel-animate: %s\n", e
 void noteUnfitting(const RenderCommandOptions& options, const RiggedCharacter& character,
                    const std::string& path) {
   if (options.library.clips_dir.empty()) return;
-  const auto isIn = [](const std::vector<Clip>& clips, const Clip& clip) {
-    return std::find(clips.begin(), clips.end(), clip) != clips.end();
-  };
   const std::vector<Clip> library = clipLibrary(options.library), fitting = clipsFor(library, character);
   for (const Clip& clip : library)
-    if (!isIn(builtinClips(), clip) && !isIn(fitting, clip))
-      std::fprintf(stderr, "%s: note: the clip \"%s\" does not fit its joints and is left out\n",
-                   printable(path).c_str(), printable(clip.name).c_str());
+    if (isOwn(clip) && std::find(fitting.begin(), fitting.end(), clip) == fitting.end())
+      std::fprintf(stderr, "%s: note: the clip \"%s\" %s and is left out\n", printable(path).c_str(),
+                   printable(clip.name).c_str(),
+                   unknownTemplate(clip).empty() ? "does not fit its joints"
+                                                 : printable(unknownTemplate(clip)).c_str());
+}
+
+bool hasName(const std::vector<Clip>& clips, const std::string& name) {
+  return std::any_of(clips.begin(), clips.end(), [&](const Clip& clip) { return clip.name == name; });
+}
+
+// Of the user's own clips among these that come from the library, not from the character's file (`filed`).
+void noteStayingArms(const RenderCommandOptions& options, const RiggedCharacter& character,
+                     const std::string& path, const std::vector<Clip>& clips,
+                     const std::vector<Clip>& filed) {
+  if (options.library.clips_dir.empty()) return;
+  for (const Clip& clip : clipsFor(clipLibrary(options.library), character)) {
+    if (!isOwn(clip) || !hasName(clips, clip.name) || hasName(filed, clip.name)) continue;
+    for (const std::string& clause : armsThatStay(clip, character))
+      std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(clause).c_str());
+  }
 }
 
 struct AskedClips {
@@ -49,26 +66,49 @@ struct AskedClips {
   ExitCode left_out_code = ExitCode::kDone;  // of the first that the character cannot do; each is named
 };
 
+// Whether a clip of this name is there for some body plan.
+bool isKnown(const std::string& name, const ClipSource& library) {
+  return hasName(clipLibrary(library), name);
+}
+
 AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, const std::string& path) {
   AskedClips asked;
   const auto take = [&](const Clip& clip) {
     if (std::find(asked.clips.begin(), asked.clips.end(), clip) == asked.clips.end())
       asked.clips.push_back(clip);
   };
+  const auto leaveOut = [&](const Error& error) {
+    complain(error);
+    if (asked.left_out_code == ExitCode::kDone) asked.left_out_code = error.exitCode();
+  };
+  std::optional<UsageError> unknown;
   for (const std::string& name : options.clips) {
-    if (name != kAllClips) {
-      std::string note;
-      take(clipFor(name, file, options.library, &note));
-      if (!note.empty()) std::fprintf(stderr, "%s\n", printable(note).c_str());
+    if (name == kAllClips) {
+      noteUnfitting(options, file.character, path);
+      for (const Error& error : addLibrary(file, options.library)) leaveOut(InputError(path, error.what()));
+      std::for_each(file.clips.begin(), file.clips.end(), take);
       continue;
     }
-    noteUnfitting(options, file.character, path);
-    for (const Error& error : addLibrary(file, options.library)) {
-      complain(InputError(path, error.what()));
-      if (asked.left_out_code == ExitCode::kDone) asked.left_out_code = error.exitCode();
+    std::string note;
+    try {
+      take(clipFor(name, file, options.library, &note));
+    } catch (const UsageError& error) {  // others may have it
+      const UsageError here(path + ": " + error.what());
+      if (options.files.size() == 1) throw here;
+      unknown = here;
+      if (options.clips.size() == 1) break;
+      if (isKnown(name, options.library))
+        std::fprintf(stderr, "%s: note: there is no clip \"%s\" for this body plan: left out\n",
+                     printable(path).c_str(), printable(name).c_str());
+      else
+        leaveOut(here);
+    } catch (const InputError& error) {  // of the clip; it may be made for others
+      if (options.files.size() == 1 || options.clips.size() == 1) throw;
+      leaveOut(InputError(path, error.what()));
     }
-    std::for_each(file.clips.begin(), file.clips.end(), take);
+    if (!note.empty()) std::fprintf(stderr, "%s\n", printable(note).c_str());
   }
+  if (asked.clips.empty() && unknown) throw *unknown;
   return asked;
 }
 
@@ -81,7 +121,16 @@ void checkNames(const std::vector<std::string>& files) {
                        "; rename one");
 }
 
-ExitCode render(const RenderCommandOptions& options, const std::string& path, const RenderCharacter& render) {
+// A character and what it is to do.
+struct Cast {
+  std::string path;
+  CharacterFile file;
+  std::optional<RiggedDrawing> drawing;
+  std::vector<Clip> clips;
+  ExitCode code = ExitCode::kDone;  // of what it cannot do
+};
+
+Cast cast(const RenderCommandOptions& options, const std::string& path) {
   CharacterSource source = options.source;
   source.path = path;
   std::optional<RiggedDrawing> drawing;
@@ -92,19 +141,55 @@ ExitCode render(const RenderCommandOptions& options, const std::string& path, co
   CharacterFile file = drawing ? CharacterFile{drawing->character, {}, {}} : loadCharacter(source);
   if (drawing && !flat) file.clips = drawing->clips;
   file.name = stemOf(path);
-  const auto [clips, left_out_code] = [&] {
-    try {
-      return askedClips(options, file, path);
-    } catch (const UsageError& error) {  // others may have it
-      throw UsageError(path + ": " + error.what());
-    }
-  }();
+  const auto [clips, left_out_code] = askedClips(options, file, path);
   if (clips.empty())
     throw InputError(path, "can do no clip: it has none, and none that come with skel fit its joints");
   if (drawing) tell(*drawing, path, clips);
-  render(std::move(file), drawing ? &*drawing : nullptr, clips);
-  return left_out_code;
+  noteStayingArms(options, file.character, path, clips, drawing ? std::vector<Clip>{} : file.clips);
+  return {path, std::move(file), std::move(drawing), clips, left_out_code};
 }
+
+// Whether `name` is that of a clip, after which no comma was written.
+bool isClipAmongFiles(const RenderCommandOptions& options, const std::string& name) {
+  std::error_code not_there;
+  return !fs::exists(name, not_there) && isKnown(name, options.library);
+}
+
+void checkFiles(const RenderCommandOptions& options) {
+  for (const std::string& path : options.files) {
+    if (isClipAmongFiles(options, path)) {
+      std::string clips;
+      for (const std::string& clip : options.clips) clips += clip + ",";
+      throw UsageError("there is no file \"" + path + "\"; several clips have commas in between: --clips " +
+                       clips + path);
+    }
+    if (std::error_code not_there; fs::is_directory(path, not_there))
+      throw UsageError(path +
+                       " is a folder; name the drawings in it: " + (fs::path(path) / "*.png").string());
+  }
+  checkNames(options.files);
+}
+
+// What was made for results and is empty in the end goes again.
+class NewFolders {
+ public:
+  explicit NewFolders(const std::string& output) {
+    std::error_code unknown;
+    for (fs::path dir = fs::path(output).parent_path(); !dir.empty() && !fs::exists(dir, unknown);
+         dir = dir.parent_path())
+      made_.push_back(dir);
+  }
+  ~NewFolders() {
+    std::error_code unknown, holds_something;
+    for (const fs::path& dir : made_)
+      if (fs::is_directory(dir, unknown)) fs::remove(dir, holds_something);
+  }
+  NewFolders(const NewFolders&) = delete;
+  NewFolders& operator=(const NewFolders&) = delete;
+
+ private:
+  std::vector<fs::path> made_;  // the deepest first
+};
 
 }  // namespace
 
@@ -112,22 +197,47 @@ ExitCode runRender(const RenderCommandOptions& asked) {
   RenderCommandOptions options = asked;
   options.library.flat = options.look == "flat";
   if (options.library.flat && !options.sheet.output.empty())
-    throw UsageError("--look flat makes films; of sprite sheets, --pixels");
-  checkNames(options.files);
-  const RenderCharacter rendered =
+    throw UsageError(
+        "--look flat is a look of films; leave it out beside --sheet, whose frames show the model (--pixels "
+        "gives them hard edges)");
+  if (std::find(options.clips.begin(), options.clips.end(), kAllClips) == options.clips.end())
+    options.library.names = options.clips;
+  std::vector<std::string> no_clips;
+  clipLibrary(options.library, &no_clips);
+  for (const std::string& problem : no_clips)
+    std::fprintf(stderr, "skel-animate: note: left out: %s\n", printable(problem).c_str());
+  checkFiles(options);
+  const NewFolders folders(options.sheet.output.empty() ? options.output : options.sheet.output);
+  const CharacterRenderer renderer =
       options.sheet.output.empty() ? filmRenderer(options) : sheetRenderer(options);
   ExitCode code = ExitCode::kDone;
-  for (const std::string& path : options.files) {
-    ExitCode of_file = ExitCode::kDone;
+  // `work` returns the exit code of what it leaves out.
+  const auto attempt = [&](const std::string& path, const auto& work) {
+    ExitCode here = ExitCode::kDone;
     try {
-      of_file = render(options, path, rendered);
+      here = work();
     } catch (...) {
       const Error error = caughtError(path);
       complain(error);
-      of_file = error.exitCode();
+      here = error.exitCode();
     }
-    if (code == ExitCode::kDone) code = of_file;
-  }
+    if (code == ExitCode::kDone) code = here;
+  };
+  const auto render = [&](Cast one) {
+    renderer.render(std::move(one.file), one.drawing ? &*one.drawing : nullptr, one.clips);
+    return one.code;
+  };
+  std::vector<Cast> measured;
+  for (const std::string& path : options.files)
+    attempt(path, [&] {
+      Cast one = cast(options, path);
+      if (!renderer.measure) return render(std::move(one));
+      renderer.measure(one.file, one.clips);
+      one.drawing.reset();
+      measured.push_back(std::move(one));
+      return ExitCode::kDone;
+    });
+  for (Cast& one : measured) attempt(one.path, [&] { return render(std::move(one)); });
   return code;
 }
 

@@ -159,6 +159,6 @@ struct Films {
 
 }  // namespace
 
-RenderCharacter filmRenderer(const RenderCommandOptions& options) { return Films(options); }
+CharacterRenderer filmRenderer(const RenderCommandOptions& options) { return {Films(options)}; }
 
 }  // namespace skel

@@ -8,13 +8,17 @@
 
 namespace skel {
 
-// Writes what was asked for of one character, moved by these clips, which are relative to its rest pose.
-// Files are named after the character. `drawing`: what it was made of; null: no drawing.
-using RenderCharacter =
-    std::function<void(CharacterFile, const RiggedDrawing* drawing, const std::vector<Clip>&)>;
+struct CharacterRenderer {
+  // Writes what was asked for of one character, moved by these clips, which are relative to its rest pose.
+  // Files are named after the character. `drawing`: what it was made of; null: no drawing.
+  std::function<void(CharacterFile, const RiggedDrawing* drawing, const std::vector<Clip>&)> render;
+  // Where all characters have something in common, which must be known of each before the first is rendered;
+  // else empty.
+  std::function<void(const CharacterFile&, const std::vector<Clip>&)> measure = {};
+};
 
 // A film a clip. `options` outlive the result. Throws UsageError, OutputError, UnavailableError where films
 // cannot be written so, before there is a character.
-RenderCharacter filmRenderer(const RenderCommandOptions& options);
+CharacterRenderer filmRenderer(const RenderCommandOptions& options);
 
 }  // namespace skel

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 
+#include "libskel/cli/names.h"
 #include "libskel/cli/number.h"
 #include "libskel/cli/outputs.h"
 #include "libskel/core/error.h"
@@ -33,6 +34,8 @@ CLI::Option* bindSheetOptions(CLI::App& app, CLI::Option* film, SheetOptions& op
                      "The frames in the .json: array, hash (by name), or aseprite (hash by number)")
           ->check(CLI::IsMember({"array", "hash", "aseprite"}))
           ->capture_default_str());
+  add(app.add_flag("--same-scale", options.same_scale,
+                   "Of several drawings: a metre is as many pixels in all sheets, and all pivots are one"));
   add(app.add_flag("--trim", options.trim, "What is clear around a frame is cut off, frames lie close"));
   CLI::Option* pixels =
       add(app.add_flag("--pixels", options.pixels, "As pixel artists draw: no mixed colours, hard edges"));
@@ -59,6 +62,7 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
          "commas in between; or all")
       ->required()
       ->delimiter(',')
+      ->transform(withoutBlanks())
       ->allow_extra_args(false);
   CLI::Option* film =
       app.add_option(

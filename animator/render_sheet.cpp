@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 
 #include "animator/film.h"
+#include "animator/in_place.h"
 #include "animator/pixel_look.h"
 #include "animator/sprite_atlas.h"
 #include "animator/sprite_camera.h"
@@ -28,14 +30,16 @@ struct Sheets {
   const RenderCommandOptions& options;
   PictureSize size;
   bool in_folder;
+  SpriteExtent shared = {};  // of --same-scale
 
   explicit Sheets(const RenderCommandOptions& asked)
       : options(asked), size(sizeOf(asked, {64, 64})), in_folder(asked.sheet.output.ends_with('/')) {
     const std::string& path = options.sheet.output;
-    if (!in_folder && fs::path(path).extension() != ".png")
+    if (!in_folder && fs::path(path).extension() != ".png" && fs::path(path).extension() != ".PNG")
       throw UsageError(path + ": a sprite sheet is a .png, or a folder (a name that ends with /) of such");
     if (!in_folder && options.files.size() > 1)
       throw UsageError(path + " must be a folder (a name that ends with /): there are several drawings");
+    checkSheetSize({}, {size.width, size.height}, SpritePacking::kEven);
     if (!in_folder) noteNamedOutput(atlasOf(path));
     ensureWritableFolderOf(path);
   }
@@ -81,7 +85,7 @@ struct Sheets {
       for (const SpriteDirection& direction : directions) {
         if (first > kMostSprites) break;
         tags.push_back({direction.name.empty() ? clip.name : clip.name + "-" + direction.name, first,
-                        first + count - 1});
+                        first + count - 1, clip.loops});
         first += count;
       }
     }
@@ -89,21 +93,49 @@ struct Sheets {
     return tags;
   }
 
-  void operator()(CharacterFile file, const RiggedDrawing*, const std::vector<Clip>& clips) const {
-    const std::string path = pathOf(file);
-    const RiggedCharacter& character = file.character;
+  double pitch_rad() const { return options.pitch_deg * std::numbers::pi / 180; }
+
+  std::vector<SpriteDirection> directionsOf(const RiggedCharacter& character) const {
     std::vector<SpriteDirection> directions = spriteDirections(character, options.sheet.directions);
     for (SpriteDirection& direction : directions)
       direction.yaw_rad += options.angle_deg * std::numbers::pi / 180;
-    std::vector<Clip> framed = clips;
+    return directions;
+  }
+
+  // Of all clips that the scale is for.
+  SpriteExtent extentOf(CharacterFile file, std::vector<Clip> framed) const {
     if (options.frame == "clips") {
       addLibrary(file, options.library);
-      framed.insert(framed.end(), file.clips.begin(), file.clips.end());
+      for (const Clip& clip : file.clips) framed.push_back(inPlace(clip, file.character).clip);
     }
-    const SpriteCamera camera = spriteCamera(character, outermostPoints(character, framed), directions,
-                                             options.pitch_deg * std::numbers::pi / 180, size.width,
-                                             size.height, options.sheet.outline ? 2 : 1);
+    return spriteExtent(file.character, outermostPoints(file.character, framed), directionsOf(file.character),
+                        pitch_rad());
+  }
 
+  // Moved by the game, not by the clip.
+  static std::vector<Clip> allInPlace(const CharacterFile& file, const std::vector<Clip>& clips) {
+    std::vector<Clip> result;
+    for (const Clip& clip : clips) result.push_back(inPlace(clip, file.character).clip);
+    return result;
+  }
+
+  void measure(const CharacterFile& file, const std::vector<Clip>& clips) {
+    shared = shared.with(extentOf(file, allInPlace(file, clips)));
+  }
+
+  void write(CharacterFile file, const std::vector<Clip>& asked) const {
+    const std::string path = pathOf(file);
+    const RiggedCharacter& character = file.character;
+    const std::vector<SpriteDirection> directions = directionsOf(character);
+    for (const Clip& clip : asked)
+      if (const InPlace moved = inPlace(clip, character); moved.travels)
+        std::fprintf(stderr,
+                     "%s: note: \"%s\" goes %.1f m from where it begins; the sheet shows it in place\n",
+                     printable(file.name).c_str(), printable(clip.name).c_str(), moved.way_m);
+    const std::vector<Clip> clips = allInPlace(file, asked);
+    const SpriteExtent extent = options.sheet.same_scale ? shared : extentOf(file, clips);
+    const SpriteCamera camera =
+        spriteCamera(extent, pitch_rad(), size.width, size.height, options.sheet.outline ? 2 : 1);
     const SpritePacking packing = options.sheet.trim ? SpritePacking::kTrimmed : SpritePacking::kEven;
     const std::vector<SpriteTag> tags = tagsOf(clips, directions, camera.cell, packing);
     struct Moment {
@@ -155,6 +187,17 @@ struct Sheets {
 
 }  // namespace
 
-RenderCharacter sheetRenderer(const RenderCommandOptions& options) { return Sheets(options); }
+CharacterRenderer sheetRenderer(const RenderCommandOptions& options) {
+  const auto sheets = std::make_shared<Sheets>(options);
+  CharacterRenderer renderer{
+      [sheets](CharacterFile file, const RiggedDrawing*, const std::vector<Clip>& clips) {
+        sheets->write(std::move(file), clips);
+      }};
+  if (options.sheet.same_scale)
+    renderer.measure = [sheets](const CharacterFile& file, const std::vector<Clip>& clips) {
+      sheets->measure(file, clips);
+    };
+  return renderer;
+}
 
 }  // namespace skel

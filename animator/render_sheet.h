@@ -6,6 +6,6 @@
 namespace skel {
 
 // A sheet of all clips. As filmRenderer().
-RenderCharacter sheetRenderer(const RenderCommandOptions& options);
+CharacterRenderer sheetRenderer(const RenderCommandOptions& options);
 
 }  // namespace skel

@@ -53,14 +53,23 @@ int boneCount(const Skeleton& skeleton) {
                                         [](const Joint& joint) { return joint.parent >= 0; }));
 }
 
-std::vector<std::string> indentation(const Skeleton& skeleton) {
+std::vector<TreeLine> asTree(const Skeleton& skeleton) {
   constexpr std::size_t kStep = 2, kMost = 80;
-  std::vector<std::string> spaces;
-  spaces.reserve(skeleton.joints.size());
-  for (const Joint& joint : skeleton.joints)
-    spaces.emplace_back(
-        joint.parent < 0 ? kStep : std::min(spaces[std::size_t(joint.parent)].size() + kStep, kMost), ' ');
-  return spaces;
+  std::vector<std::vector<std::size_t>> children(skeleton.joints.size());
+  std::vector<TreeLine> waiting, lines;  // the next one is the last that waits
+  for (std::size_t j = skeleton.joints.size(); j-- > 0;)
+    if (const int parent = skeleton.joints[j].parent; parent >= 0)
+      children[std::size_t(parent)].push_back(j);
+    else
+      waiting.push_back({j, std::string(kStep, ' ')});
+  while (!waiting.empty()) {
+    lines.push_back(std::move(waiting.back()));
+    waiting.pop_back();
+    const TreeLine& line = lines.back();
+    for (const std::size_t child : children[line.joint])
+      waiting.push_back({child, std::string(std::min(line.spaces.size() + kStep, kMost), ' ')});
+  }
+  return lines;
 }
 
 }  // namespace skel

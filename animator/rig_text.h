@@ -14,7 +14,12 @@ std::string formatRig(const Skeleton& skeleton);
 // From joint to joint: of the joints that hang on another.
 int boneCount(const Skeleton& skeleton);
 
-// Of each joint, where a list shows the hierarchy: spaces, two a level, no more than a line has room for.
-std::vector<std::string> indentation(const Skeleton& skeleton);
+// A line of a list that shows the hierarchy.
+struct TreeLine {
+  std::size_t joint;
+  std::string spaces;  // two a level, no more than a line has room for
+};
+// All joints, each below the one that carries it, whatever their order in the skeleton.
+std::vector<TreeLine> asTree(const Skeleton& skeleton);
 
 }  // namespace skel

@@ -37,9 +37,11 @@ std::string formatAtlas(const std::vector<Sprite>& sprites, const std::vector<Sp
       frames[name] = std::move(frame);
   }
   Json frame_tags = Json::array();
-  for (const SpriteTag& tag : tags)
+  for (const SpriteTag& tag : tags) {
     frame_tags.push_back(
         {{"name", tag.name}, {"from", tag.first}, {"to", tag.last}, {"direction", "forward"}});
+    if (!tag.loops) frame_tags.back()["repeat"] = "1";  // as Aseprite writes it; without: for ever
+  }
   const Json key = {{"frame", 0},
                     {"bounds", boxOf({0, 0, cell.width, cell.height})},
                     {"pivot", {{"x", cell.pivot_x}, {"y", cell.pivot_y}}}};

@@ -53,11 +53,14 @@ std::vector<SpriteDirection> spriteDirections(const RiggedCharacter& character, 
   return directions;
 }
 
-SpriteCamera spriteCamera(const RiggedCharacter& character, const Eigen::MatrixX3f& points,
-                          const std::vector<SpriteDirection>& directions, double pitch_rad, int width,
-                          int height, int margin_px) {
+SpriteExtent SpriteExtent::with(const SpriteExtent& other) const {
+  return {std::max(aside, other.aside), std::min(low, other.low), std::max(high, other.high)};
+}
+
+SpriteExtent spriteExtent(const RiggedCharacter& character, const Eigen::MatrixX3f& points,
+                          const std::vector<SpriteDirection>& directions, double pitch_rad) {
   const Eigen::Vector3d ground = groundPoint(character);
-  double aside = 1e-6, low = 0, high = 1e-6;  // m, from the ground point
+  SpriteExtent extent;
   for (const SpriteDirection& direction : directions) {
     Camera camera;
     camera.yaw_rad = direction.yaw_rad;
@@ -65,10 +68,15 @@ SpriteCamera spriteCamera(const RiggedCharacter& character, const Eigen::MatrixX
     const Eigen::Matrix3d eye = eyeFromModel(camera);
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
       const Eigen::Vector3d p = eye * (points.row(i).transpose().cast<double>() - ground);
-      aside = std::max(aside, std::abs(p.x()));
-      low = std::min(low, p.y()), high = std::max(high, p.y());
+      extent = extent.with({std::abs(p.x()), p.y(), p.y()});
     }
   }
+  return extent;
+}
+
+SpriteCamera spriteCamera(const SpriteExtent& extent, double pitch_rad, int width, int height,
+                          int margin_px) {
+  const auto& [aside, low, high] = extent;
   // A pixel of the height is kept for the ground's whole number.
   const double px_per_m = std::min((width - 2.0 * margin_px) / (2 * aside),
                                    std::max(1.0, height - 2.0 * margin_px - 1) / (high - low));

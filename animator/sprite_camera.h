@@ -20,15 +20,23 @@ struct SpriteDirection {
 // "s", where the figure looks at the viewer.
 std::vector<SpriteDirection> spriteDirections(const RiggedCharacter& character, int count);
 
-// As good as without perspective. The figure turns about the vertical through the middle of its joints, which
-// meets the ground in the cell's pivot, on a whole pixel. All points are seen, `margin_px` from the border.
+// How far a figure reaches in the picture from the point on the ground that it turns about, m.
+struct SpriteExtent {
+  double aside = 1e-6, low = 0, high = 1e-6;
+
+  SpriteExtent with(const SpriteExtent& other) const;  // what both reach
+};
+// Of these points, from all directions. The figure turns about the vertical through the middle of its joints.
+SpriteExtent spriteExtent(const RiggedCharacter& character, const Eigen::MatrixX3f& points,
+                          const std::vector<SpriteDirection>& directions, double pitch_rad);
+
+// As good as without perspective. The point that the figure turns about is the cell's pivot, on a whole
+// pixel. All of the extent is seen, `margin_px` from the border.
 struct SpriteCamera {
   SpriteCell cell;
   Camera camera;  // but for its yaw
 };
-SpriteCamera spriteCamera(const RiggedCharacter& character, const Eigen::MatrixX3f& points,
-                          const std::vector<SpriteDirection>& directions, double pitch_rad, int width,
-                          int height, int margin_px);
+SpriteCamera spriteCamera(const SpriteExtent& extent, double pitch_rad, int width, int height, int margin_px);
 
 // Of one direction.
 Camera turned(const SpriteCamera& camera, const RiggedCharacter& character, double yaw_rad);

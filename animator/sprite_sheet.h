@@ -18,6 +18,7 @@ struct Sprite {
 struct SpriteTag {
   std::string name;
   int first = 0, last = 0;  // both included
+  bool loops = true;        // else it is played once
 };
 
 // What all sprites share.

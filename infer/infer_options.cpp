@@ -105,6 +105,7 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--clips", options.clips,
                  "Motions to put into the .glb, or none (default: the built-in ones that fit the body plan)")
       ->delimiter(',')
+      ->transform(withoutBlanks())
       ->always_capture_default(false);
   app.add_option("--clips-dir", options.clips_dir,
                  "A folder of clip files (.clip.json) beside the built-in ones")

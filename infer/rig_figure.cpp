@@ -8,6 +8,7 @@
 #include "infer/earlier_picture.h"
 #include "infer/mended.h"
 #include "infer/outputs.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
@@ -110,6 +111,15 @@ std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, co
         std::none_of(drawing.clips.begin(), drawing.clips.end(),
                      [&](const Clip& clip) { return clip.name == name; }))
       notes.push_back({"there is no clip \"" + name + "\" for a " + drawing.body_plan.name + ": left out"});
+  if (std::string note = namingNote(drawing.character.skeleton, options.joints);
+      rig.last >= LastStage::kModel && !note.empty())
+    notes.push_back({std::move(note)});
+  if (rig.last == LastStage::kClips) {
+    const bool other = rig.otherwise && drawing.body_plan.name == rig.otherwise->body_plan.name;
+    std::vector<Clip> own = other ? rig.otherwise->clips : rig.clips;
+    std::erase_if(own, [](const Clip& clip) { return !isOwn(clip); });
+    for (Note& note : armNotes(drawing.character, own)) notes.push_back(std::move(note));
+  }
   if (options.model_file.empty() && rig.layers)
     for (Note& note : limbNotes(drawing, drawing.clips)) notes.push_back(std::move(note));
   return notes;

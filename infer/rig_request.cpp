@@ -4,9 +4,12 @@
 #include <cstdio>
 
 #include "infer/outputs.h"
+#include "libskel/animation/clip_file.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/classifier/weights_file.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
+#include "libskel/core/text.h"
 #include "libskel/pipeline/rig_drawing.h"
 
 namespace skel {
@@ -26,13 +29,39 @@ std::vector<Clip> named(const std::vector<Clip>& clips, const std::vector<std::s
   return some;
 }
 
+std::vector<Clip> clipLibrary(const InferOptions& options) {
+  if (options.clips_dir.empty()) return builtinClips();
+  if (options.clips.empty()) return clipsWithFolder(options.clips_dir);
+  std::vector<std::string> left_out;
+  std::vector<Clip> library = clipsWithFolder(options.clips_dir, options.clips, left_out);
+  for (const std::string& problem : left_out)
+    std::fprintf(stderr, "skel-infer: note: left out: %s\n", printable(problem).c_str());
+  return library;
+}
+
+// Throws UsageError where a file is named instead of a clip: how such a motion comes into a character.
+void refuseFile(const std::string& name) {
+  if (name.ends_with(kClipFileEnding))
+    throw UsageError("--clips takes names of clips, \"" + name +
+                     "\" is a file; name its folder by --clips-dir, and the clip in it by its name");
+  if (name.find_first_of("./") != std::string::npos)
+    throw UsageError("--clips takes names of clips, \"" + name +
+                     "\" is a file; after the rig: `skel-animate retarget " + shellWord(name) +
+                     " --to FILE.glb`");
+}
+
 // Throws UsageError where a name is that of no clip of either body plan.
-void keepClips(const std::vector<std::string>& names, RigOptions& rig) {
+void keepClips(const std::vector<std::string>& names, const std::vector<Clip>& library, RigOptions& rig) {
   std::vector<Clip> all = rig.clips;
   if (rig.otherwise)
     for (const Clip& clip : rig.otherwise->clips)
       if (!find(all, clip.name)) all.push_back(clip);
-  for (const std::string& name : names) clipNamed(all, name);
+  for (const std::string& name : names) {
+    if (!find(all, name)) refuseFile(name);
+    if (const Clip* clip = find(library, name); clip && !find(all, name) && !unknownTemplate(*clip).empty())
+      throw UsageError("the clip \"" + name + "\" " + unknownTemplate(*clip));
+    clipNamed(all, name);
+  }
   rig.clips = named(rig.clips, names);
   if (rig.otherwise) rig.otherwise->clips = named(rig.otherwise->clips, names);
 }
@@ -65,11 +94,10 @@ RigOptions rigOptions(const InferOptions& options) {
     rig.part_net = std::make_shared<const PartNet>(
         readyToRun(parsePartNet(readFile(options.part_net_file), options.part_net_file)));
   if (options.clips != std::vector<std::string>{"none"}) {
-    const std::vector<Clip>& library =
-        options.clips_dir.empty() ? builtinClips() : clipsWithFolder(options.clips_dir);
+    const std::vector<Clip> library = clipLibrary(options);
     rig.clips = clipsFor(library, rig.body_plan);
     if (rig.otherwise) rig.otherwise->clips = clipsFor(library, rig.otherwise->body_plan);
-    if (!options.clips.empty()) keepClips(options.clips, rig);
+    if (!options.clips.empty()) keepClips(options.clips, library, rig);
   }
   return rig;
 }

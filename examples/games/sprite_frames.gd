@@ -31,7 +31,7 @@ static func sprite_frames(atlas: Dictionary, texture: Texture) -> SpriteFrames:
 			result.add_frame(tag.name, part)
 			duration_ms += frames[i].duration
 		result.set_animation_speed(tag.name, 1000 * (tag.to - tag.from + 1) / duration_ms)
-		result.set_animation_loop(tag.name, true)
+		result.set_animation_loop(tag.name, not tag.has("repeat"))
 	return result
 
 # In px, from the left and from the top of a frame.

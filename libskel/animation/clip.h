@@ -73,6 +73,7 @@ struct Clip {
   RotationInterpolation interpolation = RotationInterpolation::kSlerp;
   ClipFrame frame = ClipFrame::kPicture;
   std::vector<FootContact> contacts;  // retargetToRest() keeps these feet on the ground, and spends them
+  bool loops = false;                 // its end leads to its beginning: games play it on and on
 
   float duration_s() const;
   bool operator==(const Clip&) const = default;

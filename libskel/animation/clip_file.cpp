@@ -262,6 +262,7 @@ std::string formatClip(const Clip& clip) {
     text += ",\n  \"" + std::string(key) + "\": ";
     appendNumber(text, value);
   };
+  if (clip.loops) text += ",\n  \"loop\": true";
   number("duration_s", clip.least_duration_s);
   number("lead_s", clip.lead_s);
   if (!clip.root_times_s.empty()) {
@@ -293,8 +294,8 @@ Clip parseClip(std::string_view text, const std::string& file) {
   const JsonDocument document = JsonDocument::parse(text, file);
   const JsonValue root = document.root();
   root.checkFormat(kFormat, kVersion);
-  root.allowOnly({"format", "version", "name", "template", "frame", "duration_s", "lead_s", "ease", "root",
-                  "tracks", "contacts"});
+  root.allowOnly({"format", "version", "name", "template", "frame", "duration_s", "lead_s", "ease", "loop",
+                  "root", "tracks", "contacts"});
   Clip clip;
   clip.name = root.at("name").asString();
   if (clip.name.empty()) root.at("name").fail("must not be empty");
@@ -307,6 +308,8 @@ Clip parseClip(std::string_view text, const std::string& file) {
   if (const auto duration = root.find("duration_s"))
     clip.least_duration_s = float(duration->asNumber(0, kMaxClip_s));
   Easing easing{easeAt(root.find("ease"))};
+  const auto loop = root.find("loop");
+  clip.loops = loop ? loop->asBool() : easing.ease == Ease::kLoop;
   if (const auto path = root.find("root"))
     vectorKeys(*path, kMaxPlace, easing, clip.root_times_s, clip.root_translations);
   std::set<std::string> joints;

@@ -72,12 +72,26 @@ const std::vector<Clip>& builtinClips() {
   return clips;
 }
 
-std::vector<Clip> clipsWithFolder(const std::string& dir) {
+bool isOwn(const Clip& clip) {
+  return std::find(builtinClips().begin(), builtinClips().end(), clip) == builtinClips().end();
+}
+
+namespace {
+
+// `broken` is called with a file that is no clip, and what is wrong with it.
+template <class Broken>
+std::vector<Clip> libraryWithFolder(const std::string& dir, const Broken& broken) {
   std::vector<Clip> library = builtinClips();
   std::vector<Clip> own;
   for (const std::string& path : filesBelow(dir)) {
     if (!path.ends_with(kClipFileEnding)) continue;
-    Clip clip = readClipFile(path);
+    Clip clip;
+    try {
+      clip = readClipFile(path);
+    } catch (const InputError& error) {
+      broken(path, error);
+      continue;
+    }
     for (const Clip& other : own)
       if (takesThePlaceOf(clip, other) || takesThePlaceOf(other, clip))
         throw InputError(
@@ -95,6 +109,30 @@ std::vector<Clip> clipsWithFolder(const std::string& dir) {
     library.insert(library.begin() + place, std::move(clip));
   }
   return library;
+}
+
+}  // namespace
+
+std::vector<Clip> clipsWithFolder(const std::string& dir) {
+  return libraryWithFolder(dir, [](const std::string&, const InputError& error) { throw error; });
+}
+
+std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std::string>& names,
+                                  std::vector<std::string>& left_out) {
+  return libraryWithFolder(dir, [&](const std::string& path, const InputError& error) {
+    std::string name = std::filesystem::path(path).filename().string();
+    name.resize(name.size() - std::string_view(kClipFileEnding).size());
+    if (std::find(names.begin(), names.end(), name) != names.end()) throw error;
+    left_out.push_back(error.what());
+  });
+}
+
+std::string unknownTemplate(const Clip& clip) {
+  const std::vector<std::string> known = builtinTemplates();
+  if (clip.template_name.empty() || std::find(known.begin(), known.end(), clip.template_name) != known.end())
+    return "";
+  return "is made for the template \"" + clip.template_name +
+         "\", which is not known; there are: " + joined(known);
 }
 
 bool fits(const Clip& clip, const Skeleton& skeleton) {

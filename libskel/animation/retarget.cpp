@@ -147,17 +147,23 @@ bool isSeated(const Skeleton& skeleton, const FigureShape& shape) {
   return straight < 0.75;
 }
 
+// How far the arm of this side stays as it was drawn, 0…1; 0 where there is none.
+double keptArm(const Skeleton& skeleton, const FigureShape& shape, const std::string& side) {
+  const int shoulder = skeleton.find(side + "shoulder"), elbow = skeleton.find(side + "elbow"),
+            hand = skeleton.find(side + "hand");
+  if (shoulder < 0 || elbow < 0 || hand < 0) return 0;
+  const double least = isSeated(skeleton, shape) ? 0.8 : 0;  // on the knees, or to lean on
+  const double joined = shape.joined.empty() ? isFolded(skeleton, elbow, hand) : shape.joined[elbow];
+  return std::max(least, smoothStep(0.45, kGrownArm, joined));
+}
+
 void holdArms(Retargeter& retargeter, const FigureShape& shape, std::vector<double>& slack_rad) {
   const Skeleton& skeleton = retargeter.skeleton;
-  const double least = isSeated(skeleton, shape) ? 0.8 : 0;  // on the knees, or to lean on
-  for (const std::string side : {"left_", "right_"}) {
-    const int shoulder = skeleton.find(side + "shoulder"), elbow = skeleton.find(side + "elbow"),
-              hand = skeleton.find(side + "hand");
-    if (shoulder < 0 || elbow < 0 || hand < 0) continue;
-    const double joined = shape.joined.empty() ? isFolded(skeleton, elbow, hand) : shape.joined[elbow];
-    const double kept = std::max(least, smoothStep(0.45, kGrownArm, joined));
-    if (kept > 0) hold(retargeter, {shoulder, elbow, hand}, kept, slack_rad);
-  }
+  for (const std::string side : {"left_", "right_"})
+    if (const double kept = keptArm(skeleton, shape, side); kept > 0)
+      hold(retargeter,
+           {skeleton.index(side + "shoulder"), skeleton.index(side + "elbow"), skeleton.index(side + "hand")},
+           kept, slack_rad);
 }
 
 // Legs that are one piece, under a gown, take small steps, and those of one who sits none.
@@ -265,24 +271,31 @@ Clip rocking(const Clip& clip, const Skeleton& skeleton, const std::string& side
   return result;
 }
 
+std::string acrossFrom(const std::string& side) { return side == "left_" ? "right_" : "left_"; }
+
+// Whether an arm shows what it does.
+bool showsArm(const Skeleton& skeleton, const FigureShape& shape, const std::string& side) {
+  const int elbow = skeleton.find(side + "elbow");
+  return elbow >= 0 && joinedAt(shape, elbow) < kGrownArm &&
+         (shape.taken.empty() || shape.taken[elbow] >= kStump);
+}
+
+// "left_" or "right_" where the clip is that arm's and this figure's does not show it; else empty.
+std::string armThatCannot(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
+  constexpr double kOneArm = 3;
+  for (const std::string side : {"left_", "right_"})
+    if (motionOf(clip, side) > kOneArm * motionOf(clip, acrossFrom(side)) && !showsArm(skeleton, shape, side))
+      return side;
+  return "";
+}
+
 // A clip that is one arm's, for a figure whose arm does not show it: by the other, if that shows it better,
 // or, if neither shows it, by the trunk.
 Clip asItCan(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
-  constexpr double kOneArm = 3;
-  const auto shown = [&](const std::string& side) {
-    const int elbow = skeleton.find(side + "elbow");
-    if (elbow < 0 || joinedAt(shape, elbow) >= kGrownArm) return 0.;
-    return shape.taken.empty() ? 1 : shape.taken[elbow];
-  };
-  for (const std::string side : {"left_", "right_"}) {
-    const std::string other = side == "left_" ? "right_" : "left_";
-    if (motionOf(clip, side) <= kOneArm * motionOf(clip, other)) continue;
-    const double own = shown(side), others = shown(other);
-    if (own >= kStump) continue;
-    if (others >= kStump) return mirrored(clip);
-    if (skeleton.find("body") >= 0) return rocking(clip, skeleton, side);
-  }
-  return clip;
+  const std::string side = armThatCannot(clip, skeleton, shape);
+  if (side.empty()) return clip;
+  if (showsArm(skeleton, shape, acrossFrom(side))) return mirrored(clip);
+  return skeleton.find("body") >= 0 ? rocking(clip, skeleton, side) : clip;
 }
 
 // How the feet stand that the clip puts on the ground.
@@ -525,6 +538,23 @@ FigureShape shapeOfBones(const Skeleton& skeleton) {
       skeleton.joints[head].position.x() > skeleton.joints[0].position.x())
     shape.yaw_rad = kPi;
   return shape;
+}
+
+std::vector<std::string> armsThatStay(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
+  constexpr double kMoves_rad = 0.3, kStays = 0.5;
+  const auto named = [](const std::string& side) { return side.substr(0, side.size() - 1) + " arm"; };
+  const std::string quoted = '"' + clip.name + '"', cannot = armThatCannot(clip, skeleton, shape);
+  if (!cannot.empty() && motionOf(clip, cannot) > kMoves_rad) {
+    const std::string stays = "the " + named(cannot) + " cannot be moved well and does not do " + quoted;
+    if (showsArm(skeleton, shape, acrossFrom(cannot)))
+      return {stays + "; the " + named(acrossFrom(cannot)) + " does"};
+    return {stays + (skeleton.find("body") >= 0 ? "; the trunk rocks" : "")};
+  }
+  std::vector<std::string> stay;
+  for (const std::string side : {"left_", "right_"})
+    if (motionOf(clip, side) > kMoves_rad && keptArm(skeleton, shape, side) > kStays)
+      stay.push_back("the " + named(side) + " is one piece with the body and does not follow " + quoted);
+  return stay;
 }
 
 Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetOptions& options) {

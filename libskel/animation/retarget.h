@@ -67,6 +67,10 @@ struct RetargetOptions {
 // lacks, Error (refused input) if it puts one on the ground that is no foot, or is too long.
 Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOptions& options = {});
 
+// What the figure's arms do not do of the clip, which is for the canonical pose: a clause an arm, for the
+// user.
+std::vector<std::string> armsThatStay(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape);
+
 // Where each joint's bone points in the rest pose: to its child, or to the middle of its children; that of
 // its parent for a leaf. Unit vectors.
 std::vector<Eigen::Vector3d> restBones(const Skeleton& skeleton);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "libskel/cli/names.h"
-#include "libskel/export/write_character.h"
+#include "libskel/export/joint_names.h"
 
 namespace skel {
 
@@ -20,7 +20,7 @@ inline const std::map<std::string, BoneStyle> kBoneStyleNames = {
     {"along", BoneStyle::kAlong}, {"ends", BoneStyle::kEnds}, {"plain", BoneStyle::kPlain}};
 
 inline void bindJointOptions(CLI::App& app, JointOptions& options) {
-  app.add_option("--names", options.naming, "What exported joints are called")
+  app.add_option("--names", options.naming, "What exported joints of a biped are called")
       ->check(namesOf(kNamingNames))
       ->capture_default_str();
   app.add_option("--bones", options.bones,
@@ -32,6 +32,12 @@ inline void bindJointOptions(CLI::App& app, JointOptions& options) {
 
 inline ExportOptions exportOptions(const std::string& name, const JointOptions& options) {
   return {name, kNamingNames.at(options.naming), kBoneStyleNames.at(options.bones)};
+}
+
+// What the user is told where joints keep their names for all that; empty: nothing.
+inline std::string namingNote(const Skeleton& skeleton, const JointOptions& options) {
+  if (namesFit(skeleton, kNamingNames.at(options.naming))) return "";
+  return "the joints keep their names: --names " + options.naming + " is for bipeds";
 }
 
 }  // namespace skel

@@ -15,4 +15,13 @@ CLI::IsMember namesOf(const std::map<std::string, Value>& all) {
   return CLI::IsMember(names);
 }
 
+// For a list with commas: what is before and behind a name is no part of it.
+inline CLI::Validator withoutBlanks() {
+  const auto trim = [](std::string& name) {
+    CLI::detail::trim(name);
+    return std::string();
+  };
+  return CLI::Validator(trim, "", "without_blanks");
+}
+
 }  // namespace skel

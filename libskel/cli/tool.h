@@ -27,12 +27,15 @@
 
 namespace skel {
 
-// Adds a subcommand; when it is given, `chosen` becomes what it does.
+// Adds a subcommand; when it is given, `chosen` becomes what it does. `example`: a command line, which stands
+// below its help instead of that of the whole tool.
 template <class Options>
 void addCommand(CLI::App& app, std::function<ExitCode()>& chosen, const std::string& name,
-                const std::string& help, void (*bind)(CLI::App&, Options&), ExitCode (*run)(const Options&)) {
+                const std::string& help, void (*bind)(CLI::App&, Options&), ExitCode (*run)(const Options&),
+                const std::string& example = "") {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(name, help);
+  if (!example.empty()) command->footer("Example: " + example);
   bind(*command, *options);
   command->callback([=, &chosen] { chosen = [=] { return run(*options); }; });
 }

@@ -14,7 +14,7 @@ std::optional<Color> backgroundColor(std::string_view text) {
   if (text == "white") return kWhite;
   if (text == "black") return Color{};
   if (text == "grey") return Color{224, 227, 233};
-  if (text == "none") return kClear;
+  if (text == "none" || text == "transparent") return kClear;
   if (!text.starts_with('#')) return std::nullopt;
   unsigned value = 0;
   const auto parsed = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);

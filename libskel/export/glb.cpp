@@ -379,6 +379,8 @@ void addClip(GlbBuilder& glb, const Clip& any_clip, const RiggedCharacter& chara
   const Skeleton& skeleton = rig.skeleton;
   tinygltf::Animation animation;
   animation.name = clip.name;
+  if (clip.loops)
+    animation.extras = tinygltf::Value(tinygltf::Value::Object{{"loop", tinygltf::Value(true)}});
   // Tracks that share their times share an accessor.
   std::map<std::vector<float>, int> time_accessors;
   const auto timesAccessor = [&](const std::vector<float>& times) {

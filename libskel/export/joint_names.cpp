@@ -1,5 +1,6 @@
 #include "libskel/export/joint_names.h"
 
+#include <algorithm>
 #include <array>
 
 #include "libskel/export/bone_ends.h"
@@ -45,11 +46,20 @@ std::string exportedJointName(const std::string& joint, JointNaming naming) {
   return joint;
 }
 
+bool namesFit(const Skeleton& skeleton, JointNaming naming) {
+  if (naming == JointNaming::kSkel) return true;
+  const JointLookup own(skeleton);
+  return std::all_of(kNames.begin(), kNames.end(), [&](const Names& names) {
+    return names.skel == "head_top" || own.find(names.skel) >= 0;
+  });
+}
+
 std::vector<std::string> exportedJointNames(const Skeleton& skeleton, JointNaming naming) {
   const JointLookup own(skeleton);
+  const bool fit = namesFit(skeleton, naming);
   std::vector<std::string> names;
   for (const Joint& joint : skeleton.joints) {
-    std::string name = exportedJointName(joint.name, naming);
+    std::string name = fit ? exportedJointName(joint.name, naming) : joint.name;
     names.push_back(own.find(name) < 0 ? std::move(name) : joint.name);
   }
   return names;

@@ -123,6 +123,13 @@ struct Joints {
   }
 };
 
+// Others may have put anything there.
+bool isTrue(const JsonValue& value) {
+  const bool other =
+      value.isNull() || value.isNumber() || value.isString() || value.isArray() || value.isObject();
+  return !other && value.asBool();
+}
+
 // What encodeGlb() puts at the end of a last bone.
 bool isBoneEnd(const JsonValue& node) {
   const std::optional<JsonValue> extras = node.find("extras");
@@ -446,6 +453,8 @@ Clip readClip(const GlbContainer& glb, const JsonValue& animation, const RiggedC
   Clip clip;
   const std::optional<JsonValue> name = animation.find("name");
   clip.name = name ? name->asString() : otherwise;
+  if (const auto extras = animation.find("extras"); extras && extras->isObject())
+    if (const auto loop = extras->find("loop")) clip.loops = isTrue(*loop);
   const std::vector<JsonValue> samplers = animation.at("samplers").items();
   if (samplers.empty()) animation.at("samplers").fail("is empty");
   const std::vector<Joint>& all = character.skeleton.joints;

@@ -4,6 +4,7 @@
 
 #include "libskel/core/file_names.h"
 #include "libskel/core/text.h"
+#include "libskel/deform/figure_shape.h"
 #include "libskel/deform/stretch.h"
 
 namespace skel {
@@ -69,6 +70,16 @@ std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip
                      "a motion pulls a limb out of shape" + std::string(kPaintTheLimb),
                      name + " by " + joined(names)});
   }
+  return notes;
+}
+
+std::vector<Note> armNotes(const RiggedCharacter& character, const std::vector<Clip>& clips) {
+  std::vector<Note> notes;
+  if (clips.empty()) return notes;
+  const FigureShape shape = measureFigure(character.mesh, character.weights, character.skeleton);
+  for (const Clip& clip : clips)
+    for (std::string& clause : armsThatStay(clip, character.skeleton, shape))
+      notes.push_back({std::move(clause)});
   return notes;
 }
 

@@ -26,4 +26,7 @@ std::vector<std::string> figureNotes(const RiggedDrawing& drawing);
 // the joints are a guess.
 std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip>& clips);
 
+// Of arms that do not follow these clips, which are for the canonical pose.
+std::vector<Note> armNotes(const RiggedCharacter& character, const std::vector<Clip>& clips);
+
 }  // namespace skel

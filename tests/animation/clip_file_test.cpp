@@ -41,6 +41,7 @@ TEST_CASE("what is written is read as it was") {
   clip.frame = ClipFrame::kBody;
   clip.least_duration_s = 4;
   clip.lead_s = 0.25f;
+  clip.loops = true;
   clip.root_times_s = {0, 1.5f};
   clip.root_translations = {{0, 0, 0}, {0.1f, -0.2f, 0.3f}};
   JointTrack track;
@@ -63,6 +64,7 @@ TEST_CASE("what is written is read as it was") {
   CHECK(again.frame == ClipFrame::kBody);
   CHECK(again.duration_s() == 4);
   CHECK(again.lead_s == 0.25f);
+  CHECK(again.loops);
   CHECK(again.root_times_s == clip.root_times_s);
   CHECK(again.root_translations == clip.root_translations);
   CHECK(again.contacts == clip.contacts);

@@ -435,3 +435,29 @@ TEST_CASE("thousands of joints at one place point where the bone above them does
   CHECK(std::all_of(bones.begin(), bones.end(),
                     [](const Eigen::Vector3d& bone) { return bone == Eigen::Vector3d::UnitX(); }));
 }
+
+TEST_CASE(
+    "which arm does not follow a clip is said where it is one piece with the body, or leaves its hand "
+    "behind") {
+  const Skeleton skeleton = figureSkeleton();
+  const Clip &walk = clipNamed(builtinClips(), "walk"), &wave = clipNamed(builtinClips(), "wave");
+  FigureShape shape = shapeOfBones(skeleton);
+  shape.joined.assign(skeleton.joints.size(), 0);
+  shape.taken.assign(skeleton.joints.size(), 1);
+  CHECK(armsThatStay(walk, skeleton, shape).empty());
+  CHECK(armsThatStay(wave, skeleton, shape).empty());
+  for (const char* joint : {"left_shoulder", "left_elbow", "left_hand"})
+    shape.joined[skeleton.index(joint)] = 1;
+  CHECK(armsThatStay(walk, skeleton, shape) ==
+        std::vector<std::string>{"the left arm is one piece with the body and does not follow \"walk\""});
+  Clip left = wave;
+  for (JointTrack& track : left.tracks)
+    for (const char* part : {"shoulder", "elbow", "hand"})
+      if (track.joint == std::string("right_") + part)
+        track.joint = std::string("left_") + part;
+      else if (track.joint == std::string("left_") + part)
+        track.joint = std::string("right_") + part;
+  const auto said = armsThatStay(left, skeleton, shape), other = armsThatStay(wave, skeleton, shape);
+  const std::string cannot = "the left arm cannot be moved well and does not do \"wave\"; the right arm does";
+  CHECK(std::count(said.begin(), said.end(), cannot) + std::count(other.begin(), other.end(), cannot) == 1);
+}

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "animator/rig_text.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
@@ -50,6 +51,36 @@ TEST_CASE("list names the clips there are, and those of a character with its joi
   CHECK(one.out.find("graze") == std::string::npos);
   CHECK(one.out.find("          left_hand\n") != std::string::npos);
   checkFails("list --clips-dir " + dir.file("none"), 2, dir.file("none") + ": is not a folder");
+}
+
+TEST_CASE("a list shows each joint below the one that carries it, in whatever order they come") {
+  Skeleton skeleton;
+  for (const auto& [name, parent] : {std::pair("pelvis", -1), {"tail", 0}, {"body", 0}, {"tail_end", 1}})
+    skeleton.joints.push_back({name, parent, {}});
+  std::string text;
+  for (const auto& [joint, spaces] : asTree(skeleton)) text += spaces + skeleton.joints[joint].name + "\n";
+  CHECK(text == "  pelvis\n    tail\n      tail_end\n    body\n");
+}
+
+TEST_CASE("a clip file goes by its path where it goes by its folder, whatever the joints are called") {
+  const TempDir dir;
+  const std::string model = dir.file("mixamo.glb"), clip = dir.file("clips/bend.clip.json");
+  writeFile(model, encodeGlb(figure(), {}, {.naming = JointNaming::kMixamo}));
+  writeFile(clip, R"({"format": "skel-clip", "version": 1, "name": "bend", "template": "biped",
+    "tracks": [{"joint": "body", "angles_deg": [[0, 0, 0, 0], [1, 40, 0, 0]]}]})");
+  const std::string render = kTool + " render " + model + " --fps 4 --size 16 -o ";
+  for (const std::string& clips : {"bend --clips-dir " + dir.file("clips"), clip}) {
+    CAPTURE(clips);
+    const ToolRun run = runTool(render + dir.file("film.gif") + " --clips " + clips);
+    CHECK(run.err == "");
+    CHECK(run.exit_code == 0);
+  }
+  CHECK(runTool(kTool + " retarget " + clip + " --to " + model + " -o " + dir.file("a.glb")).exit_code == 0);
+  CHECK(readGlb(dir.file("a.glb")).clips[0].tracks[0].joint == "mixamorig:Spine");
+  writeFile(clip, R"({"format": "skel-clip", "version": 1, "name": "wag", "template": "quadruped",
+    "tracks": [{"joint": "tail", "angles_deg": [[0, 0, 0, 0], [1, 40, 0, 0]]}]})");
+  checkFails("render " + model + " --clips " + clip + " -o " + dir.file("film.gif"), 2,
+             clip + ": moves \"tail\", which this character lacks");
 }
 
 TEST_CASE("retarget writes a character, a clip or a BVH, and says what it matched") {

@@ -52,6 +52,7 @@ TEST_CASE("a model plays its own clips and those of skel, and looks as it is tol
     CHECK_FALSE((frame(option).rgba == plain.rgba).all());
   }
   CHECK(frame("--background none").pixel(0, 0)[3] == 0);
+  CHECK(frame("--background transparent").pixel(0, 0)[3] == 0);
   CHECK(int(frame("--background '#102030'").pixel(0, 0)[2]) == 0x30);
   CHECK(frame("--background " + kDrawing).pixel(0, 0)[3] == 255);
   CHECK(render(model + " --clip walk --fps 4 --size 64x64 -o " + dir.file("walk.webp")).exit_code == 0);
@@ -124,6 +125,81 @@ TEST_CASE(
   CHECK(filesBelow(dir.file("films")) == std::vector<std::string>{dir.file("films/cap_boy-run.gif")});
 }
 
+TEST_CASE(
+    "of several clips, the one that a drawing's body plan lacks is left out with a note, not the drawing") {
+  const TempDir dir;
+  const std::string dog = std::string(SKEL_SOURCE_DIR) + "/datasets/animals/box_dog.png ";
+  const std::string rest = " --fps 4 --size 32x32 --format gif -o " + dir.file("films/");
+  const ToolRun run = render(dog + kDrawing + " --clips 'idle, run'" + rest);
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err, Contains("box_dog.png: note: there is no clip \"run\" for this body plan: left out\n"));
+  CHECK(filesBelow(dir.file("films")).size() == 3);
+  // A name that nobody has is wrong.
+  const ToolRun wrong = render(dog + kDrawing + " --clips idle,rnu" + rest);
+  CHECK(wrong.exit_code == 1);
+  CHECK_THAT(wrong.err,
+             Contains("cap_boy.png: there is no clip \"rnu\" for this body plan; did you mean \"run\"?"));
+}
+
+TEST_CASE("a clip of one's own that an arm cannot do is named with the arm") {
+  const TempDir dir;
+  RiggedCharacter grown = figure();
+  const int body = grown.skeleton.find("body");
+  for (const std::string& joint :
+       {"left_shoulder", "left_elbow", "left_hand", "right_shoulder", "right_elbow", "right_hand"})
+    grown.weights.joints = (grown.weights.joints.array() == grown.skeleton.find(joint))
+                               .select(std::uint16_t(body), grown.weights.joints.array());
+  const std::string model = dir.file("grown.glb");
+  writeFile(model, encodeGlb(grown, {}));
+  writeFile(dir.file("clips/attack.clip.json"),
+            R"({"format": "skel-clip", "version": 1, "name": "attack", "template": "biped", "tracks": [
+      {"joint": "left_shoulder", "bone": [0, -1, 0], "angles_deg": [[0, 0, 0, 0], [1, 0, 0, 90]]},
+      {"joint": "right_shoulder", "bone": [0, -1, 0], "angles_deg": [[0, 0, 0, 0], [1, 0, 0, -90]]}]})");
+  const std::string film = " --fps 4 --size 16 -o " + dir.file("film.gif");
+  for (const std::string& clip :
+       {dir.file("clips/attack.clip.json"), "attack --clips-dir " + dir.file("clips")}) {
+    const ToolRun run = render(model + " --clips " + clip + film);
+    CHECK(run.exit_code == 0);
+    for (const char* arm : {"left", "right"})
+      CHECK_THAT(run.err, Contains("the " + std::string(arm) +
+                                   " arm is one piece with the body and does not follow \"attack\""));
+  }
+  CHECK(render(model + " --clips walk" + film).err == "");
+}
+
+TEST_CASE("a broken clip file beside the one that is used is one note, an unknown template is said") {
+  const TempDir dir;
+  const std::string model = figureFile(dir), film = " --fps 4 --size 16 -o " + dir.file("film.gif");
+  const std::string clips = " --clips-dir " + dir.file("clips") + film;
+  const auto write = [&](const std::string& name, const std::string& body_plan) {
+    writeFile(dir.file("clips/" + name + ".clip.json"),
+              R"({"format": "skel-clip", "version": 1, "name": ")" + name + R"(", "template": ")" +
+                  body_plan +
+                  R"(", "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [1, 9, 0, 0]]}]})");
+  };
+  write("look", "biped");
+  write("scan", "robot");
+  writeFile(dir.file("clips/broken.clip.json"), "{");
+  const ToolRun good = render(model + " --clips look" + clips);
+  CHECK(good.exit_code == 0);
+  CHECK_THAT(good.err,
+             Contains("skel-animate: note: left out: " + dir.file("clips/broken.clip.json") + ": "));
+  CHECK(std::count(good.err.begin(), good.err.end(), '\n') == 1);
+  CHECK(render(model + " --clips broken" + clips).exit_code == 2);
+  CHECK(render(model + " --clips all" + clips).exit_code == 2);
+  const ToolRun robot = render(model + " --clips scan" + clips);
+  CHECK(robot.exit_code == 1);
+  CHECK_THAT(robot.err, Contains("the clip \"scan\" is made for the template \"robot\", which is not known; "
+                                 "there are: biped, quadruped\n"));
+}
+
+TEST_CASE("each command's help ends with an example of its own") {
+  for (const std::string command : {"info", "list", "bind", "weights", "retarget", "render", "view"}) {
+    const ToolRun run = runTool(std::string(SKEL_ANIMATE) + " " + command + " --help");
+    CHECK_THAT(run.out, Contains("Example: skel-animate " + command + " "));
+  }
+}
+
 TEST_CASE("a drawing moves as it was drawn, on a ground that is clear, the same one every time") {
   const TempDir dir;
   const std::string arguments =
@@ -172,6 +248,7 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
       {model + " --clip nod --background blue.png -o " + film, 2, "blue.png: cannot be read"},
       {model + " --clip nod --size 200000 --background " + kDrawing + " -o " + film, 1,
        "a film of 200000x200000 px cannot be written"},
+      {kDrawing + " --figure 2 --clip wave -o " + film, 2, "cap_boy.png: there is no figure 2, only 1"},
       {model + " --clip nod --show-weights wing -o " + film, 1, "there is no joint \"wing\""},
       {model + " --clips nod,walk -o " + film, 1, "film.gif must be a folder (a name that ends with /)"},
       {model + " --clip nod --format gif -o " + film, 1, "--format is that of films in a folder"},

@@ -171,6 +171,91 @@ TEST_CASE("an animal that was drawn looking to the left is so in the sprites tha
   CHECK(difference(0) * 4 < difference(64));
 }
 
+TEST_CASE("tags say which motions are played once, the others loop") {
+  const TempDir dir;
+  const Json tags =
+      sheetOf(dir, kDrawing + " --clips walk,wave --frames 1 --size 16").atlas["meta"]["frameTags"];
+  CHECK_FALSE(tags[0].contains("repeat"));
+  CHECK(tags[1]["repeat"] == "1");
+}
+
+TEST_CASE(
+    "a motion that travels is shown in place, at the scale of the others, and that is said; who sways, "
+    "sways") {
+  const TempDir dir;
+  const std::string model = figureFile(dir);
+  const auto clip = [&](const std::string& name, double way) {
+    writeFile(dir.file(name + ".clip.json"), R"({"format": "skel-clip", "version": 1, "name": ")" + name +
+                                                 R"(", "root": [[0, 0, 0, 0], [1, )" + std::to_string(way) +
+                                                 R"(, 0, 0], [2, 0, 0.01, 0]],
+                 "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [2, 9, 0, 0]]}]})");
+    return dir.file(name + ".clip.json");
+  };
+  const auto sheet = [&](const std::string& clips) {
+    const ToolRun run =
+        render(model + " --frames 4 --size 48 --clips " + clips + " --sheet " + dir.file("s.png"));
+    REQUIRE(run.exit_code == 0);
+    return std::pair(readImage(dir.file("s.png")), run.err);
+  };
+  const std::string stays = clip("stays", 0), goes = clip("goes", 3), sways = clip("sways", .1);
+  const Image still = sheet(stays).first;
+  const auto [moved, said] = sheet(goes);
+  CHECK(said == "figure: note: \"goes\" goes 4.5 m from where it begins; the sheet shows it in place\n");
+  CHECK((still.rgba.cast<int>() - moved.rgba.cast<int>()).abs().maxCoeff() <= 8);
+  const auto [swaying, nothing] = sheet(sways);
+  CHECK(nothing == "");
+  CHECK_FALSE((swaying.rgba == still.rgba).all());
+}
+
+TEST_CASE("sheets of one run have one scale and one pivot where that is asked for") {
+  const TempDir dir;
+  const auto pivots = [&](const std::string& options) {
+    std::set<int> all;
+    const ToolRun run = render(kDrawing + " " + kDog + " --clips idle --frames 1 --size 64 --sheet " +
+                               dir.file("sheets/") + options);
+    CHECK(run.err == "");
+    REQUIRE(run.exit_code == 0);
+    for (const char* name : {"cap_boy", "walking_dog"}) {
+      std::ifstream atlas(dir.file("sheets/") + name + ".json");
+      all.insert(int(Json::parse(atlas)["meta"]["slices"][0]["keys"][0]["pivot"]["y"]));
+    }
+    return all;
+  };
+  const auto height = [&] {
+    const Image boy = readImage(dir.file("sheets/cap_boy.png")),
+                dog = readImage(dir.file("sheets/walking_dog.png"));
+    const auto rows = [](const Image& image) {
+      int count = 0;
+      for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+          if (image.pixel(x, y)[3] > 128) {
+            ++count;
+            break;
+          }
+      return count;
+    };
+    return std::pair(rows(boy), rows(dog));
+  };
+  pivots("");
+  const int alone = height().second;
+  CHECK(pivots(" --same-scale").size() == 1);
+  const auto [boy, dog] = height();
+  CHECK(boy >= 56);
+  CHECK(dog < alone);
+}
+
+TEST_CASE("a sheet that is refused leaves no folder, nor takes away one that was there") {
+  const TempDir dir;
+  const std::string model = figureFile(dir);
+  std::filesystem::create_directory(dir.file("old"));
+  CHECK(render(model + " --clip fly --sheet " + dir.file("new/deep/")).exit_code == 1);
+  CHECK_FALSE(std::filesystem::exists(dir.file("new")));
+  CHECK(render(model + " --clip fly --sheet " + dir.file("old/")).exit_code == 1);
+  CHECK(std::filesystem::exists(dir.file("old")));
+  CHECK(render(model + " --clip nod --frames 1 --sheet " + dir.file("new/deep/S.PNG")).exit_code == 0);
+  CHECK(std::filesystem::exists(dir.file("new/deep/S.json")));
+}
+
 TEST_CASE("sheets of several drawings go to a folder, and what makes no sense is one line") {
   const TempDir dir;
   const std::string model = figureFile(dir), sheets = dir.file("sheets/");
@@ -200,6 +285,11 @@ TEST_CASE("sheets of several drawings go to a folder, and what makes no sense is
            " --fps 240 --size 1 --directions 16 --trim --sheet " + dir.file("s.png"),
        "a sheet has at most 16384 frames"},
       {model + " --clip nod --size 4000 --sheet " + dir.file("s.png"), "at most 2048 px a side"},
+      {model + " --clip nod --look flat --sheet " + dir.file("s.png"), "--look flat is a look of films"},
+      {model + " --clips idle walk --sheet " + dir.file("s.png"),
+       "there is no file \"walk\"; several clips have commas in between: --clips idle,walk\n"},
+      {dir.path() + " --clip idle --sheet " + dir.file("s.png"),
+       dir.path() + " is a folder; name the drawings in it: " + dir.path() + "/*.png\n"},
   };
   for (const auto& one : cases) {
     CAPTURE(one.arguments);

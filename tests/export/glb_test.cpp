@@ -408,6 +408,18 @@ TEST_CASE("joints are named as the target program wants them") {
     CHECK(vrm.count(bone) == 1);
 }
 
+TEST_CASE("what is no biped keeps all its names, not some") {
+  const SkeletonTemplate plan = loadTemplate("quadruped");
+  Skeleton animal;
+  for (const TemplateJoint& joint : plan.joints) animal.joints.push_back({joint.name, joint.parent, {}});
+  for (const JointNaming naming : {JointNaming::kVrm, JointNaming::kMixamo}) {
+    CHECK_FALSE(namesFit(animal, naming));
+    CHECK(namesFit(figure().skeleton, naming));
+    const std::vector<std::string> names = exportedJointNames(animal, naming);
+    for (std::size_t j = 0; j < names.size(); ++j) CHECK(names[j] == animal.joints[j].name);
+  }
+}
+
 TEST_CASE("a character moves in the same way whatever the axes of its joints are") {
   const RiggedCharacter character = figure();
   std::vector<Clip> clips;

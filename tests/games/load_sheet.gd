@@ -1,4 +1,4 @@
-# godot3-server --script load_sheet.gd SHEET.json ANIMATIONS FRAMES: reads the sheet by the example's script.
+# godot3-server --script load_sheet.gd SHEET.json ANIMATIONS FRAMES: reads the sheet by the example's script. Of its clips idle loops.
 extends SceneTree
 
 func _init():
@@ -20,6 +20,8 @@ func _init():
 			inside = inside and Rect2(Vector2(), image.get_size()).encloses(part.region)
 			var size = part.region.size + part.margin.size
 			inside = inside and Rect2(Vector2(), size + Vector2(1, 1)).has_point(Sheet.pivot(atlas))
+	for tag in atlas.meta.frameTags:
+		inside = inside and frames.get_animation_loop(tag.name) == tag.name.begins_with("idle")
 	var animations = frames.get_animation_names().size()
 	var good = inside and animations == int(arguments[-2]) and count == int(arguments[-1])
 	print("Godot: %s: %d animations, %d frames, %s" % [path.get_file(), animations, count, "good" if good else "WRONG"])

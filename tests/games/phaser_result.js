@@ -8,6 +8,7 @@ const timer = setInterval(() => {
   const whole = ({ frames }, { from, to }) => frames.length === to - from + 1;
   const good = {
     tags: tags.every((tag) => whole(scene.anims.get(tag.name), tag)),
+    loops: tags.every(({ name }) => scene.anims.get(name).repeat === (name.startsWith('idle') ? -1 : 0)),
     shown: hero.frame.realWidth === bounds.w && !hero.frame.name.startsWith('__'),
     origin: hero.displayOriginX === pivot.x && hero.displayOriginY === pivot.y,
   };

@@ -143,3 +143,19 @@ TEST_CASE("a joint keeps its name where another has the one that the target prog
   CHECK(back.find("hips") > 0);
   CHECK(back.find("spine") > 0);
 }
+
+TEST_CASE("a file says which of its clips loop, a gallop among them") {
+  RiggedCharacter character = figure();
+  Clip gallop = retargetToRest(clipNamed(builtinClips(), "walk"), character.skeleton);
+  gallop.loops = clipNamed(builtinClips(), "gallop").loops;
+  const Clip wave = retargetToRest(clipNamed(builtinClips(), "wave"), character.skeleton);
+  std::string bytes = encodeGlb(character, {gallop, wave});
+  const CharacterFile file = decodeGlb(bytes, "a.glb");
+  CHECK(file.clips[0].loops);
+  CHECK_FALSE(file.clips[1].loops);
+  // What others have put there is none of ours.
+  const std::size_t mark = bytes.find("\"loop\":true");
+  REQUIRE(mark != std::string::npos);
+  bytes.replace(mark, 11, "\"loop\":1111");
+  CHECK_FALSE(decodeGlb(bytes, "a.glb").clips[0].loops);
+}

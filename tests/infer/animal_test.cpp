@@ -113,3 +113,12 @@ TEST_CASE("the drawn animals are found, from the picture alone") {
   CHECK(mean.at("pck10").asNumber() >= 0.94);
   CHECK(mean.at("usable").asNumber() >= 0.78);
 }
+
+TEST_CASE("the joints of an animal keep their names where others are asked for, and a note says so") {
+  const TempDir dir;
+  const ToolRun run =
+      infer("'" + kAnimals + "/crayon_pig.png' --names mixamo --formats glb -o '" + dir.path() + "'");
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.err, "note: the joints keep their names: --names mixamo is for bipeds"));
+  CHECK_FALSE(contains(readFile(dir.file("crayon_pig.glb")), "mixamorig"));
+}

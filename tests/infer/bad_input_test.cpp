@@ -56,6 +56,19 @@ void expect(const ToolRun& run, int exit_code, const std::string& message) {
 
 }  // namespace
 
+TEST_CASE("a motion's file where a clip's name belongs is refused with what to do instead") {
+  const TempDir dir;
+  writeFile(dir.file("a.png"), plainPng(8, 8, 0));
+  const auto clips = [&](const std::string& name) {
+    return runTool("'" SKEL_INFER "' " + dir.file("a.png") + " --clips " + name + " -o " + dir.file("out"));
+  };
+  expect(clips("idle,dance.bvh"), 1,
+         "\"dance.bvh\" is a file; after the rig: `skel-animate retarget dance.bvh --to FILE.glb`");
+  expect(clips("mine/bow.clip.json"), 1,
+         "is a file; name its folder by --clips-dir, and the clip in it by its name");
+  CHECK(filesIn(dir.file("out")) == 0);
+}
+
 TEST_CASE("a picture that cannot be used is refused by name, and nothing is written") {
   const TempDir dir;
   const std::string drawing = readFile(kDrawing);

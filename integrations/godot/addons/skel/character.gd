@@ -1,14 +1,30 @@
 # What both ways of importing do to a scene that Godot has made of a GLB.
 tool
 
-const LOOPS = "dance, idle, run, talk, walk"
+const AUTO = "auto"  # clips go on and on as the file says
 
-# The clips that go on and on; others are played once.
-static func mend(scene: Node, loops: String) -> void:
-	var looping = []
+# `loops`: the names of clips that go on and on, or AUTO; others are played once. `glb`: the path of the file.
+static func mend(scene: Node, loops: String, glb: String) -> void:
+	var looping = _loops_of(glb) if loops.strip_edges() == AUTO else []
 	for name in loops.split(",", false):
 		looping.append(name.strip_edges())
 	_mend(scene, scene.name, looping)
+
+# Of the animations whose extras say so.
+static func _loops_of(glb: String) -> Array:
+	var file = File.new()
+	if file.open(glb, File.READ) != OK or file.get_32() != 0x46546C67:  # glTF
+		return []
+	file.seek(12)
+	var length = file.get_32()
+	file.seek(20)
+	var said = JSON.parse(file.get_buffer(length).get_string_from_utf8()).result
+	var names = []
+	for animation in said.get("animations", []) if said is Dictionary else []:
+		var extras = animation.get("extras")
+		if extras is Dictionary and extras.get("loop") is bool and extras.loop:
+			names.append(animation.get("name", ""))
+	return names
 
 static func _mend(node: Node, name: String, looping: Array) -> void:
 	if node is MeshInstance:

@@ -18,7 +18,7 @@ func get_option_visibility(_option, _options): return true
 
 func get_import_options(_preset):
 	return [
-		{name = "clips/loop", default_value = Character.LOOPS},
+		{name = "clips/loop", default_value = Character.AUTO},
 		{name = "clips/fps", default_value = 30, property_hint = PROPERTY_HINT_RANGE, hint_string = "5,120"},
 		{name = "drawing/template", default_value = "auto", property_hint = PROPERTY_HINT_ENUM, hint_string = "auto,biped,quadruped"},
 		{name = "drawing/height", default_value = 0.0, property_hint = PROPERTY_HINT_RANGE, hint_string = "0,1000"},
@@ -31,12 +31,13 @@ func import(source_file, save_path, options, _platform_variants, _gen_files):
 	if is_drawing:
 		path = _rig(path, results, options)
 	var scene = _scene(path, options["clips/fps"]) if path else null
+	if scene:
+		scene.name = source_file.get_file().get_basename()
+		Character.mend(scene, options["clips/loop"], path)
 	if is_drawing:
 		_remove(results)
 	if scene == null:
 		return ERR_FILE_CORRUPT
-	scene.name = source_file.get_file().get_basename()
-	Character.mend(scene, options["clips/loop"])
 	_own(scene, scene)
 	var packed = PackedScene.new()
 	var problem = packed.pack(scene)

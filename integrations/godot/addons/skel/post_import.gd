@@ -5,5 +5,5 @@ extends EditorScenePostImport
 const Character = preload("character.gd")
 
 func post_import(scene):
-	Character.mend(scene, Character.LOOPS)
+	Character.mend(scene, Character.AUTO, get_source_file())
 	return scene
