@@ -1,5 +1,6 @@
 #include "trainer/loop_training.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <opencv2/core.hpp>
@@ -28,7 +29,7 @@ std::vector<PageCase> loopsOn(const HardPage& page) {
     double inside = 0;
     for (const int pixel : loop.pixels) inside += truth.data[pixel] / 255.;
     constexpr double kMixed = .2;
-    const double share = inside / static_cast<double>(loop.pixels.size());
+    const double share = inside / static_cast<double>(std::max<std::size_t>(1, loop.pixels.size()));
     if (share < kMixed || share > 1 - kMixed)
       cases.push_back({"", "", loop.inputs, share < .5, std::sqrt(std::exp(loop.inputs[0]))});
   }

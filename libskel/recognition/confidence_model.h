@@ -19,7 +19,7 @@ inline constexpr auto kJointSummary =
 
 struct ConfidenceModel {
   LogisticNet joint, figure;  // of kJointInputs, and of kFigureInputs and kJointSummary
-  std::string provenance;       // how the numbers came to be, for people
+  std::string provenance;     // how the numbers came to be, for people
 };
 
 struct Confidences {

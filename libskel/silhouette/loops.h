@@ -51,8 +51,8 @@ struct LoopNet {
   std::string provenance;  // how the numbers came to be, for people
 };
 
-// Takes off what is more probably ground than kSurelyGround: a hole in a body is taken for four times as bad as a
-// web beside it.
+// Takes off what is more probably ground than kSurelyGround: a hole in a body is taken for four times as bad
+// as a web beside it.
 inline constexpr double kSurelyGround = 0.8;
 void openLoops(const std::vector<Loop>& loops, const LoopNet& net, cv::Mat& figure);
 

@@ -80,6 +80,19 @@ Plane8 sharesOf(const cv::Mat& probability) {
   return shares;
 }
 
+// Pixels of the straightened sheet become those of the picture.
+void toPicture(std::vector<Loop>& loops, const cv::Size& page, const cv::Mat& page_from_picture,
+               const cv::Size& picture) {
+  for (Loop& loop : loops) {
+    cv::Mat region = cv::Mat::zeros(page, CV_8U);
+    for (const int pixel : loop.pixels) region.data[pixel] = 255;
+    cv::warpPerspective(region, region, page_from_picture, picture, cv::INTER_NEAREST | cv::WARP_INVERSE_MAP);
+    loop.pixels.clear();
+    for (int pixel = 0; pixel < picture.area(); ++pixel)
+      if (region.data[pixel]) loop.pixels.push_back(pixel);
+  }
+}
+
 // What lines and colours tell.
 struct Drawn {
   cv::Mat figures;          // 8-bit, 255 on figures; empty if there are none
@@ -160,7 +173,8 @@ Drawn figuresIn(const cv::Mat& rgb, const cv::Mat& lab) {
   out.soft = textured;
   out.figures = barrier;
   out.ink = drawn, out.difference = difference, out.different = color_threshold;
-  out.colored_ground = isColored(backgrounds.front());
+  // Paper in dim or warm light has a colour, too, and clothes have that of the paper.
+  out.colored_ground = !textured && isColored(backgrounds.front());
   return out;
 }
 
@@ -236,7 +250,10 @@ Segmentation segment(const Image& image, const PageNet* page_net, bool keep_step
     if (keep_steps) out.steps.figure_share = out.seen->share;
     figures = agreed(figures, probability);
   }
-  if (keep_steps && !corners) out.loops = std::move(loops);
+  if (keep_steps) {
+    if (corners) toPicture(loops, rgb.size(), page_from_picture, picture.size());
+    out.loops = std::move(loops);
+  }
   if (cv::countNonZero(figures) == 0) {
     out.reason = drawn.reason.empty() ? "nothing on the page looks like a figure" : drawn.reason;
     return out;

@@ -19,7 +19,7 @@ struct Segmentation {
   std::string reason;            // why it is empty, where it is
   std::optional<SeenPage> seen;  // of pages that are not tidy
   SilhouetteSteps steps;         // only if they are to be kept
-  std::vector<Loop> loops;  // the same, where no sheet was straightened; of workingRgb() (working_colors.h)
+  std::vector<Loop> loops;       // the same; pixels of workingRgb() (working_colors.h)
 };
 
 // Works for drawings on paper (also photographed in uneven light), line art whose white fills open to the
