@@ -14,10 +14,10 @@
 #include "libskel/jointnet/joint_net.h"
 #include "libskel/recognition/calibration.h"
 #include "libskel/recognition/confidence_model.h"
-#include "trainer/confidence_fit.h"
 #include "trainer/confidence_samples.h"
 #include "trainer/confidence_table.h"
 #include "trainer/hands.h"
+#include "trainer/logistic_fit.h"
 #include "trainer/writable_output.h"
 
 namespace skel {
@@ -46,7 +46,7 @@ using SampleList = std::vector<const ConfidenceSample*>;
 
 ConfidenceModel learn(const SampleList& samples, int seed) {
   ConfidenceModel model;
-  ConfidenceFitOptions options;
+  LogisticFitOptions options;
   options.seed = static_cast<std::uint64_t>(seed);
   Eigen::Index count = 0;
   for (const ConfidenceSample* s : samples)
@@ -62,7 +62,7 @@ ConfidenceModel learn(const SampleList& samples, int seed) {
       weights[count++] = weightOf(*s);
     }
   }
-  model.joint = fitConfidenceNet(inputs, came_true, weights, options);
+  model.joint = fitLogisticNet(inputs, came_true, weights, options);
 
   count = static_cast<Eigen::Index>(samples.size());
   inputs.resize(count, static_cast<Eigen::Index>(kFigureInputs.size() + kJointSummary.size()));
@@ -76,7 +76,7 @@ ConfidenceModel learn(const SampleList& samples, int seed) {
   // Figures are few: of them a weighted sum is all that can be learned.
   options.hidden = 0;
   options.decay = 1e-2;
-  model.figure = fitConfidenceNet(inputs, came_true, weights, options);
+  model.figure = fitLogisticNet(inputs, came_true, weights, options);
   return model;
 }
 

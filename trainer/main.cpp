@@ -4,6 +4,7 @@
 #include "trainer/confidence_training.h"
 #include "trainer/joint_net_figures.h"
 #include "trainer/joint_net_training.h"
+#include "trainer/loop_training.h"
 #include "trainer/page_net_training.h"
 #include "trainer/part_net_training.h"
 #include "trainer/silhouette_training.h"
@@ -43,10 +44,16 @@ int main(int argc, char** argv) {
   CLI::App* confidence =
       app.add_subcommand("confidence", "Learns how sure the recognition may be of what it finds");
   skel::bindConfidenceTrainingOptions(*confidence, confidence_training);
-  skel::SilhouetteTrainingOptions silhouette_training;
+  skel::PageCaseOptions silhouette_training;
+  silhouette_training.output = "out/silhouette_confidence.json";
   CLI::App* silhouettes = app.add_subcommand(
       "silhouettes", "Learns how sure one may be of a silhouette that was found on a page");
-  skel::bindSilhouetteTrainingOptions(*silhouettes, silhouette_training);
+  skel::bindPageCaseOptions(*silhouettes, silhouette_training);
+  skel::PageCaseOptions loop_training;
+  loop_training.output = "out/loop_net.json";
+  CLI::App* loops =
+      app.add_subcommand("loops", "Learns which of what a figure's lines enclose is the ground behind it");
+  skel::bindPageCaseOptions(*loops, loop_training);
   return skel::runTool(app, argc, argv, [&] {
     if (*evaluation) return skel::runEvaluateWeights(evaluate);
     if (*figures) return skel::runFigureSheet(sheet);
@@ -54,6 +61,7 @@ int main(int argc, char** argv) {
     if (*bones) return skel::runBoneLengths(bone_lengths);
     if (*confidence) return skel::runConfidenceTraining(confidence_training);
     if (*silhouettes) return skel::runSilhouetteTraining(silhouette_training);
+    if (*loops) return skel::runLoopTraining(loop_training);
     if (*averaging) return skel::runAverageNets(average);
     if (*pages) return skel::runPageTraining(page_training);
     if (*parts) return skel::runPartTraining(part_training);

@@ -8,9 +8,10 @@
 namespace skel {
 
 void checkNetFormat(std::string_view bytes, const std::string& file, std::string_view format) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kKinds = {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kKinds = {
       {{"skel-confidence", "numbers that say how sure the recognition is"},
        {"skel-silhouette-confidence", "numbers that say how sure a silhouette is"},
+       {"skel-loop-net", "a net that tells what is ground within lines"},
        {"skel-weights", "weights that tell candidates apart (--weights)"},
        {"skel-joint-net", "a net that finds joints (--joint-net)"},
        {"skel-part-net", "a net that tells parts (--part-net)"},

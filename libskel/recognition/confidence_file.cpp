@@ -3,9 +3,9 @@
 
 #include "embedded/confidence_weights.h"
 #include "libskel/core/json.h"
+#include "libskel/core/logistic_net.h"
 #include "libskel/core/net_format.h"
 #include "libskel/recognition/confidence_model.h"
-#include "libskel/recognition/confidence_net_file.h"
 
 namespace skel {
 namespace {
@@ -31,16 +31,16 @@ ConfidenceModel parseConfidenceModel(std::string_view text, const std::string& f
   root.allowOnly({"format", "version", "provenance", "joint", "figure"});
   ConfidenceModel model;
   model.provenance = root.at("provenance").asString();
-  model.joint = confidenceNetAt(root.at("joint"), inputsOf(false));
-  model.figure = confidenceNetAt(root.at("figure"), inputsOf(true));
+  model.joint = logisticNetAt(root.at("joint"), inputsOf(false));
+  model.figure = logisticNetAt(root.at("figure"), inputsOf(true));
   return model;
 }
 
 std::string formatConfidenceModel(const ConfidenceModel& model) {
   return "{\n  \"format\": \"" + std::string(kFormat) + "\",\n  \"version\": " + std::to_string(kVersion) +
          ",\n  \"provenance\": " + nlohmann::json(model.provenance).dump() +
-         ",\n  \"joint\": " + formatConfidenceNet(model.joint, inputsOf(false)) +
-         ",\n  \"figure\": " + formatConfidenceNet(model.figure, inputsOf(true)) + "\n}\n";
+         ",\n  \"joint\": " + formatLogisticNet(model.joint, inputsOf(false)) +
+         ",\n  \"figure\": " + formatLogisticNet(model.figure, inputsOf(true)) + "\n}\n";
 }
 
 const ConfidenceModel& builtInConfidenceModel() {

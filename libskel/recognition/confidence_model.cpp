@@ -12,19 +12,7 @@ double logistic(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
 
 }  // namespace
 
-Eigen::VectorXd ConfidenceNet::standardized(const Eigen::VectorXd& inputs) const {
-  constexpr double kMost = 3;  // deviations: what lies farther off than all that was learned says no more
-  return (inputs - mean).cwiseQuotient(deviation).cwiseMax(-kMost).cwiseMin(kMost);
-}
-
-double ConfidenceNet::logOdds(const Eigen::VectorXd& inputs) const {
-  SKEL_CHECK_EQ(inputs.size(), mean.size());
-  const Eigen::VectorXd x = standardized(inputs);
-  const Eigen::VectorXd units = (hidden * x + hidden_bias).array().tanh();
-  return bias + direct.dot(x) + out.dot(units);
-}
-
-Eigen::VectorXd figureInputs(const Evidence& evidence, const ConfidenceNet& joint) {
+Eigen::VectorXd figureInputs(const Evidence& evidence, const LogisticNet& joint) {
   constexpr double kMost = 6;
   std::vector<double> sure;
   double all = 0;

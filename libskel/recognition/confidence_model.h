@@ -7,21 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "libskel/core/logistic_net.h"
 #include "libskel/recognition/evidence.h"
 
 namespace skel {
-
-// Logistic in its inputs, each brought to mean 0 and deviation 1, and in a few hidden units.
-struct ConfidenceNet {
-  Eigen::VectorXd mean, deviation;   // of N inputs; deviation > 0
-  Eigen::VectorXd direct;            // N weights
-  Eigen::MatrixXd hidden;            // H×N
-  Eigen::VectorXd hidden_bias, out;  // H
-  double bias = 0;
-
-  Eigen::VectorXd standardized(const Eigen::VectorXd& inputs) const;
-  double logOdds(const Eigen::VectorXd& inputs) const;
-};
 
 // What the figure's net sees besides kFigureInputs: of the joints' log-odds, of those that count.
 inline constexpr auto kJointSummary =
@@ -29,8 +18,8 @@ inline constexpr auto kJointSummary =
                                      "all joints"});  // the last: log of the product
 
 struct ConfidenceModel {
-  ConfidenceNet joint, figure;  // of kJointInputs, and of kFigureInputs and kJointSummary
-  std::string provenance;       // how the numbers came to be, for people
+  LogisticNet joint, figure;  // of kJointInputs, and of kFigureInputs and kJointSummary
+  std::string provenance;     // how the numbers came to be, for people
 };
 
 struct Confidences {
@@ -38,7 +27,7 @@ struct Confidences {
   double figure = 0;  // that every joint lies within 15 %: that the drawing is usable as it is, [0, 1]
 };
 
-Eigen::VectorXd figureInputs(const Evidence& evidence, const ConfidenceNet& joint);
+Eigen::VectorXd figureInputs(const Evidence& evidence, const LogisticNet& joint);
 Confidences confidencesOf(const Evidence& evidence, const ConfidenceModel& model);
 
 // Files of format "skel-confidence". Throws InputError.

@@ -1,13 +1,12 @@
 #include "libskel/recognition/silhouette_confidence.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "embedded/silhouette_confidence_weights.h"
 #include "libskel/core/json.h"
+#include "libskel/core/logistic_net.h"
 #include "libskel/core/net_format.h"
-#include "libskel/recognition/confidence_net_file.h"
 
 namespace skel {
 namespace {
@@ -32,7 +31,7 @@ std::string placeIn(const WorkingGrid& grid, const Eigen::Array4d& box) {
 }  // namespace
 
 double SilhouetteConfidence::of(const MaskEvidence& evidence) const {
-  return 1 / (1 + std::exp(-net.logOdds(evidence.inputs)));
+  return net.probability(evidence.inputs);
 }
 
 std::optional<std::string> silhouetteDoubt(const Silhouette& silhouette,
@@ -55,14 +54,14 @@ SilhouetteConfidence parseSilhouetteConfidence(std::string_view text, const std:
   const JsonValue root = document.root();
   root.checkFormat(kMaskFormat, kMaskVersion);
   root.allowOnly({"format", "version", "provenance", "net"});
-  return {confidenceNetAt(root.at("net"), maskInputs()), root.at("provenance").asString()};
+  return {logisticNetAt(root.at("net"), maskInputs()), root.at("provenance").asString()};
 }
 
 std::string formatSilhouetteConfidence(const SilhouetteConfidence& confidence) {
   return "{\n  \"format\": \"" + std::string(kMaskFormat) +
          "\",\n  \"version\": " + std::to_string(kMaskVersion) +
          ",\n  \"provenance\": " + nlohmann::json(confidence.provenance).dump() +
-         ",\n  \"net\": " + formatConfidenceNet(confidence.net, maskInputs()) + "\n}\n";
+         ",\n  \"net\": " + formatLogisticNet(confidence.net, maskInputs()) + "\n}\n";
 }
 
 const SilhouetteConfidence& builtInSilhouetteConfidence() {

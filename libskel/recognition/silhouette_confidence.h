@@ -12,7 +12,7 @@
 namespace skel {
 
 struct SilhouetteConfidence {
-  ConfidenceNet net;       // of kMaskInputs
+  LogisticNet net;         // of kMaskInputs
   std::string provenance;  // how the numbers came to be, for people
 
   // That the mask meets the figure with an intersection over union of at least .9, [0, 1].

@@ -8,4 +8,6 @@ const PageNet& builtInPageNet() {
   return net;
 }
 
+bool hasBuiltInPageNet() { return true; }
+
 }  // namespace skel

@@ -7,4 +7,6 @@ const PageNet& builtInPageNet() {
   throw UsageError("no page net is built in; hand one over in SilhouetteOptions");
 }
 
+bool hasBuiltInPageNet() { return false; }
+
 }  // namespace skel

@@ -40,6 +40,7 @@ PageNet parsePageNet(std::string_view bytes, const std::string& file, bool check
 std::string formatPageNet(const PageNet& net);
 // The net that is compiled in. Throws UsageError where the build leaves it out (SKEL_NETS).
 const PageNet& builtInPageNet();
+bool hasBuiltInPageNet();
 
 // How probably each px is figure: CV_32F of the size of `rgb` (8-bit), 0…1. The page is looked at whole and,
 // where a figure is seen, once more around it.

@@ -11,6 +11,7 @@
 #include "libskel/silhouette/chambers.h"
 #include "libskel/silhouette/ground.h"
 #include "libskel/silhouette/ink_edge.h"
+#include "libskel/silhouette/loops.h"
 #include "libskel/silhouette/outlined.h"
 #include "libskel/silhouette/page.h"
 #include "libskel/silhouette/page_net.h"
@@ -79,12 +80,28 @@ Plane8 sharesOf(const cv::Mat& probability) {
   return shares;
 }
 
+// Pixels of the straightened sheet become those of the picture.
+void toPicture(std::vector<Loop>& loops, const cv::Size& page, const cv::Mat& page_from_picture,
+               const cv::Size& picture) {
+  for (Loop& loop : loops) {
+    cv::Mat region = cv::Mat::zeros(page, CV_8U);
+    for (const int pixel : loop.pixels) region.data[pixel] = 255;
+    cv::warpPerspective(region, region, page_from_picture, picture, cv::INTER_NEAREST | cv::WARP_INVERSE_MAP);
+    loop.pixels.clear();
+    for (int pixel = 0; pixel < picture.area(); ++pixel)
+      if (region.data[pixel]) loop.pixels.push_back(pixel);
+  }
+}
+
 // What lines and colours tell.
 struct Drawn {
-  cv::Mat figures;     // 8-bit, 255 on figures; empty if there are none
-  std::string reason;  // why there are none
-  bool tidy = false;   // on an even ground that is no paper's grain, with nothing around
-  bool soft = false;   // strokes on paper, of which the core is seen
+  cv::Mat figures;          // 8-bit, 255 on figures; empty if there are none
+  std::string reason;       // why there are none
+  cv::Mat ink, difference;  // on which something is drawn; 8-bit, of each colour from the ground's
+  double different = 0;     // from which on a colour is not the ground's
+  bool colored_ground = false;
+  bool tidy = false;  // on an even ground that is no paper's grain, with nothing around
+  bool soft = false;  // strokes on paper, of which the core is seen
 };
 
 Drawn figuresIn(const cv::Mat& rgb, const cv::Mat& lab) {
@@ -146,7 +163,6 @@ Drawn figuresIn(const cv::Mat& rgb, const cv::Mat& lab) {
     if (!out.tidy) outlined = outlinedFigure(lab, barrier);
     const bool scenery = !outlined.empty();
     if (scenery) barrier = outlined;
-    openLoops(barrier, drawn, isColored(backgrounds.front()));
     if (!scenery) trimSoftEdge(barrier, drawn, cv::max(difference, contrast));
   }
   dropBorderStrips(barrier);
@@ -156,6 +172,9 @@ Drawn figuresIn(const cv::Mat& rgb, const cv::Mat& lab) {
   }
   out.soft = textured;
   out.figures = barrier;
+  out.ink = drawn, out.difference = difference, out.different = color_threshold;
+  // Paper in dim or warm light has a colour, too, and clothes have that of the paper.
+  out.colored_ground = !textured && isColored(backgrounds.front());
   return out;
 }
 
@@ -202,19 +221,38 @@ Segmentation segment(const Image& image, const PageNet* page_net, bool keep_step
     if (keep_steps) out.steps.unruled = imageOfRgb(rgb);
   }
   const Drawn drawn = figuresIn(rgb, lab);
+  const PageNet* net = page_net || !hasBuiltInPageNet() ? page_net : &builtInPageNet();
+  cv::Mat probability;  // of the picture
+  const auto look = [&] {
+    if (probability.empty()) probability = figureProbability(net ? *net : builtInPageNet(), picture);
+  };
 
-  cv::Mat figures = drawn.figures;
-  if (figures.empty()) figures = cv::Mat::zeros(rgb.size(), CV_8U);
+  cv::Mat figures = drawn.figures.empty() ? cv::Mat::zeros(rgb.size(), CV_8U) : drawn.figures.clone();
+  std::vector<Loop> loops;
+  if (net && !drawn.figures.empty())
+    loops = findLoops(
+        {drawn.figures, drawn.ink, drawn.difference, drawn.different, drawn.colored_ground, drawn.soft});
+  if (!loops.empty()) {
+    look();
+    cv::Mat seen = probability;
+    if (corners) cv::warpPerspective(probability, seen, page_from_picture, rgb.size(), cv::INTER_LINEAR);
+    lookInto(loops, drawn.figures, seen);
+    openLoops(loops, builtInLoopNet(), figures);
+  }
   if (corners) {
     cv::warpPerspective(figures, figures, page_from_picture, picture.size(),
                         cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
     figures = figures >= 128;
   }
   if (corners || ruled || !drawn.tidy) {
-    const cv::Mat probability = figureProbability(page_net ? *page_net : builtInPageNet(), picture);
+    look();
     out.seen = {sharesOf(probability), corners.has_value(), ruled, drawn.soft};
     if (keep_steps) out.steps.figure_share = out.seen->share;
     figures = agreed(figures, probability);
+  }
+  if (keep_steps) {
+    if (corners) toPicture(loops, rgb.size(), page_from_picture, picture.size());
+    out.loops = std::move(loops);
   }
   if (cv::countNonZero(figures) == 0) {
     out.reason = drawn.reason.empty() ? "nothing on the page looks like a figure" : drawn.reason;

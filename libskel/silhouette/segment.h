@@ -3,8 +3,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "libskel/image/image.h"
+#include "libskel/silhouette/loops.h"
 #include "libskel/silhouette/mask_evidence.h"
 #include "libskel/silhouette/steps.h"
 
@@ -17,6 +19,7 @@ struct Segmentation {
   std::string reason;            // why it is empty, where it is
   std::optional<SeenPage> seen;  // of pages that are not tidy
   SilhouetteSteps steps;         // only if they are to be kept
+  std::vector<Loop> loops;       // the same; pixels of workingRgb() (working_colors.h)
 };
 
 // Works for drawings on paper (also photographed in uneven light), line art whose white fills open to the

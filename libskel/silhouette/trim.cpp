@@ -35,22 +35,6 @@ void trimSoftEdge(cv::Mat& figure, const cv::Mat& drawn, const cv::Mat& strength
   figure = framed(cv::Rect(1, 1, figure.cols, figure.rows)).clone();
 }
 
-void openLoops(cv::Mat& figure, const cv::Mat& drawn, bool colored_ground) {
-  const double figure_area = cv::countNonZero(figure);
-  if (!colored_ground || cv::countNonZero(drawn) < 0.7 * figure_area) return;
-  cv::Mat labels, stats, centroids;
-  cv::connectedComponentsWithStats(figure & ~drawn, labels, stats, centroids, 4, CV_32S);
-  for (int y = 0; y < figure.rows; ++y) {
-    const int* label = labels.ptr<int>(y);
-    std::uint8_t* row = figure.ptr(y);
-    for (int x = 0; x < figure.cols; ++x) {
-      if (label[x] > 0 && stats.at<int>(label[x], cv::CC_STAT_AREA) > 0.003 * figure_area) {
-        row[x] = 0;
-      }
-    }
-  }
-}
-
 bool touchesBorder(const cv::Mat& figure) {
   return cv::countNonZero(figure.row(0)) + cv::countNonZero(figure.row(figure.rows - 1)) +
              cv::countNonZero(figure.col(0)) + cv::countNonZero(figure.col(figure.cols - 1)) >

@@ -15,10 +15,6 @@ void dropOuterEdges(cv::Mat& figure, const cv::Mat& edges);
 // drawing's edge is soft, it lies at half its contrast. Never tears the figure.
 void trimSoftEdge(cv::Mat& figure, const cv::Mat& drawn, const cv::Mat& strength);
 
-// Background seen through a closed loop, such as between an arm and the body: not told from a white fill on
-// white paper, but from fills on a coloured ground.
-void openLoops(cv::Mat& figure, const cv::Mat& drawn, bool colored_ground);
-
 bool touchesBorder(const cv::Mat& figure);
 
 // Drops what lies along the border of the picture: the table, a finger, the next sheet.

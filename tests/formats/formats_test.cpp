@@ -23,6 +23,7 @@
 #include "libskel/layers/part_net.h"
 #include "libskel/recognition/confidence_model.h"
 #include "libskel/recognition/silhouette_confidence.h"
+#include "libskel/silhouette/loops.h"
 #include "libskel/silhouette/page_net.h"
 #include "libskel/skeleton/motion_file.h"
 #include "libskel/skeleton/rig_file.h"
@@ -112,6 +113,8 @@ const std::map<std::string, Reader>& readers() {
          const Skeleton skeleton = figureSkeleton();
          return formatPose(parsePose(readFile(path), path, skeleton), skeleton);
        }},
+      {"skel-loop-net",
+       [](const std::string& path) { return formatLoopNet(parseLoopNet(readFile(path), path)); }},
       {"skel-regions",
        [](const std::string& path) {
          const auto file = readRegions(path);

@@ -32,9 +32,9 @@ std::vector<Evidence> someEvidence(int count) {
   return all;
 }
 
-ConfidenceNet someNet(Eigen::Index inputs, Eigen::Index hidden) {
+LogisticNet someNet(Eigen::Index inputs, Eigen::Index hidden) {
   Rng rng(3);
-  ConfidenceNet net;
+  LogisticNet net;
   const auto fill = [&](auto& numbers) {
     for (double& n : numbers.reshaped()) n = rng.normal();
   };

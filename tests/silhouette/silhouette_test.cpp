@@ -10,6 +10,7 @@
 #include "libskel/core/rng.h"
 #include "libskel/image/read_image.h"
 #include "libskel/silhouette/line_art.h"
+#include "libskel/silhouette/loops.h"
 #include "libskel/silhouette/steps.h"
 #include "tests/support/catch.h"
 
@@ -392,6 +393,31 @@ TEST_CASE("what lies between limbs stays outside, although the way in is narrow"
   const Silhouette s = foundIn(outlined(figure, plainWhite, kBlack, 3));
   CHECK(iou(s.mask, truth) > 0.96);
   CHECK(s.mask(195, 100) == 0);
+}
+
+TEST_CASE("ground that arms on the hips enclose is no figure, clothes as white as the paper are") {
+  const std::vector<Capsule> figure = {
+      {150, 80, 150, 80, 45},   {150, 130, 150, 250, 35}, {150, 145, 60, 195, 12},  {60, 195, 125, 245, 12},
+      {150, 145, 240, 195, 12}, {240, 195, 175, 245, 12}, {138, 250, 125, 360, 15}, {162, 250, 175, 360, 15}};
+  const Silhouette s = foundIn(filled(figure, plainWhite, {90, 120, 200}));
+  CHECK(iou(s.mask, maskOf(figure, 300, 400)) > 0.96);
+  CHECK(s.mask(195, 98) == 0);
+  CHECK(s.mask(195, 202) == 0);
+  // Both arms on the hips; a white coat that is two fifths of the figure.
+  for (const std::string name : {"chesty_hero", "bobble_doctor"}) {
+    const std::string file = SKEL_SOURCE_DIR "/datasets/characters/" + name;
+    const Image drawing = readImage(file + ".png");
+    CAPTURE(name);
+    CHECK(iou(foundIn(laidOnPaper(drawing)).mask, readMask(file + ".mask.png")) > 0.97);
+  }
+}
+
+TEST_CASE("a loop net of other inputs is refused") {
+  const std::string text = formatLoopNet(builtInLoopNet());
+  CHECK(formatLoopNet(parseLoopNet(text, "n.json")) == text);
+  std::string other = text;
+  other.replace(other.find("\"area\""), 6, "\"size\"");
+  CHECK_THROWS_WITH(parseLoopNet(other, "n.json"), Contains("n.json") && Contains("must be \"area\""));
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include "libskel/core/files.h"
 #include "libskel/recognition/confidence_model.h"
 #include "libskel/recognition/silhouette_confidence.h"
+#include "libskel/silhouette/loops.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 #include "trainer/confidence_samples.h"
@@ -104,6 +105,21 @@ TEST_CASE(
   const auto folder = run(people, "");
   CHECK(folder.exit_code == 4);
   CHECK(folder.out.empty());
+}
+
+TEST_CASE("which loops are ground is learned to the same bytes whatever the number of threads") {
+  const TempDir dir;
+  const std::string people = folderOf(dir, "p", "characters", {"cap_boy", "ninja", "pirate"});
+  const auto run = [&](const std::string& output, const std::string& more) {
+    return runTool("'" SKEL_TRAIN "' loops '" + people + "' --folds 2 -o '" + output + "' " + more);
+  };
+  const auto one = run(dir.file("one.json"), "--threads 1");
+  INFO(one.err);
+  REQUIRE(one.exit_code == 0);
+  CHECK(one.out.find("are ground") != std::string::npos);
+  REQUIRE(run(dir.file("three.json"), "--threads 3").exit_code == 0);
+  CHECK(readFile(dir.file("one.json")) == readFile(dir.file("three.json")));
+  CHECK(parseLoopNet(readFile(dir.file("one.json")), "one.json").net.hidden.rows() > 0);
 }
 
 TEST_CASE("a table of samples is read again as it was written, and what is none is refused by its line") {

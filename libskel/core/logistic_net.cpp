@@ -1,6 +1,10 @@
-#include "libskel/recognition/confidence_net_file.h"
+#include "libskel/core/logistic_net.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "libskel/core/check.h"
+#include "libskel/core/json.h"
 
 namespace skel {
 namespace {
@@ -22,7 +26,23 @@ std::string listed(const Eigen::VectorXd& numbers) {
 
 }  // namespace
 
-ConfidenceNet confidenceNetAt(const JsonValue& value, const std::vector<std::string>& inputs) {
+Eigen::VectorXd LogisticNet::standardized(const Eigen::VectorXd& inputs) const {
+  constexpr double kMost = 3;  // deviations: what lies farther off than all that was learned says no more
+  return (inputs - mean).cwiseQuotient(deviation).cwiseMax(-kMost).cwiseMin(kMost);
+}
+
+double LogisticNet::logOdds(const Eigen::VectorXd& inputs) const {
+  SKEL_CHECK_EQ(inputs.size(), mean.size());
+  const Eigen::VectorXd x = standardized(inputs);
+  const Eigen::VectorXd units = (hidden * x + hidden_bias).array().tanh();
+  return bias + direct.dot(x) + out.dot(units);
+}
+
+double LogisticNet::probability(const Eigen::VectorXd& inputs) const {
+  return 1 / (1 + std::exp(-logOdds(inputs)));
+}
+
+LogisticNet logisticNetAt(const JsonValue& value, const std::vector<std::string>& inputs) {
   value.allowOnly({"inputs", "mean", "deviation", "direct", "hidden", "hidden_bias", "out", "bias"});
   const std::vector<JsonValue> names = value.at("inputs").items();
   if (names.size() != inputs.size())
@@ -30,7 +50,7 @@ ConfidenceNet confidenceNetAt(const JsonValue& value, const std::vector<std::str
                             std::to_string(inputs.size()));
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i].asString() != inputs[i]) names[i].fail("must be \"" + inputs[i] + "\"");
-  ConfidenceNet net;
+  LogisticNet net;
   net.mean = vectorAt(value.at("mean"), inputs.size());
   net.deviation = vectorAt(value.at("deviation"), inputs.size());
   if (net.deviation.minCoeff() < kLeastDeviation)
@@ -49,7 +69,7 @@ ConfidenceNet confidenceNetAt(const JsonValue& value, const std::vector<std::str
   return net;
 }
 
-std::string formatConfidenceNet(const ConfidenceNet& net, const std::vector<std::string>& inputs) {
+std::string formatLogisticNet(const LogisticNet& net, const std::vector<std::string>& inputs) {
   std::string text = "{\n    \"inputs\": " + nlohmann::json(inputs).dump() +
                      ",\n    \"mean\": " + listed(net.mean) +
                      ",\n    \"deviation\": " + listed(net.deviation) +

@@ -4,11 +4,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "libskel/recognition/confidence_model.h"
+#include "libskel/core/logistic_net.h"
 
 namespace skel {
 
-struct ConfidenceFitOptions {
+struct LogisticFitOptions {
   int hidden = 6;
   int steps = 2000;
   int batch = 256;
@@ -19,7 +19,7 @@ struct ConfidenceFitOptions {
 
 // `inputs`: a row a case; `came_true`: 0 or 1; `weights`: how much a case counts, >= 0. The loss is the cross
 // entropy. The same bytes for the same data and options.
-ConfidenceNet fitConfidenceNet(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& came_true,
-                               const Eigen::VectorXd& weights, const ConfidenceFitOptions& options = {});
+LogisticNet fitLogisticNet(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& came_true,
+                           const Eigen::VectorXd& weights, const LogisticFitOptions& options = {});
 
 }  // namespace skel

@@ -1,4 +1,4 @@
-#include "trainer/confidence_fit.h"
+#include "trainer/logistic_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,12 +28,12 @@ struct Parameters {
 
 }  // namespace
 
-ConfidenceNet fitConfidenceNet(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& came_true,
-                               const Eigen::VectorXd& weights, const ConfidenceFitOptions& options) {
+LogisticNet fitLogisticNet(const Eigen::MatrixXd& inputs, const Eigen::VectorXd& came_true,
+                           const Eigen::VectorXd& weights, const LogisticFitOptions& options) {
   constexpr double kFirst = .9, kSecond = .999, kLeast = 1e-8;  // Kingma & Ba, "Adam" (2014)
   const Eigen::Index count = inputs.rows(), n = inputs.cols(), h = options.hidden;
   SKEL_CHECK(count > 0 && came_true.size() == count && weights.size() == count);
-  ConfidenceNet net;
+  LogisticNet net;
   const double sum = weights.sum();
   net.mean = inputs.transpose() * weights / sum;
   const Eigen::MatrixXd centred = inputs.rowwise() - net.mean.transpose();

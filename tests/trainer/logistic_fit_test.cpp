@@ -1,4 +1,4 @@
-#include "trainer/confidence_fit.h"
+#include "trainer/logistic_fit.h"
 
 #include <cmath>
 
@@ -27,7 +27,7 @@ Cases cases(int count, std::uint64_t seed, const Chance& chance) {
   return all;
 }
 
-std::vector<Forecast> forecasts(const ConfidenceNet& net, const Cases& cases) {
+std::vector<Forecast> forecasts(const LogisticNet& net, const Cases& cases) {
   std::vector<Forecast> all;
   for (Eigen::Index i = 0; i < cases.inputs.rows(); ++i)
     all.push_back(
@@ -38,9 +38,9 @@ std::vector<Forecast> forecasts(const ConfidenceNet& net, const Cases& cases) {
 TEST_CASE("chances that are logistic in the inputs are learned, and are what is said") {
   const auto chance = [](const auto& x) { return 1 / (1 + std::exp(-(x[0] - 5) - .5 * (x[1] - 6))); };
   const Cases learned = cases(3000, 1, chance), others = cases(3000, 2, chance);
-  ConfidenceFitOptions options;
+  LogisticFitOptions options;
   options.hidden = 0;
-  const ConfidenceNet net = fitConfidenceNet(learned.inputs, learned.came_true, learned.weights, options);
+  const LogisticNet net = fitLogisticNet(learned.inputs, learned.came_true, learned.weights, options);
   CHECK(calibrationError(forecasts(net, others)) < .04);
   CHECK(areaUnderRoc(forecasts(net, others)) > .85);
 }
@@ -48,12 +48,12 @@ TEST_CASE("chances that are logistic in the inputs are learned, and are what is 
 TEST_CASE("hidden units learn what no weighted sum of the inputs says") {
   const auto chance = [](const auto& x) { return (x[0] > 5) == (x[1] > 5) ? .95 : .05; };
   const Cases learned = cases(3000, 1, chance), others = cases(3000, 2, chance);
-  ConfidenceFitOptions options;
+  LogisticFitOptions options;
   options.decay = 1e-5;
   const auto measure = [&](int hidden) {
     options.hidden = hidden;
     return areaUnderRoc(
-        forecasts(fitConfidenceNet(learned.inputs, learned.came_true, learned.weights, options), others));
+        forecasts(fitLogisticNet(learned.inputs, learned.came_true, learned.weights, options), others));
   };
   CHECK(measure(0) < .6);
   CHECK(measure(6) > .85);
@@ -63,7 +63,7 @@ TEST_CASE("cases of weight 0 do not count, and inputs that are always the same d
   const auto chance = [](const auto& x) { return x[0] > 5 ? 1. : 0.; };
   Cases learned = cases(800, 1, chance);
   learned.inputs.col(2).setConstant(7);
-  const ConfidenceNet net = fitConfidenceNet(learned.inputs, learned.came_true, learned.weights);
+  const LogisticNet net = fitLogisticNet(learned.inputs, learned.came_true, learned.weights);
   Cases more = learned;
   more.inputs.conservativeResize(900, 3), more.came_true.conservativeResize(900),
       more.weights.conservativeResize(900);
@@ -72,11 +72,11 @@ TEST_CASE("cases of weight 0 do not count, and inputs that are always the same d
     more.came_true[i] = 1 - learned.came_true[i - 800];
     more.weights[i] = 0;
   }
-  const ConfidenceNet other = fitConfidenceNet(more.inputs, more.came_true, more.weights);
+  const LogisticNet other = fitLogisticNet(more.inputs, more.came_true, more.weights);
   CHECK(areaUnderRoc(forecasts(net, learned)) > .99);
   CHECK(areaUnderRoc(forecasts(other, learned)) > .99);
   CHECK(net.logOdds(learned.inputs.row(0).transpose()) ==
-        fitConfidenceNet(learned.inputs, learned.came_true, learned.weights)
+        fitLogisticNet(learned.inputs, learned.came_true, learned.weights)
             .logOdds(learned.inputs.row(0).transpose()));
 }
 

@@ -1,0 +1,140 @@
+#include "libskel/silhouette/loops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "embedded/loop_net_weights.h"
+#include "libskel/core/json.h"
+#include "libskel/core/net_format.h"
+
+namespace skel {
+namespace {
+
+constexpr double kLeastLoop = 0.003;  // of the figure's area
+constexpr double kStroke = 0.012;     // width of a line, share of the picture's long side
+constexpr int kSeenInputs = 4;        // the last of kLoopInputs
+
+constexpr const char* kLoopFormat = "skel-loop-net";
+constexpr int kLoopVersion = 1;
+
+std::vector<std::string> loopInputs() { return {kLoopInputs.begin(), kLoopInputs.end()}; }
+
+double greatest(const cv::Mat& values, const cv::Mat& where = {}) {
+  double most = 0;
+  cv::minMaxLoc(values, nullptr, &most, nullptr, nullptr, where.empty() ? cv::noArray() : where);
+  return most;
+}
+
+cv::Rect boxOf(const cv::Mat& stats, int label) {
+  const int* s = stats.ptr<int>(label);
+  return {s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH], s[cv::CC_STAT_HEIGHT]};
+}
+
+double shareOf(const cv::Mat& part, const cv::Mat& whole) {
+  return cv::countNonZero(part & whole) / std::max(1., static_cast<double>(cv::countNonZero(whole)));
+}
+
+}  // namespace
+
+std::vector<Loop> findLoops(const Enclosed& enclosed) {
+  const cv::Mat& figure = enclosed.figure;
+  const double area = cv::countNonZero(figure);
+  if (area == 0) return {};
+  const cv::Mat open = figure & ~enclosed.drawn;
+  cv::Mat labels, stats, centroids;
+  const int count = cv::connectedComponentsWithStats(open, labels, stats, centroids, 4, CV_32S);
+  std::vector<int> large;
+  double loop_area = 0;
+  for (int label = 1; label < count; ++label) {
+    const double own = stats.at<int>(label, cv::CC_STAT_AREA);
+    if (own > kLeastLoop * area) large.push_back(label), loop_area += own;
+  }
+  if (large.empty()) return {};
+
+  const cv::Rect figure_box = cv::boundingRect(figure), picture({}, figure.size());
+  const int stroke = std::max(2, cvRound(kStroke * std::max(figure.cols, figure.rows)));
+  cv::Mat depth, width;  // px to what is not the figure, and to what is not open
+  cv::distanceTransform(figure, depth, cv::DIST_L2, 3);
+  cv::distanceTransform(open, width, cv::DIST_L2, 3);
+  const double deepest = greatest(depth), widest = greatest(width), drawn = shareOf(enclosed.drawn, figure);
+  std::vector<Loop> loops;
+  for (const int label : large) {
+    const cv::Rect box = boxOf(stats, label);
+    const cv::Rect near =
+        (box + cv::Size(4 * stroke, 4 * stroke) - cv::Point(2 * stroke, 2 * stroke)) & picture;
+    const cv::Mat region = labels(near) == label;
+    cv::Mat away;
+    cv::distanceTransform(~region, away, cv::DIST_L2, 3);
+    const cv::Mat around = (away > 0) & (away <= stroke), beyond = (away > stroke) & (away <= 2 * stroke);
+    const double own = stats.at<int>(label, cv::CC_STAT_AREA), half = greatest(width(near), region);
+    Loop loop;
+    for (int y = 0; y < region.rows; ++y)
+      for (int x = 0; x < region.cols; ++x)
+        if (region.at<std::uint8_t>(y, x)) loop.pixels.push_back((near.y + y) * figure.cols + near.x + x);
+    loop.inputs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kLoopInputs.size()));
+    loop.inputs.head(loop.inputs.size() - kSeenInputs) << std::log(own / area), std::log(half * half / area),
+        half * half / own, own / box.area(),
+        std::abs((centroids.at<double>(label, 0) - figure_box.x) / figure_box.width - .5),
+        (centroids.at<double>(label, 1) - figure_box.y) / figure_box.height,
+        static_cast<double>(box.width) / figure_box.width,
+        static_cast<double>(box.height) / figure_box.height, greatest(depth(near), region) / deepest,
+        half / widest, drawn, std::log(static_cast<double>(large.size())), loop_area / area,
+        shareOf(depth(near) <= stroke, around), shareOf(figure(near), beyond),
+        shareOf(enclosed.drawn(near), beyond), shareOf(open(near), beyond),
+        shareOf(enclosed.drawn(near), around),
+        cv::mean(enclosed.difference(near), region)[0] / std::max(1., enclosed.different),
+        static_cast<double>(enclosed.colored_ground), static_cast<double>(enclosed.paper);
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+void lookInto(std::vector<Loop>& loops, const cv::Mat& figure, const cv::Mat& probability) {
+  const double of_figure = cv::mean(probability, figure)[0];
+  std::vector<float> seen;
+  for (Loop& loop : loops) {
+    seen.clear();
+    double sum = 0;
+    for (const int pixel : loop.pixels) {
+      seen.push_back(probability.at<float>(pixel / probability.cols, pixel % probability.cols));
+      sum += seen.back();
+    }
+    std::sort(seen.begin(), seen.end());
+    const std::size_t fifth = seen.size() / 5;
+    loop.inputs.tail(kSeenInputs) << sum / static_cast<double>(seen.size()), static_cast<double>(seen[fifth]),
+        static_cast<double>(seen[seen.size() - 1 - fifth]), of_figure;
+  }
+}
+
+void openLoops(const std::vector<Loop>& loops, const LoopNet& net, cv::Mat& figure) {
+  for (const Loop& loop : loops) {
+    if (net.net.probability(loop.inputs) <= kSurelyGround) continue;
+    for (const int pixel : loop.pixels) figure.at<std::uint8_t>(pixel / figure.cols, pixel % figure.cols) = 0;
+  }
+}
+
+LoopNet parseLoopNet(std::string_view text, const std::string& file) {
+  checkNetFormat(text, file, kLoopFormat);
+  const JsonDocument document = JsonDocument::parse(text, file);
+  const JsonValue root = document.root();
+  root.checkFormat(kLoopFormat, kLoopVersion);
+  root.allowOnly({"format", "version", "provenance", "net"});
+  return {logisticNetAt(root.at("net"), loopInputs()), root.at("provenance").asString()};
+}
+
+std::string formatLoopNet(const LoopNet& net) {
+  return "{\n  \"format\": \"" + std::string(kLoopFormat) +
+         "\",\n  \"version\": " + std::to_string(kLoopVersion) +
+         ",\n  \"provenance\": " + nlohmann::json(net.provenance).dump() +
+         ",\n  \"net\": " + formatLogisticNet(net.net, loopInputs()) + "\n}\n";
+}
+
+const LoopNet& builtInLoopNet() {
+  static const LoopNet net = parseLoopNet(embedded::loop_net_weights, "weights/loop_net.json (built in)");
+  return net;
+}
+
+}  // namespace skel
