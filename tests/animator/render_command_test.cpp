@@ -145,7 +145,7 @@ TEST_CASE("a clip of one's own that an arm cannot do is named with the arm") {
   const TempDir dir;
   RiggedCharacter grown = figure();
   const int body = grown.skeleton.find("body");
-  for (const std::string& joint :
+  for (const char* joint :
        {"left_shoulder", "left_elbow", "left_hand", "right_shoulder", "right_elbow", "right_hand"})
     grown.weights.joints = (grown.weights.joints.array() == grown.skeleton.find(joint))
                                .select(std::uint16_t(body), grown.weights.joints.array());
