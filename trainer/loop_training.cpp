@@ -36,7 +36,7 @@ std::vector<PageCase> loopsOn(const HardPage& page) {
   return cases;
 }
 
-void printForecasts(const std::string& title, const std::vector<Forecast>& forecasts) {
+void printOpened(const std::string& title, const std::vector<Forecast>& forecasts) {
   double opened = 0, ground = 0, both = 0;
   for (const Forecast& loop : forecasts) {
     const bool is_opened = loop.probability > kSurelyGround;
@@ -61,7 +61,7 @@ ExitCode runLoopTraining(const PageCaseOptions& options) {
   fit.hidden = 16;
   fit.steps = 6000;
   const LearnedFromPages learned = learnFromPages(
-      options, loopsOn, printForecasts, "no figure encloses anything that nothing is drawn on", fit);
+      options, loopsOn, printOpened, "no figure encloses anything that nothing is drawn on", fit);
   writeFile(options.output, formatLoopNet({learned.net, "skel-train loops " + learned.provenance}));
   std::printf("wrote %s\n", printable(options.output).c_str());
   return ExitCode::kDone;

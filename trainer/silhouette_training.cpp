@@ -18,7 +18,7 @@ std::vector<PageCase> maskOn(const HardPage& page) {
   return {{"", "", silhouette.evidence->inputs, overlapOnPage(page, silhouette.mask) >= kGood}};
 }
 
-void printForecasts(const std::string& title, const std::vector<Forecast>& forecasts) {
+void printNamed(const std::string& title, const std::vector<Forecast>& forecasts) {
   double doubted = 0, bad = 0, named = 0;
   for (const Forecast& page : forecasts) {
     doubted += page.probability < .5;
@@ -37,7 +37,7 @@ void printForecasts(const std::string& title, const std::vector<Forecast>& forec
 
 ExitCode runSilhouetteTraining(const PageCaseOptions& options) {
   const LearnedFromPages learned =
-      learnFromPages(options, maskOn, printForecasts, "no page is so hard that the page net was asked");
+      learnFromPages(options, maskOn, printNamed, "no page is so hard that the page net was asked");
   writeFile(options.output,
             formatSilhouetteConfidence({learned.net, "skel-train silhouettes " + learned.provenance}));
   std::printf("wrote %s\n", printable(options.output).c_str());
