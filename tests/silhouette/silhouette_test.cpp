@@ -403,12 +403,12 @@ TEST_CASE("ground that arms on the hips enclose is no figure, clothes as white a
   CHECK(iou(s.mask, maskOf(figure, 300, 400)) > 0.96);
   CHECK(s.mask(195, 98) == 0);
   CHECK(s.mask(195, 202) == 0);
-  // Both arms on the hips; a white coat that is two fifths of the figure.
-  for (const std::string name : {"chesty_hero", "bobble_doctor"}) {
-    const std::string file = SKEL_SOURCE_DIR "/datasets/characters/" + name;
+  // Arms beside a gown, legs of one who crouches; a white coat that is two fifths of the figure.
+  for (const char* name : {"ball_gown", "crouch_frog", "bobble_doctor"}) {
+    const std::string file = SKEL_SOURCE_DIR "/datasets/characters/" + std::string(name);
     const Image drawing = readImage(file + ".png");
     CAPTURE(name);
-    CHECK(iou(foundIn(laidOnPaper(drawing)).mask, readMask(file + ".mask.png")) > 0.97);
+    CHECK(iou(foundIn(laidOnPaper(drawing)).mask, readMask(file + ".mask.png")) > 0.985);
   }
 }
 
