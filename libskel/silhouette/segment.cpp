@@ -178,6 +178,13 @@ Drawn figuresIn(const cv::Mat& rgb, const cv::Mat& lab) {
   return out;
 }
 
+// What it encloses has the ground's colour and is figure all the same.
+bool isLineArtOnColor(const Drawn& drawn) {
+  constexpr double kFilled = 0.7;  // of a figure that is painted
+  return drawn.colored_ground &&
+         cv::countNonZero(drawn.ink & drawn.figures) < kFilled * cv::countNonZero(drawn.figures);
+}
+
 // Share of `figure` that is farther than `reach` px from all of `other`.
 double shareApart(const cv::Mat& figure, const cv::Mat& other, int reach) {
   cv::Mat around;
@@ -229,7 +236,7 @@ Segmentation segment(const Image& image, const PageNet* page_net, bool keep_step
 
   cv::Mat figures = drawn.figures.empty() ? cv::Mat::zeros(rgb.size(), CV_8U) : drawn.figures.clone();
   std::vector<Loop> loops;
-  if (net && !drawn.figures.empty())
+  if (net && !drawn.figures.empty() && !isLineArtOnColor(drawn))
     loops = findLoops(
         {drawn.figures, drawn.ink, drawn.difference, drawn.different, drawn.colored_ground, drawn.soft});
   if (!loops.empty()) {

@@ -67,9 +67,7 @@ void markPlacedJoints(SkeletonFile& file) {
     image.push_back(joint.image);
     position.push_back(joint.position.head<2>());
   }
-  std::vector<int> placed = movedJoints(image, position);
-  for (size_t i = 0; i < file.skeleton.joints.size(); ++i)
-    if (file.skeleton.joints[i].origin == JointOrigin::kEdited) placed.push_back(static_cast<int>(i));
+  const std::vector<int> placed = movedJoints(image, position);
   file.confidence = markPlaced(file.skeleton, placed, file.confidence);
   for (const int joint : placed)
     std::erase(file.missing, file.skeleton.joints[static_cast<size_t>(joint)].name);

@@ -43,7 +43,7 @@ std::string formatSkeletonFile(const SkeletonFile& file);
 
 // Throws InputError: joints that are not the template's (any order), outside the image, of another parent,
 // NaN. Positions are read as they stand; the pipeline computes them anew from `image`. A joint that somebody
-// has moved without saying so (moved_joints.h) comes back as edited; edited ones are sure (mark_placed.h) and
+// has moved without saying so (moved_joints.h) comes back as edited, sure (mark_placed.h) and
 // not missing.
 SkeletonFile readSkeletonFile(const std::string& path, const SkeletonTemplate& body_plan);
 // `path` is the name that complaints use.
