@@ -180,7 +180,7 @@ TEST_CASE("tags say which motions are played once, the others loop") {
 }
 
 TEST_CASE(
-    "a motion that travels is shown in place, at the scale of the others, and that is said; who sways, "
+    "a motion that travels is shown in place, at the scale of the others, and that is said, but who sways, "
     "sways") {
   const TempDir dir;
   const std::string model = figureFile(dir);
