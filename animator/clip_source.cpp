@@ -53,10 +53,7 @@ void bindClipSource(CLI::App& app, ClipSource& source) {
 }
 
 std::vector<Clip> clipLibrary(const ClipSource& source, std::vector<std::string>* left_out) {
-  if (source.clips_dir.empty()) return builtinClips();
-  if (source.names.empty()) return clipsWithFolder(source.clips_dir);
-  std::vector<std::string> unheard;
-  return clipsWithFolder(source.clips_dir, source.names, left_out ? *left_out : unheard);
+  return clipsWithFolder(source.clips_dir, source.names, left_out);
 }
 
 std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharacter& character) {

@@ -24,10 +24,6 @@ std::string endingOf(const std::string& path) {
   return ending;
 }
 
-bool hasClip(const std::vector<Clip>& clips, const std::string& name) {
-  return std::any_of(clips.begin(), clips.end(), [&](const Clip& clip) { return clip.name == name; });
-}
-
 }  // namespace
 
 void bindCharacterSource(CLI::App& app, CharacterSource& source) {

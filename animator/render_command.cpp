@@ -45,17 +45,13 @@ void noteUnfitting(const RenderCommandOptions& options, const RiggedCharacter& c
                                                  : printable(unknownTemplate(clip)).c_str());
 }
 
-bool hasName(const std::vector<Clip>& clips, const std::string& name) {
-  return std::any_of(clips.begin(), clips.end(), [&](const Clip& clip) { return clip.name == name; });
-}
-
 // Of the user's own clips among these that come from the library, not from the character's file (`filed`).
 void noteStayingArms(const RenderCommandOptions& options, const RiggedCharacter& character,
                      const std::string& path, const std::vector<Clip>& clips,
                      const std::vector<Clip>& filed) {
   if (options.library.clips_dir.empty()) return;
   for (const Clip& clip : clipsFor(clipLibrary(options.library), character)) {
-    if (!isOwn(clip) || !hasName(clips, clip.name) || hasName(filed, clip.name)) continue;
+    if (!isOwn(clip) || !hasClip(clips, clip.name) || hasClip(filed, clip.name)) continue;
     for (const std::string& clause : armsThatStay(clip, character))
       std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(clause).c_str());
   }
@@ -68,7 +64,7 @@ struct AskedClips {
 
 // Whether a clip of this name is there for some body plan.
 bool isKnown(const std::string& name, const ClipSource& library) {
-  return hasName(clipLibrary(library), name);
+  return hasClip(clipLibrary(library), name);
 }
 
 AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, const std::string& path) {

@@ -112,27 +112,25 @@ struct Sheets {
                         pitch_rad());
   }
 
-  // Moved by the game, not by the clip.
-  static std::vector<Clip> allInPlace(const CharacterFile& file, const std::vector<Clip>& clips) {
-    std::vector<Clip> result;
-    for (const Clip& clip : clips) result.push_back(inPlace(clip, file.character).clip);
-    return result;
-  }
-
-  void measure(const CharacterFile& file, const std::vector<Clip>& clips) {
-    shared = shared.with(extentOf(file, allInPlace(file, clips)));
+  void measure(const CharacterFile& file, const std::vector<Clip>& asked) {
+    std::vector<Clip> clips;
+    for (const Clip& clip : asked) clips.push_back(inPlace(clip, file.character).clip);
+    shared = shared.with(extentOf(file, std::move(clips)));
   }
 
   void write(CharacterFile file, const std::vector<Clip>& asked) const {
     const std::string path = pathOf(file);
     const RiggedCharacter& character = file.character;
     const std::vector<SpriteDirection> directions = directionsOf(character);
-    for (const Clip& clip : asked)
-      if (const InPlace moved = inPlace(clip, character); moved.travels)
+    std::vector<Clip> clips;
+    for (const Clip& clip : asked) {
+      InPlace moved = inPlace(clip, character);
+      if (moved.travels)
         std::fprintf(stderr,
                      "%s: note: \"%s\" goes %.1f m from where it begins; the sheet shows it in place\n",
                      printable(file.name).c_str(), printable(clip.name).c_str(), moved.way_m);
-    const std::vector<Clip> clips = allInPlace(file, asked);
+      clips.push_back(std::move(moved.clip));
+    }
     const SpriteExtent extent = options.sheet.same_scale ? shared : extentOf(file, clips);
     const SpriteCamera camera =
         spriteCamera(extent, pitch_rad(), size.width, size.height, options.sheet.outline ? 2 : 1);

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "infer/outputs.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/sha256.h"
@@ -44,9 +45,8 @@ bool hasSize(const Image& limbs, const Image& image) {
 
 }  // namespace
 
-void leaveOutEarlier(MendedFiles& files, const InferOptions& options, const std::string& skeleton_path,
-                     const std::string& image_sha256) {
-  const std::optional<SkeletonSource> result = sourceOfSkeleton(skeleton_path);
+void leaveOutEarlier(MendedFiles& files, const InferOptions& options,
+                     const std::optional<SkeletonSource>& result, const std::string& image_sha256) {
   const bool changed = result && !result->image_sha256.empty() && result->image_sha256 != image_sha256;
   if (changed && !files.skeleton.empty()) leaveOut(files.skeleton, files);
   if (changed && files.painted_silhouette) {
@@ -105,7 +105,7 @@ std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& 
   std::vector<KeptFile> all;
   for (const Result& result : kResults) {
     const std::string path = stem + result.ending;
-    if (!contains(options.formats, result.format) || !contains(files.earlier, path)) continue;
+    if (!writes(options, result.format) || !contains(files.earlier, path)) continue;
     std::string kept = stem + result.start + result.end;
     std::error_code failure;
     for (int number = 2; fs::exists(fs::symlink_status(kept, failure)); ++number)

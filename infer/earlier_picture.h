@@ -12,9 +12,9 @@
 namespace skel {
 
 // Moves files that nobody named and that were made for another picture than the one of that hash from their
-// place in `files` to `earlier`. `skeleton_path`: where the earlier result is, if there is one.
-void leaveOutEarlier(MendedFiles& files, const InferOptions& options, const std::string& skeleton_path,
-                     const std::string& image_sha256);
+// place in `files` to `earlier`. `result`: what the earlier result, if there is one, was found in.
+void leaveOutEarlier(MendedFiles& files, const InferOptions& options,
+                     const std::optional<SkeletonSource>& result, const std::string& image_sha256);
 
 // The same of a mask and of limbs that may have been there before the picture changed and have another size.
 void leaveOutOtherSizes(MendedFiles& files, const Image& image);

@@ -8,6 +8,7 @@
 
 #include "infer/deciding_options.h"
 #include "infer/mended.h"
+#include "infer/outputs.h"
 #include "infer/result_file.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
@@ -22,8 +23,7 @@ namespace {
 // Of all that was left beside the drawing, and of a mended skeleton that is no output of this run (else it is
 // known by the output's hash). "": there is nothing.
 std::string mendedHash(const InferOptions& options, const RigJob& job, const std::string& image_sha256) {
-  const bool skeleton_is_output =
-      std::count(options.formats.begin(), options.formats.end(), std::string("json")) > 0;
+  const bool skeleton_is_output = writes(options, "json");
   const LookAtOutputs look;  // a silhouette that was painted in place is one of them
   std::string all;
   const FigureRange range = figuresAskedFor(options);

@@ -29,8 +29,8 @@ std::string ifThere(const std::string& path) {
 
 // Painted since the result was written, or before, when its skeleton file took it for its mask. False where
 // that cannot be told.
-bool isPaintedSilhouette(const std::string& path, const std::string& skeleton_path) {
-  const std::optional<SkeletonSource> result = sourceOfSkeleton(skeleton_path);
+bool isPaintedSilhouette(const std::string& path, const std::string& skeleton_path,
+                         const std::optional<SkeletonSource>& result) {
   if (!result || ifThere(path).empty()) return false;
   if (result->mask) return fs::path(skeleton_path).parent_path() / result->mask->file == fs::path(path);
   if (result->outline_sha256.empty() || result->number != 1) return false;
@@ -81,6 +81,7 @@ MendedFiles mendedFiles(const InferOptions& options, const std::string& source, 
 
   const std::string beside = fs::path(source).replace_extension().string();
   const std::string skeleton = options.out_dir + "/" + stem + kSkeletonFileEnding;
+  const std::optional<SkeletonSource> result = sourceOfSkeleton(skeleton);
   if (options.skeleton_file.empty() && hasEditedJoint(skeleton)) files.skeleton = skeleton;
   if (!fs::exists(beside + ".joints.json")) {
     const bool one = figure == 1 && options.figure != "all";
@@ -96,11 +97,11 @@ MendedFiles mendedFiles(const InferOptions& options, const std::string& source, 
   }
   const std::string silhouette = options.out_dir + "/" + stem + ".silhouette.png";
   if (figure == 1 && options.figure != "all" && files.mask.empty() && options.skeleton_file.empty() &&
-      isPaintedSilhouette(silhouette, skeleton)) {
+      isPaintedSilhouette(silhouette, skeleton, result)) {
     files.mask = silhouette;
     files.painted_silhouette = true;
   }
-  leaveOutEarlier(files, options, skeleton, image_sha256);
+  leaveOutEarlier(files, options, result, image_sha256);
   return files;
 }
 

@@ -144,6 +144,10 @@ std::vector<std::string> allFormats() {
 
 std::string formatNames() { return joined(allFormats()); }
 
+bool writes(const InferOptions& options, const char* format) {
+  return std::count(options.formats.begin(), options.formats.end(), format) > 0;
+}
+
 LastStage lastStageFor(const InferOptions& options) {
   if (!options.trace_dir.empty() || !options.report_file.empty()) return LastStage::kClips;
   // What is kept of a drawing tells how sure its joints are.

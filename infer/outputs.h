@@ -15,6 +15,9 @@ std::vector<std::string> allFormats();
 // All of them, for --help.
 std::string formatNames();
 
+// Whether this format is asked for.
+bool writes(const InferOptions& options, const char* format);
+
 // How far a drawing has to be rigged for what is asked for.
 LastStage lastStageFor(const InferOptions& options);
 

@@ -26,10 +26,6 @@ namespace skel {
 namespace fs = std::filesystem;
 namespace {
 
-bool writes(const InferOptions& options, const char* format) {
-  return std::count(options.formats.begin(), options.formats.end(), format) > 0;
-}
-
 std::string sizeText(long width, long height) { return std::to_string(width) + "x" + std::to_string(height); }
 
 // Reads the mask that is used and returns its path and hash, "": none. A skeleton that was handed in brings
@@ -107,9 +103,7 @@ Verdict verdictOf(const RigOptions& rig, const RiggedDrawing& drawing, const Ske
 std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, const RiggedDrawing& drawing) {
   std::vector<Note> notes;
   for (const std::string& name : options.clips)
-    if (name != "none" && rig.last == LastStage::kClips &&
-        std::none_of(drawing.clips.begin(), drawing.clips.end(),
-                     [&](const Clip& clip) { return clip.name == name; }))
+    if (name != "none" && rig.last == LastStage::kClips && !hasClip(drawing.clips, name))
       notes.push_back({"there is no clip \"" + name + "\" for a " + drawing.body_plan.name + ": left out"});
   if (std::string note = namingNote(drawing.character.skeleton, options.joints);
       rig.last >= LastStage::kModel && !note.empty())

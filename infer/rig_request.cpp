@@ -30,10 +30,8 @@ std::vector<Clip> named(const std::vector<Clip>& clips, const std::vector<std::s
 }
 
 std::vector<Clip> clipLibrary(const InferOptions& options) {
-  if (options.clips_dir.empty()) return builtinClips();
-  if (options.clips.empty()) return clipsWithFolder(options.clips_dir);
   std::vector<std::string> left_out;
-  std::vector<Clip> library = clipsWithFolder(options.clips_dir, options.clips, left_out);
+  std::vector<Clip> library = clipsWithFolder(options.clips_dir, options.clips, &left_out);
   for (const std::string& problem : left_out)
     std::fprintf(stderr, "skel-infer: note: left out: %s\n", printable(problem).c_str());
   return library;

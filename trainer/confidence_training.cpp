@@ -140,8 +140,6 @@ void bindConfidenceTrainingOptions(CLI::App& command, ConfidenceTrainingOptions&
         ->take_all();
   command.add_option("tables", options.tables, "What --table has written: is learned from as well")
       ->type_name("FILE");
-  command.add_option("--hands", options.hands, "Whose drawings are whose: a JSON object of lists of names")
-      ->type_name("FILE");
   command
       .add_option("--first-hand", options.first_hand, "Drawings of the hands before this one are left out")
       ->type_name("NAME");
@@ -152,15 +150,7 @@ void bindConfidenceTrainingOptions(CLI::App& command, ConfidenceTrainingOptions&
   command.add_option("--copies", options.copies, "So many of each random disturbance of a drawing")
       ->capture_default_str()
       ->check(numberIn(0, 100));
-  command.add_option("--folds", options.folds, "Groups of hands for cross-validation; 0: none")
-      ->capture_default_str()
-      ->check(numberIn(0, 1000));
-  command.add_option("--seed", options.seed, "Same drawings, nets, seed and options: same bytes")
-      ->capture_default_str()
-      ->check(numberIn(0, 2'000'000'000));
-  command.add_option("--threads", options.threads, "0: one a core")
-      ->capture_default_str()
-      ->check(numberIn(0, 1024));
+  bindLearningOptions(command, options);
 }
 
 ExitCode runConfidenceTraining(const ConfidenceTrainingOptions& options) {

@@ -7,19 +7,17 @@
 #include <vector>
 
 #include "libskel/core/error.h"
+#include "trainer/learning_options.h"
 
 namespace skel {
 
-struct ConfidenceTrainingOptions {
+struct ConfidenceTrainingOptions : LearningOptions {
   std::map<std::string, std::vector<std::string>>
       drawings;  // by body plan: folders, see findJointedDrawings()
   std::vector<std::string> tables;
-  std::string hands, first_hand;
+  std::string first_hand;
   std::string output, table;
   int copies = 1;
-  int folds = 5;
-  int seed = 1;
-  int threads = 0;
 };
 
 void bindConfidenceTrainingOptions(CLI::App& command, ConfidenceTrainingOptions& options);

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <map>
 
-#include "libskel/cli/number.h"
 #include "libskel/cli/outputs.h"
 #include "libskel/core/error.h"
 #include "libskel/core/parallel.h"
@@ -87,20 +86,10 @@ void bindPageCaseOptions(CLI::App& command, PageCaseOptions& options) {
   command.add_option("drawings", options.drawings, "Drawings with masks, which are put on pages")
       ->type_name("DIR")
       ->required();
-  command.add_option("--hands", options.hands, "Whose drawings are whose: a JSON object of lists of names")
-      ->type_name("FILE");
   command.add_option("-o,--output", options.output, "Weights file to write")
       ->capture_default_str()
       ->check(outputFile());
-  command.add_option("--folds", options.folds, "Groups of hands for cross-validation; 0: none")
-      ->capture_default_str()
-      ->check(numberIn(0, 1000));
-  command.add_option("--seed", options.seed, "Same drawings, nets, seed and options: same bytes")
-      ->capture_default_str()
-      ->check(numberIn(0, 2'000'000'000));
-  command.add_option("--threads", options.threads, "0: one a core")
-      ->capture_default_str()
-      ->check(numberIn(0, 1024));
+  bindLearningOptions(command, options);
 }
 
 LearnedFromPages learnFromPages(const PageCaseOptions& options, const CasesOfPage& cases,

@@ -8,18 +8,15 @@
 #include <vector>
 
 #include "libskel/recognition/calibration.h"
+#include "trainer/learning_options.h"
 #include "trainer/logistic_fit.h"
 #include "trainer/pages/hard_pages.h"
 
 namespace skel {
 
-struct PageCaseOptions {
+struct PageCaseOptions : LearningOptions {
   std::vector<std::string> drawings;  // folders, see findAnnotatedImages()
-  std::string hands;
   std::string output;
-  int folds = 5;
-  int seed = 1;
-  int threads = 0;
 };
 
 void bindPageCaseOptions(CLI::App& command, PageCaseOptions& options);

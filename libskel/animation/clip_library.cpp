@@ -72,15 +72,27 @@ const std::vector<Clip>& builtinClips() {
   return clips;
 }
 
+bool hasClip(const std::vector<Clip>& clips, const std::string& name) {
+  return std::any_of(clips.begin(), clips.end(), [&](const Clip& clip) { return clip.name == name; });
+}
+
 bool isOwn(const Clip& clip) {
   return std::find(builtinClips().begin(), builtinClips().end(), clip) == builtinClips().end();
 }
 
 namespace {
 
-// `broken` is called with a file that is no clip, and what is wrong with it.
-template <class Broken>
-std::vector<Clip> libraryWithFolder(const std::string& dir, const Broken& broken) {
+bool isNeeded(const std::string& path, const std::vector<std::string>& names) {
+  std::string name = std::filesystem::path(path).filename().string();
+  name.resize(name.size() - std::string_view(kClipFileEnding).size());
+  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std::string>& names,
+                                  std::vector<std::string>* left_out) {
+  if (dir.empty()) return builtinClips();
   std::vector<Clip> library = builtinClips();
   std::vector<Clip> own;
   for (const std::string& path : filesBelow(dir)) {
@@ -89,7 +101,8 @@ std::vector<Clip> libraryWithFolder(const std::string& dir, const Broken& broken
     try {
       clip = readClipFile(path);
     } catch (const InputError& error) {
-      broken(path, error);
+      if (isNeeded(path, names)) throw;
+      if (left_out) left_out->push_back(error.what());
       continue;
     }
     for (const Clip& other : own)
@@ -109,22 +122,6 @@ std::vector<Clip> libraryWithFolder(const std::string& dir, const Broken& broken
     library.insert(library.begin() + place, std::move(clip));
   }
   return library;
-}
-
-}  // namespace
-
-std::vector<Clip> clipsWithFolder(const std::string& dir) {
-  return libraryWithFolder(dir, [](const std::string&, const InputError& error) { throw error; });
-}
-
-std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std::string>& names,
-                                  std::vector<std::string>& left_out) {
-  return libraryWithFolder(dir, [&](const std::string& path, const InputError& error) {
-    std::string name = std::filesystem::path(path).filename().string();
-    name.resize(name.size() - std::string_view(kClipFileEnding).size());
-    if (std::find(names.begin(), names.end(), name) != names.end()) throw error;
-    left_out.push_back(error.what());
-  });
 }
 
 std::string unknownTemplate(const Clip& clip) {

@@ -13,18 +13,18 @@ namespace skel {
 // All that come with skel, for the canonical pose: the files of libskel/animation/clips.
 const std::vector<Clip>& builtinClips();
 
-// Whether it is none of these.
+bool hasClip(const std::vector<Clip>& clips, const std::string& name);
+
+// Whether it is none of those that come with skel.
 bool isOwn(const Clip& clip);
 
-// These, and the clip files (kClipFileEnding) of `dir`, at any depth; one of the same name takes the place of
-// the built-in one for its template, or, without a template, of those for all that have its joints. Throws
-// InputError: no folder, a file that is no clip, two of the same name.
-std::vector<Clip> clipsWithFolder(const std::string& dir);
-
-// The same for one who needs the clips of these `names` alone: a file that is no clip is left out, and what
-// is wrong with it added to `left_out`, unless it is called as one of them is.
-std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std::string>& names,
-                                  std::vector<std::string>& left_out);
+// All that come with skel, and the clip files (kClipFileEnding) of `dir` ("": of none), at any depth; one of
+// the same name takes the place of the built-in one for its template, or, without a template, of those for
+// all that have its joints. `names`: the clips that are needed, empty: all; a file that is no clip and not
+// called as one of these is left out, and what is wrong with it added to `left_out` (or null). Throws
+// InputError: no folder, a needed file that is no clip, two of the same name.
+std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std::string>& names = {},
+                                  std::vector<std::string>* left_out = nullptr);
 
 // What to say of a clip whose template is none that comes with skel; else empty.
 std::string unknownTemplate(const Clip& clip);

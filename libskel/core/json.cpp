@@ -170,6 +170,7 @@ void JsonValue::fail(const std::string& problem) const {
 }
 
 bool JsonValue::isNull() const { return get(value_).is_null(); }
+bool JsonValue::isBool() const { return get(value_).is_boolean(); }
 bool JsonValue::isNumber() const { return get(value_).is_number(); }
 bool JsonValue::isString() const { return get(value_).is_string(); }
 bool JsonValue::isArray() const { return get(value_).is_array(); }
@@ -183,7 +184,7 @@ std::string JsonValue::asString() const {
 std::string JsonValue::asFileName() const { return fileNameFromJson(asString()); }
 
 bool JsonValue::asBool() const {
-  if (!get(value_).is_boolean()) fail("must be true or false");
+  if (!isBool()) fail("must be true or false");
   return get(value_).get<bool>();
 }
 

@@ -23,6 +23,7 @@ class JsonDocument;
 class JsonValue {
  public:
   bool isNull() const;
+  bool isBool() const;
   bool isNumber() const;
   bool isString() const;
   bool isArray() const;

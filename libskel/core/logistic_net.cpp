@@ -5,12 +5,14 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/json.h"
+#include "libskel/core/net_format.h"
 
 namespace skel {
 namespace {
 
 constexpr double kMostWeight = 1e6, kLeastDeviation = 1e-9;
 constexpr std::size_t kMostHidden = 64;
+constexpr int kFileVersion = 1;
 
 Eigen::VectorXd vectorAt(const JsonValue& value, std::size_t size) {
   value.asNumbers(size);
@@ -78,6 +80,23 @@ std::string formatLogisticNet(const LogisticNet& net, const std::vector<std::str
     text += (h ? ",\n      " : "\n      ") + listed(net.hidden.row(h).transpose());
   return text + "],\n    \"hidden_bias\": " + listed(net.hidden_bias) + ",\n    \"out\": " + listed(net.out) +
          ",\n    \"bias\": " + nlohmann::json(net.bias).dump() + "\n  }";
+}
+
+LogisticNetFile parseLogisticNetFile(std::string_view text, const std::string& file,
+                                     const std::string& format, const std::vector<std::string>& inputs) {
+  checkNetFormat(text, file, format);
+  const JsonDocument document = JsonDocument::parse(text, file);
+  const JsonValue root = document.root();
+  root.checkFormat(format, kFileVersion);
+  root.allowOnly({"format", "version", "provenance", "net"});
+  return {logisticNetAt(root.at("net"), inputs), root.at("provenance").asString()};
+}
+
+std::string formatLogisticNetFile(const LogisticNetFile& file, const std::string& format,
+                                  const std::vector<std::string>& inputs) {
+  return "{\n  \"format\": \"" + format + "\",\n  \"version\": " + std::to_string(kFileVersion) +
+         ",\n  \"provenance\": " + nlohmann::json(file.provenance).dump() +
+         ",\n  \"net\": " + formatLogisticNet(file.net, inputs) + "\n}\n";
 }
 
 }  // namespace skel

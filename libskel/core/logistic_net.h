@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace skel {
@@ -24,5 +25,17 @@ struct LogisticNet {
 // In JSON, as the files of those who have one hold it. Throws InputError unless the inputs are those named.
 LogisticNet logisticNetAt(const JsonValue& value, const std::vector<std::string>& inputs);
 std::string formatLogisticNet(const LogisticNet& net, const std::vector<std::string>& inputs);
+
+// A file that holds one net and nothing else.
+struct LogisticNetFile {
+  LogisticNet net;
+  std::string provenance;  // how the numbers came to be, for people
+};
+
+// Version 1 of `format`. Throws InputError.
+LogisticNetFile parseLogisticNetFile(std::string_view text, const std::string& file,
+                                     const std::string& format, const std::vector<std::string>& inputs);
+std::string formatLogisticNetFile(const LogisticNetFile& file, const std::string& format,
+                                  const std::vector<std::string>& inputs);
 
 }  // namespace skel

@@ -123,13 +123,6 @@ struct Joints {
   }
 };
 
-// Others may have put anything there.
-bool isTrue(const JsonValue& value) {
-  const bool other =
-      value.isNull() || value.isNumber() || value.isString() || value.isArray() || value.isObject();
-  return !other && value.asBool();
-}
-
 // What encodeGlb() puts at the end of a last bone.
 bool isBoneEnd(const JsonValue& node) {
   const std::optional<JsonValue> extras = node.find("extras");
@@ -454,7 +447,7 @@ Clip readClip(const GlbContainer& glb, const JsonValue& animation, const RiggedC
   const std::optional<JsonValue> name = animation.find("name");
   clip.name = name ? name->asString() : otherwise;
   if (const auto extras = animation.find("extras"); extras && extras->isObject())
-    if (const auto loop = extras->find("loop")) clip.loops = isTrue(*loop);
+    if (const auto loop = extras->find("loop")) clip.loops = loop->isBool() && loop->asBool();
   const std::vector<JsonValue> samplers = animation.at("samplers").items();
   if (samplers.empty()) animation.at("samplers").fail("is empty");
   const std::vector<Joint>& all = character.skeleton.joints;

@@ -6,12 +6,6 @@
 #include "libskel/core/check.h"
 
 namespace skel {
-namespace {
-
-double logistic(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
-
-}  // namespace
-
 Eigen::VectorXd figureInputs(const Evidence& evidence, const LogisticNet& joint) {
   constexpr double kMost = 6;
   std::vector<double> sure;
@@ -35,8 +29,8 @@ Eigen::VectorXd figureInputs(const Evidence& evidence, const LogisticNet& joint)
 Confidences confidencesOf(const Evidence& evidence, const ConfidenceModel& model) {
   Confidences confidences;
   for (Eigen::Index j = 0; j < evidence.joints.rows(); ++j)
-    confidences.joints.push_back(logistic(model.joint.logOdds(evidence.joints.row(j).matrix().transpose())));
-  confidences.figure = logistic(model.figure.logOdds(figureInputs(evidence, model.joint)));
+    confidences.joints.push_back(model.joint.probability(evidence.joints.row(j).matrix().transpose()));
+  confidences.figure = model.figure.probability(figureInputs(evidence, model.joint));
   return confidences;
 }
 

@@ -1,18 +1,14 @@
 #include "libskel/recognition/silhouette_confidence.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "embedded/silhouette_confidence_weights.h"
-#include "libskel/core/json.h"
-#include "libskel/core/logistic_net.h"
-#include "libskel/core/net_format.h"
 
 namespace skel {
 namespace {
 
 constexpr const char* kMaskFormat = "skel-silhouette-confidence";
-constexpr int kMaskVersion = 1;
 
 std::vector<std::string> maskInputs() { return {kMaskInputs.begin(), kMaskInputs.end()}; }
 
@@ -49,19 +45,12 @@ std::optional<std::string> silhouetteDoubt(const Silhouette& silhouette,
 }
 
 SilhouetteConfidence parseSilhouetteConfidence(std::string_view text, const std::string& file) {
-  checkNetFormat(text, file, kMaskFormat);
-  const JsonDocument document = JsonDocument::parse(text, file);
-  const JsonValue root = document.root();
-  root.checkFormat(kMaskFormat, kMaskVersion);
-  root.allowOnly({"format", "version", "provenance", "net"});
-  return {logisticNetAt(root.at("net"), maskInputs()), root.at("provenance").asString()};
+  LogisticNetFile parsed = parseLogisticNetFile(text, file, kMaskFormat, maskInputs());
+  return {std::move(parsed.net), std::move(parsed.provenance)};
 }
 
 std::string formatSilhouetteConfidence(const SilhouetteConfidence& confidence) {
-  return "{\n  \"format\": \"" + std::string(kMaskFormat) +
-         "\",\n  \"version\": " + std::to_string(kMaskVersion) +
-         ",\n  \"provenance\": " + nlohmann::json(confidence.provenance).dump() +
-         ",\n  \"net\": " + formatLogisticNet(confidence.net, maskInputs()) + "\n}\n";
+  return formatLogisticNetFile({confidence.net, confidence.provenance}, kMaskFormat, maskInputs());
 }
 
 const SilhouetteConfidence& builtInSilhouetteConfidence() {

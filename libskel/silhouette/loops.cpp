@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "embedded/loop_net_weights.h"
-#include "libskel/core/json.h"
-#include "libskel/core/net_format.h"
 
 namespace skel {
 namespace {
@@ -18,7 +16,6 @@ constexpr double kStroke = 0.012;     // width of a line, share of the picture's
 constexpr int kSeenInputs = 4;        // the last of kLoopInputs
 
 constexpr const char* kLoopFormat = "skel-loop-net";
-constexpr int kLoopVersion = 1;
 
 std::vector<std::string> loopInputs() { return {kLoopInputs.begin(), kLoopInputs.end()}; }
 
@@ -117,19 +114,12 @@ void openLoops(const std::vector<Loop>& loops, const LoopNet& net, cv::Mat& figu
 }
 
 LoopNet parseLoopNet(std::string_view text, const std::string& file) {
-  checkNetFormat(text, file, kLoopFormat);
-  const JsonDocument document = JsonDocument::parse(text, file);
-  const JsonValue root = document.root();
-  root.checkFormat(kLoopFormat, kLoopVersion);
-  root.allowOnly({"format", "version", "provenance", "net"});
-  return {logisticNetAt(root.at("net"), loopInputs()), root.at("provenance").asString()};
+  LogisticNetFile parsed = parseLogisticNetFile(text, file, kLoopFormat, loopInputs());
+  return {std::move(parsed.net), std::move(parsed.provenance)};
 }
 
 std::string formatLoopNet(const LoopNet& net) {
-  return "{\n  \"format\": \"" + std::string(kLoopFormat) +
-         "\",\n  \"version\": " + std::to_string(kLoopVersion) +
-         ",\n  \"provenance\": " + nlohmann::json(net.provenance).dump() +
-         ",\n  \"net\": " + formatLogisticNet(net.net, loopInputs()) + "\n}\n";
+  return formatLogisticNetFile({net.net, net.provenance}, kLoopFormat, loopInputs());
 }
 
 const LoopNet& builtInLoopNet() {

@@ -87,22 +87,34 @@ TEST_CASE(
   CHECK(nobody.err.find("knows no such hand") != std::string::npos);
 }
 
+namespace {
+
+ToolRun trainOnPages(const std::string& command, const std::string& people, const std::string& output,
+                     const std::string& more) {
+  return runTool("'" SKEL_TRAIN "' " + command + " '" + people + "' --folds 2 -o '" + output + "' " + more);
+}
+
+// one.json by one thread, which says `words`, and three.json by three are the same.
+void learnOnPages(const TempDir& dir, const std::string& command, const std::string& people,
+                  const std::string& words) {
+  const ToolRun one = trainOnPages(command, people, dir.file("one.json"), "--threads 1");
+  INFO(one.err);
+  REQUIRE(one.exit_code == 0);
+  CHECK(one.out.find(words) != std::string::npos);
+  REQUIRE(trainOnPages(command, people, dir.file("three.json"), "--threads 3").exit_code == 0);
+  CHECK(readFile(dir.file("one.json")) == readFile(dir.file("three.json")));
+}
+
+}  // namespace
+
 TEST_CASE(
     "what tells how sure a silhouette is, is learned to the same bytes whatever the number of threads, and "
     "nothing is learned where it cannot be written") {
   const TempDir dir;
   const std::string people = folderOf(dir, "p", "characters", {"cap_boy", "ninja", "pirate"});
-  const auto run = [&](const std::string& output, const std::string& more) {
-    return runTool("'" SKEL_TRAIN "' silhouettes '" + people + "' --folds 2 -o '" + output + "' " + more);
-  };
-  const auto one = run(dir.file("one.json"), "--threads 1");
-  INFO(one.err);
-  REQUIRE(one.exit_code == 0);
-  CHECK(one.out.find("on hands left out") != std::string::npos);
-  REQUIRE(run(dir.file("three.json"), "--threads 3").exit_code == 0);
-  CHECK(readFile(dir.file("one.json")) == readFile(dir.file("three.json")));
+  learnOnPages(dir, "silhouettes", people, "on hands left out");
   CHECK(parseSilhouetteConfidence(readFile(dir.file("one.json")), "one.json").net.hidden.rows() > 0);
-  const auto folder = run(people, "");
+  const auto folder = trainOnPages("silhouettes", people, people, "");
   CHECK(folder.exit_code == 4);
   CHECK(folder.out.empty());
 }
@@ -110,15 +122,7 @@ TEST_CASE(
 TEST_CASE("which loops are ground is learned to the same bytes whatever the number of threads") {
   const TempDir dir;
   const std::string people = folderOf(dir, "p", "characters", {"cap_boy", "ninja", "pirate"});
-  const auto run = [&](const std::string& output, const std::string& more) {
-    return runTool("'" SKEL_TRAIN "' loops '" + people + "' --folds 2 -o '" + output + "' " + more);
-  };
-  const auto one = run(dir.file("one.json"), "--threads 1");
-  INFO(one.err);
-  REQUIRE(one.exit_code == 0);
-  CHECK(one.out.find("are ground") != std::string::npos);
-  REQUIRE(run(dir.file("three.json"), "--threads 3").exit_code == 0);
-  CHECK(readFile(dir.file("one.json")) == readFile(dir.file("three.json")));
+  learnOnPages(dir, "loops", people, "are ground");
   CHECK(parseLoopNet(readFile(dir.file("one.json")), "one.json").net.hidden.rows() > 0);
 }
 
