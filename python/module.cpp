@@ -1,4 +1,7 @@
 // skel._core: the library for Python. python/skel/__init__.py gives its names away, _core.pyi their types.
+#include <algorithm>
+
+#include "libskel/image/read_image.h"
 #include "python/bindings.h"
 
 namespace skel::python {
@@ -24,9 +27,11 @@ std::string shapeText(const py::array& array) {
 }
 
 Bytes pixelsOf(const py::array& array, const std::string& name, bool good, const std::string& wanted) {
-  if (!good || array.size() == 0 || array.shape(0) > 32'766 || array.shape(1) > 32'766)
+  if (!good || array.size() == 0 || std::max(array.shape(0), array.shape(1)) > kLongestSide_px ||
+      array.shape(0) * array.shape(1) > kMaxPixels)
     throw UsageError(name + ": has shape " + shapeText(array) + ", must be " + wanted +
-                     ", neither side 0 or above 32766");
+                     ", neither side 0 or above " + std::to_string(kLongestSide_px) + ", at most " +
+                     std::to_string(kMaxPixels) + " pixels");
   return Bytes(array);
 }
 

@@ -27,6 +27,37 @@ std::vector<std::string_view> cells(std::string_view line) {
 
 struct BadCell {};
 
+// What would end a cell or a line stands as in an address: "a%2Cb".
+std::string cellOf(std::string_view name) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::string cell;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= ' ' && c != ',' && c != '%')
+      cell += c;
+    else
+      (cell += '%').append({kDigits[byte / 16], kDigits[byte % 16]});
+  }
+  return cell;
+}
+
+std::string nameIn(std::string_view cell) {
+  std::string name;
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    if (cell[i] != '%') {
+      name += cell[i];
+      continue;
+    }
+    unsigned byte = 0;
+    const std::string_view digits = cell.substr(i + 1, 2);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), byte, 16);
+    if (digits.size() != 2 || error != std::errc() || end != digits.data() + digits.size()) throw BadCell();
+    name += static_cast<char>(byte);
+    i += 2;
+  }
+  return name;
+}
+
 double numberOf(std::string_view cell) {
   constexpr double kMost = 1e6;  // no input is as large; squares are summed
   double number = 0;
@@ -49,7 +80,7 @@ void addLine(const std::vector<std::string_view>& line, std::vector<ConfidenceSa
   constexpr std::size_t kMostJoints = 63;         // as of a joint net
   if (line[0] == "F" && line.size() == kFigure + kFigureInputs.size()) {
     ConfidenceSample sample;
-    sample.drawing = line[1];
+    sample.drawing = nameIn(line[1]);
     const auto kind = std::find(kDisturbanceNames.begin(), kDisturbanceNames.end(), line[2]);
     if (kind == kDisturbanceNames.end()) throw BadCell();
     sample.disturbance = static_cast<Disturbance>(kind - kDisturbanceNames.begin());
@@ -81,7 +112,7 @@ std::string formatConfidenceTable(const std::vector<ConfidenceSample>& samples) 
   out.imbue(std::locale::classic());
   out.precision(5);
   for (const ConfidenceSample& s : samples) {
-    const std::string head = s.drawing + "," +
+    const std::string head = cellOf(s.drawing) + "," +
                              std::string(kDisturbanceNames[static_cast<std::size_t>(s.disturbance)]) + "," +
                              s.body_plan;
     out << "F," << head << "," << s.usable << "," << s.likeness;

@@ -77,6 +77,7 @@ void noteOutput(const std::string& path) {
 
 void noteNamedOutput(const std::string& path) {
   if (path.empty()) throw UsageError("what is to be written has no name; name a file");
+  if (path == "-") throw UsageError("- is the name of no output; /dev/stdout is the standard output");
   noteOutput(path);
   std::error_code failure;
   const fs::path canonical = fs::weakly_canonical(fs::absolute(path), failure);

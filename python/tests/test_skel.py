@@ -69,6 +69,7 @@ class TestRigging(unittest.TestCase):
             (lambda: skel.rig(blank), skel.InputError, "image"),
             (lambda: skel.rig(np.zeros((4, 4, 7), np.uint8)), skel.UsageError, "shape (4, 4, 7)"),
             (lambda: skel.rig(np.zeros((0, 4), np.uint8)), skel.UsageError, "shape (0, 4)"),
+            (lambda: skel.rig(np.zeros((20_000, 6_000), np.uint8)), skel.UsageError, "100000000 pixels"),
             (lambda: skel.rig(np.zeros((4, 4), np.float32)), skel.UsageError, "uint8"),
             (lambda: skel.rig(3), skel.UsageError, "image"),  # type: ignore[arg-type]
             (lambda: skel.rig(BOY, skin="rubber"), skel.UsageError, "geodesic"),

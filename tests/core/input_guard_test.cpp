@@ -105,6 +105,8 @@ TEST_CASE("two outputs that are one file are refused, folders and devices are no
             "; name two different outputs");
   CHECK(refusal([&] { noteNamedOutput(dir.file("a")), noteNamedOutput(dir.file("a")); }).empty());
   CHECK(refusal([&] { noteNamedOutput("/dev/null"), noteNamedOutput("/dev/null"); }).empty());
+  CHECK(refusal([&] { noteNamedOutput("-"); }) ==
+        "- is the name of no output; /dev/stdout is the standard output");
 }
 
 TEST_CASE("a pipe is opened where it was named, and not where a folder or a file leads to it") {

@@ -128,14 +128,16 @@ TEST_CASE("which loops are ground is learned to the same bytes whatever the numb
 
 TEST_CASE("a table of samples is read again as it was written, and what is none is refused by its line") {
   const TempDir dir;
-  const std::vector<ConfidenceSample> samples =
+  std::vector<ConfidenceSample> samples =
       confidenceSamples(findJointedDrawings(folderOf(dir, "d", "characters", {"cap_boy"})), {},
                         builtInJointNets().of("biped"), 0, 1, 1);
   REQUIRE(!samples.empty());
+  samples[0].drawing = "Ann, 7 %\n(2).png";
   const std::string table = formatConfidenceTable(samples);
   const std::vector<ConfidenceSample> read = parseConfidenceTable(table, "t.csv");
   CHECK(formatConfidenceTable(read) == table);
   REQUIRE(read.size() == samples.size());
+  CHECK(read[0].drawing == samples[0].drawing);
   CHECK(read[0].right == samples[0].right);
   CHECK(read[0].evidence.counts == samples[0].evidence.counts);
   CHECK((read[0].evidence.joints - samples[0].evidence.joints).abs().maxCoeff() < 1e-3);
