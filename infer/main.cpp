@@ -9,8 +9,8 @@ int main(int argc, char** argv) {
       "it and hand it\n"
       "back by --skeleton), and pictures of what was seen.");
   skel::InferOptions infer;
-  infer.version = SKEL_VERSION;
-  infer.nets = SKEL_NETS_SHA256;
+  infer.version = skel::skelVersion();
+  infer.nets = skel::netHashes();
   skel::bindInferOptions(app, infer);
   skel::EvaluateOptions evaluate;
   CLI::App* evaluation =

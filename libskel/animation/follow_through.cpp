@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "libskel/animation/retarget.h"
+#include "libskel/animation/shortest_turn.h"
 #include "libskel/skeleton/hanging.h"
 
 namespace skel {
@@ -76,7 +77,7 @@ Drive driveOf(const Moments& moments, const std::vector<Vector3d>& pivot,
     Vector3d push = -along.cross(moved) / length_m - turned;
     push -= push.dot(along) * along;
     drive.push.push_back(kVivid * push);
-    drive.rest.push_back(kPlumb * down * logarithm(Quaterniond::FromTwoVectors(along, bone)));
+    drive.rest.push_back(kPlumb * down * logarithm(shortestTurn(along, bone)));
   }
   return drive;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "libskel/animation/shortest_turn.h"
 #include "libskel/core/check.h"
 
 namespace skel {
@@ -81,8 +82,8 @@ void reach(const Skeleton& skeleton, int foot, const Vector3d& goal, const Vecto
   const double aside = std::sqrt(std::max(0.0, upper * upper - along * along));
   const Vector3d knee_at = at[hip] + along * axis + aside * bend.normalized();
   const Vector3d foot_at = at[hip] + length * axis;
-  const Quaterniond upper_turn = Quaterniond::FromTwoVectors(at[knee] - at[hip], knee_at - at[hip]);
-  const Quaterniond lower_turn = Quaterniond::FromTwoVectors(at[foot] - at[knee], foot_at - knee_at);
+  const Quaterniond upper_turn = shortestTurn(at[knee] - at[hip], knee_at - at[hip]);
+  const Quaterniond lower_turn = shortestTurn(at[foot] - at[knee], foot_at - knee_at);
   pose.globals[hip] = (upper_turn * pose.globals[hip]).normalized();
   pose.globals[knee] = (lower_turn * pose.globals[knee]).normalized();
   pose.globals[foot] = (lower_turn * pose.globals[foot]).normalized();

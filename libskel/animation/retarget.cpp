@@ -12,6 +12,7 @@
 #include "libskel/animation/mirror_clip.h"
 #include "libskel/animation/plant_feet.h"
 #include "libskel/animation/sample_pose.h"
+#include "libskel/animation/shortest_turn.h"
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
 #include "libskel/skeleton/hanging.h"
@@ -78,7 +79,7 @@ struct Retargeter {
         const Quaterniond turn = aboutZ(swung[j] * share) * motion[j];
         const Vector3d bone = turn * bones[j];
         const Vector3d seen = bone + share * bone.z() * (bone.z() > 0 ? ahead : behind)[j];
-        result[j] = Quaterniond::FromTwoVectors(bone, seen) * turn * turns[j].share(share).conjugate();
+        result[j] = shortestTurn(bone, seen) * turn * turns[j].share(share).conjugate();
       } else
         result[j] = parent < 0 ? local : result[parent] * local;
     }
@@ -494,7 +495,7 @@ BoneTurn boneTurn(const Vector3d& canonical, const Vector3d& drawn, double near_
     const double angle = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
     turn.angle_rad = angle - 2 * kPi * std::floor((angle - near_angle_rad + kPi) / (2 * kPi));
   }
-  turn.out_of_plane = Quaterniond::FromTwoVectors(aboutZ(turn.angle_rad) * canonical, drawn);
+  turn.out_of_plane = shortestTurn(aboutZ(turn.angle_rad) * canonical, drawn);
   return turn;
 }
 

@@ -9,6 +9,7 @@
 #include "libskel/animation/joint_roles.h"
 #include "libskel/animation/plant_feet.h"
 #include "libskel/animation/sample_pose.h"
+#include "libskel/animation/shortest_turn.h"
 #include "libskel/core/error.h"
 #include "libskel/skeleton/hanging.h"
 
@@ -260,7 +261,7 @@ RoleTurns roleTurns(const Source& source) {
     for (const LimbRoles& limb :
          {LimbRoles{"body", arm[0], arm[1], arm[2], Vector3d(out, -1, 0).normalized()},
           LimbRoles{"pelvis", leg[0], leg[1], leg[2], kDown}}) {
-      const Quaterniond ease = Quaterniond::FromTwoVectors(kDown, limb.eased);
+      const Quaterniond ease = shortestTurn(kDown, limb.eased);
       const bool ends = source.has(limb.end);
       for (std::size_t f = 0; f < source.poses.size(); ++f) {
         const SourcePose& pose = source.poses[f];
@@ -270,9 +271,9 @@ RoleTurns roleTurns(const Source& source) {
         const std::size_t middle = std::size_t(source.roles.joint(limb.middle));
         const Vector3d along = ends ? Vector3d(source.at(pose, limb.end) - pose.positions[middle])
                                     : Vector3d(pose.globals[middle] * source.motion.tips[middle]);
-        Quaterniond turn = trunk * Quaterniond::FromTwoVectors(limb.eased, trunk.conjugate() * upper) * ease;
+        Quaterniond turn = trunk * shortestTurn(limb.eased, trunk.conjugate() * upper) * ease;
         of(limb.upper).push_back(turn);
-        if (along.norm() > 1e-9) turn = Quaterniond::FromTwoVectors(upper, to_ours * along) * turn;
+        if (along.norm() > 1e-9) turn = shortestTurn(upper, to_ours * along) * turn;
         of(limb.middle).push_back(turn);
       }
       of(limb.end) = turnsOfEnd(source, limb.end, of(limb.middle), false);

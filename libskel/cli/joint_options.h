@@ -2,10 +2,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <map>
 #include <string>
 
-#include "libskel/cli/names.h"
 #include "libskel/export/joint_names.h"
 
 namespace skel {
@@ -14,30 +12,11 @@ struct JointOptions {
   std::string naming = "skel", bones = "along";
 };
 
-inline const std::map<std::string, JointNaming> kNamingNames = {
-    {"skel", JointNaming::kSkel}, {"vrm", JointNaming::kVrm}, {"mixamo", JointNaming::kMixamo}};
-inline const std::map<std::string, BoneStyle> kBoneStyleNames = {
-    {"along", BoneStyle::kAlong}, {"ends", BoneStyle::kEnds}, {"plain", BoneStyle::kPlain}};
+void bindJointOptions(CLI::App& app, JointOptions& options);
 
-inline void bindJointOptions(CLI::App& app, JointOptions& options) {
-  app.add_option("--names", options.naming, "What exported joints of a biped are called")
-      ->check(namesOf(kNamingNames))
-      ->capture_default_str();
-  app.add_option("--bones", options.bones,
-                 "Axes of the .glb's joints: along the bones, as Blender draws them; ends: so, too, and the\n"
-                 "last bones reach toes and fingertips; plain: the model's, for code that turns joints")
-      ->check(namesOf(kBoneStyleNames))
-      ->capture_default_str();
-}
-
-inline ExportOptions exportOptions(const std::string& name, const JointOptions& options) {
-  return {name, kNamingNames.at(options.naming), kBoneStyleNames.at(options.bones)};
-}
+ExportOptions exportOptions(const std::string& name, const JointOptions& options);
 
 // What the user is told where joints keep their names for all that; empty: nothing.
-inline std::string namingNote(const Skeleton& skeleton, const JointOptions& options) {
-  if (namesFit(skeleton, kNamingNames.at(options.naming))) return "";
-  return "the joints keep their names: --names " + options.naming + " is for bipeds";
-}
+std::string namingNote(const Skeleton& skeleton, const JointOptions& options);
 
 }  // namespace skel

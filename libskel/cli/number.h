@@ -8,8 +8,6 @@
 #include <sstream>
 #include <string>
 
-#include "libskel/core/check.h"
-
 namespace skel {
 
 // Of all validators below.
@@ -52,26 +50,8 @@ inline CLI::Validator oneOfNumbers(std::initializer_list<int> numbers) {
   return CLI::IsMember(numbers).name(kNumberCheck);
 }
 
-inline bool hasNumberCheck(CLI::Option& option) {
-  try {
-    return option.get_validator(kNumberCheck) != nullptr;
-  } catch (const CLI::OptionNotFound&) {
-    return false;
-  }
-}
-
 // Stops the program, and names the option, if a number option of `app` or of a subcommand takes whatever is
 // typed: a mistake of ours, which no tool starts with.
-inline void requireNumberChecks(CLI::App& app) {
-  for (CLI::Option* option : app.get_options()) {
-    const std::string described = option->get_type_name(), type = described.substr(0, described.find(':'));
-    const bool number =
-        option->get_items_expected_max() > 0 && (type == "FLOAT" || type == "INT" || type == "UINT");
-    if (number && !hasNumberCheck(*option))
-      checkFailed(__FILE__, __LINE__,
-                  app.get_name() + ": " + option->get_name() + " takes any number; say which");
-  }
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) requireNumberChecks(*command);
-}
+void requireNumberChecks(CLI::App& app);
 
 }  // namespace skel

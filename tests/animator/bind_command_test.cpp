@@ -22,7 +22,7 @@ const std::string kElk = SKEL_SOURCE_DIR "/datasets/elk/elk.obj";
 const std::string kBones = SKEL_SOURCE_DIR "/datasets/elk/elk.rig.json";
 
 ToolRun animate(const TempDir& dir, const std::string& arguments) {
-  return runTool("cd '" + dir.path() + "' && '" SKEL_ANIMATE "' " + arguments);
+  return runTool("cd '" + dir.path() + "' && skel-animate " + arguments);
 }
 
 void expect(const ToolRun& run, int exit_code, const std::string& message) {
@@ -283,9 +283,9 @@ TEST_CASE("what cannot be written leaves the old file whole") {
   writeFile(dir.file("s.json"), rig(bone("a", "null")));
   writeFile(dir.file("out.glb"), "the old one");
   // A disk that is full: no file may grow beyond a few blocks.
-  const ToolRun full = runTool("cd '" + dir.path() +
-                               "' && trap '' XFSZ && ulimit -f 1 && '" SKEL_ANIMATE
-                               "' bind m.obj --skeleton s.json -o out.glb >/dev/null");
+  const ToolRun full = runTool(
+      "cd '" + dir.path() +
+      "' && trap '' XFSZ && ulimit -f 1 && skel-animate bind m.obj --skeleton s.json -o out.glb >/dev/null");
   expect(full, 4, "out.glb: cannot be written: ");
   CHECK(readFile(dir.file("out.glb")) == "the old one");
   CHECK_FALSE(fs::exists(dir.file("out.glb.skel-tmp")));

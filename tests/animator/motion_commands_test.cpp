@@ -18,7 +18,7 @@ using namespace skel;
 
 namespace {
 
-const std::string kTool = SKEL_ANIMATE;
+const std::string kTool = "skel-animate";
 const std::string kMotions = SKEL_SOURCE_DIR "/tests/data/motions/";
 
 std::string figureFile(const TempDir& dir) {

@@ -11,9 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-ToolRun render(const std::string& arguments) {
-  return runTool(std::string(SKEL_ANIMATE) + " render " + arguments);
-}
+ToolRun render(const std::string& arguments) { return runTool("skel-animate render " + arguments); }
 
 const std::string kDrawing = std::string(SKEL_SOURCE_DIR) + "/datasets/characters/cap_boy.png";
 
@@ -196,7 +194,7 @@ TEST_CASE("a broken clip file beside the one that is used is one note, an unknow
 
 TEST_CASE("each command's help ends with an example of its own") {
   for (const std::string command : {"info", "list", "bind", "weights", "retarget", "render", "view"}) {
-    const ToolRun run = runTool(std::string(SKEL_ANIMATE) + " " + command + " --help");
+    const ToolRun run = runTool("skel-animate " + command + " --help");
     CHECK_THAT(run.out, Contains("Example: skel-animate " + command + " "));
   }
 }
@@ -331,9 +329,8 @@ TEST_CASE("a disk that fills up leaves no broken film") {
   for (const char* name : {"film.mp4", "film.gif", "film.webp"}) {
     CAPTURE(name);
     // The limit stands for the full disk; without the trap it would kill the tool.
-    const ToolRun run =
-        runTool("trap '' XFSZ; ulimit -f 2; exec " + std::string(SKEL_ANIMATE) + " render " + model +
-                " --clip nod --size 256x256 -o " + dir.file(name) + " --painter software");
+    const ToolRun run = runTool("trap '' XFSZ; ulimit -f 2; exec skel-animate render " + model +
+                                " --clip nod --size 256x256 -o " + dir.file(name) + " --painter software");
     CHECK(run.exit_code == 4);
     CHECK_THAT(run.err, Contains(std::string(name) + ": cannot be written: File too large"));
   }

@@ -24,7 +24,7 @@ const std::string kDrawing = std::string(SKEL_SOURCE_DIR) + "/datasets/character
 const std::string kDog = std::string(SKEL_SOURCE_DIR) + "/datasets/animals/walking_dog.png";
 
 ToolRun render(const std::string& arguments, const std::string& before = "") {
-  return runTool(before + SKEL_ANIMATE + " render " + arguments);
+  return runTool(before + "skel-animate render " + arguments);
 }
 
 struct Sheet {

@@ -19,7 +19,7 @@ bool contains(const std::string& text, const std::string& what) {
   return text.find(what) != std::string::npos;
 }
 
-ToolRun infer(const std::string& arguments) { return runTool("'" SKEL_INFER "' " + arguments); }
+ToolRun infer(const std::string& arguments) { return runTool("skel-infer " + arguments); }
 
 }  // namespace
 

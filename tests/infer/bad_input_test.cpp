@@ -60,7 +60,7 @@ TEST_CASE("a motion's file where a clip's name belongs is refused with what to d
   const TempDir dir;
   writeFile(dir.file("a.png"), plainPng(8, 8, 0));
   const auto clips = [&](const std::string& name) {
-    return runTool("'" SKEL_INFER "' " + dir.file("a.png") + " --clips " + name + " -o " + dir.file("out"));
+    return runTool("skel-infer " + dir.file("a.png") + " --clips " + name + " -o " + dir.file("out"));
   };
   expect(clips("idle,dance.bvh"), 1,
          "\"dance.bvh\" is a file; after the rig: `skel-animate retarget dance.bvh --to FILE.glb`");

@@ -137,8 +137,8 @@ TEST_CASE("a run over a folder that is interrupted says how to go on") {
     fs::copy(kDrawing, dir.file(std::string("class/") + name + ".png"));
   }
   const auto interrupted = [&](const std::string& out, const std::string& options) {
-    return skel::runTool("cd '" + dir.path() + "'; env --default-signal=INT '" SKEL_INFER "' class -o " +
-                         out + options + " & while [ ! -e " + out +
+    return skel::runTool("cd '" + dir.path() + "'; env --default-signal=INT skel-infer class -o " + out +
+                         options + " & while [ ! -e " + out +
                          "/a.glb ]; do sleep .02; done; kill -INT $!; wait $!")
         .err;
   };

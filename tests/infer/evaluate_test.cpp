@@ -34,8 +34,8 @@ TEST_CASE("evaluate gives the figures of the scorer in Python") {
   const skel::TempDir dir;
   const std::string drawings = std::string(real) + "/characters";
   const auto python = skel::runTool("python3 '" + std::string(real) + "/score.py' --truth '" + drawings +
-                                    "' --infer '" SKEL_INFER "' --given-mask --out '" + dir.path() + "'");
-  const auto ours = skel::runTool("'" SKEL_INFER "' evaluate '" + drawings + "' --given-mask --jobs 0");
+                                    "' --infer skel-infer --given-mask --out '" + dir.path() + "'");
+  const auto ours = skel::runTool("skel-infer evaluate '" + drawings + "' --given-mask --jobs 0");
   REQUIRE(python.exit_code == 0);
   REQUIRE(ours.exit_code == 0);
   CAPTURE(python.out, ours.out);
@@ -50,7 +50,7 @@ TEST_CASE("evaluate draws what it found and writes the figures") {
   for (const char* end : {".png", ".mask.png", ".joints.json"})
     std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/cap_boy") + end,
                                folder + "/cap_boy" + end);
-  const auto done = skel::runTool("'" SKEL_INFER "' evaluate '" + folder + "' --given-mask --overlays '" +
+  const auto done = skel::runTool("skel-infer evaluate '" + folder + "' --given-mask --overlays '" +
                                   dir.path() + "/pictures' --json '" + dir.path() + "/figures.json'");
   CAPTURE(done.out);
   REQUIRE(done.exit_code == 0);
@@ -67,7 +67,7 @@ TEST_CASE("evaluate refuses a joint that lies in no picture: its error was no nu
                                dir.file(std::string("cap_boy") + end));
   skel::writeFile(dir.file("cap_boy.joints.json"),
                   R"({"joints": {"head": [1e308, 0], "body": [-1e308, 0]}})");
-  const auto run = skel::runTool("'" SKEL_INFER "' evaluate '" + dir.path() + "'");
+  const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "'");
   CHECK(run.exit_code == 2);
   CHECK(run.err.find("cap_boy.joints.json: joints.head: lies in no picture") != std::string::npos);
 }
@@ -86,7 +86,7 @@ TEST_CASE("evaluate measures by the joints of label files that a person has plac
   labels.recognized = {"right_hand"};
   skel::writeLabelFile(label_file, labels);
   const auto figures_of = [&](const std::string& name) {
-    const auto run = skel::runTool("'" SKEL_INFER "' evaluate '" + set + "' --json '" + dir.file(name) + "'");
+    const auto run = skel::runTool("skel-infer evaluate '" + set + "' --json '" + dir.file(name) + "'");
     CAPTURE(run.err);
     REQUIRE(run.exit_code == 0);
     return skel::JsonDocument::readFile(dir.file(name));
@@ -99,7 +99,7 @@ TEST_CASE("evaluate measures by the joints of label files that a person has plac
 
   labels.recognized = {"head", "left_hand", "right_hand"};
   skel::writeLabelFile(label_file, labels);
-  const auto run = skel::runTool("'" SKEL_INFER "' evaluate '" + set + "'");
+  const auto run = skel::runTool("skel-infer evaluate '" + set + "'");
   CHECK(run.exit_code == 2);
   CHECK(run.err.find("of which a person has placed a joint") != std::string::npos);
 }
@@ -111,7 +111,7 @@ TEST_CASE("evaluate goes on after a drawing that cannot be read, and says so") {
       std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/cap_boy") + end,
                                  dir.file(name + end));
   std::filesystem::resize_file(dir.file("broken.png"), 5000);
-  const auto run = skel::runTool("'" SKEL_INFER "' evaluate '" + dir.path() + "' --given-mask");
+  const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "' --given-mask");
   CAPTURE(run.out, run.err);
   CHECK(run.exit_code == 2);
   CHECK(run.err.find("broken.png: ") != std::string::npos);

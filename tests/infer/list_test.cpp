@@ -68,8 +68,8 @@ TEST_CASE("a list is rigged in its order, and results lie as the drawings lie") 
     CHECK(fs::exists(dir.file(std::string("out/") + name + ".result.json")));
   }
   SECTION("out of a pipe, with zero bytes between, it is the same") {
-    const ToolRun piped = runTool(
-        "cd '" + dir.path() + "' && tr '\\n' '\\0' <list | '" SKEL_INFER "' --from - --null -o two" + kCheap);
+    const ToolRun piped = runTool("cd '" + dir.path() +
+                                  "' && tr '\\n' '\\0' <list | skel-infer --from - --null -o two" + kCheap);
     CHECK(piped.exit_code == 0);
     CHECK(readFile(dir.file("two/in/b/other.skeleton.json")) ==
           readFile(dir.file("out/in/b/other.skeleton.json")));
@@ -287,8 +287,8 @@ TEST_CASE("a picture comes from the standard input, out of a file or a pipe") {
   };
   CHECK(infer(dir, "- -o file --name hero" + kCheap + "<x.png").exit_code == 0);
   CHECK(joints("file") == joints("named"));
-  const ToolRun piped = runTool("cd '" + dir.path() +
-                                "' && cat x.png | '" SKEL_INFER "' - -o pipe --json --name hero" + kCheap);
+  const ToolRun piped =
+      runTool("cd '" + dir.path() + "' && cat x.png | skel-infer - -o pipe --json --name hero" + kCheap);
   CHECK(piped.exit_code == 0);
   CHECK(joints("pipe") == joints("named"));
   CHECK(lines(piped.out).at(0)["source"] == "/dev/stdin");

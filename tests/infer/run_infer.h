@@ -10,5 +10,5 @@ inline const std::string kDrawing = SKEL_SOURCE_DIR "/datasets/characters/cap_bo
 
 // In that folder.
 inline skel::ToolRun infer(const skel::TempDir& dir, const std::string& arguments) {
-  return skel::runTool("cd '" + dir.path() + "' && '" SKEL_INFER "' " + arguments);
+  return skel::runTool("cd '" + dir.path() + "' && skel-infer " + arguments);
 }

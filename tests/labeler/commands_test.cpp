@@ -22,8 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 ToolRun label(const TempDir& dir, const std::string& arguments) {
-  return runTool("cd '" + dir.path() + "' && env -u DISPLAY -u WAYLAND_DISPLAY '" SKEL_LABEL "' " +
-                 arguments);
+  return runTool("cd '" + dir.path() + "' && env -u DISPLAY -u WAYLAND_DISPLAY skel-label " + arguments);
 }
 
 void replaceIn(const std::string& file, const std::string& from, const std::string& to) {
@@ -244,8 +243,8 @@ TEST_CASE("check names every inconsistency with file and path") {
 }
 
 TEST_CASE("the labelled set of the repository has no inconsistency") {
-  const ToolRun run = runTool("env -u DISPLAY -u WAYLAND_DISPLAY '" SKEL_LABEL "' check '" SKEL_SOURCE_DIR
-                              "/datasets/characters'");
+  const ToolRun run =
+      runTool("env -u DISPLAY -u WAYLAND_DISPLAY skel-label check '" SKEL_SOURCE_DIR "/datasets/characters'");
   CHECK(run.out == "no inconsistencies\n");
   CHECK(run.err == "");
 }

@@ -15,6 +15,7 @@
 #include "libskel/skeleton/motion_file.h"
 #include "tests/labeler/drawing_folder.h"
 #include "tests/support/catch.h"
+#include "tests/support/run_tool.h"
 
 using namespace skel;
 namespace fs = std::filesystem;
@@ -32,11 +33,11 @@ int saveUntilKilled(const std::string& opened, int first_step, Rng& rng) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_addclose(&actions, ends[0]);
-  const std::string start = std::to_string(first_step);
-  char* const arguments[] = {const_cast<char*>(SKEL_SAVE_LOOP), const_cast<char*>(opened.c_str()),
+  const std::string start = std::to_string(first_step), save_loop = binFolder() + "/labeler_save_loop";
+  char* const arguments[] = {const_cast<char*>(save_loop.c_str()), const_cast<char*>(opened.c_str()),
                              const_cast<char*>(start.c_str()), nullptr};
   pid_t child = 0;
-  REQUIRE(posix_spawn(&child, SKEL_SAVE_LOOP, &actions, nullptr, arguments, environ) == 0);
+  REQUIRE(posix_spawn(&child, save_loop.c_str(), &actions, nullptr, arguments, environ) == 0);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
 

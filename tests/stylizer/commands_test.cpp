@@ -19,7 +19,7 @@ namespace {
 
 const std::string kDrawing = std::string(SKEL_SOURCE_DIR) + "/datasets/characters/cap_boy.png";
 
-ToolRun style(const std::string& arguments) { return runTool(std::string(SKEL_STYLE) + " " + arguments); }
+ToolRun style(const std::string& arguments) { return runTool("skel-style " + arguments); }
 
 ToolRun done(const std::string& arguments) {
   const ToolRun run = style(arguments);
@@ -33,7 +33,7 @@ ToolRun done(const std::string& arguments) {
 std::string film(const TempDir& dir, const std::string& clip) {
   const std::string folder = dir.file(clip + "/");
   const ToolRun run =
-      runTool(std::string(SKEL_ANIMATE) + " render " + kDrawing + " --clip " + clip +
+      runTool("skel-animate render " + kDrawing + " --clip " + clip +
               " --duration 0.8 --fps 10 --size 160x200 --angle 50 --background none -o " + folder);
   REQUIRE(run.exit_code == 0);
   return folder;
@@ -74,7 +74,7 @@ TEST_CASE("from a drawing and two films to a new film, and on from what lies bet
   CHECK(readFile(dir.file("t.motion.json")) == readFile(dir.file("out.gif.work/transfer.motion.json")));
 
   done("render --motion " + dir.file("t.motion.json") + " --to-clip " + dir.file("new.clip.json"));
-  CHECK(runTool(std::string(SKEL_ANIMATE) + " render " + kDrawing + " --clip " + dir.file("new.clip.json") +
+  CHECK(runTool("skel-animate render " + kDrawing + " --clip " + dir.file("new.clip.json") +
                 " --size 64x64 --fps 5 -o " + dir.file("clip.gif"))
             .exit_code == 0);
   done("inspect " + content + " -o " + dir.file("look.png"));
@@ -282,7 +282,7 @@ TEST_CASE("a film's pictures are written when a figure is found in it, and not b
   CHECK_THAT(run.err, Contains("shows no figure in any frame"));
   CHECK(filesBelow(dir.path()).size() == 1);
 
-  REQUIRE(runTool(std::string(SKEL_ANIMATE) + " render " + kDrawing +
+  REQUIRE(runTool("skel-animate render " + kDrawing +
                   " --clip walk --duration 0.3 --fps 10 --size "
                   "160x200 -o " +
                   dir.file("walk.gif"))

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -17,7 +18,12 @@ struct ToolRun {
   std::string out, err;
 };
 
-// `command` is a line for the shell.
+// Where this program lies, and the tools.
+inline std::string binFolder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
+}
+
+// `command` is a line for the shell, which finds the tools beside the tests by their names.
 inline ToolRun runTool(const std::string& command) {
   const TempDir dir;
   const auto slurp = [&](const char* name) {
@@ -26,8 +32,9 @@ inline ToolRun runTool(const std::string& command) {
     text << file.rdbuf();
     return text.str();
   };
-  const int status =
-      std::system(("( " + command + " ) >'" + dir.file("out") + "' 2>'" + dir.file("err") + "'").c_str());
+  const int status = std::system(("PATH='" + binFolder() + "':$PATH; ( " + command + " ) >'" +
+                                  dir.file("out") + "' 2>'" + dir.file("err") + "'")
+                                     .c_str());
   ToolRun run;
   run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   run.out = slurp("out");

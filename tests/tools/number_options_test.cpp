@@ -13,7 +13,7 @@ namespace {
 const std::vector<std::string> kTools = {"skel-animate", "skel-infer", "skel-label", "skel-style",
                                          "skel-train"};
 
-std::string helpOf(const std::string& command) { return runTool(SKEL_TOOLS "/" + command + " --help").out; }
+std::string helpOf(const std::string& command) { return runTool(command + " --help").out; }
 
 // The tool itself, and its commands.
 std::vector<std::string> commandsOf(const std::string& tool) {
@@ -49,7 +49,7 @@ TEST_CASE("no number option of any tool takes what is no number, infinite or abs
       for (const std::string& option : numberOptionsOf(command)) {
         ++seen;
         for (const std::string value : {"nan", "inf", "-inf", "1e300"}) {
-          const ToolRun run = runTool(SKEL_TOOLS "/" + command + " " + option + "=" + value);
+          const ToolRun run = runTool(command + " " + option + "=" + value);
           CAPTURE(command, option, value, run.err);
           CHECK(run.exit_code == 1);
           CHECK(run.err.find(option) != std::string::npos);
@@ -61,7 +61,7 @@ TEST_CASE("no number option of any tool takes what is no number, infinite or abs
 
 TEST_CASE("a height of 1e-300, which gave a model of NaNs, and a mesh spacing of nan are refused") {
   for (const std::string option : {"--height 1e-300", "--mesh-spacing nan", "--mesh-spacing 1e-300"}) {
-    const ToolRun run = runTool(SKEL_TOOLS "/skel-infer none.png " + option);
+    const ToolRun run = runTool("skel-infer none.png " + option);
     CAPTURE(option, run.err);
     CHECK(run.exit_code == 1);
     CHECK(run.err.find(option.substr(0, option.find(' '))) != std::string::npos);

@@ -15,7 +15,7 @@
 namespace skel {
 
 inline ToolRun runIn(const TempDir& dir, const std::string& command) {
-  return runTool("cd '" + dir.path() + "' && PATH=" SKEL_TOOLS ":$PATH && " + command);
+  return runTool("cd '" + dir.path() + "' && " + command);
 }
 
 inline ToolRun done(const TempDir& dir, const std::string& command) {

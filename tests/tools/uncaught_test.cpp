@@ -23,8 +23,7 @@ constexpr bool kLimitsWork = true;
 #endif
 
 ToolRun limited(const TempDir& dir, int mb, const std::string& command) {
-  return runTool("cd '" + dir.path() + "' && ulimit -v " + std::to_string(mb * 1024) + " && " SKEL_TOOLS "/" +
-                 command);
+  return runTool("cd '" + dir.path() + "' && ulimit -v " + std::to_string(mb * 1024) + " && " + command);
 }
 
 void writeDrawing(const std::string& path, int size) {
@@ -104,8 +103,7 @@ TEST_CASE("a motion whose frames are said to be huge is looked at in little memo
   const TempDir dir;
   fs::create_directory(dir.file("film"));
   for (const char* name : {"film/1.png", "film/2.png"}) fs::copy_file(kDrawing, dir.file(name));
-  REQUIRE(runTool("cd '" + dir.path() + "' && " SKEL_TOOLS "/skel-style keypoints film -o a.motion.json")
-              .exit_code == 0);
+  REQUIRE(runTool("cd '" + dir.path() + "' && skel-style keypoints film -o a.motion.json").exit_code == 0);
   std::string motion = readFile(dir.file("a.motion.json"));
   for (const char* side : {"\"width\":", "\"height\":"})
     for (std::size_t at = motion.find(side); at != std::string::npos; at = motion.find(side, at + 1)) {
@@ -123,8 +121,8 @@ TEST_CASE("a motion whose frames are said to be huge is looked at in little memo
 TEST_CASE("a file larger than the system allows is an output error, and leaves nothing") {
   const TempDir dir;
   fs::copy_file(kDrawing, dir.file("a.png"));
-  const ToolRun run = runTool("cd '" + dir.path() +
-                              "' && ulimit -f 10 && " SKEL_TOOLS "/skel-infer a.png -o out --formats glb");
+  const ToolRun run =
+      runTool("cd '" + dir.path() + "' && ulimit -f 10 && skel-infer a.png -o out --formats glb");
   CAPTURE(run.err);
   CHECK(run.exit_code == 4);
   CHECK(run.err.find("out/a.glb: cannot be written") != std::string::npos);
@@ -141,9 +139,9 @@ TEST_CASE("threads that cannot be had end no tool") {
     drawings += " " + name;
   }
   // Each thread's stack takes 1 GB.
-  const ToolRun run = runTool("cd '" + dir.path() +
-                              "' && ulimit -s 1000000 && ulimit -v 2500000 && " SKEL_TOOLS "/skel-infer" +
-                              drawings + " --jobs 12 --formats glb");
+  const ToolRun run =
+      runTool("cd '" + dir.path() + "' && ulimit -s 1000000 && ulimit -v 2500000 && skel-infer" + drawings +
+              " --jobs 12 --formats glb");
   CAPTURE(run.err);
   CHECK(run.exit_code == 0);
   CHECK(fs::exists(dir.file("out/a11.glb")));

@@ -64,9 +64,8 @@ TEST_CASE(
                     animals = folderOf(dir, "a", "animals", {"walking_dog"});
   writeFile(dir.file("hands.json"), R"({"first": ["ninja"], "second": ["cap_boy"], "third": ["pirate"]})");
   const auto run = [&](const std::string& output, const std::string& more) {
-    return runTool("'" SKEL_TRAIN "' confidence --biped '" + people + "' --quadruped '" + animals +
-                   "' --hands '" + dir.file("hands.json") + "' --copies 1 --folds 2 -o '" + dir.file(output) +
-                   "' " + more);
+    return runTool("skel-train confidence --biped '" + people + "' --quadruped '" + animals + "' --hands '" +
+                   dir.file("hands.json") + "' --copies 1 --folds 2 -o '" + dir.file(output) + "' " + more);
   };
   const auto one = run("one.json", "--threads 1 --table '" + dir.file("table.csv") + "'");
   INFO(one.err);
@@ -91,7 +90,7 @@ namespace {
 
 ToolRun trainOnPages(const std::string& command, const std::string& people, const std::string& output,
                      const std::string& more) {
-  return runTool("'" SKEL_TRAIN "' " + command + " '" + people + "' --folds 2 -o '" + output + "' " + more);
+  return runTool("skel-train " + command + " '" + people + "' --folds 2 -o '" + output + "' " + more);
 }
 
 // one.json by one thread, which says `words`, and three.json by three are the same.
@@ -174,7 +173,7 @@ TEST_CASE("a table of figures without joints, or of joints that nobody knows, is
   const auto refused = [&](const std::string& table, int exit_code, const std::string& message) {
     writeFile(dir.file("t.csv"), table);
     const auto run =
-        runTool("'" SKEL_TRAIN "' confidence '" + dir.file("t.csv") + "' -o '" + dir.file("c.json") + "'");
+        runTool("skel-train confidence '" + dir.file("t.csv") + "' -o '" + dir.file("c.json") + "'");
     CHECK(run.exit_code == exit_code);
     CHECK(run.err == "skel-train: " + message + "\n");
     CHECK_FALSE(std::filesystem::exists(dir.file("c.json")));

@@ -14,7 +14,7 @@ namespace skel {
 namespace {
 
 std::string command(const TempDir& dir, const std::string& output, const std::string& options) {
-  return "'" SKEL_TRAIN "' joints --steps 6 --batch 4 --figures 64 --validation 8 --report-every 1 -o '" +
+  return "skel-train joints --steps 6 --batch 4 --figures 64 --validation 8 --report-every 1 -o '" +
          dir.file(output) + "' " + options;
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("bones of drawn figures are measured, and a net keeps them when it is 
   const TempDir dir;
   const std::string net = dir.file("net.bin"), measured = dir.file("measured.bin");
   std::filesystem::copy_file(SKEL_DATASETS "/../weights/archive/joint-net-pass-1.bin", net);
-  const auto result = runTool("'" SKEL_TRAIN "' bones '" + net + "' -o '" + measured +
+  const auto result = runTool("skel-train bones '" + net + "' -o '" + measured +
                               "' --drawings '" SKEL_DATASETS "/unseen/characters'");
   REQUIRE(result.exit_code == 0);
   CHECK(result.out.find("left_elbow ") != std::string::npos);
@@ -166,7 +166,7 @@ TEST_CASE("a checkpoint of a negative step, or of what is no number, is refused"
 
 TEST_CASE("the mean of a net and itself is that net, the mean of two lies between them") {
   const TempDir dir;
-  const std::string archive = SKEL_DATASETS "/../weights/archive/", tool = SKEL_TRAIN " average '";
+  const std::string archive = SKEL_DATASETS "/../weights/archive/", tool = "skel-train average '";
   const std::string a = archive + "joint-net-pass-1.bin", b = archive + "joint-net-pass-2.bin";
   REQUIRE(runTool(tool + a + "' '" + a + "' -o '" + dir.file("same.bin") + "'").exit_code == 0);
   REQUIRE(runTool(tool + a + "' '" + b + "' -o '" + dir.file("mean.bin") + "'").exit_code == 0);

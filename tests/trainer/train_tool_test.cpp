@@ -12,7 +12,7 @@ using namespace skel;
 
 namespace {
 
-const std::string kTool = SKEL_TRAIN;
+const std::string kTool = "skel-train";
 
 // A folder of the benchmark's samples as six characters.
 void fill(const TempDir& dir) {

@@ -39,7 +39,7 @@ foreach(_module core imgproc)
   list(TRANSFORM _files REPLACE "(.+)" "${_root}/src/\\1.cpp")
   add_library(opencv_${_module} STATIC ${_files})
   target_compile_definitions(opencv_${_module} PRIVATE __OPENCV_BUILD=1 CVAPI_EXPORTS OPENCV_DISABLE_THREAD_SUPPORT)
-  target_compile_options(opencv_${_module} PRIVATE -O3 -w)
+  target_compile_options(opencv_${_module} PRIVATE -O2 -w)
   target_include_directories(opencv_${_module} SYSTEM PUBLIC
     ${_opencv}/modules/core/include ${_opencv}/modules/imgproc/include ${_generated})
   target_include_directories(opencv_${_module} SYSTEM PRIVATE ${_root}/src ${_out})
