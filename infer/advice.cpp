@@ -30,6 +30,7 @@ std::string sentence(std::string clause) {
 
 // One of the warnings. What nobody has other words for stays as it is.
 std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawing, const SkeletonFile& file) {
+  constexpr std::size_t kMostNamed = 5;  // joints: whoever reads of more learns nothing
   constexpr std::string_view kLookAtMask = ": look at the mask (skel-label FILE)";
   const auto starts = [&](const char* words) { return warning.starts_with(words); };
   if (starts("the sheet itself"))
@@ -41,7 +42,9 @@ std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawin
            ". Step back, so that hands and feet are in the picture.";
   if (starts("this hardly looks like"))
     return "No whole figure could be made out" +
-           (file.missing.empty() ? "" : "; not seen: " + listed(file.missing)) +
+           (file.missing.empty() || file.missing.size() > kMostNamed
+                ? ""
+                : "; not seen: " + listed(file.missing)) +
            ". Go over thin lines with a felt pen, and take the photo by day, from straight above.";
   if (starts("some joints may be wrong"))
     return "Some joints may be wrong" +

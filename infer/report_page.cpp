@@ -88,8 +88,9 @@ std::string verdictChip(const Card& card) {
 }
 
 std::string cardHtml(const Card& card, std::size_t number) {
-  std::string html =
-      "<article id=\"d" + std::to_string(number) + (card.figure ? "\"><h2>" : "\" class=\"none\"><h2>") + card.name + "</h2>" + verdictChip(card);
+  std::string html = "<article id=\"d" + std::to_string(number) +
+                     (card.figure ? "\"><h2>" : "\" class=\"none\"><h2>") + card.name + "</h2>" +
+                     verdictChip(card);
   if (!card.figure) return html + "<p class=\"advice\">" + escaped(card.problem) + "</p></article>\n";
   const FigureResult& figure = *card.figure;
   const double sure = figure.confidence.value_or(0);
@@ -152,8 +153,10 @@ std::string reportPage(const std::vector<DrawingResult>& drawings) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
       title + ", moving</title>\n<style>\n" + std::string(embedded::report_css) +
-      "</style></head>\n<body>\n<input type=\"checkbox\" id=\"still\"><input type=\"checkbox\" id=\"pictures\">\n<header><h1>" + title + "</h1><p>" +
-      summary + "</p><label for=\"still\">stand still</label><label for=\"pictures\">pictures alone</label></header>\n";
+      "</style></head>\n<body>\n<input type=\"checkbox\" id=\"still\"><input type=\"checkbox\" "
+      "id=\"pictures\">\n<header><h1>" +
+      title + "</h1><p>" + summary +
+      "</p><label for=\"still\">stand still</label><label for=\"pictures\">pictures alone</label></header>\n";
   html += listHtml("again", "Photos to take again", again) + listHtml("look", "Drawings to look at", look_at);
   return html + "<main>\n" + all + "</main>\n</body></html>\n";
 }
