@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <numbers>
@@ -19,6 +20,7 @@
 #include "libskel/animation/clip_file.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/file_names.h"
+#include "libskel/core/text.h"
 #include "libskel/draw/color.h"
 #include "libskel/image/result_picture.h"
 #include "libskel/window/file_dialog.h"
@@ -667,6 +669,7 @@ class AnimationWindow {
 
 ExitCode runAnimationWindow(const CharacterSource& source, const ClipSource& clips) {
   AnimationDocument document(source, clips);
+  if (!document.message().empty()) std::fprintf(stderr, "%s\n", printable(document.message()).c_str());
   Window window({"skel-animate: " + source.path, 1320, 860});
   AnimationWindow content(document);
   window.run([&] { return content.frame(); });

@@ -113,7 +113,7 @@ class AnimationDocument::StepScope {
 
 AnimationDocument::AnimationDocument(const CharacterSource& source, const ClipSource& library)
     : source_(source), library_(library) {
-  CharacterFile file = loadCharacterWithClips(source, library);
+  CharacterFile file = loadCharacterWithClips(source, library, &message_);
   name_ = file.name;
   bones_ = file.bones;
   state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
@@ -347,7 +347,9 @@ bool AnimationDocument::openModel(const std::string& path) {
   return attempt([&] {
     CharacterSource source = source_;
     source.path = path;
-    CharacterFile file = loadCharacterWithClips(source, library_);
+    if (path != source_.path) source.skeleton.clear();
+    std::string note;
+    CharacterFile file = loadCharacterWithClips(source, library_, &note);
     const StepScope step(*this);
     playing = false;
     source_ = source;
@@ -359,7 +361,7 @@ bool AnimationDocument::openModel(const std::string& path) {
     state_.time_s = 0;
     state_.pose = restPose(skeleton());
     chosen_ = -1;
-    return "opened " + path;
+    return note.empty() ? "opened " + path : note;
   });
 }
 
