@@ -32,7 +32,6 @@ namespace skel {
 namespace {
 
 constexpr float kListWidth = 236, kTimeHeight = 96, kStatusHeight = 40, kButtonHeight = 38;
-constexpr double kFrameRate = 30;  // of the arrow keys, and of films unless told otherwise, 1/s
 // Keys nearer to each other on the time line are no longer told apart.
 constexpr float kKeysApart_px = 14;
 
@@ -184,7 +183,7 @@ class AnimationWindow {
 
   void stepFrames(int frames) {
     document_.playing = false;
-    document_.setTime(document_.state().time_s + frames / kFrameRate);
+    document_.scrub(document_.state().time_s + frames / kFrameRate);
   }
 
   std::string suggestion(const std::string& ending) const {
@@ -452,7 +451,7 @@ class AnimationWindow {
     const float x0 = corner.x + margin, x1 = corner.x + width - margin, y = corner.y + height / 2;
     if (ImGui::IsItemActive() && duration > 0) {
       document_.playing = false;
-      document_.setTime(double((ImGui::GetIO().MousePos.x - x0) / (x1 - x0)) * duration);
+      document_.scrub(double((ImGui::GetIO().MousePos.x - x0) / (x1 - x0)) * duration);
     }
     ImDrawList* list = ImGui::GetWindowDrawList();
     if (duration <= 0) {

@@ -164,6 +164,29 @@ void AnimationDocument::setTime(double time_s) {
   takePoseFromClip();
 }
 
+double AnimationDocument::snapped(double time_s) const {
+  constexpr double kHalfFrame_s = 0.5 / kFrameRate;
+  double nearest_s = std::round(time_s * kFrameRate) / kFrameRate;
+  if (!clip()) return nearest_s;
+  if (nearest_s > duration_s() || std::abs(duration_s() - time_s) < std::abs(nearest_s - time_s))
+    nearest_s = duration_s();
+  double way_s = kHalfFrame_s;
+  const auto look = [&](const std::vector<float>& times_s) {
+    for (const float key_s : times_s)
+      if (std::abs(double(key_s) - time_s) < way_s) {
+        way_s = std::abs(double(key_s) - time_s);
+        nearest_s = double(key_s);
+      }
+  };
+  for (const JointTrack& track : clip()->tracks)
+    for (const auto* times_s : {&track.times_s, &track.translation_times_s, &track.scale_times_s})
+      look(*times_s);
+  look(clip()->root_times_s);
+  return nearest_s;
+}
+
+void AnimationDocument::scrub(double time_s) { setTime(snapped(std::clamp(time_s, 0.0, duration_s()))); }
+
 int AnimationDocument::jointAt(const Eigen::Vector2d& px, const Projection& projection,
                                double radius_px) const {
   const std::vector<Eigen::Vector3f> joints = posedJoints(skeleton(), posed());
@@ -249,6 +272,7 @@ void AnimationDocument::setKey() {
     return;
   }
   const StepScope step(*this);
+  state_.time_s = std::min(snapped(state_.time_s), duration_s());
   for (const int j : joints) {
     const std::string& name = skeleton().joints[std::size_t(j)].name;
     auto track = std::find_if(changed.tracks.begin(), changed.tracks.end(),
@@ -419,7 +443,9 @@ bool AnimationDocument::loadClip(const std::string& path) {
 bool AnimationDocument::saveClip(const std::string& path) {
   return attempt([&] {
     if (!clip()) throw UsageError("there is no clip to save: choose one, or make a new one");
-    save(path, kClipFileEnding, formatClip(*clip()));
+    Clip written = *clip();
+    written.rest_pose = restPoseHash(skeleton());
+    save(path, kClipFileEnding, formatClip(written));
     return "saved " + path;
   });
 }

@@ -18,6 +18,8 @@
 
 namespace skel {
 
+inline constexpr double kFrameRate = 30;  // of the window's frames, and of films unless told otherwise, 1/s
+
 // What steps change and undo brings back. Whatever is large is shared and never changes, so that copies are
 // cheap.
 struct AnimationState {
@@ -77,6 +79,8 @@ class AnimationDocument {
   // Goes on by so much time of the watch; false if nothing moves.
   bool advance(double seconds);
   void setTime(double time_s);
+  // To the key, or else the frame or the end, that is nearest.
+  void scrub(double time_s);
 
   // The joint that keys and numbers speak of; -1: none.
   int chosen() const { return chosen_; }
@@ -93,7 +97,8 @@ class AnimationDocument {
   void setAngles(int joint, const Eigen::Vector3d& angles_rad);
   void resetJoint(int joint);
   void resetPose();
-  // A key at the current time for each joint whose pose is not what the clip says, or for the chosen one.
+  // A key at the current time, as scrub() takes it, for each joint whose pose is not what the clip says, or
+  // for the chosen one.
   void setKey();
   // Of the chosen joint, or of all, at the current time.
   void removeKey();
@@ -109,6 +114,7 @@ class AnimationDocument {
   bool loadPose(const std::string& path);
   bool savePose(const std::string& path);
   bool loadClip(const std::string& path);
+  // As it is for this character, which it is read back for key by key.
   bool saveClip(const std::string& path);
   bool loadSkeleton(const std::string& path);  // the weights are computed anew
   bool saveSkeleton(const std::string& path);
@@ -131,6 +137,7 @@ class AnimationDocument {
   bool attempt(const Action& action);
   void takePoseFromClip();
   void replaceClip(Clip clip);
+  double snapped(double time_s) const;
   bool travel(AnimationState& step);
 
   CharacterSource source_;
