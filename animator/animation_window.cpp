@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,11 @@ constexpr float kListWidth = 236, kTimeHeight = 96, kStatusHeight = 40, kButtonH
 // Keys nearer to each other on the time line are no longer told apart.
 constexpr float kKeysApart_px = 14;
 
+// Of questions before something is lost.
+constexpr ImGuiWindowFlags kQuestionFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize;
+constexpr float kQuestionWidth = 460;
+const ImVec2 kQuestionButton = {120, kButtonHeight};
+
 constexpr const char* kSides[] = {"Front", "Left side", "Back", "Right side"};
 
 constexpr KeyHelp kHelp[] = {
@@ -51,7 +57,7 @@ constexpr KeyHelp kHelp[] = {
     {"1  2  3  4", "solid, translucent, wireframe, skeleton"},
     {"W", "weights of the joint as colours"},
     {"Ctrl Z  Ctrl Y", "undo, redo"},
-    {"Ctrl O  S  E", "open a character, save it, write a film"},
+    {"Ctrl O  S  E  Q", "open a character, save it, write a film, quit"},
     {"H  F1", "this help; Esc closes it"},
 };
 
@@ -95,9 +101,21 @@ class AnimationWindow {
  public:
   explicit AnimationWindow(AnimationDocument& document) : document_(document), stage_(document) {}
 
+  // With a star where clips are not saved.
+  std::string title() const {
+    return "skel-animate: " + printable(document_.path()) + (document_.unsavedClips().empty() ? "" : " *");
+  }
+
+  // Asks first where clips would be lost.
+  bool mayClose() {
+    quit();
+    return closes_;
+  }
+
   NextFrame frame() {
+    if (next_) std::exchange(next_, {})();
     const bool moves = document_.advance(double(ImGui::GetIO().DeltaTime));
-    if (!ImGui::GetIO().WantTextInput && !dialog_.isOpen()) keys();
+    if (!ImGui::GetIO().WantTextInput && !dialog_.isOpen() && !losing_) keys();
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
     // Fields are seen on white, the menu bar belongs to the window.
@@ -126,10 +144,12 @@ class AnimationWindow {
     drawPanel(panel_width, height);
     drawStatus();
     dialog_.draw();
+    drawLosing();
     ImGui::End();
     ImGui::PopStyleColor(3);
     if (help_) drawHelp(corner, room);
-    return moves || film_ ? NextFrame::kAtOnce : NextFrame::kOnInput;
+    if (closes_) return NextFrame::kClose;
+    return moves || film_ || next_ ? NextFrame::kAtOnce : NextFrame::kOnInput;
   }
 
  private:
@@ -138,9 +158,10 @@ class AnimationWindow {
     if (io.KeyCtrl) {
       if (pressed(key::kZ, true)) io.KeyShift ? document_.redo() : document_.undo();
       if (pressed(key::kY, true)) document_.redo();
-      if (pressed(key::kO)) askModel();
+      if (pressed(key::kO)) unlessUnsaved([this] { askModel(); });
       if (pressed(key::kS)) askSaveModel();
       if (pressed(key::kE)) askFilm();
+      if (pressed(key::kQ)) quit();
       return;
     }
     if (pressed(key::kH) || pressed(key::kSlash) || pressed(key::kF1)) help_ = !help_;
@@ -192,13 +213,76 @@ class AnimationWindow {
 
   using Action = bool (AnimationDocument::*)(const std::string&);
 
-  // Has a question answered by an action of the document.
-  void ask(FileQuestion question, Action action) {
-    question.answer = [this, action](const std::string& path) {
-      return (document_.*action)(path) ? "" : document_.message();
+  // Has a question answered by an action of the document; `then` comes after that, in the next frame.
+  void ask(FileQuestion question, Action action, std::function<void()> then = {}) {
+    question.answer = [this, action, then = std::move(then)](const std::string& path) {
+      if (!(document_.*action)(path)) return document_.message();
+      next_ = then;
+      return std::string();
     };
     dialog_.ask(std::move(question));
   }
+
+  // What is about to be lost, and what comes when it is saved or given up.
+  struct Losing {
+    std::vector<std::string> clips;
+    std::string why;
+    std::function<void()> then;
+  };
+
+  void unlessUnsaved(std::function<void()> then) {
+    std::vector<std::string> clips = document_.unsavedClips();
+    if (clips.empty()) return then();
+    const std::string why = clips.size() == 1 ? "is not saved." : "are not saved.";
+    losing_ = Losing{std::move(clips), why, std::move(then)};
+  }
+
+  void quit() {
+    if (losing_ || (dialog_.isOpen() && !document_.unsavedClips().empty())) return;
+    unlessUnsaved([this] { closes_ = true; });
+  }
+
+  // One clip as a file, several with the character.
+  void save(const Losing& losing) {
+    if (losing.clips.size() > 1) return askSaveModel(losing.then);
+    for (int i = 0; i < int(document_.clips().size()); ++i)
+      if (document_.clips()[std::size_t(i)].name == losing.clips.front()) document_.chooseClip(i);
+    askSaveClip(losing.then);
+  }
+
+  void drawLosing() {
+    if (!losing_) return;
+    beginQuestion("losing");
+    if (ImGui::BeginPopupModal("losing", nullptr, kQuestionFlags)) {
+      ImGui::PushTextWrapPos(kQuestionWidth);
+      ImGui::TextUnformatted((joined(losing_->clips) + " " + losing_->why).c_str());
+      ImGui::PopTextWrapPos();
+      ImGui::Spacing();
+      const bool saves = ImGui::Button("Save ...", kQuestionButton);
+      ImGui::SameLine();
+      const bool discards = ImGui::Button("Discard", kQuestionButton);
+      ImGui::SameLine();
+      const bool cancels = ImGui::Button("Cancel", kQuestionButton) || pressed(key::kEscape);
+      if (saves || discards || cancels) {
+        const Losing losing = *std::exchange(losing_, std::nullopt);
+        ImGui::CloseCurrentPopup();
+        if (saves) next_ = [this, losing] { save(losing); };
+        if (discards) next_ = losing.then;
+      }
+      ImGui::EndPopup();
+    }
+    endQuestion();
+  }
+
+  // In the middle, as files are asked for.
+  static void beginQuestion(const char* name) {
+    if (!ImGui::IsPopupOpen(name)) ImGui::OpenPopup(name);
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(24, 20));
+    ImGui::PushStyleVar(ImGuiStyleVar_PopupRounding, 12);
+  }
+  static void endQuestion() { ImGui::PopStyleVar(2); }
 
   void askModel() {
     ask({"Open a character: a drawing, or a model (.glb)", "Open", "character", document_.path(),
@@ -206,10 +290,10 @@ class AnimationWindow {
          [](const std::string& name) { return isDrawingName(name) || name.ends_with(".glb"); }},
         &AnimationDocument::openModel);
   }
-  void askSaveModel() {
+  void askSaveModel(std::function<void()> then = {}) {
     ask({"Save the character with its clips (.glb)", "Save", "saved character", suggestion(".glb"),
          FileUse::kSave, endsWith({".glb"})},
-        &AnimationDocument::saveModel);
+        &AnimationDocument::saveModel, std::move(then));
   }
   void askPose() {
     ask({"Load a pose", "Load", "pose", suggestion(kPoseFileEnding), FileUse::kOpen, endsWith({".json"})},
@@ -221,15 +305,27 @@ class AnimationWindow {
         &AnimationDocument::savePose);
   }
   void askClip() {
-    ask({"Load a clip (.clip.json, .bvh, key frames)", "Load", "clip", suggestion(kClipFileEnding),
-         FileUse::kOpen, endsWith({".json", ".bvh"})},
-        &AnimationDocument::loadClip);
+    FileQuestion question{"Load a clip (.clip.json, .bvh, key frames)",
+                          "Load",
+                          "clip",
+                          suggestion(kClipFileEnding),
+                          FileUse::kOpen,
+                          endsWith({".json", ".bvh"})};
+    question.answer = [this](const std::string& path) {
+      const auto load = [this, path] { return document_.loadClip(path); };
+      if (const std::string below = document_.unsavedBelow(path); !below.empty()) {
+        losing_ = Losing{{below}, "is not saved, and the file's clip of that name would replace it.", load};
+        return std::string();
+      }
+      return load() ? std::string() : document_.message();
+    };
+    dialog_.ask(std::move(question));
   }
-  void askSaveClip() {
+  void askSaveClip(std::function<void()> then = {}) {
     ask({"Save the clip", "Save", "clip",
          "out/" + (document_.clip() ? safeFileName(document_.clip()->name) : "clip") + kClipFileEnding,
          FileUse::kSave, endsWith({kClipFileEnding})},
-        &AnimationDocument::saveClip);
+        &AnimationDocument::saveClip, std::move(then));
   }
   void askSkeleton() {
     ask({"Load a skeleton; the weights are computed anew", "Load", "skeleton", suggestion(".rig.json"),
@@ -283,7 +379,7 @@ class AnimationWindow {
     const bool has_clip = document_.clip() != nullptr;
     if (!ImGui::BeginMenuBar()) return;
     if (ImGui::BeginMenu("File")) {
-      if (ImGui::MenuItem("Open character ...", "Ctrl O")) askModel();
+      if (ImGui::MenuItem("Open character ...", "Ctrl O")) unlessUnsaved([this] { askModel(); });
       if (ImGui::MenuItem("Save character ...", "Ctrl S")) askSaveModel();
       ImGui::Separator();
       if (ImGui::MenuItem("Load pose ...")) askPose();
@@ -292,12 +388,14 @@ class AnimationWindow {
       if (ImGui::MenuItem("Load clip ...")) askClip();
       if (ImGui::MenuItem("Save clip ...", nullptr, false, has_clip)) askSaveClip();
       ImGui::Separator();
-      if (ImGui::MenuItem("Load skeleton ...")) askSkeleton();
+      if (ImGui::MenuItem("Load skeleton ...")) unlessUnsaved([this] { askSkeleton(); });
       if (ImGui::MenuItem("Save skeleton ...")) askSaveSkeleton();
       if (ImGui::MenuItem("Load weights ...")) askWeights();
       if (ImGui::MenuItem("Save weights ...")) askSaveWeights();
       ImGui::Separator();
       if (ImGui::MenuItem("Write film ...", "Ctrl E")) askFilm();
+      ImGui::Separator();
+      if (ImGui::MenuItem("Quit", "Ctrl Q")) quit();
       ImGui::EndMenu();
     }
     if (ImGui::BeginMenu("Edit")) {
@@ -662,6 +760,9 @@ class AnimationWindow {
   bool angles_held_ = false;
   int open_steps_ = 0, quarter_ = 0;
   bool help_ = false;
+  std::function<void()> next_;  // at the beginning of the next frame
+  std::optional<Losing> losing_;
+  bool closes_ = false;
 };
 
 }  // namespace
@@ -669,9 +770,15 @@ class AnimationWindow {
 ExitCode runAnimationWindow(const CharacterSource& source, const ClipSource& clips) {
   AnimationDocument document(source, clips);
   if (!document.message().empty()) std::fprintf(stderr, "%s\n", printable(document.message()).c_str());
-  Window window({"skel-animate: " + source.path, 1320, 860});
+  std::string title = "skel-animate: " + source.path;
+  Window window({title, 1320, 860});
   AnimationWindow content(document);
-  window.run([&] { return content.frame(); });
+  window.run(
+      [&] {
+        if (const std::string now = content.title(); now != title) window.setTitle(title = now);
+        return content.frame();
+      },
+      [&] { return content.mayClose(); });
   return ExitCode::kDone;
 }
 

@@ -60,6 +60,8 @@ void save(const std::string& path, std::string_view ending, std::string_view byt
   path.ends_with(ending) ? replaceFile(path, bytes) : writeFile(path, bytes);
 }
 
+bool moves(const Clip& clip) { return !clip.tracks.empty() || !clip.root_times_s.empty(); }
+
 bool sameTurn(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
   return std::abs(a.dot(b)) > 1 - 1e-7f;
 }
@@ -119,6 +121,7 @@ AnimationDocument::AnimationDocument(const CharacterSource& source, const ClipSo
   state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
   state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
   state_.pose = restPose(skeleton());
+  addSaved(clips());
 }
 
 const Clip* AnimationDocument::clip() const {
@@ -343,6 +346,28 @@ void AnimationDocument::setDuration(double duration_s) {
   state_.time_s = std::min(state_.time_s, this->duration_s());
 }
 
+void AnimationDocument::addSaved(const std::vector<Clip>& clips) {
+  saved_.insert(saved_.end(), clips.begin(), clips.end());
+}
+
+std::vector<std::string> AnimationDocument::unsavedClips() const {
+  std::vector<std::string> names;
+  for (const Clip& clip : clips())
+    if (moves(clip) && std::find(saved_.begin(), saved_.end(), clip) == saved_.end())
+      names.push_back(clip.name);
+  return names;
+}
+
+std::string AnimationDocument::unsavedBelow(const std::string& path) const {
+  try {
+    const std::string name = loadClipFor(path, character(), library_).name;
+    const std::vector<std::string> unsaved = unsavedClips();
+    return std::find(unsaved.begin(), unsaved.end(), name) == unsaved.end() ? "" : name;
+  } catch (const Error&) {  // loadClip() says what is wrong with it
+    return "";
+  }
+}
+
 std::vector<double> AnimationDocument::keyTimes() const {
   std::vector<double> times;
   if (!clip()) return times;
@@ -385,6 +410,7 @@ bool AnimationDocument::openModel(const std::string& path) {
     state_.time_s = 0;
     state_.pose = restPose(skeleton());
     chosen_ = -1;
+    addSaved(clips());
     return note.empty() ? "opened " + path : note;
   });
 }
@@ -393,12 +419,12 @@ bool AnimationDocument::saveModel(const std::string& path) {
   return attempt([&] {
     // An animation without channels is none.
     std::vector<Clip> clips;
-    std::copy_if(this->clips().begin(), this->clips().end(), std::back_inserter(clips),
-                 [](const Clip& clip) { return !clip.tracks.empty() || !clip.root_times_s.empty(); });
+    std::copy_if(this->clips().begin(), this->clips().end(), std::back_inserter(clips), moves);
     ExportOptions options;
     options.name = name_;
     options.bones = bones_;
     save(path, ".glb", encodeGlb(character(), clips, options));
+    addSaved(clips);
     return "saved " + path;
   });
 }
@@ -423,6 +449,7 @@ bool AnimationDocument::savePose(const std::string& path) {
 bool AnimationDocument::loadClip(const std::string& path) {
   return attempt([&] {
     Clip clip = loadClipFor(path, character(), library_);
+    addSaved({clip});
     const StepScope step(*this);
     playing = false;
     auto clips = std::make_shared<std::vector<Clip>>(*state_.clips);
@@ -446,6 +473,7 @@ bool AnimationDocument::saveClip(const std::string& path) {
     Clip written = *clip();
     written.rest_pose = restPoseHash(skeleton());
     save(path, kClipFileEnding, formatClip(written));
+    addSaved({*clip()});
     return "saved " + path;
   });
 }
@@ -461,6 +489,7 @@ bool AnimationDocument::loadSkeleton(const std::string& path) {
     state_.character = std::make_shared<const RiggedCharacter>(std::move(changed));
     // Clips that were made for other bones go, but for those that say what they need.
     state_.clips = std::make_shared<const std::vector<Clip>>(libraryFor(character(), library_));
+    addSaved(clips());
     state_.clip = -1;
     state_.time_s = 0;
     state_.pose = restPose(this->skeleton());

@@ -108,6 +108,11 @@ class AnimationDocument {
   // When there are keys: of the chosen joint, or of all.
   std::vector<double> keyTimes() const;
 
+  // Clips that move something and that no file holds as they are.
+  std::vector<std::string> unsavedClips() const;
+  // That of them which loadClip() would replace; "": none.
+  std::string unsavedBelow(const std::string& path) const;
+
   // Files. What fails is said in message(); false then. Loading makes a step.
   bool openModel(const std::string& path);
   bool saveModel(const std::string& path);  // .glb with all clips
@@ -138,6 +143,7 @@ class AnimationDocument {
   void takePoseFromClip();
   void replaceClip(Clip clip);
   double snapped(double time_s) const;
+  void addSaved(const std::vector<Clip>& clips);
   bool travel(AnimationState& step);
 
   CharacterSource source_;
@@ -150,6 +156,7 @@ class AnimationDocument {
   AnimationState before_;
   UndoHistory<AnimationState> history_{200};
   std::string message_;
+  std::vector<Clip> saved_;  // as files hold them
 };
 
 }  // namespace skel

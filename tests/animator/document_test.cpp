@@ -319,6 +319,38 @@ TEST_CASE("times are those of keys, of the end, or of frames") {
   CHECK(scrubbed(0.51) == 0.5);
 }
 
+TEST_CASE("clips that no file holds are known, and a save, a load or undo changes that") {
+  using Names = std::vector<std::string>;
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  CHECK(document.unsavedClips().empty());
+  document.newClip("my-clip", 1);
+  CHECK(document.unsavedClips().empty());  // it moves nothing
+  document.turnJoint(document.skeleton().index("head"), 0, 0.5);
+  document.setKey();
+  CHECK(document.unsavedClips() == Names{"my-clip"});
+  document.undo();
+  CHECK(document.unsavedClips().empty());
+  document.redo();
+  CHECK(document.unsavedBelow(dir.file("none.clip.json")).empty());
+  REQUIRE_FALSE(document.saveClip("/dev/null/my-clip.clip.json"));
+  CHECK(document.unsavedClips() == Names{"my-clip"});
+  REQUIRE(document.saveClip(dir.file("my-clip.clip.json")));
+  CHECK(document.unsavedClips().empty());
+  CHECK(document.unsavedBelow(dir.file("my-clip.clip.json")).empty());
+  document.turnJoint(document.skeleton().index("head"), 0, 0.5);
+  document.setKey();
+  document.chooseClip(clipIndex(document, "nod"));
+  document.turnJoint(document.skeleton().index("head"), 0, 0.5);
+  document.setKey();
+  CHECK(document.unsavedClips() == Names{"nod", "my-clip"});
+  CHECK(document.unsavedBelow(dir.file("my-clip.clip.json")) == "my-clip");
+  REQUIRE(document.loadClip(dir.file("my-clip.clip.json")));
+  CHECK(document.unsavedClips() == Names{"nod"});
+  REQUIRE(document.saveModel(dir.file("saved.glb")));
+  CHECK(document.unsavedClips().empty());
+}
+
 TEST_CASE("what cannot be loaded or saved is said in one line, and changes nothing") {
   const TempDir dir;
   AnimationDocument document({.path = figureFile(dir)});
