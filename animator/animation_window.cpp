@@ -36,7 +36,7 @@ constexpr float kListWidth = 236, kTimeHeight = 96, kStatusHeight = 40, kButtonH
 // Keys nearer to each other on the time line are no longer told apart.
 constexpr float kKeysApart_px = 14;
 
-// Of questions before something is lost.
+// Of questions before something is lost, or for a name.
 constexpr ImGuiWindowFlags kQuestionFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize;
 constexpr float kQuestionWidth = 460;
 const ImVec2 kQuestionButton = {120, kButtonHeight};
@@ -115,7 +115,7 @@ class AnimationWindow {
   NextFrame frame() {
     if (next_) std::exchange(next_, {})();
     const bool moves = document_.advance(double(ImGui::GetIO().DeltaTime));
-    if (!ImGui::GetIO().WantTextInput && !dialog_.isOpen() && !losing_) keys();
+    if (!ImGui::GetIO().WantTextInput && !dialog_.isOpen() && !losing_ && !renames_) keys();
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
     // Fields are seen on white, the menu bar belongs to the window.
@@ -145,6 +145,7 @@ class AnimationWindow {
     drawStatus();
     dialog_.draw();
     drawLosing();
+    drawRename();
     ImGui::End();
     ImGui::PopStyleColor(3);
     if (help_) drawHelp(corner, room);
@@ -238,7 +239,8 @@ class AnimationWindow {
   }
 
   void quit() {
-    if (losing_ || (dialog_.isOpen() && !document_.unsavedClips().empty())) return;
+    const bool asks = dialog_.isOpen() || renames_;  // something else
+    if (losing_ || (asks && !document_.unsavedClips().empty())) return;
     unlessUnsaved([this] { closes_ = true; });
   }
 
@@ -268,6 +270,34 @@ class AnimationWindow {
         ImGui::CloseCurrentPopup();
         if (saves) next_ = [this, losing] { save(losing); };
         if (discards) next_ = losing.then;
+      }
+      ImGui::EndPopup();
+    }
+    endQuestion();
+  }
+
+  void askName() {
+    if (!document_.clip()) return;
+    std::snprintf(name_.data(), name_.size(), "%s", document_.clip()->name.c_str());
+    renames_ = true;
+  }
+
+  void drawRename() {
+    if (!renames_) return;
+    beginQuestion("rename");
+    if (ImGui::BeginPopupModal("rename", nullptr, kQuestionFlags)) {
+      ImGui::TextUnformatted("The clip's name");
+      ImGui::SetNextItemWidth(kQuestionWidth);
+      if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+      bool done = ImGui::InputText("##clip name", name_.data(), name_.size(),
+                                   ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+      done |= ImGui::Button("Rename", kQuestionButton);
+      ImGui::SameLine();
+      const bool cancels = ImGui::Button("Cancel", kQuestionButton) || pressed(key::kEscape);
+      if (done) document_.renameClip(name_.data());
+      if (done || cancels) {
+        renames_ = false;
+        ImGui::CloseCurrentPopup();
       }
       ImGui::EndPopup();
     }
@@ -405,6 +435,7 @@ class AnimationWindow {
       if (ImGui::MenuItem("Set key", "K", false, has_clip)) document_.setKey();
       if (ImGui::MenuItem("Remove key", "Delete", false, has_clip)) document_.removeKey();
       if (ImGui::MenuItem("Reset pose", "Shift R")) document_.resetPose();
+      if (ImGui::MenuItem("Rename clip ...", nullptr, false, has_clip)) askName();
       ImGui::EndMenu();
     }
     if (ImGui::BeginMenu("View")) {
@@ -762,7 +793,8 @@ class AnimationWindow {
   bool help_ = false;
   std::function<void()> next_;  // at the beginning of the next frame
   std::optional<Losing> losing_;
-  bool closes_ = false;
+  std::array<char, 256> name_{};  // that is being typed
+  bool renames_ = false, closes_ = false;
 };
 
 }  // namespace

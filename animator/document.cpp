@@ -9,6 +9,7 @@
 #include "animator/rig_source.h"
 #include "animator/rig_text.h"
 #include "libskel/animation/clip_file.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
@@ -61,6 +62,13 @@ void save(const std::string& path, std::string_view ending, std::string_view byt
 }
 
 bool moves(const Clip& clip) { return !clip.tracks.empty() || !clip.root_times_s.empty(); }
+
+// The name of a clip's file without its folder and ending.
+std::string clipNameIn(const std::string& path) {
+  const std::string name = fs::path(path).filename().string();
+  return name.ends_with(kClipFileEnding) ? name.substr(0, name.size() - std::string(kClipFileEnding).size())
+                                         : stemOf(path);
+}
 
 bool sameTurn(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
   return std::abs(a.dot(b)) > 1 - 1e-7f;
@@ -321,9 +329,8 @@ void AnimationDocument::removeKey() {
 void AnimationDocument::newClip(const std::string& name, double duration_s) {
   const StepScope step(*this);
   std::string unique = name;
-  for (int i = 2;
-       std::any_of(clips().begin(), clips().end(), [&](const Clip& c) { return c.name == unique; }); ++i)
-    unique = name + "-" + std::to_string(i);
+  for (int i = 2; hasClip(clips(), unique); ++i) unique = name + "-" + std::to_string(i);
+  given_names_.insert(unique);
   auto clips = std::make_shared<std::vector<Clip>>(*state_.clips);
   Clip clip;
   clip.name = unique;
@@ -344,6 +351,24 @@ void AnimationDocument::setDuration(double duration_s) {
   changed.least_duration_s = float(std::max(duration_s, 0.0));
   replaceClip(std::move(changed));
   state_.time_s = std::min(state_.time_s, this->duration_s());
+}
+
+bool AnimationDocument::hasOtherClip(const std::string& name) const {
+  return std::any_of(clips().begin(), clips().end(),
+                     [&](const Clip& other) { return &other != clip() && other.name == name; });
+}
+
+void AnimationDocument::renameClip(const std::string& name) {
+  if (!clip() || name.empty() || name == clip()->name) return;
+  if (hasOtherClip(name)) {
+    message_ = "there is a clip \"" + name + "\" already";
+    return;
+  }
+  const StepScope step(*this);
+  Clip changed = *clip();
+  changed.name = name;
+  replaceClip(std::move(changed));
+  message_ = "the clip is called \"" + name + "\"";
 }
 
 void AnimationDocument::addSaved(const std::vector<Clip>& clips) {
@@ -470,10 +495,21 @@ bool AnimationDocument::loadClip(const std::string& path) {
 bool AnimationDocument::saveClip(const std::string& path) {
   return attempt([&] {
     if (!clip()) throw UsageError("there is no clip to save: choose one, or make a new one");
-    Clip written = *clip();
+    const std::string name = clipNameIn(path);
+    const bool follows = given_names_.contains(clip()->name) && !name.empty() && name != clip()->name;
+    Clip named = *clip();
+    if (follows && !hasOtherClip(name)) named.name = name;
+    Clip written = named;
     written.rest_pose = restPoseHash(skeleton());
     save(path, kClipFileEnding, formatClip(written));
-    addSaved({*clip()});
+    addSaved({named});
+    if (named.name != clip()->name) {
+      const StepScope step(*this);
+      replaceClip(std::move(named));
+    } else if (follows) {
+      return "saved " + path + "; the clip is still called \"" + named.name + "\", as there is another \"" +
+             name + "\"";
+    }
     return "saved " + path;
   });
 }

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <future>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -105,6 +106,8 @@ class AnimationDocument {
   // Without keys, in the rest pose, and chosen; it is for this character alone.
   void newClip(const std::string& name, double duration_s);
   void setDuration(double duration_s);
+  // Refused if another clip has that name.
+  void renameClip(const std::string& name);
   // When there are keys: of the chosen joint, or of all.
   std::vector<double> keyTimes() const;
 
@@ -119,7 +122,8 @@ class AnimationDocument {
   bool loadPose(const std::string& path);
   bool savePose(const std::string& path);
   bool loadClip(const std::string& path);
-  // As it is for this character, which it is read back for key by key.
+  // As it is for this character, which it is read back for key by key. A clip that newClip() has named gets
+  // the file's name, if that is free; that is a step.
   bool saveClip(const std::string& path);
   bool loadSkeleton(const std::string& path);  // the weights are computed anew
   bool saveSkeleton(const std::string& path);
@@ -142,6 +146,7 @@ class AnimationDocument {
   bool attempt(const Action& action);
   void takePoseFromClip();
   void replaceClip(Clip clip);
+  bool hasOtherClip(const std::string& name) const;
   double snapped(double time_s) const;
   void addSaved(const std::vector<Clip>& clips);
   bool travel(AnimationState& step);
@@ -156,7 +161,8 @@ class AnimationDocument {
   AnimationState before_;
   UndoHistory<AnimationState> history_{200};
   std::string message_;
-  std::vector<Clip> saved_;  // as files hold them
+  std::vector<Clip> saved_;            // as files hold them
+  std::set<std::string> given_names_;  // by newClip()
 };
 
 }  // namespace skel

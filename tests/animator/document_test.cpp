@@ -351,6 +351,40 @@ TEST_CASE("clips that no file holds are known, and a save, a load or undo change
   CHECK(document.unsavedClips().empty());
 }
 
+TEST_CASE("a clip is called as its file, unless somebody has named it, and names are free") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const auto make = [&] {
+    document.newClip("my-clip", 1);
+    document.turnJoint(document.skeleton().index("head"), 0, 0.5);
+    document.setKey();
+  };
+  make();
+  REQUIRE(document.saveClip(dir.file("bow.clip.json")));
+  CHECK(document.clip()->name == "bow");
+  CHECK(readClipFile(dir.file("bow.clip.json")).name == "bow");
+  CHECK(document.unsavedClips().empty());
+  REQUIRE(document.saveClip(dir.file("other.clip.json")));
+  CHECK(readClipFile(dir.file("other.clip.json")).name == "bow");
+  document.undo();
+  CHECK(document.clip()->name == "my-clip");
+  document.redo();
+
+  make();
+  REQUIRE(document.saveClip(dir.file("walk.clip.json")));  // skel's own is called so
+  CHECK(document.clip()->name == "my-clip");
+  CHECK_THAT(document.message(), Contains("still called \"my-clip\", as there is another \"walk\""));
+  document.renameClip("bow");
+  CHECK(document.clip()->name == "my-clip");
+  CHECK_THAT(document.message(), Contains("there is a clip \"bow\" already"));
+  document.renameClip("");
+  CHECK(document.clip()->name == "my-clip");
+  document.renameClip("deep bow");
+  CHECK(document.clip()->name == "deep bow");
+  REQUIRE(document.saveClip(dir.file("file.clip.json")));
+  CHECK(readClipFile(dir.file("file.clip.json")).name == "deep bow");
+}
+
 TEST_CASE("what cannot be loaded or saved is said in one line, and changes nothing") {
   const TempDir dir;
   AnimationDocument document({.path = figureFile(dir)});
