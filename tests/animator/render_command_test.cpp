@@ -312,6 +312,8 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
       {model + " --clip nod --size 0x64 -o " + film, 1, "must be WIDTHxHEIGHT"},
       {model + " --clip nod --size 63x64 -o " + dir.file("film.mp4"), 1, "the sides of an MP4 are even"},
       {model + " --clip nod --background none -o " + dir.file("film.mp4"), 1, "MP4 has no transparency"},
+      {model + " --clips nod,walk --background none -o " + dir.file("films/"), 1,
+       "films/: films in a folder are MP4, which has no transparency, unless --format webp, gif or png"},
       {model + " --clip nod --background '#12' -o " + film, 1, "a colour is written #rrggbb"},
       {model + " --clip nod --background blue.png -o " + film, 2, "blue.png: cannot be read"},
       {model + " --clip nod --size 200000 --background " + kDrawing + " -o " + film, 1,
