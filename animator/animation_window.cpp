@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,7 @@
 #include "libskel/animation/clip_file.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/file_names.h"
+#include "libskel/core/text.h"
 #include "libskel/draw/color.h"
 #include "libskel/image/result_picture.h"
 #include "libskel/window/file_dialog.h"
@@ -30,9 +33,13 @@ namespace skel {
 namespace {
 
 constexpr float kListWidth = 236, kTimeHeight = 96, kStatusHeight = 40, kButtonHeight = 38;
-constexpr double kFrameRate = 30;  // of the arrow keys, and of films unless told otherwise, 1/s
 // Keys nearer to each other on the time line are no longer told apart.
 constexpr float kKeysApart_px = 14;
+
+// Of questions before something is lost, or for a name.
+constexpr ImGuiWindowFlags kQuestionFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize;
+constexpr float kQuestionWidth = 460;
+const ImVec2 kQuestionButton = {120, kButtonHeight};
 
 constexpr const char* kSides[] = {"Front", "Left side", "Back", "Right side"};
 
@@ -50,7 +57,7 @@ constexpr KeyHelp kHelp[] = {
     {"1  2  3  4", "solid, translucent, wireframe, skeleton"},
     {"W", "weights of the joint as colours"},
     {"Ctrl Z  Ctrl Y", "undo, redo"},
-    {"Ctrl O  S  E", "open a character, save it, write a film"},
+    {"Ctrl O  S  E  Q", "open a character, save it, write a film, quit"},
     {"H  F1", "this help; Esc closes it"},
 };
 
@@ -94,9 +101,21 @@ class AnimationWindow {
  public:
   explicit AnimationWindow(AnimationDocument& document) : document_(document), stage_(document) {}
 
+  // With a star where clips are not saved.
+  std::string title() const {
+    return "skel-animate: " + printable(document_.path()) + (document_.unsavedClips().empty() ? "" : " *");
+  }
+
+  // Asks first where clips would be lost.
+  bool mayClose() {
+    quit();
+    return closes_;
+  }
+
   NextFrame frame() {
+    if (next_) std::exchange(next_, {})();
     const bool moves = document_.advance(double(ImGui::GetIO().DeltaTime));
-    if (!ImGui::GetIO().WantTextInput && !dialog_.isOpen()) keys();
+    if (!ImGui::GetIO().WantTextInput && !dialog_.isOpen() && !losing_ && !renames_) keys();
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
     // Fields are seen on white, the menu bar belongs to the window.
@@ -125,10 +144,13 @@ class AnimationWindow {
     drawPanel(panel_width, height);
     drawStatus();
     dialog_.draw();
+    drawLosing();
+    drawRename();
     ImGui::End();
     ImGui::PopStyleColor(3);
     if (help_) drawHelp(corner, room);
-    return moves || film_ ? NextFrame::kAtOnce : NextFrame::kOnInput;
+    if (closes_) return NextFrame::kClose;
+    return moves || film_ || next_ ? NextFrame::kAtOnce : NextFrame::kOnInput;
   }
 
  private:
@@ -137,9 +159,10 @@ class AnimationWindow {
     if (io.KeyCtrl) {
       if (pressed(key::kZ, true)) io.KeyShift ? document_.redo() : document_.undo();
       if (pressed(key::kY, true)) document_.redo();
-      if (pressed(key::kO)) askModel();
+      if (pressed(key::kO)) unlessUnsaved([this] { askModel(); });
       if (pressed(key::kS)) askSaveModel();
       if (pressed(key::kE)) askFilm();
+      if (pressed(key::kQ)) quit();
       return;
     }
     if (pressed(key::kH) || pressed(key::kSlash) || pressed(key::kF1)) help_ = !help_;
@@ -182,7 +205,7 @@ class AnimationWindow {
 
   void stepFrames(int frames) {
     document_.playing = false;
-    document_.setTime(document_.state().time_s + frames / kFrameRate);
+    document_.scrub(document_.state().time_s + frames / kFrameRate);
   }
 
   std::string suggestion(const std::string& ending) const {
@@ -191,13 +214,105 @@ class AnimationWindow {
 
   using Action = bool (AnimationDocument::*)(const std::string&);
 
-  // Has a question answered by an action of the document.
-  void ask(FileQuestion question, Action action) {
-    question.answer = [this, action](const std::string& path) {
-      return (document_.*action)(path) ? "" : document_.message();
+  // Has a question answered by an action of the document; `then` comes after that, in the next frame.
+  void ask(FileQuestion question, Action action, std::function<void()> then = {}) {
+    question.answer = [this, action, then = std::move(then)](const std::string& path) {
+      if (!(document_.*action)(path)) return document_.message();
+      next_ = then;
+      return std::string();
     };
     dialog_.ask(std::move(question));
   }
+
+  // What is about to be lost, and what comes when it is saved or given up.
+  struct Losing {
+    std::vector<std::string> clips;
+    std::string why;
+    std::function<void()> then;
+  };
+
+  void unlessUnsaved(std::function<void()> then) {
+    std::vector<std::string> clips = document_.unsavedClips();
+    if (clips.empty()) return then();
+    const std::string why = clips.size() == 1 ? "is not saved." : "are not saved.";
+    losing_ = Losing{std::move(clips), why, std::move(then)};
+  }
+
+  void quit() {
+    const bool asks = dialog_.isOpen() || renames_;  // something else
+    if (losing_ || (asks && !document_.unsavedClips().empty())) return;
+    unlessUnsaved([this] { closes_ = true; });
+  }
+
+  // One clip as a file, several with the character.
+  void save(const Losing& losing) {
+    if (losing.clips.size() > 1) return askSaveModel(losing.then);
+    for (int i = 0; i < int(document_.clips().size()); ++i)
+      if (document_.clips()[std::size_t(i)].name == losing.clips.front()) document_.chooseClip(i);
+    askSaveClip(losing.then);
+  }
+
+  void drawLosing() {
+    if (!losing_) return;
+    beginQuestion("losing");
+    if (ImGui::BeginPopupModal("losing", nullptr, kQuestionFlags)) {
+      ImGui::PushTextWrapPos(kQuestionWidth);
+      ImGui::TextUnformatted((joined(losing_->clips) + " " + losing_->why).c_str());
+      ImGui::PopTextWrapPos();
+      ImGui::Spacing();
+      const bool saves = ImGui::Button("Save ...", kQuestionButton);
+      ImGui::SameLine();
+      const bool discards = ImGui::Button("Discard", kQuestionButton);
+      ImGui::SameLine();
+      const bool cancels = ImGui::Button("Cancel", kQuestionButton) || pressed(key::kEscape);
+      if (saves || discards || cancels) {
+        const Losing losing = *std::exchange(losing_, std::nullopt);
+        ImGui::CloseCurrentPopup();
+        if (saves) next_ = [this, losing] { save(losing); };
+        if (discards) next_ = losing.then;
+      }
+      ImGui::EndPopup();
+    }
+    endQuestion();
+  }
+
+  void askName() {
+    if (!document_.clip()) return;
+    std::snprintf(name_.data(), name_.size(), "%s", document_.clip()->name.c_str());
+    renames_ = true;
+  }
+
+  void drawRename() {
+    if (!renames_) return;
+    beginQuestion("rename");
+    if (ImGui::BeginPopupModal("rename", nullptr, kQuestionFlags)) {
+      ImGui::TextUnformatted("The clip's name");
+      ImGui::SetNextItemWidth(kQuestionWidth);
+      if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+      bool done = ImGui::InputText("##clip name", name_.data(), name_.size(),
+                                   ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+      done |= ImGui::Button("Rename", kQuestionButton);
+      ImGui::SameLine();
+      const bool cancels = ImGui::Button("Cancel", kQuestionButton) || pressed(key::kEscape);
+      if (done) document_.renameClip(name_.data());
+      if (done || cancels) {
+        renames_ = false;
+        ImGui::CloseCurrentPopup();
+      }
+      ImGui::EndPopup();
+    }
+    endQuestion();
+  }
+
+  // In the middle, as files are asked for.
+  static void beginQuestion(const char* name) {
+    if (!ImGui::IsPopupOpen(name)) ImGui::OpenPopup(name);
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(24, 20));
+    ImGui::PushStyleVar(ImGuiStyleVar_PopupRounding, 12);
+  }
+  static void endQuestion() { ImGui::PopStyleVar(2); }
 
   void askModel() {
     ask({"Open a character: a drawing, or a model (.glb)", "Open", "character", document_.path(),
@@ -205,10 +320,10 @@ class AnimationWindow {
          [](const std::string& name) { return isDrawingName(name) || name.ends_with(".glb"); }},
         &AnimationDocument::openModel);
   }
-  void askSaveModel() {
+  void askSaveModel(std::function<void()> then = {}) {
     ask({"Save the character with its clips (.glb)", "Save", "saved character", suggestion(".glb"),
          FileUse::kSave, endsWith({".glb"})},
-        &AnimationDocument::saveModel);
+        &AnimationDocument::saveModel, std::move(then));
   }
   void askPose() {
     ask({"Load a pose", "Load", "pose", suggestion(kPoseFileEnding), FileUse::kOpen, endsWith({".json"})},
@@ -220,15 +335,27 @@ class AnimationWindow {
         &AnimationDocument::savePose);
   }
   void askClip() {
-    ask({"Load a clip (.clip.json, .bvh, key frames)", "Load", "clip", suggestion(kClipFileEnding),
-         FileUse::kOpen, endsWith({".json", ".bvh"})},
-        &AnimationDocument::loadClip);
+    FileQuestion question{"Load a clip (.clip.json, .bvh, key frames)",
+                          "Load",
+                          "clip",
+                          suggestion(kClipFileEnding),
+                          FileUse::kOpen,
+                          endsWith({".json", ".bvh"})};
+    question.answer = [this](const std::string& path) {
+      const auto load = [this, path] { return document_.loadClip(path); };
+      if (const std::string below = document_.unsavedBelow(path); !below.empty()) {
+        losing_ = Losing{{below}, "is not saved, and the file's clip of that name would replace it.", load};
+        return std::string();
+      }
+      return load() ? std::string() : document_.message();
+    };
+    dialog_.ask(std::move(question));
   }
-  void askSaveClip() {
+  void askSaveClip(std::function<void()> then = {}) {
     ask({"Save the clip", "Save", "clip",
          "out/" + (document_.clip() ? safeFileName(document_.clip()->name) : "clip") + kClipFileEnding,
          FileUse::kSave, endsWith({kClipFileEnding})},
-        &AnimationDocument::saveClip);
+        &AnimationDocument::saveClip, std::move(then));
   }
   void askSkeleton() {
     ask({"Load a skeleton; the weights are computed anew", "Load", "skeleton", suggestion(".rig.json"),
@@ -282,7 +409,7 @@ class AnimationWindow {
     const bool has_clip = document_.clip() != nullptr;
     if (!ImGui::BeginMenuBar()) return;
     if (ImGui::BeginMenu("File")) {
-      if (ImGui::MenuItem("Open character ...", "Ctrl O")) askModel();
+      if (ImGui::MenuItem("Open character ...", "Ctrl O")) unlessUnsaved([this] { askModel(); });
       if (ImGui::MenuItem("Save character ...", "Ctrl S")) askSaveModel();
       ImGui::Separator();
       if (ImGui::MenuItem("Load pose ...")) askPose();
@@ -291,12 +418,14 @@ class AnimationWindow {
       if (ImGui::MenuItem("Load clip ...")) askClip();
       if (ImGui::MenuItem("Save clip ...", nullptr, false, has_clip)) askSaveClip();
       ImGui::Separator();
-      if (ImGui::MenuItem("Load skeleton ...")) askSkeleton();
+      if (ImGui::MenuItem("Load skeleton ...")) unlessUnsaved([this] { askSkeleton(); });
       if (ImGui::MenuItem("Save skeleton ...")) askSaveSkeleton();
       if (ImGui::MenuItem("Load weights ...")) askWeights();
       if (ImGui::MenuItem("Save weights ...")) askSaveWeights();
       ImGui::Separator();
       if (ImGui::MenuItem("Write film ...", "Ctrl E")) askFilm();
+      ImGui::Separator();
+      if (ImGui::MenuItem("Quit", "Ctrl Q")) quit();
       ImGui::EndMenu();
     }
     if (ImGui::BeginMenu("Edit")) {
@@ -306,6 +435,7 @@ class AnimationWindow {
       if (ImGui::MenuItem("Set key", "K", false, has_clip)) document_.setKey();
       if (ImGui::MenuItem("Remove key", "Delete", false, has_clip)) document_.removeKey();
       if (ImGui::MenuItem("Reset pose", "Shift R")) document_.resetPose();
+      if (ImGui::MenuItem("Rename clip ...", nullptr, false, has_clip)) askName();
       ImGui::EndMenu();
     }
     if (ImGui::BeginMenu("View")) {
@@ -450,7 +580,7 @@ class AnimationWindow {
     const float x0 = corner.x + margin, x1 = corner.x + width - margin, y = corner.y + height / 2;
     if (ImGui::IsItemActive() && duration > 0) {
       document_.playing = false;
-      document_.setTime(double((ImGui::GetIO().MousePos.x - x0) / (x1 - x0)) * duration);
+      document_.scrub(double((ImGui::GetIO().MousePos.x - x0) / (x1 - x0)) * duration);
     }
     ImDrawList* list = ImGui::GetWindowDrawList();
     if (duration <= 0) {
@@ -661,15 +791,26 @@ class AnimationWindow {
   bool angles_held_ = false;
   int open_steps_ = 0, quarter_ = 0;
   bool help_ = false;
+  std::function<void()> next_;  // at the beginning of the next frame
+  std::optional<Losing> losing_;
+  std::array<char, 256> name_{};  // that is being typed
+  bool renames_ = false, closes_ = false;
 };
 
 }  // namespace
 
 ExitCode runAnimationWindow(const CharacterSource& source, const ClipSource& clips) {
   AnimationDocument document(source, clips);
-  Window window({"skel-animate: " + source.path, 1320, 860});
+  if (!document.message().empty()) std::fprintf(stderr, "%s\n", printable(document.message()).c_str());
+  std::string title = "skel-animate: " + source.path;
+  Window window({title, 1320, 860});
   AnimationWindow content(document);
-  window.run([&] { return content.frame(); });
+  window.run(
+      [&] {
+        if (const std::string now = content.title(); now != title) window.setTitle(title = now);
+        return content.frame();
+      },
+      [&] { return content.mayClose(); });
   return ExitCode::kDone;
 }
 

@@ -9,6 +9,7 @@
 #include "libskel/animation/role_figure.h"
 #include "libskel/cli/number.h"
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/deform/figure_shape.h"
 #include "libskel/skeleton/joint_lookup.h"
@@ -98,6 +99,11 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
                  std::string* note) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".bvh" || ending == ".BVH") return loadBvhFor(path, character, source).clip;
+  if (ending == ".glb" || ending == ".GLB")
+    throw InputError(path,
+                     "is a character, no motion; write the clip that you want of it first, `skel-animate "
+                     "retarget CLIP --to " +
+                         shellWord(path) + " -o CLIP.bvh`, and give CLIP.bvh instead");
   const std::string text = readFile(path);
   if (isKeyframeClip(text)) {
     KeyframeClipOptions options;

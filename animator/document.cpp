@@ -9,6 +9,7 @@
 #include "animator/rig_source.h"
 #include "animator/rig_text.h"
 #include "libskel/animation/clip_file.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
@@ -58,6 +59,15 @@ bool isEmpty(const JointTrack& track) {
 // A document of its kind is edited in place; nothing else that was read is written over.
 void save(const std::string& path, std::string_view ending, std::string_view bytes) {
   path.ends_with(ending) ? replaceFile(path, bytes) : writeFile(path, bytes);
+}
+
+bool moves(const Clip& clip) { return !clip.tracks.empty() || !clip.root_times_s.empty(); }
+
+// The name of a clip's file without its folder and ending.
+std::string clipNameIn(const std::string& path) {
+  const std::string name = fs::path(path).filename().string();
+  return name.ends_with(kClipFileEnding) ? name.substr(0, name.size() - std::string(kClipFileEnding).size())
+                                         : stemOf(path);
 }
 
 bool sameTurn(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
@@ -113,12 +123,13 @@ class AnimationDocument::StepScope {
 
 AnimationDocument::AnimationDocument(const CharacterSource& source, const ClipSource& library)
     : source_(source), library_(library) {
-  CharacterFile file = loadCharacterWithClips(source, library);
+  CharacterFile file = loadCharacterWithClips(source, library, &message_);
   name_ = file.name;
   bones_ = file.bones;
   state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
   state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
   state_.pose = restPose(skeleton());
+  addSaved(clips());
 }
 
 const Clip* AnimationDocument::clip() const {
@@ -163,6 +174,29 @@ void AnimationDocument::setTime(double time_s) {
   state_.time_s = std::clamp(time_s, 0.0, duration_s());
   takePoseFromClip();
 }
+
+double AnimationDocument::snapped(double time_s) const {
+  constexpr double kHalfFrame_s = 0.5 / kFrameRate;
+  double nearest_s = std::round(time_s * kFrameRate) / kFrameRate;
+  if (!clip()) return nearest_s;
+  if (nearest_s > duration_s() || std::abs(duration_s() - time_s) < std::abs(nearest_s - time_s))
+    nearest_s = duration_s();
+  double way_s = kHalfFrame_s;
+  const auto look = [&](const std::vector<float>& times_s) {
+    for (const float key_s : times_s)
+      if (std::abs(double(key_s) - time_s) < way_s) {
+        way_s = std::abs(double(key_s) - time_s);
+        nearest_s = double(key_s);
+      }
+  };
+  for (const JointTrack& track : clip()->tracks)
+    for (const auto* times_s : {&track.times_s, &track.translation_times_s, &track.scale_times_s})
+      look(*times_s);
+  look(clip()->root_times_s);
+  return nearest_s;
+}
+
+void AnimationDocument::scrub(double time_s) { setTime(snapped(std::clamp(time_s, 0.0, duration_s()))); }
 
 int AnimationDocument::jointAt(const Eigen::Vector2d& px, const Projection& projection,
                                double radius_px) const {
@@ -249,6 +283,7 @@ void AnimationDocument::setKey() {
     return;
   }
   const StepScope step(*this);
+  state_.time_s = std::min(snapped(state_.time_s), duration_s());
   for (const int j : joints) {
     const std::string& name = skeleton().joints[std::size_t(j)].name;
     auto track = std::find_if(changed.tracks.begin(), changed.tracks.end(),
@@ -294,9 +329,8 @@ void AnimationDocument::removeKey() {
 void AnimationDocument::newClip(const std::string& name, double duration_s) {
   const StepScope step(*this);
   std::string unique = name;
-  for (int i = 2;
-       std::any_of(clips().begin(), clips().end(), [&](const Clip& c) { return c.name == unique; }); ++i)
-    unique = name + "-" + std::to_string(i);
+  for (int i = 2; hasClip(clips(), unique); ++i) unique = name + "-" + std::to_string(i);
+  given_names_.insert(unique);
   auto clips = std::make_shared<std::vector<Clip>>(*state_.clips);
   Clip clip;
   clip.name = unique;
@@ -317,6 +351,46 @@ void AnimationDocument::setDuration(double duration_s) {
   changed.least_duration_s = float(std::max(duration_s, 0.0));
   replaceClip(std::move(changed));
   state_.time_s = std::min(state_.time_s, this->duration_s());
+}
+
+bool AnimationDocument::hasOtherClip(const std::string& name) const {
+  return std::any_of(clips().begin(), clips().end(),
+                     [&](const Clip& other) { return &other != clip() && other.name == name; });
+}
+
+void AnimationDocument::renameClip(const std::string& name) {
+  if (!clip() || name.empty() || name == clip()->name) return;
+  if (hasOtherClip(name)) {
+    message_ = "there is a clip \"" + name + "\" already";
+    return;
+  }
+  const StepScope step(*this);
+  Clip changed = *clip();
+  changed.name = name;
+  replaceClip(std::move(changed));
+  message_ = "the clip is called \"" + name + "\"";
+}
+
+void AnimationDocument::addSaved(const std::vector<Clip>& clips) {
+  saved_.insert(saved_.end(), clips.begin(), clips.end());
+}
+
+std::vector<std::string> AnimationDocument::unsavedClips() const {
+  std::vector<std::string> names;
+  for (const Clip& clip : clips())
+    if (moves(clip) && std::find(saved_.begin(), saved_.end(), clip) == saved_.end())
+      names.push_back(clip.name);
+  return names;
+}
+
+std::string AnimationDocument::unsavedBelow(const std::string& path) const {
+  try {
+    const std::string name = loadClipFor(path, character(), library_).name;
+    const std::vector<std::string> unsaved = unsavedClips();
+    return std::find(unsaved.begin(), unsaved.end(), name) == unsaved.end() ? "" : name;
+  } catch (const Error&) {  // loadClip() says what is wrong with it
+    return "";
+  }
 }
 
 std::vector<double> AnimationDocument::keyTimes() const {
@@ -347,7 +421,9 @@ bool AnimationDocument::openModel(const std::string& path) {
   return attempt([&] {
     CharacterSource source = source_;
     source.path = path;
-    CharacterFile file = loadCharacterWithClips(source, library_);
+    if (path != source_.path) source.skeleton.clear();
+    std::string note;
+    CharacterFile file = loadCharacterWithClips(source, library_, &note);
     const StepScope step(*this);
     playing = false;
     source_ = source;
@@ -359,7 +435,8 @@ bool AnimationDocument::openModel(const std::string& path) {
     state_.time_s = 0;
     state_.pose = restPose(skeleton());
     chosen_ = -1;
-    return "opened " + path;
+    addSaved(clips());
+    return note.empty() ? "opened " + path : note;
   });
 }
 
@@ -367,12 +444,12 @@ bool AnimationDocument::saveModel(const std::string& path) {
   return attempt([&] {
     // An animation without channels is none.
     std::vector<Clip> clips;
-    std::copy_if(this->clips().begin(), this->clips().end(), std::back_inserter(clips),
-                 [](const Clip& clip) { return !clip.tracks.empty() || !clip.root_times_s.empty(); });
+    std::copy_if(this->clips().begin(), this->clips().end(), std::back_inserter(clips), moves);
     ExportOptions options;
     options.name = name_;
     options.bones = bones_;
     save(path, ".glb", encodeGlb(character(), clips, options));
+    addSaved(clips);
     return "saved " + path;
   });
 }
@@ -397,6 +474,7 @@ bool AnimationDocument::savePose(const std::string& path) {
 bool AnimationDocument::loadClip(const std::string& path) {
   return attempt([&] {
     Clip clip = loadClipFor(path, character(), library_);
+    addSaved({clip});
     const StepScope step(*this);
     playing = false;
     auto clips = std::make_shared<std::vector<Clip>>(*state_.clips);
@@ -417,7 +495,21 @@ bool AnimationDocument::loadClip(const std::string& path) {
 bool AnimationDocument::saveClip(const std::string& path) {
   return attempt([&] {
     if (!clip()) throw UsageError("there is no clip to save: choose one, or make a new one");
-    save(path, kClipFileEnding, formatClip(*clip()));
+    const std::string name = clipNameIn(path);
+    const bool follows = given_names_.contains(clip()->name) && !name.empty() && name != clip()->name;
+    Clip named = *clip();
+    if (follows && !hasOtherClip(name)) named.name = name;
+    Clip written = named;
+    written.rest_pose = restPoseHash(skeleton());
+    save(path, kClipFileEnding, formatClip(written));
+    addSaved({named});
+    if (named.name != clip()->name) {
+      const StepScope step(*this);
+      replaceClip(std::move(named));
+    } else if (follows) {
+      return "saved " + path + "; the clip is still called \"" + named.name + "\", as there is another \"" +
+             name + "\"";
+    }
     return "saved " + path;
   });
 }
@@ -433,6 +525,7 @@ bool AnimationDocument::loadSkeleton(const std::string& path) {
     state_.character = std::make_shared<const RiggedCharacter>(std::move(changed));
     // Clips that were made for other bones go, but for those that say what they need.
     state_.clips = std::make_shared<const std::vector<Clip>>(libraryFor(character(), library_));
+    addSaved(clips());
     state_.clip = -1;
     state_.time_s = 0;
     state_.pose = restPose(this->skeleton());

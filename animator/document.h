@@ -5,6 +5,7 @@
 #include <atomic>
 #include <future>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@
 #include "libskel/scene/scene.h"
 
 namespace skel {
+
+inline constexpr double kFrameRate = 30;  // of the window's frames, and of films unless told otherwise, 1/s
 
 // What steps change and undo brings back. Whatever is large is shared and never changes, so that copies are
 // cheap.
@@ -77,6 +80,8 @@ class AnimationDocument {
   // Goes on by so much time of the watch; false if nothing moves.
   bool advance(double seconds);
   void setTime(double time_s);
+  // To the key, or else the frame or the end, that is nearest.
+  void scrub(double time_s);
 
   // The joint that keys and numbers speak of; -1: none.
   int chosen() const { return chosen_; }
@@ -93,15 +98,23 @@ class AnimationDocument {
   void setAngles(int joint, const Eigen::Vector3d& angles_rad);
   void resetJoint(int joint);
   void resetPose();
-  // A key at the current time for each joint whose pose is not what the clip says, or for the chosen one.
+  // A key at the current time, as scrub() takes it, for each joint whose pose is not what the clip says, or
+  // for the chosen one.
   void setKey();
   // Of the chosen joint, or of all, at the current time.
   void removeKey();
   // Without keys, in the rest pose, and chosen; it is for this character alone.
   void newClip(const std::string& name, double duration_s);
   void setDuration(double duration_s);
+  // Refused if another clip has that name.
+  void renameClip(const std::string& name);
   // When there are keys: of the chosen joint, or of all.
   std::vector<double> keyTimes() const;
+
+  // Clips that move something and that no file holds as they are.
+  std::vector<std::string> unsavedClips() const;
+  // That of them which loadClip() would replace; "": none.
+  std::string unsavedBelow(const std::string& path) const;
 
   // Files. What fails is said in message(); false then. Loading makes a step.
   bool openModel(const std::string& path);
@@ -109,6 +122,8 @@ class AnimationDocument {
   bool loadPose(const std::string& path);
   bool savePose(const std::string& path);
   bool loadClip(const std::string& path);
+  // As it is for this character, which it is read back for key by key. A clip that newClip() has named gets
+  // the file's name, if that is free; that is a step.
   bool saveClip(const std::string& path);
   bool loadSkeleton(const std::string& path);  // the weights are computed anew
   bool saveSkeleton(const std::string& path);
@@ -131,6 +146,9 @@ class AnimationDocument {
   bool attempt(const Action& action);
   void takePoseFromClip();
   void replaceClip(Clip clip);
+  bool hasOtherClip(const std::string& name) const;
+  double snapped(double time_s) const;
+  void addSaved(const std::vector<Clip>& clips);
   bool travel(AnimationState& step);
 
   CharacterSource source_;
@@ -143,6 +161,8 @@ class AnimationDocument {
   AnimationState before_;
   UndoHistory<AnimationState> history_{200};
   std::string message_;
+  std::vector<Clip> saved_;            // as files hold them
+  std::set<std::string> given_names_;  // by newClip()
 };
 
 }  // namespace skel

@@ -10,8 +10,14 @@
 #include "libskel/animation/clip_library.h"
 #include "libskel/cli/number.h"
 #include "libskel/core/error.h"
+#include "libskel/core/files.h"
 #include "libskel/core/foreign_files.h"
+#include "libskel/core/sha256.h"
+#include "libskel/image/read_image.h"
+#include "libskel/mended/earlier_picture.h"
+#include "libskel/mended/rig_mended.h"
 #include "libskel/pipeline/rig_drawing.h"
+#include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
 namespace {
@@ -22,6 +28,19 @@ std::string endingOf(const std::string& path) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
   return ending;
+}
+
+// Where skel-infer's results of that figure lie, without their endings: beside the drawing, or where it
+// writes them unless told otherwise; with a number if all figures were rigged. "": nowhere.
+std::string resultsOf(const std::string& drawing, int figure) {
+  const fs::path beside = fs::path(drawing).replace_extension();
+  for (const fs::path& results : {beside, "out" / beside.filename()})
+    for (const std::string& number : {std::string(), "-" + std::to_string(figure)}) {
+      const std::optional<SkeletonSource> result =
+          sourceOfSkeleton(results.string() + number + kSkeletonFileEnding);
+      if (result && result->number == figure) return results.string() + number;
+    }
+  return "";
 }
 
 }  // namespace
@@ -47,11 +66,14 @@ void bindCharacterOptions(CLI::App& app, CharacterSource& source) {
   app.add_option("--figure", source.figure, "Which figure of a drawing: 1 is the largest")
       ->check(numberIn(1, 9999))
       ->capture_default_str();
-  app.add_option("--skeleton", source.skeleton, "The skeleton of a model: see skel-animate bind")
+  app.add_option("--skeleton", source.skeleton,
+                 "The skeleton of a model (see skel-animate bind), or of a drawing: its .skeleton.json or "
+                 ".labels.json, mended")
       ->type_name("FILE");
   app.add_option("--up", source.up, "The axis that points up in the skeleton's file")
       ->check(CLI::IsMember({"auto", "y", "z"}))
       ->capture_default_str();
+  app.add_flag("--force", source.force, "Leave out what was mended by hand of a drawing");
 }
 
 bool isDrawing(const CharacterSource& source) {
@@ -60,21 +82,38 @@ bool isDrawing(const CharacterSource& source) {
   return std::find(kEndings.begin(), kEndings.end(), endingOf(source.path)) != kEndings.end();
 }
 
-RiggedDrawing rigDrawing(const CharacterSource& source, const ClipSource& clips) {
+DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips) {
   RigOptions options = rigOptionsWithoutClips(source.body_plan);
   const std::vector<Clip> library = clipLibrary(clips);
   options.clips = clipsFor(library, options.body_plan);
   if (options.otherwise) options.otherwise->clips = clipsFor(library, options.otherwise->body_plan);
   options.into_picture = clips.into_picture;
   options.silhouette.alpha = source.alpha;
-  options.silhouette.figure = source.figure;
-  return rigDrawing(source.path, options);
+  const std::optional<SkeletonFile> given = givenSkeleton(source.skeleton, options);
+  const std::string bytes = readFile(source.path);
+  MendRequest request;
+  request.source = source.path;
+  request.image_sha256 = sha256(bytes);
+  request.figure = given ? figureOf(*given, source.skeleton, source.figure) : source.figure;
+  request.results = resultsOf(source.path, request.figure);
+  request.skeleton = source.skeleton;
+  request.takes_up = !source.force;
+  RigInput input;
+  input.image = decodeImage(bytes, source.path);
+  MendedRig rig = rigMended(request, options, std::move(input), given);
+  DrawnCharacter result{std::move(rig.drawing), std::move(rig.warnings), {}};
+  for (const auto& note : {mendedNote(rig.files, request, rig.placed), earlierNote(rig.files)})
+    if (note) result.mended.push_back(*note);
+  return result;
 }
 
-CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& clips) {
+CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& clips, std::string* note) {
   if (isDrawing(source)) {
-    RiggedDrawing drawing = rigDrawing(source, clips);
-    return {std::move(drawing.character), std::move(drawing.clips), stemOf(source.path)};
+    DrawnCharacter drawn = rigDrawing(source, clips);
+    if (note)
+      for (const Note& mended : drawn.mended)
+        *note += (note->empty() ? source.path + ": note: " : "; ") + noteText(mended, source.path);
+    return {std::move(drawn.drawing.character), std::move(drawn.drawing.clips), stemOf(source.path)};
   }
   if (const std::string remedy = howToConvert(source.path); !remedy.empty())
     throw InputError(source.path, remedy);
@@ -106,8 +145,9 @@ std::vector<Error> addLibrary(CharacterFile& file, const ClipSource& clips) {
   return left_out;
 }
 
-CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips) {
-  CharacterFile file = loadCharacter(source, clips);
+CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips,
+                                     std::string* note) {
+  CharacterFile file = loadCharacter(source, clips, note);
   addLibrary(file, clips);
   return file;
 }

@@ -8,6 +8,7 @@
 #include "animator/clip_source.h"
 #include "libskel/core/error.h"
 #include "libskel/import/read_character.h"
+#include "libskel/pipeline/drawing_notes.h"
 #include "libskel/pipeline/rig_character.h"
 
 namespace CLI {
@@ -21,28 +22,39 @@ struct CharacterSource {
   std::string body_plan = "auto";    // of a drawing
   std::optional<double> alpha = {};  // of a drawing: see SilhouetteOptions
   int figure = 1;                    // of a drawing: 1 is the largest
-  std::string skeleton = {};         // of a model (.obj): see readRigModel()
+  // Of a model (.obj): see readRigModel(). Of a drawing: a .skeleton.json or .labels.json of it.
+  std::string skeleton = {};
   std::string up = "auto";
+  bool force = false;  // leave out what was mended by hand
 };
 // FILE, and the options of the next one.
 void bindCharacterSource(CLI::App& app, CharacterSource& source);
-// --template, --alpha, --figure, --skeleton, --up.
+// --template, --alpha, --figure, --skeleton, --up, --force.
 void bindCharacterOptions(CLI::App& app, CharacterSource& source);
 
 // By the ending of the source's name.
 bool isDrawing(const CharacterSource& source);
-// With the motions of skel that fit it. Throws InputError.
-RiggedDrawing rigDrawing(const CharacterSource& source, const ClipSource& clips = {});
+struct DrawnCharacter {
+  RiggedDrawing drawing;
+  std::vector<std::string> warnings;  // of the figure and its joints, a clause each
+  std::vector<Note> mended;           // of what a person has made for it: taken up, or left out
+};
+// With the motions of skel that fit it, and with what a person has mended, as skel-infer takes it up: beside
+// the drawing, and among skel-infer's results beside it or in out/. Throws InputError.
+DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips = {});
 
 // A drawing is rigged first, with the motions of skel that fit it, a model bound. Throws InputError: cannot
-// be read, no figure in the drawing, a model without a skeleton, an ending that is no character's.
-CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& clips = {});
+// be read, no figure in the drawing, a model without a skeleton, an ending that is no character's. `note` (or
+// null): DrawnCharacter::mended, for the user; may be empty.
+CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& clips = {},
+                            std::string* note = nullptr);
 
 // Adds the motions of skel that fit it and whose names its own clips leave free. Those that it cannot do for
 // all that are returned, as what is wrong with each.
 std::vector<Error> addLibrary(CharacterFile& file, const ClipSource& clips = {});
 // Both.
-CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips = {});
+CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips = {},
+                                     std::string* note = nullptr);
 
 // For the character's rest pose: the motions of skel that fit.
 std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource& source = {});

@@ -20,12 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // What skel-infer says of it, too.
-void tell(const RiggedDrawing& drawing, const std::string& path, const std::vector<Clip>& clips) {
+void tell(const DrawnCharacter& drawn, const std::string& path, const std::vector<Clip>& clips) {
+  const RiggedDrawing& drawing = drawn.drawing;
   std::printf("%s: %s, confidence %.2f\n", printable(path).c_str(), drawing.body_plan.name.c_str(),
               drawing.recognition.confidence);
   std::vector<Note> notes;
-  for (const std::string& note : figureNotes(drawing)) notes.push_back({note});
+  for (const std::string& warning : drawn.warnings) notes.push_back({warning});
   for (Note& note : limbNotes(drawing, clips)) notes.push_back(std::move(note));
+  notes.insert(notes.end(), drawn.mended.begin(), drawn.mended.end());
   for (const Note& note : notes)
     std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(noteText(note, path)).c_str());
 }
@@ -129,19 +131,21 @@ struct Cast {
 Cast cast(const RenderCommandOptions& options, const std::string& path) {
   CharacterSource source = options.source;
   source.path = path;
-  std::optional<RiggedDrawing> drawing;
-  if (isDrawing(source)) drawing = rigDrawing(source, options.library);
+  std::optional<DrawnCharacter> drawn;
+  if (isDrawing(source)) drawn = rigDrawing(source, options.library);
   const bool flat = options.look == "flat";
-  if (flat && !drawing)
+  if (flat && !drawn)
     throw UsageError(path + " is no drawing (.png, .jpg, ...), which alone can move as it was drawn");
-  CharacterFile file = drawing ? CharacterFile{drawing->character, {}, {}} : loadCharacter(source);
-  if (drawing && !flat) file.clips = drawing->clips;
+  CharacterFile file = drawn ? CharacterFile{drawn->drawing.character, {}, {}} : loadCharacter(source);
+  if (drawn && !flat) file.clips = drawn->drawing.clips;
   file.name = stemOf(path);
   const auto [clips, left_out_code] = askedClips(options, file, path);
   if (clips.empty())
     throw InputError(path, "can do no clip: it has none, and none that come with skel fit its joints");
-  if (drawing) tell(*drawing, path, clips);
-  noteStayingArms(options, file.character, path, clips, drawing ? std::vector<Clip>{} : file.clips);
+  if (drawn) tell(*drawn, path, clips);
+  noteStayingArms(options, file.character, path, clips, drawn ? std::vector<Clip>{} : file.clips);
+  std::optional<RiggedDrawing> drawing;
+  if (drawn) drawing = std::move(drawn->drawing);
   return {path, std::move(file), std::move(drawing), clips, left_out_code};
 }
 
@@ -162,6 +166,9 @@ void checkFiles(const RenderCommandOptions& options) {
     if (std::error_code not_there; fs::is_directory(path, not_there))
       throw UsageError(path +
                        " is a folder; name the drawings in it: " + (fs::path(path) / "*.png").string());
+    if (options.files.size() > 1 && !options.source.skeleton.empty() && isDrawing({.path = path}))
+      throw UsageError("--skeleton FILE is of one drawing, " + std::to_string(options.files.size()) +
+                       " characters are named; give them one at a time");
   }
   checkNames(options.files);
 }

@@ -80,6 +80,9 @@ struct Films {
           "--show-weights");
     video = {.width = film.width, .height = film.height, .frame_rate = film.frame_rate};
     video.transparent = film.look.background.a < 255 && film.look.picture.empty();
+    if (names.in_folder && names.format == "mp4" && video.transparent)
+      throw UsageError(options.output + ": films in a folder are MP4, which has no transparency, unless " +
+                       "--format webp, gif or png is given; or give a background");
     if (!names.in_folder)
       openVideo(options.output, video);
     else if (ensureWritableFolder(options.output); names.format != "png")

@@ -7,6 +7,7 @@
 #include "animator/load_character.h"
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_file.h"
+#include "libskel/animation/retarget.h"
 #include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/core/text.h"
@@ -42,7 +43,11 @@ Clip motionFor(const RetargetCommandOptions& options, const CharacterFile& file)
 
 // What the output's name asks for.
 std::string encoded(const std::string& path, CharacterFile file, const Clip& clip) {
-  if (path.ends_with(kClipFileEnding)) return formatClip(clip);
+  if (path.ends_with(kClipFileEnding)) {
+    Clip written = clip;
+    written.rest_pose = restPoseHash(file.character.skeleton);
+    return formatClip(written);
+  }
   if (path.ends_with(".bvh")) {
     const std::vector<Clip> clips = {clip};
     return exportBvh({file.character, clips, {stemOf(path)}})[0].bytes;

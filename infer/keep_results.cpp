@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "infer/deciding_options.h"
-#include "infer/mended.h"
 #include "infer/outputs.h"
 #include "infer/result_file.h"
 #include "libskel/core/error.h"
@@ -28,8 +27,7 @@ std::string mendedHash(const InferOptions& options, const RigJob& job, const std
   std::string all;
   const FigureRange range = figuresAskedFor(options);
   for (int figure = range.first; figure <= range.last; ++figure) {
-    const MendedFiles files =
-        mendedFiles(options, job.source, stemOf(options, job, figure), figure, image_sha256);
+    const MendedFiles files = mendedFiles(mendRequest(options, job, figure, image_sha256));
     const auto add = [&](const char* what, const std::string& file) {
       if (!file.empty()) all += std::to_string(figure) + what + sha256(readFile(file)) + "\n";
     };

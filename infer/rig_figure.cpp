@@ -5,96 +5,30 @@
 #include <memory>
 
 #include "infer/advice.h"
-#include "infer/earlier_picture.h"
-#include "infer/mended.h"
+#include "infer/keep_earlier.h"
 #include "infer/outputs.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
-#include "libskel/core/input_guard.h"
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
-#include "libskel/labels/label_file.h"
+#include "libskel/mended/rig_mended.h"
 #include "libskel/mesh/read_mesh.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/pipeline/trace.h"
-#include "libskel/recognition/tree_recognition.h"
 #include "libskel/skeleton/mark_placed.h"
-#include "libskel/skeleton/outside_figure.h"
 
 namespace skel {
 namespace fs = std::filesystem;
 namespace {
 
-std::string sizeText(long width, long height) { return std::to_string(width) + "x" + std::to_string(height); }
+bool looksForJoints(LastStage last) { return last >= LastStage::kJoints; }
 
-// Reads the mask that is used and returns its path and hash, "": none. A skeleton that was handed in brings
-// its own.
-SkeletonFile::Mask useMask(const InferOptions& options, const MendedFiles& mended,
-                           const std::optional<SkeletonFile>& given, RigInput& input) {
-  std::optional<LookAtOutputs> look;
-  if (mended.painted_silhouette) look.emplace();
-  std::string path = mended.mask;
-  if (path.empty() && given && given->mask) {
-    path = (fs::path(options.skeleton_file).parent_path() / given->mask->file).string();
-    if (sha256(readFile(path)) != given->mask->sha256)
-      throw InputError(path, "has changed since " + options.skeleton_file +
-                                 " was made with it; name it by --mask if that is meant");
-  }
-  if (path.empty()) return {};
-  input.mask = readMask(path);
-  if (input.mask->cols() != input.image.width || input.mask->rows() != input.image.height)
-    throw InputError(path, "is a mask of " + sizeText(input.mask->cols(), input.mask->rows()) +
-                               " px, the image has " + sizeText(input.image.width, input.image.height));
-  return {path, sha256(readFile(path))};
-}
-
-// The skeleton says which figure it belongs to; a number that was asked for must be that one.
-int figureOf(const InferOptions& options, const SkeletonFile& given, int asked) {
-  if (asked != 1 && asked != given.figure.number)
-    throw InputError(options.skeleton_file, "belongs to figure " + std::to_string(given.figure.number) +
-                                                " of the drawing, --figure asks for " +
-                                                std::to_string(asked));
-  return given.figure.number;
-}
-
-// The joints must be this figure's. `file`: where they are from.
-void checkJoints(const Skeleton& skeleton, const std::string& file, int figure, const Plane8& mask) {
-  const Joint* stray = jointFarOutside(skeleton, mask);
-  if (!stray) return;
-  throw InputError(file, "joint \"" + stray->name + "\" lies far outside figure " + std::to_string(figure) +
-                             " of the drawing; place it on the figure, or take the skeleton of this one");
-}
-
-constexpr const char* kOutlineChanged =
-    "the figure is not outlined as it was when the joints were found: look at them";
-
-bool wasEdited(const Skeleton& skeleton) {
-  return std::any_of(skeleton.joints.begin(), skeleton.joints.end(),
-                     [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; });
-}
-
-// What to say of a figure whose joints were given.
-std::vector<std::string> warningsOf(const SkeletonFile& given, const RiggedDrawing& drawing, bool own_mask) {
-  std::vector<std::string> warnings = drawing.silhouette.warnings;
-  // What was said of joints before somebody moved them is stale, but for what is still missing.
-  std::vector<std::string> of_joints = given.warnings;
-  if (wasEdited(given.skeleton)) of_joints = {missingNote(given.missing)};
-  for (const std::string& warning : of_joints)
-    if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
-      warnings.push_back(warning);
-  if (!own_mask && !given.figure.sha256.empty() && given.figure.sha256 != outlineHash(drawing.silhouette))
-    warnings.push_back(kOutlineChanged);
-  return warnings;
-}
-
-bool looksForJoints(const RigOptions& rig) { return rig.last >= LastStage::kJoints; }
-
-Verdict verdictOf(const RigOptions& rig, const RiggedDrawing& drawing, const SkeletonFile& file) {
+Verdict verdictOf(LastStage last, const RiggedDrawing& drawing, const SkeletonFile& file) {
   constexpr double kRecognized = .5;
   const Silhouette& silhouette = drawing.silhouette;
   const bool guessed =
-      looksForJoints(rig) && drawing.recognition.likeness < kRecognized && !wasEdited(file.skeleton);
+      looksForJoints(last) && drawing.recognition.likeness < kRecognized && !hasPlacedJoint(file.skeleton);
   if (guessed || silhouette.is_sheet || !silhouette.cut_sides.empty()) return Verdict::kRetake;
   return file.warnings.empty() ? Verdict::kFine : Verdict::kLookAt;
 }
@@ -137,12 +71,8 @@ struct OpenDrawing {
 int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& job, int figure,
               std::unique_ptr<OpenDrawing>& open, std::vector<FigureResult>& results) {
   const std::string& handed_in = options.skeleton_file;
-  std::optional<SkeletonFile> given;
-  if (!handed_in.empty() && !handed_in.ends_with(kLabelFileEnding)) {
-    const std::string text = readFile(handed_in);
-    given = parseSkeletonFile(text, handed_in, planOfSkeleton(text, handed_in, rig));
-    figure = figureOf(options, *given, figure);
-  }
+  const std::optional<SkeletonFile> given = givenSkeleton(handed_in, rig);
+  if (given) figure = figureOf(*given, handed_in, figure);
   const std::string stem = stemOf(options, job, figure);
   const std::string skeleton_path = options.out_dir + "/" + stem + ".skeleton.json";
   std::error_code no_file;
@@ -167,71 +97,29 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
     }
   }
   if (!options.model_file.empty()) input.model = readMesh(options.model_file);
-  if (given) {
-    if (given->image_width != input.image.width || given->image_height != input.image.height)
-      throw InputError(handed_in, "belongs to an image of " +
-                                      sizeText(given->image_width, given->image_height) + " px, " +
-                                      job.source + " has " + sizeText(input.image.width, input.image.height));
-    input.skeleton = given->skeleton;
-    input.turned_deg = given->figure.turned_deg;
-  }
-  MendedFiles mended = mendedFiles(options, job.source, stem, figure, image_sha256);
-  leaveOutOtherSizes(mended, input.image);
-  const PlacedJoints placed =
-      placedJoints(mended, options, rig, job.source, input.image, image_sha256, figure);
-  if (placed.skeleton) {
-    input.skeleton = placed.skeleton->skeleton;
-    input.turned_deg = placed.skeleton->figure.turned_deg;
-  } else {
-    input.placed = placed.joints;
-  }
-  const SkeletonFile::Mask used_mask = useMask(options, mended, given, input);
-  const std::string& mask = used_mask.file;
-  if (!mended.limbs.empty()) input.layers = {readImage(mended.limbs), mended.limbs};
-  if (!mended.back.empty()) input.back = {readImage(mended.back), mended.back};
-
-  RigOptions figure_rig = forBodyPlan(rig, placed.body_plan);
-  figure_rig.silhouette.figure = std::max(figure, 1);
-  figure_rig.silhouette.all = options.figure == "all";
-  if (given || !placed.joints.empty()) figure_rig.last = std::max(figure_rig.last, LastStage::kJoints);
-  RiggedDrawing drawing = rigCharacter(std::move(input), figure_rig);
-  if (!drawing.found()) throw InputError(mask.empty() ? job.source : mask, drawing.silhouette.reason);
-  std::vector<std::string> warnings;
-  if (given) checkJoints(given->skeleton, handed_in, figure, drawing.silhouette.mask);
-  if (const auto& as_it_stands = given ? given : placed.skeleton) {
-    drawing.recognition.confidence = as_it_stands->confidence;
-    drawing.recognition.missing = as_it_stands->missing;
-    warnings = warningsOf(*as_it_stands, drawing, !mask.empty());
-  } else {
-    warnings = figureNotes(drawing);
-  }
-  const std::string outline = outlineHash(drawing.silhouette);
-  if (!placed.joints.empty()) {
-    checkJoints(drawing.recognition.skeleton, mended.skeleton.empty() ? mended.labels : mended.skeleton,
-                figure, drawing.silhouette.mask);
-    if (!placed.skeleton && mask.empty() && !placed.outline_sha256.empty() &&
-        placed.outline_sha256 != outline)
-      warnings.push_back(kOutlineChanged);
-  }
-  for (const char* warning : warningsOfEarlier(mended)) warnings.emplace_back(warning);
+  const MendRequest request = mendRequest(options, job, figure, image_sha256);
+  MendedRig mended = rigMended(request, rig, std::move(input), given);
+  const RiggedDrawing& drawing = mended.drawing;
+  const std::string& mask = mended.mask.file;
 
   SkeletonFile file;
   file.image_file = pathSeenFrom(skeleton_path, job.source);
   file.image_sha256 = image_sha256;
   file.image_width = drawing.image.width;
   file.image_height = drawing.image.height;
-  file.figure = {figure, outline, drawing.recognition.turned_deg};
+  file.figure = {figure, mended.outline_sha256, drawing.recognition.turned_deg};
   file.skeleton = drawing.recognition.skeleton;
   file.confidence = drawing.recognition.confidence;
   file.missing = drawing.recognition.missing;
-  file.warnings = std::move(warnings);
-  if (!mask.empty()) file.mask = {pathSeenFrom(skeleton_path, mask), used_mask.sha256};
-  file.labels = placed.labels;
-  if (file.labels && !mended.labels.empty()) file.labels->file = pathSeenFrom(skeleton_path, mended.labels);
+  file.warnings = std::move(mended.warnings);
+  if (!mask.empty()) file.mask = {pathSeenFrom(skeleton_path, mask), mended.mask.sha256};
+  file.labels = mended.placed.labels;
+  if (file.labels && !mended.files.labels.empty())
+    file.labels->file = pathSeenFrom(skeleton_path, mended.files.labels);
 
-  const std::vector<KeptFile> kept = keepEarlier(mended, options, skeleton_path);
+  const std::vector<KeptFile> kept = keepEarlier(mended.files, options, skeleton_path);
   FigureResult result;
-  result.outputs = writeOutputs(options, stem, drawing, file, mended.painted_silhouette ? mended.mask : "");
+  result.outputs = writeOutputs(options, stem, drawing, file, mended.files.painted_silhouette ? mask : "");
   if (!options.trace_dir.empty()) {
     const bool given_mask = !mask.empty() || isModelAlone(options);
     writeTrace(drawing, given_mask ? SilhouetteSteps{} : silhouetteSteps(drawing.image),
@@ -241,17 +129,17 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
 
   result.number = figure;
   result.mend_file = fileToMend(options, job, figure);
-  if (looksForJoints(figure_rig)) result.confidence = file.confidence;
+  if (looksForJoints(mended.last)) result.confidence = file.confidence;
   result.body_plan = drawing.body_plan.name;
   result.missing = file.missing;
   result.placed = std::count_if(file.skeleton.joints.begin(), file.skeleton.joints.end(),
                                 [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; });
   result.all_placed = allPlaced(file.skeleton);
-  result.verdict = verdictOf(figure_rig, drawing, file);
+  result.verdict = verdictOf(mended.last, drawing, file);
   result.reasons = file.warnings;
   result.notes = notesOf(options, rig, drawing);
-  if (const auto note = mendedNote(mended, options, placed)) result.notes.push_back(*note);
-  if (const auto note = earlierNote(mended, kept)) result.notes.push_back(*note);
+  if (const auto note = mendedNote(mended.files, request, mended.placed)) result.notes.push_back(*note);
+  if (const auto note = earlierNote(mended.files, kept)) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
     result.advice = adviceOn(drawing, file, result.mend_file);
     result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front());
@@ -262,6 +150,24 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
 }
 
 }  // namespace
+
+MendRequest mendRequest(const InferOptions& options, const RigJob& job, int figure,
+                        const std::string& image_sha256) {
+  MendRequest request;
+  request.source = job.source;
+  request.image_sha256 = image_sha256;
+  request.results = options.out_dir + "/" + stemOf(options, job, figure);
+  request.figure = figure;
+  request.is_one_of_all = options.figure == "all";
+  request.skeleton = options.skeleton_file;
+  request.mask = options.mask_file;
+  if (isLayerMap(options.layers)) request.limbs = options.layers;
+  if (isBackPicture(options.back)) request.back = options.back;
+  request.finds_limbs = options.layers == "auto" && options.model_file.empty();
+  request.finds_back = options.back.empty();
+  request.takes_up = !options.force && !isModelAlone(options);
+  return request;
+}
 
 bool isBackPicture(const std::string& back) { return !back.empty() && back != "plain" && back != "same"; }
 

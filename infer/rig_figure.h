@@ -7,6 +7,7 @@
 #include "infer/figure_result.h"
 #include "infer/infer_options.h"
 #include "libskel/core/progress.h"
+#include "libskel/mended/mended_files.h"
 
 namespace skel {
 
@@ -45,6 +46,10 @@ std::string stemOf(const InferOptions& options, const RigJob& job, int figure);
 
 // What skel-label opens to mend it.
 std::string fileToMend(const InferOptions& options, const RigJob& job, int figure);
+
+// What a person may have made for a figure of the drawing, whose bytes have that hash.
+MendRequest mendRequest(const InferOptions& options, const RigJob& job, int figure,
+                        const std::string& image_sha256);
 
 // What --back and --layers name, if that is a file.
 bool isBackPicture(const std::string& back);

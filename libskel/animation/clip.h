@@ -74,6 +74,8 @@ struct Clip {
   ClipFrame frame = ClipFrame::kPicture;
   std::vector<FootContact> contacts;  // retargetToRest() keeps these feet on the ground, and spends them
   bool loops = false;                 // its end leads to its beginning: games play it on and on
+  // restPoseHash() of the one character whose rest pose the keys are relative to; empty: as is said above.
+  std::string rest_pose = {};
 
   float duration_s() const;
   bool operator==(const Clip&) const = default;

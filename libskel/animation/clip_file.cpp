@@ -263,6 +263,7 @@ std::string formatClip(const Clip& clip) {
     appendNumber(text, value);
   };
   if (clip.loops) text += ",\n  \"loop\": true";
+  if (!clip.rest_pose.empty()) text += ",\n  \"rest_pose\": " + quoted(clip.rest_pose);
   number("duration_s", clip.least_duration_s);
   number("lead_s", clip.lead_s);
   if (!clip.root_times_s.empty()) {
@@ -295,7 +296,7 @@ Clip parseClip(std::string_view text, const std::string& file) {
   const JsonValue root = document.root();
   root.checkFormat(kFormat, kVersion);
   root.allowOnly({"format", "version", "name", "template", "frame", "duration_s", "lead_s", "ease", "loop",
-                  "root", "tracks", "contacts"});
+                  "rest_pose", "root", "tracks", "contacts"});
   Clip clip;
   clip.name = root.at("name").asString();
   if (clip.name.empty()) root.at("name").fail("must not be empty");
@@ -310,6 +311,7 @@ Clip parseClip(std::string_view text, const std::string& file) {
   Easing easing{easeAt(root.find("ease"))};
   const auto loop = root.find("loop");
   clip.loops = loop ? loop->asBool() : easing.ease == Ease::kLoop;
+  if (const auto rest_pose = root.find("rest_pose")) clip.rest_pose = rest_pose->asString();
   if (const auto path = root.find("root"))
     vectorKeys(*path, kMaxPlace, easing, clip.root_times_s, clip.root_translations);
   std::set<std::string> joints;

@@ -15,6 +15,7 @@
 #include "libskel/animation/shortest_turn.h"
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
+#include "libskel/core/sha256.h"
 #include "libskel/skeleton/hanging.h"
 #include "libskel/skeleton/joint_lookup.h"
 
@@ -466,6 +467,12 @@ void swingClearOfHead(Retargeter& retargeter, const std::vector<std::pair<Pose, 
   }
 }
 
+bool isRelativeTo(const Clip& clip, const Skeleton& skeleton) {
+  return !clip.rest_pose.empty() && clip.rest_pose == restPoseHash(skeleton) &&
+         std::all_of(clip.tracks.begin(), clip.tracks.end(),
+                     [&](const JointTrack& track) { return skeleton.find(track.joint) >= 0; });
+}
+
 }  // namespace
 
 std::vector<Vector3d> restBones(const Skeleton& skeleton) {
@@ -543,6 +550,7 @@ FigureShape shapeOfBones(const Skeleton& skeleton) {
 
 std::vector<std::string> armsThatStay(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
   constexpr double kMoves_rad = 0.3, kStays = 0.5;
+  if (isRelativeTo(clip, skeleton)) return {};
   const auto named = [](const std::string& side) { return side.substr(0, side.size() - 1) + " arm"; };
   const std::string quoted = '"' + clip.name + '"', cannot = armThatCannot(clip, skeleton, shape);
   if (!cannot.empty() && motionOf(clip, cannot) > kMoves_rad) {
@@ -558,9 +566,24 @@ std::vector<std::string> armsThatStay(const Clip& clip, const Skeleton& skeleton
   return stay;
 }
 
+std::string restPoseHash(const Skeleton& skeleton) {
+  std::string text;
+  for (const Joint& joint : skeleton.joints) {
+    text += joint.name + "\n" + std::to_string(joint.parent);
+    for (const double place : joint.position) text += " " + std::to_string(std::lround(place * 1000));
+    text += "\n";
+  }
+  return sha256(text);
+}
+
 Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetOptions& options) {
   const std::size_t count = skeleton.joints.size();
   checkContacts(asked, skeleton);
+  if (isRelativeTo(asked, skeleton)) {
+    Clip as_it_is = asked;
+    as_it_is.rest_pose.clear();
+    return as_it_is;
+  }
   const FigureShape shape = options.shape ? *options.shape : shapeOfBones(skeleton);
   const Clip clip = asItCan(asked, skeleton, shape);
   Quaterniond figure_from_clip = Quaterniond::Identity();
@@ -656,6 +679,7 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
   result.interpolation = RotationInterpolation::kSlerp;
   result.frame = ClipFrame::kPicture;
   result.contacts.clear();
+  result.rest_pose.clear();
   std::set<std::string> turned;
   for (const JointTrack& track : clip.tracks) turned.insert(track.joint);
   const auto turnToo = [&](const Joint& joint) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "libskel/animation/clip.h"
 #include "libskel/mesh/triangle_mesh.h"
@@ -63,9 +65,13 @@ struct RetargetOptions {
 // bone make the drawn bone point where the canonical one would, relative to the trunk; tracks without one are
 // added to the drawn pose; joints without a track keep the drawn pose. Limbs are taken out of the drawn pose
 // by the way round the outside of the body, never through it, and arms that are folded or on the hips stay
-// there. Feet that stand, stay (plant_feet.h). Throws UsageError if the clip moves a joint that the skeleton
-// lacks, Error (refused input) if it puts one on the ground that is no foot, or is too long.
+// there. Feet that stand, stay (plant_feet.h). A clip whose rest pose this is stays as it is. Throws
+// UsageError if the clip moves a joint that the skeleton lacks, Error (refused input) if it puts one on the
+// ground that is no foot, or is too long.
 Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOptions& options = {});
+
+// Of names and parents of all joints, and of where they are in the rest pose, to the millimetre: as hex.
+std::string restPoseHash(const Skeleton& skeleton);
 
 // What the figure's arms do not do of the clip, which is for the canonical pose: a clause an arm, for the
 // user.

@@ -36,6 +36,14 @@ std::string parentOf(const JsonValue& item, const std::string& name,
   return other;
 }
 
+// What somebody needs who has written another form.
+JsonValue requiredAt(const JsonValue& item, const char* key) {
+  if (const auto value = item.find(key)) return *value;
+  item.fail("lacks \"" + std::string(key) +
+            "\"; a joint is written {\"name\": \"spine\", \"head\": [x, y, z], \"tail\": [x, y, z], "
+            "\"parent\": \"pelvis\"}, as docs/formats.md shows under \"Skeletons of models\"");
+}
+
 std::vector<Listed> listedJoints(const JsonValue& root, const std::optional<JsonValue>& hierarchy,
                                  UnusedKeys& unused) {
   std::vector<Listed> listed;
@@ -48,15 +56,15 @@ std::vector<Listed> listedJoints(const JsonValue& root, const std::optional<Json
   for (const JsonValue& item : items) {
     unused.take(item, {"name", "index", "head", "tail", "parent"});
     Joint joint;
-    joint.name = item.at("name").asString();
+    joint.name = requiredAt(item, "name").asString();
     if (joint.name.empty()) item.at("name").fail("is empty");
     if (const auto [first, added] = names.emplace(joint.name, item.path()); !added)
       item.at("name").fail("\"" + joint.name + "\" is also the name of " + first->second);
     if (const auto index = item.find("index"))
       if (const auto [first, added] = indices.emplace(index->asInt(0, 1'000'000), item.path()); !added)
         index->fail("is also that of " + first->second);
-    joint.position = positionAt(item.at("head"));
-    joint.tail = positionAt(item.at("tail"));
+    joint.position = positionAt(requiredAt(item, "head"));
+    joint.tail = positionAt(requiredAt(item, "tail"));
     joint.confidence = 1;
     joint.origin = JointOrigin::kEdited;
     std::string parent = parentOf(item, joint.name, hierarchy);

@@ -23,9 +23,10 @@ inline constexpr Code k0 = SKEL_KEY(0, 0), k1 = SKEL_KEY(1, 1), k2 = SKEL_KEY(2,
 inline constexpr Code kA = SKEL_KEY(A, A), kB = SKEL_KEY(B, B), kC = SKEL_KEY(C, C), kD = SKEL_KEY(D, D),
                       kE = SKEL_KEY(E, E), kF = SKEL_KEY(F, F), kG = SKEL_KEY(G, G), kH = SKEL_KEY(H, H),
                       kJ = SKEL_KEY(J, J), kK = SKEL_KEY(K, K), kL = SKEL_KEY(L, L), kM = SKEL_KEY(M, M),
-                      kN = SKEL_KEY(N, N), kO = SKEL_KEY(O, O), kP = SKEL_KEY(P, P), kR = SKEL_KEY(R, R),
-                      kS = SKEL_KEY(S, S), kT = SKEL_KEY(T, T), kU = SKEL_KEY(U, U), kV = SKEL_KEY(V, V),
-                      kW = SKEL_KEY(W, W), kX = SKEL_KEY(X, X), kY = SKEL_KEY(Y, Y), kZ = SKEL_KEY(Z, Z);
+                      kN = SKEL_KEY(N, N), kO = SKEL_KEY(O, O), kP = SKEL_KEY(P, P), kQ = SKEL_KEY(Q, Q),
+                      kR = SKEL_KEY(R, R), kS = SKEL_KEY(S, S), kT = SKEL_KEY(T, T), kU = SKEL_KEY(U, U),
+                      kV = SKEL_KEY(V, V), kW = SKEL_KEY(W, W), kX = SKEL_KEY(X, X), kY = SKEL_KEY(Y, Y),
+                      kZ = SKEL_KEY(Z, Z);
 inline constexpr Code kLeft = SKEL_KEY(LeftArrow, LEFT), kRight = SKEL_KEY(RightArrow, RIGHT),
                       kUp = SKEL_KEY(UpArrow, UP), kDown = SKEL_KEY(DownArrow, DOWN),
                       kPageUp = SKEL_KEY(PageUp, PAGE_UP), kPageDown = SKEL_KEY(PageDown, PAGE_DOWN);

@@ -212,11 +212,16 @@ Window::~Window() = default;
 
 void Window::setTitle(const std::string& title) { glfwSetWindowTitle(parts_->window, title.c_str()); }
 
-void Window::run(const std::function<NextFrame()>& frame) {
+void Window::run(const std::function<NextFrame()>& frame, const std::function<bool()>& may_close) {
   int settling = kSettlingFrames;
   double settled_s = glfwGetTime() + kSettling_s;
   Taps taps;
-  while (!glfwWindowShouldClose(parts_->window)) {
+  while (true) {
+    if (glfwWindowShouldClose(parts_->window)) {
+      if (!may_close || may_close()) break;
+      glfwSetWindowShouldClose(parts_->window, GLFW_FALSE);
+      settling = kSettlingFrames;
+    }
     const double begun_s = glfwGetTime();
     const NextFrame next = drawFrame(parts_->window, taps, frame);
     // Clicks are seen when a frame begins: where frames are slow, the second one up to three of them later.

@@ -32,8 +32,8 @@ class Window {
   Window& operator=(const Window&) = delete;
 
   // Calls `frame` between ImGui::NewFrame() and ImGui::Render() until it says kClose or the user closes the
-  // window.
-  void run(const std::function<NextFrame()>& frame);
+  // window, which stays open where `may_close` says false.
+  void run(const std::function<NextFrame()>& frame, const std::function<bool()>& may_close = {});
   void setTitle(const std::string& title);
 
  private:

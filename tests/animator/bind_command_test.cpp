@@ -149,6 +149,10 @@ TEST_CASE("bad skeletons are refused with the place in them, and nothing is writ
       {rig(bone("a", "\"b\"") + "," + bone("b", "\"a\"")), "s.json: joints[0]: \"a\" is its own ancestor"},
       {rig(bone("r", "null") + "," + bone("a", "\"b\"") + "," + bone("b", "\"a\"")),
        "s.json: joints[1]: \"a\" is its own ancestor"},
+      {rig("{\"name\": \"a\", \"position\": [0, 1, 0]}"),
+       "s.json: joints[0]: lacks \"head\"; a joint is written {\"name\": \"spine\", \"head\": [x, y, z], "
+       "\"tail\": [x, y, z], \"parent\": \"pelvis\"}, as docs/formats.md shows under \"Skeletons of "
+       "models\""},
       {rig(bone("a", "null", "[0, 1]")), "s.json: joints[0].head: has 2 numbers, must have 3"},
       {rig(bone("a", "null", "[0, NaN, 0]")), "joints[0].head[1] is not a finite number"},
       {rig(bone("a", "null", "[0, 1e30, 0]")), "s.json: joints[0].head: is farther than 1e6 from the origin"},

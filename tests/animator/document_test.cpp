@@ -262,6 +262,129 @@ TEST_CASE("poses, clips, weights, skeletons and characters come back from their 
   CHECK(document.character().weights.joints == before.joints);
 }
 
+TEST_CASE("a clip comes back from its file with the keys that were set, for the character it was made for") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const int head = document.skeleton().index("head");
+  document.choose(head);
+  document.newClip("my-clip", 2);
+  document.setKey();
+  document.setTime(0.995);
+  document.turnJoint(head, 1, 0.8);
+  document.setKey();
+  const Clip made = *document.clip();
+  REQUIRE(made.tracks.size() == 1);
+  CHECK(made.tracks[0].times_s == std::vector<float>{0, 1});
+  REQUIRE(document.saveClip(dir.file("my-clip.clip.json")));
+  CHECK(*document.clip() == made);
+
+  AnimationDocument again({.path = figureFile(dir, "again.glb")});
+  REQUIRE(again.loadClip(dir.file("my-clip.clip.json")));
+  CHECK(*again.clip() == made);
+  again.choose(head);
+  again.scrub(1.01);
+  again.removeKey();
+  CHECK(again.keyTimes() == std::vector<double>{0});
+  REQUIRE(document.saveModel(dir.file("saved.glb")));
+  AnimationDocument from_model({.path = dir.file("saved.glb")});
+  REQUIRE(from_model.loadClip(dir.file("my-clip.clip.json")));
+  CHECK(*from_model.clip() == made);
+
+  // Another one's rest pose: it is fitted to that.
+  RiggedCharacter other = figure();
+  other.skeleton.joints[std::size_t(head)].position.y() += 0.02;
+  writeFile(dir.file("other.glb"), encodeGlb(other, {}));
+  AnimationDocument on_other({.path = dir.file("other.glb")});
+  REQUIRE(on_other.loadClip(dir.file("my-clip.clip.json")));
+  CHECK(on_other.clip()->tracks[0].times_s.size() > 2);
+  on_other.setTime(1);
+  CHECK(on_other.anglesOf(head).y() == Approx(0.8).margin(0.01));
+}
+
+TEST_CASE("times are those of keys, of the end, or of frames") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  document.newClip("mine", 1.01);
+  const auto scrubbed = [&](double time_s) {
+    document.scrub(time_s);
+    return document.state().time_s;
+  };
+  CHECK(scrubbed(0.5049) == Approx(0.5));
+  CHECK(scrubbed(0.5171) == Approx(16 / 30.));
+  CHECK(scrubbed(1.002) == 1);
+  CHECK(scrubbed(1.007) == double(1.01f));
+  CHECK(scrubbed(7) == double(1.01f));
+  CHECK(scrubbed(-1) == 0);
+  document.chooseClip(0);  // with keys at 0, 0.5, 1
+  CHECK(scrubbed(0.51) == 0.5);
+}
+
+TEST_CASE("clips that no file holds are known, and a save, a load or undo changes that") {
+  using Names = std::vector<std::string>;
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  CHECK(document.unsavedClips().empty());
+  document.newClip("my-clip", 1);
+  CHECK(document.unsavedClips().empty());  // it moves nothing
+  document.turnJoint(document.skeleton().index("head"), 0, 0.5);
+  document.setKey();
+  CHECK(document.unsavedClips() == Names{"my-clip"});
+  document.undo();
+  CHECK(document.unsavedClips().empty());
+  document.redo();
+  CHECK(document.unsavedBelow(dir.file("none.clip.json")).empty());
+  REQUIRE_FALSE(document.saveClip("/dev/null/my-clip.clip.json"));
+  CHECK(document.unsavedClips() == Names{"my-clip"});
+  REQUIRE(document.saveClip(dir.file("my-clip.clip.json")));
+  CHECK(document.unsavedClips().empty());
+  CHECK(document.unsavedBelow(dir.file("my-clip.clip.json")).empty());
+  document.turnJoint(document.skeleton().index("head"), 0, 0.5);
+  document.setKey();
+  document.chooseClip(clipIndex(document, "nod"));
+  document.turnJoint(document.skeleton().index("head"), 0, 0.5);
+  document.setKey();
+  CHECK(document.unsavedClips() == Names{"nod", "my-clip"});
+  CHECK(document.unsavedBelow(dir.file("my-clip.clip.json")) == "my-clip");
+  REQUIRE(document.loadClip(dir.file("my-clip.clip.json")));
+  CHECK(document.unsavedClips() == Names{"nod"});
+  REQUIRE(document.saveModel(dir.file("saved.glb")));
+  CHECK(document.unsavedClips().empty());
+}
+
+TEST_CASE("a clip is called as its file, unless somebody has named it, and names are free") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const auto make = [&] {
+    document.newClip("my-clip", 1);
+    document.turnJoint(document.skeleton().index("head"), 0, 0.5);
+    document.setKey();
+  };
+  make();
+  REQUIRE(document.saveClip(dir.file("bow.clip.json")));
+  CHECK(document.clip()->name == "bow");
+  CHECK(readClipFile(dir.file("bow.clip.json")).name == "bow");
+  CHECK(document.unsavedClips().empty());
+  REQUIRE(document.saveClip(dir.file("other.clip.json")));
+  CHECK(readClipFile(dir.file("other.clip.json")).name == "bow");
+  document.undo();
+  CHECK(document.clip()->name == "my-clip");
+  document.redo();
+
+  make();
+  REQUIRE(document.saveClip(dir.file("walk.clip.json")));  // skel's own is called so
+  CHECK(document.clip()->name == "my-clip");
+  CHECK_THAT(document.message(), Contains("still called \"my-clip\", as there is another \"walk\""));
+  document.renameClip("bow");
+  CHECK(document.clip()->name == "my-clip");
+  CHECK_THAT(document.message(), Contains("there is a clip \"bow\" already"));
+  document.renameClip("");
+  CHECK(document.clip()->name == "my-clip");
+  document.renameClip("deep bow");
+  CHECK(document.clip()->name == "deep bow");
+  REQUIRE(document.saveClip(dir.file("file.clip.json")));
+  CHECK(readClipFile(dir.file("file.clip.json")).name == "deep bow");
+}
+
 TEST_CASE("what cannot be loaded or saved is said in one line, and changes nothing") {
   const TempDir dir;
   AnimationDocument document({.path = figureFile(dir)});

@@ -109,6 +109,12 @@ TEST_CASE("retarget writes a character, a clip or a BVH, and says what it matche
 
   checkFails("retarget " + kMotions + "cmu.bvh" + to + dir.file("c.fbx"), 1,
              dir.file("c.fbx") + ": must end in .glb, .clip.json or .bvh");
+  checkFails(
+      "retarget " + dir.file("a.glb") + to + dir.file("c.glb"), 2,
+      dir.file("a.glb") +
+          ": is a character, no motion; write the clip that you want of it first, `skel-animate retarget "
+          "CLIP --to " +
+          dir.file("a.glb") + " -o CLIP.bvh`, and give CLIP.bvh instead");
   checkFails("retarget " + dir.file("none.bvh") + to + dir.file("c.glb"), 2,
              dir.file("none.bvh") + ": cannot be read: No such file or directory");
   writeFile(dir.file("cut.bvh"), readFile(kMotions + "cmu.bvh").substr(0, 900));

@@ -1,6 +1,11 @@
 #include <filesystem>
 
+#include "libskel/core/files.h"
+#include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
+#include "libskel/image/write_image.h"
+#include "libskel/labels/label_file.h"
+#include "libskel/silhouette/silhouette.h"
 #include "tests/animator/figure_file.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
@@ -87,6 +92,70 @@ TEST_CASE(
     for (int i = 0; i < 64; ++i)
       for (const auto& [x, y] : {std::pair(i, 0), {i, 63}, {0, i}, {63, i}})
         REQUIRE(image.pixel(x, y)[3] == 0);
+  }
+}
+
+TEST_CASE("what a person has mended of a drawing is taken up in films, as skel-infer takes it up") {
+  const TempDir dir;
+  writeFile(dir.file("boy.png"), readFile(kDrawing));
+  const std::string in_folder = "cd '" + dir.path() + "' && ";
+  const auto film = [&](const std::string& options, const std::string& note) {
+    const ToolRun run =
+        runTool(in_folder +
+                "skel-animate render boy.png --clip wave --duration 0.1 --fps 10 --size 64x64 "
+                "-o film.gif " +
+                options);
+    CHECK(run.exit_code == 0);
+    CHECK(run.err == (note.empty() ? "" : "boy.png: note: " + note + "\n"));
+    return readFile(dir.file("film.gif"));
+  };
+  const std::string taken_up = "made by hand and taken up (--force leaves it out): ";
+  const std::string drawn = film("", "");
+
+  SECTION("joints that were placed and limbs that were painted, beside the drawing") {
+    LabelFile labels;
+    labels.image = {"boy.png", sha256(readFile(kDrawing))};
+    labels.image_width = labels.image_height = 600;
+    labels.grid_width = labels.grid_height = kWorkingGridSize;
+    labels.joints = {{"left_hand", Eigen::Vector2d(420, 300)}};
+    writeLabelFile(dir.file("boy.labels.json"), labels);
+    CHECK(film("", taken_up + "1 joint") != drawn);
+    CHECK(film("--force", "") == drawn);
+    Image no_limbs(600, 600);
+    no_limbs.rgba.setZero();
+    writeFile(dir.file("boy.limbs.png"), encodePng(no_limbs));
+    CHECK(film("", taken_up + "1 joint, limbs") != drawn);
+    SECTION("labels that are named are of this drawing alone") {
+      CHECK(film("--force --skeleton boy.labels.json", "") != drawn);
+      fs::copy(SKEL_SOURCE_DIR "/datasets/characters/clown.png", dir.file("other.png"));
+      const ToolRun other = runTool(in_folder +
+                                    "skel-animate render other.png --clip wave --skeleton "
+                                    "boy.labels.json -o film.gif");
+      CHECK(other.exit_code == 2);
+      CHECK_THAT(other.err, Contains("boy.labels.json: was made for another picture than other.png"));
+      const ToolRun both = runTool(in_folder +
+                                   "skel-animate render boy.png other.png --clip wave --skeleton "
+                                   "boy.labels.json -o films/");
+      CHECK(both.exit_code == 1);
+      CHECK_THAT(both.err, Contains("--skeleton FILE is of one drawing, 2 characters are named"));
+    }
+  }
+  SECTION("a skeleton file among skel-infer's results, there or beside the drawing, or by its name") {
+    for (const std::string folder : {"out", "."}) {
+      CAPTURE(folder);
+      REQUIRE(runTool(in_folder + "skel-infer boy.png --formats json -o " + folder).exit_code == 0);
+      CHECK(film("", "") == drawn);
+      const std::string path = dir.file(folder + "/boy.skeleton.json");
+      std::string text = readFile(path);
+      const std::size_t start = text.find("\"image\":[", text.find("\"name\":\"left_hand\"")) + 9;
+      text.replace(start, text.find(',', start) - start, "420.5");
+      writeFile(path, text);
+      const std::string mended = film("", taken_up + "1 joint");
+      CHECK(mended != drawn);
+      fs::rename(path, dir.file("named.skeleton.json"));
+      CHECK(film("", "") == drawn);
+      CHECK(film("--skeleton named.skeleton.json", "") == mended);
+    }
   }
 }
 
@@ -243,6 +312,8 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
       {model + " --clip nod --size 0x64 -o " + film, 1, "must be WIDTHxHEIGHT"},
       {model + " --clip nod --size 63x64 -o " + dir.file("film.mp4"), 1, "the sides of an MP4 are even"},
       {model + " --clip nod --background none -o " + dir.file("film.mp4"), 1, "MP4 has no transparency"},
+      {model + " --clips nod,walk --background none -o " + dir.file("films/"), 1,
+       "films/: films in a folder are MP4, which has no transparency, unless --format webp, gif or png"},
       {model + " --clip nod --background '#12' -o " + film, 1, "a colour is written #rrggbb"},
       {model + " --clip nod --background blue.png -o " + film, 2, "blue.png: cannot be read"},
       {model + " --clip nod --size 200000 --background " + kDrawing + " -o " + film, 1,

@@ -8,11 +8,24 @@
 #include <utility>
 #include <vector>
 
-#include "infer/infer_options.h"
 #include "libskel/pipeline/drawing_notes.h"
+#include "libskel/pipeline/rig_character.h"
 #include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
+
+// A figure of a drawing, and what the user has named for it. Paths; "": there is none.
+struct MendRequest {
+  std::string source;          // the drawing
+  std::string image_sha256;    // of its bytes
+  std::string results;         // <results>.skeleton.json and .silhouette.png: an earlier run's
+  int figure = 1;              // 1 is the largest
+  bool is_one_of_all = false;  // all figures of the drawing are rigged
+  std::string skeleton;        // a .skeleton.json as it stands, or all joints of a .labels.json
+  std::string mask, limbs, back;
+  bool finds_limbs = true, finds_back = true;  // beside the drawing, where none are named
+  bool takes_up = true;                        // what nobody has named
+};
 
 // Paths; "": there is none.
 struct MendedFiles {
@@ -28,15 +41,13 @@ struct MendedFiles {
   bool limbs_before = false;         // the limbs may have been
 };
 
-// Those of figure `figure` of the drawing `source`, whose results are called <out_dir>/<stem>.*, that the
-// command line does not name others for: <source's stem>.mask.png, .labels.json, .limbs.png and .back.png
-// beside the drawing (mask and labels of one figure alone), an edited skeleton among the results, a
-// silhouette among them that is not outlined as its skeleton file says, or was that file's mask already.
-// Nothing with --force, and nothing beside a drawing with <stem>.joints.json: that is annotated, not mended.
-// --skeleton may name labels. What was made for another picture than the one of that hash is left out
+// Those that are named, and what a person has left beside the drawing and among its results:
+// <source's stem>.mask.png, .labels.json, .limbs.png and .back.png beside the drawing (mask and labels of one
+// figure alone), an edited skeleton among the results, a silhouette among them that is not outlined as its
+// skeleton file says, or was that file's mask already. Nothing beside a drawing with <stem>.joints.json: that
+// is annotated, not mended. What was made for another picture than the request's is left out
 // (earlier_picture.h).
-MendedFiles mendedFiles(const InferOptions& options, const std::string& source, const std::string& stem,
-                        int figure, const std::string& image_sha256);
+MendedFiles mendedFiles(const MendRequest& request);
 
 // Joints that a person has placed.
 struct PlacedJoints {
@@ -52,15 +63,14 @@ struct PlacedJoints {
 // Of skeleton and labels. Where both place a joint, the labels count if they have changed since the skeleton
 // was made with them. Throws InputError: made for another figure; labels that were named and hold no joints,
 // or are of another picture.
-PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options, const RigOptions& rig,
-                          const std::string& source, const Image& image, const std::string& image_sha256,
-                          int figure);
+PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, const RigOptions& rig,
+                          const Image& image);
 
 // The options for the body plan of that name alone; as they are for "".
 RigOptions forBodyPlan(const RigOptions& rig, const std::string& body_plan);
 
 // Which of them were taken up though nobody named them; nothing where none was.
-std::optional<Note> mendedNote(const MendedFiles& files, const InferOptions& options,
+std::optional<Note> mendedNote(const MendedFiles& files, const MendRequest& request,
                                const PlacedJoints& placed);
 
 }  // namespace skel

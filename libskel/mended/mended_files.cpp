@@ -1,10 +1,8 @@
-#include "infer/mended.h"
+#include "libskel/mended/mended_files.h"
 
 #include <algorithm>
 #include <filesystem>
 
-#include "infer/earlier_picture.h"
-#include "infer/rig_figure.h"
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
@@ -13,6 +11,7 @@
 #include "libskel/core/text.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/mended/earlier_picture.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/silhouette/outline.h"
 
@@ -70,44 +69,43 @@ bool knowsAll(const SkeletonTemplate& body_plan, const PlacedJoints& placed) {
 
 }  // namespace
 
-MendedFiles mendedFiles(const InferOptions& options, const std::string& source, const std::string& stem,
-                        int figure, const std::string& image_sha256) {
+MendedFiles mendedFiles(const MendRequest& request) {
   MendedFiles files;
-  files.mask = options.mask_file;
-  if (isLabelFile(options.skeleton_file)) files.labels = options.skeleton_file;
-  if (isLayerMap(options.layers)) files.limbs = options.layers;
-  if (isBackPicture(options.back)) files.back = options.back;
-  if (options.force || isModelAlone(options)) return files;
+  files.mask = request.mask;
+  if (isLabelFile(request.skeleton)) files.labels = request.skeleton;
+  files.limbs = request.limbs;
+  files.back = request.back;
+  if (!request.takes_up) return files;
 
-  const std::string beside = fs::path(source).replace_extension().string();
-  const std::string skeleton = options.out_dir + "/" + stem + kSkeletonFileEnding;
+  const std::string beside = fs::path(request.source).replace_extension().string();
+  const std::string skeleton = request.results.empty() ? "" : request.results + kSkeletonFileEnding;
   const std::optional<SkeletonSource> result = sourceOfSkeleton(skeleton);
-  if (options.skeleton_file.empty() && hasEditedJoint(skeleton)) files.skeleton = skeleton;
+  const bool first = request.figure == 1 && !request.is_one_of_all;
+  if (request.skeleton.empty() && hasEditedJoint(skeleton)) files.skeleton = skeleton;
   if (!fs::exists(beside + ".joints.json")) {
-    const bool one = figure == 1 && options.figure != "all";
-    if (one && options.skeleton_file.empty()) {
+    if (first && request.skeleton.empty()) {
       files.labels = ifThere(beside + kLabelFileEnding);
       if (files.mask.empty()) files.mask = ifThere(beside + ".mask.png");
     }
-    if (options.layers == "auto" && options.model_file.empty())
-      files.limbs = ifThere(beside + (figure > 1 ? "-" + std::to_string(figure) : "") + ".limbs.png");
-    if (options.back.empty() && one)
+    if (request.finds_limbs && files.limbs.empty())
+      files.limbs =
+          ifThere(beside + (request.figure > 1 ? "-" + std::to_string(request.figure) : "") + ".limbs.png");
+    if (request.finds_back && files.back.empty() && first)
       for (const char* ending : {".back.png", ".back.jpg", ".back.jpeg"})
         if (files.back.empty()) files.back = ifThere(beside + ending);
   }
-  const std::string silhouette = options.out_dir + "/" + stem + ".silhouette.png";
-  if (figure == 1 && options.figure != "all" && files.mask.empty() && options.skeleton_file.empty() &&
+  const std::string silhouette = request.results + ".silhouette.png";
+  if (first && files.mask.empty() && request.skeleton.empty() &&
       isPaintedSilhouette(silhouette, skeleton, result)) {
     files.mask = silhouette;
     files.painted_silhouette = true;
   }
-  leaveOutEarlier(files, options, result, image_sha256);
+  leaveOutEarlier(files, request, result);
   return files;
 }
 
-PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options, const RigOptions& rig,
-                          const std::string& source, const Image& image, const std::string& image_sha256,
-                          int figure) {
+PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, const RigOptions& rig,
+                          const Image& image) {
   PlacedJoints placed;
   if (!files.skeleton.empty()) {
     const LookAtOutputs look;
@@ -115,12 +113,12 @@ PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options,
     const SkeletonFile file =
         parseSkeletonFile(text, files.skeleton, planOfSkeleton(text, files.skeleton, rig));
     if (file.image_width != image.width || file.image_height != image.height)
-      throw InputError(files.skeleton, "was mended for a picture of another size than " + source +
+      throw InputError(files.skeleton, "was mended for a picture of another size than " + request.source +
                                            " has; move it elsewhere, or lose it by --force");
-    if (file.figure.number != figure)
+    if (file.figure.number != request.figure)
       throw InputError(files.skeleton,
                        "holds joints of figure " + std::to_string(file.figure.number) +
-                           " that were moved by hand, figure " + std::to_string(figure) +
+                           " that were moved by hand, figure " + std::to_string(request.figure) +
                            " is to be rigged; name another folder by -o, or lose them by --force");
     for (const Joint& joint : file.skeleton.joints)
       if (joint.origin == JointOrigin::kEdited) placed.joints.emplace_back(joint.name, joint.image);
@@ -136,7 +134,7 @@ PlacedJoints placedJoints(const MendedFiles& files, const InferOptions& options,
     return placed;
   }
   const PlacedJoints labelled =
-      jointsOfLabels(files.labels, files.labels == options.skeleton_file, source, image_sha256);
+      jointsOfLabels(files.labels, files.labels == request.skeleton, request.source, request.image_sha256);
   if (labelled.joints.empty()) return placed;
   placed.skeleton.reset();
   for (const auto& joint : labelled.joints) {
@@ -164,17 +162,17 @@ RigOptions forBodyPlan(const RigOptions& rig, const std::string& body_plan) {
   return one;
 }
 
-std::optional<Note> mendedNote(const MendedFiles& files, const InferOptions& options,
+std::optional<Note> mendedNote(const MendedFiles& files, const MendRequest& request,
                                const PlacedJoints& placed) {
   std::vector<std::string> what;
   const auto add = [&](const std::string& file, const std::string& named, const std::string& name) {
     if (!file.empty() && file != named) what.push_back(name);
   };
-  if (const std::size_t count = placed.joints.size(); count > 0 && options.skeleton_file.empty())
+  if (const std::size_t count = placed.joints.size(); count > 0 && request.skeleton.empty())
     what.push_back(std::to_string(count) + (count == 1 ? " joint" : " joints"));
-  add(files.mask, options.mask_file, files.painted_silhouette ? "silhouette" : "mask");
-  add(files.limbs, options.layers, "limbs");
-  add(files.back, options.back, "back");
+  add(files.mask, request.mask, files.painted_silhouette ? "silhouette" : "mask");
+  add(files.limbs, request.limbs, "limbs");
+  add(files.back, request.back, "back");
   if (what.empty()) return std::nullopt;
   const std::string shared = "made by hand and taken up (--force leaves it out)";
   return Note{shared + ": " + joined(what), shared, joined(what)};

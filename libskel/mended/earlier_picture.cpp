@@ -1,11 +1,8 @@
-#include "infer/earlier_picture.h"
+#include "libskel/mended/earlier_picture.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <string_view>
 #include <utility>
 
-#include "infer/outputs.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/sha256.h"
@@ -31,10 +28,6 @@ std::optional<LabelFile> labelsIn(const std::string& path) {
   }
 }
 
-bool contains(const std::vector<std::string>& words, const std::string& word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
 bool hasSize(const Plane8& mask, const Image& image) {
   return mask.cols() == image.width && mask.rows() == image.height;
 }
@@ -45,8 +38,9 @@ bool hasSize(const Image& limbs, const Image& image) {
 
 }  // namespace
 
-void leaveOutEarlier(MendedFiles& files, const InferOptions& options,
-                     const std::optional<SkeletonSource>& result, const std::string& image_sha256) {
+void leaveOutEarlier(MendedFiles& files, const MendRequest& request,
+                     const std::optional<SkeletonSource>& result) {
+  const std::string& image_sha256 = request.image_sha256;
   const bool changed = result && !result->image_sha256.empty() && result->image_sha256 != image_sha256;
   if (changed && !files.skeleton.empty()) leaveOut(files.skeleton, files);
   if (changed && files.painted_silhouette) {
@@ -54,8 +48,8 @@ void leaveOutEarlier(MendedFiles& files, const InferOptions& options,
     files.painted_silhouette = false;
   }
 
-  const bool found_labels = files.labels != options.skeleton_file,
-             found_mask = files.mask != options.mask_file && !files.painted_silhouette;
+  const bool found_labels = files.labels != request.skeleton,
+             found_mask = files.mask != request.mask && !files.painted_silhouette;
   const std::string mask_sha256 = found_mask ? sha256(readFile(files.mask)) : "";
   const std::optional<LabelFile> labels = labelsIn(found_labels ? files.labels : "");
   const bool are_of_mask = labels && found_mask && labels->mask && labels->mask->sha256 == mask_sha256;
@@ -67,7 +61,7 @@ void leaveOutEarlier(MendedFiles& files, const InferOptions& options,
   const bool seen = are_of_mask && labels->image.sha256 == image_sha256;
   files.mask_before = changed && found_mask && !files.mask.empty() && !seen && result->mask &&
                       result->mask->sha256 == mask_sha256;
-  files.limbs_before = changed && !files.limbs.empty() && files.limbs != options.layers;
+  files.limbs_before = changed && !files.limbs.empty() && files.limbs != request.limbs;
 }
 
 void leaveOutOtherSizes(MendedFiles& files, const Image& image) {
@@ -91,30 +85,6 @@ std::vector<const char*> warningsOfEarlier(const MendedFiles& files) {
         "FILE, "
         "key G)");
   return warnings;
-}
-
-std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& options,
-                                  const std::string& skeleton_path) {
-  struct Result {
-    const char *format, *ending, *start, *end;  // <stem><start>, a number, <end>: a drawing is none of them
-  };
-  constexpr Result kResults[] = {{"json", kSkeletonFileEnding, ".skeleton.old", ".json"},
-                                 {"silhouette", ".silhouette.png", ".old", ".silhouette.png"}};
-  const std::string stem =
-      skeleton_path.substr(0, skeleton_path.size() - std::string_view(kSkeletonFileEnding).size());
-  std::vector<KeptFile> all;
-  for (const Result& result : kResults) {
-    const std::string path = stem + result.ending;
-    if (!writes(options, result.format) || !contains(files.earlier, path)) continue;
-    std::string kept = stem + result.start + result.end;
-    std::error_code failure;
-    for (int number = 2; fs::exists(fs::symlink_status(kept, failure)); ++number)
-      kept = stem + result.start + "-" + std::to_string(number) + result.end;
-    fs::rename(path, kept, failure);
-    if (failure) throw OutputError(path, "cannot be kept as " + kept + ": " + failure.message());
-    all.push_back({path, kept});
-  }
-  return all;
 }
 
 std::optional<Note> earlierNote(const MendedFiles& files, const std::vector<KeptFile>& kept) {

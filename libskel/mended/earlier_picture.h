@@ -1,0 +1,33 @@
+// A photo that was taken again under its name: what a person had mended of the one before does not fit it.
+// Skeletons, labels and masks that labels speak of say what they were made for; of other masks and of limbs
+// the earlier result tells whether the picture has changed.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libskel/mended/mended_files.h"
+
+namespace skel {
+
+// Moves files that nobody named and that were made for another picture than the request's from their place in
+// `files` to `earlier`. `result`: what the earlier result, if there is one, was found in.
+void leaveOutEarlier(MendedFiles& files, const MendRequest& request,
+                     const std::optional<SkeletonSource>& result);
+
+// The same of a mask and of limbs that may have been there before the picture changed and have another size.
+void leaveOutOtherSizes(MendedFiles& files, const Image& image);
+
+// One sentence of each file that is taken up although it may show the picture before.
+std::vector<const char*> warningsOfEarlier(const MendedFiles& files);
+
+// A result that has another name now.
+struct KeptFile {
+  std::string was, is;  // paths
+};
+
+// Which files were left out; nothing where none was.
+std::optional<Note> earlierNote(const MendedFiles& files, const std::vector<KeptFile>& kept = {});
+
+}  // namespace skel

@@ -1,0 +1,147 @@
+#include "libskel/mended/rig_mended.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
+#include "libskel/core/sha256.h"
+#include "libskel/image/read_image.h"
+#include "libskel/labels/label_file.h"
+#include "libskel/mended/earlier_picture.h"
+#include "libskel/pipeline/rig_drawing.h"
+#include "libskel/recognition/tree_recognition.h"
+#include "libskel/silhouette/outline.h"
+#include "libskel/skeleton/outside_figure.h"
+
+namespace skel {
+namespace fs = std::filesystem;
+namespace {
+
+std::string sizeText(long width, long height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+// Reads the mask that is used and returns its path and hash, "": none. A skeleton that was handed in brings
+// its own.
+SkeletonFile::Mask useMask(const MendRequest& request, const MendedFiles& mended,
+                           const std::optional<SkeletonFile>& given, RigInput& input) {
+  std::optional<LookAtOutputs> look;
+  if (mended.painted_silhouette) look.emplace();
+  std::string path = mended.mask;
+  if (path.empty() && given && given->mask) {
+    path = (fs::path(request.skeleton).parent_path() / given->mask->file).string();
+    if (sha256(readFile(path)) != given->mask->sha256)
+      throw InputError(path, "has changed since " + request.skeleton +
+                                 " was made with it; name it by --mask of skel-infer if that is meant");
+  }
+  if (path.empty()) return {};
+  input.mask = readMask(path);
+  if (input.mask->cols() != input.image.width || input.mask->rows() != input.image.height)
+    throw InputError(path, "is a mask of " + sizeText(input.mask->cols(), input.mask->rows()) +
+                               " px, the image has " + sizeText(input.image.width, input.image.height));
+  return {path, sha256(readFile(path))};
+}
+
+// The joints must be this figure's. `file`: where they are from.
+void checkJoints(const Skeleton& skeleton, const std::string& file, int figure, const Plane8& mask) {
+  const Joint* stray = jointFarOutside(skeleton, mask);
+  if (!stray) return;
+  throw InputError(file, "joint \"" + stray->name + "\" lies far outside figure " + std::to_string(figure) +
+                             " of the drawing; place it on the figure, or take the skeleton of this one");
+}
+
+constexpr const char* kOutlineChanged =
+    "the figure is not outlined as it was when the joints were found: look at them";
+
+// What to say of a figure whose joints were given.
+std::vector<std::string> warningsOf(const SkeletonFile& given, const RiggedDrawing& drawing, bool own_mask) {
+  std::vector<std::string> warnings = drawing.silhouette.warnings;
+  // What was said of joints before somebody moved them is stale, but for what is still missing.
+  std::vector<std::string> of_joints = given.warnings;
+  if (hasPlacedJoint(given.skeleton)) of_joints = {missingNote(given.missing)};
+  for (const std::string& warning : of_joints)
+    if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+      warnings.push_back(warning);
+  if (!own_mask && !given.figure.sha256.empty() && given.figure.sha256 != outlineHash(drawing.silhouette))
+    warnings.push_back(kOutlineChanged);
+  return warnings;
+}
+
+}  // namespace
+
+bool hasPlacedJoint(const Skeleton& skeleton) {
+  return std::any_of(skeleton.joints.begin(), skeleton.joints.end(),
+                     [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; });
+}
+
+std::optional<SkeletonFile> givenSkeleton(const std::string& path, const RigOptions& rig) {
+  if (path.empty() || path.ends_with(kLabelFileEnding)) return std::nullopt;
+  const std::string text = readFile(path);
+  return parseSkeletonFile(text, path, planOfSkeleton(text, path, rig));
+}
+
+int figureOf(const SkeletonFile& given, const std::string& path, int asked) {
+  if (asked != 1 && asked != given.figure.number)
+    throw InputError(path, "belongs to figure " + std::to_string(given.figure.number) +
+                               " of the drawing, --figure asks for " + std::to_string(asked));
+  return given.figure.number;
+}
+
+MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput input,
+                    const std::optional<SkeletonFile>& given) {
+  if (given) {
+    if (given->image_width != input.image.width || given->image_height != input.image.height)
+      throw InputError(request.skeleton, "belongs to an image of " +
+                                             sizeText(given->image_width, given->image_height) + " px, " +
+                                             request.source + " has " +
+                                             sizeText(input.image.width, input.image.height));
+    input.skeleton = given->skeleton;
+    input.turned_deg = given->figure.turned_deg;
+  }
+  MendedRig result;
+  MendedFiles& mended = result.files;
+  mended = mendedFiles(request);
+  leaveOutOtherSizes(mended, input.image);
+  PlacedJoints& placed = result.placed;
+  placed = placedJoints(mended, request, rig, input.image);
+  if (placed.skeleton) {
+    input.skeleton = placed.skeleton->skeleton;
+    input.turned_deg = placed.skeleton->figure.turned_deg;
+  } else {
+    input.placed = placed.joints;
+  }
+  result.mask = useMask(request, mended, given, input);
+  const std::string& mask = result.mask.file;
+  if (!mended.limbs.empty()) input.layers = {readImage(mended.limbs), mended.limbs};
+  if (!mended.back.empty()) input.back = {readImage(mended.back), mended.back};
+
+  RigOptions figure_rig = forBodyPlan(rig, placed.body_plan);
+  figure_rig.silhouette.figure = std::max(request.figure, 1);
+  figure_rig.silhouette.all = request.is_one_of_all;
+  if (given || !placed.joints.empty()) figure_rig.last = std::max(figure_rig.last, LastStage::kJoints);
+  result.last = figure_rig.last;
+  RiggedDrawing& drawing = result.drawing;
+  drawing = rigCharacter(std::move(input), figure_rig);
+  if (!drawing.found()) throw InputError(mask.empty() ? request.source : mask, drawing.silhouette.reason);
+  if (given) checkJoints(given->skeleton, request.skeleton, request.figure, drawing.silhouette.mask);
+  if (const auto& as_it_stands = given ? given : placed.skeleton) {
+    drawing.recognition.confidence = as_it_stands->confidence;
+    drawing.recognition.missing = as_it_stands->missing;
+    result.warnings = warningsOf(*as_it_stands, drawing, !mask.empty());
+  } else {
+    result.warnings = figureNotes(drawing);
+  }
+  result.outline_sha256 = outlineHash(drawing.silhouette);
+  if (!placed.joints.empty()) {
+    checkJoints(drawing.recognition.skeleton, mended.skeleton.empty() ? mended.labels : mended.skeleton,
+                request.figure, drawing.silhouette.mask);
+    if (!placed.skeleton && mask.empty() && !placed.outline_sha256.empty() &&
+        placed.outline_sha256 != result.outline_sha256)
+      result.warnings.push_back(kOutlineChanged);
+  }
+  for (const char* warning : warningsOfEarlier(mended)) result.warnings.emplace_back(warning);
+  return result;
+}
+
+}  // namespace skel

@@ -1,0 +1,38 @@
+// A figure of a drawing, rigged with all that a person has made for it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libskel/mended/mended_files.h"
+#include "libskel/pipeline/rig_character.h"
+#include "libskel/skeleton/skeleton_file.h"
+
+namespace skel {
+
+// The skeleton file that is handed in at `path`; nothing where that is "" or names labels. Throws InputError.
+std::optional<SkeletonFile> givenSkeleton(const std::string& path, const RigOptions& rig);
+
+// The number of its figure. Throws InputError if another than the first was asked for, which must be that
+// one.
+int figureOf(const SkeletonFile& given, const std::string& path, int asked);
+
+struct MendedRig {
+  RiggedDrawing drawing;
+  LastStage last = LastStage::kClips;  // that it was taken to
+  MendedFiles files;                   // that were taken up
+  PlacedJoints placed;
+  SkeletonFile::Mask mask;            // that was used, a path as given; "": none
+  std::string outline_sha256;         // of the figure
+  std::vector<std::string> warnings;  // of the figure and its joints, a clause each
+};
+
+// `input`: the picture, or a model; `given`: of request.skeleton. Throws InputError: no figure, files of
+// another picture or figure.
+MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput input,
+                    const std::optional<SkeletonFile>& given);
+
+bool hasPlacedJoint(const Skeleton& skeleton);
+
+}  // namespace skel
