@@ -96,14 +96,20 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
   };
   command("candidates", "Make an empty label file for every picture that has none",
           [&] { return report(makeLabelFiles(options.dir, loadTemplate(options.body_plan), complaints())); });
-  CLI::App* import = command("import",
-                             "Make label files from annotations: char_cfg.yaml, joints.json, "
-                             "<stem>.joints.json, COCO keypoints, and "
-                             "from skeletons that skel-infer has found",
-                             [&] {
-                               return report(importLabels(options.dir, loadTemplate(options.body_plan),
-                                                          options.import, complaints()));
-                             });
+  CLI::App* import =
+      command("import",
+              "Make label files from annotations: char_cfg.yaml, joints.json, "
+              "<stem>.joints.json, COCO keypoints, and "
+              "from skeletons that skel-infer has found",
+              [&] {
+                const ImportCounts counts =
+                    importLabels(options.dir, loadTemplate(options.body_plan), options.import, complaints());
+                const ExitCode code = report(counts);
+                if (counts.made > 0)
+                  print(std::to_string(counts.joints_placed) + " joints placed, " +
+                        std::to_string(counts.joints_found) + " found\n");
+                return code;
+              });
   import->add_option("-o,--output", options.import.output,
                      "Copy pictures and masks here, with their label files");
   import->add_flag("--force", options.import.force,

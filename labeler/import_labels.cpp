@@ -53,9 +53,19 @@ void checkJoints(const AnnotatedDrawing& drawing, const Image& image) {
       throw InputError(drawing.source, "joint " + name + " lies outside " + drawing.image);
 }
 
+void countJoints(const LabelFile& labels, const SkeletonTemplate& body_plan, ImportCounts& counts) {
+  for (const auto& [name, place] : labels.joints) {
+    const int joint = body_plan.find(name);
+    if (labels.isPlaced(name))
+      ++counts.joints_placed;
+    else if (place && joint >= 0 && !body_plan.joints[static_cast<size_t>(joint)].derived)
+      ++counts.joints_found;
+  }
+}
+
 // Whether a label file was made.
 bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, const SkeletonTemplate& body_plan,
-                   const ImportOptions& options) {
+                   const ImportOptions& options, ImportCounts& joints) {
   const std::string image_path = destination(drawing.image, dir, options);
   const std::string label_path = labelFileFor(image_path);
   if (!options.force && fs::exists(label_path)) return false;
@@ -75,6 +85,7 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
   LabelFile labels = labelImage(image_path, mask, drawing.joints, body_plan);
   labels.recognized = drawing.recognized;
   writeLabelFile(label_path, labels);
+  countJoints(labels, body_plan, joints);
   return true;
 }
 
@@ -108,9 +119,13 @@ ImportCounts importLabels(const std::string& dir, const SkeletonTemplate& body_p
                      "with keypoints, "
                      "or a skeleton file of the template " +
                          body_plan.name + ")");
-  return forEach(drawings, "import", on_error, [&](const AnnotatedDrawing& drawing) {
-    return importDrawing(drawing, dir, body_plan, options);
+  ImportCounts joints;
+  ImportCounts counts = forEach(drawings, "import", on_error, [&](const AnnotatedDrawing& drawing) {
+    return importDrawing(drawing, dir, body_plan, options, joints);
   });
+  counts.joints_placed = joints.joints_placed;
+  counts.joints_found = joints.joints_found;
+  return counts;
 }
 
 ImportCounts makeLabelFiles(const std::string& dir, const SkeletonTemplate& body_plan,

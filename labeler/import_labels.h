@@ -19,6 +19,7 @@ struct ImportCounts {
   int made = 0;
   int kept = 0;  // there was a label file already
   int failed = 0;
+  int joints_placed = 0, joints_found = 0;  // in those made: by a person, by the program
   ExitCode exit_code = ExitCode::kDone;  // of the first failure
 };
 

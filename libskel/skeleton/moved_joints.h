@@ -1,4 +1,5 @@
-// Joints that a person has moved in a skeleton file without a word about it.
+// Joints that a person has moved, without a word about it, in a skeleton file that does not say where they
+// were.
 #pragma once
 
 #include <Eigen/Core>

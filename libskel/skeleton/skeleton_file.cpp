@@ -1,5 +1,6 @@
 #include "libskel/skeleton/skeleton_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -17,7 +18,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr int kSkeletonVersion = 4;         // 3: without `found`
 constexpr std::size_t kMostWarnings = 100;  // all are shown, each once; skel gives a handful
+constexpr double kUnmoved_px = 0.005;       // files keep hundredths of a pixel
 
 std::vector<std::string> textsAt(const JsonValue& value, std::size_t most) {
   if (value.size() > most)
@@ -28,7 +31,7 @@ std::vector<std::string> textsAt(const JsonValue& value, std::size_t most) {
 }
 
 Joint jointAt(const JsonValue& item, const SkeletonTemplate& body_plan, const SkeletonFile& file) {
-  item.allowOnly({"name", "parent", "image", "position", "confidence", "origin"});
+  item.allowOnly({"name", "parent", "image", "position", "confidence", "origin", "found"});
   Joint joint;
   joint.name = item.at("name").asString();
   const int index = body_plan.find(joint.name);
@@ -61,13 +64,32 @@ SkeletonFile::Figure figureAt(const JsonValue& value) {
   return figure;
 }
 
-void markPlacedJoints(SkeletonFile& file) {
+// Where the joints of a file are, in it and in the model, and where the program had found them.
+struct JointPlaces {
   std::vector<Eigen::Vector2d> image, position;
+  std::vector<std::optional<Eigen::Vector2d>> found;
+};
+
+// The indices of joints that are no longer where they were found; of a file that does not say where that was,
+// of those that do not fit the others.
+std::vector<int> movedIn(const JointPlaces& places) {
+  const auto& found = places.found;
+  if (std::none_of(found.begin(), found.end(), [](const auto& place) { return place.has_value(); }))
+    return movedJoints(places.image, places.position);
+  std::vector<int> moved;
+  for (size_t j = 0; j < found.size(); ++j)
+    if (found[j] && (places.image[j] - *found[j]).norm() > kUnmoved_px) moved.push_back(static_cast<int>(j));
+  return moved;
+}
+
+void markPlacedJoints(SkeletonFile& file, std::vector<std::optional<Eigen::Vector2d>> found) {
+  JointPlaces places;
   for (const Joint& joint : file.skeleton.joints) {
-    image.push_back(joint.image);
-    position.push_back(joint.position.head<2>());
+    places.image.push_back(joint.image);
+    places.position.push_back(joint.position.head<2>());
   }
-  const std::vector<int> placed = movedJoints(image, position);
+  places.found = std::move(found);
+  const std::vector<int> placed = movedIn(places);
   file.confidence = markPlaced(file.skeleton, placed, file.confidence);
   for (const int joint : placed)
     std::erase(file.missing, file.skeleton.joints[static_cast<size_t>(joint)].name);
@@ -78,7 +100,7 @@ void markPlacedJoints(SkeletonFile& file) {
 std::string formatSkeletonFile(const SkeletonFile& file) {
   Json root;
   root["format"] = "skel-skeleton";
-  root["version"] = file.labels || !file.image_sha256.empty() ? 3 : 2;
+  root["version"] = kSkeletonVersion;
   root["image"] = {{"file", jsonFromFileName(file.image_file)},
                    {"width", file.image_width},
                    {"height", file.image_height}};
@@ -109,6 +131,7 @@ std::string formatSkeletonFile(const SkeletonFile& file) {
                         rounded(joint.position.z(), 1e5)};
     item["confidence"] = rounded(joint.confidence, 1000);
     item["origin"] = jointOriginName(joint.origin);
+    if (joint.origin != JointOrigin::kEdited) item["found"] = item["image"];
     text += (i ? ",\n    " : "\n    ") + item.dump();
   }
   return text + "\n  ]\n}\n";
@@ -116,7 +139,7 @@ std::string formatSkeletonFile(const SkeletonFile& file) {
 
 std::string templateOfSkeleton(std::string_view text, const std::string& path) {
   const JsonDocument document = JsonDocument::parse(text, path);
-  document.root().checkFormat("skel-skeleton", 3);
+  document.root().checkFormat("skel-skeleton", kSkeletonVersion);
   return document.root().at("template").asString();
 }
 
@@ -128,7 +151,7 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
                                const SkeletonTemplate& body_plan) {
   const JsonDocument document = JsonDocument::parse(text, path);
   const JsonValue root = document.root();
-  root.checkFormat("skel-skeleton", 3);
+  root.checkFormat("skel-skeleton", kSkeletonVersion);
   root.allowOnly({"format", "version", "image", "figure", "template", "confidence", "missing", "warnings",
                   "mask", "labels", "joints"});
   SkeletonFile file;
@@ -147,17 +170,21 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
   if (const auto labels = root.find("labels")) file.labels = sourceAt(*labels);
   file.skeleton.template_name = body_plan.name;
   file.skeleton.joints.resize(body_plan.joints.size());
+  std::vector<std::optional<Eigen::Vector2d>> places_found(body_plan.joints.size());
   for (const JsonValue& item : root.at("joints").items()) {
     const Joint joint = jointAt(item, body_plan, file);
-    Joint& slot = file.skeleton.joints[static_cast<size_t>(body_plan.find(joint.name))];
+    const auto index = static_cast<size_t>(body_plan.find(joint.name));
+    Joint& slot = file.skeleton.joints[index];
     if (!slot.name.empty())
       item.at("name").fail("joint \"" + joint.name + "\" stands here for the second time");
     slot = joint;
+    if (const auto found = item.find("found"))
+      places_found[index] = imagePointAt(*found, joint.name, file.image_width, file.image_height);
   }
   for (size_t i = 0; i < body_plan.joints.size(); ++i)
     if (file.skeleton.joints[i].name.empty())
       root.at("joints").fail("lacks the joint \"" + body_plan.joints[i].name + "\"");
-  markPlacedJoints(file);
+  markPlacedJoints(file, std::move(places_found));
   return file;
 }
 
@@ -167,7 +194,7 @@ std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path) {
   try {
     const JsonDocument document = JsonDocument::readFile(path);
     const JsonValue root = document.root();
-    root.checkFormat("skel-skeleton", 3);
+    root.checkFormat("skel-skeleton", kSkeletonVersion);
     SkeletonSource source;
     if (const auto hash = root.at("image").find("sha256")) source.image_sha256 = hash->asString();
     if (const auto json = root.find("figure")) {
@@ -195,17 +222,20 @@ bool hasEditedJoint(const std::string& path) {
         if (item.isNumber()) result.push_back(item.asNumber());
     return result;
   };
-  std::vector<Eigen::Vector2d> image, position;
+  JointPlaces places;
   for (const JsonValue& joint : joints->items()) {
     if (const auto origin = joint.find("origin");
         origin && origin->isString() && origin->asString() == "edited")
       return true;
     const auto at = numbers(joint, "image"), to = numbers(joint, "position");
     if (at.size() != 2 || to.size() != 3) continue;
-    image.emplace_back(at[0], at[1]);
-    position.emplace_back(to[0], to[1]);
+    places.image.emplace_back(at[0], at[1]);
+    places.position.emplace_back(to[0], to[1]);
+    places.found.emplace_back();
+    if (const auto found = numbers(joint, "found"); found.size() == 2)
+      places.found.back() = Eigen::Vector2d(found[0], found[1]);
   }
-  return !movedJoints(image, position).empty();
+  return !movedIn(places).empty();
 }
 
 }  // namespace skel

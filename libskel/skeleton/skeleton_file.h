@@ -39,12 +39,13 @@ struct SkeletonFile {
 
 inline constexpr const char* kSkeletonFileEnding = ".skeleton.json";
 
+// Each joint that no person has placed stands there twice: what is moved is `image`, `found` says from where.
 std::string formatSkeletonFile(const SkeletonFile& file);
 
 // Throws InputError: joints that are not the template's (any order), outside the image, of another parent,
 // NaN. Positions are read as they stand; the pipeline computes them anew from `image`. A joint that somebody
-// has moved without saying so (moved_joints.h) comes back as edited, sure (mark_placed.h) and
-// not missing.
+// has moved without saying so, as `found` tells (before version 4: moved_joints.h), comes back as edited,
+// sure (mark_placed.h) and not missing.
 SkeletonFile readSkeletonFile(const std::string& path, const SkeletonTemplate& body_plan);
 // `path` is the name that complaints use.
 SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,

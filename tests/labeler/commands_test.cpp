@@ -123,7 +123,8 @@ TEST_CASE("import: beside the pictures, or copied, and labels of a person are ke
   const TempDir dir;
   copyCharacter("cap_boy", dir.file("in/a"));
   copyCharacter("box_robot", dir.file("in"));
-  CHECK(label(dir, "import in -o out").out == "2 label files made, 0 kept as they were, 0 failed\n");
+  CHECK(label(dir, "import in -o out").out ==
+        "2 label files made, 0 kept as they were, 0 failed\n28 joints placed, 0 found\n");
   CHECK_FALSE(fs::exists(dir.file("in/a/cap_boy.labels.json")));
   CHECK(readFile(dir.file("out/a/cap_boy.png")) == readFile(dir.file("in/a/cap_boy.png")));
   CHECK(readFile(dir.file("out/a/cap_boy.mask.png")) == readFile(dir.file("in/a/cap_boy.mask.png")));
@@ -131,7 +132,8 @@ TEST_CASE("import: beside the pictures, or copied, and labels of a person are ke
   const LabelledSet set = readLabelledSet(dir.file("out"));
   CHECK(set.characters.size() == 2);
 
-  CHECK(label(dir, "import in").out == "2 label files made, 0 kept as they were, 0 failed\n");
+  CHECK(label(dir, "import in").out ==
+        "2 label files made, 0 kept as they were, 0 failed\n28 joints placed, 0 found\n");
   const std::string path = dir.file("in/a/cap_boy.labels.json"), made = readFile(path);
   CHECK(made == readFile(dir.file("out/a/cap_boy.labels.json")));
   LabelFile mended = readLabelFile(path);
@@ -141,7 +143,8 @@ TEST_CASE("import: beside the pictures, or copied, and labels of a person are ke
   const std::string by_hand = readFile(path);
   CHECK(label(dir, "import in").out == "0 label files made, 2 kept as they were, 0 failed\n");
   CHECK(readFile(path) == by_hand);
-  CHECK(label(dir, "import in --force").out == "2 label files made, 0 kept as they were, 0 failed\n");
+  CHECK(label(dir, "import in --force").out ==
+        "2 label files made, 0 kept as they were, 0 failed\n28 joints placed, 0 found\n");
   CHECK(readFile(path) == made);
 }
 
@@ -168,7 +171,8 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
   write("runner", loadTemplate("quadruped"), 1, false);  // of another body plan
   write("box_robot", plan, 1, true);
   fs::copy(kCharacters + "box_robot.joints.json", dir.file("box_robot.joints.json"));  // says more
-  CHECK(label(dir, "import .").out == "2 label files made, 0 kept as they were, 0 failed\n");
+  CHECK(label(dir, "import .").out ==
+        "2 label files made, 0 kept as they were, 0 failed\n15 joints placed, 13 found\n");
   CHECK(label(dir, "check .").exit_code == 0);
   CHECK_FALSE(fs::exists(dir.file("runner.labels.json")));
   CHECK(readLabelFile(dir.file("box_robot.labels.json")).recognized.empty());
@@ -179,7 +183,7 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
   CHECK_FALSE(labels.isPlaced("left_hand"));
   CHECK(std::any_of(labels.labels.begin(), labels.labels.end(), [](const auto& l) { return l.has_value(); }));
   CHECK(label(dir, "import found --template quadruped").out ==
-        "1 label files made, 0 kept as they were, 0 failed\n");
+        "1 label files made, 0 kept as they were, 0 failed\n0 joints placed, 16 found\n");
 
   fs::copy_file(kCharacters + "runner.png", dir.file("cap_boy.png"), fs::copy_options::overwrite_existing);
   const ToolRun run = label(dir, "import found --force");
@@ -196,7 +200,7 @@ TEST_CASE("import: a joint outside its picture, a mask of another size, a joint 
   ToolRun run = label(dir, "import .");
   CHECK(run.exit_code == 2);
   CHECK(contains(run.err, "cap_boy.joints.json: joint head lies outside"));
-  CHECK(run.out == "1 label files made, 0 kept as they were, 1 failed\n");
+  CHECK(run.out == "1 label files made, 0 kept as they were, 1 failed\n14 joints placed, 0 found\n");
 
   writeFile(joints, R"({"joints": {"wing": [7, 3]}})");
   run = label(dir, "import .");

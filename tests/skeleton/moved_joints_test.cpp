@@ -1,5 +1,11 @@
 #include "libskel/skeleton/moved_joints.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <regex>
+
 #include "libskel/core/files.h"
 #include "libskel/core/rng.h"
 #include "libskel/mesh/triangle_mesh.h"
@@ -29,6 +35,26 @@ SkeletonFile fitting() {
   return file;
 }
 
+// The text of an earlier program, which did not say where it had found the joints.
+std::string asVersion3(std::string text) {
+  text = std::regex_replace(text, std::regex(",\"found\":\\[[^\\]]*\\]"), "");
+  return text.replace(text.find("\"version\": 4"), 12, "\"version\": 3");
+}
+
+// The text after a person has put each joint elsewhere, where `moved` says, and said nothing.
+std::string withJointsMoved(const SkeletonFile& file,
+                            const std::function<Eigen::Vector2d(const Joint&)>& moved) {
+  std::string text = formatSkeletonFile(file);
+  for (const Joint& joint : file.skeleton.joints) {
+    const size_t from = text.find("\"image\":[", text.find("{\"name\":\"" + joint.name + "\"")) + 9;
+    const Eigen::Vector2d to = moved(joint);
+    char numbers[64];
+    std::snprintf(numbers, sizeof numbers, "%.2f,%.2f", to.x(), to.y());
+    text.replace(from, text.find(']', from) - from, numbers);
+  }
+  return text;
+}
+
 }  // namespace
 
 TEST_CASE("hand edits are lost on the next plain run unless marked: an unmarked edit is seen") {
@@ -43,7 +69,7 @@ TEST_CASE("hand edits are lost on the next plain run unless marked: an unmarked 
   file.skeleton.joints[hand].image.x() -= 4;
   file.skeleton.joints[knee].image.y() += 30;
   file.missing = {"left_hand", "left_foot"};
-  writeFile(path, formatSkeletonFile(file));
+  writeFile(path, asVersion3(formatSkeletonFile(file)));
   CHECK(hasEditedJoint(path));
   const SkeletonFile back = readSkeletonFile(path, loadTemplate("biped"));
   for (const Joint& joint : back.skeleton.joints) {
@@ -52,6 +78,38 @@ TEST_CASE("hand edits are lost on the next plain run unless marked: an unmarked 
     CHECK((joint.origin == JointOrigin::kEdited) == moved);
   }
   CHECK(back.missing == std::vector<std::string>{"left_foot"});
+}
+
+TEST_CASE("each joint that is not where it was found counts as placed, also where all went the same way") {
+  const TempDir dir;
+  const std::string path = dir.file("s.json");
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const SkeletonFile file = fitting();
+  const auto placed = [&](const std::function<Eigen::Vector2d(const Joint&)>& moved) {
+    writeFile(path, withJointsMoved(file, moved));
+    const SkeletonFile back = readSkeletonFile(path, plan);
+    std::vector<std::string> names;
+    for (const Joint& joint : back.skeleton.joints)
+      if (joint.origin == JointOrigin::kEdited) names.push_back(joint.name);
+    CHECK(hasEditedJoint(path) == !names.empty());
+    std::sort(names.begin(), names.end());
+    return names;
+  };
+  const std::size_t all = file.skeleton.joints.size();
+  CHECK(placed([](const Joint& joint) { return joint.image; }).empty());
+  CHECK(placed([](const Joint& joint) -> Eigen::Vector2d { return joint.image.array() + 10; }).size() == all);
+  CHECK(placed([](const Joint& joint) -> Eigen::Vector2d { return joint.image * 1.02; }).size() == all);
+  // By 1 to 4 px, each another way, but two.
+  std::vector<std::string> expected;
+  for (const Joint& joint : file.skeleton.joints)
+    if (joint.name != "neck" && joint.name != "pelvis") expected.push_back(joint.name);
+  std::sort(expected.begin(), expected.end());
+  CHECK(placed([&, turn = 0.](const Joint& joint) mutable -> Eigen::Vector2d {
+          turn += 2.4;
+          if (joint.name == "neck" || joint.name == "pelvis") return joint.image;
+          return joint.image +
+                 (2.5 + 1.5 * std::sin(3 * turn)) * Eigen::Vector2d(std::cos(turn), std::sin(turn));
+        }) == expected);
 }
 
 TEST_CASE("joints whose positions are not known are not taken for moved ones") {
@@ -94,7 +152,8 @@ TEST_CASE("a skeleton file keeps its figure, and one of version 1 is of figure 1
   CHECK(back.figure.number == 3);
   CHECK(back.figure.sha256 == file.figure.sha256);
   CHECK(back.figure.turned_deg == 90);
-  text.replace(text.find("\"version\": 2"), 12, "\"version\": 1");
+  text = asVersion3(text);
+  text.replace(text.find("\"version\": 3"), 12, "\"version\": 1");
   const size_t from = text.find("  \"figure\""), to = text.find("  \"template\"");
   writeFile(dir.file("old.json"), text.erase(from, to - from));
   CHECK(readSkeletonFile(dir.file("old.json"), loadTemplate("biped")).figure.number == 1);

@@ -38,6 +38,8 @@ export interface Joint {
   /** 0 … 1 */
   confidence: number;
   origin: string;
+  /** Where the program itself put it; it counts as placed by a person where `image` is something else. */
+  found?: [number, number];
   [more: string]: unknown;
 }
 
