@@ -36,11 +36,13 @@ std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir,
 // The annotations of one COCO file. Pictures with several: the largest figure.
 std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTemplate& body_plan);
 
-// COCO keypoints that readCoco() reads back.
+// COCO keypoints that readCoco() reads back. `recognized` joints are no keypoints of the file (visibility 0):
+// they stand in `skel_found`, which nobody else takes for truth.
 struct CocoPicture {
   std::string file_name;
   int width = 0, height = 0;
   NamedJoints joints;
+  std::vector<std::string> recognized;  // those of `joints` that no person has placed
   std::vector<Polygon> mask_polygons;
 };
 std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonTemplate& body_plan);

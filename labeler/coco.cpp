@@ -76,6 +76,23 @@ Points keypoints(const JsonValue& annotation, const std::vector<std::string>& na
   return points;
 }
 
+// Joints of our names that no person has placed, for a drawing that has its keypoints: none of `points`,
+// maybe one that was put between some of them.
+void takeFound(const JsonValue& annotation, const Points& points, const SkeletonTemplate& body_plan,
+               AnnotatedDrawing& drawing) {
+  const std::optional<JsonValue> list = annotation.find("skel_found");
+  if (!list) return;
+  for (const std::string& name : list->keys()) {
+    const JsonValue place = list->at(name);
+    if (body_plan.find(name) < 0) place.fail("is no joint of the template " + body_plan.name);
+    if (points.contains(name)) place.fail("is among the keypoints, too");
+    std::erase_if(drawing.joints, [&](const auto& joint) { return joint.first == name; });
+    const std::vector<double> xy = place.asNumbers(2);
+    drawing.joints.emplace_back(name, Eigen::Vector2d(placeAt(place, xy[0]), placeAt(place, xy[1])));
+    drawing.recognized.push_back(name);
+  }
+}
+
 std::vector<Polygon> polygons(const JsonValue& annotation) {
   const std::optional<JsonValue> segmentation = annotation.find("segmentation");
   if (!segmentation) return {};
@@ -141,8 +158,9 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTe
     AnnotatedDrawing drawing;
     drawing.source = path;
     drawing.image = file->second;
-    drawing.joints = underOurNames(
-        keypoints(annotation, names == names_of.end() ? kPersonKeypoints : names->second), body_plan);
+    const Points points = keypoints(annotation, names == names_of.end() ? kPersonKeypoints : names->second);
+    drawing.joints = underOurNames(points, body_plan);
+    takeFound(annotation, points, body_plan, drawing);
     drawing.mask_polygons = polygons(annotation);
     const double area = boxArea(annotation);
     const auto [other, is_new] = largest.try_emplace(file->second, area, drawing);
@@ -167,16 +185,19 @@ std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonT
                       {"file_name", jsonFromFileName(picture.file_name)},
                       {"width", picture.width},
                       {"height", picture.height}});
-    Json points = Json::array(), segmentation = Json::array();
+    Json points = Json::array(), segmentation = Json::array(), recognized = Json::object();
     int known = 0;
     for (const TemplateJoint& joint : body_plan.joints) {
       const auto named = std::find_if(picture.joints.begin(), picture.joints.end(),
                                       [&](const auto& j) { return j.first == joint.name && j.second; });
-      const bool found = named != picture.joints.end();
-      points.push_back(found ? named->second->x() : 0.0);
-      points.push_back(found ? named->second->y() : 0.0);
-      points.push_back(found ? 2 : 0);
-      known += found;
+      const bool there = named != picture.joints.end();
+      const bool placed = there && std::find(picture.recognized.begin(), picture.recognized.end(),
+                                             joint.name) == picture.recognized.end();
+      points.push_back(placed ? named->second->x() : 0.0);
+      points.push_back(placed ? named->second->y() : 0.0);
+      points.push_back(placed ? 2 : 0);
+      if (there && !placed) recognized[joint.name] = {named->second->x(), named->second->y()};
+      known += placed;
     }
     Eigen::AlignedBox2d box;
     for (const Polygon& polygon : picture.mask_polygons) {
@@ -201,6 +222,7 @@ std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonT
                            {"bbox", {low.x(), low.y(), size.x(), size.y()}},
                            {"area", area},
                            {"segmentation", std::move(segmentation)}});
+    if (!recognized.empty()) annotations.back()["skel_found"] = std::move(recognized);
   }
   const Json category = {{"id", 1}, {"name", body_plan.name}, {"keypoints", names}, {"skeleton", bones}};
   return Json{{"images", images}, {"annotations", annotations}, {"categories", Json::array({category})}}.dump(

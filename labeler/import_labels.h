@@ -20,7 +20,7 @@ struct ImportCounts {
   int kept = 0;  // there was a label file already
   int failed = 0;
   int joints_placed = 0, joints_found = 0;  // in those made: by a person, by the program
-  ExitCode exit_code = ExitCode::kDone;  // of the first failure
+  ExitCode exit_code = ExitCode::kDone;     // of the first failure
 };
 
 // Is told the error of every drawing that could not be used; the others are still processed.

@@ -166,7 +166,7 @@ std::string labelsAsCoco(const std::string& dir, const SkeletonTemplate& body_pl
     const LabelFile labels = readLabelFile(path);
     const std::string image = besideLabelFile(path, labels.image.file);
     pictures.push_back({nameBelow(dir, image), labels.image_width, labels.image_height, labels.joints,
-                        silhouetteOf(image, maskOf(path, labels)).outline});
+                        labels.recognized, silhouetteOf(image, maskOf(path, labels)).outline});
   }
   return formatCoco(pictures, body_plan);
 }

@@ -19,8 +19,8 @@ std::string labelStats(const std::string& dir);
 // none).
 std::string labelsAsCsv(const std::string& dir);
 
-// One annotation a drawing: known joints as keypoints, the outline as polygons. Pictures by their path below
-// `dir`.
+// One annotation a drawing: placed joints as keypoints, found ones beside them, the outline as polygons.
+// Pictures by their path below `dir`.
 std::string labelsAsCoco(const std::string& dir, const SkeletonTemplate& body_plan);
 
 }  // namespace skel

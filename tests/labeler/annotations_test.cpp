@@ -186,7 +186,8 @@ TEST_CASE("COCO that we write is COCO that we read: joints, and the mask to the 
   paintLine(mask, {240, 200}, {260, 210}, 9, 0);  // a hole
   const Silhouette silhouette = silhouetteFromMask(mask);
   const NamedJoints joints = {{"head", Eigen::Vector2d(12.25, 30)}, {"left_hand", std::nullopt}};
-  writeFile(dir.file("coco.json"), formatCoco({{"cap_boy.png", 600, 600, joints, silhouette.outline}}, plan));
+  writeFile(dir.file("coco.json"),
+            formatCoco({{"cap_boy.png", 600, 600, joints, {}, silhouette.outline}}, plan));
   const auto drawings = readCoco(dir.file("coco.json"), plan);
   REQUIRE(drawings.size() == 1);
   REQUIRE(drawings[0].joints.size() == 1);
@@ -195,6 +196,37 @@ TEST_CASE("COCO that we write is COCO that we read: joints, and the mask to the 
   const JsonDocument document = JsonDocument::readFile(dir.file("coco.json"));
   CHECK(document.root().at("annotations").items()[0].at("area").asNumber() ==
         static_cast<double>((silhouette.mask != 0).count()));
+}
+
+TEST_CASE("COCO: joints that the program has found are no keypoints, and come back as found") {
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const TempDir dir;
+  writeFile(dir.file("boy.png"), encodePng(Image(60, 60)));
+  const NamedJoints joints = {{"head", Eigen::Vector2d(12.25, 30)}, {"left_hand", Eigen::Vector2d(40, 20)}};
+  const std::string path = dir.file("coco.json");
+  writeFile(path, formatCoco({{"boy.png", 60, 60, joints, {"left_hand"}, {}}}, plan));
+  const JsonDocument document = JsonDocument::readFile(path);
+  const JsonValue annotation = document.root().at("annotations").items()[0];
+  CHECK(annotation.at("num_keypoints").asNumber() == 1);
+  const std::vector<double> keypoints = annotation.at("keypoints").asNumbers();
+  const auto at = [&](const std::string& joint) {
+    const auto* from = &keypoints[3 * static_cast<size_t>(plan.find(joint))];
+    return std::vector<double>(from, from + 3);
+  };
+  CHECK(at("head") == std::vector<double>{12.25, 30, 2});
+  CHECK(at("left_hand") == std::vector<double>{0, 0, 0});
+
+  const auto drawings = readCoco(path, plan);
+  REQUIRE(drawings.size() == 1);
+  CHECK(place(drawings[0].joints, "head") == Eigen::Vector2d(12.25, 30));
+  CHECK(place(drawings[0].joints, "left_hand") == Eigen::Vector2d(40, 20));
+  CHECK(drawings[0].recognized == std::vector<std::string>{"left_hand"});
+
+  std::string text = readFile(path);
+  text.replace(text.find("\"left_hand\": ["), 11, "\"head\"");
+  writeFile(path, text);
+  CHECK_THROWS_WITH(readCoco(path, plan),
+                    path + ": annotations[0].skel_found.head: is among the keypoints, too");
 }
 
 TEST_CASE("a brush is round, leaves no gaps, and may lie outside") {

@@ -362,6 +362,24 @@ TEST_CASE("COCO: out and in again gives the same labels") {
   }
 }
 
+TEST_CASE("COCO: what was found goes out and comes in as found, so that nothing is measured by it") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.file("in"), false);
+  REQUIRE(label(dir, "import in").exit_code == 0);
+  LabelFile labels = readLabelFile(dir.file("in/cap_boy.labels.json"));
+  // Not the body, which others leave out, so that it is put between shoulders and hips.
+  const std::vector<std::string> found = {"body", "left_hand", "right_foot"};
+  labels.recognized = found;
+  writeLabelFile(dir.file("in/cap_boy.labels.json"), labels);
+  REQUIRE(label(dir, "export in --coco -o round/coco.json").exit_code == 0);
+  fs::copy(dir.file("in/cap_boy.png"), dir.file("round/cap_boy.png"));
+  CHECK(contains(label(dir, "import round").out, "11 joints placed, 3 found\n"));
+  const LabelFile back = readLabelFile(dir.file("round/cap_boy.labels.json"));
+  CHECK(back.joints.size() == labels.joints.size());
+  for (const auto& [name, place] : back.joints)
+    CHECK(back.isPlaced(name) == (std::find(found.begin(), found.end(), name) == found.end()));
+}
+
 TEST_CASE("the card of the labelled set tells its counts") {
   const std::string card = readFile(SKEL_SOURCE_DIR "/datasets/README.md");
   const LabelledSet set = readLabelledSet(kCharacters);
