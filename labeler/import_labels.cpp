@@ -82,8 +82,7 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
     mask = drawingFiles(image_path, {}).mask;
     writeNew(*mask, encodePng(maskFromPolygons(drawing.mask_polygons, image.width, image.height)), options);
   }
-  LabelFile labels = labelImage(image_path, mask, drawing.joints, body_plan);
-  labels.recognized = drawing.recognized;
+  const LabelFile labels = labelImage(image_path, mask, drawing.joints, body_plan, {}, drawing.recognized);
   writeLabelFile(label_path, labels);
   countJoints(labels, body_plan, joints);
   return true;

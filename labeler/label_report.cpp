@@ -102,7 +102,7 @@ std::vector<std::string> checkLabels(const std::string& dir, const SkeletonTempl
 }
 
 std::string labelStats(const std::string& dir) {
-  int done = 0, masks = 0, with_joints = 0, candidates = 0, labelled = 0;
+  int done = 0, masks = 0, with_joints = 0, with_placed = 0, candidates = 0, labelled = 0;
   std::array<int, kJointClassCount> counts{};
   const std::vector<std::string> files = labelFiles(dir);
   for (const std::string& path : files) {
@@ -115,6 +115,7 @@ std::string labelStats(const std::string& dir) {
     done += here == static_cast<int>(labels.labels.size());
     masks += labels.mask.has_value();
     with_joints += !labels.joints.empty();
+    with_placed += labels.hasPlacedJoint();
   }
   std::string text;
   const auto line = [&](const char* name, int count, const std::string& note = {}) {
@@ -130,6 +131,7 @@ std::string labelStats(const std::string& dir) {
   line("drawings", static_cast<int>(files.size()));
   line("finished", done, share(done, static_cast<int>(files.size())));
   line("with joints", with_joints);
+  line("  placed", with_placed);
   line("with mask", masks);
   line("candidates", candidates);
   line("labelled", labelled, share(labelled, candidates));

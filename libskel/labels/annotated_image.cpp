@@ -108,7 +108,7 @@ Silhouette silhouetteOf(const std::string& image_path, const std::optional<std::
 
 LabelFile labelImage(const std::string& image, const std::optional<std::string>& mask,
                      const NamedJoints& joints, const SkeletonTemplate& body_plan,
-                     const CandidateOptions& options) {
+                     const CandidateOptions& options, const std::vector<std::string>& recognized) {
   const Silhouette silhouette = silhouetteOf(image, mask);
   const CandidateSet candidates = extractCandidates(silhouette, options);
   LabelFile labels;
@@ -119,8 +119,9 @@ LabelFile labelImage(const std::string& image, const std::optional<std::string>&
   labels.grid_width = silhouette.grid.width;
   labels.grid_height = silhouette.grid.height;
   labels.candidates = candidates.maxima;
-  labels.labels = labelFromJoints(candidates, silhouette.grid, joints, body_plan);
+  labels.labels = labelFromJoints(candidates, silhouette.grid, joints, body_plan, recognized);
   labels.joints = joints;
+  labels.recognized = recognized;
   return labels;
 }
 

@@ -42,9 +42,9 @@ Plane8 readMaskOf(const Image& image, const std::string& mask);
 Silhouette silhouetteOf(const std::string& image, const std::optional<std::string>& mask);
 
 // Labels that can be saved beside the image: its candidates, labelled from `joints`, or not at all if those
-// are empty. Throws InputError.
+// are empty; those of them that are `recognized` label nothing (label_from_joints.h). Throws InputError.
 LabelFile labelImage(const std::string& image, const std::optional<std::string>& mask,
                      const NamedJoints& joints, const SkeletonTemplate& body_plan,
-                     const CandidateOptions& options = {});
+                     const CandidateOptions& options = {}, const std::vector<std::string>& recognized = {});
 
 }  // namespace skel

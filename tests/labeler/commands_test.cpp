@@ -153,8 +153,8 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
   const SkeletonTemplate plan = loadTemplate("biped");
   for (const char* name : {"cap_boy", "box_robot", "runner"})
     fs::copy(kCharacters + name + ".png", dir.file(name + std::string(".png")));
-  const auto write = [&](const std::string& name, const SkeletonTemplate& body_plan, int figure,
-                         bool edited) {
+  const auto write = [&](const std::string& name, const SkeletonTemplate& body_plan, int figure, bool edited,
+                         bool all = false) {
     SkeletonFile file;
     file.image_file = name + ".png";
     file.image_sha256 = sha256(readFile(dir.file(file.image_file)));
@@ -162,6 +162,9 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
     file.figure.number = figure;
     file.skeleton = presetSkeleton(body_plan, {150, 50}, {450, 550});
     if (edited) file.skeleton.joints[file.skeleton.index("head")].origin = JointOrigin::kEdited;
+    for (Joint& joint : file.skeleton.joints)
+      if (all && !body_plan.joints[static_cast<size_t>(body_plan.find(joint.name))].derived)
+        joint.origin = JointOrigin::kEdited;
     const std::string number = figure > 1 ? "-" + std::to_string(figure) : "";
     file.image_file = "../" + file.image_file;
     writeFile(dir.file("found/" + name + number + ".skeleton.json"), formatSkeletonFile(file));
@@ -181,7 +184,19 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
   CHECK(labels.joints.size() == plan.joints.size());
   CHECK(labels.isPlaced("head"));
   CHECK_FALSE(labels.isPlaced("left_hand"));
-  CHECK(std::any_of(labels.labels.begin(), labels.labels.end(), [](const auto& l) { return l.has_value(); }));
+  // Classes by bones that nobody has placed are no truth: not to train by, not to measure by, not finished.
+  CHECK(
+      std::none_of(labels.labels.begin(), labels.labels.end(), [](const auto& l) { return l.has_value(); }));
+  fs::remove(dir.file("box_robot.labels.json"));
+  CHECK(contains(label(dir, "stats .").out,
+                 "finished          0    0.0 %\nwith joints       1\n  placed          1\n"));
+  const ToolRun evaluated = runTool("cd '" + dir.path() + "' && skel-train evaluate .");
+  CHECK(evaluated.exit_code == 2);
+  CHECK(contains(evaluated.err, "cap_boy.labels.json: candidates[0].label: is null"));
+
+  write("cap_boy", plan, 1, true, true);
+  CHECK(contains(label(dir, "import found --force").out, "15 joints placed, 13 found\n"));
+  CHECK(contains(label(dir, "stats .").out, "finished          1   50.0 %"));
   CHECK(label(dir, "import found --template quadruped").out ==
         "1 label files made, 0 kept as they were, 0 failed\n0 joints placed, 16 found\n");
 

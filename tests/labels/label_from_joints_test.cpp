@@ -51,6 +51,27 @@ TEST_CASE("candidates get the class of the nearest bone") {
   CHECK(label({{44, 44, 1}}, standing()) == Labels{kBody});
 }
 
+TEST_CASE("what is nearest to a bone that nobody has placed gets no class") {
+  const auto labels = [](const std::vector<JointCandidate>& maxima, const NamedJoints& joints,
+                         const std::vector<std::string>& recognized) {
+    return labelFromJoints(candidatesAt(maxima), plainGrid(), joints, loadTemplate("biped"), recognized);
+  };
+  const std::vector<JointCandidate> all = {{50, 20, 1}, {50, 52, 1}, {6, 70, 1}, {28, 52, 1}, {62, 120, 1}};
+  CHECK(labels(all, standing(), {}) == Labels{kHead, kBody, kHand, kHand, kLeg});
+  // The forearm goes with its hand, the upper arm stays.
+  CHECK(labels(all, standing(), {"right_hand"}) == Labels{kHead, kBody, std::nullopt, kHand, kLeg});
+  // The neck follows from the shoulders, and so does what hangs on it.
+  CHECK(labels(all, standing(), {"left_shoulder"}) == Labels{std::nullopt, std::nullopt, kHand, kHand, kLeg});
+  std::vector<std::string> everything;
+  for (const auto& [name, place] : standing()) everything.push_back(name);
+  CHECK(labels(all, standing(), everything) == Labels(all.size()));
+  // Files of skeletons hold those that follow from others, too, as found.
+  NamedJoints with_neck = standing();
+  with_neck.emplace_back("neck", Eigen::Vector2d(50, 44));
+  with_neck.emplace_back("pelvis", Eigen::Vector2d(50, 80));
+  CHECK(labels(all, with_neck, {"neck", "pelvis"}) == labels(all, standing(), {}));
+}
+
 TEST_CASE("joints that are not visible take their bones with them") {
   NamedJoints joints = standing();
   for (auto& [name, place] : joints)
