@@ -87,15 +87,13 @@ bool holdsPlacedJoint(const std::string& label_file) {
   }
 }
 
-// What a person has placed. A figure without a mask is right as it is found.
+// What a person has placed.
 AnnotatedDrawing fromLabels(const std::string& path) {
   const LabelFile labels = readLabelFile(path);
   const std::string image = besideLabelFile(path, labels.image.file);
   AnnotatedDrawing drawing;
   drawing.image = readImage(image);
-  std::optional<std::string> mask;
-  if (labels.mask) mask = besideLabelFile(path, labels.mask->file);
-  drawing.mask = silhouetteOf(image, mask).mask;
+  if (labels.mask) drawing.mask = silhouetteOf(image, besideLabelFile(path, labels.mask->file)).mask;
   for (const auto& [name, place] : labels.joints)
     if (labels.isPlaced(name)) drawing.joints.emplace(name, place);
   return drawing;
@@ -140,8 +138,7 @@ AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string
       throw InputError(mask, "has another size than the picture beside it");
   }
   if (!fs::exists(annotation)) return drawing;
-  if (!drawing.mask) throw InputError(annotation, "needs a mask.png beside it");
-  if ((*drawing.mask == 0).all())
+  if (drawing.mask && (*drawing.mask == 0).all())
     throw InputError(mask, "is blank: errors are relative to the figure's size");
   const JsonDocument document = JsonDocument::readFile(annotation);
   if (const auto view = document.root().find("view")) drawing.side_view = view->asString() == "side";
@@ -182,10 +179,13 @@ Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const
   };
   for (const std::string& name : scored) {
     const auto t = truth.joints.find(name);
-    result.annotated += t != truth.joints.end() && t->second;
+    if (t == truth.joints.end() || !t->second) continue;
+    ++result.annotated;
+    if (isEnd(name)) result.limbs = 0;
   }
+  if (truth.mask) result.inside = result.iou = 0;
   if (!recognition) return result;
-  const double size = longSide(*truth.mask);
+  const double size = longSide(truth.mask ? *truth.mask : silhouette_mask);
   result.confidence = recognition->confidence;
   result.likeness = recognition->likeness;
   std::map<std::string, Guess> guesses;
@@ -197,7 +197,7 @@ Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const
   int within05 = 0, within10 = 0, within15 = 0, ends = 0, right_ends = 0, guessed = 0, inside = 0;
   for (const std::string& name : scored) {
     const auto guess = guesses.find(name);
-    if (guess != guesses.end()) ++guessed, inside += near(*truth.mask, guess->second.point);
+    if (guess != guesses.end()) ++guessed, inside += truth.mask && near(*truth.mask, guess->second.point);
     const auto t = truth.joints.find(name);
     if (t == truth.joints.end() || !t->second) continue;
     const double error = guess == guesses.end() ? 1 : (guess->second.point - *t->second).norm() / size;
@@ -215,8 +215,9 @@ Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const
   result.pck10 = within10 / count;
   result.error = sum / count;
   result.usable = within15 == result.annotated;
-  result.limbs = ends ? static_cast<double>(right_ends) / ends : 0;
-  result.inside = guessed ? static_cast<double>(inside) / guessed : 0;
+  if (ends) result.limbs = static_cast<double>(right_ends) / ends;
+  if (!truth.mask) return result;
+  if (guessed) result.inside = static_cast<double>(inside) / guessed;
   if (silhouette_mask.rows() == truth.mask->rows() && silhouette_mask.cols() == truth.mask->cols()) {
     const auto a = silhouette_mask > 0, b = *truth.mask > 0;
     const auto both = (a && b).count(), any = (a || b).count();

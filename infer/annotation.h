@@ -13,12 +13,12 @@
 
 namespace skel {
 
-// image.png, and beside it mask.png and joints.json where the figure is annotated; or <name>.png,
-// <name>.mask.png and <name>.joints.json; or what a person has placed in <name>.labels.json.
+// image.png, and beside it joints.json where the figure is annotated, and mask.png; or <name>.png,
+// <name>.joints.json and <name>.mask.png; or what a person has placed in <name>.labels.json.
 struct AnnotatedDrawing {
   std::string id;  // folder or name relative to the set's
   Image image;
-  std::optional<Plane8> mask;
+  std::optional<Plane8> mask;  // none: the silhouette is not measured
   bool side_view = false;
   std::map<std::string, std::optional<Eigen::Vector2d>>
       joints;  // image px; empty: not annotated; null: not visible
@@ -32,14 +32,15 @@ void turnClockwise(AnnotatedDrawing& drawing, int quarters);
 // Whether any pixel is less than half opaque.
 bool isTransparent(const Image& image);
 
-// Errors are relative to L, the long side of the true mask's bounding box.
+// Errors are relative to L, the long side of the bounding box of the true mask, or of the silhouette that was
+// found where the true one is not known.
 struct Score {
   double pck05 = 0, pck10 = 0;                  // share of annotated joints within 0.05 L, 0.10 L
   double error = 1;                             // mean
   double usable = 0;                            // 1: every annotated joint within 0.15 L
-  double limbs = 0;                             // share of the limbs' ends within 0.15 L
-  double inside = 0;                            // share of found joints on the true mask, 2 px of slack
-  double iou = 0;                               // of the silhouette
+  std::optional<double> limbs;                  // share of the limbs' ends within 0.15 L; none annotated
+  std::optional<double> inside;                 // share of found joints on the true mask, 2 px of slack
+  std::optional<double> iou;                    // of the silhouette; neither without a true mask
   int annotated = 0, sure = 0, sure_right = 0;  // joints; of confidence >= 0.8; of those within 0.10 L
   double confidence = 0, likeness = 0;
   std::string worst_joint;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 
 #include "infer/annotation.h"
 #include "infer/rig_request.h"
@@ -44,7 +45,7 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
   turnClockwise(truth, options.turn_deg / 90);
   RigInput input;
   input.image = truth.image;
-  if (options.given_mask) input.mask = truth.mask;
+  if (options.given_mask) input.mask = truth.mask;  // without one it has to be found
   const RiggedDrawing drawing = rigCharacter(std::move(input), rig);
   row.found = drawing.found();
   row.reason = drawing.silhouette.reason;
@@ -63,10 +64,28 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
   return row;
 }
 
-double mean(const std::vector<Row>& rows, const std::function<double(const Row&)>& value) {
+using Figure = std::optional<double>;  // none: there is nothing to measure by
+
+// Over those that have one.
+Figure mean(const std::vector<Row>& rows, const std::function<Figure(const Row&)>& value) {
   double sum = 0;
-  for (const Row& row : rows) sum += value(row);
-  return sum / static_cast<double>(rows.size());
+  int count = 0;
+  for (const Row& row : rows)
+    if (const Figure one = value(row)) sum += *one, ++count;
+  return count > 0 ? Figure(sum / count) : std::nullopt;
+}
+
+Figure share(double part, double whole) { return whole > 0 ? Figure(part / whole) : std::nullopt; }
+
+Json jsonOf(const Figure& figure) { return figure ? Json(*figure) : Json(nullptr); }
+
+std::string shown(const Figure& figure, int decimals, int width = 0) {
+  char text[32];
+  if (figure)
+    std::snprintf(text, sizeof text, "%*.*f", width, decimals, *figure);
+  else
+    std::snprintf(text, sizeof text, "%*s", width, "-");
+  return text;
 }
 
 // 95 % interval of the mean, by bootstrap over characters.
@@ -91,8 +110,9 @@ void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
   options.infer.body_plan = "biped";
   app.add_option(
          "DIR", options.dir,
-         "Folders of image.png, mask.png and joints.json, files <name>.png, <name>.mask.png and\n"
-         "<name>.joints.json, or <name>.labels.json with joints that a person has placed, at any depth")
+         "Folders of image.png, joints.json and mask.png, files <name>.png, <name>.joints.json and\n"
+         "<name>.mask.png, or <name>.labels.json with joints that a person has placed, at any depth;\n"
+         "without a mask the silhouette is not measured")
       ->required();
   app.add_option("--json", options.json_file, "Write the figures to this file, too")
       ->always_capture_default(false)
@@ -142,14 +162,16 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
   std::printf("%-34s  PCK.05 PCK.10  error usable limbs inside   IoU  worst joint\n", "character");
   for (const Row& row : rows) {
     const Score& s = row.score;
-    std::printf("%-34s  %6.2f %6.2f %6.3f %6.0f %5.2f %6.2f %5.2f  %s\n", printable(row.id).c_str(), s.pck05,
-                s.pck10, s.error, s.usable, s.limbs, s.inside, s.iou,
+    std::printf("%-34s  %6.2f %6.2f %6.3f %6.0f %s %s %s  %s\n", printable(row.id).c_str(), s.pck05, s.pck10,
+                s.error, s.usable, shown(s.limbs, 2, 5).c_str(), shown(s.inside, 2, 6).c_str(),
+                shown(s.iou, 2, 5).c_str(),
                 row.found ? s.worst_joint.c_str() : ("no skeleton: " + row.reason).c_str());
-    json["characters"][jsonFromFileName(row.id)] = {{"pck05", s.pck05},       {"pck10", s.pck10},
-                                                    {"error", s.error},       {"usable", s.usable},
-                                                    {"limbs", s.limbs},       {"inside", s.inside},
-                                                    {"iou", s.iou},           {"confidence", s.confidence},
-                                                    {"likeness", s.likeness}, {"worst_joint", s.worst_joint}};
+    json["characters"][jsonFromFileName(row.id)] = {
+        {"pck05", s.pck05},         {"pck10", s.pck10},
+        {"error", s.error},         {"usable", s.usable},
+        {"limbs", jsonOf(s.limbs)}, {"inside", jsonOf(s.inside)},
+        {"iou", jsonOf(s.iou)},     {"confidence", s.confidence},
+        {"likeness", s.likeness},   {"worst_joint", s.worst_joint}};
   }
   for (const Row& row : hard)
     std::printf(
@@ -163,42 +185,57 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
       return total;
     };
     const auto pck05 = of(&Score::pck05), pck10 = of(&Score::pck10), usable = of(&Score::usable);
-    const auto sharp = [](const Row& row) { return row.score.iou >= 0.9 ? 1.0 : 0.0; };
+    const auto sharp = [](const Row& row) {
+      return row.score.iou ? Figure(*row.score.iou >= 0.9 ? 1 : 0) : std::nullopt;
+    };
+    const auto maybe = [](std::optional<double> Score::*field) {
+      return [field](const Row& row) { return row.score.*field; };
+    };
     const auto confident = [](const Row& row) { return row.score.confidence >= 0.5 ? 1.0 : 0.0; };
     const auto whole = [](const Row& row) { return row.score.likeness >= 0.5 ? 1.0 : 0.0; };
     std::vector<Forecast> forecasts;  // of figures: that they are usable
     for (const Row& row : rows) forecasts.push_back({row.score.confidence, row.score.usable == 1});
     const double annotated = sum(&Score::annotated), sure = sum(&Score::sure),
                  right = sum(&Score::sure_right);
-    Json& figures = json["mean"];
-    figures = {{"pck05", mean(rows, pck05)},
-               {"pck10", mean(rows, pck10)},
-               {"error", mean(rows, of(&Score::error))},
-               {"usable", mean(rows, usable)},
-               {"limbs", mean(rows, of(&Score::limbs))},
-               {"inside", mean(rows, of(&Score::inside))},
-               {"iou", mean(rows, of(&Score::iou))},
-               {"iou90", mean(rows, sharp)},
-               {"sure_share", sure / std::max(annotated, 1.0)},
-               {"sure_precision", right / std::max(sure, 1.0)},
-               {"confident_figures", mean(rows, confident)},
-               {"whole_figures", mean(rows, whole)},
-               {"confidence_auc", areaUnderRoc(forecasts)},
-               {"confidence_error", calibrationError(forecasts)}};
-    const auto figure = [&](const char* key) { return figures[key].get<double>(); };
+    const bool both_kinds =
+        std::adjacent_find(forecasts.begin(), forecasts.end(), [](const Forecast& a, const Forecast& b) {
+          return a.came_true != b.came_true;
+        }) != forecasts.end();
+    const std::vector<std::pair<const char*, Figure>> figures = {
+        {"pck05", mean(rows, pck05)},
+        {"pck10", mean(rows, pck10)},
+        {"error", mean(rows, of(&Score::error))},
+        {"usable", mean(rows, usable)},
+        {"limbs", mean(rows, maybe(&Score::limbs))},
+        {"inside", mean(rows, maybe(&Score::inside))},
+        {"iou", mean(rows, maybe(&Score::iou))},
+        {"iou90", mean(rows, sharp)},
+        {"sure_share", share(sure, annotated)},
+        {"sure_precision", share(right, sure)},
+        {"confident_figures", mean(rows, confident)},
+        {"whole_figures", mean(rows, whole)},
+        {"confidence_auc", both_kinds ? Figure(areaUnderRoc(forecasts)) : std::nullopt},
+        {"confidence_error", calibrationError(forecasts)}};
+    for (const auto& [key, value] : figures) json["mean"][key] = jsonOf(value);
+    const auto figure = [&](std::string_view key, int decimals = 3) {
+      const auto at =
+          std::find_if(figures.begin(), figures.end(), [&](const auto& one) { return one.first == key; });
+      return shown(at->second, decimals);
+    };
     std::printf(
-        "mean over %zu characters: PCK@.05 %.3f %s  PCK@.10 %.3f %s  error %.3f  usable %.3f %s  limbs %.3f  "
-        "inside %.3f\n",
-        rows.size(), figure("pck05"), interval(rows, pck05).c_str(), figure("pck10"),
-        interval(rows, pck10).c_str(), figure("error"), figure("usable"), interval(rows, usable).c_str(),
-        figure("limbs"), figure("inside"));
+        "mean over %zu characters: PCK@.05 %s %s  PCK@.10 %s %s  error %s  usable %s %s  limbs %s  "
+        "inside %s\n",
+        rows.size(), figure("pck05").c_str(), interval(rows, pck05).c_str(), figure("pck10").c_str(),
+        interval(rows, pck10).c_str(), figure("error").c_str(), figure("usable").c_str(),
+        interval(rows, usable).c_str(), figure("limbs").c_str(), figure("inside").c_str());
     std::printf(
-        "silhouette IoU %.3f, >= .9 in %.3f  |  confidence >= .8 for %.2f of joints, %.3f of those within "
-        ".10; figure confidence >= .5 for %.2f, likeness for %.2f\n"
-        "confidence against usable: area under ROC %.3f, calibration error %.3f\n",
-        figure("iou"), figure("iou90"), figure("sure_share"), figure("sure_precision"),
-        figure("confident_figures"), figure("whole_figures"), figure("confidence_auc"),
-        figure("confidence_error"));
+        "silhouette IoU %s, >= .9 in %s  |  confidence >= .8 for %s of joints, %s of those within "
+        ".10; figure confidence >= .5 for %s, likeness for %s\n"
+        "confidence against usable: area under ROC %s, calibration error %s\n",
+        figure("iou").c_str(), figure("iou90").c_str(), figure("sure_share", 2).c_str(),
+        figure("sure_precision").c_str(), figure("confident_figures", 2).c_str(),
+        figure("whole_figures", 2).c_str(), figure("confidence_auc").c_str(),
+        figure("confidence_error").c_str());
   }
   if (!hard.empty()) {
     const auto refused = std::count_if(hard.begin(), hard.end(), [](const Row& row) { return !row.found; });

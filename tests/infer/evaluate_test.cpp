@@ -104,6 +104,24 @@ TEST_CASE("evaluate measures by the joints of label files that a person has plac
   CHECK(run.err.find("of which a person has placed a joint") != std::string::npos);
 }
 
+TEST_CASE("evaluate measures joints without a mask, and what there is nothing to measure by is no figure") {
+  const skel::TempDir dir;
+  for (const char* end : {".png", ".joints.json"})
+    std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/cap_boy") + end,
+                               dir.file(std::string("cap_boy") + end));
+  const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "' --given-mask --json '" +
+                                 dir.file("figures.json") + "'");
+  CAPTURE(run.out, run.err);
+  REQUIRE(run.exit_code == 0);
+  CHECK(run.out.find("silhouette IoU -, >= .9 in -  |") != std::string::npos);
+  CHECK(run.out.find("area under ROC -, calibration error 0.") != std::string::npos);
+  const skel::JsonDocument figures = skel::JsonDocument::readFile(dir.file("figures.json"));
+  CHECK(figures.root().at("characters").at("cap_boy").at("pck10").asNumber() == 1);
+  CHECK(figures.root().at("characters").at("cap_boy").at("iou").isNull());
+  for (const char* key : {"iou", "iou90", "inside", "confidence_auc"})
+    CHECK(figures.root().at("mean").at(key).isNull());
+}
+
 TEST_CASE("evaluate goes on after a drawing that cannot be read, and says so") {
   const skel::TempDir dir;
   for (const char* end : {".png", ".mask.png", ".joints.json"})

@@ -72,6 +72,26 @@ TEST_CASE("nothing found scores nothing") {
   CHECK(s.annotated == 14);
 }
 
+TEST_CASE(
+    "without a true mask joints are measured, by the size of what was found, and the silhouette is not") {
+  Recognition guess;
+  AnnotatedDrawing truth = block(guess);
+  const Plane8 silhouette = *truth.mask;
+  truth.mask.reset();
+  guess.skeleton.joints[guess.skeleton.index("left_hand")].image.y() += 12;
+  const Score s = score(truth, &guess, silhouette, kBiped);
+  CHECK(s.pck10 == Approx(13.0 / 14));
+  CHECK(s.error == Approx(0.12 / 14));
+  CHECK(s.limbs == 1);
+  CHECK_FALSE(s.inside);
+  CHECK_FALSE(s.iou);
+  CHECK_FALSE(score(truth, nullptr, silhouette, kBiped).iou);
+
+  AnnotatedDrawing head_alone;
+  head_alone.joints["head"] = truth.joints["head"];
+  CHECK_FALSE(score(head_alone, &guess, silhouette, kBiped).limbs);
+}
+
 TEST_CASE("in side views a pair of limbs may be swapped") {
   Recognition guess;
   AnnotatedDrawing truth = block(guess);
