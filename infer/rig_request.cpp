@@ -10,6 +10,7 @@
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/text.h"
+#include "libskel/jointnet/net_joints.h"
 #include "libskel/pipeline/rig_drawing.h"
 
 namespace skel {
@@ -64,6 +65,22 @@ void keepClips(const std::vector<std::string>& names, const std::vector<Clip>& l
   if (rig.otherwise) rig.otherwise->clips = named(rig.otherwise->clips, names);
 }
 
+// Throws UsageError where it is a net of another body plan.
+std::shared_ptr<const JointNet> jointNetFor(const std::string& file, const SkeletonTemplate& body_plan) {
+  JointNet net = parseJointNet(readFile(file), file);
+  try {
+    netJoints(net.joints, body_plan);
+  } catch (const UsageError& error) {
+    if (net.body_plan == body_plan.name)
+      throw UsageError("--joint-net " + shellWord(file) + ": " + error.what());
+    throw UsageError("--joint-net " + shellWord(file) + " is a net of the template \"" + net.body_plan +
+                     "\", joints of the template \"" + body_plan.name +
+                     "\" are looked for; name the template by --template " + shellWord(net.body_plan) +
+                     ", or another net");
+  }
+  return std::make_shared<const JointNet>(readyToRun(std::move(net)));
+}
+
 }  // namespace
 
 RigOptions rigOptions(const InferOptions& options) {
@@ -85,9 +102,7 @@ RigOptions rigOptions(const InferOptions& options) {
   rig.layers = options.layers != "off";
   rig.into_picture = options.into_picture;
   rig.rest_pose = kRestPoseNames.at(options.rest_pose);
-  if (!options.joint_net_file.empty())
-    rig.joint_net = std::make_shared<const JointNet>(
-        readyToRun(parseJointNet(readFile(options.joint_net_file), options.joint_net_file)));
+  if (!options.joint_net_file.empty()) rig.joint_net = jointNetFor(options.joint_net_file, rig.body_plan);
   if (!options.part_net_file.empty())
     rig.part_net = std::make_shared<const PartNet>(
         readyToRun(parsePartNet(readFile(options.part_net_file), options.part_net_file)));
