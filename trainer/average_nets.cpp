@@ -3,6 +3,7 @@
 #include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/jointnet/joint_net.h"
+#include "trainer/writable_output.h"
 
 namespace skel {
 
@@ -17,6 +18,7 @@ void bindAverageNetsOptions(CLI::App& command, AverageNetsOptions& options) {
 }
 
 ExitCode runAverageNets(const AverageNetsOptions& options) {
+  ensureWritableNet(options.output, "skel-joint-net");
   JointNet mean = parseJointNet(readFile(options.nets.front()), options.nets.front());
   std::vector<double> sums(mean.parameters.size(), 0);
   for (const std::string& file : options.nets) {

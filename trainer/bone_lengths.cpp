@@ -10,6 +10,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/jointnet/net_joints.h"
 #include "trainer/jointed_drawing.h"
+#include "trainer/writable_output.h"
 
 namespace skel {
 namespace {
@@ -61,6 +62,7 @@ void bindBoneLengthsOptions(CLI::App& command, BoneLengthsOptions& options) {
 }
 
 ExitCode runBoneLengths(const BoneLengthsOptions& options) {
+  if (!options.output.empty()) ensureWritableNet(options.output, "skel-joint-net");
   JointNet net = parseJointNet(readFile(options.net), options.net);
   const NetJoints joints = netJoints(net.joints, loadTemplate(net.body_plan));
   const std::vector<JointedDrawing> drawings = findJointedDrawings(options.drawings);

@@ -160,8 +160,8 @@ ExitCode runConfidenceTraining(const ConfidenceTrainingOptions& options) {
   for (const auto& [plan, dirs] : options.drawings)
     for (JointedDrawing& drawing : findJointedDrawings(dirs))
       if (!hands.learned.contains(drawingName(drawing.image))) drawings[plan].push_back(std::move(drawing));
-  for (const std::string& file : {options.output, options.table})
-    if (!file.empty()) ensureWritableFile(file);
+  if (!options.output.empty()) ensureWritableNet(options.output, "skel-confidence");
+  if (!options.table.empty()) ensureWritableFile(options.table);
   std::vector<ConfidenceSample> samples;
   for (const std::string& table : options.tables)
     for (ConfidenceSample& sample : readTable(table)) samples.push_back(std::move(sample));

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <numbers>
 #include <sstream>
@@ -14,6 +13,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
+#include "trainer/checkpoint.h"
 #include "trainer/conv_net_trainer.h"
 #include "trainer/figures/figure.h"
 #include "trainer/grown_net.h"
@@ -235,12 +235,8 @@ class Training {
   }
 
   void run() {
-    if (!options_.checkpoint.empty() && std::filesystem::exists(options_.checkpoint)) {
-      const LookAtOutputs look;
-      trainer_.restore(readFile(options_.checkpoint), options_.checkpoint);
-    }
-    ensureWritableFile(options_.output);
-    if (!options_.checkpoint.empty()) ensureWritableFile(options_.checkpoint);
+    ensureWritableNet(options_.output, "skel-joint-net");
+    goOnFrom(options_.checkpoint, trainer_);
     const int steps_per_round = options_.figures_per_round * options_.passes / options_.batch;
     reportLeftOut("before", net_);
     ProgressBar bar("training", static_cast<std::size_t>(schedule_.steps));
@@ -391,13 +387,13 @@ class Training {
     if (learned_ < drawings_.size()) provenance << " with " << drawings_.size() - learned_ << " rehearsed";
     provenance << ", validation loss " << r.loss << ", within 10 % " << r.within_10;
     net.provenance = provenance.str();
+    writeFile(options_.output, formatJointNet(net));
+    keepCheckpoint(options_.checkpoint, trainer_);
     bar.clear();
     std::printf("step %lld  loss %.4f  validation: loss %.4f  within 10 %% %.4f  5 %% %.4f  whole %.4f\n",
                 static_cast<long long>(trainer_.steps()), loss, r.loss, r.within_10, r.within_5,
                 r.whole_right);
     std::fflush(stdout);
-    writeFile(options_.output, formatJointNet(net));
-    if (!options_.checkpoint.empty()) writeFile(options_.checkpoint, trainer_.checkpoint());
   }
 
   JointTrainingOptions options_;

@@ -92,16 +92,16 @@ void bindPageCaseOptions(CLI::App& command, PageCaseOptions& options) {
   bindLearningOptions(command, options);
 }
 
-LearnedFromPages learnFromPages(const PageCaseOptions& options, const CasesOfPage& cases,
-                                const PrintForecasts& print, const std::string& none,
-                                const LogisticFitOptions& fit) {
+LearnedFromPages learnFromPages(const PageCaseOptions& options, std::string_view format,
+                                const CasesOfPage& cases, const PrintForecasts& print,
+                                const std::string& none, const LogisticFitOptions& fit) {
   const Hands hands = readHands(options.hands);
   std::vector<AnnotatedImage> drawings;
   for (const std::string& folder : options.drawings)
     for (AnnotatedImage& drawing : findAnnotatedImages(folder))
       if (drawing.mask) drawings.push_back(std::move(drawing));
   if (drawings.empty()) throw UsageError("there are no drawings with masks to learn from");
-  ensureWritableFile(options.output);
+  ensureWritableNet(options.output, format);
   const std::vector<PageCase> found = casesOnPages(drawings, options, cases);
   std::vector<const PageCase*> all;
   for (const PageCase& page_case : found) all.push_back(&page_case);

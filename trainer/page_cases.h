@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "libskel/recognition/calibration.h"
@@ -34,13 +35,13 @@ using PrintForecasts = std::function<void(const std::string& title, const std::v
 
 // Each drawing in each circumstance; learned from the cases of all, and before that, with folds, measured on
 // hands left out: all cases, and those of each circumstance. `none`: what is said if there is no case; `fit`:
-// the seed is that of `options`.
+// the seed is that of `options`; `format`: of the net that is to be written.
 struct LearnedFromPages {
   LogisticNet net;
   std::string provenance;  // "225 drawings, seed 1"
 };
-LearnedFromPages learnFromPages(const PageCaseOptions& options, const CasesOfPage& cases,
-                                const PrintForecasts& print, const std::string& none,
-                                const LogisticFitOptions& fit = {});
+LearnedFromPages learnFromPages(const PageCaseOptions& options, std::string_view format,
+                                const CasesOfPage& cases, const PrintForecasts& print,
+                                const std::string& none, const LogisticFitOptions& fit = {});
 
 }  // namespace skel

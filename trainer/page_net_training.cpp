@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
@@ -16,6 +15,7 @@
 #include "libskel/image/write_image.h"
 #include "libskel/silhouette/page_net.h"
 #include "libskel/silhouette/working_colors.h"
+#include "trainer/checkpoint.h"
 #include "trainer/conv_net_trainer.h"
 #include "trainer/jointed_drawing.h"
 #include "trainer/page_loss.h"
@@ -156,18 +156,14 @@ ExitCode runPageTraining(const PageTrainingOptions& options) {
   } else {
     net = parsePageNet(readFile(options.start), options.start);
   }
-  ensureWritableFile(options.output);
-  if (!options.checkpoint.empty()) ensureWritableFile(options.checkpoint);
+  ensureWritableNet(options.output, "skel-page-net");
   ConvNetSchedule schedule;
   schedule.steps = options.steps;
   schedule.batch = options.batch;
   schedule.peak_rate = options.peak_rate;
   schedule.threads = options.threads;
   ConvNetTrainer trainer(net, schedule);
-  if (!options.checkpoint.empty() && std::filesystem::exists(options.checkpoint)) {
-    const LookAtOutputs look;
-    trainer.restore(readFile(options.checkpoint), options.checkpoint);
-  }
+  goOnFrom(options.checkpoint, trainer);
   const std::vector<Page> validation =
       drawPages(options, page_options, kValidationStream, options.validation_pages);
   std::vector<Page> pages(static_cast<std::size_t>(options.batch));
@@ -197,14 +193,14 @@ ExitCode runPageTraining(const PageTrainingOptions& options) {
                << options.steps << ", batch " << options.batch << ", " << page_options.drawings.size()
                << " drawings for " << page_options.drawn_share << " of the figures, validation IoU " << r.iou;
     net.provenance = provenance.str();
+    writeFile(options.output, formatPageNet(net));
+    keepCheckpoint(options.checkpoint, trainer);
     bar.clear();
     std::printf("step %lld  loss %.4f  validation: loss %.4f  IoU %.4f  of at least .9 %.3f\n",
                 static_cast<long long>(trainer.steps()), loss / counted, r.loss, r.iou, r.good);
     std::fflush(stdout);
     loss = 0;
     counted = 0;
-    writeFile(options.output, formatPageNet(net));
-    if (!options.checkpoint.empty()) writeFile(options.checkpoint, trainer.checkpoint());
   }
   return ExitCode::kDone;
 }

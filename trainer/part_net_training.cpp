@@ -16,6 +16,7 @@
 #include "libskel/image/write_image.h"
 #include "libskel/layers/part_net.h"
 #include "libskel/silhouette/working_colors.h"
+#include "trainer/checkpoint.h"
 #include "trainer/conv_net_trainer.h"
 #include "trainer/part_loss.h"
 #include "trainer/part_samples.h"
@@ -337,8 +338,7 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
   } else {
     net = parsePartNet(readFile(options.start), options.start);
   }
-  ensureWritableFile(options.output);
-  if (!options.checkpoint.empty()) ensureWritableFile(options.checkpoint);
+  ensureWritableNet(options.output, "skel-part-net");
   ConvNetSchedule schedule;
   schedule.steps = options.steps;
   schedule.batch = options.batch;
@@ -346,10 +346,7 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
   schedule.averaging = options.averaging;
   schedule.threads = options.threads;
   ConvNetTrainer trainer(net, schedule);
-  if (!options.checkpoint.empty() && fs::exists(options.checkpoint)) {
-    const LookAtOutputs look;
-    trainer.restore(readFile(options.checkpoint), options.checkpoint);
-  }
+  goOnFrom(options.checkpoint, trainer);
   std::vector<Lesson> lessons(static_cast<std::size_t>(options.batch));
   ProgressBar bar("training", static_cast<std::size_t>(options.steps));
   bar.advance(static_cast<std::size_t>(trainer.steps()));
@@ -379,6 +376,8 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
                << options.drawn_share << " of the figures, IoU of limbs on " << validation.size()
                << " others " << r.limbs;
     net.provenance = provenance.str();
+    writeFile(options.output, formatPartNet(net));
+    keepCheckpoint(options.checkpoint, trainer);
     bar.clear();
     std::printf("step %lld  loss %.4f  validation: loss %.4f  limbs %.4f  before %.3f of %d  parts",
                 static_cast<long long>(trainer.steps()), loss / counted, r.loss, r.limbs,
@@ -389,8 +388,6 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
     std::fflush(stdout);
     loss = 0;
     counted = 0;
-    writeFile(options.output, formatPartNet(net));
-    if (!options.checkpoint.empty()) writeFile(options.checkpoint, trainer.checkpoint());
   }
   return ExitCode::kDone;
 }

@@ -217,7 +217,7 @@ ExitCode runTrain(const TrainOptions& given) {
   const LabelledSet set = readSet(options.dir, options.candidates);
   const Characters characters = pointersTo(set.characters);
   checkCounts(options, characters.size());
-  ensureWritableFile(options.output);
+  ensureWritableNet(options.output, "skel-weights");
   if (!options.json.empty()) ensureWritableFile(options.json);
   if (!options.report.empty()) ensureWritableFolder(options.report);
   const std::vector<LabelledCharacter> drawn_by_program = generateCharacters(

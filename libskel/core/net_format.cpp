@@ -7,7 +7,7 @@
 
 namespace skel {
 
-void checkNetFormat(std::string_view bytes, const std::string& file, std::string_view format) {
+std::string netFormatName(std::string_view format) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kKinds = {
       {{"skel-confidence", "numbers that say how sure the recognition is"},
        {"skel-silhouette-confidence", "numbers that say how sure a silhouette is"},
@@ -16,21 +16,27 @@ void checkNetFormat(std::string_view bytes, const std::string& file, std::string
        {"skel-joint-net", "a net that finds joints (--joint-net)"},
        {"skel-part-net", "a net that tells parts (--part-net)"},
        {"skel-page-net", "a net that finds figures on pages"}}};
+  for (const auto& [kind, name] : kKinds)
+    if (kind == format) return std::string(name);
+  return {};
+}
+
+std::string netFormatOf(std::string_view bytes) {
   constexpr std::size_t kHeader = 4096;
   constexpr std::string_view kKey = "\"format\"";
   const std::string_view header = bytes.substr(0, kHeader);
   const std::size_t key = header.find(kKey);
-  if (key == header.npos) return;
+  if (key == header.npos) return {};
   const std::size_t first = header.find('"', key + kKey.size());
-  if (first == header.npos) return;
+  if (first == header.npos) return {};
   const std::string_view found = header.substr(first + 1, header.find('"', first + 1) - first - 1);
-  const auto nameOf = [&](std::string_view wanted) {
-    for (const auto& [kind, name] : kKinds)
-      if (kind == wanted) return std::string(name);
-    return std::string();
-  };
-  if (found != format && !nameOf(found).empty())
-    throw InputError(file, "is " + nameOf(found) + "; " + nameOf(format) + " was expected");
+  return netFormatName(found).empty() ? std::string() : std::string(found);
+}
+
+void checkNetFormat(std::string_view bytes, const std::string& file, std::string_view format) {
+  const std::string found = netFormatOf(bytes);
+  if (!found.empty() && found != format)
+    throw InputError(file, "is " + netFormatName(found) + "; " + netFormatName(format) + " was expected");
 }
 
 }  // namespace skel

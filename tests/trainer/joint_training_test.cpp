@@ -13,9 +13,10 @@
 namespace skel {
 namespace {
 
-std::string command(const TempDir& dir, const std::string& output, const std::string& options) {
-  return "skel-train joints --steps 6 --batch 4 --figures 64 --validation 8 --report-every 1 -o '" +
-         dir.file(output) + "' " + options;
+std::string command(const TempDir& dir, const std::string& output, const std::string& options,
+                    int steps = 6) {
+  return "skel-train joints --steps " + std::to_string(steps) +
+         " --batch 4 --figures 64 --validation 8 --report-every 1 -o '" + dir.file(output) + "' " + options;
 }
 
 // One drawing to learn from.
@@ -50,6 +51,30 @@ TEST_CASE("joint training that was killed goes on from its checkpoint to the sam
   CHECK(readFile(dir.file("whole.bin")) == readFile(dir.file("resumed.bin")));
   // Its first report is not the first of all.
   CHECK(resumed.out.find("step 1 ") == std::string::npos);
+}
+
+TEST_CASE("a checkpoint is there when its report is printed, and Ctrl+C says how to go on") {
+  const TempDir dir;
+  const std::string state = dir.file("state"), base = "cd '" + dir.path() + "'; ";
+  const std::string train = command(dir, "n.bin", "--checkpoint state");
+  CHECK(runTool(base + train +
+                " | { while read -r line; do case $line in step*) test -e state && echo kept; break;; esac; "
+                "done; cat >/dev/null; }")
+            .out == "kept\n");
+  std::filesystem::remove(state);
+  const auto interrupted = [&](const std::string& options, const std::string& file) {
+    return runTool(base + "env --default-signal=INT " + command(dir, "n.bin", options, 100000) +
+                   " >reports & while [ ! -e " + file + " ]; do sleep .02; done; kill -INT $!; wait $!")
+        .err;
+  };
+  const std::string with = interrupted("--checkpoint state", "state");
+  CAPTURE(with);
+  CHECK(with.find("skel-train: interrupted; the same line goes on from step ") != std::string::npos);
+  CHECK(with.find(", as state has it\n") != std::string::npos);
+  std::filesystem::remove(dir.file("n.bin"));
+  CHECK(interrupted("", "n.bin")
+            .find("skel-train: interrupted; the same line begins anew; one with --checkpoint "
+                  "FILE can be gone on with\n") != std::string::npos);
 }
 
 TEST_CASE(

@@ -203,6 +203,30 @@ TEST_CASE("bad data is refused with file, path and reason, and exit code 2") {
   CHECK(holds(weights.err, "bad.json: lacks \"format\""));
 }
 
+TEST_CASE("a net is not replaced by one of another kind, but by one of its own") {
+  const TempDir dir;
+  fill(dir);
+  const std::string net = dir.file("net.bin"),
+                    bytes = "{\"format\":\"skel-joint-net\",\"version\":3}\nweights";
+  writeFile(net, bytes);
+  const ToolRun refused = run(dir.path() + " -o " + net + kQuick);
+  CHECK(refused.exit_code == 4);
+  CHECK(refused.err.find(
+            "net.bin: is a net that finds joints (--joint-net), and would be replaced by weights that "
+            "tell candidates apart (--weights); name another file by -o\n") != std::string::npos);
+  CHECK(readFile(net) == bytes);
+  writeFile(net, readFile(SKEL_SOURCE_DIR "/weights/default.json"));
+  CHECK(run(dir.path() + " -o " + net + kQuick).exit_code == 0);
+  CHECK(readWeights(net).provenance.samples == 600);
+
+  for (const char* command : {"joints --steps 1 --validation 1", "pages --steps 1", "confidence --biped x"}) {
+    INFO(command);
+    const ToolRun other = run(std::string(command) + " -o " + net);
+    CHECK(other.exit_code != 0);
+    CHECK(readWeights(net).provenance.samples == 600);
+  }
+}
+
 TEST_CASE("an output that cannot be written has exit code 4") {
   const TempDir dir;
   fill(dir);
