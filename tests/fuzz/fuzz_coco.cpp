@@ -16,7 +16,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       require(name == "a.png" || name == "b.png", "only pictures of its folder are named");
       const Plane8 mask = maskFromPolygons(drawing.mask_polygons, 32, 24);
       require(mask.rows() == 24 && mask.cols() == 32, "a mask has the picture's size");
-      pictures.push_back({name, 32, 24, drawing.joints, drawing.mask_polygons});
+      pictures.push_back({name, 32, 24, drawing.joints, drawing.recognized, drawing.mask_polygons});
     }
     const std::vector<AnnotatedDrawing> again =
         readCoco(fileOf(formatCoco(pictures, body_plan), "again.coco.json"), body_plan);
