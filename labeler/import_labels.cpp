@@ -65,7 +65,7 @@ void countJoints(const LabelFile& labels, const SkeletonTemplate& body_plan, Imp
 
 // Whether a label file was made.
 bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, const SkeletonTemplate& body_plan,
-                   const ImportOptions& options, ImportCounts& joints) {
+                   const ImportOptions& options, ImportCounts& counts) {
   const std::string image_path = destination(drawing.image, dir, options);
   const std::string label_path = labelFileFor(image_path);
   if (!options.force && fs::exists(label_path)) return false;
@@ -84,18 +84,18 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
   }
   const LabelFile labels = labelImage(image_path, mask, drawing.joints, body_plan, {}, drawing.recognized);
   writeLabelFile(label_path, labels);
-  countJoints(labels, body_plan, joints);
+  countJoints(labels, body_plan, counts);
   return true;
 }
 
-// Runs `make` for each; it says whether a label file was made.
+// Runs `make` for each; it says whether a label file was made, and may count what is in it.
 template <class List, class Make>
 ImportCounts forEach(const List& list, const char* title, const OnError& on_error, const Make& make) {
   ImportCounts counts;
   ProgressBar bar(title, list.size());
   for (const auto& entry : list) {
     try {
-      make(entry) ? ++counts.made : ++counts.kept;
+      make(entry, counts) ? ++counts.made : ++counts.kept;
     } catch (...) {
       const Error error = caughtError(entry.image);
       if (counts.failed++ == 0) counts.exit_code = error.exitCode();
@@ -118,18 +118,14 @@ ImportCounts importLabels(const std::string& dir, const SkeletonTemplate& body_p
                      "with keypoints, "
                      "or a skeleton file of the template " +
                          body_plan.name + ")");
-  ImportCounts joints;
-  ImportCounts counts = forEach(drawings, "import", on_error, [&](const AnnotatedDrawing& drawing) {
-    return importDrawing(drawing, dir, body_plan, options, joints);
+  return forEach(drawings, "import", on_error, [&](const AnnotatedDrawing& drawing, ImportCounts& counts) {
+    return importDrawing(drawing, dir, body_plan, options, counts);
   });
-  counts.joints_placed = joints.joints_placed;
-  counts.joints_found = joints.joints_found;
-  return counts;
 }
 
 ImportCounts makeLabelFiles(const std::string& dir, const SkeletonTemplate& body_plan,
                             const OnError& on_error) {
-  return forEach(findDrawings(dir), "candidates", on_error, [&](const DrawingFiles& files) {
+  return forEach(findDrawings(dir), "candidates", on_error, [&](const DrawingFiles& files, ImportCounts&) {
     if (fs::exists(files.labels)) return false;
     writeLabelFile(files.labels, labelImage(files.image, givenMask(files), {}, body_plan));
     return true;

@@ -17,6 +17,11 @@ void sayHowToGoOn(const std::string& how) {
   sayOnInterrupt((isatty(STDERR_FILENO) ? "\n" : "") + std::string("skel-train: interrupted; ") + how + "\n");
 }
 
+void sayThatItGoesOn(const std::string& checkpoint, const ConvNetTrainer& trainer) {
+  sayHowToGoOn("the same line goes on from step " + std::to_string(trainer.steps()) + ", as " +
+               printable(checkpoint) + " has it");
+}
+
 }  // namespace
 
 void goOnFrom(const std::string& checkpoint, ConvNetTrainer& trainer) {
@@ -26,8 +31,7 @@ void goOnFrom(const std::string& checkpoint, ConvNetTrainer& trainer) {
   if (std::filesystem::exists(checkpoint)) {
     const LookAtOutputs look;
     trainer.restore(readFile(checkpoint), checkpoint);
-    sayHowToGoOn("the same line goes on from step " + std::to_string(trainer.steps()) + ", as " +
-                 printable(checkpoint) + " has it");
+    sayThatItGoesOn(checkpoint, trainer);
   }
   ensureWritableFile(checkpoint);
 }
@@ -35,8 +39,7 @@ void goOnFrom(const std::string& checkpoint, ConvNetTrainer& trainer) {
 void keepCheckpoint(const std::string& checkpoint, const ConvNetTrainer& trainer) {
   if (checkpoint.empty()) return;
   writeFile(checkpoint, trainer.checkpoint());
-  sayHowToGoOn("the same line goes on from step " + std::to_string(trainer.steps()) + ", as " +
-               printable(checkpoint) + " has it");
+  sayThatItGoesOn(checkpoint, trainer);
 }
 
 }  // namespace skel
