@@ -151,32 +151,34 @@ struct Limb {
 };
 
 // From the first joint to where the limb begins to be seen on its bones. As wide as half of the limb
-// below: the median of the largest discs about that bone that fit in; of a limb that is hardly seen there,
-// where it is widest. `inside`: of the limb's coarse mask.
+// beside its first bone: the median, along that, of the largest discs that fit in; of a limb that is not seen
+// there, where it is widest. `inside`: of the limb's coarse mask.
 Root rootOf(const Coarse& coarse, const DistanceField& inside, const std::array<Vector2d, 3>& joints) {
-  const auto at = [&](double t) -> Vector2d {  // 0 the first joint, 2 the last
-    const std::size_t bone = t < 1 ? 0 : 1;
-    return joints[bone] + (t - static_cast<double>(bone)) * (joints[bone + 1] - joints[bone]);
-  };
-  const auto widestAt = [&](double t) {
-    const Vector2d p = at(t);
-    const auto x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
-    const int reach = std::max(1, static_cast<int>(0.1 * (joints[1] - joints[0]).norm() / coarse.step));
-    float widest = 0;
-    const int cx = (x - coarse.box.x0) / coarse.step, cy = (y - coarse.box.y0) / coarse.step;
-    for (int v = std::max(0, cy - reach); v <= std::min<int>(cy + reach, int(inside.rows()) - 1); ++v)
-      for (int u = std::max(0, cx - reach); u <= std::min<int>(cx + reach, int(inside.cols()) - 1); ++u)
-        widest = std::max(widest, inside(v, u));
-    return static_cast<double>(widest) * coarse.step;
-  };
-  std::vector<double> radii;
-  for (double t = 0.25; t <= 0.75; t += 0.05) radii.push_back(widestAt(t));
+  constexpr int kSteps = 20;  // a bone
+  std::array<float, 2 * kSteps + 1> widest{};  // beside each point of the bones
+  const Vector2d upper = joints[1] - joints[0], lower = joints[2] - joints[1];
+  for (int v = 0; v < inside.rows(); ++v)
+    for (int u = 0; u < inside.cols(); ++u) {
+      if (inside(v, u) == 0) continue;
+      const Vector2d p = coarse.step * Vector2d(u + .5, v + .5) + Vector2d(coarse.box.x0, coarse.box.y0);
+      const auto along = [&](const Vector2d& from, const Vector2d& bone) {
+        return std::clamp((p - from).dot(bone) / std::max(1e-9, bone.squaredNorm()), 0., 1.);
+      };
+      const double t0 = along(joints[0], upper), t1 = along(joints[1], lower);
+      const bool first = (joints[0] + t0 * upper - p).norm() <= (joints[1] + t1 * lower - p).norm();
+      float& there = widest[static_cast<std::size_t>(std::lround(kSteps * (first ? t0 : 1 + t1)))];
+      there = std::max(there, inside(v, u));
+    }
+  const auto seen = std::find_if(widest.begin(), widest.end(), [](float radius) { return radius > 0; });
+  std::vector<float> radii;
+  for (std::size_t i = kSteps / 4; i < kSteps; ++i)
+    if (widest[i] > 0) radii.push_back(widest[i]);
+  if (radii.empty()) radii.push_back(inside.maxCoeff());
   std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2), radii.end());
-  double seen = 0;
-  while (seen < 2 && widestAt(seen) == 0) seen += 0.05;
-  const double median = radii[radii.size() / 2];
-  return {joints[0], at(std::min(seen, 1.)), at(std::min(seen, 2.)),
-          median > 0 ? median : static_cast<double>(inside.maxCoeff()) * coarse.step};
+  const double from = std::min<double>(double(seen - widest.begin()) / kSteps, 2);
+  return {joints[0], joints[0] + std::min(from, 1.) * upper,
+          from < 1 ? Vector2d(joints[0] + from * upper) : Vector2d(joints[1] + (from - 1) * lower),
+          static_cast<double>(radii[radii.size() / 2]) * coarse.step};
 }
 
 // Of each number in the plane, the pixels that have it.

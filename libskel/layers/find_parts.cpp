@@ -20,6 +20,7 @@ constexpr int kLookSize = 400;  // px, the long side of the figure when borders 
 // Lengths as shares of the figure's long side.
 constexpr double kLineWidth = .02;    // lines are no wider
 constexpr double kInkReach = .0125;   // how far a limb takes the ink that it is drawn with
+constexpr double kStub = .005;        // half of how wide a line is that ends at a limb without being of it
 constexpr double kInkContrast = .15;  // of the range of brightness
 constexpr float kCertain = .8f;       // probability of what borders do not move through
 // Log-odds that the net's are corrected by: it was taught limbs with more weight than the rest, and seldom
@@ -247,6 +248,10 @@ void takeInk(Sketch& picture, Part part, const cv::Mat& from) {
     cv::dilate(own, grown, cv::Mat::ones(3, 3, CV_8U));
     own |= grown & picture.ink & from;
   }
+  // Lines that only end at the part are not of it.
+  cv::Mat broad;
+  cv::morphologyEx(own, broad, cv::MORPH_OPEN, disc(px(picture, kStub)));
+  own &= broad | picture.of(part);
   picture.part.setTo(static_cast<int>(part), own);
 }
 

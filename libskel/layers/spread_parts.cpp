@@ -20,6 +20,9 @@ namespace {
 constexpr int kSpreadSize = 240;       // px, the long side of the figure
 constexpr double kSpreadReach = .06;   // of the long side: how far a walker comes on flat ground
 constexpr double kOpenContrast = .02;  // of the range of colours: what lets 1/e of the walkers through
+// And more by so much of the mean change around: one line of many, in hatching, divides little.
+constexpr double kAmongOthers = .25;
+constexpr double kAround = .03;       // of the long side, each way
 constexpr double kLeastOpen = 1e-4;    // so many pass any line
 constexpr int kTogether = 8;           // parts that are solved for in one pass over the factor
 
@@ -27,7 +30,7 @@ using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
 // Of one px, a number for each of some parts.
 using Shares = Eigen::Array<double, kTogether, 1>;
 
-// How many walkers each px lets through, 1 where it is flat.
+// How many walkers each px lets through, 1 where it is flat, by how its change stands out.
 cv::Mat openness(const cv::Mat& rgb, const cv::Mat& mask, double range, const cv::Size& size) {
   cv::Mat high, low, change, channels[3], open(size, CV_64F);
   cv::GaussianBlur(rgb, high, cv::Size(3, 3), 0);
@@ -38,10 +41,19 @@ cv::Mat openness(const cv::Mat& rgb, const cv::Mat& mask, double range, const cv
   cv::split(high - low, channels);
   change = cv::max(channels[0], cv::max(channels[1], channels[2]));
   cv::resize(change, change, size, 0, 0, cv::INTER_NEAREST);
-  std::array<double, 256> through;
-  for (int c = 0; c < 256; ++c) through[c] = std::max(kLeastOpen, std::exp(-c / (kOpenContrast * range)));
+  cv::Mat inside, around, known;
+  cv::resize(mask, inside, size, 0, 0, cv::INTER_NEAREST);
+  change.convertTo(around, CV_32F);
+  around.setTo(0, inside == 0);
+  cv::Mat(inside != 0).convertTo(known, CV_32F, 1 / 255.);
+  const int window = 2 * std::max(1, cvRound(kAround * std::max(size.width, size.height))) + 1;
+  cv::blur(around, around, cv::Size(window, window)), cv::blur(known, known, cv::Size(window, window));
   for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x) open.at<double>(y, x) = through[change.at<std::uint8_t>(y, x)];
+    for (int x = 0; x < size.width; ++x) {
+      const double mean = around.at<float>(y, x) / std::max(known.at<float>(y, x), 1e-6f);
+      const double contrast = kOpenContrast * range + kAmongOthers * mean;
+      open.at<double>(y, x) = std::max(kLeastOpen, std::exp(-change.at<std::uint8_t>(y, x) / contrast));
+    }
   return open;
 }
 
