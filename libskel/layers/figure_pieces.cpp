@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "libskel/candidates/candidates.h"
@@ -150,34 +151,37 @@ struct Limb {
   bool far = false;
 };
 
-// From the first joint to where the limb begins to be seen on its bones. As wide as half of the limb
-// beside its first bone: the median, along that, of the largest discs that fit in; of a limb that is not seen
-// there, where it is widest. `inside`: of the limb's coarse mask.
+// From the first joint to where the limb begins to be seen on its bones. As wide as half of the limb from
+// there on: the median, along half of a bone, of the largest discs that fit in beside it. `inside`: of the
+// limb's coarse mask.
 Root rootOf(const Coarse& coarse, const DistanceField& inside, const std::array<Vector2d, 3>& joints) {
   constexpr int kSteps = 20;  // a bone
-  std::array<float, 2 * kSteps + 1> widest{};  // beside each point of the bones
-  const Vector2d upper = joints[1] - joints[0], lower = joints[2] - joints[1];
+  constexpr std::size_t kEnd = 2 * kSteps;
+  const auto at = [&](double step) -> Vector2d {
+    const std::size_t bone = step < kSteps ? 0 : 1;
+    return joints[bone] + (step / kSteps - static_cast<double>(bone)) * (joints[bone + 1] - joints[bone]);
+  };
+  // Of each pixel, to the step that is nearest: how far that is, and whether the limb is seen so near.
+  const double near = std::max(double(coarse.step), .1 * (joints[1] - joints[0]).norm());
+  std::array<float, kEnd + 1> widest{};
+  std::size_t seen = kEnd;
   for (int v = 0; v < inside.rows(); ++v)
     for (int u = 0; u < inside.cols(); ++u) {
       if (inside(v, u) == 0) continue;
-      const Vector2d p = coarse.step * Vector2d(u + .5, v + .5) + Vector2d(coarse.box.x0, coarse.box.y0);
-      const auto along = [&](const Vector2d& from, const Vector2d& bone) {
-        return std::clamp((p - from).dot(bone) / std::max(1e-9, bone.squaredNorm()), 0., 1.);
-      };
-      const double t0 = along(joints[0], upper), t1 = along(joints[1], lower);
-      const bool first = (joints[0] + t0 * upper - p).norm() <= (joints[1] + t1 * lower - p).norm();
-      float& there = widest[static_cast<std::size_t>(std::lround(kSteps * (first ? t0 : 1 + t1)))];
-      there = std::max(there, inside(v, u));
+      const Vector2d p(coarse.box.x0 + (u + .5) * coarse.step, coarse.box.y0 + (v + .5) * coarse.step);
+      std::size_t nearest = 0;
+      for (std::size_t i = 1; i <= kEnd; ++i)
+        if ((at(double(i)) - p).squaredNorm() < (at(double(nearest)) - p).squaredNorm()) nearest = i;
+      widest[nearest] = std::max(widest[nearest], inside(v, u));
+      if ((at(double(nearest)) - p).norm() <= near) seen = std::min(seen, nearest);
     }
-  const auto seen = std::find_if(widest.begin(), widest.end(), [](float radius) { return radius > 0; });
+  const auto first = widest.begin() + std::ptrdiff_t(std::max<std::size_t>(seen, kSteps / 4));
   std::vector<float> radii;
-  for (std::size_t i = kSteps / 4; i < kSteps; ++i)
-    if (widest[i] > 0) radii.push_back(widest[i]);
+  std::copy_if(first, std::min(first + kSteps / 2, widest.end()), std::back_inserter(radii),
+               [](float radius) { return radius > 0; });
   if (radii.empty()) radii.push_back(inside.maxCoeff());
   std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2), radii.end());
-  const double from = std::min<double>(double(seen - widest.begin()) / kSteps, 2);
-  return {joints[0], joints[0] + std::min(from, 1.) * upper,
-          from < 1 ? Vector2d(joints[0] + from * upper) : Vector2d(joints[1] + (from - 1) * lower),
+  return {joints[0], at(std::min(double(seen), double(kSteps))), at(double(seen)),
           static_cast<double>(radii[radii.size() / 2]) * coarse.step};
 }
 

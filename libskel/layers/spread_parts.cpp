@@ -20,11 +20,12 @@ namespace {
 constexpr int kSpreadSize = 240;       // px, the long side of the figure
 constexpr double kSpreadReach = .06;   // of the long side: how far a walker comes on flat ground
 constexpr double kOpenContrast = .02;  // of the range of colours: what lets 1/e of the walkers through
-// And more by so much of the mean change around: one line of many, in hatching, divides little.
-constexpr double kAmongOthers = .25;
-constexpr double kAround = .03;       // of the long side, each way
-constexpr double kLeastOpen = 1e-4;    // so many pass any line
-constexpr int kTogether = 8;           // parts that are solved for in one pass over the factor
+// Where more than so much changes around, more by this of the rest: one line of many, in hatching, divides
+// little.
+constexpr double kFew = .45, kAmongOthers = .6;
+constexpr double kAround = .03;      // of the long side, each way
+constexpr double kLeastOpen = 1e-4;  // so many pass any line
+constexpr int kTogether = 8;         // parts that are solved for in one pass over the factor
 
 using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
 // Of one px, a number for each of some parts.
@@ -51,7 +52,7 @@ cv::Mat openness(const cv::Mat& rgb, const cv::Mat& mask, double range, const cv
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       const double mean = around.at<float>(y, x) / std::max(known.at<float>(y, x), 1e-6f);
-      const double contrast = kOpenContrast * range + kAmongOthers * mean;
+      const double contrast = kOpenContrast * range + kAmongOthers * std::max(0., mean - kFew * range);
       open.at<double>(y, x) = std::max(kLeastOpen, std::exp(-change.at<std::uint8_t>(y, x) / contrast));
     }
   return open;

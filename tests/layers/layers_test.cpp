@@ -387,6 +387,25 @@ TEST_CASE("short legs reach their hips deep in the trunk") {
   CHECK(legs >= 3);
 }
 
+TEST_CASE("an arm whose shoulder was found too far inside reaches it by a root as wide as itself") {
+  Drawing drawing;
+  LayerMap layers;
+  layers.limb = (drawing.arm != 0 && drawing.silhouette.mask != 0).cast<std::uint8_t>();
+  Vector2d& shoulder = drawing.skeleton.joints[std::size_t(drawing.skeleton.index("right_shoulder"))].image;
+  shoulder += 2.5 * drawing.figure.limb_radius * (drawing.at("neck") - shoulder).normalized();
+  const std::vector<FigurePiece> pieces =
+      figurePieces(layers, drawing.silhouette, drawing.skeleton, drawing.body_plan);
+  REQUIRE(pieces.size() == 2);
+  const FigurePiece& arm = pieces[1];
+  REQUIRE(layers.limb(int(shoulder.y()), int(shoulder.x())) == 0);
+  for (const double angle : {0., 1.5, 3., 4.5}) {
+    const Vector2d p =
+        shoulder + .7 * drawing.figure.limb_radius * Vector2d(std::cos(angle), std::sin(angle));
+    CAPTURE(p.transpose());
+    CHECK(arm.mask(int(p.y()) - arm.box.y0, int(p.x()) - arm.box.x0) != 0);
+  }
+}
+
 TEST_CASE("the parts of a mask are the 4-connected ones, numbered as they begin") {
   const auto masks = [](std::initializer_list<const char*> rows) {
     Plane8 mask(Eigen::Index(rows.size()), Eigen::Index(std::string(*rows.begin()).size()));
