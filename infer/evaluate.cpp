@@ -45,6 +45,7 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
   turnClockwise(truth, options.turn_deg / 90);
   RigInput input;
   input.image = truth.image;
+  input.file = id;
   if (options.given_mask) input.mask = truth.mask;  // without one it has to be found
   const RiggedDrawing drawing = rigCharacter(std::move(input), rig);
   row.found = drawing.found();

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 MotionFrame frameOf(const DrawingFiles& files, const MotionOptions& options, std::string& reason) {
   RigInput input;
   input.image = readImage(files.image);
+  input.file = files.image;
   if (const auto mask = givenMask(files)) input.mask = readMaskOf(input.image, *mask);
   RigOptions rig;
   rig.mlp = options.mlp;

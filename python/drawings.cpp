@@ -52,6 +52,7 @@ Plane8 figureOf(const py::object& mask, const Image& image) {
 std::shared_ptr<Drawing> rigged(RigInput input, const RigOptions& options, const std::string& source) {
   return unlocked(source, [&] {
     auto drawing = std::make_shared<Drawing>();
+    input.file = source;
     drawing->found = rigCharacter(std::move(input), options);
     if (!drawing->found.found()) throw InputError(source, drawing->found.silhouette.reason);
     drawing->options = options;

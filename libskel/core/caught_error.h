@@ -12,4 +12,16 @@ namespace skel {
 // rest is kInput.
 Error caughtError(const std::string& source);
 
+// What `work()` returns; whatever it throws leaves as an Error.
+template <typename Work>
+auto throwingErrors(const std::string& source, const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const Error&) {
+    throw;
+  } catch (...) {
+    throw caughtError(source);
+  }
+}
+
 }  // namespace skel

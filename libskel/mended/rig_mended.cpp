@@ -99,6 +99,7 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
     input.skeleton = given->skeleton;
     input.turned_deg = given->figure.turned_deg;
   }
+  input.file = request.source;
   MendedRig result;
   MendedFiles& mended = result.files;
   mended = mendedFiles(request);

@@ -7,7 +7,7 @@
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/classifier/features.h"
-#include "libskel/core/check.h"
+#include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 #include "libskel/deform/bound_stretch.h"
 #include "libskel/deform/figure_shape.h"
@@ -237,12 +237,10 @@ const SkeletonTemplate& planNamed(std::string_view name, const RigOptions& optio
   return other ? options.otherwise->body_plan : options.body_plan;
 }
 
-RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
-  return rigCharacter(std::move(input), options, nullptr, options.last, false);
-}
+namespace {
 
-RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory* memory, LastStage last,
-                           bool draft) {
+RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* memory, LastStage last,
+                        bool draft) {
   using M = RigMemory;
   RiggedDrawing drawing;
   drawing.body_plan = options.body_plan;
@@ -252,7 +250,8 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory*
   if (input.model) standUpright(*input.model);
   const bool own_view = input.image.empty();
   if (own_view) {
-    SKEL_CHECK(input.model);
+    if (!input.model)
+      throw InputError(input.file.empty() ? "the input" : input.file, "has neither a picture nor a model");
     FrontView view = stage("front view", &M::front_view, {stage.of(RigPart::kModel)},
                            [&] { return frontSilhouette(*input.model); });
     input.model->model_from_image = view.model_from_image;
@@ -409,6 +408,18 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory*
                    measureFigure(character.mesh, character.weights, character.skeleton), options);
   });
   return drawing;
+}
+
+}  // namespace
+
+RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
+  return rigCharacter(std::move(input), options, nullptr, options.last, false);
+}
+
+RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory* memory, LastStage last,
+                           bool draft) {
+  const std::string file = input.file;
+  return throwingErrors(file, [&] { return runStages(std::move(input), options, memory, last, draft); });
 }
 
 }  // namespace skel

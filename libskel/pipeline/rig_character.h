@@ -35,6 +35,7 @@ struct NamedPicture {
 // What a character is made from. `image` is needed unless there is a `model`.
 struct RigInput {
   Image image;
+  std::string file = {};               // what complaints call the image
   std::optional<Plane8> mask;          // the figure, given by hand; of the image's size
   FigureFinder* figures = nullptr;     // of the image, where several of its figures are rigged; null: its own
   std::optional<TriangleMesh> model;   // take this mesh instead of inflating the silhouette
@@ -120,7 +121,8 @@ struct RiggedDrawing {
 
 // Stages 2 to 8, or up to options.last. Where there is no figure, `found()` is false and silhouette.reason
 // says why. Throws UsageError if no net knows the body plan, InputError if input.layers does not fit, or
-// input.back shows no figure.
+// input.back shows no figure, UnavailableError's kind of Error if memory or threads do not suffice. Nothing
+// but an Error leaves it.
 RiggedDrawing rigCharacter(RigInput input, const RigOptions& options);
 
 }  // namespace skel

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "libskel/animation/clip_library.h"
+#include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/image/read_image.h"
@@ -31,21 +32,24 @@ const SkeletonTemplate& planOfSkeleton(std::string_view text, const std::string&
 }
 
 RiggedDrawing rigDrawing(const std::string& path, const RigOptions& options) {
-  RigInput input;
-  std::string source = path;  // of the figure's outline
-  if (path.ends_with(".skeleton.json")) {
-    const std::string text = readFile(path);
-    const SkeletonFile file = parseSkeletonFile(text, path, planOfSkeleton(text, path, options));
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    input.image = readImage((folder / file.image_file).string());
-    input.skeleton = file.skeleton;
-    if (file.mask) input.mask = readMask(source = (folder / file.mask->file).string());
-  } else {
-    input.image = readImage(path);
-  }
-  RiggedDrawing drawing = rigCharacter(std::move(input), options);
-  if (!drawing.found()) throw InputError(source, drawing.silhouette.reason);
-  return drawing;
+  return throwingErrors(path, [&] {
+    RigInput input;
+    input.file = path;
+    std::string source = path;  // of the figure's outline
+    if (path.ends_with(".skeleton.json")) {
+      const std::string text = readFile(path);
+      const SkeletonFile file = parseSkeletonFile(text, path, planOfSkeleton(text, path, options));
+      const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+      input.image = readImage((folder / file.image_file).string());
+      input.skeleton = file.skeleton;
+      if (file.mask) input.mask = readMask(source = (folder / file.mask->file).string());
+    } else {
+      input.image = readImage(path);
+    }
+    RiggedDrawing drawing = rigCharacter(std::move(input), options);
+    if (!drawing.found()) throw InputError(source, drawing.silhouette.reason);
+    return drawing;
+  });
 }
 
 }  // namespace skel

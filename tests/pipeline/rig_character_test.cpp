@@ -1,5 +1,9 @@
 #include "libskel/pipeline/rig_character.h"
 
+#include <sys/resource.h>
+
+#include <fstream>
+
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/export/write_character.h"
@@ -10,6 +14,46 @@
 #include "tests/support/figure.h"
 
 using namespace skel;
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SKEL_OWN_MEMORY
+#endif
+#endif
+
+// A sanitizer's own memory is more than any limit.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(SKEL_OWN_MEMORY)
+TEST_CASE("for want of memory rigging throws an error of ours that names the drawing, and then goes on") {
+  RigInput input;
+  input.image = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");
+  input.file = "hero.png";
+  RigInput large = input;
+  large.image = Image(4000, 4000);
+  large.mask = Plane8::Constant(4000, 4000, 255);
+  std::ifstream statm("/proc/self/statm");
+  rlim_t pages = 0;
+  statm >> pages;
+  rlimit limit{};
+  getrlimit(RLIMIT_AS, &limit);
+  const rlimit low{pages * 4096 + (40u << 20), limit.rlim_max};
+  setrlimit(RLIMIT_AS, &low);
+  std::string message;
+  int code = 0;
+  try {
+    rigCharacter(std::move(large), RigOptions());
+  } catch (const Error& error) {
+    code = static_cast<int>(error.exitCode()), message = error.what();
+  }
+  setrlimit(RLIMIT_AS, &limit);
+  CHECK(message == "hero.png: needs more memory than there is");
+  CHECK(code == static_cast<int>(ExitCode::kUnavailable));
+  CHECK(rigCharacter(std::move(input), RigOptions()).found());
+}
+#endif
+
+TEST_CASE("an input of nothing is refused, not taken for a bug of skel") {
+  CHECK_THROWS_WITH(rigCharacter(RigInput(), RigOptions()), "the input: has neither a picture nor a model");
+}
 
 TEST_CASE("a model in parts is bound by its whole front view, not by its largest part") {
   RigInput input;
