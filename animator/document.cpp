@@ -70,8 +70,10 @@ std::string clipNameIn(const std::string& path) {
                                          : stemOf(path);
 }
 
+// As far as a typed number shows. Floats are no more of unit length than they can be.
 bool sameTurn(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
-  return std::abs(a.dot(b)) > 1 - 1e-7f;
+  constexpr double kSame = 5e-4;  // rad
+  return a.cast<double>().normalized().angularDistance(b.cast<double>().normalized()) < kSame;
 }
 
 }  // namespace

@@ -161,6 +161,26 @@ TEST_CASE("every step is undone and done again, and a drag is one step") {
   CHECK_FALSE(document.canRedo());
 }
 
+TEST_CASE("a joint that has not been turned since its last key gets none in the place of the chosen one") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const int shoulder = document.skeleton().index("right_shoulder"),
+            elbow = document.skeleton().index("right_elbow");
+  for (int degrees = -175; degrees <= 175; degrees += 5) {
+    CAPTURE(degrees);
+    document.newClip("hold", 2);
+    document.setTime(.6);
+    document.setAngles(shoulder, {0, .3, degrees * std::numbers::pi / 180});
+    document.setKey();
+    document.setTime(1.4);
+    document.choose(elbow);
+    document.setKey();
+    REQUIRE(document.clip()->tracks.size() == 2);
+    CHECK(document.clip()->tracks[0].times_s.size() == 1);
+    CHECK(document.clip()->tracks[1].joint == "right_elbow");
+  }
+}
+
 TEST_CASE("keys hold what was turned, scrubbing shows what the keys say") {
   const TempDir dir;
   AnimationDocument document({.path = figureFile(dir)});
