@@ -82,6 +82,7 @@ void noteNamedOutput(const std::string& path) {
   std::error_code failure;
   const fs::path canonical = fs::weakly_canonical(fs::absolute(path), failure);
   const fs::file_type type = fs::status(path, failure).type();
+  if (type == fs::file_type::none) throw OutputError(path, "cannot be written: " + failure.message());
   // Several things may go to one folder or one device.
   if (type != fs::file_type::regular && type != fs::file_type::not_found) return;
   Lists& all = lists();

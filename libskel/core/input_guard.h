@@ -24,7 +24,8 @@ void noteInput(const std::string& path);
 // `path` is going to be written. Throws UsageError if it is an input.
 void noteOutput(const std::string& path);
 
-// The same, and refuses two outputs that are one file, also one that is not there yet.
+// The same, and refuses two outputs that are one file, also one that is not there yet. Throws OutputError
+// where there cannot be one: a link to itself, a name that is too long.
 void noteNamedOutput(const std::string& path);
 
 // `path` stands on the command line: if it is a pipe, it may be opened.

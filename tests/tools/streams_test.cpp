@@ -1,4 +1,6 @@
 // Pipes, devices, links, modes, signals.
+#include <filesystem>
+
 #include <sys/stat.h>
 
 #include <csignal>
@@ -57,6 +59,30 @@ TEST_CASE("what is printed and does not arrive is an output error") {
         "skel-train --help", "skel-label --help", "skel-style make --help"})
     refused(dir, std::string(command) + " > /dev/full", 4,
             "standard output: cannot be written: No space left on device");
+}
+
+TEST_CASE("an output that cannot be there is an output error, before any work") {
+  const TempDir dir;
+  std::filesystem::create_symlink("loop", dir.file("loop"));
+  const std::string drawing = std::string(SKEL_SOURCE_DIR) + "/datasets/characters/cap_boy.png",
+                    far(300, 'x');
+  for (const std::string& output : {std::string("loop"), far})
+    for (const std::string& call :
+         {"skel-infer " + drawing + " -o " + output, "skel-infer " + drawing + " -o out --report " + output,
+          "skel-infer evaluate --json " + output + " set",
+          "skel-animate render " + drawing + " --clip walk -o " + output,
+          "skel-animate render " + drawing + " --clip walk --sheet " + output,
+          "skel-animate bind " + drawing + " -o " + output, "skel-style render --motion m.json -o " + output,
+          "skel-style make --character " + drawing + " --content a.mp4 --style b.mp4 -o " + output,
+          "skel-style keypoints a.mp4 -o " + output, "skel-label motion frames -o " + output,
+          "skel-train datasets -o " + output}) {
+      CAPTURE(call);
+      const ToolRun run = runTool("cd '" + dir.path() + "' && " + call);
+      CAPTURE(run.err);
+      CHECK(run.exit_code == 4);
+      CHECK_THAT(run.err, Catch::Matchers::Contains(output + ": cannot be "));
+      CHECK_FALSE(std::filesystem::exists(dir.file("out")));
+    }
 }
 
 TEST_CASE("devices and pipes are written into and stay what they are") {
