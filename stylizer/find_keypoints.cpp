@@ -163,6 +163,7 @@ Keypoints findKeypoints(const KeypointOptions& options) {
 
   JointSightings seen = sideBySide(sightings, plan);
   seen.loop = options.loop == "auto" ? outlinesLoop(outlines, successive) : options.loop == "yes";
+  seen.frame_rate = result.motion.frame_rate;
   const JointTracks tracks = trackJoints(seen, plan, options.track);
   result.loop = seen.loop;
   result.unevenness_seen = unevenness(seen.places, seen.figure_px);

@@ -26,6 +26,8 @@ ExitCode runTransfer(const TransferCommandOptions& options) {
               printable(options.output).c_str(), printable(report.motion.source).c_str(),
               report.mirrored ? ", mirrored" : "", 100 * report.error, 100 * report.mean_pose_moved,
               report.phase_correlation);
+  for (const std::string& note : transferNotes(report))
+    std::fprintf(stderr, "%s: note: %s\n", printable(options.output).c_str(), note.c_str());
   return ExitCode::kDone;
 }
 

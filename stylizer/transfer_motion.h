@@ -24,7 +24,13 @@ struct MotionTransferReport {
   bool content_loops = false, style_loops = false, mirrored = false;
   double phase_correlation = 0;  // of the distance between the feet, over time, with the content's
   double mean_pose_moved = 0;    // share of the way from the content's mean bone directions to the style's
+  // Last joints of limbs that move, seen from the first, less than a quarter as far as in the content and as
+  // in the style.
+  std::vector<std::string> still;
 };
+
+// What whoever looks at the new motion should know, a sentence each: feet out of step, limbs that stay.
+std::vector<std::string> transferNotes(const MotionTransferReport& report);
 
 // The first content motion in the style of the style's motions of the same class (all of them where neither
 // has classes). Further motions of both, of other classes, join the factorisation. Throws InputError: no

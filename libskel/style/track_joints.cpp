@@ -27,6 +27,7 @@ constexpr double kSwap = 0.0001;     // for a joint that is not as recognised, t
 constexpr double kOtherRoots = 0.9;  // so much shorter limbs have to be for roots to change sides
 constexpr double kSpareLength = 1.35, kLengthFade = 0.2;
 constexpr double kStray = 0.035;  // of the long side: so far from its way a joint is believed by half
+constexpr double kFullRate = 24;  // frames a second, of TrackOptions::smoothness
 constexpr int kRounds = 8;
 
 // As seen, or with the names of the other side.
@@ -287,6 +288,7 @@ JointTracks trackJoints(const JointSightings& sightings, const SkeletonTemplate&
   if (m < 3 || options.smoothness <= 0) return tracks;
 
   tracks.confidences.array() *= plausibility(tracks, body_plan).array();
+  const double smoothness = options.smoothness * std::min(1., std::pow(sightings.frame_rate / kFullRate, 4));
   const PoseMatrix seen = tracks.places;
   for (Index j = 0; j < joints; ++j) {
     const int parent = body_plan.joints[std::size_t(j)].parent;
@@ -298,7 +300,7 @@ JointTracks trackJoints(const JointSightings& sightings, const SkeletonTemplate&
     // Geman & McClure (1985), by iteratively reweighted least squares: strays count less each round.
     for (int round = 0; round < kRounds; ++round) {
       // At first what a stray would drag along is held by its neighbours.
-      const double strength = options.smoothness * (round + 1 < kRounds ? 3 : 1);
+      const double strength = smoothness * (round + 1 < kRounds ? 3 : 1);
       smooth = smoothSeries(offsets, weights, strength, sightings.loop);
       const Eigen::VectorXd stray = (smooth - offsets).rowwise().norm() / (kStray * sightings.figure_px);
       weights = confidence.array().square() / (1 + stray.array().square()).square();

@@ -17,12 +17,15 @@ struct JointSightings {
   // Optional: the colour of the figure at each joint (of a hand or foot, half-way from the joint before),
   // 3J×m, each channel in [0, 1]; else empty. A far leg is often darker than a near one.
   Eigen::MatrixXd colors;
-  double figure_px = 1;  // the figure's long side, in which distances are measured
-  bool loop = false;     // the first frame follows the last
+  double figure_px = 1;    // the figure's long side, in which distances are measured
+  bool loop = false;       // the first frame follows the last
+  double frame_rate = 24;  // frames a second
 };
 
 struct TrackOptions {
-  double smoothness = 0.6;  // of smoothSeries(), for frames as they come; 0: joints stay where they are seen
+  // Of smoothSeries(), for 24 frames a second or more; of fewer, in which joints move farther from one to the
+  // next, less by the fourth power: what is smoothed is as long in time. 0: joints stay where they are seen.
+  double smoothness = 0.6;
 };
 
 struct JointTracks {

@@ -259,7 +259,9 @@ class TestLearning(unittest.TestCase):
         many = f"import skel, itertools\nfor _ in skel.rig_many(itertools.repeat({str(BOY)!r})): print('at work', flush=True)"
         for program in (train, many):
             with self.subTest(program=program):
-                process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                # Jobs in the background of a shell ignore SIGINT, and so would what they start.
+                process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                           preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL) and None)
                 assert process.stdout
                 self.assertEqual(process.stdout.readline(), "at work\n")
                 process.send_signal(signal.SIGINT)

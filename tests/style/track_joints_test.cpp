@@ -137,6 +137,19 @@ TEST_CASE("noise is smoothed away, and hands that jump to the head come back") {
   }
 }
 
+TEST_CASE("the legs of a film of few frames a second swing as they are seen") {
+  const PoseMatrix truth = walker({.frames = 8});
+  JointSightings seen = sightings(truth, true);
+  seen.frame_rate = 12;
+  const JointTracks tracks = trackJoints(seen, biped());
+  const int foot = biped().find("left_foot"), pelvis = biped().find("pelvis");
+  const auto swing = [&](const PoseMatrix& poses) {
+    const Eigen::RowVectorXd x = poses.row(2 * foot) - poses.row(2 * pelvis);
+    return x.maxCoeff() - x.minCoeff();
+  };
+  CHECK(swing(tracks.places) > .9 * swing(truth));
+}
+
 TEST_CASE("one frame, two frames and joints that were never seen come back in one piece") {
   const PoseMatrix truth = walker({.frames = 5});
   CHECK(trackJoints(sightings(truth.leftCols(1), false), biped()).places == truth.leftCols(1));

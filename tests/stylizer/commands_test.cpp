@@ -7,6 +7,7 @@
 #include "libskel/image/write_image.h"
 #include "libskel/skeleton/motion_file.h"
 #include "libskel/video/video_writer.h"
+#include "stylizer/transfer_motion.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 #include "tests/support/temp_dir.h"
@@ -195,6 +196,18 @@ TEST_CASE("of a motion of thousands of frames some are looked at, and too many a
   CHECK_FALSE(fs::exists(dir.file("x")));
   CHECK_THAT(done("inspect --iterations 2 " + motion + " -o " + dir.file("x.png")).out,
              Contains("10001 frames, of which 10000 are factored"));
+}
+
+TEST_CASE("a transfer whose feet are out of step, or whose limbs stay, says so") {
+  MotionTransferReport report;
+  report.phase_correlation = .95;
+  CHECK(transferNotes(report).empty());
+  report.phase_correlation = .36;
+  report.still = {"left_foot"};
+  const std::vector<std::string> notes = transferNotes(report);
+  REQUIRE(notes.size() == 2);
+  CHECK_THAT(notes[0], Contains("phase correlation 0.36"));
+  CHECK(notes[1] == "left_foot hardly moves, though it does in both");
 }
 
 TEST_CASE("no transfer is written that cannot be read again") {
