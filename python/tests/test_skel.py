@@ -261,7 +261,7 @@ class TestLearning(unittest.TestCase):
             with self.subTest(program=program):
                 # Jobs in the background of a shell ignore SIGINT, and so would what they start.
                 process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                           preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL) and None)
+                                           preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
                 assert process.stdout
                 self.assertEqual(process.stdout.readline(), "at work\n")
                 process.send_signal(signal.SIGINT)
