@@ -32,11 +32,11 @@ std::string sentence(std::string clause) {
 std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawing, const SkeletonFile& file) {
   constexpr std::size_t kMostNamed = 5;  // joints: whoever reads of more learns nothing
   constexpr std::string_view kLookAtMask = ": look at the mask (skel-label FILE)";
+  const bool photo = drawing.silhouette.evidence.has_value();  // or another page that is not tidy
   const auto starts = [&](const char* words) { return warning.starts_with(words); };
   if (starts("the sheet itself"))
     return "The sheet of paper was taken for the figure. Lay the drawing on something plain and darker, or "
-           "cut "
-           "the photo down to the sheet.";
+           "cut the photo down to the sheet.";
   if (starts("the figure is cut by"))
     return "The figure is cut off at the " + drawing.silhouette.cut_sides +
            ". Step back, so that hands and feet are in the picture.";
@@ -45,13 +45,17 @@ std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawin
            (file.missing.empty() || file.missing.size() > kMostNamed
                 ? ""
                 : "; not seen: " + listed(file.missing)) +
-           ". Go over thin lines with a felt pen, and take the photo by day, from straight above.";
+           (photo ? ". Take the photo by day, from straight above, without shadows; go over lines that are "
+                    "thin or faint with a felt pen."
+                  : ". Head, body, arms and legs are told best where they are apart; skel-label FILE mends "
+                    "what is wrong.");
   if (starts("some joints may be wrong"))
     return "Some joints may be wrong" +
            (file.missing.empty() ? "" : ", most likely " + listed(file.missing)) +
-           ". Look how the figure moves; skel-label mends joints, and a drawing with the limbs apart is "
-           "found "
-           "better.";
+           ". Look how the figure moves; skel-label FILE mends joints. " +
+           (photo ? "If a shadow lies across the figure, take the photo without it; limbs that are apart are "
+                    "found better."
+                  : "Limbs that are apart are found better.");
   if (starts("not found: "))
     return "Not seen: " + listed(file.missing) +
            ". A likely place was taken; look whether the figure moves as it should.";
@@ -62,7 +66,8 @@ std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawin
     return "The figure was taken to be turned by " + std::to_string(file.figure.turned_deg) + " degrees.";
   if (warning.ends_with(kLookAtMask) && !starts("the mask was there"))
     return "Not sure where the figure ends: " + warning.substr(0, warning.size() - kLookAtMask.size()) +
-           ". A mask can be mended (skel-label).";
+           (photo ? ". Take away shadows and what touches it, or mend the mask: skel-label FILE, key M."
+                  : ". Mend the mask: skel-label FILE, key M.");
   return sentence(warning);
 }
 

@@ -24,25 +24,46 @@ bool isDocument(const fs::path& file) {
   return ending == ".pdf" || ending == ".PDF";
 }
 
-std::vector<std::string> drawingsIn(const fs::path& dir, std::vector<std::string>& documents) {
+bool isDrawing(const fs::directory_entry& entry) {
+  std::error_code unknown;
+  return isDrawingName(entry.path().filename().string()) && !entry.is_directory(unknown) &&
+         !entry.is_other(unknown) && !isTexture(entry.path());
+}
+
+// Not of a hidden folder, nor of one that skel-infer has made of a drawing.
+bool holdsDrawings(const fs::path& folder) {
+  if (folder.filename().string().starts_with('.') || fs::exists(folder / "char_cfg.yaml")) return false;
+  std::error_code failure;
+  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure))
+    if (isDrawing(*entry)) return true;
+  return false;
+}
+
+std::vector<std::string> drawingsIn(const fs::path& dir, NamedDrawings& found) {
   std::vector<std::string> names, passed_over;
   std::error_code failure;
   for (fs::directory_iterator entry(dir, failure), end; !failure && entry != end; entry.increment(failure)) {
     const fs::path& path = entry->path();
     std::error_code unknown;
     if (isDocument(path)) passed_over.push_back(path.string());
-    if (isDrawingName(path.filename().string()) && !entry->is_directory(unknown) &&
-        !entry->is_other(unknown) && !isTexture(path))
-      names.push_back(path.filename().string());
+    if (isDrawing(*entry)) names.push_back(path.filename().string());
+    if (entry->is_directory(unknown) && holdsDrawings(path)) found.folders.push_back(path.string());
   }
   if (failure) throw InputError(dir.string(), "cannot be read: " + failure.message());
   std::sort(passed_over.begin(), passed_over.end(), comesBefore);
   if (names.empty() && !passed_over.empty())
     throw InputError(passed_over.front(), howToConvert(passed_over.front()));
-  documents.insert(documents.end(), passed_over.begin(), passed_over.end());
+  found.documents.insert(found.documents.end(), passed_over.begin(), passed_over.end());
   if (names.empty())
     throw InputError(dir.string(), "holds no drawing (" + std::string(kPictureEndings) +
                                        "); folders in it are not looked into");
+  std::set<fs::path> readable;
+  for (const std::string& name : names)
+    if (howToConvert(name).empty()) readable.insert(fs::path(name).stem());
+  // A photo that was converted, or that the telephone has stored twice.
+  std::erase_if(names, [&](const std::string& name) {
+    return !howToConvert(name).empty() && readable.contains(fs::path(name).stem());
+  });
   std::sort(names.begin(), names.end(), comesBefore);
   for (std::string& name : names) name = (dir / name).string();
   return names;
@@ -60,11 +81,12 @@ NamedDrawings drawingsOf(const std::vector<std::string>& named) {
       pictures.push_back(name);
       continue;
     }
-    for (std::string& drawing : drawingsIn(name, found.documents)) {
+    for (std::string& drawing : drawingsIn(name, found)) {
       from_folders.insert(drawing);
       pictures.push_back(std::move(drawing));
     }
   }
+  std::sort(found.folders.begin(), found.folders.end(), comesBefore);
 
   std::set<fs::path> without_endings;
   for (const std::string& picture : pictures) without_endings.insert(fs::path(picture).replace_extension());

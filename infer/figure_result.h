@@ -59,6 +59,7 @@ struct DrawingResult {
   std::string error;    // what() of what stopped it; "": nothing
   std::string problem;  // the same without the file's name, where the drawing itself is to blame
   Origin origin;
+  bool opened = false;    // its picture could be read, or none was needed
   bool kept = false;      // an earlier run has done it
   bool left_out = false;  // it is no drawing, but was made of one
 };

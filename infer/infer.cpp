@@ -59,6 +59,13 @@ void sayPassedOver(const std::vector<std::string>& files) {
                  printable(howToConvert(file)).c_str());
 }
 
+void sayNotLookedInto(const std::vector<std::string>& folders) {
+  if (folders.empty()) return;
+  std::fprintf(stderr, "skel-infer: note: %zu %s in there with drawings, not looked into; name %s, too: %s\n",
+               folders.size(), folders.size() == 1 ? "folder" : "folders",
+               folders.size() == 1 ? "it" : "them", printable(joined(folders)).c_str());
+}
+
 // Of a run over many drawings that is stopped by Ctrl+C.
 void sayHowToGoOn(const InferOptions& options) {
   const std::string start =
@@ -67,9 +74,22 @@ void sayHowToGoOn(const InferOptions& options) {
                           : keepsResults(options)
                               ? "interrupted; the same line with --resume goes on from here"
                               : "interrupted; what is done lies in " + printable(options.out_dir) +
-                                    ". The same line does all again; one with --resume and without --report "
-                                    "goes on where it was stopped";
+                                    ". The same line does all again; only a run that began with --resume "
+                                    "(and without --report) goes on where it was stopped";
   sayOnInterrupt(start + how + "\n");
+}
+
+// A name that was mistyped must not cost what is there: before anything is made.
+void refuseMissing(const std::vector<RigJob>& jobs) {
+  for (const RigJob& job : jobs) {
+    std::error_code failure;
+    if (!fs::exists(job.source, failure))
+      throw InputError(job.source,
+                       "cannot be read: " +
+                           (failure ? failure.message()
+                                    : std::make_error_code(std::errc::no_such_file_or_directory).message()) +
+                           (jobs.size() > 1 ? "; nothing was rigged" : ""));
+  }
 }
 
 void ensureFolders(const InferOptions& options) {
@@ -103,9 +123,11 @@ ExitCode rigNamed(const InferOptions& options, const NamedDrawings& named) {
     noteResults(options, job, rig.clips);
     if (rig.otherwise) noteResults(options, job, rig.otherwise->clips);
   }
+  refuseMissing(all);
   if (!options.quiet) {
     sayLeftOut(named.results);
     sayPassedOver(named.documents);
+    sayNotLookedInto(named.folders);
     noteUnusedWeights(options);
   }
   ensureFolders(options);

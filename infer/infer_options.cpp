@@ -65,9 +65,9 @@ void bindRecognitionOptions(CLI::App& app, InferOptions& options) {
 
 void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.option_defaults()->always_capture_default();
-  app.add_option(
-         "IMAGE", options.images,
-         "Drawings, or folders of them: PNG, JPEG, WebP, BMP, TIFF, GIF; -: one\nfrom the standard input")
+  app.add_option("IMAGE", options.images,
+                 "Drawings, or folders of them (not those in their folders): PNG, JPEG, WebP, BMP,\n"
+                 "TIFF, GIF; -: one from the standard input")
       ->always_capture_default(false)
       ->check(pickedFiles());
   app.add_option(

@@ -230,6 +230,7 @@ DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, con
   } catch (...) {
     takeError(result);
   }
+  result.opened = open || !result.figures.empty();
   progress.advance(left);
   return result;
 }

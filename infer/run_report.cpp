@@ -80,6 +80,7 @@ void RunReport::add(DrawingResult drawing) {
   if (!drawing.error.empty()) std::fprintf(stderr, "skel-infer: %s\n", drawing.error.c_str());
   if (code_ == ExitCode::kDone) code_ = drawing.code;
   if (many_) table_.add(drawing);
+  any_opened_ = any_opened_ || drawing.opened;
   if (!options_.report_file.empty()) shown_.push_back(std::move(drawing));
 }
 
@@ -92,7 +93,11 @@ ExitCode RunReport::end() {
     std::fprintf(stderr,
                  "skel-infer: note: left out of the list, as they are results: %zu, the first is %s\n",
                  left_out_, printable(first_left_out_).c_str());
-  if (!options_.report_file.empty()) {
+  if (!options_.report_file.empty() && !any_opened_) {
+    if (!options_.quiet)
+      std::fprintf(stderr, "skel-infer: note: no drawing could be opened, so %s is not written\n",
+                   printable(options_.report_file).c_str());
+  } else if (!options_.report_file.empty()) {
     writeFile(options_.report_file, reportPage(shown_));
     if (!options_.quiet && !options_.json_lines)
       std::printf("%s: the report\n", printable(options_.report_file).c_str());

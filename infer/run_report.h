@@ -30,6 +30,7 @@ class RunReport {
   std::vector<DrawingResult> shown_;  // on the page
   std::size_t left_out_ = 0;
   std::size_t drawings_ = 0;
+  bool any_opened_ = false;
   std::string first_left_out_;
   ExitCode code_ = ExitCode::kDone;
 };

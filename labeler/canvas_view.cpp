@@ -124,7 +124,7 @@ void CanvasView::updateMaskTexture() {
   mask_tint_.upload(tint, Texture::Zoomed::kSquares);
 }
 
-// Each limb in its colour, paler where it is one with the body, the rest of the figure grey.
+// Each part in its colour, limbs paler where they are one with the body, the rest of the figure grey.
 void CanvasView::updateLimbTexture() {
   document_.findLimbs();
   if (limbs_tinted_ && limb_mask_ == document_.state().mask && tinted_limbs_ == document_.layers()) return;
@@ -287,9 +287,9 @@ void CanvasView::useMask(bool hovered) {
 }
 
 void CanvasView::useLimbs(bool hovered) {
-  strokeWith(hovered, active_limb, 0, stroke_limb_,
-             [&](const auto& from, const auto& to, double radius_px, int limb) {
-               document_.paintLayer(from, to, radius_px, limb);
+  strokeWith(hovered, layer_brush, limbBrush(0), stroke_part_,
+             [&](const auto& from, const auto& to, double radius_px, const LayerBrush& brush) {
+               document_.paintLayer(from, to, radius_px, brush);
              });
 }
 
@@ -300,7 +300,9 @@ void CanvasView::drawPicture(ImDrawList* list) {
   list->AddRectFilled({low.x + 4, low.y + 5}, {high.x + 4, high.y + 5}, IM_COL32(0, 0, 0, 24));
   list->AddRectFilled(low, high, IM_COL32_WHITE);
   list->AddImage(picture_.id(), low, high);
-  if (tool == Tool::kMask) {
+  // A mask of the photo before is seen at once.
+  if (tool == Tool::kMask ||
+      (tool == Tool::kJoints && document_.isOfEarlierPicture() && document_.state().mask)) {
     updateMaskTexture();
     list->AddImage(mask_tint_.id(), low, high);
   } else if (tool == Tool::kLimbs && document_.figure().silhouette.found()) {
@@ -397,7 +399,7 @@ void CanvasView::drawCursor(ImDrawList* list, bool hovered) {
     ring(adds ? IM_COL32(30, 140, 60, 255) : IM_COL32(210, 50, 40, 255));
   }
   if (hovered && tool == Tool::kLimbs) {
-    const auto rgb = layerColor(stroke_ ? stroke_limb_ : active_limb);
+    const auto rgb = brushColor(stroke_ ? stroke_part_ : layer_brush);
     ring(IM_COL32(rgb[0], rgb[1], rgb[2], 255));
   }
   if (lassoing_) {

@@ -35,7 +35,7 @@ class CanvasView {
 
   Tool tool = Tool::kJoints;
   JointClass active_class = JointClass::kHead;  // of brush, lasso and click
-  int active_limb = 1;    // what the left button paints (LayerMap::limb); the right one: the body
+  LayerBrush layer_brush = limbBrush(1);        // what the left button paints; the right one: the body
   bool mask_adds = true;  // what the left button does to the mask; the right one: the reverse
 
  private:
@@ -83,7 +83,7 @@ class CanvasView {
   int dragged_joint_ = -1;
   bool stroke_ = false;      // a step of the document is open
   bool stroke_adds_ = true;  // of a stroke on the mask
-  int stroke_limb_ = 0;      // of a stroke on the limbs
+  LayerBrush stroke_part_;   // of a stroke on the limbs
   Eigen::Vector2d last_px_ = Eigen::Vector2d::Zero();
   Polygon lasso_;
   bool lassoing_ = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "labeler/mask_brush.h"
 #include "labeler/save_drawing.h"
@@ -47,7 +48,7 @@ class Document::StepScope {
 Document::Document(const std::string& path, DocumentOptions options)
     : options_(std::move(options)), path_(path), history_(kMostSteps) {
   const auto list = [&](std::vector<DrawingFiles> drawings) {
-    for (DrawingFiles& files : drawings) items_.push_back({std::move(files), {}, {}, {}});
+    for (DrawingFiles& files : drawings) items_.push_back({std::move(files), {}, {}, false, {}});
   };
   if (fs::is_directory(path)) {
     list(findDrawings(path));
@@ -72,6 +73,7 @@ Document::Document(const std::string& path, DocumentOptions options)
       const LabelFile labels = readLabelFile(item.files.labels);
       item.classes = {static_cast<int>(labels.candidates.size()), countLabels(labels.labels)};
       item.joints = jointsOf(labels, options_.body_plan);
+      item.has_shape = labels.mask || fs::exists(layersFile(item.files, 1));
     } catch (const InputError& error) {
       item.problem = error.what();
     }
@@ -99,6 +101,8 @@ bool Document::go(int item) {
 void Document::load(int item) {
   current_ = item;
   image_ = {};
+  image_sha256_.clear();
+  accepts_earlier_ = false;
   labels_ = {};
   masks_ = {mutableItem().files, given_masks_.contains(mutableItem().files.mask)};
   painted_layers_ = LayerDocument(layersFile(mutableItem().files, figureNumber()));
@@ -133,8 +137,28 @@ void Document::loadDrawing() {
   if (skeleton_) skeleton_->checkSize(image_, files.image);
   if (motion_) motion_->checkSize(current_, image_, files.image);
 
-  labels_ = LabelDocument(files, sha256(bytes));
+  state_.image_sha256 = image_sha256_ = sha256(bytes);
+  labels_ = LabelDocument(files);
+  takeMended();
+}
+
+void Document::takeMended() {
+  const DrawingFiles& files = item().files;
   const std::optional<LabelFile>& labels = labels_.opened();
+  const std::string made_for = skeleton_ ? skeleton_->imageSha256() : labels ? labels->image.sha256 : "";
+  const bool changed = !motion_ && !made_for.empty() && made_for != image_sha256_;
+  if (changed && !skeleton_ &&
+      (labels->mask || labels->hasPlacedJoint() || fs::exists(painted_layers_.path()))) {
+    if (labels->mask) masks_.areOfEarlierPicture();
+    painted_layers_.areOfEarlierPicture();
+    if (labels->image_width != image_.width || labels->image_height != image_.height) {
+      figure_ = figureOf(image_, nullptr, 1, options_.mlp);
+      state_.labels.resize(figure_->centers_px.size());
+      message_ = labels->image.file + " is another picture, of another size, than the one that was mended: " +
+                 "what was made for that one is left out";
+      return;
+    }
+  }
   if (skeleton_ && skeleton_->mask()) {
     message_ = masks_.openOf(*skeleton_, image_);
   } else if (labels && labels->mask) {
@@ -149,6 +173,18 @@ void Document::loadDrawing() {
   if (motion_) state_.joints = motion_->joints(current_);
   if (!motion_ && figure_->silhouette.found())
     state_.layers = painted_layers_.read(figure_->silhouette, options_.body_plan);
+  if (!changed) return;
+  // Joints that nobody has placed are found anew.
+  if (!skeleton_ && !labels->hasPlacedJoint())
+    std::fill(state_.joints.begin(), state_.joints.end(), std::nullopt);
+  const bool joints =
+      std::any_of(state_.joints.begin(), state_.joints.end(), [](const auto& j) { return j.has_value(); });
+  if (joints || state_.mask || state_.layers) state_.image_sha256 = made_for;
+  message_ = fs::path(files.image).filename().string() + " has changed since it was " +
+             (skeleton_ ? "rigged: " : "labelled: ") +
+             (state_.mask || state_.layers ? "Shift R finds figure and joints anew"
+              : joints                     ? "Shift R finds its joints anew"
+                                           : "look through the labels");
 }
 
 void Document::beginStep() {
@@ -165,6 +201,8 @@ void Document::endStep() {
     state_ = before;
     return;
   }
+  if (isOfEarlierPicture() && before.image_sha256 == state_.image_sha256)
+    message_ += "; but the picture has changed since: Shift R, or Enter (J) if all is right for this one";
   history_.push({current_, before, state_});
   count();
   save();
@@ -219,8 +257,14 @@ void Document::moveJoint(int joint, const Eigen::Vector2d& image_px) {
   std::replace(message_.begin(), message_.end(), '_', ' ');
 }
 
-void Document::acceptJoints() {
+bool Document::acceptJoints() {
+  if (isOfEarlierPicture() && (state_.mask || state_.layers) && !std::exchange(accepts_earlier_, true)) {
+    message_ = "of the picture before: " + earlierParts("") +
+               "; look, then Enter again if all fits this one; Shift R finds all anew";
+    return false;
+  }
   const StepScope scope(*this);
+  if (isOfEarlierPicture()) state_.image_sha256 = image_sha256_;
   size_t accepted = 0;
   for (size_t j = 0; j < state_.joints.size(); ++j) {
     auto& joint = state_.joints[j];
@@ -230,17 +274,45 @@ void Document::acceptJoints() {
   }
   message_ = accepted > 0 ? counted(accepted, "joint") + ": right as they are"
                           : "there are no joints: press R first";
+  return true;
 }
 
-void Document::forgetJoints() {
-  if (skeleton_) {
-    message_ = "a skeleton file needs all its joints";
-    return;
-  }
+void Document::rigAnew() {
+  if (image_.empty()) return;
   const StepScope scope(*this);
-  std::fill(state_.joints.begin(), state_.joints.end(), std::nullopt);
+  const bool earlier = isOfEarlierPicture();
+  const std::string what = earlierParts("joints");
+  if (earlier && !forgetEarlier()) return;
+  if (!skeleton_)
+    std::fill(state_.joints.begin(), state_.joints.end(), std::nullopt);
+  else if (earlier)
+    for (auto& joint : state_.joints)
+      if (joint) joint = PlacedJoint{joint->image, 0, JointOrigin::kCompleted};
   forgetRig();
-  message_ = "all joints forgotten: R finds them anew";
+  takeModel();
+  if (earlier)
+    message_ = what + " were those of the picture before: found anew, Ctrl Z brings them back; " + message_;
+  else if (skeleton_)
+    message_ += "; joints placed by hand stay, as a skeleton file needs all its joints";
+}
+
+std::string Document::earlierParts(const std::string& also) const {
+  std::string parts = also;
+  for (const auto& [there, name] :
+       {std::pair(state_.mask != nullptr, "mask (M)"), std::pair(state_.layers != nullptr, "limbs (G)")})
+    if (there) parts += (parts.empty() ? "" : ", ") + std::string(name);
+  return parts;
+}
+
+bool Document::forgetEarlier() {
+  if (state_.mask && !replaceMask(nullptr)) {
+    message_ = "no figure is found in this picture (" + message_ + "): paint it (M)";
+    return false;
+  }
+  state_.labels.assign(figure_->centers_px.size(), std::nullopt);
+  state_.layers = nullptr;
+  state_.image_sha256 = image_sha256_;
+  return true;
 }
 
 void Document::takeJointsOfFrameBefore() {
@@ -298,10 +370,10 @@ void Document::forgetMask() {
 }
 
 void Document::paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px,
-                          int limb) {
+                          const LayerBrush& brush) {
   if (image_.empty() || !figure_->silhouette.found()) return;
   if (motion_) {
-    message_ = "limbs before the body are painted in drawings, not in motions";
+    message_ = "parts of the figure are painted in drawings, not in motions";
     return;
   }
   const StepScope scope(*this);
@@ -310,17 +382,14 @@ void Document::paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d&
     state_.layers = painted_layers_.read(figure_->silhouette, options_.body_plan);
   findLimbs();
   const Plane8& mask = figure_->silhouette.mask;
-  auto map = std::make_shared<LayerMap>();
-  if (const auto known = layers(); known && known->any())
-    map->limb = known->limb;
-  else
-    map->limb = Plane8::Zero(mask.rows(), mask.cols());
-  const bool changed = paintLine(map->limb, from_px, to_px, radius_px, static_cast<std::uint8_t>(limb));
-  map->limb = (mask != 0).select(map->limb, 0);
-  if (!changed) return;
+  auto map = layers() ? std::make_shared<LayerMap>(*layers()) : std::make_shared<LayerMap>();
+  Plane8 stroke = Plane8::Zero(mask.rows(), mask.cols());
+  paintLine(stroke, from_px, to_px, radius_px, 1);
+  if (!paintPart(*map, stroke, mask, brush)) return;
   state_.layers = std::move(map);
   rigged_.reset();
-  message_ = limb == 0 ? "that is the body" : limbName(options_.body_plan, limb) + ": before the body";
+  message_ = brush.limb == 0 ? "that is the " + brushName(brush, options_.body_plan)
+                             : brushName(brush, options_.body_plan) + ": before the body";
 }
 
 void Document::forgetLayers() {
@@ -464,7 +533,11 @@ void Document::count() {
     item.joints = {static_cast<int>(state_.joints.size()), countFound(state_.joints)};
   else
     item.joints = progressOf(state_.joints, options_.body_plan);
+  if (isOfEarlierPicture()) item.joints.done = 0;
   item.classes = {static_cast<int>(state_.labels.size()), countLabels(state_.labels)};
+  // A mask that was given is nobody's work here.
+  const bool own_mask = state_.mask && (labels_.opened() || state_.mask != masks_.opened());
+  item.has_shape = !editsJointsAlone() && (own_mask || state_.layers);
   if (figure_->silhouette.found()) item.problem.clear();
 }
 

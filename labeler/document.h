@@ -13,6 +13,7 @@
 #include "labeler/drawing_state.h"
 #include "labeler/figure.h"
 #include "labeler/label_document.h"
+#include "labeler/layer_brush.h"
 #include "labeler/layer_document.h"
 #include "labeler/mask_document.h"
 #include "labeler/motion_document.h"
@@ -36,8 +37,9 @@ struct Item {
   // Joints that do not follow from others, and those placed by hand; of a skeleton file and of a frame of a
   // motion all joints, and those that were found or placed.
   Progress joints;
-  Progress classes;     // candidates, and those that have a label
-  std::string problem;  // why it cannot be labelled; else empty
+  Progress classes;        // candidates, and those that have a label
+  bool has_shape = false;  // a mask or limbs before the body were mended by hand
+  std::string problem;     // why it cannot be labelled; else empty
 
   const Progress& of(Subject subject) const { return subject == Subject::kJoints ? joints : classes; }
 };
@@ -73,6 +75,11 @@ class Document {
   const Figure& figure() const { return *figure_; }
   // One line about the last step, or why it was refused.
   const std::string& message() const { return message_; }
+  // Whether mask, joints and limbs were made for another picture than the one that lies there: a photo that
+  // was taken again. Steps are saved, but skel-infer does not take them up until acceptJoints() or rigAnew().
+  bool isOfEarlierPicture() const {
+    return !motion_ && !image_.empty() && state_.image_sha256 != image_sha256_;
+  }
   // Why the last step is not on the disk; empty: it is.
   const std::string& saveProblem() const { return save_problem_; }
 
@@ -83,9 +90,12 @@ class Document {
   // Labels every candidate by the nearest bone.
   void labelFromJoints();
   void moveJoint(int joint, const Eigen::Vector2d& image_px);
-  // Says of all joints that are known that they are where they belong, as if each had been placed.
-  void acceptJoints();
-  void forgetJoints();
+  // Says of all joints that are known that they are where they belong, as if each had been placed. What was
+  // made for an earlier picture counts for this one from then on; a mask or limbs of it only when this is
+  // said twice, as the first time the message names them: false.
+  bool acceptJoints();
+  // Forgets all joints and rigs: one step. Of an earlier picture mask, limbs and labels are forgotten, too.
+  void rigAnew();
   // Of a motion: all joints as in the frame before, for frames in which none are found.
   void takeJointsOfFrameBefore();
   // Adds to the figure, or erases from it, along a line with a round brush. Labels stay where the figure
@@ -93,9 +103,10 @@ class Document {
   void paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px, bool add);
   // The figure is found in the picture again.
   void forgetMask();
-  // Says that pixels of the figure belong to a limb that lies before the body (LayerMap::limb; 0: to the
-  // body), along a line with a round brush. The first stroke starts from what is found in the picture.
-  void paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px, int limb);
+  // Says which part pixels of the figure are, along a line with a round brush. The first stroke starts from
+  // what is found in the picture.
+  void paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px,
+                  const LayerBrush& brush);
   // Limbs before the body are found in the picture again.
   void forgetLayers();
   // Those painted, else those found by rig() or findLimbs(); null: not looked for since mask or joints have
@@ -152,6 +163,13 @@ class Document {
   void loadDrawing();
   // Says why where it does not.
   void takeModel();
+  // Takes what the label file and the skeleton file say, and says what is odd about it.
+  void takeMended();
+  // "joints, mask (M), limbs (G)": `also`, and what else of an earlier picture is there.
+  std::string earlierParts(const std::string& also) const;
+  // Before a step that leaves out what was made for an earlier picture. False, with nothing changed, if this
+  // one shows no figure.
+  bool forgetEarlier();
   // Takes a mask and lets the candidates follow; false, with nothing changed, if it shows no figure.
   bool replaceMask(std::shared_ptr<const MaskVersion> mask);
   bool travel(const Step& step, const DrawingState& target);
@@ -175,6 +193,8 @@ class Document {
 
   // Of the current drawing.
   Image image_;
+  std::string image_sha256_;
+  bool accepts_earlier_ = false;  // has been told that this takes up what was made for an earlier picture
   LabelDocument labels_;
   MaskDocument masks_;
   LayerDocument painted_layers_;

@@ -32,10 +32,14 @@ std::shared_ptr<const MaskVersion> sealed(const MaskVersion& stroke) {
 bool DrawingState::operator==(const DrawingState& other) const {
   const bool same_mask = mask == other.mask || (mask && other.mask && mask->file == other.mask->file &&
                                                 (mask->pixels == other.mask->pixels).all());
+  const auto samePixels = [](const Plane8& a, const Plane8& b) {
+    return a.size() == b.size() && (a.size() == 0 || (a == b).all());
+  };
   const bool same_layers =
-      layers == other.layers || (layers && other.layers && layers->limb.size() == other.layers->limb.size() &&
-                                 (layers->limb == other.layers->limb).all());
-  return same_mask && same_layers && labels == other.labels && joints == other.joints;
+      layers == other.layers || (layers && other.layers && samePixels(layers->limb, other.layers->limb) &&
+                                 samePixels(layers->part, other.layers->part));
+  return image_sha256 == other.image_sha256 && same_mask && same_layers && labels == other.labels &&
+         joints == other.joints;
 }
 
 }  // namespace skel

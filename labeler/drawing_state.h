@@ -29,6 +29,9 @@ std::shared_ptr<const MaskVersion> sealed(const MaskVersion& stroke);
 
 // What steps change and undo brings back. Masks are shared and never change, so that copies are cheap.
 struct DrawingState {
+  // SHA-256 of the picture that the rest was made for: a photo that was taken again has the name of the one
+  // before.
+  std::string image_sha256;
   std::shared_ptr<const MaskVersion> mask;         // null: the figure is found in the picture
   std::vector<std::optional<JointClass>> labels;   // one a candidate (CandidateSet::maxima)
   std::vector<std::optional<PlacedJoint>> joints;  // one a joint of the template

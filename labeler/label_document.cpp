@@ -7,8 +7,7 @@
 
 namespace skel {
 
-LabelDocument::LabelDocument(DrawingFiles files, std::string image_sha256)
-    : files_(std::move(files)), image_sha256_(std::move(image_sha256)) {
+LabelDocument::LabelDocument(DrawingFiles files) : files_(std::move(files)) {
   if (std::filesystem::is_regular_file(files_.labels)) opened_ = readLabelFile(files_.labels);
 }
 
@@ -16,10 +15,6 @@ std::string LabelDocument::take(const Figure& figure, const SkeletonTemplate& bo
                                 DrawingState& state) const {
   state.labels.resize(figure.centers_px.size());
   if (!opened_) return said;
-  if (opened_->image.sha256 != image_sha256_)
-    said = opened_->image.file + " has changed since it was labelled: " +
-           (opened_->joints.empty() ? "look through the labels" : "Shift R finds its joints anew") +
-           (opened_->mask ? "; look at the mask (M)" : "");
   takeJoints(*opened_, body_plan, state.joints);
   if (samePlaces(opened_->candidates, figure.candidates.maxima)) {
     state.labels = opened_->labels;
@@ -33,7 +28,7 @@ std::string LabelDocument::take(const Figure& figure, const SkeletonTemplate& bo
 void LabelDocument::write(const DrawingState& state, const Figure& figure, const Image& image,
                           const SkeletonTemplate& body_plan, MaskDocument& masks) const {
   LabelFile labels;
-  labels.image = {std::filesystem::path(files_.image).filename().string(), image_sha256_};
+  labels.image = {std::filesystem::path(files_.image).filename().string(), state.image_sha256};
   labels.image_width = image.width;
   labels.image_height = image.height;
   labels.grid_width = figure.silhouette.grid.width;

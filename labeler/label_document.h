@@ -14,8 +14,8 @@ namespace skel {
 class LabelDocument {
  public:
   LabelDocument() = default;
-  // Reads the file, if there is one. `image_sha256`: of the bytes of the image's file. Throws InputError.
-  LabelDocument(DrawingFiles files, std::string image_sha256);
+  // Reads the file, if there is one. Throws InputError.
+  explicit LabelDocument(DrawingFiles files);
 
   const std::optional<LabelFile>& opened() const { return opened_; }
   // Of the file that was opened, the labels of this figure's candidates and the joints. Says what is odd
@@ -28,7 +28,6 @@ class LabelDocument {
 
  private:
   DrawingFiles files_;
-  std::string image_sha256_;
   std::optional<LabelFile> opened_;
 };
 

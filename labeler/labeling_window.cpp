@@ -28,19 +28,22 @@ constexpr const char* kToolKeys[kToolCount] = {"J", "M", "G", "V", "B", "L"};
 constexpr const char* kToolHelp[kToolCount] = {
     "Drag joints to their place; Enter when all are right",
     "Left adds to the figure, right erases",
-    "Paint limbs that lie before the body; right: that is the body",
+    "Paint limbs that lie before the body, skirt, hair, things; right: that is the body",
     "Point at a disc, press 1 to 4",
     "Paint over discs in the chosen class",
     "Draw a line around discs"};
+constexpr key::Code kNumbers[] = {key::k0, key::k1, key::k2, key::k3, key::k4,
+                                  key::k5, key::k6, key::k7, key::k8};
 constexpr int kFirstClassTool = static_cast<int>(Tool::kTouch);
 
 constexpr KeyHelp kHelp[] = {
     {"J", "drag joints"},
     {"Enter  Space", "all joints are right: the next unfinished drawing"},
-    {"R  Shift R", "rig and show the model; forget all joints first"},
+    {"R  Shift R",
+     "rig and show the model; forget all joints first, of an earlier photo all that was mended"},
     {"C", "of a motion: joints as in the frame before"},
     {"M  X", "mend the mask: left button adds, right button erases; X swaps them"},
-    {"G", "paint which limbs lie before the body; 1 to 4 choose the limb, 0 the body"},
+    {"G", "paint limbs before the body (1 to 4), hair, skirt, cape, thing (5 to 8); 0 is the body"},
     {"V  B  L", "classes of the candidates: touch, brush, lasso"},
     {"1  2  3  4", "head, body, hand, leg: what the mouse touches, N has chosen, brush or lasso take"},
     {"0  Delete  Backspace", "take the label away"},
@@ -140,14 +143,13 @@ class LabelingWindow {
     }
     if (pressed(key::kH) || pressed(key::kSlash) || pressed(key::kF1)) help_ = !help_;
     if (pressed(key::kEscape)) help_ = false;
-    const key::Code class_keys[] = {key::k1, key::k2, key::k3, key::k4};
     if (canvas_.tool == Tool::kLimbs) {
-      for (int limb = 1; limb <= std::min(limbCount(), 4); ++limb)
-        if (pressed(class_keys[limb - 1])) canvas_.active_limb = limb;
-      if (pressed(key::k0)) canvas_.active_limb = 0;
+      const std::vector<LayerBrush> brushes = layerBrushes(document_.bodyPlan());
+      for (std::size_t b = 0; b < std::min(brushes.size(), std::size(kNumbers)); ++b)
+        if (pressed(kNumbers[b])) canvas_.layer_brush = brushes[b];
     } else {
       for (int c = 0; c < kJointClassCount; ++c)
-        if (pressed(class_keys[c])) chooseClass(static_cast<JointClass>(c), true);
+        if (pressed(kNumbers[c + 1])) chooseClass(static_cast<JointClass>(c), true);
       if (pressed(key::k0) || pressed(key::kDelete) || pressed(key::kBackspace)) labelSelected(std::nullopt);
     }
     const key::Code tool_keys[] = {key::kJ, key::kM, key::kG, key::kV, key::kB, key::kL};
@@ -180,8 +182,7 @@ class LabelingWindow {
 
   void rig(bool forget) {
     canvas_.cancel();
-    if (forget) document_.forgetJoints();
-    document_.rig();
+    forget ? document_.rigAnew() : document_.rig();
     preview_.play();
   }
 
@@ -215,11 +216,8 @@ class LabelingWindow {
 
   void acceptJoints() {
     canvas_.cancel();
-    document_.acceptJoints();
-    goToUnfinished();
+    if (document_.acceptJoints()) goToUnfinished();
   }
-
-  int limbCount() const { return static_cast<int>(document_.bodyPlan().limbs.size()); }
 
   void chooseClass(JointClass joint_class, bool label_too) {
     canvas_.active_class = joint_class;
@@ -295,12 +293,13 @@ class LabelingWindow {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     if (ImGui::Selectable("##row", index == document_.current(), 0, {0, kRowHeight})) goTo(index);
     if (ImGui::IsItemHovered())
-      ImGui::SetTooltip(
-          "%s\n%s", item.files.name.c_str(),
-          !item.problem.empty() ? item.problem.c_str()
-          : progress.parts == 0
-              ? "not looked at yet"
-              : (std::to_string(progress.done) + " of " + std::to_string(progress.parts)).c_str());
+      ImGui::SetTooltip("%s\n%s", item.files.name.c_str(),
+                        !item.problem.empty() ? item.problem.c_str()
+                        : progress.parts == 0
+                            ? (item.has_shape ? "its shape was mended" : "not looked at yet")
+                            : (std::to_string(progress.done) + " of " + std::to_string(progress.parts) +
+                               (item.has_shape ? "; its shape was mended" : ""))
+                                  .c_str());
     ImDrawList* list = ImGui::GetWindowDrawList();
     const ImVec2 c{corner.x + 16, corner.y + kRowHeight / 2};
     if (!item.problem.empty()) {
@@ -313,6 +312,7 @@ class LabelingWindow {
       list->AddPolyline(tick, 3, IM_COL32_WHITE, 0, 2.5f);
     } else {
       list->AddCircle(c, 8, IM_COL32(170, 178, 192, 255), 24, 2.5f);
+      if (item.has_shape) list->AddCircleFilled(c, 3.5f, IM_COL32(38, 160, 84, 255));
       if (progress.done > 0) {
         const float share = static_cast<float>(progress.done) / static_cast<float>(progress.parts);
         list->PathArcTo(c, 8, -1.5708f, -1.5708f + 6.2832f * share, 24);
@@ -388,8 +388,11 @@ class LabelingWindow {
 
   void drawJoints(float width) {
     const Progress& joints = document_.item().joints;
-    progressBar(joints,
-                document_.editsSkeleton() || document_.editsMotion() ? "joints found" : "joints placed");
+    if (document_.wantsJoints())
+      ImGui::TextUnformatted("Finding the joints ...");
+    else
+      progressBar(joints,
+                  document_.editsSkeleton() || document_.editsMotion() ? "joints found" : "joints placed");
     enabledButton(
         "All right, next", {width, kButtonHeight}, joints.parts > 0, [&] { acceptJoints(); }, "Enter");
     if (document_.editsMotion())
@@ -416,14 +419,16 @@ class LabelingWindow {
   }
 
   void drawLimbs(float width) {
-    for (int limb = 0; limb <= limbCount(); ++limb) {
-      if (limb > 0 && limb % 2 == 0) ImGui::SameLine();
-      const std::string name = limb == 0 ? "body" : limbName(document_.bodyPlan(), limb);
-      const auto rgb = layerColor(limb);
-      if (colorButton((std::to_string(limb) + " " + name).c_str(),
-                      {limb == 0 ? width : (width - 8) / 2, kButtonHeight}, {rgb[0], rgb[1], rgb[2]},
-                      canvas_.active_limb == limb))
-        canvas_.active_limb = limb;
+    const std::vector<LayerBrush> brushes = layerBrushes(document_.bodyPlan());
+    for (std::size_t b = 0; b < brushes.size(); ++b) {
+      if (b > 0 && b % 2 == 0) ImGui::SameLine();
+      const std::string name = brushName(brushes[b], document_.bodyPlan());
+      const auto rgb = brushColor(brushes[b]);
+      if (colorButton((std::to_string(b) + " " + name.substr(0, name.find(','))).c_str(),
+                      {b == 0 ? width : (width - 8) / 2, kButtonHeight}, {rgb[0], rgb[1], rgb[2]},
+                      canvas_.layer_brush == brushes[b]))
+        canvas_.layer_brush = brushes[b];
+      if (name.find(',') != std::string::npos) tip(name.c_str());
     }
     enabledButton(
         "Limbs from the picture", {width, kButtonHeight}, document_.state().layers != nullptr,

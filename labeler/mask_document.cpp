@@ -39,6 +39,9 @@ void MaskDocument::open(const std::string& path, const Image& image) {
 }
 
 void MaskDocument::write(const std::shared_ptr<const MaskVersion>& mask, const LabelFile& labels) {
+  // One that does not fit this picture was not opened.
+  if (earlier_ && !opened_) keepAside(files_.mask);
+  if (!opened_) earlier_ = false;
   const bool mended = mask && mask != saved_ && mask->file == fs::path(files_.mask).filename().string();
   if (mended) {
     saveWithMask(files_.labels, labels, mask->png);
@@ -47,10 +50,11 @@ void MaskDocument::write(const std::shared_ptr<const MaskVersion>& mask, const L
   }
   writeLabelFile(files_.labels, labels);
   // A mask that was undone altogether; one that had been there before stays.
-  if (!mask && saved_ && besideLabelFile(files_.labels, saved_->file) == files_.mask && !keep_) {
-    removeFile(files_.mask);
-    saved_ = nullptr;
-  }
+  if (mask || !saved_ || besideLabelFile(files_.labels, saved_->file) != files_.mask) return;
+  const bool set_aside = earlier_ && saved_ == opened_;
+  if (keep_ && !set_aside) return;
+  set_aside ? keepAside(files_.mask) : removeFile(files_.mask);
+  saved_ = nullptr;
 }
 
 }  // namespace skel

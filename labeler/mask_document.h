@@ -22,6 +22,10 @@ class MaskDocument {
   std::string openOf(const SkeletonDocument& skeleton, const Image& image);
   void open(const std::string& path, const Image& image);  // that lies beside the drawing
 
+  // What lies there was made for a picture before this one: it is given another name (keepAside()) when the
+  // drawing has no such mask any more.
+  void areOfEarlierPicture() { earlier_ = true; }
+
   const std::shared_ptr<const MaskVersion>& opened() const { return opened_; }
   std::string path(const MaskVersion& mask) const { return besideFile(files_.image, mask.file); }
 
@@ -30,7 +34,7 @@ class MaskDocument {
 
  private:
   DrawingFiles files_;
-  bool keep_ = false;
+  bool keep_ = false, earlier_ = false;
   std::shared_ptr<const MaskVersion> opened_, saved_;
 };
 

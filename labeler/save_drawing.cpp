@@ -27,6 +27,21 @@ void removeFile(const std::string& path) {
   if (error) throw OutputError(path, "cannot be removed: " + error.message());
 }
 
+void keepAside(const std::string& path) {
+  if (!fs::is_regular_file(path)) return;
+  const std::string name = fs::path(path).filename().string();
+  const std::size_t ending = path.size() - (name.size() - name.rfind('.', name.rfind('.') - 1));
+  const std::string bytes = readFile(path);
+  std::string kept;
+  int number = 1;
+  do {
+    kept = path.substr(0, ending) + ".old" + (number > 1 ? "-" + std::to_string(number) : "") +
+           path.substr(ending);
+    ++number;
+  } while (fs::exists(fs::symlink_status(kept)) && (!fs::is_regular_file(kept) || readFile(kept) != bytes));
+  rename(path, kept);
+}
+
 void saveWithMask(const std::string& label_file, const LabelFile& labels, const std::string& png) {
   const std::string mask = besideLabelFile(label_file, labels.mask->file);
   writeFile(mask + kNext, png);

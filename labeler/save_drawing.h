@@ -19,4 +19,9 @@ void finishSave(const std::string& label_file);
 // Throws OutputError where there is one and it stays.
 void removeFile(const std::string& path);
 
+// What a person has mended of a picture that has gone since: <stem>.mask.png becomes <stem>.old.mask.png, or
+// .old-2 and so on where other content has that name; nothing where there is no such file. Throws
+// OutputError.
+void keepAside(const std::string& path);
+
 }  // namespace skel

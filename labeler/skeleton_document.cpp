@@ -34,6 +34,7 @@ void SkeletonDocument::write(const Content& content) const {
       for (const Joint& lifted : content.lifted->joints)
         if (lifted.name == joint.name && lifted.image == joint.image) joint.position = lifted.position;
   }
+  if (!file.image_sha256.empty()) file.image_sha256 = content.state.image_sha256;
   if (content.silhouette.found()) {
     file.figure.number = std::min(figureNumber(), content.silhouette.figure_count);
     file.figure.sha256 = outlineHash(content.silhouette);

@@ -20,6 +20,9 @@ class SkeletonDocument {
   DrawingFiles drawing() const;
   int figureNumber() const { return file_.figure.number; }
   const Skeleton& skeleton() const { return file_.skeleton; }
+  const std::string& imageSha256() const {
+    return file_.image_sha256;
+  }  // that it was found in; "": not known
   const std::optional<SkeletonFile::Mask>& mask() const { return file_.mask; }
   std::string maskPath() const;  // of mask()
   // Throws InputError if the file does not mean this picture.

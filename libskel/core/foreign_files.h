@@ -2,11 +2,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace skel {
 
-// What this is and what to convert it with, to stand behind its name: "is an SVG drawing; convert it by
-// `rsvg-convert …`". By the ending of the name; empty: nothing is known of it.
+// What this is and what to convert it with, into a file beside it, to stand behind its name: "is an SVG
+// drawing; convert it by `rsvg-convert …`". By the ending of the name; empty: nothing is known of it.
 std::string howToConvert(const std::string& path);
+// By what is in it, whatever its name: `ending` is that of such files (".heic").
+std::string howToConvert(const std::string& path, std::string_view ending);
 
 }  // namespace skel

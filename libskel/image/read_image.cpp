@@ -1,7 +1,6 @@
 #include "libskel/image/read_image.h"
 
 #include "libskel/core/error.h"
-#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/foreign_files.h"
 #include "libskel/image/formats.h"
@@ -22,9 +21,9 @@ Image decodeImage(std::string_view bytes, const std::string& file) {
     case Format::kGif:
       return decodeByPlugin(bytes, format, file);
     case Format::kHeic:
+      throw InputError(file, howToConvert(file, ".heic"));
     case Format::kAvif:
-      throw InputError(file, std::string("is ") + (format == Format::kHeic ? "a HEIC" : "an AVIF") +
-                                 " picture; convert it by `heif-convert " + shellWord(file) + " out.png`");
+      throw InputError(file, howToConvert(file, ".avif"));
     case Format::kUnknown:
       break;
   }

@@ -19,7 +19,8 @@ using Code = ImGuiKey;
 #endif
 
 inline constexpr Code k0 = SKEL_KEY(0, 0), k1 = SKEL_KEY(1, 1), k2 = SKEL_KEY(2, 2), k3 = SKEL_KEY(3, 3),
-                      k4 = SKEL_KEY(4, 4);
+                      k4 = SKEL_KEY(4, 4), k5 = SKEL_KEY(5, 5), k6 = SKEL_KEY(6, 6), k7 = SKEL_KEY(7, 7),
+                      k8 = SKEL_KEY(8, 8);
 inline constexpr Code kA = SKEL_KEY(A, A), kB = SKEL_KEY(B, B), kC = SKEL_KEY(C, C), kD = SKEL_KEY(D, D),
                       kE = SKEL_KEY(E, E), kF = SKEL_KEY(F, F), kG = SKEL_KEY(G, G), kH = SKEL_KEY(H, H),
                       kJ = SKEL_KEY(J, J), kK = SKEL_KEY(K, K), kL = SKEL_KEY(L, L), kM = SKEL_KEY(M, M),

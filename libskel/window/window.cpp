@@ -104,7 +104,21 @@ struct Taps {
 };
 #endif
 
-GLFWwindow* createWindow(const WindowOptions& options) {
+// What of it the display has room for, below a title.
+WindowOptions fitted(WindowOptions options) {
+  constexpr int kTitle = 40;
+  int x = 0, y = 0, width = 0, height = 0;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor())
+    glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+  if (width > 0 && height > kTitle) {
+    options.width = std::min(options.width, width);
+    options.height = std::min(options.height, height - kTitle);
+  }
+  return options;
+}
+
+GLFWwindow* createWindow(const WindowOptions& asked) {
+  const WindowOptions options = fitted(asked);
   // Shown with its first frame, not before.
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);

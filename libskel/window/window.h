@@ -12,7 +12,7 @@ namespace skel {
 
 struct WindowOptions {
   std::string title;
-  int width = 1280, height = 800;  // screen coordinates
+  int width = 1280, height = 800;  // screen coordinates; no more than there is room for
 };
 
 // What a frame asks for next.

@@ -12,9 +12,18 @@ TEST_CASE("whoever has a file that is not read learns what to convert it with, b
         "is an STL file: loose triangles without parts, colours or units; open it in "
         "Blender and export it as OBJ");
   CHECK(howToConvert("c d.svg") ==
-        "is an SVG drawing; convert it by `rsvg-convert -h 1000 'c d.svg' -o out.png`");
-  CHECK(howToConvert("e.pdf") == "is a PDF file; convert its pages by `pdftoppm -r 150 -png e.pdf page`");
-  CHECK(howToConvert("f.heic") == "is a HEIC picture; convert it by `heif-convert f.heic out.png`");
+        "is an SVG drawing; convert it by `rsvg-convert -h 1000 'c d.svg' -o 'c d.png'` (Debian's package "
+        "librsvg2-bin)");
+  CHECK(
+      howToConvert("e.pdf") ==
+      "is a PDF file; convert its pages by `pdftoppm -r 150 -png e.pdf e` (Debian's package poppler-utils)");
+  CHECK(howToConvert("mixed/IMG_1.HEIC") ==
+        "is a HEIC picture; convert it by `heif-convert mixed/IMG_1.HEIC mixed/IMG_1.png` (Debian's package "
+        "libheif-examples)");
+  // As some telephones name them.
+  CHECK_THAT(howToConvert("f.jpg", ".heic"), Catch::Matchers::Contains("`heif-convert f.jpg f.png`"));
+  CHECK_THAT(howToConvert("{}/{png}.heic"),
+             Catch::Matchers::Contains("heif-convert '{}/{png}.heic' '{}/{png}.png'"));
   for (const char* ending : {".dae", ".gltf", ".blend", ".usdz", ".ply", ".avif", ".psd", ".xcf", ".kra"}) {
     CAPTURE(ending);
     CHECK(howToConvert(std::string("g") + ending).starts_with("is a"));

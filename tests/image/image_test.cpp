@@ -347,7 +347,7 @@ TEST_CASE("what is no picture is refused by its name") {
                                    "ftypheic\0\0\0\0",
                                    16),
                        "photo.heic"),
-             Contains("photo.heic: is a HEIC picture; convert it by `heif-convert photo.heic out.png`"));
+             Contains("photo.heic: is a HEIC picture; convert it by `heif-convert photo.heic photo.png`"));
   CHECK_THAT(complaint(std::string("\0\0\0\x18"
                                    "ftypavif\0\0\0\0",
                                    16)),

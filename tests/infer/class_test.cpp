@@ -52,6 +52,18 @@ TEST_CASE("a folder stands for its drawings in natural order, and what is no dra
   CHECK(run.exit_code == 0);
   CHECK(reported(run.out) == "class/Kid 1.PNG class/kid9.png class/kid10.png ");
   CHECK_THAT(run.err, Contains("3 drawings: "));
+  CHECK_THAT(run.err, Contains("skel-infer: note: 1 folder in there with drawings, not looked into; name it, "
+                               "too: class/deeper\n"));
+  CHECK(count(run.err, "not looked into") == 1);
+  SECTION("a folder without drawings and results in a folder are not worth a word, --quiet says none") {
+    fs::remove(dir.file("class/deeper/other.png"));
+    writeFile(dir.file("class/deeper/letter.txt"), "dear parents");
+    const std::string formats = " --formats char_cfg,json --clips none --force -o class";
+    infer(dir, "class" + formats);
+    CHECK(count(infer(dir, "class" + formats).err, "not looked into") == 0);
+    writeFile(dir.file("class/deeper/other.png"), figure());
+    CHECK(infer(dir, "class --quiet --force --formats json").err.empty());
+  }
   SECTION("results of the first run are passed over by the second, a texture of an .obj, too") {
     fs::rename(dir.file("class/kid10.png"), dir.file("kid10.png"));
     REQUIRE(infer(dir, "kid10.png -o class --formats obj,json,overlay,silhouette").exit_code == 0);
@@ -83,6 +95,40 @@ TEST_CASE("a folder without a drawing is refused by name") {
   CHECK(run.exit_code == 2);
   CHECK_THAT(run.err, Contains("empty: holds no drawing (.png, .jpg"));
   CHECK_FALSE(fs::exists(dir.file("out")));
+}
+
+TEST_CASE("a folder whose name was mistyped is refused before anything is made, and the class's page stays") {
+  const TempDir dir;
+  writeFile(dir.file("class2/report.html"), "the page of the class");
+  const ToolRun run = infer(dir, "clas2/ -o class2 --report class2/report.html");
+  CHECK(run.exit_code == 2);
+  CHECK(run.err == "skel-infer: clas2/: cannot be read: No such file or directory\n");
+  CHECK(readFile(dir.file("class2/report.html")) == "the page of the class");
+  SECTION("also where the typo is everywhere") {
+    const ToolRun everywhere = infer(dir, "clas/ -o clas --report clas/report.html");
+    CHECK(everywhere.exit_code == 2);
+    CHECK_THAT(everywhere.err, Contains("clas/: cannot be read: No such file or directory"));
+    CHECK_FALSE(fs::exists(dir.file("clas")));
+  }
+  SECTION("also beside drawings that are there") {
+    fs::copy(kDrawing, dir.file("a.png"));
+    const ToolRun beside = infer(dir, "a.png typo.png --formats json");
+    CHECK(beside.exit_code == 2);
+    CHECK(beside.err ==
+          "skel-infer: typo.png: cannot be read: No such file or directory; nothing was rigged\n");
+    CHECK_FALSE(fs::exists(dir.file("out")));
+  }
+}
+
+TEST_CASE("a page is not replaced by one of drawings of which none could be opened") {
+  const TempDir dir;
+  writeFile(dir.file("class/a.png"), "no picture");
+  writeFile(dir.file("class/b.png"), "no picture");
+  writeFile(dir.file("class/report.html"), "the page of the class");
+  const ToolRun run = infer(dir, "class -o class --report class/report.html");
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("no drawing could be opened, so class/report.html is not written\n"));
+  CHECK(readFile(dir.file("class/report.html")) == "the page of the class");
 }
 
 TEST_CASE("what is said of many drawings is said once, with the names that it holds for") {
@@ -121,13 +167,28 @@ TEST_CASE("a PDF in a folder is passed over, and one line says what to convert i
   const ToolRun alone = infer(dir, "class");
   CHECK(alone.exit_code == 2);
   const std::string how =
-      "is a PDF file; convert its pages by `pdftoppm -r 150 -png 'class/Scan 1.pdf' page`";
+      "is a PDF file; convert its pages by `pdftoppm -r 150 -png 'class/Scan 1.pdf' 'class/Scan 1'` "
+      "(Debian's package "
+      "poppler-utils)";
   CHECK_THAT(alone.err, Contains("class/Scan 1.pdf: " + how));
   fs::copy(kDrawing, dir.file("class/boy.png"));
   const ToolRun run = infer(dir, "class --formats silhouette");
   CHECK(run.exit_code == 0);
   CHECK_THAT(run.err, Contains("note: class/Scan 1.pdf " + how + "; passed over\n"));
   CHECK(infer(dir, "class --formats silhouette --quiet").err.empty());
+}
+
+TEST_CASE(
+    "a photo that was converted as its note says is rigged, the one that it was made of is passed over") {
+  const TempDir dir;
+  writeFile(dir.file("class/IMG_1.HEIC"), "no picture");
+  writeFile(dir.file("class/IMG_2.heic"), "no picture");
+  fs::copy(kDrawing, dir.file("class/IMG_1.png"));
+  const ToolRun run = infer(dir, "class --formats silhouette");
+  CHECK(reported(run.out) == "class/IMG_1.png ");
+  CHECK_THAT(run.err, Contains("class/IMG_2.heic: is a HEIC picture; convert it by `heif-convert "
+                               "class/IMG_2.heic class/IMG_2.png` (Debian's package libheif-examples)"));
+  CHECK(count(run.err, "IMG_1.HEIC") == 0);
 }
 
 TEST_CASE("a run over a folder that is interrupted says how to go on") {
@@ -142,9 +203,11 @@ TEST_CASE("a run over a folder that is interrupted says how to go on") {
                          "/a.glb ]; do sleep .02; done; kill -INT $!; wait $!")
         .err;
   };
-  CHECK_THAT(interrupted("out", ""),
-             Contains("skel-infer: interrupted; what is done lies in out. The same line does all "
-                      "again; one with --resume and without --report goes on where it was stopped\n"));
+  CHECK_THAT(
+      interrupted("out", ""),
+      Contains("skel-infer: interrupted; what is done lies in out. The same line does all "
+               "again; only a run that began with --resume (and without --report) goes on where it was "
+               "stopped\n"));
   CHECK_THAT(interrupted("other", " --resume"),
              Contains("skel-infer: interrupted; the same line goes on from here\n"));
 }

@@ -1,6 +1,7 @@
 // --report: one page of HTML for a class.
 #include <filesystem>
 
+#include "infer/advice.h"
 #include "libskel/core/files.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
@@ -80,6 +81,27 @@ TEST_CASE("the report lists on top what to look at, one line a child, and says a
         "The figure is cut off at the bottom. Step back", "No whole figure could be made out"})
     CHECK_THAT(again, Contains(reason));
   CHECK_THAT(html, Contains("<p class=\"note\">made by hand and taken up"));
+}
+
+TEST_CASE("advice fits the picture: of light and pen it speaks for photos alone, and it names the command") {
+  RiggedDrawing drawing;
+  SkeletonFile file;
+  const auto advice = [&](const char* warning) {
+    file.warnings = {warning};
+    return adviceOn(drawing, file, "class/Eva B.png").front();
+  };
+  const char* const warnings[] = {"this hardly looks like one whole biped",
+                                  "some joints may be wrong, look at them",
+                                  "a part of the figure may be missing: look at the mask (skel-label FILE)"};
+  for (const char* warning : warnings) {
+    CAPTURE(warning);
+    drawing.silhouette.evidence.reset();
+    const std::string tidy = advice(warning);
+    CHECK_THAT(tidy, Contains("skel-label 'class/Eva B.png'"));
+    CHECK_THAT(tidy, !Contains("felt pen") && !Contains("shadow"));
+    drawing.silhouette.evidence.emplace();
+    CHECK_THAT(advice(warning), Contains("shadow"));
+  }
 }
 
 TEST_CASE("a printed report shows the figures at rest") {

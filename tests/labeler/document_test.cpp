@@ -1,5 +1,7 @@
 #include "labeler/document.h"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "libskel/core/error.h"
@@ -28,7 +30,8 @@ void randomStep(Document& document, Rng& rng) {
   };
   switch (rng.below(11)) {
     case 10:
-      return document.paintLayer(place(), place(), rng.uniform(2, 40), static_cast<int>(rng.below(5)));
+      return document.paintLayer(place(), place(), rng.uniform(2, 40),
+                                 layerBrushes(document.bodyPlan())[rng.below(9)]);
     case 0:
       return document.label(candidates(), std::nullopt);
     case 1:
@@ -47,7 +50,7 @@ void randomStep(Document& document, Rng& rng) {
     case 7:
       return document.forgetMask();
     case 8:
-      return document.forgetJoints();
+      return document.rigAnew();
     default: {
       document.beginStep();  // a stroke
       const JointClass painted = joint_class();
@@ -122,7 +125,6 @@ TEST_CASE("a step that changes nothing is no step") {
   Document document(dir.path(), documentOptions());
   document.label({}, JointClass::kHand);
   document.label({1}, std::nullopt);
-  document.forgetJoints();
   CHECK_FALSE(document.canUndo());
   CHECK_FALSE(fs::exists(dir.file("cap_boy.labels.json")));
 }
@@ -418,7 +420,7 @@ TEST_CASE("limbs painted by hand are rigged with, on the disk at once, found by 
     REQUIRE(document.layers());
     const auto body = document.bodyPlan().find("body");
     const Eigen::Vector2d middle = document.state().joints[size_t(body)]->image;
-    document.paintLayer(middle, middle + Eigen::Vector2d(40, 0), 12, 2);
+    document.paintLayer(middle, middle + Eigen::Vector2d(40, 0), 12, limbBrush(2));
     CHECK(fs::exists(file));
     CHECK(contains(document.message(), "left arm"));
     CHECK(int(document.layers()->limb(int(middle.y()), int(middle.x()) + 20)) == 2);
@@ -427,7 +429,7 @@ TEST_CASE("limbs painted by hand are rigged with, on the disk at once, found by 
     REQUIRE(document.rigged());
     CHECK((document.rigged()->layers.limb == document.state().layers->limb).all());
     // Outside of the figure there is nothing to paint.
-    document.paintLayer({1, 1}, {2, 2}, 5, 2);
+    document.paintLayer({1, 1}, {2, 2}, 5, limbBrush(2));
     CHECK(int(document.layers()->limb(1, 1)) == 0);
   }
   Document document(dir.path(), documentOptions());
@@ -451,12 +453,98 @@ TEST_CASE("limbs that are found stay where painting begins anew, and looking for
   CHECK(document.state() == before);
   CHECK_FALSE(document.canUndo());
   CHECK_FALSE(fs::exists(dir.file("box_robot.labels.json")));
-  document.paintLayer({300, 300}, {310, 300}, 5, 2);
+  document.paintLayer({300, 300}, {310, 300}, 5, limbBrush(2));
   document.undo();
-  document.paintLayer({300, 320}, {310, 320}, 5, 2);
+  document.paintLayer({300, 320}, {310, 320}, 5, limbBrush(2));
   const Plane8& painted = document.state().layers->limb;
   CHECK((painted != found).count() < 300);
   CHECK((painted == 1).count() == (found == 1).count());
+}
+
+namespace {
+
+// How many pixels of the two pictures differ outside of a disc.
+int differences(const Image& a, const Image& b, const Eigen::Vector2d& middle_px, double radius_px) {
+  REQUIRE(a.width == b.width);
+  REQUIRE(a.height == b.height);
+  int count = 0;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x)
+      if ((Eigen::Vector2d(x, y) - middle_px).norm() > radius_px)
+        count += !std::equal(a.pixel(x, y), a.pixel(x, y) + 4, b.pixel(x, y));
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "one stroke on a limb keeps what was painted of skirt, hair, cape, things and limbs grown together") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  // Rows of every colour of docs/formats.md, opaque and translucent.
+  const Plane8 mask = readMask(dir.file("cap_boy.mask.png"));
+  LayerMap map;
+  map.limb = map.part = Plane8::Zero(mask.rows(), mask.cols());
+  for (int y = 0; y < int(mask.rows()); ++y) {
+    const int part = y / 12 % kPartCount;
+    map.part.row(y).setConstant(std::uint8_t(part));
+    const bool is_limb = part >= int(Part::kRightArm) && part <= int(Part::kLeftLeg);
+    if (is_limb && y / 12 / kPartCount % 2 == 0)
+      map.limb.row(y).setConstant(std::uint8_t(part - int(Part::kRightArm) + 1));
+  }
+  const std::string file = dir.file("cap_boy.limbs.png");
+  writeFile(file, encodePng(layerPicture(map, mask)));
+  const Image before = readImage(file);
+  {
+    Document document(dir.path(), documentOptions());
+    REQUIRE(document.state().layers);
+    document.paintLayer({300, 300}, {300, 300}, 10, limbBrush(2));
+  }
+  const Image after = readImage(file);
+  CHECK(differences(before, after, {300, 300}, 10) == 0);
+  const std::array<std::uint8_t, 4> arm = {50, 110, 230, 255};
+  CHECK(std::equal(arm.begin(), arm.end(), after.pixel(300, 300)));
+}
+
+TEST_CASE("one stroke on what was found keeps the skirt and limbs that are one with the body") {
+  const TempDir dir;
+  copyCharacter("fashion_skirt", dir.path());
+  Document document(dir.path(), documentOptions());
+  document.findLimbs();
+  REQUIRE(document.layers());
+  const Plane8& mask = document.figure().silhouette.mask;
+  const Image found = layerPicture(*document.layers(), mask);
+  REQUIRE((document.layers()->part == std::uint8_t(Part::kSkirt)).count() > 500);
+  const auto grownTogether = [](const Image& picture) { return (picture.rgba.col(3) == 170).count(); };
+  REQUIRE(grownTogether(found) > 500);
+  const Eigen::Vector2d middle(300, 200);
+  REQUIRE(mask(200, 300) != 0);
+  document.paintLayer(middle, middle, 8, limbBrush(1));
+  CHECK(differences(found, readImage(dir.file("fashion_skirt.limbs.png")), middle, 8) == 0);
+}
+
+TEST_CASE(
+    "every part of the figure is painted by a brush of its own, and what is painted body is grey again") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.path(), documentOptions());
+  const std::vector<LayerBrush> brushes = layerBrushes(document.bodyPlan());
+  REQUIRE(brushes.size() == 9);
+  const auto colorAt = [&] {
+    const Image picture = readImage(dir.file("cap_boy.limbs.png"));
+    return std::array{picture.pixel(300, 300)[0], picture.pixel(300, 300)[1], picture.pixel(300, 300)[2]};
+  };
+  for (std::size_t b = 1; b < brushes.size(); ++b) {
+    document.paintLayer({300, 300}, {310, 300}, 6, brushes[b]);
+    CHECK(colorAt() == brushColor(brushes[b]));
+    CHECK(contains(document.message(), brushName(brushes[b], document.bodyPlan())));
+  }
+  const DrawingState thing = document.state();
+  document.paintLayer({300, 300}, {310, 300}, 6, limbBrush(0));
+  CHECK(colorAt() == layerColor(0));
+  CHECK_FALSE(document.state() == thing);
+  document.undo();
+  CHECK(colorAt() == partColor(Part::kThing));
 }
 
 TEST_CASE("each figure of a picture has painted limbs of its own") {
@@ -479,7 +567,7 @@ TEST_CASE("each figure of a picture has painted limbs of its own") {
   const Plane8& mask = document.figure().silhouette.mask;
   REQUIRE((mask.leftCols(650) != 0).any() != (mask.rightCols(650) != 0).any());
   const int left = (mask.rightCols(650) != 0).any() ? 700 : 0;
-  document.paintLayer({left + 300, 300}, {left + 310, 300}, 5, 2);
+  document.paintLayer({left + 300, 300}, {left + 310, 300}, 5, limbBrush(2));
   CHECK(fs::exists(dir.file("page-2.limbs.png")));
   CHECK_FALSE(fs::exists(dir.file("page.limbs.png")));
 }
@@ -491,7 +579,7 @@ TEST_CASE("a layer map that cannot be read is not written over") {
   const std::string before = readFile(dir.file("cap_boy.limbs.png"));
   Document document(dir.path(), documentOptions());
   CHECK(contains(document.item().problem, "which is no limb's"));
-  document.paintLayer({300, 300}, {320, 300}, 20, 1);
+  document.paintLayer({300, 300}, {320, 300}, 20, limbBrush(1));
   CHECK(readFile(dir.file("cap_boy.limbs.png")) == before);
 }
 
@@ -813,11 +901,169 @@ TEST_CASE(
   fs::copy(kCharacters + "clown.png", dir.file("cap_boy.png"), fs::copy_options::overwrite_existing);
   Document document(dir.path(), documentOptions());
   CHECK(document.message() == "cap_boy.png has changed since it was labelled: Shift R finds its joints anew");
-  document.forgetJoints();  // Shift R
-  document.rig();
+  document.rigAnew();  // Shift R
   const LabelFile labels = readLabelFile(dir.file("cap_boy.labels.json"));
   CHECK(labels.image.sha256 == sha256(readFile(dir.file("cap_boy.png"))));
   CHECK_FALSE(labels.hasPlacedJoint());
+}
+
+namespace {
+
+// A photo of which mask, joints and limbs were mended, and another one under its name.
+struct TakenAgain {
+  TakenAgain() {
+    copyCharacter("cap_boy", dir.path(), false);
+    fs::remove(dir.file("cap_boy.joints.json"));
+    Document document(dir.path(), documentOptions());
+    document.findJoints();
+    document.paintMask({300, 60}, {300, 20}, 12, true);
+    document.paintLayer({300, 300}, {320, 300}, 9, limbBrush(2));
+    document.label({0}, JointClass::kBody);
+    document.acceptJoints();
+    mask = readFile(dir.file("cap_boy.mask.png"));
+    limbs = readFile(dir.file("cap_boy.limbs.png"));
+    labels = readFile(dir.file("cap_boy.labels.json"));
+    take(readFile(kCharacters + "clown.png"));
+  }
+  void take(const std::string& picture) {
+    writeFile(dir.file("cap_boy.png"), picture);
+    picture_sha256 = sha256(picture);
+  }
+  LabelFile saved() const { return readLabelFile(dir.file("cap_boy.labels.json")); }
+
+  TempDir dir;
+  std::string mask, limbs, labels, picture_sha256;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "of a photo taken again Shift R drops mask, joints and limbs of the one before in one step, and says "
+    "so") {
+  const TakenAgain photo;
+  Document document(photo.dir.path(), documentOptions());
+  CHECK(document.isOfEarlierPicture());
+  CHECK(document.message() ==
+        "cap_boy.png has changed since it was labelled: Shift R finds figure and joints anew");
+  CHECK_FALSE(document.item().joints.isWhole());
+  const DrawingState before = document.state();
+  REQUIRE(before.mask);
+  REQUIRE(before.layers);
+
+  document.rigAnew();
+  CHECK(document.message().starts_with("joints, mask (M), limbs (G) were those of the picture before"));
+  CHECK(contains(document.message(), "; rigged"));
+  CHECK_FALSE(document.isOfEarlierPicture());
+  CHECK_FALSE(document.state().mask);
+  CHECK_FALSE(document.state().layers);
+  CHECK(document.rigged());
+  CHECK(photo.saved().image.sha256 == photo.picture_sha256);
+  CHECK_FALSE(photo.saved().mask);
+  CHECK_FALSE(photo.saved().hasPlacedJoint());
+  CHECK_FALSE(photo.saved().labels[0]);
+  // What skel-infer would take up has gone from there, and is not lost.
+  CHECK_FALSE(fs::exists(photo.dir.file("cap_boy.mask.png")));
+  CHECK_FALSE(fs::exists(photo.dir.file("cap_boy.limbs.png")));
+  CHECK(readFile(photo.dir.file("cap_boy.old.mask.png")) == photo.mask);
+  CHECK(readFile(photo.dir.file("cap_boy.old.limbs.png")) == photo.limbs);
+
+  CHECK(document.undo());
+  CHECK_FALSE(document.canUndo());
+  CHECK(document.state() == before);
+  CHECK(document.isOfEarlierPicture());
+  CHECK(readFile(photo.dir.file("cap_boy.mask.png")) == photo.mask);
+  CHECK(readFile(photo.dir.file("cap_boy.labels.json")) == photo.labels);
+  CHECK(fs::exists(photo.dir.file("cap_boy.limbs.png")));
+  CHECK(document.redo());
+  CHECK_FALSE(fs::exists(photo.dir.file("cap_boy.mask.png")));
+  document.acceptJoints();
+  CHECK(photo.saved().image.sha256 == photo.picture_sha256);
+  CHECK(photo.saved().hasPlacedJoint());
+  CHECK_FALSE(photo.saved().mask);
+}
+
+TEST_CASE(
+    "of a photo taken again all right is asked twice where a mask of the one before would count for it") {
+  const TakenAgain photo;
+  Document document(photo.dir.path(), documentOptions());
+  CHECK_FALSE(document.acceptJoints());
+  CHECK(document.message().starts_with("of the picture before: mask (M), limbs (G); look, then Enter again"));
+  CHECK(document.isOfEarlierPicture());
+  CHECK_FALSE(document.canUndo());
+  CHECK(readFile(photo.dir.file("cap_boy.labels.json")) == photo.labels);
+  SECTION("the second time takes them") {
+    CHECK(document.acceptJoints());
+    CHECK_FALSE(document.isOfEarlierPicture());
+    CHECK(photo.saved().image.sha256 == photo.picture_sha256);
+    CHECK(photo.saved().mask->sha256 == sha256(photo.mask));
+    CHECK(document.item().joints.isWhole());
+    document.undo();
+    CHECK(readFile(photo.dir.file("cap_boy.labels.json")) == photo.labels);
+  }
+  SECTION("other steps are saved, but as those of the photo before") {
+    document.moveJoint(document.bodyPlan().find("head"), {250, 100});
+    CHECK(contains(document.message(), "the picture has changed since: Shift R"));
+    CHECK(photo.saved().image.sha256 != photo.picture_sha256);
+    CHECK(Document(photo.dir.path(), documentOptions()).isOfEarlierPicture());
+  }
+}
+
+TEST_CASE("of a photo taken again without a mask of the one before all right takes its joints at once") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path(), false);
+  {
+    Document document(dir.path(), documentOptions());
+    document.findJoints();
+    document.acceptJoints();
+  }
+  fs::copy(kCharacters + "clown.png", dir.file("cap_boy.png"), fs::copy_options::overwrite_existing);
+  Document document(dir.path(), documentOptions());
+  CHECK(document.acceptJoints());
+  CHECK(readLabelFile(dir.file("cap_boy.labels.json")).image.sha256 ==
+        sha256(readFile(dir.file("cap_boy.png"))));
+}
+
+TEST_CASE("a photo taken again in another size opens without what was mended of the one before") {
+  TakenAgain photo;
+  const Image clown = readImage(kCharacters + "clown.png");
+  Image wide(700, 600);
+  wide.rgba.setZero();
+  for (int y = 0; y < 600; ++y) std::copy_n(clown.pixel(0, y), 4 * 600, wide.pixel(0, y));
+  photo.take(encodePng(wide));
+  Document document(photo.dir.path(), documentOptions());
+  CHECK(document.item().problem.empty());
+  CHECK(contains(document.message(), "another picture, of another size"));
+  CHECK_FALSE(document.state().mask);
+  REQUIRE(document.wantsJoints());
+  document.findJoints();
+  CHECK(readFile(photo.dir.file("cap_boy.labels.json")) == photo.labels);  // who only looks changes nothing
+  document.acceptJoints();
+  CHECK(document.saveProblem().empty());
+  CHECK(photo.saved().image.sha256 == photo.picture_sha256);
+  CHECK_FALSE(fs::exists(photo.dir.file("cap_boy.mask.png")));
+  CHECK_FALSE(fs::exists(photo.dir.file("cap_boy.limbs.png")));
+  CHECK(readFile(photo.dir.file("cap_boy.old.mask.png")) == photo.mask);
+  CHECK(readFile(photo.dir.file("cap_boy.old.limbs.png")) == photo.limbs);
+}
+
+TEST_CASE("a skeleton of a photo taken again is found anew by Shift R and then says which photo it is of") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path(), false);
+  const SkeletonTemplate plan = loadTemplate("biped");
+  SkeletonFile file = skeletonOfCapBoy(plan);
+  file.image_sha256 = sha256(readFile(dir.file("cap_boy.png")));
+  for (Joint& joint : file.skeleton.joints) joint.origin = JointOrigin::kEdited;
+  const std::string path = dir.file("cap_boy.skeleton.json");
+  writeFile(path, formatSkeletonFile(file));
+  fs::copy(kCharacters + "clown.png", dir.file("cap_boy.png"), fs::copy_options::overwrite_existing);
+  Document document(path, documentOptions());
+  CHECK(contains(document.message(), "has changed since it was rigged"));
+  document.rigAnew();
+  CHECK_FALSE(hasEditedJoint(path));
+  CHECK(readSkeletonFile(path, plan).image_sha256 == sha256(readFile(dir.file("cap_boy.png"))));
+  document.undo();
+  CHECK(hasEditedJoint(path));
+  CHECK(readSkeletonFile(path, plan).image_sha256 == file.image_sha256);
 }
 
 TEST_CASE("folders without pictures and pictures that share a label file are refused") {
