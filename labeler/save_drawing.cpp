@@ -42,11 +42,30 @@ void keepAside(const std::string& path) {
   rename(path, kept);
 }
 
+namespace {
+
+// Through a link to what it names, with the mode of what was there, as writeFile() does.
+void putInPlace(const std::string& next, const std::string& path) {
+  std::error_code error;
+  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : fs::path(path);
+  if (const fs::file_status before = fs::status(target, error); fs::is_regular_file(before))
+    fs::permissions(next, before.permissions(), error);
+  fs::rename(next, target, error);
+  if (error == std::errc::cross_device_link) {
+    writeFile(path, readFile(next));
+    removeFile(next);
+  } else if (error) {
+    throw OutputError(path, "cannot be replaced: " + error.message());
+  }
+}
+
+}  // namespace
+
 void saveWithMask(const std::string& label_file, const LabelFile& labels, const std::string& png) {
   const std::string mask = besideLabelFile(label_file, labels.mask->file);
   writeFile(mask + kNext, png);
   writeLabelFile(label_file, labels);
-  rename(mask + kNext, mask);
+  putInPlace(mask + kNext, mask);
 }
 
 void finishSave(const std::string& label_file) {
@@ -56,7 +75,7 @@ void finishSave(const std::string& label_file) {
   const bool labelled = fs::is_regular_file(label_file);
   const auto source = labelled ? readLabelFile(label_file).mask : std::nullopt;
   if (source && besideLabelFile(label_file, source->file) == mask && sha256(readFile(next)) == source->sha256)
-    rename(next, mask);
+    putInPlace(next, mask);
   else
     removeFile(next);
 }

@@ -410,6 +410,24 @@ TEST_CASE("a mended mask that lay there before comes back byte by byte") {
   CHECK(readFile(dir.file("cap_boy.mask.png")) == original);
 }
 
+TEST_CASE("a mask behind a link is written where it lies, and keeps its mode") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const std::string mask = dir.file("cap_boy.mask.png"), real = dir.file("masks/cap_boy.png");
+  fs::create_directory(dir.file("masks"));
+  fs::rename(mask, real);
+  fs::create_symlink("masks/cap_boy.png", mask);
+  fs::permissions(real, fs::perms::owner_read | fs::perms::owner_write);
+  const std::string original = readFile(real);
+  Document document(dir.path(), documentOptions());
+  document.paintMask({300, 60}, {300, 20}, 12, true);
+  CHECK(document.saveProblem() == "");
+  CHECK(fs::is_symlink(mask));
+  CHECK(readFile(real) != original);
+  CHECK(fs::status(real).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
+  CHECK_FALSE(fs::exists(mask + ".next"));
+}
+
 TEST_CASE("limbs painted by hand are rigged with, on the disk at once, found by a new document, and undone") {
   const TempDir dir;
   copyCharacter("boss_crossed", dir.path());
