@@ -23,10 +23,17 @@ namespace skel {
 namespace {
 using emscripten::val;
 
+// Fills `bytes` with `array`.
+template <class Bytes>
+void copyInto(Bytes& bytes, const val& array) {
+  val(emscripten::typed_memory_view(static_cast<std::size_t>(bytes.size()),
+                                    reinterpret_cast<std::uint8_t*>(bytes.data())))
+      .call<void>("set", array);
+}
+
 std::string bytesOf(const val& array) {
   std::string bytes(array["length"].as<std::size_t>(), '\0');
-  val(emscripten::typed_memory_view(bytes.size(), reinterpret_cast<std::uint8_t*>(bytes.data())))
-      .call<void>("set", array);
+  copyInto(bytes, array);
   return bytes;
 }
 
@@ -50,6 +57,38 @@ std::string stemOf(const std::string& file) {
 }
 
 std::string sizeText(long width, long height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+// Throws unless `array` holds just what a picture of that size needs: the memory that a shorter one would
+// leave as it is has held the pictures of others. `what` it is stands in the complaint.
+void checkLength(const val& array, int width, int height, int bytes_a_pixel, const std::string& file,
+                 const std::string& what) {
+  const auto has = array["length"].as<double>();
+  const double needs = static_cast<double>(width) * height * bytes_a_pixel;
+  if (has == needs) return;
+  const std::string hint =
+      bytes_a_pixel == 4 && has * 4 == needs * 3 ? "; RGB needs a fourth byte a pixel, alpha" : "";
+  throw InputError(file, what + " has " + std::to_string(static_cast<std::int64_t>(has)) + " bytes, " +
+                             sizeText(width, height) + " px of " + std::to_string(bytes_a_pixel) +
+                             (bytes_a_pixel == 1 ? " byte" : " bytes") + " need " +
+                             std::to_string(static_cast<std::int64_t>(needs)) + hint);
+}
+
+Image imageOf(const val& rgba, int width, int height, const std::string& file) {
+  if (width < 1 || height < 1) throw InputError(file, "has no pixels: " + sizeText(width, height));
+  if (std::max(width, height) > kLongestSide_px || std::int64_t{width} * height > kMaxPixels)
+    throw InputError(file, "is too large: " + sizeText(width, height) + " px; make it smaller");
+  checkLength(rgba, width, height, 4, file, "rgba");
+  Image image(width, height);
+  copyInto(image.rgba, rgba);
+  return image;
+}
+
+Plane8 planeOf(const val& mask, int width, int height, const std::string& file) {
+  checkLength(mask, width, height, 1, file, "mask");
+  Plane8 plane(height, width);
+  copyInto(plane, mask);
+  return plane;
+}
 
 // What the tools would have said, as {error}.
 template <class Work>
@@ -188,30 +227,27 @@ val maskOf(const val& request) {
   });
 }
 
-// Request: {file, width, height, rgba, mask, skeleton, skeletonFile, plan, figure, draft}. `mask`
-// (width·height bytes, 255 on the figure) and `skeleton` (the text of a skeleton file) may be null, `plan`
-// empty: the one that fits. What is as it was in the last call is not made anew. With `draft`, joints that
-// have moved since then move in the model that is there, for the eye (RigDocument::draft()). Returns
-// {skeleton, plan, confidence, warnings, figures, mask, times in ms} or {error}.
+// Request: {file, width, height, rgba, mask, skeleton, skeletonFile, plan, figure, draft}. `rgba`
+// (width·height·4 bytes) and `mask` are refused if they are shorter or longer than that. `mask` (width·height
+// bytes, 255 on the figure) and `skeleton` (the text of a skeleton file) may be null, `plan` empty: the one
+// that fits. What is as it was in the last call is not made anew. With `draft`, joints that have moved since
+// then move in the model that is there, for the eye (RigDocument::draft()). Returns {skeleton, plan,
+// confidence, warnings, figures, mask, times in ms} or {error}.
 val rig(const val& request) {
   const auto file = request["file"].as<std::string>();
   return saying(file, [&] {
     RigInput input;
     const int width = request["width"].as<int>(), height = request["height"].as<int>();
-    input.image = Image(width, height);
-    val(emscripten::typed_memory_view(static_cast<std::size_t>(input.image.rgba.size()),
-                                      input.image.rgba.data()))
-        .call<void>("set", request["rgba"]);
+    input.image = imageOf(request["rgba"], width, height, file);
     Character made;
     made.stem = stemOf(file);
     if (!request["mask"].isNull()) {
-      Plane8 mask(height, width);
-      val(emscripten::typed_memory_view(static_cast<std::size_t>(mask.size()), mask.data()))
-          .call<void>("set", request["mask"]);
+      Plane8 mask = planeOf(request["mask"], width, height, file);
       made.file.mask = SkeletonFile::Mask{made.stem + ".mask.png", sha256(encodePng(mask))};
       input.mask = made.given_mask = std::move(mask);
     }
     int figure = request["figure"].as<int>();
+    if (figure < 1) throw InputError(file, "figure: must be 1 or more");
     std::optional<SkeletonFile> given;
     std::string skeleton_file;
     if (!request["skeleton"].isNull()) {

@@ -74,10 +74,9 @@ await mkdir(`${npm}/nets`, { recursive: true });
 const [cmake, described] = await Promise.all([readFile(`${here}/../CMakeLists.txt`, 'utf8'), readFile(`${here}/npm/package.json`, 'utf8')]);
 await Promise.all([
   build({
-    ...common, entryPoints: ['browser', 'worker', 'worker-thread', 'element'].map((name) => `${here}npm/${name}.js`), outdir: npm, splitting: true,
-    format: 'esm', platform: 'browser', external: [...common.external, 'three', 'three/*'],
+    ...common, entryPoints: ['browser', 'node', 'worker', 'worker-thread', 'element'].map((name) => `${here}npm/${name}.js`), outdir: npm, splitting: true,
+    format: 'esm', platform: 'browser', external: [...common.external, 'three', 'three/*', 'node:*'],
   }),
-  build({ ...common, entryPoints: [`${here}npm/node.js`], outdir: npm, format: 'esm', platform: 'node' }),
   writeFile(`${npm}/package.json`, JSON.stringify({ ...JSON.parse(described), version: cmake.match(/project\(skel VERSION ([\d.]+)/)[1] }, null, 2) + '\n'),
   writeFile(`${npm}/LICENSE`, licence + licences.map(({ name, url, licence: terms }) => `\n${name} (${url}): ${terms}`).join('') + '\n'),
   cp(`${wasmDir}/skel.js`, `${npm}/skel-core.cjs`), cp(`${wasmDir}/skel.wasm`, `${npm}/skel.wasm`),

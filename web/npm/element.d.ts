@@ -1,12 +1,32 @@
-import type { Character, Drawing, RigOptions } from './index.js';
+import type { Character, Drawing, Plan, RigOptions } from './index.js';
 
-/** `<skel-drawing src="hero.png" clip="dance" plan="auto">`. Needs three.js. Events: `rigged` (detail: Character), `error` (detail: Error). */
+export interface SkelDrawingEventMap extends Omit<HTMLElementEventMap, 'error' | 'rigged'> {
+  rigged: CustomEvent<Character>;
+  /** Of a drawing that cannot be shown, or a clip that it does not have. A SkelError where what was given is wrong. */
+  error: CustomEvent<Error>;
+}
+
+/** `<skel-drawing src="hero.png" clip="dance" plan="auto">`. Needs three.js. What is wrong is shown in it, too: `::part(error)`. */
 export class SkelDrawing extends HTMLElement {
+  /** As the attribute; '' is none. */
+  src: string;
+  plan: Plan | 'auto';
   /** The clip that plays; '' is the rest pose. */
   clip: string;
   /** Names of the clips there are. */
   readonly clips: string[];
-  show(drawing: Exclude<Drawing, Response>, options?: RigOptions): Promise<void>;
+  /**
+   * Rigs and shows a drawing, in an element that is in the page. Resolves to the character, or to undefined where another
+   * drawing was asked for since; rejects with what the event `error` says.
+   */
+  show(drawing: Exclude<Drawing, Response>, options?: RigOptions): Promise<Character | undefined>;
+
+  addEventListener<K extends keyof SkelDrawingEventMap>(
+    type: K, listener: (this: SkelDrawing, event: SkelDrawingEventMap[K]) => unknown, options?: boolean | AddEventListenerOptions): void;
+  addEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | AddEventListenerOptions): void;
+  removeEventListener<K extends keyof SkelDrawingEventMap>(
+    type: K, listener: (this: SkelDrawing, event: SkelDrawingEventMap[K]) => unknown, options?: boolean | EventListenerOptions): void;
+  removeEventListener(type: string, listener: EventListenerOrEventListenerObject, options?: boolean | EventListenerOptions): void;
 }
 
 declare global {

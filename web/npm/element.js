@@ -1,72 +1,105 @@
 // <skel-drawing src="hero.png" clip="dance" plan="auto">: a drawing that moves. Turned by mouse, finger and arrow keys;
-// says `rigged` (detail: the character) or `error` (detail: what is wrong). One worker does the work of all of them.
+// says `rigged` (detail: the character) or `error` (detail: what is wrong, which it shows as well). One worker does the
+// work of all of them.
+import { SkelError } from '../src/skel.js';
 import { ModelStage } from '../src/stage3d.js';
 import { startWorker } from './worker.js';
 
+const kShadow = `<style>
+:host { display: inline-block; position: relative; width: 320px; height: 320px; }
+canvas { width: 100%; height: 100%; display: block; }
+p { position: absolute; inset: auto 0 0; margin: 0; padding: .3em .6em; background: #fdeeee; color: #a3212b; overflow-wrap: anywhere; }
+p:empty { display: none; }
+</style><canvas tabindex="0" role="img" part="canvas"></canvas><p role="status" part="error"></p>`;
 let worker;
 
 export class SkelDrawing extends HTMLElement {
   static observedAttributes = ['src', 'clip', 'plan'];
   #stage;
-  #made = 0;
+  #complaint;
+  #asked = 0; // so many drawings; the last one counts
 
   connectedCallback() {
-    if (this.#stage) return;
+    if (this.shadowRoot) return;
     const root = this.attachShadow({ mode: 'open' });
-    root.innerHTML = '<style>:host{display:inline-block;width:320px;height:320px}canvas{width:100%;height:100%;display:block}</style>' +
-      '<canvas tabindex="0" role="img" part="canvas"></canvas>';
+    root.innerHTML = kShadow;
+    this.#complaint = root.querySelector('p');
     const canvas = root.querySelector('canvas');
     canvas.ariaLabel = this.getAttribute('alt') ?? '';
     canvas.addEventListener('keydown', ({ key }) => {
-      if (key === 'ArrowLeft' || key === 'ArrowRight') this.#stage.turn(key === 'ArrowLeft' ? -0.2 : 0.2);
+      if (key === 'ArrowLeft' || key === 'ArrowRight') this.#stage?.turn(key === 'ArrowLeft' ? -0.2 : 0.2);
     });
     try {
       this.#stage = new ModelStage(canvas);
     } catch (error) {
-      this.#say(error);
+      this.#complain(error);
       return;
     }
-    this.#rig();
+    this.#showSource();
   }
 
   attributeChangedCallback(attribute) {
     if (!this.#stage) return;
-    if (attribute === 'clip') this.#stage.play(this.clip);
-    else this.#rig();
+    if (attribute === 'clip') this.#play();
+    else this.#showSource();
   }
 
+  get src() { return this.getAttribute('src') ?? ''; }
+  set src(url) { this.setAttribute('src', url); }
+  get plan() { return this.getAttribute('plan') ?? 'auto'; }
+  set plan(name) { this.setAttribute('plan', name); }
   get clip() { return this.getAttribute('clip') ?? 'idle'; }
   set clip(name) { this.setAttribute('clip', name); }
   get clips() { return (this.#stage?.clips ?? []).map(({ name }) => name); }
 
-  // A drawing given as bytes, Blob or File, as rig() takes it.
-  async show(drawing, options = {}) {
-    const mine = ++this.#made;
-    try {
-      worker ??= startWorker();
-      const character = await worker.rig(drawing, { plan: this.getAttribute('plan') ?? 'auto', ...options });
-      if (mine !== this.#made) return; // another drawing was asked for since
-      this.#stage.clip = this.clip;
-      await this.#stage.show(character.glb);
-      this.dispatchEvent(new CustomEvent('rigged', { detail: character }));
-    } catch (error) {
-      this.#say(error);
-    }
+  // A drawing given as bytes, Blob or File, as rig() takes it. Resolves to the character, or to undefined where another
+  // drawing was asked for since; rejects with what `error` says.
+  show(drawing, options = {}) {
+    return this.#show(async () => [drawing, options]);
   }
 
-  async #rig() {
-    const src = this.getAttribute('src');
+  #showSource() {
+    const { src } = this;
     if (!src) return;
-    try {
+    this.#show(async () => {
       const answer = await fetch(src);
-      if (!answer.ok) throw new Error(`${src}: ${answer.status} ${answer.statusText}`);
-      await this.show(await answer.blob(), { name: src.split(/[?#]/)[0].split('/').pop() || 'drawing.png' });
+      if (!answer.ok) throw new SkelError(`${src}: ${answer.status} ${answer.statusText}`.trim());
+      return [await answer.blob(), { name: src.split(/[?#]/)[0].split('/').pop() || 'drawing.png' }];
+    }).catch(() => {}); // it has been said
+  }
+
+  // `take()`: [drawing, options].
+  async #show(take) {
+    const mine = ++this.#asked;
+    try {
+      if (!this.#stage) throw new SkelError('<skel-drawing>: is not in a page, or has no WebGL there');
+      const [drawing, options] = await take();
+      worker ??= startWorker();
+      const character = await worker.rig(drawing, { plan: this.plan, ...options });
+      if (mine !== this.#asked) return undefined;
+      await this.#stage.show(character.glb);
+      if (mine !== this.#asked) return undefined;
+      this.#play();
+      this.dispatchEvent(new CustomEvent('rigged', { detail: character }));
+      return character;
     } catch (error) {
-      this.#say(error);
+      if (mine !== this.#asked) return undefined;
+      this.#complain(error);
+      throw error;
     }
   }
 
-  #say(error) { this.dispatchEvent(new CustomEvent('error', { detail: error })); }
+  #play() {
+    const { clip, clips } = this;
+    this.#stage.play(clip);
+    this.#complaint.textContent = '';
+    if (clip && clips.length && !clips.includes(clip)) this.#complain(new SkelError(`clip: there is no "${clip}"; there are ${clips.join(', ')}`));
+  }
+
+  #complain(error) {
+    if (this.#complaint) this.#complaint.textContent = error.message;
+    this.dispatchEvent(new CustomEvent('error', { detail: error }));
+  }
 }
 
 customElements.define('skel-drawing', SkelDrawing);

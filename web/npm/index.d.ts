@@ -1,13 +1,16 @@
-/** Something is wrong with what was given; the message is the sentence of skel's tools. */
+/** Something is wrong with what was given; the message is one sentence for whoever gave it. */
 export class SkelError extends Error {
   name: 'SkelError';
 }
 
-/** A picture that is decoded already: width × height pixels, row by row from the top, 4 bytes each (not premultiplied). */
+/** Bytes in memory of their own: `Uint8Array<ArrayBuffer>` from TypeScript 5.7 on, `Uint8Array` before. */
+export type Bytes = ReturnType<Uint8Array['slice']>;
+
+/** A picture that is decoded already: width × height pixels, row by row from the top, 4 bytes each (not premultiplied); of other lengths it is refused. */
 export interface Pixels {
   width: number;
   height: number;
-  rgba: Uint8Array;
+  rgba: Uint8Array | Uint8ClampedArray;
 }
 
 /** A picture's file: PNG in node; whatever the browser shows in a browser. */
@@ -18,9 +21,9 @@ export type Plan = 'biped' | 'quadruped';
 export interface RigOptions {
   /** The drawing's file name, for messages and for the names in the GLB. */
   name?: string;
-  /** `auto`: the body plan that the figure fits. */
+  /** `auto`: the body plan that the figure fits. Not another one than that of `skeleton`. */
   plan?: Plan | 'auto';
-  /** Which figure of the drawing, 1 is the largest. */
+  /** Which figure of the drawing, 1 is the largest (the default). */
   figure?: number;
   /** A PNG file of the drawing's size, the figure white, instead of looking for it. */
   mask?: Uint8Array | ArrayBuffer | Blob | null;
@@ -67,14 +70,14 @@ export interface Character {
   figures: number;
   skeleton: SkeletonFile;
   /** width × height bytes, 255 on the figure. */
-  mask: Uint8Array;
+  mask: Bytes;
   /** Of each stage. */
   times_ms: Record<string, number>;
   /** glTF 2.0, binary: mesh, skin, texture, all clips. */
-  glb: Uint8Array;
+  glb: Bytes;
   /** A PNG file. */
-  texture: Uint8Array;
+  texture: Bytes;
 }
 
-/** Rigs a drawing. The core and its nets (8 MB) are loaded by the first call. Throws SkelError. */
+/** Rigs a drawing. The core and its nets (8 MB) are loaded by the first call. Rejects with a SkelError where what was given is wrong. */
 export function rig(drawing: Drawing, options?: RigOptions): Promise<Character>;

@@ -1,12 +1,8 @@
 // What node and browsers have in common: `load(file)` gives the bytes of a file of this package, `createSkel` is the core.
 import { Skel, SkelError } from '../src/skel.js';
+import { bytesOf, checkedGiven } from './given.js';
 
 const kNets = { page: 'page_net', parts: 'part_net', biped: 'joint_net', quadruped: 'quadruped_joint_net' };
-
-async function bytesOf(data) {
-  if (data instanceof Uint8Array) return data;
-  return new Uint8Array(data instanceof ArrayBuffer ? data : await data.arrayBuffer()); // of a Blob, File or Response
-}
 
 export function rigBy(createSkel, load) {
   let started;
@@ -15,30 +11,35 @@ export function rigBy(createSkel, load) {
     return Skel.start(createSkel, wasm, Object.fromEntries(Object.keys(kNets).map((net, i) => [net, nets[i]])));
   };
 
-  return async function rig(drawing, { name = 'drawing.png', plan = 'auto', figure = 1, mask = null, skeleton = null } = {}) {
-    started ??= start();
-    let skel;
+  return async function rig(drawing, options) {
+    const given = checkedGiven(drawing, options);
+    const mine = started ??= start();
     try {
-      skel = await started;
+      return await rigged(await mine, given);
     } catch (error) {
-      started = undefined; // a download that failed may succeed the next time
+      // A download that failed may succeed the next time; a core that has crashed is started anew, once.
+      if (!(error instanceof SkelError) && started === mine) started = undefined;
       throw error;
     }
-    try {
-      const picture = drawing.rgba ? { name, scaled: false, ...drawing } : await skel.open(await bytesOf(drawing), name);
-      const maskPixels = mask && skel.readMask(picture, { bytes: await bytesOf(mask), file: 'the mask' });
-      const text = skeleton && (typeof skeleton === 'string' ? skeleton : JSON.stringify(skeleton));
-      const found = skel.rig(picture, {
-        mask: maskPixels, plan: plan === 'auto' ? '' : plan, figure, skeleton: text, skeletonFile: text ? 'the skeleton' : '',
-      });
-      return {
-        name: picture.name, width: picture.width, height: picture.height, scaled: picture.scaled,
-        plan: found.plan, confidence: found.confidence, warnings: found.warnings, figures: found.figures,
-        skeleton: JSON.parse(found.skeleton), mask: found.mask, times_ms: found.times, glb: skel.glb(), texture: skel.texture(),
-      };
-    } catch (error) {
-      if (!(error instanceof SkelError)) started = undefined; // a core that has crashed is started anew
-      throw error;
-    }
+  };
+}
+
+async function rigged(skel, { drawing, name, plan, figure, mask, skeleton }) {
+  const picture = drawing.rgba ? { name, width: drawing.width, height: drawing.height, rgba: drawing.rgba, scaled: false } :
+    await skel.open(await bytesOf(drawing, name), name);
+  const maskBytes = mask && await bytesOf(mask, 'the mask');
+  // From here on nothing waits: the core holds one character at a time.
+  const found = skel.rig(picture, {
+    mask: maskBytes && skel.readMask(picture, { bytes: maskBytes, file: 'the mask' }), plan: plan === 'auto' ? '' : plan, figure: figure ?? 1,
+    skeleton, skeletonFile: skeleton === null ? '' : 'the skeleton',
+  });
+  const file = JSON.parse(found.skeleton);
+  // A skeleton says itself whose it is.
+  for (const [option, asked, has] of [['plan', plan === 'auto' ? undefined : plan, found.plan], ['figure', figure, file.figure.number]])
+    if (asked !== undefined && asked !== has) throw new SkelError(`${option}: is ${asked}, the skeleton is of ${option} ${has}; leave one of them out`);
+  return {
+    name: picture.name, width: picture.width, height: picture.height, scaled: picture.scaled,
+    plan: found.plan, confidence: found.confidence, warnings: found.warnings, figures: found.figures,
+    skeleton: file, mask: found.mask, times_ms: found.times, glb: skel.glb(), texture: skel.texture(),
   };
 }

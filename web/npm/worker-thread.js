@@ -1,7 +1,7 @@
 import { rig } from './browser.js';
 
 let before = Promise.resolve();
-onmessage = ({ data: { id, drawing, options } }) => {
+onmessage = ({ data: { id, drawing, ...options } }) => {
   before = before.then(async () => {
     try {
       const character = await rig(drawing, options);

@@ -7,8 +7,11 @@ export class SkelError extends Error {
   name = 'SkelError';
 }
 
+// Nobody here types a command line: its options by the names that they have in rig() and on the page.
+const withoutDashes = (text) => text.replace(/--template (\w+)/g, 'plan "$1"').replace(/--template\b/g, 'plan').replace(/--figure\b/g, 'figure');
+
 function checked(said) {
-  if (said.error) throw new SkelError(said.error);
+  if (said.error) throw new SkelError(withoutDashes(said.error));
   return said;
 }
 
@@ -45,7 +48,8 @@ export class Skel {
   static async start(createSkel, wasm, nets) {
     const skel = new Skel();
     skel.#core = await createSkel({ wasmBinary: wasm });
-    checked(skel.#core.useNets(nets));
+    const { error } = skel.#core.useNets(nets);
+    if (error) throw new Error(error); // nothing that was given
     return skel;
   }
 
@@ -61,11 +65,12 @@ export class Skel {
     return checked(this.#core.readMask({ skeleton: null, skeletonFile: '', ...request, width, height })).mask;
   }
 
-  // What these calls return is that of the last rig().
+  // What these calls return is that of the last rig(). In the skeleton, a file of the tools, warnings stay as they say them.
   rig({ name, width, height, rgba }, request) {
-    return checked(this.#core.rig({
+    const found = checked(this.#core.rig({
       mask: null, skeleton: null, skeletonFile: '', plan: '', figure: 1, draft: false, ...request, file: name, width, height, rgba,
     }));
+    return { ...found, warnings: found.warnings.map(withoutDashes) };
   }
   glb() { return this.#core.glb(); }
   texture() { return this.#core.texture(); }

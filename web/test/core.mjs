@@ -122,6 +122,25 @@ if (files.length) {
   rig(moved);
   if (files.length > 1 && !glb.equals(Buffer.from(core.glb()))) fail(name, 'a joint moved and the same from the start are not the same model');
 }
+// Pixels that are too few or too many are refused: the rest would be what another picture has left in the memory.
+{
+  const request = { file: 'x', width: 20, height: 10, rgba: new Uint8Array(800), mask: null, skeleton: null, skeletonFile: '', plan, figure: 1, draft: false };
+  for (const [changed, sentence] of [
+    [{ rgba: new Uint8Array(0) }, 'x: rgba has 0 bytes, 20x10 px of 4 bytes need 800'],
+    [{ rgba: new Uint8Array(799) }, 'x: rgba has 799 bytes, 20x10 px of 4 bytes need 800'],
+    [{ rgba: new Uint8Array(801) }, 'x: rgba has 801 bytes, 20x10 px of 4 bytes need 800'],
+    [{ rgba: new Uint8ClampedArray(600) }, 'x: rgba has 600 bytes, 20x10 px of 4 bytes need 800; RGB needs a fourth byte a pixel, alpha'],
+    [{ mask: new Uint8Array(199) }, 'x: mask has 199 bytes, 20x10 px of 1 byte need 200'],
+    [{ mask: new Uint8Array(800) }, 'x: mask has 800 bytes, 20x10 px of 1 byte need 200'],
+    [{ width: 0, rgba: new Uint8Array(0) }, 'x: has no pixels: 0x10'],
+    [{ width: -20, height: -10 }, 'x: has no pixels: -20x-10'],
+    [{ width: 40000, height: 1, rgba: new Uint8Array(160000) }, 'x: is too large: 40000x1 px; make it smaller'],
+    [{ figure: 0 }, 'x: figure: must be 1 or more'],
+  ]) {
+    const { error } = core.rig({ ...request, ...changed });
+    if (error !== sentence) fail('a request that cannot be', `"${error}", not "${sentence}"`);
+  }
+}
 times.sort((a, b) => a - b);
 console.log(`${plan}: ${files.length} drawings, joints at most ${worst.toFixed(3)} px apart, ${sameGlb} GLB files the same byte for byte, ` +
   `median ${times[times.length >> 1]?.toFixed(0)} ms`);

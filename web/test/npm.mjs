@@ -1,12 +1,14 @@
 // The npm package as its users have it: node npm.mjs OUT SKEL_INFER. Packs OUT/npm, installs it into an empty project and
-// runs examples/javascript there, in node and in headless Chromium. Pictures go to OUT/shots.
+// runs examples/javascript there, in node, through a new and an old TypeScript and in headless Chromium, as it is and in a
+// bundle of esbuild; the examples of the documentation, too. Pictures go to OUT/shots.
 import assert from 'node:assert/strict';
 import { execFile } from 'node:child_process';
-import { cp, mkdir, mkdtemp, readFile, stat, writeFile } from 'node:fs/promises';
+import { cp, mkdir, mkdtemp, readdir, readFile, stat, symlink, writeFile } from 'node:fs/promises';
 import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import { extname, join } from 'node:path';
 import { promisify } from 'node:util';
+import { build } from 'esbuild';
 import { chromium } from 'playwright-core';
 
 const [out, infer] = process.argv.slice(2);
@@ -34,6 +36,10 @@ assert.equal((await readFile(join(project, 'hero.glb'))).toString('latin1', 0, 4
 await writeFile(join(project, 'empty.png'), '');
 await assert.rejects(inProject('node', 'rig.mjs', 'empty.png', 'x.glb'), ({ code, stderr }) => code === 2 && stderr === 'empty.png: is empty\n');
 
+await inProject('node', 'thread.mjs', 'hero.png', 'thread.glb');
+assert.equal((await readFile(join(project, 'thread.glb'))).toString('latin1', 0, 4), 'glTF');
+await assert.rejects(inProject('node', 'thread.mjs', 'empty.png', 'x.glb'), ({ code, stderr }) => code === 2 && stderr === 'empty.png: is empty\n');
+
 await run(infer, [join(project, 'hero.png'), '-o', project, '--formats', 'json', '--clips', 'none', '--quiet']);
 await writeFile(join(project, 'same.mjs'), `
 import assert from 'node:assert/strict';
@@ -56,15 +62,45 @@ assert.notDeepEqual(mended.glb, character.glb);
 
 const rgba = new Uint8Array(4 * 100 * 100).fill(255);
 await assert.rejects(rig({ width: 100, height: 100, rgba }, { name: 'white' }), (error) => error instanceof SkelError && error.message.startsWith('white: '));
-await assert.rejects(rig(drawing, { name, mask: drawing.subarray(0, 100) }), /^SkelError: the mask: /);
-await assert.rejects(rig(drawing, { name, plan: 'snake' }), SkelError);
-await assert.rejects(rig(drawing, { name, skeleton: '{' }), /^SkelError: the skeleton: /);
 assert.deepEqual((await rig(drawing, { name })).glb, character.glb);
 `);
 await inProject('node', 'same.mjs');
+await cp(`${root}/web/test/npm_given.mjs`, join(project, 'given.mjs'));
+await inProject('node', 'given.mjs');
 
-// In TypeScript.
-await inProject('node', `${modules}/typescript/bin/tsc`, '--noEmit', '--strict', '--module', 'nodenext', '--target', 'es2022', '--lib', 'es2022,dom', 'typed.ts');
+// In TypeScript: the example, those of the documentation, and what must not compile.
+await symlink(`${modules}/@types`, join(project, 'node_modules/@types'));
+await writeFile(join(project, 'around.d.ts'), `
+import type { PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+declare global { const renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera, drawing: Uint8Array; }
+`);
+const typed = ['around.d.ts', 'typed.ts', 'wrong.ts'];
+await writeFile(join(project, 'wrong.ts'), `
+import { rig } from 'skel';
+// @ts-expect-error
+rig('hero.png');
+// @ts-expect-error
+rig(new Uint8Array(), { plan: 'spider' });
+// @ts-expect-error
+rig(new Uint8Array(), { figur: 1 });
+`);
+for (const file of ['web/npm/README.md', 'docs/javascript.md'])
+  for (const [, example] of (await readFile(join(root, file), 'utf8')).matchAll(/^```js\n(.*?)^```$/gms)) {
+    typed.push(`example${typed.length}.ts`);
+    await writeFile(join(project, typed.at(-1)), `${example}\nexport {};\n`);
+  }
+assert.ok(typed.length >= 6);
+for (const compiler of ['typescript', 'typescript-5.6'])
+  await inProject('node', `${modules}/${compiler}/bin/tsc`, '--noEmit', '--strict', '--skipLibCheck', '--module', 'nodenext', '--target', 'es2022', '--lib', 'es2022,dom', ...typed)
+    .catch(({ stdout: complaints }) => assert.fail(`${compiler}: ${complaints}`));
+
+// Bundled, as docs/javascript.md says: what the bundle loads lies beside it.
+const bundled = join(project, 'bundled');
+await writeFile(join(project, 'app.mjs'), "import { rig } from 'skel';\nimport 'skel/element';\nglobalThis.rig = rig;\n");
+await build({ entryPoints: [join(project, 'app.mjs')], bundle: true, format: 'esm', outfile: join(bundled, 'app.js') });
+for (const file of await readdir(join(project, 'node_modules/skel')))
+  if (/^(nets|skel\.wasm|worker-thread\.js|chunk-.*\.js)$/.test(file)) await cp(join(project, 'node_modules/skel', file), join(bundled, file), { recursive: true });
+await writeFile(join(bundled, 'index.html'), '<!DOCTYPE html><script type="module" src="app.js"></script><skel-drawing src="../hero.png" clip="dance"></skel-drawing>');
 
 // In a browser.
 const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm', '.png': 'image/png' };
@@ -128,14 +164,43 @@ try {
     element.addEventListener('error', ({ detail }) => resolve(detail.name + ': ' + detail.message), { once: true });
     ${work}
   })`);
-  assert.match(await complaint("element.show(new Blob(['x']), { name: 'x.png' });"), /^SkelError: x\.png: /);
-  assert.match(await complaint("element.src = 0; element.setAttribute('src', 'none.png');"), /none\.png: 404/);
+  const shown = () => page.evaluate(() => document.querySelector('skel-drawing').shadowRoot.querySelector('[part=error]').textContent);
+  assert.match(await complaint("element.show(new Blob(['x']), { name: 'x.png' }).catch(() => {});"), /^SkelError: x\.png: is not a picture/);
+  assert.match(await shown(), /^x\.png: is not a picture/);
+  assert.match(await page.evaluate(() => document.querySelector('skel-drawing').show('x').catch(String)), /^SkelError: the drawing: is the text "x"/);
+  assert.match(await page.evaluate(() => document.createElement('skel-drawing').show(new Blob(['x'])).catch(String)), /^SkelError: <skel-drawing>: /);
+  assert.match(await complaint("element.src = 'none.png';"), /^SkelError: none\.png: 404/);
+  assert.match(await complaint("element.clip = 'fly';"), /^SkelError: clip: there is no "fly"; there are .*dance/);
+  assert.match(await shown(), /"fly"/);
+  await page.evaluate(() => { document.querySelector('skel-drawing').clip = 'dance'; });
+  assert.equal(await shown(), '');
+  // The last of two drawings counts.
+  assert.deepEqual(await page.evaluate(async () => {
+    const element = document.querySelector('skel-drawing'), hero = await (await fetch('hero.png')).blob();
+    const both = await Promise.all([element.show(new Blob(['x'])), element.show(hero, { name: 'second.png' })]);
+    return both.map((character) => character?.name);
+  }), [undefined, 'second.png']);
+  // Of a worker that has been stopped nothing is waited for; what cannot be sent to one is said.
+  assert.deepEqual(await page.evaluate(async () => {
+    const { startWorker } = await import('./node_modules/skel/worker.js');
+    const hero = await (await fetch('hero.png')).blob(), worker = startWorker();
+    const said = [await worker.rig(await fetch('hero.png')).catch(({ name }) => name), await worker.rig(hero, { figure: 0 }).catch(({ name }) => name)];
+    const asked = worker.rig(hero).catch(String);
+    worker.stop();
+    return [...said, await asked, await worker.rig(hero).catch(String)];
+  }), ['SkelError', 'SkelError', 'Error: stopped', 'Error: stopped']);
   await page.evaluate(() => { document.querySelector('skel-drawing').clip = ''; });
   await page.waitForTimeout(300);
   assert.ok(!await moves(page));
   assert.deepEqual(page.problems, []);
+  await page.close();
+
+  const bundle = await open('bundled/index.html');
+  await bundle.waitForFunction(() => document.querySelector('skel-drawing').clips?.includes('dance'));
+  assert.equal(await bundle.evaluate(async () => (await globalThis.rig(await (await fetch('../hero.png')).blob())).plan), 'biped');
+  assert.deepEqual(bundle.problems, []);
 } finally {
   await browser.close();
   server.close();
 }
-console.log(`npm: ${Math.round(size / 1e4) / 100} MB packed; node, TypeScript, a three.js scene and the element work`);
+console.log(`npm: ${Math.round(size / 1e4) / 100} MB packed; node, TypeScript, a three.js scene, the element and a bundle work`);
