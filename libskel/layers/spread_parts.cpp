@@ -42,16 +42,19 @@ cv::Mat openness(const cv::Mat& rgb, const cv::Mat& mask, double range, const cv
   cv::split(high - low, channels);
   change = cv::max(channels[0], cv::max(channels[1], channels[2]));
   cv::resize(change, change, size, 0, 0, cv::INTER_NEAREST);
-  cv::Mat inside, around, known;
+  cv::Mat inside, on_figure, sums, counts;  // of all above and left of a px, in whole numbers
   cv::resize(mask, inside, size, 0, 0, cv::INTER_NEAREST);
-  change.convertTo(around, CV_32F);
-  around.setTo(0, inside == 0);
-  cv::Mat(inside != 0).convertTo(known, CV_32F, 1 / 255.);
-  const int window = 2 * std::max(1, cvRound(kAround * std::max(size.width, size.height))) + 1;
-  cv::blur(around, around, cv::Size(window, window)), cv::blur(known, known, cv::Size(window, window));
+  change.copyTo(on_figure, inside);
+  cv::integral(on_figure, sums, CV_32S), cv::integral(inside != 0, counts, CV_32S);
+  const int reach = std::max(1, cvRound(kAround * std::max(size.width, size.height)));
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
-      const double mean = around.at<float>(y, x) / std::max(known.at<float>(y, x), 1e-6f);
+      const int x0 = std::max(0, x - reach), x1 = std::min(size.width, x + reach + 1);
+      const int y0 = std::max(0, y - reach), y1 = std::min(size.height, y + reach + 1);
+      const auto within = [&](const cv::Mat& of) {
+        return of.at<int>(y1, x1) - of.at<int>(y0, x1) - of.at<int>(y1, x0) + of.at<int>(y0, x0);
+      };
+      const double mean = 255. * within(sums) / std::max(255, within(counts));
       const double contrast = kOpenContrast * range + kAmongOthers * std::max(0., mean - kFew * range);
       open.at<double>(y, x) = std::max(kLeastOpen, std::exp(-change.at<std::uint8_t>(y, x) / contrast));
     }
