@@ -42,21 +42,21 @@ cv::Mat openness(const cv::Mat& rgb, const cv::Mat& mask, double range, const cv
   cv::split(high - low, channels);
   change = cv::max(channels[0], cv::max(channels[1], channels[2]));
   cv::resize(change, change, size, 0, 0, cv::INTER_NEAREST);
-  cv::Mat inside, on_figure, sums, counts;  // of all above and left of a px, in whole numbers
+  cv::Mat inside, on_figure, sums, counts;  // around each, in whole numbers
   cv::resize(mask, inside, size, 0, 0, cv::INTER_NEAREST);
   change.copyTo(on_figure, inside);
-  cv::integral(on_figure, sums, CV_32S), cv::integral(inside != 0, counts, CV_32S);
-  const int reach = std::max(1, cvRound(kAround * std::max(size.width, size.height)));
+  const int window = 2 * std::max(1, cvRound(kAround * std::max(size.width, size.height))) + 1;
+  const auto sumUp = [&](const cv::Mat& of, cv::Mat& sum) {
+    cv::boxFilter(of, sum, CV_32S, cv::Size(window, window), cv::Point(-1, -1), false, cv::BORDER_CONSTANT);
+  };
+  sumUp(on_figure, sums), sumUp(inside != 0, counts);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
-      const int x0 = std::max(0, x - reach), x1 = std::min(size.width, x + reach + 1);
-      const int y0 = std::max(0, y - reach), y1 = std::min(size.height, y + reach + 1);
-      const auto within = [&](const cv::Mat& of) {
-        return of.at<int>(y1, x1) - of.at<int>(y0, x1) - of.at<int>(y1, x0) + of.at<int>(y0, x0);
-      };
-      const double mean = 255. * within(sums) / std::max(255, within(counts));
+      const double mean = 255. * sums.at<int>(y, x) / std::max(255, counts.at<int>(y, x));
       const double contrast = kOpenContrast * range + kAmongOthers * std::max(0., mean - kFew * range);
-      open.at<double>(y, x) = std::max(kLeastOpen, std::exp(-change.at<std::uint8_t>(y, x) / contrast));
+      // Rounded to floats, the exponentials of all C libraries are the same.
+      const auto through = static_cast<float>(std::exp(-change.at<std::uint8_t>(y, x) / contrast));
+      open.at<double>(y, x) = std::max<double>(kLeastOpen, through);
     }
   return open;
 }
