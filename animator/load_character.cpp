@@ -30,19 +30,6 @@ std::string endingOf(const std::string& path) {
   return ending;
 }
 
-// Where skel-infer's results of that figure lie, without their endings: beside the drawing, or where it
-// writes them unless told otherwise; with a number if all figures were rigged. "": nowhere.
-std::string resultsOf(const std::string& drawing, int figure) {
-  const fs::path beside = fs::path(drawing).replace_extension();
-  for (const fs::path& results : {beside, "out" / beside.filename()})
-    for (const std::string& number : {std::string(), "-" + std::to_string(figure)}) {
-      const std::optional<SkeletonSource> result =
-          sourceOfSkeleton(results.string() + number + kSkeletonFileEnding);
-      if (result && result->number == figure) return results.string() + number;
-    }
-  return "";
-}
-
 }  // namespace
 
 void bindCharacterSource(CLI::App& app, CharacterSource& source) {
@@ -95,14 +82,14 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
   request.source = source.path;
   request.image_sha256 = sha256(bytes);
   request.figure = given ? figureOf(*given, source.skeleton, source.figure) : source.figure;
-  request.results = resultsOf(source.path, request.figure);
   request.skeleton = source.skeleton;
   request.takes_up = !source.force;
   RigInput input;
   input.image = decodeImage(bytes, source.path);
   MendedRig rig = rigMended(request, options, std::move(input), given);
   DrawnCharacter result{std::move(rig.drawing), std::move(rig.warnings), {}};
-  for (const auto& note : {mendedNote(rig.files, request, rig.placed), earlierNote(rig.files)})
+  for (const auto& note :
+       {mendedNote(rig.files, request, rig.placed), earlierNote(rig.files), fitsAgainNote(rig.files)})
     if (note) result.mended.push_back(*note);
   return result;
 }

@@ -39,8 +39,8 @@ struct DrawnCharacter {
   std::vector<std::string> warnings;  // of the figure and its joints, a clause each
   std::vector<Note> mended;           // of what a person has made for it: taken up, or left out
 };
-// With the motions of skel that fit it, and with what a person has mended, as skel-infer takes it up: beside
-// the drawing, and among skel-infer's results beside it or in out/. Throws InputError.
+// With the motions of skel that fit it, and with what a person has mended (libskel/mended/mend_places.h), as
+// skel-infer takes it up. Throws InputError.
 DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips = {});
 
 // A drawing is rigged first, with the motions of skel that fit it, a model bound. Throws InputError: cannot

@@ -22,7 +22,7 @@ std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& 
   struct Result {
     const char *format, *ending, *start, *end;  // <stem><start>, a number, <end>: a drawing is none of them
   };
-  constexpr Result kResults[] = {{"json", kSkeletonFileEnding, ".skeleton.old", ".json"},
+  constexpr Result kResults[] = {{"json", kSkeletonFileEnding, kEarlierSkeletonStart, kEarlierSkeletonEnd},
                                  {"silhouette", ".silhouette.png", ".old", ".silhouette.png"}};
   const std::string stem =
       skeleton_path.substr(0, skeleton_path.size() - std::string_view(kSkeletonFileEnding).size());
@@ -30,10 +30,10 @@ std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& 
   for (const Result& result : kResults) {
     const std::string path = stem + result.ending;
     if (!writes(options, result.format) || !contains(files.earlier, path)) continue;
-    std::string kept = stem + result.start + result.end;
+    const auto named = [&](int number) { return earlierName(stem + result.start, result.end, number); };
+    std::string kept = named(1);
     std::error_code failure;
-    for (int number = 2; fs::exists(fs::symlink_status(kept, failure)); ++number)
-      kept = stem + result.start + "-" + std::to_string(number) + result.end;
+    for (int number = 2; fs::exists(fs::symlink_status(kept, failure)); ++number) kept = named(number);
     fs::rename(path, kept, failure);
     if (failure) throw OutputError(path, "cannot be kept as " + kept + ": " + failure.message());
     all.push_back({path, kept});

@@ -19,19 +19,20 @@ namespace skel {
 namespace fs = std::filesystem;
 namespace {
 
-// Of all that was left beside the drawing, and of a mended skeleton that is no output of this run (else it is
-// known by the output's hash). "": there is nothing.
+// Of all that a person has mended, but of a skeleton that is an output of this run, which is known by the
+// output's hash. "": there is nothing.
 std::string mendedHash(const InferOptions& options, const RigJob& job, const std::string& image_sha256) {
-  const bool skeleton_is_output = writes(options, "json");
   const LookAtOutputs look;  // a silhouette that was painted in place is one of them
   std::string all;
   const FigureRange range = figuresAskedFor(options);
   for (int figure = range.first; figure <= range.last; ++figure) {
-    const MendedFiles files = mendedFiles(mendRequest(options, job, figure, image_sha256));
+    const MendRequest request = mendRequest(options, job, figure, image_sha256);
+    const MendedFiles files = mendedFiles(request);
+    const bool is_output = writes(options, "json") && files.skeleton == request.results + kSkeletonFileEnding;
     const auto add = [&](const char* what, const std::string& file) {
       if (!file.empty()) all += std::to_string(figure) + what + sha256(readFile(file)) + "\n";
     };
-    if (!skeleton_is_output) add(" skeleton ", files.skeleton);
+    if (!is_output) add(" skeleton ", files.skeleton);
     add(" labels ", files.labels), add(" mask ", files.mask);
     add(" limbs ", files.limbs), add(" back ", files.back);
   }

@@ -140,6 +140,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   result.notes = notesOf(options, rig, drawing);
   if (const auto note = mendedNote(mended.files, request, mended.placed)) result.notes.push_back(*note);
   if (const auto note = earlierNote(mended.files, kept)) result.notes.push_back(*note);
+  if (const auto note = fitsAgainNote(mended.files)) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
     result.advice = adviceOn(drawing, file, result.mend_file);
     result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front());

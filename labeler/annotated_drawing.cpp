@@ -61,14 +61,24 @@ bool isSkeletonOf(const std::string& path, const SkeletonTemplate& body_plan) {
   return path.ends_with(kSkeletonFileEnding) && templateOfSkeleton(readFile(path), path) == body_plan.name;
 }
 
-// Nothing where it is of another figure than the first: label files are of that one.
-std::optional<AnnotatedDrawing> readSkeleton(const std::string& path, const SkeletonTemplate& body_plan) {
+bool liesBelow(const fs::path& dir, const fs::path& file) {
+  const fs::path below = fs::weakly_canonical(fs::absolute(file)).lexically_relative(fs::canonical(dir));
+  return !below.empty() && *below.begin() != "..";
+}
+
+// Nothing where it is of another figure than the first: label files are of that one. `dir`: that is read.
+std::optional<AnnotatedDrawing> readSkeleton(const std::string& path, const std::string& dir,
+                                             const SkeletonTemplate& body_plan) {
   const SkeletonFile file = readSkeletonFile(path, body_plan);
   if (file.figure.number != 1) return std::nullopt;
   const auto beside = [&](const std::string& name) {
     return (fs::path(path).parent_path() / name).lexically_normal().string();
   };
   AnnotatedDrawing drawing{path, beside(file.image_file), std::nullopt, {}, {}, {}};
+  // A name in a file leads out only to the picture that the file was made of.
+  if (file.image_sha256.empty() && !liesBelow(dir, drawing.image))
+    throw InputError(path, "does not know the hash of " + drawing.image + ", which lies outside of " + dir +
+                               "; find its joints anew (skel-infer)");
   if (!file.image_sha256.empty() && sha256(readFile(drawing.image)) != file.image_sha256)
     throw InputError(path, drawing.image + " has changed since; find its joints anew (skel-infer)");
   if (file.mask) drawing.mask = beside(file.mask->file);
@@ -107,7 +117,7 @@ std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir,
     annotated.insert(fs::path(drawing.image).lexically_normal().string());
   for (const std::string& file : filesBelow(dir))
     if (isSkeletonOf(file, body_plan))
-      if (auto drawing = readSkeleton(file, body_plan); drawing && !annotated.contains(drawing->image))
+      if (auto drawing = readSkeleton(file, dir, body_plan); drawing && !annotated.contains(drawing->image))
         drawings.push_back(std::move(*drawing));
   std::sort(drawings.begin(), drawings.end(), [](const AnnotatedDrawing& a, const AnnotatedDrawing& b) {
     return std::tie(a.image, a.source) < std::tie(b.image, b.source);

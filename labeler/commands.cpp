@@ -10,6 +10,7 @@
 #include "libskel/classifier/weights_file.h"
 #include "libskel/cli/number.h"
 #include "libskel/cli/outputs.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/text.h"
 #include "libskel/skeleton/motion_file.h"
@@ -27,6 +28,15 @@ ExitCode report(const ImportCounts& counts) {
   print(std::to_string(counts.made) + " label files made, " + std::to_string(counts.kept) +
         " kept as they were, " + std::to_string(counts.failed) + " failed\n");
   return counts.exit_code;
+}
+
+std::string namesOf(const std::set<std::string>& folders) {
+  constexpr std::size_t kMostNamed = 4;
+  std::vector<std::string> names;
+  for (const std::string& folder : folders)
+    if (names.size() < kMostNamed) names.push_back(shellWord(folder));
+  const std::size_t more = folders.size() - names.size();
+  return joined(names) + (more > 0 ? " and " + std::to_string(more) + " more folders" : "");
 }
 
 Mlp mlpOf(const LabelerOptions& options) {
@@ -107,7 +117,8 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
                 const ExitCode code = report(counts);
                 if (counts.made > 0)
                   print(std::to_string(counts.joints_placed) + " joints placed, " +
-                        std::to_string(counts.joints_found) + " found\n");
+                        std::to_string(counts.joints_found) + " found\nwritten into " +
+                        namesOf(counts.folders) + "\n");
                 return code;
               });
   import->add_option("-o,--output", options.import.output,

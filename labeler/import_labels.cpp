@@ -85,6 +85,8 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
   const LabelFile labels = labelImage(image_path, mask, drawing.joints, body_plan, {}, drawing.recognized);
   writeLabelFile(label_path, labels);
   countJoints(labels, body_plan, counts);
+  const std::string folder = fs::path(label_path).lexically_normal().parent_path().string();
+  counts.folders.insert(folder.empty() ? "." : folder);
   return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 
 #include "libskel/core/error.h"
@@ -20,6 +21,7 @@ struct ImportCounts {
   int kept = 0;  // there was a label file already
   int failed = 0;
   int joints_placed = 0, joints_found = 0;  // in those made: by a person, by the program
+  std::set<std::string> folders;            // that those made lie in
   ExitCode exit_code = ExitCode::kDone;     // of the first failure
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
@@ -36,20 +37,37 @@ bool hasSize(const Image& limbs, const Image& image) {
   return limbs.width == image.width && limbs.height == image.height;
 }
 
+std::string lastThatFits(const std::string& results, const MendRequest& request) {
+  std::string fitting;
+  for (int number = 1;; ++number) {
+    const std::string path = earlierName(results + kEarlierSkeletonStart, kEarlierSkeletonEnd, number);
+    if (std::error_code unknown; !fs::is_regular_file(path, unknown)) return fitting;
+    const std::optional<SkeletonSource> source = sourceOfSkeleton(path);
+    if (source && source->number == request.figure && source->image_sha256 == request.image_sha256)
+      fitting = path;
+  }
+}
+
 }  // namespace
+
+std::string earlierName(const std::string& start, const std::string& end, int number) {
+  return start + (number > 1 ? "-" + std::to_string(number) : "") + end;
+}
+
+std::string earlierThatFits(const std::vector<MendPlace>& places, const MendRequest& request) {
+  for (const MendPlace& place : places)
+    if (const std::string path = lastThatFits(place.results.empty() ? place.made : place.results, request);
+        !path.empty())
+      return path;
+  return "";
+}
 
 void leaveOutEarlier(MendedFiles& files, const MendRequest& request,
                      const std::optional<SkeletonSource>& result) {
   const std::string& image_sha256 = request.image_sha256;
   const bool changed = result && !result->image_sha256.empty() && result->image_sha256 != image_sha256;
-  if (changed && !files.skeleton.empty()) leaveOut(files.skeleton, files);
-  if (changed && files.painted_silhouette) {
-    leaveOut(files.mask, files);
-    files.painted_silhouette = false;
-  }
 
-  const bool found_labels = files.labels != request.skeleton,
-             found_mask = files.mask != request.mask && !files.painted_silhouette;
+  const bool found_labels = files.labels != request.skeleton, found_mask = files.mask != request.mask;
   const std::string mask_sha256 = found_mask ? sha256(readFile(files.mask)) : "";
   const std::optional<LabelFile> labels = labelsIn(found_labels ? files.labels : "");
   const bool are_of_mask = labels && found_mask && labels->mask && labels->mask->sha256 == mask_sha256;
@@ -97,6 +115,13 @@ std::optional<Note> earlierNote(const MendedFiles& files, const std::vector<Kept
   }
   const std::string shared = "mended for an earlier picture of this name, not taken up for this one";
   return Note{shared + ": " + joined(names), shared, joined(names)};
+}
+
+std::optional<Note> fitsAgainNote(const MendedFiles& files) {
+  if (files.fits_again.empty()) return std::nullopt;
+  const std::string what = fileName(files.fits_again) + " fits this picture: --skeleton ";
+  const std::string shared = "mended for this very picture before it changed, and not taken up by itself";
+  return Note{shared + ": " + what + shellWord(files.fits_again), shared, what + shellWord(files.fits_again)};
 }
 
 }  // namespace skel

@@ -7,12 +7,22 @@
 #include <string>
 #include <vector>
 
+#include "libskel/mended/mend_places.h"
 #include "libskel/mended/mended_files.h"
 
 namespace skel {
 
-// Moves files that nobody named and that were made for another picture than the request's from their place in
-// `files` to `earlier`. `result`: what the earlier result, if there is one, was found in.
+// What a result that was made for an earlier picture is called from then on: `start`, a number from the
+// second on, `end`.
+std::string earlierName(const std::string& start, const std::string& end, int number);
+inline constexpr const char *kEarlierSkeletonStart = ".skeleton.old", *kEarlierSkeletonEnd = ".json";
+
+// The last one among those of the first of the places that has one of this very picture and figure; or "".
+std::string earlierThatFits(const std::vector<MendPlace>& places, const MendRequest& request);
+
+// Moves labels, and the mask that they speak of, that nobody named and that were made for another picture
+// than the request's from their place in `files` to `earlier`, and notes what may have been. `result`: what
+// the earlier result, if there is one, was found in.
 void leaveOutEarlier(MendedFiles& files, const MendRequest& request,
                      const std::optional<SkeletonSource>& result);
 
@@ -29,5 +39,8 @@ struct KeptFile {
 
 // Which files were left out; nothing where none was.
 std::optional<Note> earlierNote(const MendedFiles& files, const std::vector<KeptFile>& kept = {});
+
+// What to do to go back to a picture that was there before; nothing where there is no skeleton of it.
+std::optional<Note> fitsAgainNote(const MendedFiles& files);
 
 }  // namespace skel

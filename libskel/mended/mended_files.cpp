@@ -12,6 +12,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/mended/earlier_picture.h"
+#include "libskel/mended/mend_places.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/silhouette/outline.h"
 
@@ -26,12 +27,59 @@ std::string ifThere(const std::string& path) {
   return fs::is_regular_file(path, unknown) ? path : "";
 }
 
+std::string backIn(const MendPlace& place) {
+  for (const char* ending : {".back.png", ".back.jpg", ".back.jpeg"})
+    if (const std::string back = ifThere(place.made + ending); !back.empty()) return back;
+  return "";
+}
+
+// Not of a file that cannot be read.
+bool areOfPicture(const std::string& labels, const std::string& image_sha256) {
+  if (ifThere(labels).empty()) return false;
+  try {
+    return readLabelFile(labels).image.sha256 == image_sha256;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+bool sameBytes(const std::string& path, const std::string& other_path) {
+  const LookAtOutputs look;
+  return readFile(path) == readFile(other_path);
+}
+
+using AreSame = bool (*)(const std::string& path, const std::string& other_path);
+
+// The first that is there is taken.
+void offer(std::string& taken, const std::string& path, AreSame are_same, MendedFiles& files) {
+  if (ifThere(path).empty()) return;
+  if (taken.empty())
+    taken = path;
+  else if (std::error_code unknown; !fs::equivalent(taken, path, unknown) && !are_same(taken, path))
+    files.passed_over.push_back({path, taken});
+}
+
+void offerResult(std::string& taken, const std::string& path, const MendPlace& place, AreSame are_same,
+                 MendedFiles& files) {
+  if (place.is_earlier)
+    files.earlier.push_back(path);
+  else
+    offer(taken, path, are_same, files);
+}
+
+// That tells whether the picture has changed.
+std::optional<SkeletonSource> resultAmong(const std::vector<MendPlace>& places) {
+  for (const MendPlace& place : places)
+    if (place.result) return place.result;
+  return std::nullopt;
+}
+
 // Painted since the result was written, or before, when its skeleton file took it for its mask. False where
 // that cannot be told.
-bool isPaintedSilhouette(const std::string& path, const std::string& skeleton_path,
-                         const std::optional<SkeletonSource>& result) {
+bool isPaintedSilhouette(const std::string& path, const MendPlace& place) {
+  const std::optional<SkeletonSource>& result = place.result;
   if (!result || ifThere(path).empty()) return false;
-  if (result->mask) return fs::path(skeleton_path).parent_path() / result->mask->file == fs::path(path);
+  if (result->mask) return fs::path(place.results).parent_path() / result->mask->file == fs::path(path);
   if (result->outline_sha256.empty() || result->number != 1) return false;
   try {
     const LookAtOutputs look;
@@ -77,30 +125,38 @@ MendedFiles mendedFiles(const MendRequest& request) {
   files.back = request.back;
   if (!request.takes_up) return files;
 
-  const std::string beside = fs::path(request.source).replace_extension().string();
-  const std::string skeleton = request.results.empty() ? "" : request.results + kSkeletonFileEnding;
-  const std::optional<SkeletonSource> result = sourceOfSkeleton(skeleton);
   const bool first = request.figure == 1 && !request.is_one_of_all;
-  if (request.skeleton.empty() && hasEditedJoint(skeleton)) files.skeleton = skeleton;
-  if (!fs::exists(beside + ".joints.json")) {
-    if (first && request.skeleton.empty()) {
-      files.labels = ifThere(beside + kLabelFileEnding);
-      if (files.mask.empty()) files.mask = ifThere(beside + ".mask.png");
-    }
-    if (request.finds_limbs && files.limbs.empty())
-      files.limbs =
-          ifThere(beside + (request.figure > 1 ? "-" + std::to_string(request.figure) : "") + ".limbs.png");
-    if (request.finds_back && files.back.empty() && first)
-      for (const char* ending : {".back.png", ".back.jpg", ".back.jpeg"})
-        if (files.back.empty()) files.back = ifThere(beside + ending);
+  const bool annotated = fs::exists(fs::path(request.source).replace_extension(".joints.json"));
+  const bool no_skeleton = request.skeleton.empty(), no_mask = request.mask.empty();
+  const std::string number = request.figure > 1 ? "-" + std::to_string(request.figure) : "";
+  const std::vector<MendPlace> places = mendPlaces(request);
+  std::string painted;
+  for (const MendPlace& place : places) {
+    const bool made = place.is_beside ? !annotated : place.is_of_picture;
+    if (made && no_mask && no_skeleton && first)
+      offer(files.mask, place.made + ".mask.png", sameBytes, files);
+    if (made && request.finds_limbs && request.limbs.empty())
+      offer(files.limbs, place.made + number + ".limbs.png", sameBytes, files);
+    if (made && request.finds_back && request.back.empty() && first)
+      offer(files.back, backIn(place), sameBytes, files);
+    const std::string labels = place.made + kLabelFileEnding;
+    if (no_skeleton && first && !(place.is_beside && annotated) &&
+        (place.is_beside || areOfPicture(labels, request.image_sha256)))
+      offer(files.labels, labels, sameBytes, files);
+    if (place.results.empty() || (place.is_beside && annotated && !place.is_own)) continue;
+    if (const std::string skeleton = place.results + kSkeletonFileEnding;
+        no_skeleton && hasEditedJoint(skeleton))
+      offerResult(files.skeleton, skeleton, place, haveSameJoints, files);
+    if (const std::string silhouette = place.results + ".silhouette.png";
+        no_skeleton && no_mask && first && isPaintedSilhouette(silhouette, place))
+      offerResult(painted, silhouette, place, sameBytes, files);
   }
-  const std::string silhouette = request.results + ".silhouette.png";
-  if (first && files.mask.empty() && request.skeleton.empty() &&
-      isPaintedSilhouette(silhouette, skeleton, result)) {
-    files.mask = silhouette;
-    files.painted_silhouette = true;
+  leaveOutEarlier(files, request, resultAmong(places));
+  if (!painted.empty()) {
+    files.painted_silhouette = files.mask.empty();
+    offer(files.mask, painted, sameBytes, files);
   }
-  leaveOutEarlier(files, request, result);
+  if (no_skeleton && files.skeleton.empty()) files.fits_again = earlierThatFits(places, request);
   return files;
 }
 
@@ -137,6 +193,7 @@ PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, 
       jointsOfLabels(files.labels, files.labels == request.skeleton, request.source, request.image_sha256);
   if (labelled.joints.empty()) return placed;
   placed.skeleton.reset();
+  placed.has_of_labels = true;
   for (const auto& joint : labelled.joints) {
     std::erase_if(placed.joints, [&](const auto& other) { return other.first == joint.first; });
     placed.joints.push_back(joint);
@@ -165,14 +222,26 @@ RigOptions forBodyPlan(const RigOptions& rig, const std::string& body_plan) {
 std::optional<Note> mendedNote(const MendedFiles& files, const MendRequest& request,
                                const PlacedJoints& placed) {
   std::vector<std::string> what;
-  const auto add = [&](const std::string& file, const std::string& named, const std::string& name) {
-    if (!file.empty() && file != named) what.push_back(name);
+  // "limbs (boy.limbs.png)"
+  const auto add = [&](const std::string& name, const std::vector<std::string>& from) {
+    std::string text = name + " (" + joined(from);
+    for (const MendedFiles::PassedOver& other : files.passed_over)
+      if (std::find(from.begin(), from.end(), other.for_file) != from.end())
+        text += "; not " + other.file + ", which differs";
+    what.push_back(text + ")");
   };
-  if (const std::size_t count = placed.joints.size(); count > 0 && request.skeleton.empty())
-    what.push_back(std::to_string(count) + (count == 1 ? " joint" : " joints"));
-  add(files.mask, request.mask, files.painted_silhouette ? "silhouette" : "mask");
-  add(files.limbs, request.limbs, "limbs");
-  add(files.back, request.back, "back");
+  const auto addFound = [&](const std::string& name, const std::string& file, const std::string& named) {
+    if (!file.empty() && file != named) add(name, {file});
+  };
+  if (const std::size_t count = placed.joints.size(); count > 0 && request.skeleton.empty()) {
+    std::vector<std::string> from;
+    if (!files.skeleton.empty()) from.push_back(files.skeleton);
+    if (placed.has_of_labels) from.push_back(files.labels);
+    add(std::to_string(count) + (count == 1 ? " joint" : " joints"), from);
+  }
+  addFound(files.painted_silhouette ? "silhouette" : "mask", files.mask, request.mask);
+  addFound("limbs", files.limbs, request.limbs);
+  addFound("back", files.back, request.back);
   if (what.empty()) return std::nullopt;
   const std::string shared = "made by hand and taken up (--force leaves it out)";
   return Note{shared + ": " + joined(what), shared, joined(what)};

@@ -18,12 +18,12 @@ namespace skel {
 struct MendRequest {
   std::string source;          // the drawing
   std::string image_sha256;    // of its bytes
-  std::string results;         // <results>.skeleton.json and .silhouette.png: an earlier run's
+  std::string results;         // where this run writes, without endings; "": nowhere
   int figure = 1;              // 1 is the largest
   bool is_one_of_all = false;  // all figures of the drawing are rigged
   std::string skeleton;        // a .skeleton.json as it stands, or all joints of a .labels.json
   std::string mask, limbs, back;
-  bool finds_limbs = true, finds_back = true;  // beside the drawing, where none are named
+  bool finds_limbs = true, finds_back = true;  // where none are named
   bool takes_up = true;                        // what nobody has named
 };
 
@@ -33,20 +33,27 @@ struct MendedFiles {
   std::string labels;    // with joints that a person has placed
   std::string mask, limbs, back;
   bool painted_silhouette =
-      false;  // the mask is the result of that name, painted in place: it is not written
+      false;  // the mask is a result of that name, painted in place: that one is not written
+
+  // Of each kind the first place's counts; files of later places that say something else.
+  struct PassedOver {
+    std::string file, for_file;
+  };
+  std::vector<PassedOver> passed_over;
 
   // A photo that was taken again has the name of the one before.
   std::vector<std::string> earlier;  // files made for that one: not among those above
+  std::string fits_again;            // a skeleton that was kept (earlierName()) and is of this picture
   bool mask_before = false;          // the mask was there before the picture changed
   bool limbs_before = false;         // the limbs may have been
 };
 
-// Those that are named, and what a person has left beside the drawing and among its results:
-// <source's stem>.mask.png, .labels.json, .limbs.png and .back.png beside the drawing (mask and labels of one
-// figure alone), an edited skeleton among the results, a silhouette among them that is not outlined as its
-// skeleton file says, or was that file's mask already. Nothing beside a drawing with <stem>.joints.json: that
-// is annotated, not mended. What was made for another picture than the request's is left out
-// (earlier_picture.h).
+// Those that are named, and what a person has left in the folders of mend_places.h, of each kind the first:
+// an edited skeleton, or a silhouette that is not outlined as its skeleton file says, or was that file's mask
+// already; <source's stem>.mask.png, .labels.json, .limbs.png and .back.png (mask and labels of one figure
+// alone), elsewhere than beside the drawing where they, or the result there, name its picture. Beside a
+// drawing with <stem>.joints.json nothing is looked for: that is annotated, not mended. What was made for
+// another picture than the request's is left out (earlier_picture.h).
 MendedFiles mendedFiles(const MendRequest& request);
 
 // Joints that a person has placed.
@@ -54,6 +61,7 @@ struct PlacedJoints {
   std::vector<std::pair<std::string, Eigen::Vector2d>> joints;  // image px
   std::string body_plan;                                        // that they belong to; "": either
   std::optional<SkeletonFile::Labels> labels;                   // where some of them are from; path as given
+  bool has_of_labels = false;                                   // of a label file, newer than the skeleton
   std::string outline_sha256;                                   // of the figure when they were mended; or ""
   // The result that they are in, which stands as it is: a person has seen all of it. Nothing where labels
   // have changed since.

@@ -1,7 +1,9 @@
 #include "libskel/skeleton/skeleton_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "libskel/core/error.h"
@@ -93,6 +95,27 @@ void markPlacedJoints(SkeletonFile& file, std::vector<std::optional<Eigen::Vecto
   file.confidence = markPlaced(file.skeleton, placed, file.confidence);
   for (const int joint : placed)
     std::erase(file.missing, file.skeleton.joints[static_cast<size_t>(joint)].name);
+}
+
+std::vector<double> numbersAt(const JsonValue& joint, const char* key) {
+  std::vector<double> result;
+  if (const auto value = joint.find(key); value && value->isArray())
+    for (const JsonValue& item : value->items())
+      if (item.isNumber()) result.push_back(item.asNumber());
+  return result;
+}
+
+// The places of joints by their names; joints that have none are left out.
+std::map<std::string, std::vector<double>> placesIn(const std::string& path) {
+  const LookAtOutputs look;
+  const JsonDocument document = JsonDocument::readFile(path);
+  std::map<std::string, std::vector<double>> places;
+  if (const auto joints = document.root().find("joints"))
+    for (const JsonValue& joint : joints->items())
+      if (const auto name = joint.find("name"); name && name->isString())
+        if (std::vector<double> place = numbersAt(joint, "image"); place.size() == 2)
+          places[name->asString()] = std::move(place);
+  return places;
 }
 
 }  // namespace
@@ -196,6 +219,7 @@ std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path) {
     const JsonValue root = document.root();
     root.checkFormat("skel-skeleton", kSkeletonVersion);
     SkeletonSource source;
+    source.image_file = root.at("image").at("file").asFileName();
     if (const auto hash = root.at("image").find("sha256")) source.image_sha256 = hash->asString();
     if (const auto json = root.find("figure")) {
       const SkeletonFile::Figure figure = figureAt(*json);
@@ -215,27 +239,29 @@ bool hasEditedJoint(const std::string& path) {
   const JsonDocument document = JsonDocument::readFile(path);
   const auto joints = document.root().find("joints");
   if (!joints) return false;
-  const auto numbers = [](const JsonValue& joint, const char* key) {
-    std::vector<double> result;
-    if (const auto value = joint.find(key); value && value->isArray())
-      for (const JsonValue& item : value->items())
-        if (item.isNumber()) result.push_back(item.asNumber());
-    return result;
-  };
   JointPlaces places;
   for (const JsonValue& joint : joints->items()) {
     if (const auto origin = joint.find("origin");
         origin && origin->isString() && origin->asString() == "edited")
       return true;
-    const auto at = numbers(joint, "image"), to = numbers(joint, "position");
+    const auto at = numbersAt(joint, "image"), to = numbersAt(joint, "position");
     if (at.size() != 2 || to.size() != 3) continue;
     places.image.emplace_back(at[0], at[1]);
     places.position.emplace_back(to[0], to[1]);
     places.found.emplace_back();
-    if (const auto found = numbers(joint, "found"); found.size() == 2)
+    if (const auto found = numbersAt(joint, "found"); found.size() == 2)
       places.found.back() = Eigen::Vector2d(found[0], found[1]);
   }
   return !movedIn(places).empty();
+}
+
+bool haveSameJoints(const std::string& path, const std::string& other_path) {
+  const auto near = [](double a, double b) { return std::abs(a - b) < 2 * kUnmoved_px; };
+  const auto places = placesIn(path), others = placesIn(other_path);
+  return std::equal(
+      places.begin(), places.end(), others.begin(), others.end(), [&](const auto& a, const auto& b) {
+        return a.first == b.first && near(a.second[0], b.second[0]) && near(a.second[1], b.second[1]);
+      });
 }
 
 }  // namespace skel

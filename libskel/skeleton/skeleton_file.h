@@ -56,6 +56,7 @@ std::string templateOfSkeleton(std::string_view text, const std::string& path);
 
 // What a skeleton was found in; hashes are empty where they are not known.
 struct SkeletonSource {
+  std::string image_file;  // a path relative to the skeleton file
   std::string image_sha256, outline_sha256;
   int number = 1;  // of the figure
   std::optional<SkeletonFile::Mask> mask;
@@ -67,5 +68,9 @@ std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path);
 // Whether a person has moved a joint in the skeleton file at `path`, said so or not. False where there is no
 // file.
 bool hasEditedJoint(const std::string& path);
+
+// Whether two skeleton files have the same joints at the same places, to the hundredth of a pixel that files
+// keep. Throws InputError: no JSON.
+bool haveSameJoints(const std::string& path, const std::string& other_path);
 
 }  // namespace skel

@@ -119,12 +119,12 @@ TEST_CASE("what a person has mended of a drawing is taken up in films, as skel-i
     labels.grid_width = labels.grid_height = kWorkingGridSize;
     labels.joints = {{"left_hand", Eigen::Vector2d(420, 300)}};
     writeLabelFile(dir.file("boy.labels.json"), labels);
-    CHECK(film("", taken_up + "1 joint") != drawn);
+    CHECK(film("", taken_up + "1 joint (boy.labels.json)") != drawn);
     CHECK(film("--force", "") == drawn);
     Image no_limbs(600, 600);
     no_limbs.rgba.setZero();
     writeFile(dir.file("boy.limbs.png"), encodePng(no_limbs));
-    CHECK(film("", taken_up + "1 joint, limbs") != drawn);
+    CHECK(film("", taken_up + "1 joint (boy.labels.json), limbs (boy.limbs.png)") != drawn);
     SECTION("labels that are named are of this drawing alone") {
       CHECK(film("--force --skeleton boy.labels.json", "") != drawn);
       fs::copy(SKEL_SOURCE_DIR "/datasets/characters/clown.png", dir.file("other.png"));
@@ -150,13 +150,40 @@ TEST_CASE("what a person has mended of a drawing is taken up in films, as skel-i
       const std::size_t start = text.find("\"image\":[", text.find("\"name\":\"left_hand\"")) + 9;
       text.replace(start, text.find(',', start) - start, "420.5");
       writeFile(path, text);
-      const std::string mended = film("", taken_up + "1 joint");
+      const std::string mended =
+          film("", taken_up + "1 joint (" + (folder == "." ? "" : folder + "/") + "boy.skeleton.json)");
       CHECK(mended != drawn);
       fs::rename(path, dir.file("named.skeleton.json"));
       CHECK(film("", "") == drawn);
       CHECK(film("--skeleton named.skeleton.json", "") == mended);
     }
   }
+}
+
+TEST_CASE("films take up what is mended in out/ beside the drawing, and say what counts where two differ") {
+  const TempDir dir;
+  writeFile(dir.file("in/boy.png"), readFile(kDrawing));
+  const std::string in_folder = "cd '" + dir.path() + "' && ";
+  const auto note = [&](const std::string& options) {
+    const ToolRun run = runTool(in_folder +
+                                "skel-animate render in/boy.png --clip wave --duration 0.1 --fps 10 --size "
+                                "64x64 -o film.gif " +
+                                options);
+    CHECK(run.exit_code == 0);
+    return run.err;
+  };
+  for (const std::string folder : {"out", "in/out"}) {
+    REQUIRE(runTool(in_folder + "skel-infer in/boy.png --force --formats json -o " + folder).exit_code == 0);
+    const std::string path = dir.file(folder + "/boy.skeleton.json");
+    std::string text = readFile(path);
+    const std::size_t start = text.find("\"image\":[", text.find("\"name\":\"left_hand\"")) + 9;
+    text.replace(start, text.find(',', start) - start, folder == "out" ? "420.5" : "410.5");
+    writeFile(path, text);
+    CHECK(note("") == "in/boy.png: note: made by hand and taken up (--force leaves it out): 1 joint (" +
+                          folder + "/boy.skeleton.json" +
+                          (folder == "out" ? "" : "; not out/boy.skeleton.json, which differs") + ")\n");
+  }
+  CHECK(note("--force").empty());
 }
 
 TEST_CASE("a film of a drawing says what skel-infer says of it, once for all films") {

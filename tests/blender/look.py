@@ -2,8 +2,11 @@
 # add-on, says what is there, and fails if bones, skin, clips or ground are not as they should be.
 import argparse
 import builtins
+import json
 import math
 import os
+import shutil
+import subprocess
 import sys
 import tempfile
 
@@ -32,6 +35,34 @@ def refusal(path):
     fail(f"{path} was imported")
 
 
+def check_mended(path, program):
+    """A joint that a person has moved, beside the drawing or in out/ beside it, comes along."""
+    for below in ("", "out"):
+        with tempfile.TemporaryDirectory() as folder:
+            drawing = shutil.copy(path, folder)
+            results = os.path.join(folder, below)
+            subprocess.run([program, drawing, "-o", results, "--formats", "json"], check=True, capture_output=True)
+            stem = os.path.splitext(os.path.basename(path))[0]
+            skeleton = os.path.join(results, stem + ".skeleton.json")
+            with open(skeleton) as file:
+                content = json.load(file)
+            content["joints"][-1]["image"][0] += 5
+            with open(skeleton, "w") as file:
+                json.dump(content, file)
+            said = mended_notes(drawing)
+            if f"1 joint ({skeleton})" not in said:
+                fail(f"a joint that was moved in {skeleton} is not taken up: {said}")
+    print("mended: joints beside the drawing and in out/ beside it come along")
+
+
+def mended_notes(path):
+    """What the add-on warns of when it imports the drawing."""
+    add_on = sys.modules["drawing_as_character"]
+    with tempfile.TemporaryDirectory() as results:
+        _, notes = add_on.rig(bpy.context.preferences.addons["drawing_as_character"].preferences.program, path, results, [])
+    return "\n".join(notes)
+
+
 def open_drawing(path, add_on, program):
     bpy.ops.preferences.addon_install(filepath=add_on)
     module = os.path.splitext(os.path.basename(add_on))[0]
@@ -47,7 +78,8 @@ def open_drawing(path, add_on, program):
         said = refusal(broken.name)
     if not said.startswith("skel-infer: ") or "\n" in said:
         fail(f"the add-on does not say what the tool says: {said}")
-    print("refused:", said)
+    print("add-on: says what the tool says of a missing program and of a file that is no picture")
+    check_mended(path, program)
     if bpy.ops.import_scene.drawing_as_character(filepath=path) != {"FINISHED"}:
         fail("the add-on imported nothing")
 

@@ -1,5 +1,6 @@
 // What a person has mended is taken up by the next run by itself, and what skel wrote is not taken for it.
 #include <filesystem>
+#include <map>
 
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
@@ -22,19 +23,30 @@ namespace {
 // A drawing without annotations, in that folder as boy.png.
 void drawBoy(const TempDir& dir) { writeFile(dir.file("boy.png"), readFile(kDrawing)); }
 
+constexpr const char* kSkeleton = "out/boy.skeleton.json";
+
 // Where the skeleton file has that joint.
-std::vector<double> placeIn(const TempDir& dir, const std::string& name) {
-  const JsonDocument document = JsonDocument::readFile(dir.file("out/boy.skeleton.json"));
+std::vector<double> placeIn(const TempDir& dir, const std::string& name,
+                            const std::string& file = kSkeleton) {
+  const JsonDocument document = JsonDocument::readFile(dir.file(file));
   for (const JsonValue& joint : document.root().at("joints").items())
     if (joint.at("name").asString() == name) return joint.at("image").asNumbers(2);
   return {};
 }
 
-void moveInFile(const TempDir& dir, const std::string& name, const std::string& x) {
-  std::string text = readFile(dir.file("out/boy.skeleton.json"));
+void moveInFile(const TempDir& dir, const std::string& name, const std::string& x,
+                const std::string& file = kSkeleton) {
+  std::string text = readFile(dir.file(file));
   const size_t start = text.find("\"image\":[", text.find("\"name\":\"" + name)) + 9;
   text.replace(start, text.find(',', start) - start, x);
-  writeFile(dir.file("out/boy.skeleton.json"), text);
+  writeFile(dir.file(file), text);
+}
+
+// All files below the folder, with what is in them.
+std::map<std::string, std::string> contentOf(const TempDir& dir, const std::string& folder) {
+  std::map<std::string, std::string> content;
+  for (const std::string& file : filesBelow(dir.file(folder))) content[file] = readFile(file);
+  return content;
 }
 
 // As skel-label saves them: one joint placed, one that was found.
@@ -69,7 +81,7 @@ TEST_CASE("a joint that was moved in the skeleton file stays where it was put, a
   for (int time = 0; time < 2; ++time) {
     const ToolRun again = infer(dir, "boy.png");
     CHECK(again.exit_code == 0);
-    CHECK_THAT(again.err, Contains(kTakenUp + std::string("1 joint\n")));
+    CHECK_THAT(again.err, Contains(kTakenUp + std::string("1 joint (out/boy.skeleton.json)\n")));
     CHECK(placeIn(dir, "left_hand") == std::vector<double>{420.5, before[1]});
   }
   SECTION("--force loses it") {
@@ -251,7 +263,7 @@ TEST_CASE(
   for (int time = 0; time < 2; ++time) {
     const ToolRun run = infer(dir, "boy.png");
     CHECK(run.exit_code == 0);
-    CHECK_THAT(run.err, Contains(kTakenUp + std::string("silhouette\n")));
+    CHECK_THAT(run.err, Contains(kTakenUp + std::string("silhouette (out/boy.silhouette.png)\n")));
     CHECK(readFile(path) == painted);
     CHECK(readFile(dir.file("out/boy.glb")) == readFile(dir.file("named/boy.glb")));
   }
@@ -272,7 +284,9 @@ TEST_CASE(
   }
   SECTION("a mask beside the drawing comes first") {
     fs::copy(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("boy.mask.png"));
-    CHECK_THAT(infer(dir, "boy.png").err, Contains(kTakenUp + std::string("mask\n")));
+    CHECK_THAT(
+        infer(dir, "boy.png").err,
+        Contains(kTakenUp + std::string("mask (boy.mask.png; not out/boy.silhouette.png, which differs)\n")));
   }
 }
 
@@ -294,7 +308,7 @@ TEST_CASE("joints placed in skel-label's folder mode are taken up, and changed b
   const auto right = placeIn(dir, "right_hand");
   const auto found = placeIn(dir, "left_hand");
   placeInLabels(dir, {found[0] - 8, found[1]});
-  CHECK_THAT(infer(dir, "boy.png").err, Contains(kTakenUp + std::string("1 joint\n")));
+  CHECK_THAT(infer(dir, "boy.png").err, Contains(kTakenUp + std::string("1 joint (boy.labels.json)\n")));
   CHECK(placeIn(dir, "left_hand")[0] == Approx(found[0] - 8));
   CHECK(placeIn(dir, "right_hand") == right);  // that one was found by a net, not placed
   SECTION("a later edit of the skeleton file counts, as the labels are the ones it was made with") {
@@ -317,7 +331,9 @@ TEST_CASE("a mask, painted limbs and a back beside the drawing are taken up") {
   fs::copy(dir.file("plain/boy.layers.png"), dir.file("boy.limbs.png"));
   fs::copy(kDrawing, dir.file("boy.back.png"));
   const ToolRun run = infer(dir, "boy.png");
-  CHECK_THAT(run.err, Contains(kTakenUp + std::string("mask, limbs, back\n")));
+  CHECK_THAT(
+      run.err,
+      Contains(kTakenUp + std::string("mask (boy.mask.png), limbs (boy.limbs.png), back (boy.back.png)\n")));
   REQUIRE(infer(dir, "boy.png -o named --mask boy.mask.png --layers boy.limbs.png --back boy.back.png")
               .exit_code == 0);
   CHECK(readFile(dir.file("out/boy.glb")) == readFile(dir.file("named/boy.glb")));
@@ -351,4 +367,122 @@ TEST_CASE("option --skeleton takes the joints of a label file, or says what to d
   CHECK(none.exit_code == 2);
   CHECK_THAT(none.err, Contains("none.labels.json: holds no joints, only classes of candidates; place them "
                                 "(skel-label boy.png, key J)"));
+}
+
+TEST_CASE(
+    "what was mended beside the drawing, in out/ beside it or in out/ of the working directory is taken up "
+    "by a run that writes elsewhere, which leaves it alone") {
+  const TempDir dir;
+  writeFile(dir.file("in/boy.png"), readFile(kDrawing));
+  const std::string folder = GENERATE("in", "in/out", "out");
+  CAPTURE(folder);
+  const std::string skeleton = folder + "/boy.skeleton.json";
+  REQUIRE(infer(dir, "in/boy.png -o " + folder).exit_code == 0);
+  const auto found = placeIn(dir, "left_hand", skeleton);
+  SECTION("what nobody has touched changes nothing and is not spoken of") {
+    const ToolRun run = infer(dir, "in/boy.png -o fresh");
+    CHECK(run.err.find("by hand") == run.err.npos);
+    CHECK(readFile(dir.file("fresh/boy.glb")) == readFile(dir.file(folder + "/boy.glb")));
+  }
+  SECTION("joints") {
+    moveInFile(dir, "left_hand", "420.5", skeleton);
+    const auto before = contentOf(dir, folder);
+    for (int time = 0; time < 2; ++time) {  // afterwards they are in the run's own skeleton file, too
+      const ToolRun run = infer(dir, "in/boy.png -o fresh");
+      CHECK(run.exit_code == 0);
+      CHECK_THAT(run.err, Contains(kTakenUp + std::string("1 joint (") +
+                                   (time == 0 ? skeleton : "fresh/boy.skeleton.json") + ")\n"));
+      CHECK(placeIn(dir, "left_hand", "fresh/boy.skeleton.json") == std::vector<double>{420.5, found[1]});
+    }
+    CHECK(contentOf(dir, folder) == before);
+    const ToolRun forced = infer(dir, "in/boy.png -o forced --force");
+    CHECK(forced.err.find("by hand") == forced.err.npos);
+    CHECK(placeIn(dir, "left_hand", "forced/boy.skeleton.json") == found);
+    CHECK(contentOf(dir, folder) == before);
+    SECTION("and a run with --resume is done again after they were moved") {
+      CHECK(infer(dir, "in/boy.png -o resumed --resume --formats glb").exit_code == 0);
+      CHECK_THAT(infer(dir, "in/boy.png -o resumed --resume --formats glb").out, Contains("done before"));
+      moveInFile(dir, "left_hand", "410.5", skeleton);
+      CHECK(infer(dir, "in/boy.png -o resumed --resume --formats glb").out.find("done before") ==
+            std::string::npos);
+    }
+  }
+  SECTION("a painted silhouette, limbs and a mask") {
+    const std::string silhouette = folder + "/boy.silhouette.png";
+    Plane8 mask = readMask(dir.file(silhouette));
+    mask.block(300, 240, 60, 120) = 255;
+    mask.block(0, 0, 20, 20) = 255;
+    writeFile(dir.file(silhouette), encodePng(mask));
+    REQUIRE(infer(dir, "in/boy.png --force -o plain --formats layers").exit_code == 0);
+    fs::copy(dir.file("plain/boy.layers.png"), dir.file(folder + "/boy.limbs.png"));
+    const std::string limbs = ", limbs (" + folder + "/boy.limbs.png)\n";
+    for (int time = 0; time < 2; ++time)
+      CHECK_THAT(infer(dir, "in/boy.png -o fresh").err,
+                 Contains(kTakenUp + std::string("silhouette (") + silhouette + ")" + limbs));
+    fs::copy(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file(folder + "/boy.mask.png"));
+    CHECK_THAT(infer(dir, "in/boy.png -o fresh").err,
+               Contains(kTakenUp + std::string("mask (") + folder + "/boy.mask.png; not " + silhouette +
+                        ", which differs)" + limbs));
+  }
+}
+
+TEST_CASE("of two folders with mended joints the first counts, and the line says which one does not") {
+  const TempDir dir;
+  writeFile(dir.file("in/boy.png"), readFile(kDrawing));
+  for (const std::string folder : {"in", "in/out", "out"}) {
+    REQUIRE(infer(dir, "in/boy.png --force -o " + folder).exit_code == 0);
+    moveInFile(dir, "left_hand", folder == "out" ? "430" : "420.5", folder + "/boy.skeleton.json");
+  }
+  const std::string note = "1 joint (in/boy.skeleton.json; not out/boy.skeleton.json, which differs)\n";
+  CHECK_THAT(infer(dir, "in/boy.png -o fresh").err, Contains(kTakenUp + note));
+  CHECK(placeIn(dir, "left_hand", "fresh/boy.skeleton.json")[0] == 420.5);
+  CHECK_THAT(infer(dir, "in/boy.png").err,
+             Contains("1 joint (out/boy.skeleton.json; not in/boy.skeleton.json, which differs; not "
+                      "in/out/boy.skeleton.json, which differs)\n"));
+  CHECK(placeIn(dir, "left_hand")[0] == 430);
+}
+
+TEST_CASE("what lies in out/ and belongs to another drawing of that name is not taken up") {
+  const TempDir dir;
+  writeFile(dir.file("a/boy.png"), readFile(SKEL_DATASETS "/characters/clown.png"));
+  writeFile(dir.file("b/boy.png"), readFile(kDrawing));
+  REQUIRE(infer(dir, "a/boy.png --formats json,silhouette,layers").exit_code == 0);
+  REQUIRE(infer(dir, "b/boy.png -o before").exit_code == 0);
+  moveInFile(dir, "left_hand", "300.5");
+  fs::copy(dir.file("out/boy.layers.png"), dir.file("out/boy.limbs.png"));
+  fs::copy(SKEL_DATASETS "/characters/clown.mask.png", dir.file("out/boy.mask.png"));
+  const ToolRun run = infer(dir, "b/boy.png -o after");
+  CHECK(run.err.find("mended") == run.err.npos);
+  CHECK(run.err.find("by hand") == run.err.npos);
+  CHECK(readFile(dir.file("after/boy.glb")) == readFile(dir.file("before/boy.glb")));
+  // Masks that nobody says anything of, too.
+  fs::remove(dir.file(kSkeleton));
+  CHECK(infer(dir, "b/boy.png -o after").err.find("by hand") == std::string::npos);
+  SECTION("a drawing that was replaced is spoken of, and nothing beside it is renamed") {
+    REQUIRE(infer(dir, "b/boy.png -o b --formats json").exit_code == 0);
+    moveInFile(dir, "left_hand", "300.5", "b/boy.skeleton.json");
+    writeFile(dir.file("b/boy.png"), readFile(SKEL_DATASETS "/characters/runner.png"));
+    const auto before = contentOf(dir, "b");
+    CHECK_THAT(infer(dir, "b/boy.png -o new").err, Contains(kEarlier + std::string("boy.skeleton.json\n")));
+    CHECK(contentOf(dir, "b") == before);
+  }
+}
+
+TEST_CASE("when the picture from before is back, a line names the skeleton that was mended for it") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  moveInFile(dir, "left_hand", "420.5");
+  takeAgain(dir, "clown");
+  constexpr const char* kFits =
+      "boy.skeleton.old.json fits this picture: --skeleton out/boy.skeleton.old.json\n";
+  REQUIRE(infer(dir, "boy.png").err.find("fits this picture") == std::string::npos);
+  drawBoy(dir);
+  for (const char* folder : {"out", "fresh"})
+    CHECK_THAT(infer(dir, std::string("boy.png -o ") + folder).err, Contains(kFits));
+  CHECK(infer(dir, "boy.png --force").err.find("fits this picture") == std::string::npos);
+  const ToolRun back = infer(dir, "boy.png --skeleton out/boy.skeleton.old.json");
+  CHECK(back.exit_code == 0);
+  CHECK(placeIn(dir, "left_hand")[0] == 420.5);
+  CHECK(infer(dir, "boy.png").err.find("fits this picture") == std::string::npos);
 }

@@ -124,7 +124,8 @@ TEST_CASE("import: beside the pictures, or copied, and labels of a person are ke
   copyCharacter("cap_boy", dir.file("in/a"));
   copyCharacter("box_robot", dir.file("in"));
   CHECK(label(dir, "import in -o out").out ==
-        "2 label files made, 0 kept as they were, 0 failed\n28 joints placed, 0 found\n");
+        "2 label files made, 0 kept as they were, 0 failed\n28 joints placed, 0 found\nwritten into out, "
+        "out/a\n");
   CHECK_FALSE(fs::exists(dir.file("in/a/cap_boy.labels.json")));
   CHECK(readFile(dir.file("out/a/cap_boy.png")) == readFile(dir.file("in/a/cap_boy.png")));
   CHECK(readFile(dir.file("out/a/cap_boy.mask.png")) == readFile(dir.file("in/a/cap_boy.mask.png")));
@@ -133,7 +134,8 @@ TEST_CASE("import: beside the pictures, or copied, and labels of a person are ke
   CHECK(set.characters.size() == 2);
 
   CHECK(label(dir, "import in").out ==
-        "2 label files made, 0 kept as they were, 0 failed\n28 joints placed, 0 found\n");
+        "2 label files made, 0 kept as they were, 0 failed\n28 joints placed, 0 found\nwritten into in, "
+        "in/a\n");
   const std::string path = dir.file("in/a/cap_boy.labels.json"), made = readFile(path);
   CHECK(made == readFile(dir.file("out/a/cap_boy.labels.json")));
   LabelFile mended = readLabelFile(path);
@@ -144,7 +146,8 @@ TEST_CASE("import: beside the pictures, or copied, and labels of a person are ke
   CHECK(label(dir, "import in").out == "0 label files made, 2 kept as they were, 0 failed\n");
   CHECK(readFile(path) == by_hand);
   CHECK(label(dir, "import in --force").out ==
-        "2 label files made, 0 kept as they were, 0 failed\n28 joints placed, 0 found\n");
+        "2 label files made, 0 kept as they were, 0 failed\n28 joints placed, 0 found\nwritten into in, "
+        "in/a\n");
   CHECK(readFile(path) == made);
 }
 
@@ -175,7 +178,7 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
   write("box_robot", plan, 1, true);
   fs::copy(kCharacters + "box_robot.joints.json", dir.file("box_robot.joints.json"));  // says more
   CHECK(label(dir, "import .").out ==
-        "2 label files made, 0 kept as they were, 0 failed\n15 joints placed, 13 found\n");
+        "2 label files made, 0 kept as they were, 0 failed\n15 joints placed, 13 found\nwritten into .\n");
   CHECK(label(dir, "check .").exit_code == 0);
   CHECK_FALSE(fs::exists(dir.file("runner.labels.json")));
   CHECK(readLabelFile(dir.file("box_robot.labels.json")).recognized.empty());
@@ -198,12 +201,28 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
   CHECK(contains(label(dir, "import found --force").out, "15 joints placed, 13 found\n"));
   CHECK(contains(label(dir, "stats .").out, "finished          1   50.0 %"));
   CHECK(label(dir, "import found --template quadruped").out ==
-        "1 label files made, 0 kept as they were, 0 failed\n0 joints placed, 16 found\n");
+        "1 label files made, 0 kept as they were, 0 failed\n0 joints placed, 16 found\nwritten into .\n");
 
   fs::copy_file(kCharacters + "runner.png", dir.file("cap_boy.png"), fs::copy_options::overwrite_existing);
   const ToolRun run = label(dir, "import found --force");
   CHECK(run.exit_code == 2);
   CHECK(contains(run.err, "found/cap_boy.skeleton.json: cap_boy.png has changed since"));
+}
+
+TEST_CASE("import: a skeleton without its picture's hash writes beside no picture outside of its folder") {
+  const TempDir dir;
+  fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
+  SkeletonFile file;
+  file.image_width = file.image_height = 600;
+  file.skeleton = presetSkeleton(loadTemplate("biped"), {150, 50}, {450, 550});
+  file.image_file = "../cap_boy.png";
+  writeFile(dir.file("found/cap_boy.skeleton.json"), formatSkeletonFile(file));
+  const ToolRun run = label(dir, "import found");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.err,
+                 "found/cap_boy.skeleton.json: does not know the hash of cap_boy.png, which lies "
+                 "outside of found; find its joints anew"));
+  CHECK_FALSE(fs::exists(dir.file("cap_boy.labels.json")));
 }
 
 TEST_CASE("import: a joint outside its picture, a mask of another size, a joint of no template") {
@@ -215,7 +234,8 @@ TEST_CASE("import: a joint outside its picture, a mask of another size, a joint 
   ToolRun run = label(dir, "import .");
   CHECK(run.exit_code == 2);
   CHECK(contains(run.err, "cap_boy.joints.json: joint head lies outside"));
-  CHECK(run.out == "1 label files made, 0 kept as they were, 1 failed\n14 joints placed, 0 found\n");
+  CHECK(run.out ==
+        "1 label files made, 0 kept as they were, 1 failed\n14 joints placed, 0 found\nwritten into .\n");
 
   writeFile(joints, R"({"joints": {"wing": [7, 3]}})");
   run = label(dir, "import .");

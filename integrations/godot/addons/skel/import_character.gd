@@ -48,11 +48,15 @@ func import(source_file, save_path, options, _platform_variants, _gen_files):
 func _rig(drawing: String, results: String, options: Dictionary) -> String:
 	var program = settings.get_setting("skel/program")
 	var said = []
-	var arguments = [drawing, "-o", results, "--formats", "glb", "--quiet",
+	var arguments = [drawing, "-o", results, "--formats", "glb",
 		"--template", options["drawing/template"], "--height", str(options["drawing/height"])]
-	if OS.execute(program, arguments, true, said, true) == 0:
-		return results + "/" + drawing.get_file().get_basename() + ".glb"
+	var code = OS.execute(program, arguments, true, said, true)
 	var lines = PoolStringArray(said).join("").strip_edges().split("\n")
+	if code == 0:
+		for line in lines:
+			if ": note: " in line:
+				print(line)
+		return results + "/" + drawing.get_file().get_basename() + ".glb"
 	if lines[-1].begins_with("skel-infer: "):
 		push_error(lines[-1])
 	else:

@@ -1,0 +1,73 @@
+#include "libskel/mended/mend_places.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "libskel/mended/mended_files.h"
+
+namespace skel {
+namespace fs = std::filesystem;
+namespace {
+
+fs::path whole(const fs::path& folder) {
+  std::error_code unknown;
+  return fs::weakly_canonical(fs::absolute(folder, unknown), unknown);
+}
+
+bool isOfDrawing(const SkeletonSource& result, const std::string& results, const std::string& drawing) {
+  std::error_code not_there;
+  return fs::equivalent(fs::path(results).parent_path() / result.image_file, drawing, not_there);
+}
+
+void judge(MendPlace& place, const MendRequest& request) {
+  if (!place.result) return;
+  const bool knows_picture = !place.result->image_sha256.empty();
+  const bool of_drawing = place.is_own || isOfDrawing(*place.result, place.results, request.source);
+  place.is_of_picture = knows_picture ? place.result->image_sha256 == request.image_sha256 : of_drawing;
+  place.is_earlier = of_drawing && !place.is_of_picture;
+}
+
+// With a number if all figures were rigged. Not where the run writes.
+MendPlace placeIn(const fs::path& folder, const MendRequest& request) {
+  MendPlace place;
+  place.made = (folder / fs::path(request.source).stem()).string();
+  for (const std::string& number : {std::string(), "-" + std::to_string(request.figure)}) {
+    MendPlace numbered = place;
+    numbered.results = place.made + number;
+    if (!request.results.empty() && whole(numbered.results) == whole(request.results)) continue;
+    numbered.result = sourceOfSkeleton(numbered.results + kSkeletonFileEnding);
+    if (!numbered.result || numbered.result->number != request.figure) continue;
+    judge(numbered, request);
+    if (numbered.is_of_picture || numbered.is_earlier) return numbered;
+  }
+  return place;
+}
+
+}  // namespace
+
+std::vector<MendPlace> mendPlaces(const MendRequest& request) {
+  std::vector<MendPlace> places;
+  std::vector<fs::path> seen;
+  const fs::path beside = fs::path(request.source).parent_path();
+  if (!request.results.empty()) {
+    const fs::path folder = fs::path(request.results).parent_path();
+    MendPlace own;
+    own.results = request.results;
+    own.made = (folder / fs::path(request.source).stem()).string();
+    own.result = sourceOfSkeleton(request.results + kSkeletonFileEnding);
+    own.is_own = true;
+    judge(own, request);
+    places.push_back(own);
+  }
+  for (const fs::path& folder : {beside, beside / "out", fs::path("out")}) {
+    const fs::path path = whole(folder);
+    if (std::find(seen.begin(), seen.end(), path) != seen.end()) continue;
+    seen.push_back(path);
+    places.push_back(placeIn(folder, request));
+  }
+  for (MendPlace& place : places)
+    place.is_beside = whole(fs::path(place.made).parent_path()) == whole(beside);
+  return places;
+}
+
+}  // namespace skel

@@ -1,0 +1,30 @@
+// The folders in which what a person has mended of a drawing is looked for: one rule for all tools.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libskel/skeleton/skeleton_file.h"
+
+namespace skel {
+
+struct MendRequest;
+
+// Paths are without their endings.
+struct MendPlace {
+  std::string results;  // <results>.skeleton.json and .silhouette.png of the figure; "": none
+  std::string made;     // <made>.mask.png, .labels.json, .limbs.png, .back.png
+  std::optional<SkeletonSource> result;  // what the skeleton file, if there is one, was found in
+  bool is_own = false;                   // where this run writes: it is of the drawing's name
+  bool is_beside = false;                // the drawing's own folder
+  bool is_of_picture = false;            // the result was found in the very picture that is asked for
+  bool is_earlier = false;               // it was found in another one, which had the drawing's name
+};
+
+// In the order in which they count: where the run writes (request.results, if it does), beside the drawing,
+// in out/ beside the drawing, in out/ of the working directory; each folder once. Elsewhere than where the
+// run writes, only a result counts that names the picture, or the drawing.
+std::vector<MendPlace> mendPlaces(const MendRequest& request);
+
+}  // namespace skel
