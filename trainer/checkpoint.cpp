@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/core/temporary_file.h"
@@ -31,6 +32,10 @@ void goOnFrom(const std::string& checkpoint, ConvNetTrainer& trainer) {
   if (std::filesystem::exists(checkpoint)) {
     const LookAtOutputs look;
     trainer.restore(readFile(checkpoint), checkpoint);
+    if (trainer.done())
+      throw InputError(checkpoint,
+                       "has made all steps of its training, whose net was written then: name another, or "
+                       "remove it to start anew");
     sayThatItGoesOn(checkpoint, trainer);
   }
   ensureWritableFile(checkpoint);

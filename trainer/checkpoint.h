@@ -8,7 +8,8 @@
 namespace skel {
 
 // Goes on from that file if it is there, and has Ctrl+C say how to go on. "": there is none, which Ctrl+C
-// says, too. Throws InputError: no checkpoint of this net; OutputError: it could not be written.
+// says, too. Throws InputError: no checkpoint of this net, or one that has made all steps; OutputError: it
+// could not be written.
 void goOnFrom(const std::string& checkpoint, ConvNetTrainer& trainer);
 
 // Writes it, if there is one to be. To be called before the report is printed: who has seen a report may

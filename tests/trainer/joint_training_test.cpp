@@ -51,6 +51,11 @@ TEST_CASE("joint training that was killed goes on from its checkpoint to the sam
   CHECK(readFile(dir.file("whole.bin")) == readFile(dir.file("resumed.bin")));
   // Its first report is not the first of all.
   CHECK(resumed.out.find("step 1 ") == std::string::npos);
+  // One that is done trains nothing, and says so.
+  const auto again = runTool(resumable);
+  CHECK(again.exit_code == 2);
+  CHECK(again.err.find(checkpoint + ": has made all steps of its training") != std::string::npos);
+  CHECK(readFile(dir.file("whole.bin")) == readFile(dir.file("resumed.bin")));
 }
 
 TEST_CASE("a checkpoint is there when its report is printed, and Ctrl+C says how to go on") {
