@@ -6,6 +6,7 @@
 
 #include "infer/outputs.h"
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -30,7 +31,7 @@ std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& 
   for (const Result& result : kResults) {
     const std::string path = stem + result.ending;
     if (!writes(options, result.format) || !contains(files.earlier, path)) continue;
-    const auto named = [&](int number) { return earlierName(stem + result.start, result.end, number); };
+    const auto named = [&](int number) { return numberedName(stem + result.start, result.end, number); };
     std::string kept = named(1);
     std::error_code failure;
     for (int number = 2; fs::exists(fs::symlink_status(kept, failure)); ++number) kept = named(number);

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/sha256.h"
 
@@ -13,10 +14,19 @@ namespace fs = std::filesystem;
 
 constexpr const char* kNext = ".next";
 
-void rename(const std::string& from, const std::string& to) {
+// Through a link to what it names, with the mode of what was there, as writeFile() does.
+void putInPlace(const std::string& next, const std::string& path) {
   std::error_code error;
-  fs::rename(from, to, error);
-  if (error) throw OutputError(to, "cannot be replaced: " + error.message());
+  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : fs::path(path);
+  if (const fs::file_status before = fs::status(target, error); fs::is_regular_file(before))
+    fs::permissions(next, before.permissions(), error);
+  fs::rename(next, target, error);
+  if (error == std::errc::cross_device_link) {
+    replaceFile(path, readFile(next));
+    removeFile(next);
+  } else if (error) {
+    throw OutputError(path, "cannot be replaced: " + error.message());
+  }
 }
 
 }  // namespace
@@ -35,31 +45,12 @@ void keepAside(const std::string& path) {
   std::string kept;
   int number = 1;
   do {
-    kept = path.substr(0, ending) + ".old" + (number > 1 ? "-" + std::to_string(number) : "") +
-           path.substr(ending);
-    ++number;
+    kept = numberedName(path.substr(0, ending) + ".old", path.substr(ending), number++);
   } while (fs::exists(fs::symlink_status(kept)) && (!fs::is_regular_file(kept) || readFile(kept) != bytes));
-  rename(path, kept);
-}
-
-namespace {
-
-// Through a link to what it names, with the mode of what was there, as writeFile() does.
-void putInPlace(const std::string& next, const std::string& path) {
   std::error_code error;
-  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : fs::path(path);
-  if (const fs::file_status before = fs::status(target, error); fs::is_regular_file(before))
-    fs::permissions(next, before.permissions(), error);
-  fs::rename(next, target, error);
-  if (error == std::errc::cross_device_link) {
-    writeFile(path, readFile(next));
-    removeFile(next);
-  } else if (error) {
-    throw OutputError(path, "cannot be replaced: " + error.message());
-  }
+  fs::rename(path, kept, error);
+  if (error) throw OutputError(kept, "cannot be replaced: " + error.message());
 }
-
-}  // namespace
 
 void saveWithMask(const std::string& label_file, const LabelFile& labels, const std::string& png) {
   const std::string mask = besideLabelFile(label_file, labels.mask->file);

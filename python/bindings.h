@@ -37,13 +37,7 @@ Plane8 maskOf(const py::array& array, const std::string& name);
 template <class Work>
 auto unlocked(const std::string& source, const Work& work) {
   const py::gil_scoped_release release;
-  try {
-    return work();
-  } catch (const Error&) {
-    throw;
-  } catch (...) {
-    throw caughtError(source);
-  }
+  return throwingErrors(source, work);
 }
 
 }  // namespace skel::python

@@ -101,6 +101,8 @@ ExitCode runMake(const MakeOptions& options);
 
 // What the commands share.
 MotionTransferOptions transferOptions(const StyleRequest& request);
+// On stderr. `file`: where the motion is.
+void sayTransferNotes(const MotionTransferReport& report, const std::string& file);
 SparseCoding sparseCodingWithBar(const Eigen::MatrixXd& data, SparseCodingOptions options);
 // All that a film needs but a motion, so that what cannot be made is said before a motion is looked for.
 struct Stage {

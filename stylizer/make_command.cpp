@@ -53,8 +53,7 @@ ExitCode runMake(const MakeOptions& given) {
   std::printf("%s: mean pose %.0f %% of the way, phase correlation %.3f%s\n", printable(file).c_str(),
               100 * report.mean_pose_moved, report.phase_correlation,
               report.mirrored ? ", style mirrored" : "");
-  for (const std::string& note : transferNotes(report))
-    std::fprintf(stderr, "%s: note: %s\n", printable(file).c_str(), note.c_str());
+  sayTransferNotes(report, file);
   perform(stage, readMotionFile(file, plan), file, report.content_loops, options.perform, options.output);
   return ExitCode::kDone;
 }

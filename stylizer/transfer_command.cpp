@@ -18,6 +18,11 @@ MotionTransferOptions transferOptions(const StyleRequest& request) {
   return options;
 }
 
+void sayTransferNotes(const MotionTransferReport& report, const std::string& file) {
+  for (const std::string& note : transferNotes(report))
+    std::fprintf(stderr, "%s: note: %s\n", printable(file).c_str(), note.c_str());
+}
+
 ExitCode runTransfer(const TransferCommandOptions& options) {
   const std::vector<NamedMotion> content = readMotions(options.content), style = readMotions(options.style);
   const MotionTransferReport report = transferMotion(content, style, transferOptions(options.request));
@@ -26,8 +31,7 @@ ExitCode runTransfer(const TransferCommandOptions& options) {
               printable(options.output).c_str(), printable(report.motion.source).c_str(),
               report.mirrored ? ", mirrored" : "", 100 * report.error, 100 * report.mean_pose_moved,
               report.phase_correlation);
-  for (const std::string& note : transferNotes(report))
-    std::fprintf(stderr, "%s: note: %s\n", printable(options.output).c_str(), note.c_str());
+  sayTransferNotes(report, options.output);
   return ExitCode::kDone;
 }
 

@@ -18,8 +18,8 @@ constexpr double kFacing = 0.05;
 constexpr double kMargin_px = 20;
 // Mean poses whose bones point the same way within half a degree or so: there is no way between them.
 constexpr double kSameDirections = 0.03;
-constexpr double kInStep =
-    0.8;  // phase correlation; own walks in the style of own runs, found well: .9 and more
+// Phase correlation; own walks in the style of own runs, found well, have .9 and more.
+constexpr double kInStep = 0.8;
 constexpr double kStill = 0.25;  // of how far a limb's end moves in both
 
 bool loops(const PoseMatrix& poses, const std::string& option) {
@@ -31,6 +31,14 @@ Eigen::VectorXd stride(const PoseMatrix& poses, const SkeletonTemplate& plan) {
   for (const TemplateLimb& limb : plan.limbs)
     if (limb.limb_class == JointClass::kLeg) feet.push_back(limb.joints[2]);
   return (poses.row(2 * feet[0]) - poses.row(2 * feet[1])).transpose();
+}
+
+// How far a limb's end moves, seen from where it begins.
+double swing(const PoseMatrix& poses, const TemplateLimb& limb) {
+  Eigen::AlignedBox2d box;
+  for (Index f = 0; f < poses.cols(); ++f)
+    box.extend(Eigen::Vector2d(jointOf(poses, limb.joints[2], f) - jointOf(poses, limb.joints[0], f)));
+  return box.diagonal().norm();
 }
 
 double correlation(Eigen::VectorXd a, Eigen::VectorXd b) {
@@ -164,16 +172,10 @@ MotionTransferReport transferMotion(const std::vector<NamedMotion>& content,
   const PoseMatrix& poses = transfer.poses[0];
   report.phase_correlation = correlation(stride(poses, plan), stride(pairs[0].content, plan));
   report.mean_pose_moved = shareOfWay(pairs[0].content, pairs[0].style, poses, plan);
-  for (std::size_t k = 0; k < plan.limbs.size(); ++k) {
-    const auto& joints = plan.limbs[k].joints;
-    const auto reach = [&](const PoseMatrix& of) {
-      Eigen::AlignedBox2d box;
-      for (Eigen::Index f = 0; f < of.cols(); ++f)
-        box.extend(Eigen::Vector2d(jointOf(of, joints[2], f) - jointOf(of, joints[0], f)));
-      return box.diagonal().norm();
-    };
-    const double least = std::min(reach(pairs[0].content), reach(pairs[0].style));
-    if (reach(poses) < kStill * least) report.still.push_back(plan.joints[std::size_t(joints[2])].name);
+  for (const TemplateLimb& limb : plan.limbs) {
+    const double least = std::min(swing(pairs[0].content, limb), swing(pairs[0].style, limb));
+    if (swing(poses, limb) < kStill * least)
+      report.still.push_back(plan.joints[std::size_t(limb.joints[2])].name);
   }
   report.motion = asMotion(poses, first_content, matched[0].first->motion, matched[0].first->path, plan);
   const auto nameOf = [](const NamedMotion& m) { return m.motion.source.empty() ? m.path : m.motion.source; };
@@ -188,8 +190,7 @@ std::vector<std::string> transferNotes(const MotionTransferReport& report) {
   if (report.phase_correlation < kInStep)
     notes.push_back(std::string("the feet do not keep the content's time (phase correlation ") + number +
                     "): in one of the two, left and right are probably taken for each other; look at them by "
-                    "skel-style inspect, mend "
-                    "joints by skel-label");
+                    "skel-style inspect, mend joints by skel-label");
   for (const std::string& joint : report.still)
     notes.push_back(joint + " hardly moves, though it does in both");
   return notes;

@@ -44,6 +44,10 @@ std::string pathInside(const std::string& dir, const std::string& named, const s
   return path.string();
 }
 
+std::string numberedName(const std::string& start, const std::string& end, int number) {
+  return start + (number > 1 ? "-" + std::to_string(number) : "") + end;
+}
+
 std::string shellWord(const std::string& path) {
   const auto plain = [](unsigned char c) {
     return std::isalnum(c) || c >= 0x80 || std::string_view("/._-+,:@%=").find(char(c)) != std::string::npos;

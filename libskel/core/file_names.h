@@ -14,6 +14,9 @@ std::string safeFileName(std::string_view text);
 // `dir`: an absolute path, or one that leads out by `..` or by a link to another folder.
 std::string pathInside(const std::string& dir, const std::string& named, const std::string& file);
 
+// `start`, from the second on a number, `end`: boy.old.png, boy.old-2.png.
+std::string numberedName(const std::string& start, const std::string& end, int number);
+
 // A path as one word of a shell's line: in quotes where it needs them; what is not printed as bash writes it
 // ($'\x1b').
 std::string shellWord(const std::string& path);

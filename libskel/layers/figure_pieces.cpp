@@ -157,11 +157,13 @@ struct Limb {
 Root rootOf(const Coarse& coarse, const DistanceField& inside, const std::array<Vector2d, 3>& joints) {
   constexpr int kSteps = 20;  // a bone
   constexpr std::size_t kEnd = 2 * kSteps;
-  const auto at = [&](double step) -> Vector2d {
-    const std::size_t bone = step < kSteps ? 0 : 1;
-    return joints[bone] + (step / kSteps - static_cast<double>(bone)) * (joints[bone + 1] - joints[bone]);
-  };
-  // Of each pixel, to the step that is nearest: how far that is, and whether the limb is seen so near.
+  std::array<Vector2d, kEnd + 1> bones;
+  for (std::size_t i = 0; i <= kEnd; ++i) {
+    const std::size_t bone = i < kSteps ? 0 : 1;
+    bones[i] = joints[bone] + (double(i) / kSteps - double(bone)) * (joints[bone + 1] - joints[bone]);
+  }
+  // Of each pixel, to the step that is nearest: how wide the limb is there, and whether it is seen on the
+  // bone.
   const double near = std::max(double(coarse.step), .1 * (joints[1] - joints[0]).norm());
   std::array<float, kEnd + 1> widest{};
   std::size_t seen = kEnd;
@@ -169,11 +171,13 @@ Root rootOf(const Coarse& coarse, const DistanceField& inside, const std::array<
     for (int u = 0; u < inside.cols(); ++u) {
       if (inside(v, u) == 0) continue;
       const Vector2d p(coarse.box.x0 + (u + .5) * coarse.step, coarse.box.y0 + (v + .5) * coarse.step);
-      std::size_t nearest = 0;
-      for (std::size_t i = 1; i <= kEnd; ++i)
-        if ((at(double(i)) - p).squaredNorm() < (at(double(nearest)) - p).squaredNorm()) nearest = i;
+      const auto nearer = [&](const Vector2d& a, const Vector2d& b) {
+        return (a - p).squaredNorm() < (b - p).squaredNorm();
+      };
+      const auto nearest =
+          static_cast<std::size_t>(std::min_element(bones.begin(), bones.end(), nearer) - bones.begin());
       widest[nearest] = std::max(widest[nearest], inside(v, u));
-      if ((at(double(nearest)) - p).norm() <= near) seen = std::min(seen, nearest);
+      if ((bones[nearest] - p).norm() <= near) seen = std::min(seen, nearest);
     }
   const auto first = widest.begin() + std::ptrdiff_t(std::max<std::size_t>(seen, kSteps / 4));
   std::vector<float> radii;
@@ -181,7 +185,7 @@ Root rootOf(const Coarse& coarse, const DistanceField& inside, const std::array<
                [](float radius) { return radius > 0; });
   if (radii.empty()) radii.push_back(inside.maxCoeff());
   std::nth_element(radii.begin(), radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2), radii.end());
-  return {joints[0], at(std::min(double(seen), double(kSteps))), at(double(seen)),
+  return {joints[0], bones[std::min<std::size_t>(seen, kSteps)], bones[seen],
           static_cast<double>(radii[radii.size() / 2]) * coarse.step};
 }
 

@@ -40,7 +40,7 @@ bool hasSize(const Image& limbs, const Image& image) {
 std::string lastThatFits(const std::string& results, const MendRequest& request) {
   std::string fitting;
   for (int number = 1;; ++number) {
-    const std::string path = earlierName(results + kEarlierSkeletonStart, kEarlierSkeletonEnd, number);
+    const std::string path = numberedName(results + kEarlierSkeletonStart, kEarlierSkeletonEnd, number);
     if (std::error_code unknown; !fs::is_regular_file(path, unknown)) return fitting;
     const std::optional<SkeletonSource> source = sourceOfSkeleton(path);
     if (source && source->number == request.figure && source->image_sha256 == request.image_sha256)
@@ -49,10 +49,6 @@ std::string lastThatFits(const std::string& results, const MendRequest& request)
 }
 
 }  // namespace
-
-std::string earlierName(const std::string& start, const std::string& end, int number) {
-  return start + (number > 1 ? "-" + std::to_string(number) : "") + end;
-}
 
 std::string earlierThatFits(const std::vector<MendPlace>& places, const MendRequest& request) {
   for (const MendPlace& place : places)

@@ -12,9 +12,7 @@
 
 namespace skel {
 
-// What a result that was made for an earlier picture is called from then on: `start`, a number from the
-// second on, `end`.
-std::string earlierName(const std::string& start, const std::string& end, int number);
+// What a skeleton that was made for an earlier picture is called from then on (numberedName()).
 inline constexpr const char *kEarlierSkeletonStart = ".skeleton.old", *kEarlierSkeletonEnd = ".json";
 
 // The last one among those of the first of the places that has one of this very picture and figure; or "".

@@ -43,7 +43,7 @@ struct MendedFiles {
 
   // A photo that was taken again has the name of the one before.
   std::vector<std::string> earlier;  // files made for that one: not among those above
-  std::string fits_again;            // a skeleton that was kept (earlierName()) and is of this picture
+  std::string fits_again;            // a skeleton that was kept and is of this picture
   bool mask_before = false;          // the mask was there before the picture changed
   bool limbs_before = false;         // the limbs may have been
 };

@@ -15,14 +15,8 @@
 
 using namespace skel;
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define SKEL_OWN_MEMORY
-#endif
-#endif
-
 // A sanitizer's own memory is more than any limit.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(SKEL_OWN_MEMORY)
+#ifndef SKEL_SANITIZED
 TEST_CASE("for want of memory rigging throws an error of ours that names the drawing, and then goes on") {
   RigInput input;
   input.image = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");

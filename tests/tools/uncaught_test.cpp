@@ -16,7 +16,7 @@ namespace {
 const std::string kDrawing = SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png";
 
 // With at most so much address space. The sanitizers' own memory is more than any such limit.
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef SKEL_SANITIZED
 constexpr bool kLimitsWork = false;
 #else
 constexpr bool kLimitsWork = true;
