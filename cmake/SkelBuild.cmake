@@ -96,8 +96,10 @@ function(skel_test name)
   skel_unity(test_${name})
   list(TRANSFORM ARG_ROOMS PREPEND skel_)
   target_link_libraries(test_${name} PRIVATE skel_options ${ARG_ROOMS} ${ARG_PRIVATE} Catch2::Catch2WithMain)
-  target_compile_definitions(test_${name} PRIVATE SKEL_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                             $<$<BOOL:${SKEL_SANITIZE}>:SKEL_SANITIZED>) # what they test; their own code may not be
+  target_compile_definitions(test_${name} PRIVATE SKEL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(SKEL_SANITIZE) # what they test is sanitized; their own code may not be
+    target_compile_definitions(test_${name} PRIVATE SKEL_SANITIZED)
+  endif()
   target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>) # what they test is optimised, they need not be
   set_target_properties(test_${name} PROPERTIES NOT_FUZZED ON)
   if(NOT ARG_TIMEOUT)
