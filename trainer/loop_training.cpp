@@ -17,14 +17,14 @@ namespace {
 
 // Those of which nobody could say are left out: lines were missed there. What is large counts more, by the
 // root of its share of the figure.
-std::vector<PageCase> loopsOn(const HardPage& page) {
+std::vector<Case> loopsOn(const HardPage& page) {
   const Image image = imageOfRgb(page.rgb);
   const std::vector<Loop> loops = segment(image, nullptr, true).loops;
   if (loops.empty()) return {};
   cv::Mat truth = cv::Mat::zeros(page.rgb.size(), CV_8U);
   for (const cv::Mat& figure : page.figures) truth |= figure;
   cv::resize(truth, truth, workingRgb(image).size(), 0, 0, cv::INTER_AREA);
-  std::vector<PageCase> cases;
+  std::vector<Case> cases;
   for (const Loop& loop : loops) {
     double inside = 0;
     for (const int pixel : loop.pixels) inside += truth.data[pixel] / 255.;

@@ -4,6 +4,7 @@
 #include "trainer/confidence_training.h"
 #include "trainer/joint_net_figures.h"
 #include "trainer/joint_net_training.h"
+#include "trainer/limb_training.h"
 #include "trainer/loop_training.h"
 #include "trainer/page_net_training.h"
 #include "trainer/part_net_training.h"
@@ -54,6 +55,9 @@ int main(int argc, char** argv) {
   CLI::App* loops =
       app.add_subcommand("loops", "Learns which of what a figure's lines enclose is the ground behind it");
   skel::bindPageCaseOptions(*loops, loop_training);
+  skel::LimbTrainingOptions limb_training;
+  CLI::App* limbs = app.add_subcommand("limbs", "Learns whether what was found of a limb is one");
+  skel::bindLimbTrainingOptions(*limbs, limb_training);
   return skel::runTool(app, argc, argv, [&] {
     if (*evaluation) return skel::runEvaluateWeights(evaluate);
     if (*figures) return skel::runFigureSheet(sheet);
@@ -61,6 +65,7 @@ int main(int argc, char** argv) {
     if (*bones) return skel::runBoneLengths(bone_lengths);
     if (*confidence) return skel::runConfidenceTraining(confidence_training);
     if (*silhouettes) return skel::runSilhouetteTraining(silhouette_training);
+    if (*limbs) return skel::runLimbTraining(limb_training);
     if (*loops) return skel::runLoopTraining(loop_training);
     if (*averaging) return skel::runAverageNets(average);
     if (*pages) return skel::runPageTraining(page_training);

@@ -35,28 +35,9 @@ enum PartStream : std::uint64_t {
   kValidationPartStream = 1ull << 48
 };
 
-// DIR/characters/<name>.shapes.png or, of datasets/unseen/characters/<name>.png, DIR/unseen/characters/…
-std::string shapesOf(const std::string& image, const std::string& folder) {
-  const fs::path path = fs::path(image).lexically_normal(), parent = path.parent_path();
-  const std::string name = path.stem().string() + ".shapes.png";
-  const fs::path near = fs::path(folder) / parent.filename() / name,
-                 far = fs::path(folder) / parent.parent_path().filename() / parent.filename() / name;
-  return fs::exists(far) ? far.string() : fs::exists(near) ? near.string() : "";
-}
-
-std::vector<std::pair<JointedDrawing, std::string>> withShapes(const std::vector<std::string>& folders,
-                                                               const std::string& shapes) {
-  std::vector<std::pair<JointedDrawing, std::string>> files;
-  if (folders.empty()) return files;
-  for (const JointedDrawing& drawing : findJointedDrawings(folders))
-    if (const std::string file = shapesOf(drawing.image, shapes); !file.empty())
-      files.emplace_back(drawing, file);
-  return files;
-}
-
 std::vector<PartSample> readSamples(const std::vector<std::string>& folders, const std::string& shapes,
                                     int threads) {
-  const auto files = withShapes(folders, shapes);
+  const auto files = drawingsWithShapes(folders, shapes);
   std::vector<std::optional<PartSample>> read(files.size());
   parallelFor(files.size(), threads, [&](std::size_t i) {
     if (const auto whole = readPartSample(files[i].first, files[i].second)) read[i] = smallPartSample(*whole);
@@ -208,7 +189,7 @@ void writeSheet(const PartTrainingOptions& options, const std::vector<PartSample
 void writeTruth(const PartTrainingOptions& options) {
   constexpr double kMostly = .75, kDrawn = .5;
   constexpr int kLeastBorder = 30, kContrast = 30;
-  const auto files = withShapes(options.held_out, options.shapes);
+  const auto files = drawingsWithShapes(options.held_out, options.shapes);
   if (files.empty()) throw UsageError("--truth: no drawing of --held-out has shapes in --shapes");
   parallelFor(files.size(), options.threads, [&](std::size_t i) {
     const JointedDrawing& drawing = files[i].first;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -16,6 +17,7 @@ namespace skel {
 namespace {
 
 using Vec = Eigen::Vector2d;
+namespace fs = std::filesystem;
 
 // By the names of a plan's joints.
 PartSkeleton partSkeleton(bool animal, const std::function<Vec(const std::string&)>& joint) {
@@ -110,6 +112,15 @@ PartSample transformed(const PartSample& sample, const Eigen::Matrix2d& linear, 
   return out;
 }
 
+// DIR/characters/<name>.shapes.png or, of datasets/unseen/characters/<name>.png, DIR/unseen/characters/…
+std::string shapesOf(const std::string& image, const std::string& folder) {
+  const fs::path path = fs::path(image).lexically_normal(), parent = path.parent_path();
+  const std::string name = path.stem().string() + ".shapes.png";
+  const fs::path near = fs::path(folder) / parent.filename() / name,
+                 far = fs::path(folder) / parent.parent_path().filename() / parent.filename() / name;
+  return fs::exists(far) ? far.string() : fs::exists(near) ? near.string() : "";
+}
+
 }  // namespace
 
 PartSkeleton moved(const PartSkeleton& skeleton, const std::function<Vec(const Vec&)>& move) {
@@ -145,6 +156,16 @@ std::array<int, 4> limbsBefore(const PartSample& sample) {
     before[k] = all < kLeastBorder ? -1 : over[k] >= kMostly * all ? 1 : under[k] >= kMostly * all ? 0 : -1;
   }
   return before;
+}
+
+std::vector<std::pair<JointedDrawing, std::string>> drawingsWithShapes(
+    const std::vector<std::string>& folders, const std::string& shapes) {
+  std::vector<std::pair<JointedDrawing, std::string>> files;
+  if (folders.empty()) return files;
+  for (const JointedDrawing& drawing : findJointedDrawings(folders))
+    if (const std::string file = shapesOf(drawing.image, shapes); !file.empty())
+      files.emplace_back(drawing, file);
+  return files;
 }
 
 std::optional<PartSample> readPartSample(const JointedDrawing& drawing, const std::string& shapes_file) {

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "libskel/core/rng.h"
@@ -33,7 +34,11 @@ struct PartSample {
 // this and on some that.
 std::array<int, 4> limbsBefore(const PartSample& sample);
 
-// A drawing with its shapes (see script/shape-maps), of the picture's size; nothing if its parts are
+// Those of the folders whose shapes script/shape-maps has written to a folder, with the file of these.
+std::vector<std::pair<JointedDrawing, std::string>> drawingsWithShapes(
+    const std::vector<std::string>& folders, const std::string& shapes);
+
+// A drawing with its shapes, of the picture's size; nothing if its parts are
 // doubtful. Throws InputError.
 std::optional<PartSample> readPartSample(const JointedDrawing& drawing, const std::string& shapes_file);
 // The figure's box, its long side at most kPartSourceSize.

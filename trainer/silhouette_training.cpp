@@ -11,7 +11,7 @@ namespace skel {
 namespace {
 
 // Where there is evidence.
-std::vector<PageCase> maskOn(const HardPage& page) {
+std::vector<Case> maskOn(const HardPage& page) {
   const Silhouette silhouette = extractSilhouette(imageOfRgb(page.rgb));
   if (!silhouette.found() || !silhouette.evidence) return {};
   constexpr double kGood = .9;

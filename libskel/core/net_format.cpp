@@ -8,10 +8,11 @@
 namespace skel {
 
 std::string netFormatName(std::string_view format) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kKinds = {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kKinds = {
       {{"skel-confidence", "numbers that say how sure the recognition is"},
        {"skel-silhouette-confidence", "numbers that say how sure a silhouette is"},
        {"skel-loop-net", "a net that tells what is ground within lines"},
+       {"skel-limb-net", "a net that tells whether a limb is one"},
        {"skel-weights", "weights that tell candidates apart (--weights)"},
        {"skel-joint-net", "a net that finds joints (--joint-net)"},
        {"skel-part-net", "a net that tells parts (--part-net)"},

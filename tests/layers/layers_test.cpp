@@ -155,6 +155,7 @@ struct Animal {
     silhouette = silhouetteFromMask(readMask(path + ".mask.png"));
     for (const auto& [joint, place] : readJointsFile(path + ".joints.json"))
       skeleton.joints[std::size_t(skeleton.index(joint))].image = *place;
+    for (Joint& joint : skeleton.joints) joint.confidence = 1;
     layers = findLayers(image, silhouette, skeleton, body_plan, builtInPartNet());
   }
   // Of a limb, from the trunk outwards.
@@ -322,6 +323,7 @@ TEST_CASE("what two limbs cut off goes to the nearer of them: the rim of shoes t
   Skeleton skeleton = presetSkeleton(body_plan, {0, 0}, {1, 1});
   for (const auto& [name, place] : readJointsFile(character + ".joints.json"))
     skeleton.joints[std::size_t(skeleton.index(name))].image = *place;
+  for (Joint& joint : skeleton.joints) joint.confidence = 1;
   const LayerMap layers = findLayers(image, silhouette, skeleton, body_plan, builtInPartNet());
   REQUIRE(layers.any());
   for (const auto& [foot, limb] : {std::pair("right_foot", 3), std::pair("left_foot", 4)}) {

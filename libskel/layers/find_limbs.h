@@ -1,0 +1,26 @@
+// The limbs of a recognised figure, each with what speaks for it.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "libskel/layers/find_parts.h"
+#include "libskel/layers/limb_evidence.h"
+#include "libskel/silhouette/silhouette.h"
+#include "libskel/skeleton/skeleton.h"
+#include "libskel/skeleton/template.h"
+
+namespace skel {
+
+struct FoundLimbs {
+  PartPicture picture;
+  std::array<LimbEvidence, 4> limbs;  // in the template's order
+};
+
+// `skeleton` in image px. Nothing for a body plan that the net does not know (knowsParts()), or where the
+// skeleton lacks a joint of it.
+std::optional<FoundLimbs> findLimbs(const Image& image, const Silhouette& silhouette,
+                                    const Skeleton& skeleton, const SkeletonTemplate& body_plan,
+                                    const PartNet& net);
+
+}  // namespace skel
