@@ -35,7 +35,7 @@ struct LayerMap {
 };
 
 // By a net that tells all parts, their borders on the drawing's own lines: a limb becomes a layer where it
-// lies against the rest of the figure and most of what divides it from that is drawn. `skeleton` has the
+// lies against the rest of the figure and is more probably a limb than not (limb_net.h). `skeleton` has the
 // template's joints, in image px. Nothing for a body plan that the net does not know (knowsParts()).
 LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
                     const SkeletonTemplate& body_plan, const PartNet& net);

@@ -20,6 +20,7 @@
 #include "libskel/import/read_weights.h"
 #include "libskel/jointnet/joint_net.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/layers/limb_net.h"
 #include "libskel/layers/part_net.h"
 #include "libskel/recognition/confidence_model.h"
 #include "libskel/recognition/silhouette_confidence.h"
@@ -113,6 +114,8 @@ const std::map<std::string, Reader>& readers() {
          const Skeleton skeleton = figureSkeleton();
          return formatPose(parsePose(readFile(path), path, skeleton), skeleton);
        }},
+      {"skel-limb-net",
+       [](const std::string& path) { return formatLimbNet(parseLimbNet(readFile(path), path)); }},
       {"skel-loop-net",
        [](const std::string& path) { return formatLoopNet(parseLoopNet(readFile(path), path)); }},
       {"skel-regions",

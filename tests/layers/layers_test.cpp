@@ -12,6 +12,8 @@
 #include "libskel/image/mask_parts.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
+#include "libskel/layers/find_limbs.h"
+#include "libskel/layers/limb_net.h"
 #include "libskel/mesh/fill_hidden.h"
 #include "libskel/mesh/inflate.h"
 #include "libskel/skeleton/lift.h"
@@ -516,6 +518,50 @@ TEST_CASE("a limb that is one with the body is translucent in the picture, and s
   // Painted, it is a body of its own.
   picture.pixel(int(leg.x()), int(leg.y()))[3] = 255;
   CHECK(read().limb(int(leg.y()), int(leg.x())) == 4);
+}
+
+TEST_CASE("an arm along its bones is a limb, scraps beside bones that are a guess are none") {
+  Drawing drawing;
+  const auto chance = [&] {
+    const auto found =
+        findLimbs(drawing.image, drawing.silhouette, drawing.skeleton, drawing.body_plan, builtInPartNet());
+    REQUIRE(found);
+    REQUIRE(found->limbs[0].area > 0);
+    return builtInLimbNet().isLimb(found->limbs[0]);
+  };
+  CHECK(chance() > .8);
+  // The shoulder and the elbow where the other arm is, the hand where it was.
+  for (const char* joint : {"shoulder", "elbow"}) {
+    Joint& wrong =
+        drawing.skeleton.joints[std::size_t(drawing.skeleton.index("right_" + std::string(joint)))];
+    wrong.image = drawing.at("left_" + std::string(joint));
+    wrong.confidence = .3;
+  }
+  CHECK(chance() < .3);
+  CHECK_FALSE((drawing.layers().limb == 1).any());
+}
+
+TEST_CASE("what speaks for a limb has a name each, and nothing speaks for one that is not there") {
+  Drawing drawing;
+  const auto found =
+      findLimbs(drawing.image, drawing.silhouette, drawing.skeleton, drawing.body_plan, builtInPartNet());
+  REQUIRE(found);
+  for (const LimbEvidence& limb : found->limbs) {
+    if (limb.area == 0) continue;
+    REQUIRE(limb.inputs.size() == Eigen::Index(kLimbInputs.size()));
+    CHECK(limb.inputs.allFinite());
+  }
+  CHECK(liesAgainst(found->limbs[0].border));
+  CHECK(builtInLimbNet().isLimb(LimbEvidence{}) == 0);
+}
+
+TEST_CASE("a limb net of other inputs is refused") {
+  const std::string text = formatLimbNet(builtInLimbNet());
+  CHECK(formatLimbNet(parseLimbNet(text, "n.json")) == text);
+  std::string other = text;
+  other.replace(other.find("\"stout\""), 7, "\"thick\"");
+  CHECK_THROWS_WITH(parseLimbNet(other, "n.json"),
+                    Catch::Contains("n.json") && Catch::Contains("must be \"stout\""));
 }
 
 TEST_CASE("an arm whose hand is not told from the body is no body of its own: the hand would stay behind") {

@@ -4,6 +4,11 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/image/read_image.h"
+#include "libskel/image/write_image.h"
+#include "libskel/jointnet/joint_net.h"
+#include "libskel/layers/layer_map.h"
+#include "libskel/layers/limb_net.h"
 #include "libskel/recognition/confidence_model.h"
 #include "libskel/recognition/silhouette_confidence.h"
 #include "libskel/silhouette/loops.h"
@@ -123,6 +128,46 @@ TEST_CASE("which loops are ground is learned to the same bytes whatever the numb
   const std::string people = folderOf(dir, "p", "characters", {"cap_boy", "ninja", "pirate"});
   learnOnPages(dir, "loops", people, "are ground");
   CHECK(parseLoopNet(readFile(dir.file("one.json")), "one.json").net.hidden.rows() > 0);
+}
+
+TEST_CASE("what is a limb is learned to the same bytes whatever the number of threads") {
+  const TempDir dir;
+  const std::string people = folderOf(dir, "p", "characters", {"cap_boy", "ninja", "pirate"});
+  // Each part of what is found by their joints a shape.
+  const SkeletonTemplate body_plan = loadTemplate("biped");
+  for (const JointedDrawing& drawing : findJointedDrawings(people)) {
+    const Image image = readImage(drawing.image);
+    Skeleton skeleton = presetSkeleton(body_plan, {0, 0}, {1, 1});
+    for (const auto& [name, place] : drawing.joints) {
+      Joint& joint = skeleton.joints[std::size_t(skeleton.index(name))];
+      joint.image = *place, joint.confidence = 1;
+    }
+    const Silhouette silhouette = silhouetteOf(image, drawing);
+    const LayerMap found = findLayers(image, silhouette, skeleton, body_plan, builtInPartNet());
+    Image shapes(image.width, image.height);
+    for (int y = 0; y < shapes.height; ++y)
+      for (int x = 0; x < shapes.width; ++x) {
+        std::uint8_t* p = shapes.pixel(x, y);
+        p[0] = silhouette.mask(y, x) == 0 ? 0 : std::uint8_t(1 + found.part(y, x));
+        p[1] = p[2] = 0, p[3] = 255;
+      }
+    writeFile(dir.file("shapes/p/" + drawingName(drawing.image) + ".shapes.png"), encodePng(shapes));
+  }
+  const auto learn = [&](const std::string& output, const std::string& more) {
+    return runTool("skel-train limbs '" + people + "' --shapes '" + dir.file("shapes") + "' --folds 2 -o '" +
+                   dir.file(output) + "' " + more);
+  };
+  const ToolRun one = learn("one.json", "--threads 1");
+  INFO(one.err);
+  REQUIRE(one.exit_code == 0);
+  CHECK(one.out.find("are limbs") != std::string::npos);
+  REQUIRE(learn("three.json", "--threads 3").exit_code == 0);
+  CHECK(readFile(dir.file("one.json")) == readFile(dir.file("three.json")));
+  CHECK(parseLimbNet(readFile(dir.file("one.json")), "one.json").net.hidden.rows() == 0);
+  const ToolRun nothing =
+      runTool("skel-train limbs '" + people + "' --shapes '" + people + "' -o '" + dir.file("n.json") + "'");
+  CHECK(nothing.exit_code == 1);
+  CHECK(nothing.err.find("no drawings with shapes") != std::string::npos);
 }
 
 TEST_CASE("a table of samples is read again as it was written, and what is none is refused by its line") {
