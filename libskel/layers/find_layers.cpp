@@ -12,7 +12,7 @@
 namespace skel {
 namespace {
 
-constexpr double kDrawn = .55;  // of what lies against the body of a limb's border
+constexpr double kDrawn = .55;  // of a limb's border against the rest
 constexpr double kGrown = .4;   // of a limb's border against the body: it is hidden where it is a guess
 constexpr double kSeen = .25;   // of an arm's bones beyond its root: of less nothing is seen
 // Confidence in the end of a limb that is not hidden: as many hands of drawings that nothing was learned from
@@ -23,6 +23,9 @@ constexpr double kSure = .85;
 bool isGrown(const LimbBorder& border) {
   return border.against >= kGrown * border.all && border.drawn < kDrawn * border.against;
 }
+
+// Whether what divides the limb from the rest beyond its root is drawn, so that neither is torn.
+bool isDivided(const LimbBorder& border) { return border.beside_drawn >= kDrawn * border.beside; }
 
 // What lies before the trunk is nearer than what it hides.
 std::vector<int> farLimbs(const SkeletonTemplate& body_plan, const std::array<double, 4>& before) {
@@ -84,8 +87,8 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
   Plane8 limbs = Plane8::Zero(picture.part.rows(), picture.part.cols());
   for (int k = 0; k < 4; ++k) {
     const LimbEvidence& evidence = found->limbs[static_cast<std::size_t>(k)];
-    const double chance = builtInLimbNet().isLimb(evidence);
-    if (liesAgainst(evidence.border) && chance >= kIsLimb) {
+    if (liesAgainst(evidence.border) && isDivided(evidence.border) &&
+        builtInLimbNet().isLimb(evidence) >= kIsLimb) {
       limbs =
           (picture.part == static_cast<std::uint8_t>(limbPart(k)))
               .select(Plane8::Constant(limbs.rows(), limbs.cols(), static_cast<std::uint8_t>(k + 1)), limbs);

@@ -35,8 +35,9 @@ struct LayerMap {
 };
 
 // By a net that tells all parts, their borders on the drawing's own lines: a limb becomes a layer where it
-// lies against the rest of the figure and is more probably a limb than not (limb_net.h). `skeleton` has the
-// template's joints, in image px. Nothing for a body plan that the net does not know (knowsParts()).
+// lies against the rest of the figure, most of what divides it from that is drawn, and it is more probably a
+// limb than not (limb_net.h). `skeleton` has the template's joints, in image px. Nothing for a body plan that
+// the net does not know (knowsParts()).
 LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
                     const SkeletonTemplate& body_plan, const PartNet& net);
 
