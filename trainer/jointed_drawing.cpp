@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <locale>
 #include <map>
+#include <sstream>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
+#include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/skeleton/skeleton_file.h"
@@ -71,6 +74,23 @@ std::vector<JointedDrawing> findJointedDrawings(const std::vector<std::string>& 
   for (const std::string& dir : dirs)
     for (JointedDrawing& found : findJointedDrawings(dir)) drawings.push_back(std::move(found));
   return drawings;
+}
+
+std::string contentOf(const std::vector<JointedDrawing>& drawings) {
+  if (drawings.empty()) return "none";
+  std::ostringstream all;
+  all.imbue(std::locale::classic());
+  all.precision(17);
+  for (const JointedDrawing& drawing : drawings) {
+    all << sha256(readFile(drawing.image)) << ' ' << (drawing.mask ? sha256(readFile(*drawing.mask)) : "none")
+        << ' ' << drawing.side_view;
+    for (const auto& [name, place] : drawing.joints) {
+      all << ' ' << name;
+      if (place) all << ' ' << place->x() << ' ' << place->y();
+    }
+    all << '\n';
+  }
+  return std::to_string(drawings.size()) + " drawings (sha256 " + sha256(all.str()).substr(0, 16) + ")";
 }
 
 Silhouette silhouetteOf(const Image& image, const JointedDrawing& drawing) {

@@ -26,6 +26,10 @@ std::vector<JointedDrawing> findJointedDrawings(const std::string& dir);
 // Of several folders, one after the other.
 std::vector<JointedDrawing> findJointedDrawings(const std::vector<std::string>& dirs);
 
+// What stands in their pictures, masks and joints, not what they are called: "3 drawings (sha256 0123…)";
+// "none".
+std::string contentOf(const std::vector<JointedDrawing>& drawings);
+
 // By the drawing's mask, or as found in the image. Throws InputError with the reason if there is none.
 Silhouette silhouetteOf(const Image& image, const JointedDrawing& drawing);
 
