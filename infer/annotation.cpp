@@ -87,9 +87,10 @@ bool holdsPlacedJoint(const std::string& label_file) {
   }
 }
 
-// What a person has placed.
+// What a person has placed in the picture that is there.
 AnnotatedDrawing fromLabels(const std::string& path) {
   const LabelFile labels = readLabelFile(path);
+  ensureUnchanged(path, labels);
   const std::string image = besideLabelFile(path, labels.image.file);
   AnnotatedDrawing drawing;
   drawing.image = readImage(image);

@@ -211,6 +211,11 @@ std::vector<std::string> findProblems(const std::string& path) {
   return lines;
 }
 
+void ensureUnchanged(const std::string& path, const LabelFile& labels) {
+  checkSource(path, "image", labels.image);
+  if (labels.mask) checkSource(path, "mask", *labels.mask);
+}
+
 std::string formatLabelFile(const LabelFile& labels) {
   SKEL_CHECK_EQ(labels.candidates.size(), labels.labels.size());
   const auto quote = [](const std::string& text) {

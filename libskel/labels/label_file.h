@@ -52,6 +52,9 @@ void writeLabelFile(const std::string& path, const LabelFile& labels);
 // refuses, and an image or a mask that is missing or has changed since it was labelled.
 std::vector<std::string> findProblems(const std::string& path);
 
+// Throws InputError: the image or the mask is missing, or has changed since it was labelled.
+void ensureUnchanged(const std::string& path, const LabelFile& labels);
+
 // Of the image or mask, as a path that can be opened.
 std::string besideLabelFile(const std::string& label_file, const std::string& name);
 

@@ -136,3 +136,21 @@ TEST_CASE("evaluate goes on after a drawing that cannot be read, and says so") {
   CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
   CHECK(run.out.find("mean over 1 characters") != std::string::npos);
 }
+
+TEST_CASE("evaluate leaves out a picture that has changed since its joints were placed, and says so") {
+  const skel::TempDir dir;
+  for (const char* name : {"cap_boy", "ninja"})
+    for (const char* end : {".png", ".mask.png", ".labels.json"})
+      std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/") + name + end,
+                                 dir.file(std::string(name) + end));
+  const std::string evaluate = "skel-infer evaluate '" + dir.path() + "' --given-mask";
+  CHECK(skel::runTool(evaluate).exit_code == 0);
+  const std::string picture = dir.file("ninja.png");
+  skel::writeFile(picture, skel::readFile(picture) + "x");
+  const auto run = skel::runTool(evaluate);
+  CAPTURE(run.out, run.err);
+  CHECK(run.exit_code == 2);
+  CHECK(run.err == "skel-infer: " + dir.file("ninja.labels.json") +
+                       ": image.file: \"ninja.png\" has changed since it was labelled; label it anew\n");
+  CHECK(run.out.find("mean over 1 characters") != std::string::npos);
+}
