@@ -151,6 +151,18 @@ AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string
   return drawing;
 }
 
+std::string otherPlanOf(const AnnotatedDrawing& drawing, const SkeletonTemplate& body_plan) {
+  const auto hasAll = [&](const SkeletonTemplate& plan) {
+    return std::all_of(drawing.joints.begin(), drawing.joints.end(), [&](const auto& joint) {
+      return !joint.second || joint.first == "torso" || plan.find(joint.first) >= 0;
+    });
+  };
+  if (hasAll(body_plan)) return "";
+  for (const std::string& name : builtinTemplates())
+    if (name != body_plan.name && hasAll(loadTemplate(name))) return name;
+  return "";
+}
+
 void turnClockwise(AnnotatedDrawing& drawing, int quarters) {
   for (int turn = 0; turn < quarters; ++turn) {
     const Image upright = std::move(drawing.image);

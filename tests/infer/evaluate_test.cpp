@@ -154,3 +154,27 @@ TEST_CASE("evaluate leaves out a picture that has changed since its joints were 
                        ": image.file: \"ninja.png\" has changed since it was labelled; label it anew\n");
   CHECK(run.out.find("mean over 1 characters") != std::string::npos);
 }
+
+TEST_CASE("evaluate measures no animal as a biped, and says by which template it is measured") {
+  const skel::TempDir dir;
+  for (const char* name : {"characters/cap_boy", "animals/walking_dog"})
+    for (const char* end : {".png", ".mask.png", ".joints.json"})
+      std::filesystem::copy_file(std::string(SKEL_DATASETS "/") + name + end,
+                                 dir.file(std::filesystem::path(name).filename().string() + end));
+  const auto says = [&](const std::string& options, const std::string& line, const std::string& measured) {
+    const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "' --given-mask" + options);
+    CAPTURE(run.out, run.err);
+    CHECK(run.exit_code == 2);
+    CHECK(run.err == "skel-infer: " + dir.path() + ": " + line + "\n");
+    CHECK(run.out.find("mean over 1 characters") != std::string::npos);
+    CHECK(run.out.find("\n" + measured + " ") != std::string::npos);
+  };
+  says("",
+       "1 of 2 drawings (walking_dog) have joints of a quadruped, not of a biped: not measured; --template "
+       "quadruped measures them",
+       "cap_boy");
+  says(" --template quadruped",
+       "1 of 2 drawings (cap_boy) have joints of a biped, not of a quadruped: not measured; --template biped "
+       "measures them",
+       "walking_dog");
+}
