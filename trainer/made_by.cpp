@@ -12,8 +12,8 @@
 namespace skel {
 namespace {
 
-constexpr const char* kCheckpointFormat = "skel-checkpoint";
-constexpr int kCheckpointVersion = 1;
+constexpr const char* kTrainingFormat = "skel-training";
+constexpr int kTrainingVersion = 1;
 constexpr int kMostSteps = 10'000'000;
 
 std::string shortHash(const std::string& bytes) { return "sha256 " + sha256(bytes).substr(0, 16); }
@@ -50,18 +50,18 @@ std::string stepsOf(const MadeBy& made_by) {
 
 std::string formatMadeBy(const MadeBy& made_by) {
   nlohmann::ordered_json line = {
-      {"format", kCheckpointFormat}, {"version", kCheckpointVersion}, {"steps", made_by.steps}};
+      {"format", kTrainingFormat}, {"version", kTrainingVersion}, {"steps", made_by.steps}};
   line["made_by"] = nlohmann::ordered_json::object();
   for (const auto& [option, value] : made_by.options) line["made_by"][option] = value;
   return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::optional<MadeBy> parseMadeBy(const std::string& bytes, const std::string& file) {
-  if (!bytes.starts_with(std::string("{\"format\":\"") + kCheckpointFormat + "\"")) return std::nullopt;
+  if (!bytes.starts_with(std::string("{\"format\":\"") + kTrainingFormat + "\"")) return std::nullopt;
   const JsonDocument document =
       JsonDocument::parse(std::string_view(bytes).substr(0, bytes.find('\n')), file);
   const JsonValue root = document.root();
-  root.checkFormat(kCheckpointFormat, kCheckpointVersion);
+  root.checkFormat(kTrainingFormat, kTrainingVersion);
   root.allowOnly({"format", "version", "steps", "made_by"});
   MadeBy made_by;
   for (const JsonValue& steps : root.at("steps").items()) made_by.steps.push_back(steps.asInt(1, kMostSteps));
