@@ -96,7 +96,7 @@ RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& char
 namespace {
 
 Clip readClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source,
-                 std::string* note) {
+                 ClipNotes* notes) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".bvh" || ending == ".BVH") return loadBvhFor(path, character, source).clip;
   if (ending == ".glb" || ending == ".GLB")
@@ -109,12 +109,10 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
     KeyframeClipOptions options;
     options.z_up = source.clip_up == "z";
     if (source.interpolation == "linear") options.interpolation = RotationInterpolation::kAngles;
-    return parseKeyframeClip(text, path, character.skeleton, options, note);
+    return parseKeyframeClip(text, path, character.skeleton, options, notes ? &notes->of_file : nullptr);
   }
   const Clip clip = parseClip(text, path);
-  if (note)
-    for (const std::string& clause : armsThatStay(clip, character))
-      *note += (note->empty() ? path + ": note: " : "; ") + clause;
+  if (notes) notes->of_character = armsThatStay(clip, character);
   if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton); figure && fits(clip, *figure))
     return fitted(clip, character, source);
   const JointLookup joints(character.skeleton);
@@ -130,9 +128,9 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
 }  // namespace
 
 Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source,
-                 std::string* note) {
+                 ClipNotes* notes) {
   try {
-    return readClipFor(path, character, source, note);
+    return readClipFor(path, character, source, notes);
   } catch (const InputError&) {
     throw;
   } catch (const Error& error) {  // of the clip, whatever file it is from

@@ -45,9 +45,15 @@ Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource
 RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& character,
                             const ClipSource& source = {});
 
-// A clip file, ours or of the elk system, or a .bvh, fitted to the character. `note` (or null) is what is not
-// used of it, or what arms do not do of it, for the user. Throws InputError.
+// What is to be said of a clip that was read from a file.
+struct ClipNotes {
+  std::string of_file;                    // what is not used of it, a line that begins with its name; or ""
+  std::vector<std::string> of_character;  // what its arms do not do of the clip: clauses
+};
+
+// A clip file, ours or of the elk system, or a .bvh, fitted to the character. `notes` may be null. Throws
+// InputError.
 Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source = {},
-                 std::string* note = nullptr);
+                 ClipNotes* notes = nullptr);
 
 }  // namespace skel

@@ -146,14 +146,14 @@ std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource&
 }
 
 Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source,
-             std::string* note) {
+             ClipNotes* notes) {
   for (const Clip& clip : file.clips)
     if (clip.name == name_or_path) return clip;
   const std::vector<Clip> library = clipLibrary(source);
   std::vector<Clip> fitting = clipsFor(library, file.character);
   if (hasClip(fitting, name_or_path)) return fitted(clipNamed(fitting, name_or_path), file.character, source);
   if (name_or_path.find_first_of("./") != std::string::npos)
-    return loadClipFor(name_or_path, file.character, source, note);
+    return loadClipFor(name_or_path, file.character, source, notes);
   for (const Clip& clip : library)
     if (const std::string problem = unknownTemplate(clip); clip.name == name_or_path && !problem.empty())
       throw UsageError("the clip \"" + clip.name + "\" " + problem);

@@ -62,6 +62,6 @@ std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource&
 // A clip of the file, one that comes with skel, or a file that loadClipFor() reads, for the character's rest
 // pose. Throws UsageError that lists the names there are, InputError.
 Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source = {},
-             std::string* note = nullptr);
+             ClipNotes* notes = nullptr);
 
 }  // namespace skel

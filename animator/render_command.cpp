@@ -47,6 +47,11 @@ void noteUnfitting(const RenderCommandOptions& options, const RiggedCharacter& c
                                                  : printable(unknownTemplate(clip)).c_str());
 }
 
+void sayStayingArms(const std::vector<std::string>& clauses, const std::string& path) {
+  for (const std::string& clause : clauses)
+    std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(clause).c_str());
+}
+
 // Of the user's own clips among these that come from the library, not from the character's file (`filed`).
 void noteStayingArms(const RenderCommandOptions& options, const RiggedCharacter& character,
                      const std::string& path, const std::vector<Clip>& clips,
@@ -54,8 +59,7 @@ void noteStayingArms(const RenderCommandOptions& options, const RiggedCharacter&
   if (options.library.clips_dir.empty()) return;
   for (const Clip& clip : clipsFor(clipLibrary(options.library), character)) {
     if (!isOwn(clip) || !hasClip(clips, clip.name) || hasClip(filed, clip.name)) continue;
-    for (const std::string& clause : armsThatStay(clip, character))
-      std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(clause).c_str());
+    sayStayingArms(armsThatStay(clip, character), path);
   }
 }
 
@@ -87,9 +91,9 @@ AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, c
       std::for_each(file.clips.begin(), file.clips.end(), take);
       continue;
     }
-    std::string note;
+    ClipNotes notes;
     try {
-      take(clipFor(name, file, options.library, &note));
+      take(clipFor(name, file, options.library, &notes));
     } catch (const UsageError& error) {  // others may have it
       const UsageError here(path + ": " + error.what());
       if (options.files.size() == 1) throw here;
@@ -104,7 +108,8 @@ AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, c
       if (options.files.size() == 1 || options.clips.size() == 1) throw;
       leaveOut(InputError(path, error.what()));
     }
-    if (!note.empty()) std::fprintf(stderr, "%s\n", printable(note).c_str());
+    if (!notes.of_file.empty()) std::fprintf(stderr, "%s\n", printable(notes.of_file).c_str());
+    sayStayingArms(notes.of_character, path);
   }
   if (asked.clips.empty() && unknown) throw *unknown;
   return asked;

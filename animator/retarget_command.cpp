@@ -31,9 +31,11 @@ void report(const JointMatch& match) {
 
 Clip motionFor(const RetargetCommandOptions& options, const CharacterFile& file) {
   if (!options.motion.ends_with(".bvh")) {
-    std::string note;
-    Clip clip = clipFor(options.motion, file, options.clips, &note);
-    if (!note.empty()) std::printf("%s\n", printable(note).c_str());
+    ClipNotes notes;
+    Clip clip = clipFor(options.motion, file, options.clips, &notes);
+    if (!notes.of_file.empty()) std::printf("%s\n", printable(notes.of_file).c_str());
+    for (const std::string& clause : notes.of_character)
+      std::printf("%s: note: %s\n", printable(options.target).c_str(), printable(clause).c_str());
     return clip;
   }
   RetargetedMotion result = loadBvhFor(options.motion, file.character, options.clips);

@@ -87,9 +87,10 @@ bool holdsPlacedJoint(const std::string& label_file) {
   }
 }
 
-// What a person has placed.
+// What a person has placed in the picture that is there.
 AnnotatedDrawing fromLabels(const std::string& path) {
   const LabelFile labels = readLabelFile(path);
+  ensureUnchanged(path, labels);
   const std::string image = besideLabelFile(path, labels.image.file);
   AnnotatedDrawing drawing;
   drawing.image = readImage(image);
@@ -148,6 +149,18 @@ AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string
   if (const auto torso = drawing.joints.find("torso"); torso != drawing.joints.end() && torso->second)
     if (auto& body = drawing.joints["body"]; !body) body = torso->second;
   return drawing;
+}
+
+std::string otherPlanOf(const AnnotatedDrawing& drawing, const SkeletonTemplate& body_plan) {
+  const auto hasAll = [&](const SkeletonTemplate& plan) {
+    return std::all_of(drawing.joints.begin(), drawing.joints.end(), [&](const auto& joint) {
+      return !joint.second || joint.first == "torso" || plan.find(joint.first) >= 0;
+    });
+  };
+  if (hasAll(body_plan)) return "";
+  for (const std::string& name : builtinTemplates())
+    if (name != body_plan.name && hasAll(loadTemplate(name))) return name;
+  return "";
 }
 
 void turnClockwise(AnnotatedDrawing& drawing, int quarters) {

@@ -27,6 +27,8 @@ struct AnnotatedDrawing {
 // All below `root`, sorted. Throws InputError if there are none.
 std::vector<std::string> findDrawings(const std::string& root);
 AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string& id);
+// The body plan whose joints these are, if it is not that one but another that skel brings along; else "".
+std::string otherPlanOf(const AnnotatedDrawing& drawing, const SkeletonTemplate& body_plan);
 // A quarter turn clockwise, `quarters` times.
 void turnClockwise(AnnotatedDrawing& drawing, int quarters);
 // Whether any pixel is less than half opaque.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
@@ -31,7 +32,8 @@ struct Row {
   std::string id;
   bool annotated = false, counts = true, found = false;
   Score score;
-  std::string reason;  // why nothing was found
+  std::string reason;      // why nothing was found
+  std::string other_plan;  // whose joints it has; "": those of the one that is measured
   std::optional<Error> failure;
 };
 
@@ -41,7 +43,8 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
   row.id = id;
   row.annotated = !truth.joints.empty();
   row.counts = !options.opaque || (row.annotated && !isTransparent(truth.image));
-  if (!row.counts) return row;
+  if (row.counts) row.other_plan = otherPlanOf(truth, rig.body_plan);
+  if (!row.counts || !row.other_plan.empty()) return row;
   turnClockwise(truth, options.turn_deg / 90);
   RigInput input;
   input.image = truth.image;
@@ -155,9 +158,21 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     std::fprintf(stderr, "skel-infer: %s\n", row.failure->what());
     if (code == ExitCode::kDone) code = row.failure->exitCode();
   }
+  std::map<std::string, std::vector<std::string>> of_other_plans;
+  for (const Row& row : all)
+    if (!row.other_plan.empty()) of_other_plans[row.other_plan].push_back(row.id);
+  for (const auto& [plan, drawings] : of_other_plans) {
+    const InputError error(options.dir, std::to_string(drawings.size()) + " of " +
+                                            std::to_string(all.size()) + " drawings (" + drawings.front() +
+                                            (drawings.size() > 1 ? ", ..." : "") + ") have joints of a " +
+                                            plan + ", not of a " + rig.body_plan.name +
+                                            ": not measured; --template " + plan + " measures them");
+    std::fprintf(stderr, "skel-infer: %s\n", error.what());
+    if (code == ExitCode::kDone) code = error.exitCode();
+  }
   std::vector<Row> rows, hard;
   for (const Row& row : all)
-    if (row.counts && !row.failure) (row.annotated ? rows : hard).push_back(row);
+    if (row.counts && !row.failure && row.other_plan.empty()) (row.annotated ? rows : hard).push_back(row);
   Json json;
   json["characters"] = Json::object();
   std::printf("%-34s  PCK.05 PCK.10  error usable limbs inside   IoU  worst joint\n", "character");

@@ -9,6 +9,7 @@
 
 #include "labeler/char_cfg.h"
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
@@ -59,11 +60,6 @@ AnnotatedDrawing readJoints(const AnnotatedImage& annotated, const SkeletonTempl
 
 bool isSkeletonOf(const std::string& path, const SkeletonTemplate& body_plan) {
   return path.ends_with(kSkeletonFileEnding) && templateOfSkeleton(readFile(path), path) == body_plan.name;
-}
-
-bool liesBelow(const fs::path& dir, const fs::path& file) {
-  const fs::path below = fs::weakly_canonical(fs::absolute(file)).lexically_relative(fs::canonical(dir));
-  return !below.empty() && *below.begin() != "..";
 }
 
 // Nothing where it is of another figure than the first: label files are of that one. `dir`: that is read.

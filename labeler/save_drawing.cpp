@@ -5,6 +5,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/sha256.h"
 
 namespace skel {
@@ -14,19 +15,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kNext = ".next";
 
-// Through a link to what it names, with the mode of what was there, as writeFile() does.
-void putInPlace(const std::string& next, const std::string& path) {
-  std::error_code error;
-  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : fs::path(path);
-  if (const fs::file_status before = fs::status(target, error); fs::is_regular_file(before))
-    fs::permissions(next, before.permissions(), error);
-  fs::rename(next, target, error);
-  if (error == std::errc::cross_device_link) {
-    replaceFile(path, readFile(next));
-    removeFile(next);
-  } else if (error) {
-    throw OutputError(path, "cannot be replaced: " + error.message());
-  }
+// Whoever dies in between leaves `next`, whose bytes take the same place again.
+void putInPlace(const std::string& bytes, const std::string& mask, const std::string& next) {
+  replaceFile(mask, bytes);
+  removeFile(next);
 }
 
 }  // namespace
@@ -56,7 +48,7 @@ void saveWithMask(const std::string& label_file, const LabelFile& labels, const 
   const std::string mask = besideLabelFile(label_file, labels.mask->file);
   writeFile(mask + kNext, png);
   writeLabelFile(label_file, labels);
-  putInPlace(mask + kNext, mask);
+  putInPlace(png, mask, mask + kNext);
 }
 
 void finishSave(const std::string& label_file) {
@@ -65,8 +57,10 @@ void finishSave(const std::string& label_file) {
   if (!fs::is_regular_file(next)) return;
   const bool labelled = fs::is_regular_file(label_file);
   const auto source = labelled ? readLabelFile(label_file).mask : std::nullopt;
-  if (source && besideLabelFile(label_file, source->file) == mask && sha256(readFile(next)) == source->sha256)
-    putInPlace(next, mask);
+  const LookAtOutputs look;
+  const std::string bytes = readFile(next);
+  if (source && besideLabelFile(label_file, source->file) == mask && sha256(bytes) == source->sha256)
+    putInPlace(bytes, mask, next);
   else
     removeFile(next);
 }

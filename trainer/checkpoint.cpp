@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
@@ -23,15 +24,33 @@ void sayThatItGoesOn(const std::string& checkpoint, const ConvNetTrainer& traine
                printable(checkpoint) + " has it");
 }
 
+void restore(const std::string& checkpoint, MadeBy& made_by, ConvNetTrainer& trainer) {
+  const std::string bytes = readFile(checkpoint);
+  const std::optional<MadeBy> was = parseMadeBy(bytes, checkpoint);
+  if (!was) {
+    trainer.restore(bytes, checkpoint);
+    throw InputError(
+        checkpoint,
+        "comes from a former version of skel-train, which did not keep by what it was made: go on "
+        "with that version, or remove it to start anew");
+  }
+  ensureSame(*was, made_by, checkpoint);
+  const std::size_t line = bytes.find('\n');
+  trainer.restore(line == std::string::npos ? "" : bytes.substr(line + 1), checkpoint);
+  const int steps = made_by.steps.back();
+  made_by.steps = was->steps;
+  if (steps != made_by.steps.back()) made_by.steps.push_back(steps);
+}
+
 }  // namespace
 
-void goOnFrom(const std::string& checkpoint, ConvNetTrainer& trainer) {
+void goOnFrom(const std::string& checkpoint, MadeBy& made_by, ConvNetTrainer& trainer) {
   if (checkpoint.empty())
     return sayHowToGoOn("the same line begins anew; one with --checkpoint FILE can be gone on with");
   sayHowToGoOn("there was no report yet; the same line begins anew");
   if (std::filesystem::exists(checkpoint)) {
     const LookAtOutputs look;
-    trainer.restore(readFile(checkpoint), checkpoint);
+    restore(checkpoint, made_by, trainer);
     if (trainer.done())
       throw InputError(checkpoint,
                        "has made all steps of its training, whose net was written then: name another, or "
@@ -41,9 +60,9 @@ void goOnFrom(const std::string& checkpoint, ConvNetTrainer& trainer) {
   ensureWritableFile(checkpoint);
 }
 
-void keepCheckpoint(const std::string& checkpoint, const ConvNetTrainer& trainer) {
+void keepCheckpoint(const std::string& checkpoint, const MadeBy& made_by, const ConvNetTrainer& trainer) {
   if (checkpoint.empty()) return;
-  writeFile(checkpoint, trainer.checkpoint());
+  writeFile(checkpoint, formatMadeBy(made_by) + trainer.checkpoint());
   sayThatItGoesOn(checkpoint, trainer);
 }
 

@@ -4,16 +4,18 @@
 #include <string>
 
 #include "trainer/conv_net_trainer.h"
+#include "trainer/made_by.h"
 
 namespace skel {
 
-// Goes on from that file if it is there, and has Ctrl+C say how to go on. "": there is none, which Ctrl+C
-// says, too. Throws InputError: no checkpoint of this net, or one that has made all steps; OutputError: it
-// could not be written.
-void goOnFrom(const std::string& checkpoint, ConvNetTrainer& trainer);
+// Goes on from that file if it is there, and has Ctrl+C say how to go on; steps that it was begun with come
+// into `made_by` where they were fewer. "": there is none, which Ctrl+C says, too. Throws InputError: no
+// checkpoint of this net, one that was made by something else (made_by.h) or does not say by what, one that
+// has made all steps; OutputError: it could not be written.
+void goOnFrom(const std::string& checkpoint, MadeBy& made_by, ConvNetTrainer& trainer);
 
 // Writes it, if there is one to be. To be called before the report is printed: who has seen a report may
 // stop.
-void keepCheckpoint(const std::string& checkpoint, const ConvNetTrainer& trainer);
+void keepCheckpoint(const std::string& checkpoint, const MadeBy& made_by, const ConvNetTrainer& trainer);
 
 }  // namespace skel

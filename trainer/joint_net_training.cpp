@@ -188,6 +188,37 @@ JointNet firstNet(const JointTrainingOptions& options, const FigurePlan& plan) {
   return grown(start, std::max(start.hourglasses, options.hourglasses), rng);
 }
 
+// What other options decide over when they are not given comes behind those, which are named first.
+MadeBy madeJointsBy(const JointTrainingOptions& options, const Schedule& schedule, const JointNet& first,
+                    const std::vector<JointedDrawing>& drawings,
+                    const std::vector<JointedDrawing>& rehearsed) {
+  MadeBy made_by{{schedule.steps}, {}};
+  made_by.add("skel-train", "joints");
+  made_by.add("--template", options.body_plan);
+  made_by.add("--start", contentOfFile(options.start));
+  made_by.add("--drawings", contentOf(drawings));
+  made_by.add("--rehearse", contentOf(rehearsed));
+  made_by.add("--hourglasses", first.hourglasses);
+  made_by.add("--seed", std::to_string(options.seed));
+  made_by.add("--batch", options.batch);
+  made_by.add("--rate", schedule.peak_rate);
+  made_by.add("--weight-decay", options.weight_decay);
+  made_by.add("--averaging", schedule.averaging);
+  made_by.add("--figures", options.figures_per_round);
+  made_by.add("--passes", options.passes);
+  made_by.add("--others", options.other_share);
+  made_by.add("--no-look", options.no_look_share);
+  made_by.add("--no-colours", options.no_colours_share);
+  made_by.add("--drawn", schedule.drawn_share);
+  made_by.add("--hard", options.hard_copies);
+  made_by.add("--left-out", schedule.left_out);
+  std::ostringstream held_back;
+  for (const int kind : options.held_back) held_back << (held_back.tellp() > 0 ? " " : "") << kind;
+  made_by.add("--hold-back", options.held_back.empty() ? "none" : held_back.str());
+  made_by.add("--validation", options.validation_figures);
+  return made_by;
+}
+
 class Training {
  public:
   explicit Training(const JointTrainingOptions& options)
@@ -218,12 +249,15 @@ class Training {
     if (!options.rehearsed.empty() && (options.start.empty() || options.drawings.empty()))
       throw UsageError(
           "--rehearse needs --start and --drawings: what that net knows, and what it is to learn");
-    if (!options.drawings.empty()) {
-      std::vector<JointedDrawing> drawings = findJointedDrawings(options.drawings);
+    std::vector<JointedDrawing> drawings = findJointedDrawings(options.drawings),
+                                rehearsed = findJointedDrawings(options.rehearsed);
+    made_by_ = madeJointsBy(options, schedule_, net_, drawings, rehearsed);
+    ensureWritableNet(options.output, "skel-joint-net");
+    goOnFrom(options.checkpoint, made_by_, trainer_);
+    if (!drawings.empty()) {
       splitOff(drawings);
       repeatHard(drawings);
       learned_ = drawings.size();
-      std::vector<JointedDrawing> rehearsed = findJointedDrawings(options.rehearsed);
       std::move(rehearsed.begin(), rehearsed.end(), std::back_inserter(drawings));
       drawings_ = posableDrawings(drawings, net_.joints, loadTemplate(net_.body_plan), options.threads);
       shown_ = inEqualShares(learned_, drawings_.size() - learned_);
@@ -235,8 +269,6 @@ class Training {
   }
 
   void run() {
-    ensureWritableNet(options_.output, "skel-joint-net");
-    goOnFrom(options_.checkpoint, trainer_);
     const int steps_per_round = options_.figures_per_round * options_.passes / options_.batch;
     reportLeftOut("before", net_);
     ProgressBar bar("training", static_cast<std::size_t>(schedule_.steps));
@@ -381,14 +413,14 @@ class Training {
     const Report r = validate(net, joints_, set_, validation_, options_.threads);
     std::ostringstream provenance;
     provenance << "skel-train joints: seed " << options_.seed << ", step " << trainer_.steps() << " of "
-               << schedule_.steps << ", batch " << options_.batch;
+               << stepsOf(made_by_) << ", batch " << options_.batch;
     if (!drawings_.empty())
       provenance << ", " << learned_ << " drawings for " << schedule_.drawn_share << " of the figures";
     if (learned_ < drawings_.size()) provenance << " with " << drawings_.size() - learned_ << " rehearsed";
     provenance << ", validation loss " << r.loss << ", within 10 % " << r.within_10;
     net.provenance = provenance.str();
     writeFile(options_.output, formatJointNet(net));
-    keepCheckpoint(options_.checkpoint, trainer_);
+    keepCheckpoint(options_.checkpoint, made_by_, trainer_);
     bar.clear();
     std::printf("step %lld  loss %.4f  validation: loss %.4f  within 10 %% %.4f  5 %% %.4f  whole %.4f\n",
                 static_cast<long long>(trainer_.steps()), loss, r.loss, r.within_10, r.within_5,
@@ -402,6 +434,7 @@ class Training {
   const FigurePlan& plan_;
   JointNet net_;
   NetJoints joints_;
+  MadeBy made_by_;
   ConvNetTrainer trainer_;
   FigureOptions figure_options_;
   std::vector<PosableDrawing> drawings_;

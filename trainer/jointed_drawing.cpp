@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <locale>
 #include <map>
+#include <sstream>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
+#include "libskel/core/sha256.h"
+#include "libskel/core/text.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/skeleton/skeleton_file.h"
@@ -20,9 +24,17 @@ std::string beside(const std::string& file, const std::string& relative) {
   return (fs::path(file).parent_path() / relative).lexically_normal().string();
 }
 
-JointedDrawing fromSkeleton(const std::string& path) {
-  const std::string body_plan = JsonDocument::readFile(path).root().at("template").asString();
-  const SkeletonFile file = readSkeletonFile(path, loadTemplate(body_plan));
+void ensureUnchanged(const std::string& path, const SkeletonFile& file) {
+  const auto check = [&](const char* key, const std::string& name, const std::string& hash) {
+    if (!hash.empty() && sha256(readFile(beside(path, name))) != hash)
+      throw InputError(path, std::string(key) + ".file: \"" + name +
+                                 "\" has changed since its joints were placed; find them anew (skel-infer)");
+  };
+  check("image", file.image_file, file.image_sha256);
+  if (file.mask) check("mask", file.mask->file, file.mask->sha256);
+}
+
+JointedDrawing fromSkeleton(const std::string& path, const SkeletonFile& file) {
   JointedDrawing drawing{beside(path, file.image_file), std::nullopt, path, {}, false};
   if (file.mask) drawing.mask = beside(path, file.mask->file);
   for (const Joint& joint : file.skeleton.joints) drawing.joints.emplace_back(joint.name, joint.image);
@@ -39,6 +51,16 @@ JointedDrawing fromLabels(const std::string& path, const LabelFile& file) {
 
 std::vector<JointedDrawing> findJointedDrawings(const std::string& dir) {
   std::map<std::string, JointedDrawing> by_image;
+  std::vector<InputError> changed;
+  const auto add = [&](JointedDrawing drawing, const auto& file) {
+    const std::string path = drawing.joints_file, image = fs::path(drawing.image).lexically_normal().string();
+    if (!by_image.try_emplace(image, std::move(drawing)).second) return;
+    try {
+      ensureUnchanged(path, file);
+    } catch (const InputError& error) {
+      changed.push_back(error);
+    }
+  };
   for (const AnnotatedImage& files : findAnnotatedImages(dir)) {
     by_image[fs::path(files.image).lexically_normal().string()] = {files.image, files.mask, files.joints,
                                                                    readJointsFile(files.joints),
@@ -49,18 +71,25 @@ std::vector<JointedDrawing> findJointedDrawings(const std::string& dir) {
     if (!path.ends_with(kLabelFileEnding)) continue;
     const LabelFile file = readLabelFile(path);
     if (!file.hasPlacedJoint()) continue;
-    JointedDrawing drawing = fromLabels(path, file);
-    by_image.try_emplace(fs::path(drawing.image).lexically_normal().string(), std::move(drawing));
+    add(fromLabels(path, file), file);
   }
   for (const std::string& path : all) {
     if (!path.ends_with(kSkeletonFileEnding) || !hasEditedJoint(path)) continue;
-    JointedDrawing drawing = fromSkeleton(path);
-    by_image.try_emplace(drawing.image, drawing);
+    const std::string body_plan = JsonDocument::readFile(path).root().at("template").asString();
+    const SkeletonFile file = readSkeletonFile(path, loadTemplate(body_plan));
+    add(fromSkeleton(path, file), file);
   }
   if (by_image.empty())
     throw InputError(dir,
                      "has no drawing with known joints: *.joints.json, or *.labels.json or *.skeleton.json "
                      "of which a person has placed a joint");
+  if (changed.size() == 1) throw InputError(changed.front());
+  if (!changed.empty()) {
+    std::vector<std::string> others;
+    for (std::size_t i = 1; i < changed.size(); ++i) others.push_back(changed[i].file());
+    throw InputError(changed.front().file(), changed.front().problem() + "; the same of " +
+                                                 std::to_string(others.size()) + " more: " + joined(others));
+  }
   std::vector<JointedDrawing> drawings;
   for (auto& [image, drawing] : by_image) drawings.push_back(std::move(drawing));
   return drawings;
@@ -71,6 +100,23 @@ std::vector<JointedDrawing> findJointedDrawings(const std::vector<std::string>& 
   for (const std::string& dir : dirs)
     for (JointedDrawing& found : findJointedDrawings(dir)) drawings.push_back(std::move(found));
   return drawings;
+}
+
+std::string contentOf(const std::vector<JointedDrawing>& drawings) {
+  if (drawings.empty()) return "none";
+  std::ostringstream all;
+  all.imbue(std::locale::classic());
+  all.precision(17);
+  for (const JointedDrawing& drawing : drawings) {
+    all << sha256(readFile(drawing.image)) << ' ' << (drawing.mask ? sha256(readFile(*drawing.mask)) : "none")
+        << ' ' << drawing.side_view;
+    for (const auto& [name, place] : drawing.joints) {
+      all << ' ' << name;
+      if (place) all << ' ' << place->x() << ' ' << place->y();
+    }
+    all << '\n';
+  }
+  return std::to_string(drawings.size()) + " drawings (sha256 " + sha256(all.str()).substr(0, 16) + ")";
 }
 
 Silhouette silhouetteOf(const Image& image, const JointedDrawing& drawing) {

@@ -21,10 +21,15 @@ struct JointedDrawing {
 
 // All below `dir`, at any depth, sorted by the image's path: annotated ones (see findAnnotatedImages), and
 // label files and skeleton files in which a person has placed a joint. Of several files that speak of
-// one image the first of these kinds counts. Throws InputError if there are none, or one cannot be read.
+// one image the first of these kinds counts. Throws InputError if there are none, one cannot be read, or a
+// picture or mask has changed since its label file or skeleton file was written.
 std::vector<JointedDrawing> findJointedDrawings(const std::string& dir);
 // Of several folders, one after the other.
 std::vector<JointedDrawing> findJointedDrawings(const std::vector<std::string>& dirs);
+
+// What stands in their pictures, masks and joints, not what they are called: "3 drawings (sha256 0123…)";
+// "none".
+std::string contentOf(const std::vector<JointedDrawing>& drawings);
 
 // By the drawing's mask, or as found in the image. Throws InputError with the reason if there is none.
 Silhouette silhouetteOf(const Image& image, const JointedDrawing& drawing);

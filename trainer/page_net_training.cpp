@@ -28,14 +28,9 @@ namespace {
 // Streams of random numbers of one seed. Pages have a stream each by number.
 enum Stream : std::uint64_t { kInitialStream = 1, kPageStream = 1u << 20, kValidationStream = 1ull << 48 };
 
-PageOptions pageOptions(const PageTrainingOptions& options) {
+PageOptions pageOptions(const PageTrainingOptions& options, const std::vector<JointedDrawing>& drawings) {
   PageOptions out;
   out.drawn_share = options.drawn_share;
-  std::vector<JointedDrawing> drawings;
-  for (const std::string& folder : options.drawings) {
-    std::vector<JointedDrawing> found = findJointedDrawings(folder);
-    std::move(found.begin(), found.end(), std::back_inserter(drawings));
-  }
   out.drawings.resize(drawings.size());
   parallelFor(drawings.size(), options.threads, [&](std::size_t i) {
     const Image image = readImage(drawings[i].image);
@@ -85,6 +80,19 @@ PageReport validate(const PageNet& net, const std::vector<Page>& pages, int thre
     mean.good += r.good / n;
   }
   return mean;
+}
+
+MadeBy madePagesBy(const PageTrainingOptions& options, const std::vector<JointedDrawing>& drawings) {
+  MadeBy made_by{{options.steps}, {}};
+  made_by.add("skel-train", "pages");
+  made_by.add("--start", contentOfFile(options.start));
+  made_by.add("--seed", std::to_string(options.seed));
+  made_by.add("--batch", options.batch);
+  made_by.add("--rate", options.peak_rate);
+  made_by.add("--drawings", contentOf(drawings));
+  made_by.add("--drawn", options.drawn_share);
+  made_by.add("--validation", options.validation_pages);
+  return made_by;
 }
 
 void writeSheet(const PageTrainingOptions& options, const PageOptions& page_options) {
@@ -144,7 +152,8 @@ void bindPageTrainingOptions(CLI::App& command, PageTrainingOptions& options) {
 }
 
 ExitCode runPageTraining(const PageTrainingOptions& options) {
-  const PageOptions page_options = pageOptions(options);
+  const std::vector<JointedDrawing> drawings = findJointedDrawings(options.drawings);
+  const PageOptions page_options = pageOptions(options, drawings);
   if (!options.sheet.empty()) {
     writeSheet(options, page_options);
     return ExitCode::kDone;
@@ -163,7 +172,8 @@ ExitCode runPageTraining(const PageTrainingOptions& options) {
   schedule.peak_rate = options.peak_rate;
   schedule.threads = options.threads;
   ConvNetTrainer trainer(net, schedule);
-  goOnFrom(options.checkpoint, trainer);
+  MadeBy made_by = madePagesBy(options, drawings);
+  goOnFrom(options.checkpoint, made_by, trainer);
   const std::vector<Page> validation =
       drawPages(options, page_options, kValidationStream, options.validation_pages);
   std::vector<Page> pages(static_cast<std::size_t>(options.batch));
@@ -190,11 +200,11 @@ ExitCode runPageTraining(const PageTrainingOptions& options) {
     const PageReport r = validate(net, validation, options.threads);
     std::ostringstream provenance;
     provenance << "skel-train pages: seed " << options.seed << ", step " << trainer.steps() << " of "
-               << options.steps << ", batch " << options.batch << ", " << page_options.drawings.size()
+               << stepsOf(made_by) << ", batch " << options.batch << ", " << page_options.drawings.size()
                << " drawings for " << page_options.drawn_share << " of the figures, validation IoU " << r.iou;
     net.provenance = provenance.str();
     writeFile(options.output, formatPageNet(net));
-    keepCheckpoint(options.checkpoint, trainer);
+    keepCheckpoint(options.checkpoint, made_by, trainer);
     bar.clear();
     std::printf("step %lld  loss %.4f  validation: loss %.4f  IoU %.4f  of at least .9 %.3f\n",
                 static_cast<long long>(trainer.steps()), loss / counted, r.loss, r.iou, r.good);

@@ -50,6 +50,31 @@ std::vector<PartSample> readSamples(const std::vector<std::string>& folders, con
   return samples;
 }
 
+MadeBy madePartsBy(const PartTrainingOptions& options) {
+  MadeBy made_by{{options.steps}, {}};
+  made_by.add("skel-train", "parts");
+  made_by.add("--start", contentOfFile(options.start));
+  made_by.add("--seed", std::to_string(options.seed));
+  made_by.add("--batch", options.batch);
+  made_by.add("--rate", options.peak_rate);
+  made_by.add("--averaging", options.averaging);
+  std::vector<std::string> shapes;
+  for (const auto& [option, folders] :
+       {std::pair{"--drawings", &options.drawings}, std::pair{"--held-out", &options.held_out}}) {
+    std::vector<JointedDrawing> drawings;
+    for (auto& [drawing, file] : withShapes(*folders, options.shapes)) {
+      drawings.push_back(std::move(drawing));
+      shapes.push_back(std::move(file));
+    }
+    made_by.add(option, contentOf(drawings));
+  }
+  made_by.add("--shapes", contentOfFiles(shapes));
+  made_by.add("--drawn", options.drawn_share);
+  made_by.add("--posed", options.posed_share);
+  made_by.add("--animals", options.animal_share);
+  return made_by;
+}
+
 struct Lesson {
   PartSample sample;
   PartSkeleton seen;  // its skeleton as the net is told
@@ -327,7 +352,8 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
   schedule.averaging = options.averaging;
   schedule.threads = options.threads;
   ConvNetTrainer trainer(net, schedule);
-  goOnFrom(options.checkpoint, trainer);
+  MadeBy made_by = madePartsBy(options);
+  goOnFrom(options.checkpoint, made_by, trainer);
   std::vector<Lesson> lessons(static_cast<std::size_t>(options.batch));
   ProgressBar bar("training", static_cast<std::size_t>(options.steps));
   bar.advance(static_cast<std::size_t>(trainer.steps()));
@@ -353,12 +379,12 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
     const PartReport r = validate(net, validation, options.threads);
     std::ostringstream provenance;
     provenance << "skel-train parts: seed " << options.seed << ", step " << trainer.steps() << " of "
-               << options.steps << ", batch " << options.batch << ", " << drawings.size() << " drawings for "
-               << options.drawn_share << " of the figures, IoU of limbs on " << validation.size()
-               << " others " << r.limbs;
+               << stepsOf(made_by) << ", batch " << options.batch << ", " << drawings.size()
+               << " drawings for " << options.drawn_share << " of the figures, IoU of limbs on "
+               << validation.size() << " others " << r.limbs;
     net.provenance = provenance.str();
     writeFile(options.output, formatPartNet(net));
-    keepCheckpoint(options.checkpoint, trainer);
+    keepCheckpoint(options.checkpoint, made_by, trainer);
     bar.clear();
     std::printf("step %lld  loss %.4f  validation: loss %.4f  limbs %.4f  before %.3f of %d  parts",
                 static_cast<long long>(trainer.steps()), loss / counted, r.loss, r.limbs,

@@ -40,31 +40,40 @@ Ease easeAt(const std::optional<JsonValue>& value) {
   value->fail("is \"" + name + "\", must be none, rest, flow or loop");
 }
 
+// Of three numbers, or of the four of a rotation, which is the same with all signs turned.
+template <int kCount>
+using Value = Eigen::Matrix<double, kCount, 1>;
+template <int kCount>
 struct Key {
   double time_s;
-  Eigen::Vector3d value;
+  Value<kCount> value;
 };
-using Keys = std::vector<Key>;
+template <int kCount>
+using Keys = std::vector<Key<kCount>>;
 
 // A pair of eased keys becomes as many as the time between them asks for.
 constexpr std::size_t kMaxSamples = 1'000'000, kMaxContacts = 1000;
 
 // The key's slope: the straight line between its neighbours, or level at the ends.
-Eigen::Vector3d slope(const Keys& keys, std::size_t i, Ease ease) {
+template <int kCount>
+Value<kCount> slope(const Keys<kCount>& keys, std::size_t i, Ease ease) {
   const std::size_t last = keys.size() - 1;
   if (i > 0 && i < last)
     return (keys[i + 1].value - keys[i - 1].value) / (keys[i + 1].time_s - keys[i - 1].time_s);
-  if (ease != Ease::kLoop) return Eigen::Vector3d::Zero();
+  if (ease != Ease::kLoop) return Value<kCount>::Zero();
   const double across = keys[1].time_s - keys[0].time_s + keys[last].time_s - keys[last - 1].time_s;
-  return (keys[1].value - keys[0].value + keys[last].value - keys[last - 1].value) / across;
+  Value<kCount> out = keys[1].value - keys[0].value, in = keys[last].value - keys[last - 1].value;
+  if (kCount == 4 && keys[last].value.dot(keys[0].value) < 0) (i == 0 ? in : out) *= -1;
+  return (out + in) / across;
 }
 
-Eigen::Vector3d eased(const Keys& keys, double time_s, Ease ease) {
+template <int kCount>
+Value<kCount> eased(const Keys<kCount>& keys, double time_s, Ease ease) {
   if (keys.size() == 1) return keys[0].value;
   const auto later = std::lower_bound(keys.begin() + 1, keys.end() - 1, time_s,
-                                      [](const Key& key, double time) { return key.time_s < time; });
+                                      [](const Key<kCount>& key, double time) { return key.time_s < time; });
   const auto next = std::size_t(later - keys.begin());
-  const Key &a = keys[next - 1], &b = keys[next];
+  const Key<kCount>&a = keys[next - 1], &b = keys[next];
   const double length = b.time_s - a.time_s, t = std::clamp((time_s - a.time_s) / length, 0.0, 1.0);
   if (ease == Ease::kRest)
     return a.value + (b.value - a.value) * (0.5 - 0.5 * std::cos(t * std::numbers::pi));
@@ -81,10 +90,11 @@ struct Easing {
 };
 
 // Even keys in place of eased ones.
-Keys sampled(const Keys& keys, const JsonValue& list, Easing& easing) {
+template <int kCount>
+Keys<kCount> sampled(const Keys<kCount>& keys, const JsonValue& list, Easing& easing) {
   const Ease ease = easing.ease;
   if (ease == Ease::kNone || keys.size() < 2) return keys;
-  Keys result;
+  Keys<kCount> result;
   const int last = int(std::lround(keys.back().time_s * kEasedRate_hz));
   easing.samples += std::size_t(last) + 1;
   if (easing.samples > kMaxSamples)
@@ -98,8 +108,8 @@ Keys sampled(const Keys& keys, const JsonValue& list, Easing& easing) {
 }
 
 // [[time_s, x, y, z], …]
-Keys keysAt(const JsonValue& list, double limit) {
-  Keys keys;
+Keys<3> keysAt(const JsonValue& list, double limit) {
+  Keys<3> keys;
   std::vector<float> times;
   for (const JsonValue& item : list.items()) {
     const std::vector<double> numbers = item.asNumbers(4);
@@ -113,14 +123,14 @@ Keys keysAt(const JsonValue& list, double limit) {
 
 void vectorKeys(const JsonValue& list, double limit, Easing& easing, std::vector<float>& times,
                 std::vector<Eigen::Vector3f>& values) {
-  for (const Key& key : sampled(keysAt(list, limit), list, easing)) {
+  for (const Key<3>& key : sampled(keysAt(list, limit), list, easing)) {
     times.push_back(float(key.time_s));
     values.push_back(key.value.cast<float>());
   }
 }
 
 // [[time_s, x, y, z, w], …]
-void quaternionKeys(const JsonValue& list, JointTrack& track) {
+void quaternionKeys(const JsonValue& list, Easing& easing, JointTrack& track) {
   for (const JsonValue& item : list.items()) {
     const std::vector<double> n = item.asNumbers(5);
     takeTime(item, n[0], track.times_s);
@@ -131,10 +141,23 @@ void quaternionKeys(const JsonValue& list, JointTrack& track) {
     track.rotations.push_back(rotation.cast<float>());
   }
   if (track.times_s.empty()) list.fail("is empty");
+  if (easing.ease == Ease::kNone) return;
+  Keys<4> keys;
+  for (std::size_t k = 0; k < track.times_s.size(); ++k) {
+    Eigen::Vector4d value = track.rotations[k].coeffs().cast<double>();
+    if (k > 0 && value.dot(keys.back().value) < 0) value = -value;  // the shorter way
+    keys.push_back({track.times_s[k], value});
+  }
+  track.times_s.clear();
+  track.rotations.clear();
+  for (const Key<4>& key : sampled(keys, list, easing)) {
+    track.times_s.push_back(float(key.time_s));
+    track.rotations.push_back(Eigen::Quaterniond(key.value).normalized().cast<float>());
+  }
 }
 
 void angleKeys(const JsonValue& list, Easing& easing, JointTrack& track) {
-  for (const Key& key : sampled(keysAt(list, kMaxAngle_deg), list, easing)) {
+  for (const Key<3>& key : sampled(keysAt(list, kMaxAngle_deg), list, easing)) {
     const Eigen::Vector3f angles = (key.value * kDegree).cast<float>();
     track.times_s.push_back(float(key.time_s));
     track.rotations.push_back(rotationOfAngles(angles));
@@ -159,7 +182,7 @@ JointTrack trackAt(const JsonValue& value, Easing& easing) {
   }
   const auto rotations = value.find("rotations"), angles = value.find("angles_deg");
   if (rotations && angles) angles->fail("stands beside \"rotations\"; give one of them");
-  if (rotations) quaternionKeys(*rotations, track);
+  if (rotations) quaternionKeys(*rotations, easing, track);
   if (angles) angleKeys(*angles, easing, track);
   if (const auto places = value.find("translations_m"))
     vectorKeys(*places, kMaxPlace, easing, track.translation_times_s, track.translations_m);

@@ -54,6 +54,14 @@ void requireOneCommand(const CLI::App& app) {
                        app.get_name() + " " + command.get_name() + " --help");
 }
 
+// The example of the whole tool, which CLI11 hands down, is none of a command.
+void keepExampleFromCommands(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands({})) {
+    keepExampleFromCommands(*command);
+    if (command->get_footer() == app.get_footer()) command->footer("");
+  }
+}
+
 // Whether all that was printed has arrived; errno says why not.
 bool printed() {
   std::cout.flush();
@@ -82,6 +90,7 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<ExitCode()
                        app.get_name() + " " + skelVersion() + (nets.empty() ? "" : "\nnets, SHA-256:" + nets),
                        "Print the version, the hashes of the nets, and exit");
   requireNumberChecks(app);
+  keepExampleFromCommands(app);
   const auto say = [&](const std::exception& error, ExitCode code) {
     std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), printable(error.what()).c_str());
     return static_cast<int>(code);

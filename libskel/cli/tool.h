@@ -11,7 +11,7 @@
 namespace skel {
 
 // Adds a subcommand; when it is given, `chosen` becomes what it does. `example`: a command line, which stands
-// below its help instead of that of the whole tool.
+// below its help.
 template <class Options>
 void addCommand(CLI::App& app, std::function<ExitCode()>& chosen, const std::string& name,
                 const std::string& help, void (*bind)(CLI::App&, Options&), ExitCode (*run)(const Options&),

@@ -26,6 +26,15 @@ std::string safeFileName(std::string_view text) {
   return name;
 }
 
+bool liesBelow(const std::string& dir, const std::string& path) {
+  std::error_code failure;
+  const auto canonical = [&](const fs::path& folder) {
+    return failure ? fs::path() : fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder), failure);
+  };
+  const fs::path below = canonical(fs::path(path).parent_path()).lexically_relative(canonical(dir));
+  return !failure && !below.empty() && *below.begin() != "..";
+}
+
 std::string pathInside(const std::string& dir, const std::string& named, const std::string& file) {
   const fs::path folder = dir.empty() ? "." : dir, path = folder / named;
   const auto refuse = [&] {
@@ -34,11 +43,7 @@ std::string pathInside(const std::string& dir, const std::string& named, const s
   };
   // What the system would take for the end of the name hides where it leads.
   if (named.find('\0') != named.npos) refuse();
-  std::error_code failure;
-  // The file itself may be a link: it is read, and what belongs to it is written beside the link.
-  const fs::path below = fs::weakly_canonical(path.parent_path(), failure)
-                             .lexically_relative(fs::weakly_canonical(folder, failure));
-  if (fs::path(named).is_absolute() || failure || below.empty() || *below.begin() == "..") refuse();
+  if (fs::path(named).is_absolute() || !liesBelow(dir, path.string())) refuse();
   const fs::path last = path.filename();
   if (last.empty() || last == "." || last == "..") refuse();
   return path.string();

@@ -10,6 +10,10 @@ namespace skel {
 // bytes. What is not allowed becomes '_'; a name that is fine stays as it is.
 std::string safeFileName(std::string_view text);
 
+// Whether the file `path` lies in the folder `dir` or below it, whatever links to folders lead there. A file
+// that is a link itself lies where the link does: it is read, and what belongs to it is written beside it.
+bool liesBelow(const std::string& dir, const std::string& path);
+
 // The file that `named` in a file of the folder `dir` means. Throws InputError(`file`) if it lies outside of
 // `dir`: an absolute path, or one that leads out by `..` or by a link to another folder.
 std::string pathInside(const std::string& dir, const std::string& named, const std::string& file);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <locale>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -24,23 +25,46 @@ constexpr int kVersion = 2;  // 1: without `recognized`
 constexpr int kMaxImageSide = 100'000;
 constexpr int kMaxGridSide = 4096;
 constexpr std::size_t kMostCandidates = 10'000;  // the densest comb of 128 px has fewer
-constexpr std::size_t kMostComplaints = 100;     // of one file; more help nobody
+constexpr std::size_t kMostComplaints = 100;     // kinds of them, of one file; more help nobody
 
-// Runs each step; the complaints of those that fail are kept, so that a check can name all of them.
+// A complaint without its numbers: the same of every candidate.
+std::string kindOf(const InputError& complaint) {
+  std::string kind = complaint.problem();
+  std::erase_if(kind, [](char c) { return std::string_view("0123456789.-+e").find(c) != std::string::npos; });
+  return kind;
+}
+
+// Runs each step; the complaints of those that fail are kept, the first of a kind, so that a check can name
+// all of them.
 class Problems {
  public:
   void attempt(const std::function<void()>& step) {
-    if (lines_.size() >= kMostComplaints) return;
+    if (kinds_.size() >= kMostComplaints) return;
     try {
       step();
     } catch (const InputError& error) {
-      lines_.push_back(error);
+      const auto [kind, is_new] = kinds_.try_emplace(kindOf(error), kinds_.size());
+      if (is_new) complaints_.push_back({error, 0});
+      ++complaints_[kind->second].count;
     }
   }
-  const std::vector<InputError>& all() const { return lines_; }
+  bool none() const { return complaints_.empty(); }
+  const InputError& first() const { return complaints_.front().first; }
+  std::vector<std::string> lines() const {
+    std::vector<std::string> lines;
+    for (const auto& [first, count] : complaints_)
+      lines.push_back(first.what() +
+                      (count == 1 ? "" : " (and " + std::to_string(count - 1) + " more such)"));
+    return lines;
+  }
 
  private:
-  std::vector<InputError> lines_;
+  struct Complaint {
+    InputError first;
+    int count;
+  };
+  std::vector<Complaint> complaints_;
+  std::map<std::string, std::size_t> kinds_;  // which of them it is
 };
 
 LabelFile::Source readSource(const JsonValue& value) {
@@ -197,7 +221,7 @@ std::string besideLabelFile(const std::string& label_file, const std::string& na
 LabelFile readLabelFile(const std::string& path) {
   Problems problems;
   LabelFile file = parseFile(path, problems);
-  if (!problems.all().empty()) throw InputError(problems.all().front());
+  if (!problems.none()) throw InputError(problems.first());
   return file;
 }
 
@@ -206,9 +230,12 @@ std::vector<std::string> findProblems(const std::string& path) {
   const LabelFile file = parseFile(path, problems);
   if (!file.image.file.empty()) problems.attempt([&] { checkSource(path, "image", file.image); });
   if (file.mask) problems.attempt([&] { checkSource(path, "mask", *file.mask); });
-  std::vector<std::string> lines;
-  for (const InputError& problem : problems.all()) lines.emplace_back(problem.what());
-  return lines;
+  return problems.lines();
+}
+
+void ensureUnchanged(const std::string& path, const LabelFile& labels) {
+  checkSource(path, "image", labels.image);
+  if (labels.mask) checkSource(path, "mask", *labels.mask);
 }
 
 std::string formatLabelFile(const LabelFile& labels) {

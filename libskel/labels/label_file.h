@@ -48,9 +48,13 @@ std::string formatLabelFile(const LabelFile& labels);
 // At any moment `path` holds the old labels or the new ones. Throws OutputError.
 void writeLabelFile(const std::string& path, const LabelFile& labels);
 
-// Everything that is wrong with a label file, one line each, with file and JSON path: what readLabelFile()
-// refuses, and an image or a mask that is missing or has changed since it was labelled.
+// Everything that is wrong with a label file, with file and JSON path, one line for all that is wrong in the
+// same way: what readLabelFile() refuses, and an image or a mask that is missing or has changed since it was
+// labelled.
 std::vector<std::string> findProblems(const std::string& path);
+
+// Throws InputError: the image or the mask is missing, or has changed since it was labelled.
+void ensureUnchanged(const std::string& path, const LabelFile& labels);
 
 // Of the image or mask, as a path that can be opened.
 std::string besideLabelFile(const std::string& label_file, const std::string& name);

@@ -108,6 +108,37 @@ TEST_CASE("keys ease as the file asks") {
   CHECK(speed(loop, 0) == Approx(speed(loop, 3 - 1 / 30.0f)).margin(12));
 }
 
+TEST_CASE("rotations ease as angles do: clips that were made in the window have these") {
+  const auto turned = [](double degrees) {
+    const double half = degrees * 3.14159265358979 / 360;
+    return std::to_string(std::sin(half)) + ", 0, 0, " + std::to_string(std::cos(half)) + "]";
+  };
+  // One of the signs is turned: it is the same rotation.
+  const std::string of_angles =
+      R"("tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [1, 40, 0, 0], [2, 60, 0, 0], [3, 0, 0, 0]]}])";
+  const std::string tracks = R"("tracks": [{"joint": "head", "rotations": [[0, )" + turned(0) + ", [1, " +
+                             turned(400) + ", [2, " + turned(60) + ", [3, " + turned(360) + "]}]";
+  for (const std::string ease : {"none", "rest", "flow", "loop"}) {
+    const std::string how = "\"ease\": \"" + ease + "\", ";
+    const Clip clip = parsed(how + tracks), angles = parsed(how + of_angles);
+    INFO(ease);
+    CHECK(clip.duration_s() == 3);
+    for (int i = 0; i <= 30; ++i)
+      CHECK(std::remainder(bow(clip, float(i) / 10) - bow(angles, float(i) / 10), 360) ==
+            Approx(0).margin(1));
+  }
+  // A whole turn comes back with its signs turned, and goes on as it came (along chords of 120 degrees).
+  const Clip whole = parsed(R"("ease": "loop", "tracks": [{"joint": "head", "rotations": [[0, )" + turned(0) +
+                            ", [1, " + turned(120) + ", [2, " + turned(240) + ", [3, " + turned(360) + "]}]");
+  const std::vector<Eigen::Quaternionf>& turns = whole.tracks[0].rotations;
+  const float first = turns[0].angularDistance(turns[1]),
+              last = turns[turns.size() - 2].angularDistance(turns.back());
+  CHECK(first * kEasedRate_hz == Approx(120 * 3.14159265 / 180).epsilon(.2));
+  CHECK(last == Approx(first).epsilon(.02));
+  const Clip one = parsed(R"("ease": "flow", "tracks": [{"joint": "head", "rotations": [[0, 0, 0, 0, 1]]}])");
+  CHECK(one.tracks[0].rotations.size() == 1);
+}
+
 TEST_CASE("a clip file that makes no sense is refused with the place in it") {
   const auto head = [](const std::string& keys) {
     return "\"tracks\": [{\"joint\": \"head\", " + keys + "}]";

@@ -256,7 +256,7 @@ TEST_CASE("a clip of one's own that an arm cannot do is named with the arm") {
     const ToolRun run = render(model + " --clips " + clip + film);
     CHECK(run.exit_code == 0);
     for (const char* arm : {"left", "right"})
-      CHECK_THAT(run.err, Contains("the " + std::string(arm) +
+      CHECK_THAT(run.err, Contains(model + ": note: the " + std::string(arm) +
                                    " arm is one piece with the body and does not follow \"attack\""));
   }
   CHECK(render(model + " --clips walk" + film).err == "");

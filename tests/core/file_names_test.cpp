@@ -43,6 +43,9 @@ TEST_CASE("what a file names lies in its folder, or is refused") {
         pathInside(set, out, list),
         list + ": names \"" + out + "\", which lies outside of its folder; move the files together");
   CHECK_THROWS_AS(pathInside(set, set + "/pictures/a.png", list), InputError);
+  for (const char* in : {"/pictures/a.png", "/b.png", "/not/there/yet.png"}) CHECK(liesBelow(set, set + in));
+  for (const char* out : {"/link/b.png", "/../outside/b.png", "/../setting.png"})
+    CHECK_FALSE(liesBelow(set, set + out));
 }
 
 TEST_CASE("a name that begins with a zero byte does not lead out of its folder unseen") {

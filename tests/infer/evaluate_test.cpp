@@ -136,3 +136,45 @@ TEST_CASE("evaluate goes on after a drawing that cannot be read, and says so") {
   CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
   CHECK(run.out.find("mean over 1 characters") != std::string::npos);
 }
+
+TEST_CASE("evaluate leaves out a picture that has changed since its joints were placed, and says so") {
+  const skel::TempDir dir;
+  for (const char* name : {"cap_boy", "ninja"})
+    for (const char* end : {".png", ".mask.png", ".labels.json"})
+      std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/") + name + end,
+                                 dir.file(std::string(name) + end));
+  const std::string evaluate = "skel-infer evaluate '" + dir.path() + "' --given-mask";
+  CHECK(skel::runTool(evaluate).exit_code == 0);
+  const std::string picture = dir.file("ninja.png");
+  skel::writeFile(picture, skel::readFile(picture) + "x");
+  const auto run = skel::runTool(evaluate);
+  CAPTURE(run.out, run.err);
+  CHECK(run.exit_code == 2);
+  CHECK(run.err == "skel-infer: " + dir.file("ninja.labels.json") +
+                       ": image.file: \"ninja.png\" has changed since it was labelled; label it anew\n");
+  CHECK(run.out.find("mean over 1 characters") != std::string::npos);
+}
+
+TEST_CASE("evaluate measures no animal as a biped, and says by which template it is measured") {
+  const skel::TempDir dir;
+  for (const char* name : {"characters/cap_boy", "animals/walking_dog"})
+    for (const char* end : {".png", ".mask.png", ".joints.json"})
+      std::filesystem::copy_file(std::string(SKEL_DATASETS "/") + name + end,
+                                 dir.file(std::filesystem::path(name).filename().string() + end));
+  const auto says = [&](const std::string& options, const std::string& line, const std::string& measured) {
+    const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "' --given-mask" + options);
+    CAPTURE(run.out, run.err);
+    CHECK(run.exit_code == 2);
+    CHECK(run.err == "skel-infer: " + dir.path() + ": " + line + "\n");
+    CHECK(run.out.find("mean over 1 characters") != std::string::npos);
+    CHECK(run.out.find("\n" + measured + " ") != std::string::npos);
+  };
+  says("",
+       "1 of 2 drawings (walking_dog) have joints of a quadruped, not of a biped: not measured; --template "
+       "quadruped measures them",
+       "cap_boy");
+  says(" --template quadruped",
+       "1 of 2 drawings (cap_boy) have joints of a biped, not of a quadruped: not measured; --template biped "
+       "measures them",
+       "walking_dog");
+}

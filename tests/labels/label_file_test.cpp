@@ -106,7 +106,8 @@ TEST_CASE("a label file stands beside its image") {
   CHECK(besideLabelFile("knight.labels.json", "knight.png") == "knight.png");
 }
 
-TEST_CASE("of a file of nothing but bad candidates a hundred complaints are kept") {
+TEST_CASE(
+    "of a file of nothing but bad candidates each kind of complaint is one line, with how many there are") {
   const TempDir dir;
   const std::string path = dir.file("a.labels.json");
   writeLabelFile(path, sample());
@@ -115,7 +116,13 @@ TEST_CASE("of a file of nothing but bad candidates a hundred complaints are kept
   std::string many;
   for (int i = 0; i < 5000; ++i) many += "{},";
   writeFile(path, text.insert(list + 1, many));
-  CHECK(findProblems(path).size() == 100);
+  const Lines lines = findProblems(path);
+  CAPTURE(lines);
+  REQUIRE(lines.size() == 4);
+  CHECK(lines[0] == path + ": candidates[0]: lacks \"x\" (and 4999 more such)");
+  CHECK(lines[1] == path + ": candidates[0]: lacks \"label\" (and 4999 more such)");
+  CHECK(lines[2] == path + ": image.file: \"a.png\" is missing");
+  CHECK(lines[3] == path + ": mask.file: \"a.mask.png\" is missing");
 }
 
 TEST_CASE("a good label file has no problems") { CHECK(problems("600", "600").empty()); }

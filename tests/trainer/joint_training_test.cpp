@@ -178,17 +178,18 @@ TEST_CASE("a checkpoint of a negative step, or of what is no number, is refused"
   const std::string train = command(dir, "n.bin", "--checkpoint '" + dir.file("state") + "'");
   REQUIRE(runTool(train).exit_code == 0);
   const std::string state = readFile(dir.file("state"));
+  const std::size_t begin = state.find('\n') + 1;  // behind what it was made by
   const std::int64_t step = -7;
   const float number = std::nanf(""), square = -1;
   const auto refuses = [&](std::size_t at, const auto& value) {
     std::string damaged = state;
-    std::memcpy(damaged.data() + at, &value, sizeof value);
+    std::memcpy(damaged.data() + begin + at, &value, sizeof value);
     writeFile(dir.file("state"), damaged);
     const auto run = runTool(train);
     CHECK(run.exit_code == 2);
     CHECK(run.err.find("is a damaged checkpoint: remove it to start anew") != std::string::npos);
   };
-  const std::size_t quarter = (state.size() - sizeof step) / 4;
+  const std::size_t quarter = (state.size() - begin - sizeof step) / 4;
   refuses(0, step);
   refuses(sizeof step + 4, number);
   refuses(sizeof step + 2 * quarter, square);

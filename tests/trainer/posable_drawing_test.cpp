@@ -147,6 +147,55 @@ TEST_CASE("a skeleton counts once a person has placed a joint of it, labels befo
   CHECK(findJointedDrawings(dir.path())[0].joints_file == dir.file("a.skeleton.json"));
 }
 
+TEST_CASE("what has changed since a person placed its joints is not learned from") {
+  const TempDir dir;
+  write(dir);
+  const std::string picture = readFile(dir.file("a.png")), mask = readFile(dir.file("a.mask.png"));
+  const LabelFile labels = labelImage(dir.file("a.png"), dir.file("a.mask.png"),
+                                      findJointedDrawings(dir.path())[0].joints, loadTemplate("biped"));
+  std::filesystem::remove(dir.file("a.joints.json"));
+  SkeletonFile file;
+  file.image_file = "b.png";
+  file.image_sha256 = labels.image.sha256;
+  file.image_width = labels.image_width;
+  file.image_height = labels.image_height;
+  file.skeleton =
+      presetSkeleton(loadTemplate("biped"), {0, 0}, {labels.image_width - 1., labels.image_height - 1.});
+  file.skeleton.joints[3].origin = JointOrigin::kEdited;
+  file.mask = SkeletonFile::Mask{"b.mask.png", sha256(mask)};
+  writeLabelFile(dir.file("a.labels.json"), labels);
+  writeFile(dir.file("b.skeleton.json"), formatSkeletonFile(file));
+  const auto searched = [&]() -> std::string {
+    try {
+      findJointedDrawings(dir.path());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto says = [&](const std::string& name, const std::string& bytes) {
+    for (const char* drawing : {"a", "b"}) {
+      writeFile(dir.file(drawing + std::string(".png")), picture);
+      writeFile(dir.file(drawing + std::string(".mask.png")), mask);
+    }
+    writeFile(dir.file(name), bytes);
+    return searched();
+  };
+  CHECK(says("a.png", picture) == "");
+  CHECK(says("a.png", picture + "x") == dir.file("a.labels.json") +
+                                            ": image.file: \"a.png\" has changed since it was labelled; "
+                                            "label it anew");
+  CHECK(says("a.mask.png", mask + "x").find("a.labels.json: mask.file: \"a.mask.png\" has changed since") !=
+        std::string::npos);
+  CHECK(says("b.png", picture + "x") ==
+        dir.file("b.skeleton.json") +
+            ": image.file: \"b.png\" has changed since its joints were placed; find them anew (skel-infer)");
+  CHECK(says("b.mask.png", mask + "x").find("b.skeleton.json: mask.file: \"b.mask.png\" has changed since") !=
+        std::string::npos);
+  for (const char* name : {"a.png", "b.png"}) writeFile(dir.file(name), picture + "x");
+  CHECK(searched().ends_with("; the same of 1 more: " + dir.file("b.skeleton.json")));
+}
+
 TEST_CASE("joints of a label file that were found, not placed, are not learned from") {
   const TempDir dir;
   write(dir);

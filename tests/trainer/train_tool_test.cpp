@@ -233,3 +233,9 @@ TEST_CASE("an output that cannot be written has exit code 4") {
   writeFile(dir.file("file"), "");
   CHECK(run(dir.path() + " -o " + dir.file("file/w.json") + kQuick).exit_code == 4);
 }
+
+TEST_CASE("the help of a command does not end with the example of the whole tool") {
+  CHECK(skel::runTool("skel-train --help").out.find("Example: ") != std::string::npos);
+  for (const std::string command : {"joints", "evaluate", "pages"})
+    CHECK(skel::runTool("skel-train " + command + " --help").out.find("Example: ") == std::string::npos);
+}
