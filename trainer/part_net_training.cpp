@@ -62,7 +62,7 @@ MadeBy madePartsBy(const PartTrainingOptions& options) {
   for (const auto& [option, folders] :
        {std::pair{"--drawings", &options.drawings}, std::pair{"--held-out", &options.held_out}}) {
     std::vector<JointedDrawing> drawings;
-    for (auto& [drawing, file] : withShapes(*folders, options.shapes)) {
+    for (auto& [drawing, file] : drawingsWithShapes(*folders, options.shapes)) {
       drawings.push_back(std::move(drawing));
       shapes.push_back(std::move(file));
     }
