@@ -188,10 +188,12 @@ TEST_CASE("a checkpoint of a negative step, or of what is no number, is refused"
     CHECK(run.exit_code == 2);
     CHECK(run.err.find("is a damaged checkpoint: remove it to start anew") != std::string::npos);
   };
-  const std::size_t quarter = (state.size() - sizeof step) / 4;
-  refuses(0, step);
-  refuses(sizeof step + 4, number);
-  refuses(sizeof step + 2 * quarter, square);
+  const std::size_t head = state.find('\n') + 1, first = head + sizeof step,
+                    quarter = (state.size() - first) / 4;
+  CHECK(state.substr(0, head) == "{\"format\":\"skel-checkpoint\",\"version\":1}\n");
+  refuses(head, step);
+  refuses(first + 4, number);
+  refuses(first + 2 * quarter, square);
 }
 
 TEST_CASE("the mean of a net and itself is that net, the mean of two lies between them") {
