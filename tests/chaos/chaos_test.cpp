@@ -186,7 +186,10 @@ class Stage {
       CHECK(now == after_);
       return;
     }
-    if (run.exit_code < 128) CHECK(complaints(run.err) == 1);
+    // A full disk keeps from a page of reports what it has kept from the results.
+    const bool both = plan.starts_with("full") && job_.command.find("--report") != std::string::npos;
+    const long lines = complaints(run.err);
+    if (run.exit_code < 128) CHECK((lines == 1 || (both && lines == 2)));
     for (const auto& [path, bytes] : now) {
       const auto old = before_.find(path), fresh = after_.find(path);
       if (tellsOfFailure(path, bytes)) continue;
