@@ -43,7 +43,7 @@ struct Guess {
 };
 
 // In side views which limb of a pair is the far one is a guess: the pair counts as it fits better.
-void swapPairsThatFitBetter(const AnnotatedDrawing& truth, const SkeletonTemplate& body_plan,
+void swapPairsThatFitBetter(const MeasuredDrawing& truth, const SkeletonTemplate& body_plan,
                             std::map<std::string, Guess>& guesses) {
   const auto& joints = body_plan.joints;
   for (const TemplateLimb& limb : body_plan.limbs) {
@@ -88,11 +88,11 @@ bool holdsPlacedJoint(const std::string& label_file) {
 }
 
 // What a person has placed in the picture that is there.
-AnnotatedDrawing fromLabels(const std::string& path) {
+MeasuredDrawing fromLabels(const std::string& path) {
   const LabelFile labels = readLabelFile(path);
   ensureUnchanged(path, labels);
   const std::string image = besideLabelFile(path, labels.image.file);
-  AnnotatedDrawing drawing;
+  MeasuredDrawing drawing;
   drawing.image = readImage(image);
   if (labels.mask) drawing.mask = silhouetteOf(image, besideLabelFile(path, labels.mask->file)).mask;
   for (const auto& [name, place] : labels.joints)
@@ -120,17 +120,17 @@ std::vector<std::string> findDrawings(const std::string& root) {
   return {ids.begin(), ids.end()};
 }
 
-AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string& id) {
+MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& id) {
   const bool own_folder = fs::is_directory(root + "/" + id);
   if (!own_folder && !fs::exists(root + "/" + id + std::string(kJointsEnding))) {
-    AnnotatedDrawing drawing = fromLabels(root + "/" + id + kLabelFileEnding);
+    MeasuredDrawing drawing = fromLabels(root + "/" + id + kLabelFileEnding);
     drawing.id = id;
     return drawing;
   }
   const std::string stem = root + "/" + id + (own_folder ? "/" : ".");
   const std::string image = own_folder ? stem + "image.png" : stem + "png";
   const std::string mask = stem + "mask.png", annotation = stem + "joints.json";
-  AnnotatedDrawing drawing;
+  MeasuredDrawing drawing;
   drawing.id = id;
   drawing.image = readImage(image);
   if (fs::exists(mask)) {
@@ -151,7 +151,7 @@ AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string
   return drawing;
 }
 
-std::string otherPlanOf(const AnnotatedDrawing& drawing, const SkeletonTemplate& body_plan) {
+std::string otherPlanOf(const MeasuredDrawing& drawing, const SkeletonTemplate& body_plan) {
   const auto hasAll = [&](const SkeletonTemplate& plan) {
     return std::all_of(drawing.joints.begin(), drawing.joints.end(), [&](const auto& joint) {
       return !joint.second || joint.first == "torso" || plan.find(joint.first) >= 0;
@@ -163,7 +163,7 @@ std::string otherPlanOf(const AnnotatedDrawing& drawing, const SkeletonTemplate&
   return "";
 }
 
-void turnClockwise(AnnotatedDrawing& drawing, int quarters) {
+void turnClockwise(MeasuredDrawing& drawing, int quarters) {
   for (int turn = 0; turn < quarters; ++turn) {
     const Image upright = std::move(drawing.image);
     Image turned(upright.height, upright.width);
@@ -179,7 +179,7 @@ void turnClockwise(AnnotatedDrawing& drawing, int quarters) {
 
 bool isTransparent(const Image& image) { return (image.rgba.col(3) < 128).any(); }
 
-Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const Plane8& silhouette_mask,
+Score score(const MeasuredDrawing& truth, const Recognition* recognition, const Plane8& silhouette_mask,
             const SkeletonTemplate& body_plan) {
   Score result;
   std::vector<std::string> scored;

@@ -15,7 +15,7 @@ namespace skel {
 
 // image.png, and beside it joints.json where the figure is annotated, and mask.png; or <name>.png,
 // <name>.joints.json and <name>.mask.png; or what a person has placed in <name>.labels.json.
-struct AnnotatedDrawing {
+struct MeasuredDrawing {
   std::string id;  // folder or name relative to the set's
   Image image;
   std::optional<Plane8> mask;  // none: the silhouette is not measured
@@ -26,11 +26,11 @@ struct AnnotatedDrawing {
 
 // All below `root`, sorted. Throws InputError if there are none.
 std::vector<std::string> findDrawings(const std::string& root);
-AnnotatedDrawing readAnnotatedDrawing(const std::string& root, const std::string& id);
+MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& id);
 // The body plan whose joints these are, if it is not that one but another that skel brings along; else "".
-std::string otherPlanOf(const AnnotatedDrawing& drawing, const SkeletonTemplate& body_plan);
+std::string otherPlanOf(const MeasuredDrawing& drawing, const SkeletonTemplate& body_plan);
 // A quarter turn clockwise, `quarters` times.
-void turnClockwise(AnnotatedDrawing& drawing, int quarters);
+void turnClockwise(MeasuredDrawing& drawing, int quarters);
 // Whether any pixel is less than half opaque.
 bool isTransparent(const Image& image);
 
@@ -49,7 +49,7 @@ struct Score {
 };
 
 // Of the joints that `body_plan` does not derive. `recognition` null: nothing was found.
-Score score(const AnnotatedDrawing& truth, const Recognition* recognition, const Plane8& silhouette_mask,
+Score score(const MeasuredDrawing& truth, const Recognition* recognition, const Plane8& silhouette_mask,
             const SkeletonTemplate& body_plan);
 
 }  // namespace skel

@@ -38,7 +38,7 @@ struct Row {
 };
 
 Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const std::string& id) {
-  AnnotatedDrawing truth = readAnnotatedDrawing(options.dir, id);
+  MeasuredDrawing truth = readMeasuredDrawing(options.dir, id);
   Row row;
   row.id = id;
   row.annotated = !truth.joints.empty();

@@ -34,6 +34,11 @@ std::string formatIndex(const std::vector<DatabaseEntry>& entries) {
   return root.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+bool isDatabase(const std::string& dir) {
+  std::error_code unknown;
+  return fs::status(indexOf(dir), unknown).type() != fs::file_type::not_found;
+}
+
 int keysOf(const MotionFile& motion) {
   return int(
       std::count_if(motion.frames.begin(), motion.frames.end(), [](const MotionFrame& f) { return f.key; }));
@@ -42,8 +47,10 @@ int keysOf(const MotionFile& motion) {
 }  // namespace
 
 std::vector<DatabaseEntry> readDatabase(const std::string& dir) {
+  if (!isDatabase(dir))
+    throw InputError(dir, std::string("is no database: it has no ") + kDatabaseIndex +
+                              "; skel-style database add makes one");
   std::vector<DatabaseEntry> entries;
-  if (!fs::exists(indexOf(dir))) return entries;
   const JsonDocument document = JsonDocument::readFile(indexOf(dir));
   const JsonValue root = document.root();
   root.checkFormat(kFormat, 1);
@@ -72,7 +79,8 @@ DatabaseEntry addToDatabase(const std::string& dir, const std::string& path, con
   // Others may add at the same time.
   ensureWritableFolder(dir);
   const FolderLock lock(dir);
-  std::vector<DatabaseEntry> entries = readDatabase(dir);
+  std::vector<DatabaseEntry> entries;
+  if (isDatabase(dir)) entries = readDatabase(dir);
   DatabaseEntry entry{fs::path(path).filename().string(), motion.action,  motion.source,
                       int(motion.frames.size()),          keysOf(motion), ""};
   const std::string to = (fs::path(dir) / entry.file).string();
@@ -132,7 +140,7 @@ std::vector<NamedMotion> readMotions(const std::string& path) {
     motions.push_back({file, readMotionFile(file, plan)});
   }
   if (motions.empty())
-    throw InputError(path, "is a folder without motions; add some by skel-style database add");
+    throw InputError(path, "is a database without motions; add some by skel-style database add");
   return motions;
 }
 

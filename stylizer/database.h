@@ -18,7 +18,7 @@ struct DatabaseEntry {
   std::string sha256;  // of the file
 };
 
-// Reads `<dir>/index.json`. A folder without one is empty. Throws InputError.
+// Reads `<dir>/index.json`. Throws InputError, also where there is none: the folder is no database.
 std::vector<DatabaseEntry> readDatabase(const std::string& dir);
 
 // Copies the motion into the folder, as `<name>` or under its own name, and writes the index anew. `action`:

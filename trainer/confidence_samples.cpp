@@ -95,10 +95,9 @@ class Sampler {
     if (drawing.mask && (image.rgba.col(3) == 255).all())
       add(Disturbance::kFound, image, extractSilhouette(image), truth, long_side);
 
-    const AnnotatedDrawing small = annotated(drawing, image, silhouette, truth);
+    const SmallDrawing small = annotated(drawing, image, silhouette, truth);
     const Image other_image = readImage(neighbour.image);
-    const AnnotatedDrawing other =
-        annotated(neighbour, other_image, silhouetteOf(other_image, neighbour), {});
+    const SmallDrawing other = annotated(neighbour, other_image, silhouetteOf(other_image, neighbour), {});
     for (int copy = 0; copy < copies; ++copy) {
       for (const Disturbance disturbance :
            {Disturbance::kWarped, Disturbance::kTurned, Disturbance::kThing, Disturbance::kLimb,
@@ -157,16 +156,16 @@ class Sampler {
     return static_cast<std::size_t>(at - plan_.joints.begin());
   }
 
-  AnnotatedDrawing annotated(const JointedDrawing& drawing, const Image& image, const Silhouette& silhouette,
-                             const Truth& truth) const {
+  SmallDrawing annotated(const JointedDrawing& drawing, const Image& image, const Silhouette& silhouette,
+                         const Truth& truth) const {
     std::vector<Vec> places(truth.empty() ? 0 : plan_.joints.size(), Vec::Zero());
     for (std::size_t j = 0; j < truth.size(); ++j) places[planned(j)] = truth[j].value_or(Vec::Zero());
-    return annotatedDrawing(image, silhouette.mask, places,
-                            drawing.side_view ? FigureView::kSide : FigureView::kFront);
+    return smallDrawing(image, silhouette.mask, places,
+                        drawing.side_view ? FigureView::kSide : FigureView::kFront);
   }
 
-  WarpedDrawing disturbed(Rng& rng, Disturbance disturbance, const AnnotatedDrawing& drawing,
-                          const AnnotatedDrawing& other) const {
+  WarpedDrawing disturbed(Rng& rng, Disturbance disturbance, const SmallDrawing& drawing,
+                          const SmallDrawing& other) const {
     const bool pair = disturbance == Disturbance::kPair;
     WarpedDrawing figure = warpedDrawing(
         rng, drawing, disturbance == Disturbance::kTurned ? rng.uniform(0, 2 * std::numbers::pi) : 0, kSide,

@@ -12,6 +12,9 @@
 namespace skel {
 namespace {
 
+constexpr std::string_view kTableFormat = "skel-confidence-table";
+constexpr int kTableVersion = 1;
+
 constexpr std::array<std::string_view, kDisturbances> kDisturbanceNames = {
     "none", "found", "warped", "turned", "thing", "limb", "bite", "cut", "pair", "other plan"};
 
@@ -26,6 +29,9 @@ std::vector<std::string_view> cells(std::string_view line) {
 }
 
 struct BadCell {};
+struct NewerVersion {
+  std::string_view version;
+};
 
 // What would end a cell or a line stands as in an address: "a%2Cb".
 std::string cellOf(std::string_view name) {
@@ -78,6 +84,12 @@ int rightOf(std::string_view cell) {
 void addLine(const std::vector<std::string_view>& line, std::vector<ConfidenceSample>& samples) {
   constexpr std::size_t kFigure = 6, kJoint = 7;  // cells before the inputs
   constexpr std::size_t kMostJoints = 63;         // as of a joint net
+  if (line[0] == kTableFormat && line.size() == 2) {
+    const double version = numberOf(line[1]);
+    if (version > kTableVersion) throw NewerVersion{line[1]};
+    if (version != kTableVersion) throw BadCell();
+    return;
+  }
   if (line[0] == "F" && line.size() == kFigure + kFigureInputs.size()) {
     ConfidenceSample sample;
     sample.drawing = nameIn(line[1]);
@@ -111,6 +123,7 @@ std::string formatConfidenceTable(const std::vector<ConfidenceSample>& samples) 
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(5);
+  out << kTableFormat << "," << kTableVersion << "\n";
   for (const ConfidenceSample& s : samples) {
     const std::string head = cellOf(s.drawing) + "," +
                              std::string(kDisturbanceNames[static_cast<std::size_t>(s.disturbance)]) + "," +
@@ -136,6 +149,10 @@ std::vector<ConfidenceSample> parseConfidenceTable(std::string_view text, const 
     } catch (const BadCell&) {
       throw InputError(
           file, "line " + std::to_string(line) + " is none of a table that skel-train confidence writes");
+    } catch (const NewerVersion& newer) {
+      throw InputError(file, "line " + std::to_string(line) + ": version is " + std::string(newer.version) +
+                                 ", this program reads up to " + std::to_string(kTableVersion) +
+                                 "; use a newer skel");
     }
     text.remove_prefix(std::min(end + 1, text.size()));
   }

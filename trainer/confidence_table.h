@@ -10,8 +10,9 @@
 
 namespace skel {
 
-// Lines of values between commas: F, name of the drawing (commas, % and control characters as in an
-// address: %2C), disturbance, body plan, usable, likeness,
+// Lines of values between commas, the first "skel-confidence-table,1", format and version (before there were
+// versions there was none, and tables one behind the other have several); then F, name of the drawing
+// (commas, % and control characters as in an address: %2C), disturbance, body plan, usable, likeness,
 // kFigureInputs; and after each, of every joint J, the same three, right, mass, whether it counts,
 // kJointInputs.
 std::string formatConfidenceTable(const std::vector<ConfidenceSample>& samples);

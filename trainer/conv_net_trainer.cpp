@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "libskel/core/error.h"
+#include "libskel/core/json.h"
 #include "libskel/core/parallel.h"
 
 namespace skel {
@@ -17,6 +18,20 @@ namespace {
 constexpr int kLanes = 4;
 constexpr double kGradientNorm = 1;  // longer ones are shortened
 constexpr double kWarmUp = .03;      // share of the steps
+
+constexpr const char* kCheckpointFormat = "skel-checkpoint";
+constexpr int kCheckpointVersion = 1;
+
+// What follows the line of JSON that says format and version; all of it where there is no such line, as
+// before there were versions.
+std::string_view stateIn(std::string_view bytes, const std::string& file) {
+  if (!bytes.starts_with("{\"format\"")) return bytes;
+  const std::size_t end = std::min(bytes.find('\n'), bytes.size());
+  const JsonDocument document = JsonDocument::parse(bytes.substr(0, end), file);
+  document.root().checkFormat(kCheckpointFormat, kCheckpointVersion);
+  document.root().allowOnly({"format", "version"});
+  return bytes.substr(std::min(end + 1, bytes.size()));
+}
 
 }  // namespace
 
@@ -106,14 +121,17 @@ void ConvNetTrainer::adam() {
 }
 
 std::string ConvNetTrainer::checkpoint() const {
-  std::string out(reinterpret_cast<const char*>(&state_.step), sizeof state_.step);
+  std::string out = std::string("{\"format\":\"") + kCheckpointFormat +
+                    "\",\"version\":" + std::to_string(kCheckpointVersion) + "}\n";
+  out.append(reinterpret_cast<const char*>(&state_.step), sizeof state_.step);
   for (const auto* v : {&state_.parameters, &state_.first_moment, &state_.second_moment, &state_.average}) {
     out.append(reinterpret_cast<const char*>(v->data()), v->size() * sizeof(float));
   }
   return out;
 }
 
-void ConvNetTrainer::restore(const std::string& bytes, const std::string& file) {
+void ConvNetTrainer::restore(const std::string& file_bytes, const std::string& file) {
+  const std::string_view bytes = stateIn(file_bytes, file);
   if (bytes.size() != sizeof state_.step + 4 * state_.parameters.size() * sizeof(float)) {
     throw InputError(file, "is no checkpoint of this net: remove it to start anew");
   }

@@ -348,8 +348,8 @@ class Training {
   }
 
   // Each drawing as it is and in some other poses.
-  std::vector<AnnotatedDrawing> poseDrawings(std::int64_t round) const {
-    std::vector<AnnotatedDrawing> drawn(shown_.size() * (1 + kPoses));
+  std::vector<SmallDrawing> poseDrawings(std::int64_t round) const {
+    std::vector<SmallDrawing> drawn(shown_.size() * (1 + kPoses));
     parallelFor(drawn.size(), options_.threads, [&](std::size_t i) {
       const PosableDrawing& drawing = drawings_[shown_[i / (1 + kPoses)]];
       Rng rng(options_.seed, kPoseStream + static_cast<std::uint64_t>(round) * drawn.size() + i);

@@ -53,10 +53,13 @@ LearnedFromPages learnFromPages(const PageCaseOptions& options, std::string_view
                                 const CasesOfPage& cases, const PrintForecasts& print,
                                 const std::string& none, const LogisticFitOptions& fit) {
   std::vector<AnnotatedImage> drawings;
-  for (const std::string& folder : options.drawings)
+  for (const std::string& folder : options.drawings) {
+    const std::size_t before = drawings.size();
     for (AnnotatedImage& drawing : findAnnotatedImages(folder))
       if (drawing.mask) drawings.push_back(std::move(drawing));
-  if (drawings.empty()) throw UsageError("there are no drawings with masks to learn from");
+    if (drawings.size() == before)
+      throw InputError(folder, "has no drawing with a mask and joints (*.mask.png, *.joints.json)");
+  }
   ensureWritableNet(options.output, format);
   const std::vector<Case> found = casesOnPages(drawings, options, cases);
   if (found.empty()) throw UsageError(none);

@@ -34,7 +34,7 @@ PageOptions pageOptions(const PageTrainingOptions& options, const std::vector<Jo
   out.drawings.resize(drawings.size());
   parallelFor(drawings.size(), options.threads, [&](std::size_t i) {
     const Image image = readImage(drawings[i].image);
-    out.drawings[i] = annotatedDrawing(image, silhouetteOf(image, drawings[i]).mask, {}, FigureView::kFront);
+    out.drawings[i] = smallDrawing(image, silhouetteOf(image, drawings[i]).mask, {}, FigureView::kFront);
   });
   return out;
 }

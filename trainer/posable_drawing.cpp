@@ -125,8 +125,8 @@ Image rendered(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, const
 }
 
 // The joints of the net.
-AnnotatedDrawing annotated(const PosableDrawing& drawing, const Image& picture, const Camera& camera,
-                           const std::vector<Eigen::Vector3f>& joints) {
+SmallDrawing annotated(const PosableDrawing& drawing, const Image& picture, const Camera& camera,
+                       const std::vector<Eigen::Vector3f>& joints) {
   Plane8 mask(kPictureSize, kPictureSize);
   for (Eigen::Index i = 0; i < mask.size(); ++i) mask.data()[i] = picture.rgba(i, 3) > 127 ? 255 : 0;
   std::vector<Eigen::Vector2d> places;
@@ -135,12 +135,12 @@ AnnotatedDrawing annotated(const PosableDrawing& drawing, const Image& picture, 
     const double px_a_m = kPictureSize / camera.view_height_m;
     places.emplace_back(kPictureSize / 2.0 - .5 + px_a_m * p.x(), kPictureSize / 2.0 - .5 - px_a_m * p.y());
   }
-  AnnotatedDrawing out = annotatedDrawing(picture, mask, places, drawing.view);
+  SmallDrawing out = smallDrawing(picture, mask, places, drawing.view);
   out.unknown = drawing.unknown;
   return out;
 }
 
-AnnotatedDrawing drawn(const PosableDrawing& drawing, const PosedDrawing& pose) {
+SmallDrawing drawn(const PosableDrawing& drawing, const PosedDrawing& pose) {
   Frame frame;
   frame.add(pose.vertices, drawing.character.mesh);
   const Camera camera = frame.camera();
@@ -238,7 +238,7 @@ std::vector<PosableDrawing> posableDrawings(const std::vector<JointedDrawing>& d
   return out;
 }
 
-AnnotatedDrawing asDrawn(const PosableDrawing& drawing) {
+SmallDrawing asDrawn(const PosableDrawing& drawing) {
   const std::size_t count = drawing.character.skeleton.joints.size();
   return drawn(drawing,
                pose(drawing,
@@ -247,11 +247,11 @@ AnnotatedDrawing asDrawn(const PosableDrawing& drawing) {
                     std::vector<float>(count, 0.f)));
 }
 
-AnnotatedDrawing posed(Rng& rng, const PosableDrawing& drawing) {
+SmallDrawing posed(Rng& rng, const PosableDrawing& drawing) {
   return drawn(drawing, randomPose(rng, drawing));
 }
 
-AnnotatedDrawing withLimbsOf(Rng& rng, const PosableDrawing& drawing, const PosableDrawing& donor) {
+SmallDrawing withLimbsOf(Rng& rng, const PosableDrawing& drawing, const PosableDrawing& donor) {
   PosedDrawing own = randomPose(rng, drawing);
   if (drawing.view != donor.view) return drawn(drawing, own);
   const PosedDrawing other = randomPose(rng, donor);

@@ -27,12 +27,12 @@ std::vector<PosableDrawing> posableDrawings(const std::vector<JointedDrawing>& d
                                             const SkeletonTemplate& body_plan, int threads);
 
 // As it was drawn.
-AnnotatedDrawing asDrawn(const PosableDrawing& drawing);
+SmallDrawing asDrawn(const PosableDrawing& drawing);
 // With its limbs turned at random, arms before the body or behind it.
-AnnotatedDrawing posed(Rng& rng, const PosableDrawing& drawing);
+SmallDrawing posed(Rng& rng, const PosableDrawing& drawing);
 // The same, with some of its arms and legs exchanged for those of another drawing, posed at random too: as
 // many kinds of limbs on as many kinds of bodies. Limbs that lie before or behind the trunk stay where they
 // are.
-AnnotatedDrawing withLimbsOf(Rng& rng, const PosableDrawing& drawing, const PosableDrawing& donor);
+SmallDrawing withLimbsOf(Rng& rng, const PosableDrawing& drawing, const PosableDrawing& donor);
 
 }  // namespace skel

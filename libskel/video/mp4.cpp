@@ -164,6 +164,9 @@ class Mp4 : public VideoWriter {
     const int failure = avcodec_open2(encoder_, codec, &settings);
     av_dict_free(&settings);
     if (failure < 0) avcodec_free_context(&encoder_);
+    // A library that is not there leaves it to the next encoder. One that lacks memory does not: the film
+    // would be another, without a word.
+    if (failure == AVERROR(ENOMEM) || failure == AVERROR_EXTERNAL) require(failure);
     return failure >= 0;
   }
 

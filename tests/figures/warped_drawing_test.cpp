@@ -7,14 +7,14 @@
 namespace skel {
 namespace {
 
-AnnotatedDrawing markedDrawing() {
+SmallDrawing markedDrawing() {
   const MarkedFigure figure = markedFigure(jointNames(figurePlan("biped")));
-  return annotatedDrawing(figure.image, figure.mask, figure.joints, FigureView::kFront);
+  return smallDrawing(figure.image, figure.mask, figure.joints, FigureView::kFront);
 }
 
 TEST_CASE("the joints of a drawing stay on their marks, whatever the warp") {
-  const AnnotatedDrawing drawing = markedDrawing();
-  CHECK(std::max(drawing.image.width, drawing.image.height) == kAnnotatedLongSide);
+  const SmallDrawing drawing = markedDrawing();
+  CHECK(std::max(drawing.image.width, drawing.image.height) == kSmallLongSide);
   Rng rng(4);
   for (int i = 0; i < 60; ++i) {
     const WarpedDrawing warped = warpedDrawing(rng, drawing, i % 3 == 0 ? rng.uniform(0, 6.28) : 0, 256, 12);

@@ -31,7 +31,7 @@ TEST_CASE("a child's pig is rigged as a quadruped, with a motion of its own") {
   const SkeletonTemplate body_plan = loadTemplate("quadruped");
   const SkeletonFile file = readSkeletonFile(dir.file("crayon_pig.skeleton.json"), body_plan);
   CHECK(file.confidence >= 0.5);
-  const AnnotatedDrawing truth = readAnnotatedDrawing(kAnimals, "crayon_pig");
+  const MeasuredDrawing truth = readMeasuredDrawing(kAnimals, "crayon_pig");
   Recognition recognition;
   recognition.skeleton = file.skeleton;
   CHECK(score(truth, &recognition, *truth.mask, body_plan).pck10 >= 0.9);

@@ -15,8 +15,8 @@ namespace {
 const SkeletonTemplate kBiped = loadTemplate("biped");
 
 // A block 100 px high with a joint at each scored name's preset.
-AnnotatedDrawing block(Recognition& perfect) {
-  AnnotatedDrawing drawing;
+MeasuredDrawing block(Recognition& perfect) {
+  MeasuredDrawing drawing;
   drawing.image = Image(60, 120);
   drawing.image.rgba.setConstant(255);
   drawing.mask = Plane8::Zero(120, 60);
@@ -34,7 +34,7 @@ AnnotatedDrawing block(Recognition& perfect) {
 
 TEST_CASE("a perfect result scores full marks") {
   Recognition perfect;
-  const AnnotatedDrawing truth = block(perfect);
+  const MeasuredDrawing truth = block(perfect);
   const Score s = score(truth, &perfect, *truth.mask, kBiped);
   CHECK(s.pck05 == 1);
   CHECK(s.pck10 == 1);
@@ -50,7 +50,7 @@ TEST_CASE("a perfect result scores full marks") {
 
 TEST_CASE("one joint off by a tenth and more is counted as such") {
   Recognition guess;
-  const AnnotatedDrawing truth = block(guess);
+  const MeasuredDrawing truth = block(guess);
   guess.skeleton.joints[guess.skeleton.index("left_hand")].image.y() += 12;
   const Score s = score(truth, &guess, Plane8::Zero(120, 60), kBiped);
   CHECK(s.pck10 == Approx(13.0 / 14));
@@ -65,7 +65,7 @@ TEST_CASE("one joint off by a tenth and more is counted as such") {
 
 TEST_CASE("nothing found scores nothing") {
   Recognition perfect;
-  const AnnotatedDrawing truth = block(perfect);
+  const MeasuredDrawing truth = block(perfect);
   const Score s = score(truth, nullptr, *truth.mask, kBiped);
   CHECK(s.pck10 == 0);
   CHECK(s.error == 1);
@@ -75,7 +75,7 @@ TEST_CASE("nothing found scores nothing") {
 TEST_CASE(
     "without a true mask joints are measured, by the size of what was found, and the silhouette is not") {
   Recognition guess;
-  AnnotatedDrawing truth = block(guess);
+  MeasuredDrawing truth = block(guess);
   const Plane8 silhouette = *truth.mask;
   truth.mask.reset();
   guess.skeleton.joints[guess.skeleton.index("left_hand")].image.y() += 12;
@@ -87,14 +87,14 @@ TEST_CASE(
   CHECK_FALSE(s.iou);
   CHECK_FALSE(score(truth, nullptr, silhouette, kBiped).iou);
 
-  AnnotatedDrawing head_alone;
+  MeasuredDrawing head_alone;
   head_alone.joints["head"] = truth.joints["head"];
   CHECK_FALSE(score(head_alone, &guess, silhouette, kBiped).limbs);
 }
 
 TEST_CASE("in side views a pair of limbs may be swapped") {
   Recognition guess;
-  AnnotatedDrawing truth = block(guess);
+  MeasuredDrawing truth = block(guess);
   for (const char* part : {"shoulder", "elbow", "hand"})
     std::swap(guess.skeleton.joints[guess.skeleton.index(std::string("left_") + part)].image,
               guess.skeleton.joints[guess.skeleton.index(std::string("right_") + part)].image);
@@ -105,8 +105,8 @@ TEST_CASE("in side views a pair of limbs may be swapped") {
 
 TEST_CASE("four quarter turns bring a drawing back") {
   Recognition perfect;
-  AnnotatedDrawing truth = block(perfect);
-  const AnnotatedDrawing before = truth;
+  MeasuredDrawing truth = block(perfect);
+  const MeasuredDrawing before = truth;
   turnClockwise(truth, 1);
   CHECK(truth.image.width == 120);
   CHECK(truth.mask->rows() == 60);
@@ -124,5 +124,5 @@ TEST_CASE("a true mask of another size than its picture is refused") {
   image.rgba.setConstant(255);
   writeFile(dir.file("a/image.png"), encodePng(image));
   writeFile(dir.file("a/mask.png"), encodePng(Plane8(Plane8::Zero(4, 3))));
-  CHECK_THROWS_AS(readAnnotatedDrawing(dir.path(), "a"), InputError);
+  CHECK_THROWS_AS(readMeasuredDrawing(dir.path(), "a"), InputError);
 }

@@ -19,6 +19,48 @@ TEST_CASE("what stands before a command that has no use for it is refused, and s
   CHECK(fs::exists(dir.file("set/cat.labels.json")));
 }
 
+TEST_CASE("a folder that holds nothing of what a command reads is refused in one line that names it") {
+  const TempDir dir;
+  fs::create_directory(dir.file("empty"));
+  writeFile(dir.file("notes/notes.txt"), "of something else");
+  writeFigure(dir.file("cat.png"));
+  const std::string steps = " --steps 1 --batch 4 --validation 1 -o n.bin --drawings ";
+  for (const std::string folder : {"empty", "notes"}) {
+    for (const std::string& command :
+         {"skel-infer " + folder,
+          "skel-infer evaluate " + folder,
+          "skel-label candidates " + folder,
+          "skel-label import " + folder,
+          "skel-label check " + folder,
+          "skel-label stats " + folder,
+          "skel-label motion " + folder,
+          "skel-label export --coco " + folder,
+          "skel-label export --csv " + folder,
+          "skel-style keyframes " + folder,
+          "skel-style keypoints " + folder,
+          "skel-style database list " + folder,
+          "skel-style database check " + folder,
+          "skel-style fit " + folder,
+          "skel-style transfer --content " + folder + " --style " + folder,
+          "skel-style make -o x.gif --character cat.png --style a --content " + folder,
+          "skel-animate list --clips-dir " + folder,
+          "skel-animate info " + folder,
+          "skel-animate bind -o x.glb " + folder,
+          "skel-train -o w.json " + folder,
+          "skel-train evaluate " + folder,
+          "skel-train figures -o f.png --drawings " + folder,
+          "skel-train joints" + steps + folder,
+          "skel-train pages" + steps + folder,
+          "skel-train parts --steps 1 -o n.bin --shapes " + folder + " --drawings " + folder,
+          "skel-train bones " SKEL_SOURCE_DIR "/weights/joint_net.bin -o n.bin --drawings " + folder,
+          "skel-train confidence -o c.json --biped " + folder,
+          "skel-train silhouettes -o c.json " + folder,
+          "skel-train loops -o c.json " + folder})
+      refused(dir, command, 2, folder + ": ");
+  }
+  CHECK(filesBelow(dir.path()).size() == 2);
+}
+
 TEST_CASE("an output without a name is blamed, not the input") {
   const TempDir dir;
   writeFigure(dir.file("cat.png"));

@@ -193,15 +193,26 @@ TEST_CASE("a table of samples is read again as it was written, and what is none 
     }
     return "";
   };
+  // The line of the format is not in tables from before there were versions.
+  const std::size_t versioned = table.find('\n') + 1;
+  CHECK(table.substr(0, versioned) == "skel-confidence-table,1\n");
+  const std::string old = table.substr(versioned);
+  CHECK(formatConfidenceTable(parseConfidenceTable(old, "t.csv")) == table);
+  CHECK(formatConfidenceTable(parseConfidenceTable(table + table, "t.csv")) == table + old);
+  CHECK(complaint("skel-confidence-table,2\n") ==
+        "t.csv: line 1: version is 2, this program reads up to 1; use a newer skel");
+  for (const std::string version : {"0", "-1", "0.5", "x", "", "1,1"})
+    CHECK(complaint("skel-confidence-table," + version + "\n") ==
+          "t.csv: line 1 is none of a table that skel-train confidence writes");
   constexpr const char* kSecond = "t.csv: line 2 is none of a table that skel-train confidence writes";
-  const std::string first = table.substr(0, table.find('\n') + 1);
+  const std::string first = old.substr(0, old.find('\n') + 1);
   CHECK(complaint(first).empty());
   CHECK(complaint(first + "J,a,none,biped,1,nan\n") == kSecond);
   CHECK(complaint(first + first.substr(0, first.rfind(',')) + "\n") == kSecond);
   CHECK(complaint("J" + first.substr(1)) ==
         "t.csv: line 1 is none of a table that skel-train confidence writes");
   // What is neither right nor wrong nor unknown; more joints than any net has.
-  std::string joint = table.substr(first.size(), table.find('\n', first.size()) + 1 - first.size());
+  std::string joint = old.substr(first.size(), old.find('\n', first.size()) + 1 - first.size());
   std::string all = first;
   for (int i = 0; i < 63; ++i) all += joint;
   CHECK(complaint(all).empty());
@@ -224,7 +235,8 @@ TEST_CASE("a table of figures without joints, or of joints that nobody knows, is
     CHECK_FALSE(std::filesystem::exists(dir.file("c.json")));
   };
   const std::string table = formatConfidenceTable(samples);
-  refused(table.substr(0, table.find('\n') + 1), 2,
+  const std::size_t figure = table.find("\nF,") + 1;
+  refused(table.substr(0, table.find('\n', figure) + 1), 2,
           dir.file("t.csv") + ": has no joint that counts of \"" + samples[0].drawing + "\"");
   for (ConfidenceSample& s : samples) s.right.assign(s.right.size(), -1);
   refused(formatConfidenceTable(samples), 1,

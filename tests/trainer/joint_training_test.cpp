@@ -189,10 +189,12 @@ TEST_CASE("a checkpoint of a negative step, or of what is no number, is refused"
     CHECK(run.exit_code == 2);
     CHECK(run.err.find("is a damaged checkpoint: remove it to start anew") != std::string::npos);
   };
-  const std::size_t quarter = (state.size() - begin - sizeof step) / 4;
-  refuses(0, step);
-  refuses(sizeof step + 4, number);
-  refuses(sizeof step + 2 * quarter, square);
+  const std::size_t head = state.find('\n', begin) + 1 - begin, first = head + sizeof step,
+                    quarter = (state.size() - begin - first) / 4;
+  CHECK(state.substr(begin, head) == "{\"format\":\"skel-checkpoint\",\"version\":1}\n");
+  refuses(head, step);
+  refuses(first + 4, number);
+  refuses(first + 2 * quarter, square);
 }
 
 TEST_CASE("the mean of a net and itself is that net, the mean of two lies between them") {

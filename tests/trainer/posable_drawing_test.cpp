@@ -52,7 +52,7 @@ std::string complaint(const TempDir& dir) {
   return "";
 }
 
-int marksShown(const AnnotatedDrawing& drawing) {
+int marksShown(const SmallDrawing& drawing) {
   int count = 0;
   for (std::size_t j = 0; j < drawing.joints.size(); ++j) {
     const int x = static_cast<int>(drawing.joints[j].x()), y = static_cast<int>(drawing.joints[j].y());
@@ -67,17 +67,17 @@ TEST_CASE("joints stay on their marks when a drawing is posed anew") {
   write(dir);
   const std::vector<PosableDrawing> drawings = read(dir);
   REQUIRE(drawings.size() == 1);
-  const AnnotatedDrawing still = asDrawn(drawings[0]);
+  const SmallDrawing still = asDrawn(drawings[0]);
   CHECK(marksShown(still) == static_cast<int>(kNames.size()));
   Rng rng(3);
   int shown = 0, moved = 0;
   constexpr int kPoses = 30;
   for (int i = 0; i < kPoses; ++i) {
-    const AnnotatedDrawing other = posed(rng, drawings[0]);
+    const SmallDrawing other = posed(rng, drawings[0]);
     shown += marksShown(other);
     const auto hand =
         static_cast<std::size_t>(std::find(kNames.begin(), kNames.end(), "right_hand") - kNames.begin());
-    moved += (other.joints[hand] - still.joints[hand]).norm() > .1 * kAnnotatedLongSide;
+    moved += (other.joints[hand] - still.joints[hand]).norm() > .1 * kSmallLongSide;
   }
   // An arm may cover another's mark.
   CHECK(shown >= .97 * kPoses * static_cast<double>(kNames.size()));
@@ -89,7 +89,7 @@ TEST_CASE("the same random numbers give the same pose") {
   write(dir);
   const std::vector<PosableDrawing> drawings = read(dir);
   Rng one(8), other(8);
-  const AnnotatedDrawing a = posed(one, drawings[0]), b = posed(other, drawings[0]);
+  const SmallDrawing a = posed(one, drawings[0]), b = posed(other, drawings[0]);
   CHECK((a.image.rgba == b.image.rgba).all());
   CHECK(a.joints == b.joints);
 }

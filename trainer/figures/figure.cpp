@@ -515,12 +515,12 @@ std::optional<Figure> render(Rng& rng, const FigurePlan& plan, const Drawing& dr
 
 // What is pasted onto a drawing.
 struct Pasted {
-  std::vector<const AnnotatedDrawing*> things;
-  const AnnotatedDrawing* neighbour = nullptr;
+  std::vector<const SmallDrawing*> things;
+  const SmallDrawing* neighbour = nullptr;
 };
 
 // One of the drawings, in other proportions. `turn`: radians, from +x towards +y.
-std::optional<Figure> renderDrawn(Rng& rng, const FigurePlan& plan, const AnnotatedDrawing& drawing,
+std::optional<Figure> renderDrawn(Rng& rng, const FigurePlan& plan, const SmallDrawing& drawing,
                                   const Pasted& pasted, double turn, Cut cut) {
   constexpr int kSide = kOversampling * kLongSide;
   const int margin = pasted.neighbour         ? kSide
@@ -528,7 +528,7 @@ std::optional<Figure> renderDrawn(Rng& rng, const FigurePlan& plan, const Annota
                                               : kMargin;
   WarpedDrawing warped = warpedDrawing(rng, drawing, turn, kSide, margin);
   std::vector<bool> visible(plan.joints.size(), true);
-  for (const AnnotatedDrawing* thing : pasted.things) pasteThing(rng, plan, *thing, kSide, warped, visible);
+  for (const SmallDrawing* thing : pasted.things) pasteThing(rng, plan, *thing, kSide, warped, visible);
   if (pasted.neighbour) pasteNeighbour(rng, *pasted.neighbour, kSide, warped);
   const int width = warped.width, height = warped.height;
   const bool whole = turn == 0 && !pasted.neighbour;
@@ -546,10 +546,10 @@ Figure generateFigure(Rng& rng, const FigureOptions& options) {
   const FigurePlan& plan = figurePlan(options.body_plan);
   while (true) {
     if (options.drawn_share > 0 && rng.chance(options.drawn_share)) {
-      const auto any_drawing = [&]() -> const AnnotatedDrawing& {
+      const auto any_drawing = [&]() -> const SmallDrawing& {
         return options.drawings[rng.below(static_cast<std::uint32_t>(options.drawings.size()))];
       };
-      const AnnotatedDrawing& drawing = any_drawing();
+      const SmallDrawing& drawing = any_drawing();
       enum class Kind { kWhole, kCut, kTurned, kPair } kind = Kind::kWhole;
       if (rng.chance(options.other_share)) {
         const double r = rng.uniform();

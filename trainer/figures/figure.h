@@ -26,19 +26,19 @@ struct Figure {
 };
 
 // A drawing with known joints, small enough for many of them to be kept.
-struct AnnotatedDrawing {
-  Image image;                          // the figure's box, its long side kAnnotatedLongSide px
+struct SmallDrawing {
+  Image image;                          // the figure's box, its long side kSmallLongSide px
   Plane8 mask;                          // not 0 on the figure
   std::vector<Eigen::Vector2d> joints;  // as FigurePlan::joints; px of the image, corner of the first px at 0
   FigureView view = FigureView::kFront;
   std::vector<bool> unknown = {};  // of each joint: nobody knows where it is. Empty: all are known
 };
-inline constexpr int kAnnotatedLongSide = 320;
+inline constexpr int kSmallLongSide = 320;
 
 // `mask` (as large as the image) is not 0 on the figure, at least one px; `joints` in px of the image, the
 // origin at the first px's centre.
-AnnotatedDrawing annotatedDrawing(const Image& image, const Plane8& mask,
-                                  const std::vector<Eigen::Vector2d>& joints, FigureView view);
+SmallDrawing smallDrawing(const Image& image, const Plane8& mask, const std::vector<Eigen::Vector2d>& joints,
+                          FigureView view);
 
 struct FigureOptions {
   std::string body_plan = "biped";  // one of figurePlans()
@@ -48,7 +48,7 @@ struct FigureOptions {
   // Of the figures `drawn_share` is one of these drawings each, in other proportions, bent, with another
   // outline, some with pieces of others pasted on; some of them cut, turned or in pairs, as many as
   // `other_share` says.
-  std::vector<AnnotatedDrawing> drawings;
+  std::vector<SmallDrawing> drawings;
   double drawn_share = 0;
 };
 

@@ -29,7 +29,7 @@ struct Cutting {
   }
 };
 
-Cutting sampleCutting(Rng& rng, const AnnotatedDrawing& drawing, int long_side) {
+Cutting sampleCutting(Rng& rng, const SmallDrawing& drawing, int long_side) {
   Cutting cutting{warpedDrawing(rng, drawing, rng.uniform(0, 2 * std::numbers::pi), long_side, 0),
                   0,
                   0,
@@ -60,7 +60,7 @@ void paste(const Cutting& cutting, int left, int top, bool in_front, WarpedDrawi
 
 }  // namespace
 
-void pasteThing(Rng& rng, const FigurePlan& plan, const AnnotatedDrawing& drawing, int long_side,
+void pasteThing(Rng& rng, const FigurePlan& plan, const SmallDrawing& drawing, int long_side,
                 WarpedDrawing& figure, std::vector<bool>& visible) {
   const Cutting thing = sampleCutting(rng, drawing, static_cast<int>(long_side * rng.uniform(.12, .5)));
   const bool in_front = rng.chance(.5), at_end = rng.chance(.6);
@@ -82,7 +82,7 @@ void pasteThing(Rng& rng, const FigurePlan& plan, const AnnotatedDrawing& drawin
   paste(thing, left, top, in_front, figure);
 }
 
-void pasteNeighbour(Rng& rng, const AnnotatedDrawing& drawing, int long_side, WarpedDrawing& figure) {
+void pasteNeighbour(Rng& rng, const SmallDrawing& drawing, int long_side, WarpedDrawing& figure) {
   Cutting other{warpedDrawing(rng, drawing, 0, static_cast<int>(long_side * rng.uniform(.65, 1)), 0), 0, 0, 0,
                 0};
   other.x1 = other.drawing.width;

@@ -16,11 +16,11 @@ inline constexpr double kThingMargin = .25;
 // Puts a piece of another drawing to one of the figure's hands or feet, or anywhere on it, before it or
 // behind it; none where it would cover too much. `long_side`: of the figure, px. Joints that it covers are no
 // longer `visible`.
-void pasteThing(Rng& rng, const FigurePlan& plan, const AnnotatedDrawing& drawing, int long_side,
+void pasteThing(Rng& rng, const FigurePlan& plan, const SmallDrawing& drawing, int long_side,
                 WarpedDrawing& figure, std::vector<bool>& visible);
 
 // Puts another figure beside it, about as large, so that they touch or overlap a little. It may need as much
 // room again.
-void pasteNeighbour(Rng& rng, const AnnotatedDrawing& drawing, int long_side, WarpedDrawing& figure);
+void pasteNeighbour(Rng& rng, const SmallDrawing& drawing, int long_side, WarpedDrawing& figure);
 
 }  // namespace skel

@@ -79,8 +79,8 @@ struct Warp {
 
 }  // namespace
 
-AnnotatedDrawing annotatedDrawing(const Image& image, const Plane8& mask, const std::vector<Vec>& joints,
-                                  FigureView view) {
+SmallDrawing smallDrawing(const Image& image, const Plane8& mask, const std::vector<Vec>& joints,
+                          FigureView view) {
   SKEL_CHECK(mask.cols() == image.width && mask.rows() == image.height);
   SKEL_CHECK((mask != 0).any());
   int x0 = image.width, y0 = image.height, x1 = -1, y1 = -1;
@@ -91,10 +91,10 @@ AnnotatedDrawing annotatedDrawing(const Image& image, const Plane8& mask, const 
       y0 = std::min(y0, y), y1 = std::max(y1, y);
     }
   }
-  const double step = static_cast<double>(std::max(x1 - x0, y1 - y0) + 1) / kAnnotatedLongSide;
+  const double step = static_cast<double>(std::max(x1 - x0, y1 - y0) + 1) / kSmallLongSide;
   const int width = std::max(1, static_cast<int>(std::lround((x1 - x0 + 1) / step)));
   const int height = std::max(1, static_cast<int>(std::lround((y1 - y0 + 1) / step)));
-  AnnotatedDrawing out{Image(width, height), Plane8::Zero(height, width), {}, view};
+  SmallDrawing out{Image(width, height), Plane8::Zero(height, width), {}, view};
   const GridColours colours = gridColours(image, Vec(x0, y0), 1 / step, width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -111,8 +111,7 @@ AnnotatedDrawing annotatedDrawing(const Image& image, const Plane8& mask, const 
   return out;
 }
 
-WarpedDrawing warpedDrawing(Rng& rng, const AnnotatedDrawing& drawing, double turn, int long_side,
-                            int margin) {
+WarpedDrawing warpedDrawing(Rng& rng, const SmallDrawing& drawing, double turn, int long_side, int margin) {
   const int rows = static_cast<int>(drawing.mask.rows()), columns = static_cast<int>(drawing.mask.cols());
   const Warp warp(rng, turn);
   const double unit = std::max(rows, columns);

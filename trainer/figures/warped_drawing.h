@@ -19,7 +19,6 @@ struct WarpedDrawing {
 
 // A random smooth warp, then turned by `turn` (radians, from +x towards +y). The long side is about
 // `long_side` px, with a margin of `margin` px around it.
-WarpedDrawing warpedDrawing(Rng& rng, const AnnotatedDrawing& drawing, double turn, int long_side,
-                            int margin);
+WarpedDrawing warpedDrawing(Rng& rng, const SmallDrawing& drawing, double turn, int long_side, int margin);
 
 }  // namespace skel

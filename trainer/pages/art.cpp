@@ -431,7 +431,7 @@ cv::Mat smoothNoise(Rng& rng, const cv::Size& size, int cell) {
 Art figureArt(Rng& rng, const PageOptions& options, int long_side) {
   if (rng.chance(.13)) return strokeFigure(rng, long_side);
   if (!options.drawings.empty() && rng.chance(options.drawn_share)) {
-    const AnnotatedDrawing& drawing =
+    const SmallDrawing& drawing =
         options.drawings[rng.below(static_cast<std::uint32_t>(options.drawings.size()))];
     const WarpedDrawing w = warpedDrawing(rng, drawing, 0, long_side, 4);
     return artOf(w.width, w.height, w.solid, w.colours);

@@ -16,7 +16,7 @@ struct Page {
 };
 
 struct PageOptions {
-  std::vector<AnnotatedDrawing> drawings;  // some figures come from these, the others from figurePlans()
+  std::vector<SmallDrawing> drawings;  // some figures come from these, the others from figurePlans()
   double drawn_share = 0;
 };
 
