@@ -1,5 +1,6 @@
-// The nets that say how sure one may be: of joints and figures, of silhouettes, of what lines enclose. What
-// is read gives chances, and the same file again.
+// The nets that say how sure one may be: of joints and figures, of silhouettes, of what lines enclose, of
+// limbs. What is read gives chances, and the same file again.
+#include "libskel/layers/limb_net.h"
 #include "libskel/recognition/confidence_model.h"
 #include "libskel/recognition/silhouette_confidence.h"
 #include "libskel/silhouette/loops.h"
@@ -34,5 +35,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
        {&ConfidenceModel::joint, &ConfidenceModel::figure});
   read(text, parseSilhouetteConfidence, formatSilhouetteConfidence, {&SilhouetteConfidence::net});
   read(text, parseLoopNet, formatLoopNet, {&LoopNet::net});
+  read(text, parseLimbNet, formatLimbNet, {&LimbNet::net});
   return 0;
 }

@@ -20,11 +20,7 @@ namespace fs = std::filesystem;
 namespace skel {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG)
-constexpr double kMaxTime_s = 20;
-#else
-constexpr double kMaxTime_s = 2;
-#endif
+constexpr double kMaxTime_s = 20;  // sanitized
 constexpr long kMaxMemory_kB = 1'000'000;
 
 // Numbers and brackets on which readers of text stumble.

@@ -188,7 +188,7 @@ TEST_CASE("a file of 200,000 vertices is read well within a second") {
   CHECK(mesh.vertices.rows() == kSide * kSide);
   CHECK(mesh.triangles.rows() == 2 * (kSide - 1) * (kSide - 1));
   std::cout << "200,000 vertices read in " << took_s << " s\n";
-#ifdef NDEBUG
+#if defined(NDEBUG) && !defined(SKEL_SANITIZED)
   CHECK(took_s < 1);
 #endif
 }
