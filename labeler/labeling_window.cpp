@@ -57,7 +57,7 @@ constexpr KeyHelp kHelp[] = {
     {"Page Up  Page Down", "previous, next drawing; so do the arrow keys"},
     {"U", "next unfinished drawing"},
     {"Wheel  +  -  F", "zoom; fit the drawing into the view"},
-    {"Right or middle drag", "move the drawing"},
+    {"Middle or right drag", "move the drawing; in mask the middle one alone"},
     {"H  ?  F1", "this help; Esc closes it"},
 };
 

@@ -24,7 +24,7 @@ void LayerDocument::write(const std::shared_ptr<const LayerMap>& layers, const P
   if (layers == saved_) return;
   if (layers)
     replaceFile(path_, encodePng(layerPicture(*layers, mask)));
-  else if (earlier_ && saved_ == opened_)
+  else if (earlier_)
     keepAside(path_);
   else
     removeFile(path_);

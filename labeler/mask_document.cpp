@@ -51,9 +51,8 @@ void MaskDocument::write(const std::shared_ptr<const MaskVersion>& mask, const L
   writeLabelFile(files_.labels, labels);
   // A mask that was undone altogether; one that had been there before stays.
   if (mask || !saved_ || besideLabelFile(files_.labels, saved_->file) != files_.mask) return;
-  const bool set_aside = earlier_ && saved_ == opened_;
-  if (keep_ && !set_aside) return;
-  set_aside ? keepAside(files_.mask) : removeFile(files_.mask);
+  if (keep_ && !earlier_) return;
+  earlier_ ? keepAside(files_.mask) : removeFile(files_.mask);
   saved_ = nullptr;
 }
 

@@ -22,8 +22,8 @@ class MaskDocument {
   std::string openOf(const SkeletonDocument& skeleton, const Image& image);
   void open(const std::string& path, const Image& image);  // that lies beside the drawing
 
-  // What lies there was made for a picture before this one: it is given another name (keepAside()) when the
-  // drawing has no such mask any more.
+  // What lies there was made for a picture before this one: it, and what is made of it, is given another name
+  // (keepAside()) when the drawing has no such mask any more.
   void areOfEarlierPicture() { earlier_ = true; }
 
   const std::shared_ptr<const MaskVersion>& opened() const { return opened_; }

@@ -42,7 +42,9 @@ std::string jointNote(const Recognition& recognition, const std::string& body_pl
 }  // namespace
 
 std::string missingNote(const std::vector<std::string>& missing) {
-  return missing.empty() ? "" : "not found: " + joined(missing) + " (placed where they probably are)";
+  return missing.empty() ? ""
+                         : "not found: " + joined(missing) + " (placed where " +
+                               (missing.size() == 1 ? "it probably is)" : "they probably are)");
 }
 
 Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,

@@ -217,7 +217,7 @@ TEST_CASE("a limb that is still missing is still told of when another joint was 
   text.replace(text.find("\"missing\": []"), 13, "\"missing\": [\"left_hand\"]");
   writeFile(dir.file("out/boy.skeleton.json"), text);
   moveInFile(dir, "right_hand", "150");
-  constexpr const char* kMissing = "not found: left_hand (placed where they probably are)";
+  constexpr const char* kMissing = "not found: left_hand (placed where it probably is)";
   CHECK_THAT(infer(dir, "boy.png").err, Contains(kMissing));
   moveInFile(dir, "left_hand", "420.5");
   CHECK(infer(dir, "boy.png").err.find("not found") == std::string::npos);

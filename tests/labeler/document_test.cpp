@@ -1001,6 +1001,47 @@ TEST_CASE(
 }
 
 TEST_CASE(
+    "of a photo taken again Shift R drops what was painted on the mask and limbs of the one before, too, and "
+    "keeps it aside") {
+  TakenAgain photo;
+  const auto drops = [&](Document& document) {
+    document.paintMask({250, 60}, {250, 20}, 12, true);
+    document.paintLayer({300, 320}, {320, 320}, 9, limbBrush(2));
+    const std::string painted = readFile(photo.dir.file("cap_boy.mask.png")),
+                      limbs = readFile(photo.dir.file("cap_boy.limbs.png"));
+    document.rigAnew();
+    CHECK(document.saveProblem().empty());
+    CHECK_FALSE(document.state().mask);
+    CHECK_FALSE(photo.saved().mask);
+    CHECK_FALSE(fs::exists(photo.dir.file("cap_boy.mask.png")));
+    CHECK_FALSE(fs::exists(photo.dir.file("cap_boy.limbs.png")));
+    CHECK(readFile(photo.dir.file("cap_boy.old.mask.png")) == painted);
+    CHECK(readFile(photo.dir.file("cap_boy.old.limbs.png")) == limbs);
+  };
+  SECTION("painted before the window was opened") {
+    Document document(photo.dir.path(), documentOptions());
+    drops(document);
+  }
+  SECTION("painted while the window was open") {
+    for (const char* name : {"cap_boy.mask.png", "cap_boy.limbs.png", "cap_boy.labels.json"})
+      fs::remove(photo.dir.file(name));
+    copyCharacter("ninja", photo.dir.path(), false);
+    fs::remove(photo.dir.file("ninja.joints.json"));
+    photo.take(readFile(kCharacters + "cap_boy.png"));
+    Document document(photo.dir.path(), documentOptions());
+    document.findJoints();
+    document.paintMask({300, 60}, {300, 20}, 12, true);
+    document.paintLayer({300, 300}, {320, 300}, 9, limbBrush(2));
+    document.acceptJoints();
+    document.go(1);
+    photo.take(readFile(kCharacters + "clown.png"));
+    document.go(0);
+    REQUIRE(document.isOfEarlierPicture());
+    drops(document);
+  }
+}
+
+TEST_CASE(
     "of a photo taken again all right is asked twice where a mask of the one before would count for it") {
   const TakenAgain photo;
   Document document(photo.dir.path(), documentOptions());
