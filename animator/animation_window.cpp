@@ -322,7 +322,7 @@ class AnimationWindow {
   }
   void askSaveModel(std::function<void()> then = {}) {
     ask({"Save the character with its clips (.glb)", "Save", "saved character", suggestion(".glb"),
-         FileUse::kSave, endsWith({".glb"})},
+         FileUse::kSave, endsWith({".glb"}), ".glb"},
         &AnimationDocument::saveModel, std::move(then));
   }
   void askPose() {
@@ -331,7 +331,7 @@ class AnimationWindow {
   }
   void askSavePose() {
     ask({"Save the pose", "Save", "pose", suggestion(kPoseFileEnding), FileUse::kSave,
-         endsWith({kPoseFileEnding})},
+         endsWith({kPoseFileEnding}), kPoseFileEnding},
         &AnimationDocument::savePose);
   }
   void askClip() {
@@ -354,7 +354,7 @@ class AnimationWindow {
   void askSaveClip(std::function<void()> then = {}) {
     ask({"Save the clip", "Save", "clip",
          "out/" + (document_.clip() ? safeFileName(document_.clip()->name) : "clip") + kClipFileEnding,
-         FileUse::kSave, endsWith({kClipFileEnding})},
+         FileUse::kSave, endsWith({kClipFileEnding}), kClipFileEnding},
         &AnimationDocument::saveClip, std::move(then));
   }
   void askSkeleton() {
@@ -364,7 +364,7 @@ class AnimationWindow {
   }
   void askSaveSkeleton() {
     ask({"Save the skeleton", "Save", "skeleton", suggestion(".rig.json"), FileUse::kSave,
-         endsWith({".json"})},
+         endsWith({".json"}), ".rig.json"},
         &AnimationDocument::saveSkeleton);
   }
   void askWeights() {
@@ -373,7 +373,7 @@ class AnimationWindow {
   }
   void askSaveWeights() {
     ask({"Save the weights", "Save", "weights", suggestion(".weights.json"), FileUse::kSave,
-         endsWith({".weights.json"})},
+         endsWith({".weights.json"}), ".weights.json"},
         &AnimationDocument::saveWeights);
   }
   void askFilm() {
@@ -381,7 +381,7 @@ class AnimationWindow {
     const std::string name = document_.clip() ? "-" + safeFileName(document_.clip()->name) : "";
     dialog_.ask({"Write a film of what is seen (" + videoFormatNames() + ")", "Write", "film",
                  suggestion(name + ".mp4"), FileUse::kSaveFileOrFolder,
-                 endsWith({".mp4", ".gif", ".webp", ".png"}),
+                 endsWith({".mp4", ".gif", ".webp", ".png"}), "",
                  [this](const std::string& path) { return startFilm(path) ? "" : document_.message(); },
                  [this] { drawFilmOptions(); }});
   }

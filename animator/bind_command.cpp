@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 
 #include "libskel/cli/outputs.h"
+#include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/text.h"
 #include "libskel/export/formats.h"
@@ -13,6 +15,12 @@
 
 namespace skel {
 namespace {
+
+// Devices have no ending.
+void checkEnding(const std::string& path, const std::string& ending) {
+  if (std::filesystem::path(path).has_extension() && !path.ends_with(ending))
+    throw UsageError(path + ": must end in " + ending);
+}
 
 // Reads the model, computes its weights and says so.
 CharacterFile boundModel(const RigSource& source, const SkinRequest& skin) {
@@ -44,6 +52,7 @@ void bindBindOptions(CLI::App& app, BindOptions& options) {
 ExitCode runBind(const BindOptions& options) {
   const std::string path =
       options.output.empty() ? "out/" + stemOf(options.source.model) + ".glb" : options.output;
+  checkEnding(path, ".glb");
   noteOutput(path);
   CharacterFile file;
   if (options.weights.empty()) {
@@ -73,6 +82,7 @@ void bindWeightsOptions(CLI::App& app, WeightsOptions& options) {
 ExitCode runWeights(const WeightsOptions& options) {
   const std::string path =
       options.output.empty() ? "out/" + stemOf(options.source.model) + ".weights.json" : options.output;
+  checkEnding(path, ".json");
   noteOutput(path);
   const CharacterFile file = boundModel(options.source, options.skin);
   writeFile(path, exportWeights({file.character, file.clips, {stemOf(path)}})[0].bytes);

@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "animator/pose_file.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/keyframe_clip.h"
+#include "libskel/animation/retarget.h"
 #include "libskel/animation/role_figure.h"
 #include "libskel/cli/number.h"
 #include "libskel/core/error.h"
@@ -95,10 +97,18 @@ RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& char
 
 namespace {
 
+bool isBvh(const std::string& path) { return path.ends_with(".bvh") || path.ends_with(".BVH"); }
+
+std::string stemOfPose(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename().string();
+  return name.substr(0, name.ends_with(kPoseFileEnding) ? name.size() - std::string(kPoseFileEnding).size()
+                                                        : name.rfind('.'));
+}
+
 Clip readClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source,
                  ClipNotes* notes) {
   const std::string ending = std::filesystem::path(path).extension().string();
-  if (ending == ".bvh" || ending == ".BVH") return loadBvhFor(path, character, source).clip;
+  if (isBvh(path)) return loadBvhFor(path, character, source).clip;
   if (ending == ".glb" || ending == ".GLB")
     throw InputError(path,
                      "is a character, no motion; write the clip that you want of it first, `skel-animate "
@@ -111,6 +121,8 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
     if (source.interpolation == "linear") options.interpolation = RotationInterpolation::kAngles;
     return parseKeyframeClip(text, path, character.skeleton, options, notes ? &notes->of_file : nullptr);
   }
+  if (isPoseFile(text))
+    return clipOfPose(parsePose(text, path, character.skeleton), character.skeleton, stemOfPose(path));
   const Clip clip = parseClip(text, path);
   if (notes) notes->of_character = armsThatStay(clip, character);
   if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton); figure && fits(clip, *figure))
@@ -137,6 +149,16 @@ Clip loadClipFor(const std::string& path, const RiggedCharacter& character, cons
     if (error.exitCode() != ExitCode::kInput) throw;
     throw InputError(path, error.what());
   }
+}
+
+std::optional<ClipKeys> easedKeysOf(const std::string& path, const Skeleton& skeleton) {
+  if (isBvh(path)) return std::nullopt;
+  const std::string text = readFile(path);
+  if (isKeyframeClip(text) || isPoseFile(text)) return std::nullopt;
+  ClipKeys keys = parseClipKeys(text, path);
+  if (keys.ease == KeyEase::kNone || keys.clip.rest_pose != restPoseHash(skeleton)) return std::nullopt;
+  keys.clip.rest_pose.clear();
+  return keys;
 }
 
 }  // namespace skel

@@ -1,9 +1,11 @@
 // Motions, as the commands of skel-animate name them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "libskel/animation/clip_file.h"
 #include "libskel/animation/retarget_motion.h"
 #include "libskel/import/read_character.h"
 
@@ -55,5 +57,8 @@ struct ClipNotes {
 // InputError.
 Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source = {},
                  ClipNotes* notes = nullptr);
+// Of a clip file that is for this very rest pose (Clip::rest_pose) and whose keys ease, these keys; else
+// nothing. Throws InputError.
+std::optional<ClipKeys> easedKeysOf(const std::string& path, const Skeleton& skeleton);
 
 }  // namespace skel

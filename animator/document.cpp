@@ -191,10 +191,10 @@ double AnimationDocument::snapped(double time_s) const {
         nearest_s = double(key_s);
       }
   };
-  for (const JointTrack& track : clip()->tracks)
+  for (const JointTrack& track : keyed().tracks)
     for (const auto* times_s : {&track.times_s, &track.translation_times_s, &track.scale_times_s})
       look(*times_s);
-  look(clip()->root_times_s);
+  look(keyed().root_times_s);
   return nearest_s;
 }
 
@@ -261,9 +261,33 @@ void AnimationDocument::resetPose() {
   message_ = "the rest pose";
 }
 
-void AnimationDocument::replaceClip(Clip clip) {
+const ClipKeys* AnimationDocument::eased() const {
+  if (!state_.eased) return nullptr;
+  const auto at = state_.eased->find(clip()->name);
+  return at == state_.eased->end() ? nullptr : &at->second;
+}
+
+ClipKeys AnimationDocument::keys() const { return eased() ? *eased() : ClipKeys{*clip()}; }
+
+const Clip& AnimationDocument::keyed() const { return eased() ? eased()->clip : *clip(); }
+
+void AnimationDocument::keepEase(const std::string& before, const ClipKeys& keys) {
+  auto eased = std::make_shared<std::map<std::string, ClipKeys>>();
+  if (state_.eased) *eased = *state_.eased;
+  eased->erase(before);
+  if (keys.ease != KeyEase::kNone) (*eased)[keys.clip.name] = keys;
+  state_.eased = std::move(eased);
+}
+
+void AnimationDocument::replaceKeys(const ClipKeys& keys) {
+  Clip played = keys.clip;  // straight from key to key, should there be too many even ones
+  try {
+    played = withEvenKeys(keys);
+  } catch (const InputError&) {
+  }
+  keepEase(clip()->name, keys);
   auto clips = std::make_shared<std::vector<Clip>>(*state_.clips);
-  (*clips)[std::size_t(state_.clip)] = std::move(clip);
+  (*clips)[std::size_t(state_.clip)] = std::move(played);
   state_.clips = std::move(clips);
 }
 
@@ -274,7 +298,9 @@ void AnimationDocument::setKey() {
   }
   playing = false;
   const Pose told = samplePose(*clip(), skeleton(), float(state_.time_s));
-  Clip changed = clip()->interpolation == RotationInterpolation::kAngles ? withSlerp(*clip()) : *clip();
+  ClipKeys edited = keys();
+  Clip& changed = edited.clip;
+  if (changed.interpolation == RotationInterpolation::kAngles) changed = withSlerp(changed);
   std::vector<int> joints;
   for (int j = 0; j < jointCount(); ++j)
     if (!sameTurn(told.rotations[std::size_t(j)], state_.pose.rotations[std::size_t(j)])) joints.push_back(j);
@@ -301,14 +327,15 @@ void AnimationDocument::setKey() {
     putKey(changed.root_times_s, changed.root_translations, state_.time_s, state_.pose.root_translation);
   changed.lead_s = 0;  // the clip may no longer come from the rest pose, nor the feet stand
   changed.contacts.clear();
-  replaceClip(std::move(changed));
+  replaceKeys(edited);
   message_ = "key set for " + std::to_string(joints.size()) + (joints.size() == 1 ? " joint" : " joints");
 }
 
 void AnimationDocument::removeKey() {
   if (!clip()) return;
   const StepScope step(*this);
-  Clip changed = *clip();
+  ClipKeys edited = keys();
+  Clip& changed = edited.clip;
   for (JointTrack& track : changed.tracks) {
     if (chosen_ >= 0 && track.joint != skeleton().joints[std::size_t(chosen_)].name) continue;
     if (!track.angles_rad.empty()) {
@@ -323,7 +350,7 @@ void AnimationDocument::removeKey() {
   std::erase_if(changed.tracks, isEmpty);
   // It stays as long as it was.
   changed.least_duration_s = std::max(changed.least_duration_s, clip()->duration_s());
-  replaceClip(std::move(changed));
+  replaceKeys(edited);
   takePoseFromClip();
   message_ = "key removed";
 }
@@ -349,9 +376,10 @@ void AnimationDocument::newClip(const std::string& name, double duration_s) {
 void AnimationDocument::setDuration(double duration_s) {
   if (!clip()) return;
   const StepScope step(*this);
-  Clip changed = *clip();
+  ClipKeys edited = keys();
+  Clip& changed = edited.clip;
   changed.least_duration_s = float(std::max(duration_s, 0.0));
-  replaceClip(std::move(changed));
+  replaceKeys(edited);
   state_.time_s = std::min(state_.time_s, this->duration_s());
 }
 
@@ -367,9 +395,10 @@ void AnimationDocument::renameClip(const std::string& name) {
     return;
   }
   const StepScope step(*this);
-  Clip changed = *clip();
+  ClipKeys edited = keys();
+  Clip& changed = edited.clip;
   changed.name = name;
-  replaceClip(std::move(changed));
+  replaceKeys(edited);
   message_ = "the clip is called \"" + name + "\"";
 }
 
@@ -398,7 +427,7 @@ std::string AnimationDocument::unsavedBelow(const std::string& path) const {
 std::vector<double> AnimationDocument::keyTimes() const {
   std::vector<double> times;
   if (!clip()) return times;
-  for (const JointTrack& track : clip()->tracks)
+  for (const JointTrack& track : keyed().tracks)
     if (chosen_ < 0 || track.joint == skeleton().joints[std::size_t(chosen_)].name)
       for (const auto* kind : {&track.times_s, &track.translation_times_s, &track.scale_times_s})
         times.insert(times.end(), kind->begin(), kind->end());
@@ -433,6 +462,7 @@ bool AnimationDocument::openModel(const std::string& path) {
     bones_ = file.bones;
     state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
     state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
+    state_.eased = nullptr;
     state_.clip = -1;
     state_.time_s = 0;
     state_.pose = restPose(skeleton());
@@ -476,8 +506,11 @@ bool AnimationDocument::savePose(const std::string& path) {
 bool AnimationDocument::loadClip(const std::string& path) {
   return attempt([&] {
     Clip clip = loadClipFor(path, character(), library_);
+    const std::optional<ClipKeys> eased = easedKeysOf(path, skeleton());
+    if (eased) clip = withEvenKeys(*eased);
     addSaved({clip});
     const StepScope step(*this);
+    keepEase(clip.name, eased.value_or(ClipKeys()));
     playing = false;
     auto clips = std::make_shared<std::vector<Clip>>(*state_.clips);
     const auto same =
@@ -499,18 +532,18 @@ bool AnimationDocument::saveClip(const std::string& path) {
     if (!clip()) throw UsageError("there is no clip to save: choose one, or make a new one");
     const std::string name = clipNameIn(path);
     const bool follows = given_names_.contains(clip()->name) && !name.empty() && name != clip()->name;
-    Clip named = *clip();
-    if (follows && !hasOtherClip(name)) named.name = name;
-    Clip written = named;
-    written.rest_pose = restPoseHash(skeleton());
-    save(path, kClipFileEnding, formatClip(written));
-    addSaved({named});
-    if (named.name != clip()->name) {
+    ClipKeys named = keys();
+    if (follows && !hasOtherClip(name)) named.clip.name = name;
+    ClipKeys written = named;
+    written.clip.rest_pose = restPoseHash(skeleton());
+    save(path, kClipFileEnding, formatClipKeys(written));
+    addSaved({withEvenKeys(named)});
+    if (named.clip.name != clip()->name) {
       const StepScope step(*this);
-      replaceClip(std::move(named));
+      replaceKeys(named);
     } else if (follows) {
-      return "saved " + path + "; the clip is still called \"" + named.name + "\", as there is another \"" +
-             name + "\"";
+      return "saved " + path + "; the clip is still called \"" + named.clip.name +
+             "\", as there is another \"" + name + "\"";
     }
     return "saved " + path;
   });
@@ -527,6 +560,7 @@ bool AnimationDocument::loadSkeleton(const std::string& path) {
     state_.character = std::make_shared<const RiggedCharacter>(std::move(changed));
     // Clips that were made for other bones go, but for those that say what they need.
     state_.clips = std::make_shared<const std::vector<Clip>>(libraryFor(character(), library_));
+    state_.eased = nullptr;
     addSaved(clips());
     state_.clip = -1;
     state_.time_s = 0;
@@ -568,13 +602,7 @@ std::unique_ptr<FilmExport> AnimationDocument::exportFilm(const std::string& pat
     if (clip() && duration_s() > 0) {
       shown = *clip();
     } else {
-      // The pose, as a clip that holds it.
-      shown.name = "pose";
-      for (int j = 0; j < jointCount(); ++j)
-        shown.tracks.push_back(
-            {skeleton().joints[std::size_t(j)].name, {0.f}, {state_.pose.rotations[std::size_t(j)]}});
-      shown.root_times_s = {0};
-      shown.root_translations = {state_.pose.root_translation};
+      shown = clipOfPose(state_.pose, skeleton(), "pose");
     }
     film = std::make_unique<FilmExport>(path, state_.character, std::move(shown), camera, options);
     return "writing " + path;

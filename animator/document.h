@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <future>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -11,7 +12,7 @@
 
 #include "animator/film.h"
 #include "animator/load_character.h"
-#include "libskel/animation/clip.h"
+#include "libskel/animation/clip_file.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/undo_history.h"
 #include "libskel/export/write_character.h"
@@ -26,7 +27,9 @@ inline constexpr double kFrameRate = 30;  // of the window's frames, and of film
 struct AnimationState {
   std::shared_ptr<const RiggedCharacter> character;
   std::shared_ptr<const std::vector<Clip>> clips;  // relative to the character's rest pose
-  int clip = -1;                                   // -1: none, the character rests
+  // Of those that ease, by their names, what is edited: `clips` has even keys in place of these.
+  std::shared_ptr<const std::map<std::string, ClipKeys>> eased;
+  int clip = -1;  // -1: none, the character rests
   double time_s = 0;
   Pose pose;
 };
@@ -122,8 +125,8 @@ class AnimationDocument {
   bool loadPose(const std::string& path);
   bool savePose(const std::string& path);
   bool loadClip(const std::string& path);
-  // As it is for this character, which it is read back for key by key. A clip that newClip() has named gets
-  // the file's name, if that is free; that is a step.
+  // As it is for this character, which it is read back for key by key, with its ease. A clip that newClip()
+  // has named gets the file's name, if that is free; that is a step.
   bool saveClip(const std::string& path);
   bool loadSkeleton(const std::string& path);  // the weights are computed anew
   bool saveSkeleton(const std::string& path);
@@ -145,7 +148,12 @@ class AnimationDocument {
   template <class Action>
   bool attempt(const Action& action);
   void takePoseFromClip();
-  void replaceClip(Clip clip);
+  // The clip, which there is, as it is edited; eased(): null if it does not ease.
+  const ClipKeys* eased() const;
+  ClipKeys keys() const;
+  const Clip& keyed() const;
+  void replaceKeys(const ClipKeys& keys);
+  void keepEase(const std::string& before, const ClipKeys& keys);
   bool hasOtherClip(const std::string& name) const;
   double snapped(double time_s) const;
   void addSaved(const std::vector<Clip>& clips);

@@ -106,6 +106,7 @@ CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& cli
     throw InputError(source.path, remedy);
   const bool rigged = endingOf(source.path) == ".glb";
   if (rigged && source.skeleton.empty()) return readGlb(source.path);
+  if (!rigged && !fs::exists(source.path)) throw InputError(source.path, "does not exist");
   if (!rigged && source.skeleton.empty())
     throw InputError(source.path,
                      "is neither a rigged character (.glb) nor a drawing (.png, .jpg, ...); a model needs "

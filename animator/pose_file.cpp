@@ -9,13 +9,15 @@
 namespace skel {
 namespace {
 
+constexpr const char* kPoseFormat = "skel-pose";
+
 nlohmann::ordered_json numbers(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 
 std::string formatPose(const Pose& pose, const Skeleton& skeleton) {
   nlohmann::ordered_json document;
-  document["format"] = "skel-pose";
+  document["format"] = kPoseFormat;
   document["version"] = 1;
   if (!pose.root_translation.isZero(0)) document["root_translation"] = numbers(pose.root_translation);
   auto& joints = document["joints"] = nlohmann::ordered_json::object();
@@ -37,7 +39,7 @@ Pose parsePose(std::string_view text, const std::string& file, const Skeleton& s
   const JsonDocument document = JsonDocument::parse(text, file);
   const JsonValue root = document.root();
   root.allowOnly({"format", "version", "root_translation", "joints"});
-  root.checkFormat("skel-pose", 1);
+  root.checkFormat(kPoseFormat, 1);
   Pose pose;
   pose.rotations.assign(skeleton.joints.size(), Eigen::Quaternionf::Identity());
   if (const auto moved = root.find("root_translation"))
@@ -65,6 +67,33 @@ Pose parsePose(std::string_view text, const std::string& file, const Skeleton& s
     }
   }
   return pose;
+}
+
+bool isPoseFile(std::string_view text) {
+  const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
+  return document.is_object() && document.contains("format") && document["format"] == kPoseFormat;
+}
+
+Clip clipOfPose(const Pose& pose, const Skeleton& skeleton, const std::string& name) {
+  Clip clip;
+  clip.name = name;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    JointTrack& track = clip.tracks.emplace_back();
+    track.joint = skeleton.joints[j].name;
+    track.times_s = {0};
+    track.rotations = {pose.rotations[j]};
+    if (!pose.translations_m.empty()) {
+      track.translation_times_s = {0};
+      track.translations_m = {pose.translations_m[j]};
+    }
+    if (!pose.scales.empty()) {
+      track.scale_times_s = {0};
+      track.scales = {pose.scales[j]};
+    }
+  }
+  clip.root_times_s = {0};
+  clip.root_translations = {pose.root_translation};
+  return clip;
 }
 
 }  // namespace skel

@@ -16,4 +16,10 @@ std::string formatPose(const Pose& pose, const Skeleton& skeleton);
 // Throws InputError with the JSON path: a joint that the skeleton lacks, what is no rotation.
 Pose parsePose(std::string_view text, const std::string& file, const Skeleton& skeleton);
 
+// Whether `text` says that it is a pose.
+bool isPoseFile(std::string_view text);
+
+// A motion of one key, relative to the rest pose.
+Clip clipOfPose(const Pose& pose, const Skeleton& skeleton, const std::string& name);
+
 }  // namespace skel

@@ -51,7 +51,11 @@ Skeleton readSkeletonFor(const TriangleMesh& mesh, const std::string& path, cons
                          std::string* note) {
   if (isSkelFile(path)) {
     const std::string text = readFile(path);
-    return parseSkeletonFile(text, path, loadTemplate(templateOfSkeleton(text, path))).skeleton;
+    Skeleton skeleton = parseSkeletonFile(text, path, loadTemplate(templateOfSkeleton(text, path))).skeleton;
+    if (note)
+      *note =
+          printable(path) + ": " + percent(shareInside(skeleton, mesh)) + " of its bones lie in the model";
+    return skeleton;
   }
   std::string unused;
   const Skeleton as_is = readRigFile(path, &unused), turned = yUpFromZUp(as_is);

@@ -194,7 +194,7 @@ class LabelingWindow {
                    return isDrawingName(name) || name.ends_with(kSkeletonFileEnding) ||
                           name.ends_with(kMotionFileEnding);
                  },
-                 [this](const std::string& path) { return open(path); }});
+                 "", [this](const std::string& path) { return open(path); }});
   }
 
   // Why not; "" if it was.

@@ -192,7 +192,8 @@ void bindMake(CLI::App& app, MakeOptions& options) {
       ->capture_default_str()
       ->check(outputFile());
   app.add_option("--work", options.work,
-                 "A folder for what lies between; what is there already is taken (default: <output>.work)")
+                 "A folder for what lies between; what is there already of these films is taken (default: "
+                 "<output>.work)")
       ->type_name("DIR");
   app.add_flag("--force", options.force, "Make everything anew, also over joints placed by hand");
   bindFilm(app, options.film);

@@ -110,6 +110,11 @@ bool outlinesLoop(const std::vector<FrameOutline>& outlines, const Eigen::Vector
 
 }  // namespace
 
+std::string filmName(const std::string& path) {
+  const std::string name = fs::path(path).lexically_normal().filename().string();
+  return name.empty() ? fs::path(path).parent_path().filename().string() : name;
+}
+
 Keypoints findKeypoints(const KeypointOptions& options) {
   const SkeletonTemplate plan = loadTemplate("biped");
   Image background;
@@ -121,9 +126,7 @@ Keypoints findKeypoints(const KeypointOptions& options) {
 
   Keypoints result;
   result.motion.frame_rate = std::clamp(info.frame_rate, kMinFrameRate, kMaxFrameRate);
-  result.motion.source = fs::path(options.film.path).lexically_normal().filename().string();
-  if (result.motion.source.empty())
-    result.motion.source = fs::path(options.film.path).parent_path().filename().string();
+  result.motion.source = filmName(options.film.path);
   result.motion.action = options.action;
   result.motion.frames.resize(std::size_t(info.frames));
   std::vector<Sighting> sightings(static_cast<std::size_t>(info.frames));

@@ -19,6 +19,9 @@ struct KeypointOptions {
   TrackOptions track;
 };
 
+// The motion's source: the film's name without its folder.
+std::string filmName(const std::string& path);
+
 struct Keypoints {
   MotionFile motion;
   int without_figure = 0;      // frames

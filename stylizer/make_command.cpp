@@ -1,34 +1,48 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/core/text.h"
 #include "stylizer/commands.h"
+#include "stylizer/film_trace.h"
 
 namespace skel {
 namespace {
 namespace fs = std::filesystem;
 
-// The motion of a film: the file given, the one in the work folder, or a new one there.
+// The motion of a film: the file given, the one in the work folder if it is of this film, or a new one there.
 NamedMotion motionOf(const std::string& path, const std::string& name, const MakeOptions& options) {
   const SkeletonTemplate plan = loadTemplate("biped");
   if (path.ends_with(kMotionFileEnding)) return {path, readMotionFile(path, plan)};
   const std::string file = (fs::path(options.work) / (name + kMotionFileEnding)).string();
-  if (!options.force && fs::exists(file)) {
-    std::printf("%s: taken as it is\n", printable(file).c_str());
-    return {file, readMotionFile(file, plan)};
-  }
-  noteOutput(file);
-  ensureWritableFolderOf(file);
   KeypointOptions find;
   find.film = options.film;
   find.film.path = path;
   find.output = file;
   find.loop = options.request.loop;
+  const std::string film_hash = filmHash(find.film);
+  const bool goes_on = !options.force && fs::exists(file);
+  if (goes_on) {
+    const MotionIsOf is_of = filmOfMotion(file, film_hash, filmName(path));
+    if (is_of == MotionIsOf::kAnotherFilmMended)
+      throw InputError(file, "was mended by hand, and was made of another film than " + printable(path) +
+                                 " or by other options; name another folder by --work, or give --force to "
+                                 "lose what was mended");
+    if (is_of == MotionIsOf::kThisFilm) {
+      std::printf("%s: taken as it is\n", printable(file).c_str());
+      return {file, readMotionFile(file, plan)};
+    }
+  }
+  noteOutput(file);
+  ensureWritableFolderOf(file);
   const Keypoints found = findKeypoints(find);
+  forgetTrace(file);
   writeFile(file, formatMotionFile(found.motion, plan));
-  std::printf("%s: %d frames\n", printable(file).c_str(), int(found.motion.frames.size()));
+  leaveTrace(file, film_hash);
+  std::printf("%s: %d frames%s\n", printable(file).c_str(), int(found.motion.frames.size()),
+              goes_on ? ", made anew: what was there was of another film, or by other options" : "");
   // As the next run will see it.
   return {file, readMotionFile(file, plan)};
 }

@@ -1,6 +1,7 @@
 #include "libskel/animation/clip_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -22,21 +23,13 @@ constexpr const char* kFormat = "skel-clip";
 constexpr int kVersion = 1;
 constexpr double kDegree = std::numbers::pi / 180;
 
-// How values go from key to key.
-enum class Ease {
-  kNone,  // straight, as the clip plays them
-  kRest,  // they come to rest at each key: extremes of a motion
-  kFlow,  // smoothly through the keys
-  kLoop,  // the same, and from the last on as from the first, which is its equal
-};
+constexpr std::array<const char*, 4> kEaseNames = {"none", "rest", "flow", "loop"};  // by KeyEase
 
-Ease easeAt(const std::optional<JsonValue>& value) {
-  if (!value) return Ease::kNone;
+KeyEase easeAt(const std::optional<JsonValue>& value) {
+  if (!value) return KeyEase::kNone;
   const std::string name = value->asString();
-  if (name == "none") return Ease::kNone;
-  if (name == "rest") return Ease::kRest;
-  if (name == "flow") return Ease::kFlow;
-  if (name == "loop") return Ease::kLoop;
+  for (std::size_t i = 0; i < kEaseNames.size(); ++i)
+    if (name == kEaseNames[i]) return KeyEase(i);
   value->fail("is \"" + name + "\", must be none, rest, flow or loop");
 }
 
@@ -56,11 +49,11 @@ constexpr std::size_t kMaxSamples = 1'000'000, kMaxContacts = 1000;
 
 // The key's slope: the straight line between its neighbours, or level at the ends.
 template <int kCount>
-Value<kCount> slope(const Keys<kCount>& keys, std::size_t i, Ease ease) {
+Value<kCount> slope(const Keys<kCount>& keys, std::size_t i, KeyEase ease) {
   const std::size_t last = keys.size() - 1;
   if (i > 0 && i < last)
     return (keys[i + 1].value - keys[i - 1].value) / (keys[i + 1].time_s - keys[i - 1].time_s);
-  if (ease != Ease::kLoop) return Value<kCount>::Zero();
+  if (ease != KeyEase::kLoop) return Value<kCount>::Zero();
   const double across = keys[1].time_s - keys[0].time_s + keys[last].time_s - keys[last - 1].time_s;
   Value<kCount> out = keys[1].value - keys[0].value, in = keys[last].value - keys[last - 1].value;
   if (kCount == 4 && keys[last].value.dot(keys[0].value) < 0) (i == 0 ? in : out) *= -1;
@@ -68,14 +61,14 @@ Value<kCount> slope(const Keys<kCount>& keys, std::size_t i, Ease ease) {
 }
 
 template <int kCount>
-Value<kCount> eased(const Keys<kCount>& keys, double time_s, Ease ease) {
+Value<kCount> eased(const Keys<kCount>& keys, double time_s, KeyEase ease) {
   if (keys.size() == 1) return keys[0].value;
   const auto later = std::lower_bound(keys.begin() + 1, keys.end() - 1, time_s,
                                       [](const Key<kCount>& key, double time) { return key.time_s < time; });
   const auto next = std::size_t(later - keys.begin());
   const Key<kCount>&a = keys[next - 1], &b = keys[next];
   const double length = b.time_s - a.time_s, t = std::clamp((time_s - a.time_s) / length, 0.0, 1.0);
-  if (ease == Ease::kRest)
+  if (ease == KeyEase::kRest)
     return a.value + (b.value - a.value) * (0.5 - 0.5 * std::cos(t * std::numbers::pi));
   // Cubic Hermite.
   const double t2 = t * t, t3 = t2 * t;
@@ -85,15 +78,15 @@ Value<kCount> eased(const Keys<kCount>& keys, double time_s, Ease ease) {
 
 // How the keys of a file ease, and how many there are by now that take the place of eased ones.
 struct Easing {
-  Ease ease = Ease::kNone;
+  KeyEase ease = KeyEase::kNone;
   std::size_t samples = 0;
 };
 
 // Even keys in place of eased ones.
 template <int kCount>
 Keys<kCount> sampled(const Keys<kCount>& keys, const JsonValue& list, Easing& easing) {
-  const Ease ease = easing.ease;
-  if (ease == Ease::kNone || keys.size() < 2) return keys;
+  const KeyEase ease = easing.ease;
+  if (ease == KeyEase::kNone || keys.size() < 2) return keys;
   Keys<kCount> result;
   const int last = int(std::lround(keys.back().time_s * kEasedRate_hz));
   easing.samples += std::size_t(last) + 1;
@@ -141,7 +134,7 @@ void quaternionKeys(const JsonValue& list, Easing& easing, JointTrack& track) {
     track.rotations.push_back(rotation.cast<float>());
   }
   if (track.times_s.empty()) list.fail("is empty");
-  if (easing.ease == Ease::kNone) return;
+  if (easing.ease == KeyEase::kNone) return;
   Keys<4> keys;
   for (std::size_t k = 0; k < track.times_s.size(); ++k) {
     Eigen::Vector4d value = track.rotations[k].coeffs().cast<double>();
@@ -161,7 +154,7 @@ void angleKeys(const JsonValue& list, Easing& easing, JointTrack& track) {
     const Eigen::Vector3f angles = (key.value * kDegree).cast<float>();
     track.times_s.push_back(float(key.time_s));
     track.rotations.push_back(rotationOfAngles(angles));
-    if (easing.ease == Ease::kNone) track.angles_rad.push_back(angles);
+    if (easing.ease == KeyEase::kNone) track.angles_rad.push_back(angles);
   }
 }
 
@@ -270,7 +263,10 @@ void appendTrack(std::string& text, const JointTrack& track) {
 
 }  // namespace
 
-std::string formatClip(const Clip& clip) {
+std::string formatClip(const Clip& clip) { return formatClipKeys({clip}); }
+
+std::string formatClipKeys(const ClipKeys& keys) {
+  const Clip& clip = keys.clip;
   checkTimes(clip);
   const auto quoted = [](const std::string& name) {
     return nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -285,7 +281,9 @@ std::string formatClip(const Clip& clip) {
     text += ",\n  \"" + std::string(key) + "\": ";
     appendNumber(text, value);
   };
-  if (clip.loops) text += ",\n  \"loop\": true";
+  if (keys.ease != KeyEase::kNone) text += ",\n  \"ease\": " + quoted(kEaseNames[std::size_t(keys.ease)]);
+  if (clip.loops != (keys.ease == KeyEase::kLoop))
+    text += std::string(",\n  \"loop\": ") + (clip.loops ? "true" : "false");
   if (!clip.rest_pose.empty()) text += ",\n  \"rest_pose\": " + quoted(clip.rest_pose);
   number("duration_s", clip.least_duration_s);
   number("lead_s", clip.lead_s);
@@ -314,13 +312,17 @@ std::string formatClip(const Clip& clip) {
   return text + "\n}\n";
 }
 
-Clip parseClip(std::string_view text, const std::string& file) {
+namespace {
+
+// `eases`: even keys in place of those that ease.
+ClipKeys keysIn(std::string_view text, const std::string& file, bool eases) {
   const JsonDocument document = JsonDocument::parse(text, file);
   const JsonValue root = document.root();
   root.checkFormat(kFormat, kVersion);
   root.allowOnly({"format", "version", "name", "template", "frame", "duration_s", "lead_s", "ease", "loop",
                   "rest_pose", "root", "tracks", "contacts"});
-  Clip clip;
+  ClipKeys keys;
+  Clip& clip = keys.clip;
   clip.name = root.at("name").asString();
   if (clip.name.empty()) root.at("name").fail("must not be empty");
   if (const auto body_plan = root.find("template")) clip.template_name = body_plan->asString();
@@ -331,9 +333,10 @@ Clip parseClip(std::string_view text, const std::string& file) {
   }
   if (const auto duration = root.find("duration_s"))
     clip.least_duration_s = float(duration->asNumber(0, kMaxClip_s));
-  Easing easing{easeAt(root.find("ease"))};
+  keys.ease = easeAt(root.find("ease"));
+  Easing easing{eases ? keys.ease : KeyEase::kNone};
   const auto loop = root.find("loop");
-  clip.loops = loop ? loop->asBool() : easing.ease == Ease::kLoop;
+  clip.loops = loop ? loop->asBool() : keys.ease == KeyEase::kLoop;
   if (const auto rest_pose = root.find("rest_pose")) clip.rest_pose = rest_pose->asString();
   if (const auto path = root.find("root"))
     vectorKeys(*path, kMaxPlace, easing, clip.root_times_s, clip.root_translations);
@@ -354,7 +357,29 @@ Clip parseClip(std::string_view text, const std::string& file) {
       contacts->fail("holds more than " + std::to_string(kMaxContacts) + " contacts");
     for (const JsonValue& item : items) clip.contacts.push_back(contactAt(item, clip));
   }
-  return clip;
+  return keys;
+}
+
+}  // namespace
+
+Clip parseClip(std::string_view text, const std::string& file) { return keysIn(text, file, true).clip; }
+
+ClipKeys parseClipKeys(std::string_view text, const std::string& file) { return keysIn(text, file, false); }
+
+// By way of a file, so that it plays the same from here and from there.
+Clip withEvenKeys(const ClipKeys& keys) {
+  if (keys.ease == KeyEase::kNone) return keys.clip;
+  ClipKeys moves;
+  moves.ease = keys.ease;
+  moves.clip.name = "moves";
+  moves.clip.tracks = keys.clip.tracks;
+  moves.clip.root_times_s = keys.clip.root_times_s;
+  moves.clip.root_translations = keys.clip.root_translations;
+  Clip even = parseClip(formatClipKeys(moves), keys.clip.name), result = keys.clip;
+  result.tracks = std::move(even.tracks);
+  result.root_times_s = std::move(even.root_times_s);
+  result.root_translations = std::move(even.root_translations);
+  return result;
 }
 
 Clip readClipFile(const std::string& path) { return parseClip(readFile(path), path); }

@@ -23,4 +23,26 @@ Clip readClipFile(const std::string& path);
 
 inline constexpr double kEasedRate_hz = 30;
 
+// How values go from key to key.
+enum class KeyEase {
+  kNone,  // straight, as the clip plays them
+  kRest,  // they come to rest at each key: extremes of a motion
+  kFlow,  // smoothly through the keys
+  kLoop,  // the same, and from the last on as from the first, which is its equal
+};
+
+// What stands in a clip file, for who edits it: its keys, where parseClip() puts even ones for those that
+// ease.
+struct ClipKeys {
+  Clip clip;
+  KeyEase ease = KeyEase::kNone;
+
+  bool operator==(const ClipKeys&) const = default;
+};
+std::string formatClipKeys(const ClipKeys& keys);
+// Throws as parseClip().
+ClipKeys parseClipKeys(std::string_view text, const std::string& file);
+// The clip that plays, with even keys as parseClip() has them. Throws InputError: more than it takes.
+Clip withEvenKeys(const ClipKeys& keys);
+
 }  // namespace skel

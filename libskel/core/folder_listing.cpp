@@ -1,7 +1,10 @@
 #include "libskel/core/folder_listing.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include "libskel/core/natural_order.h"
@@ -53,6 +56,16 @@ std::string pathIn(const std::string& folder, const std::string& name) {
   if (fs::path(name).is_absolute()) return name;
   const fs::path below = path.lexically_relative(fs::current_path(gone));
   return below.empty() || *below.begin() == ".." ? path.string() : below.string();
+}
+
+std::string withEnding(const std::string& typed, const std::string& ending) {
+  constexpr std::array<std::string_view, 9> kOwn = {".json", ".glb", ".obj", ".bvh", ".yaml",
+                                                    ".png",  ".mp4", ".gif", ".webp"};
+  if (typed.empty() || typed.ends_with('/')) return typed;
+  std::string own = fs::path(typed).extension().string();
+  std::transform(own.begin(), own.end(), own.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::find(kOwn.begin(), kOwn.end(), own) != kOwn.end() ? typed : typed + ending;
 }
 
 }  // namespace skel

@@ -23,4 +23,8 @@ std::string folderAround(const std::string& path);
 // `name` in `folder`, seen from where the process is if it lies below; an absolute `name` stays as it is.
 std::string pathIn(const std::string& folder, const std::string& name);
 
+// A name that somebody has typed, with the `ending` of what is saved: throw, throw.clip.json. It stays where
+// it has an ending of skel's own files already, leads to a folder (a '/' at its end) or is empty.
+std::string withEnding(const std::string& typed, const std::string& ending);
+
 }  // namespace skel

@@ -33,11 +33,7 @@ bool isPicture(const std::string& path) {
 
 class FolderReader : public VideoReader {
  public:
-  FolderReader(const std::string& dir, double frame_rate) {
-    for (std::string& file : filesBelow(dir))
-      if (isPicture(file)) files_.push_back(std::move(file));
-    if (files_.empty()) throw InputError(dir, "holds no pictures");
-    std::sort(files_.begin(), files_.end(), comesBefore);
+  FolderReader(const std::string& dir, double frame_rate) : files_(framesIn(dir)) {
     for (const std::string& file : files_) noteInput(file);
     frame_rate_ = frame_rate;
     frame_count_ = static_cast<int>(files_.size());
@@ -67,6 +63,14 @@ class FolderReader : public VideoReader {
 };
 
 }  // namespace
+
+std::vector<std::string> framesIn(const std::string& dir) {
+  std::vector<std::string> files = filesBelow(dir);
+  std::erase_if(files, [](const std::string& file) { return !isPicture(file); });
+  if (files.empty()) throw InputError(dir, "holds no pictures");
+  std::sort(files.begin(), files.end(), comesBefore);
+  return files;
+}
 
 std::unique_ptr<VideoReader> readFrameFolder(const std::string& dir, double frame_rate) {
   return std::make_unique<FolderReader>(dir, frame_rate);

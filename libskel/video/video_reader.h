@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "libskel/image/image.h"
 
@@ -29,6 +30,10 @@ class VideoReader {
   double frame_rate_ = 0;
   int frame_count_ = 0;
 };
+
+// The pictures of a folder that are a film's frames, in their order. Throws InputError: no folder, no
+// pictures.
+std::vector<std::string> framesIn(const std::string& dir);
 
 // A folder of pictures, in the order of their names with numbers counted as numbers, shown at
 // `folder_frame_rate`, 1/s; or a film: an animated .webp, or whatever format FFmpeg reads (MP4, GIF, WebM

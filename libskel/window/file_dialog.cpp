@@ -62,6 +62,7 @@ void FileDialog::ask(FileQuestion question) {
   }
   setName(name);
   problem_.clear();
+  asked_.clear();
   open_ = opens_ = true;
 }
 
@@ -79,9 +80,17 @@ void FileDialog::setName(const std::string& name) {
   std::snprintf(name_.data(), name_.size(), "%s", name.c_str());
 }
 
-void FileDialog::answerWith(const std::string& name) {
+std::string FileDialog::path() const {
+  const std::string name = name_.data();
+  if (name.empty()) return listing_.folder;
+  const std::string typed = pathIn(listing_.folder, name);
+  return question_.ending.empty() || isFolder(typed) ? typed : withEnding(typed, question_.ending);
+}
+
+void FileDialog::answer(bool sees_replace) {
+  const std::string name = name_.data();
   if (name.empty() && question_.use != FileUse::kOpenFileOrFolder) return;
-  const std::string path = name.empty() ? listing_.folder : pathIn(listing_.folder, name);
+  const std::string path = this->path();
   // A folder's name leads into it, unless it is an answer.
   const bool is_answer = question_.use == FileUse::kOpenFileOrFolder ||
                          (question_.use == FileUse::kSaveFileOrFolder && name.ends_with('/'));
@@ -90,6 +99,12 @@ void FileDialog::answerWith(const std::string& name) {
     setName("");
     return;
   }
+  if (replaces() && !sees_replace && asked_ != path) {
+    asked_ = path;
+    problem_.clear();
+    return;
+  }
+  asked_.clear();
   problem_ = question_.answer(path);
   if (!problem_.empty()) return;
   places_[question_.kind] = folderAround(fs::absolute(path).parent_path().string());
@@ -150,7 +165,7 @@ bool FileDialog::saves() const {
 
 bool FileDialog::replaces() const {
   std::error_code unknown;
-  return saves() && name_[0] != '\0' && fs::is_regular_file(pathIn(listing_.folder, name_.data()), unknown);
+  return saves() && name_[0] != '\0' && fs::is_regular_file(path(), unknown);
 }
 
 void FileDialog::draw() {
@@ -172,13 +187,19 @@ void FileDialog::draw() {
     done |= ImGui::InputText("##name", name_.data(), name_.size(),
                              ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     if (question_.options) question_.options();
-    if (!problem_.empty()) {
+    const bool over = replaces();
+    const std::string said =
+        over && asked_ == path()
+            ? fs::path(asked_).filename().string() + " is there already; press Return once more to replace it"
+            : problem_;
+    if (!said.empty()) {
       ImGui::PushTextWrapPos(kWidth);
-      ImGui::TextColored({0.84f, 0.23f, 0.19f, 1}, "%s", problem_.c_str());
+      ImGui::TextColored({0.84f, 0.23f, 0.19f, 1}, "%s", said.c_str());
       ImGui::PopTextWrapPos();
     }
-    const std::string button = (replaces() ? "Replace" : question_.button) + "###answer";
-    done |= ImGui::Button(button.c_str(), {120, kButtonHeight});
+    const std::string button = (over ? "Replace" : question_.button) + "###answer";
+    const bool pressed = ImGui::Button(button.c_str(), {120, kButtonHeight});
+    done |= pressed;
     done |= !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(key::kEnter, false);
     ImGui::SameLine();
     const bool cancelled = ImGui::Button("Cancel", {120, kButtonHeight}) || ImGui::IsKeyPressed(key::kEscape);
@@ -187,7 +208,7 @@ void FileDialog::draw() {
       if (ImGui::Checkbox("all files", &shows_all_)) enter(listing_.folder);
     }
     if (done) {
-      answerWith(name_.data());
+      answer(pressed);
     } else if (cancelled) {
       open_ = false;
       ImGui::CloseCurrentPopup();

@@ -25,6 +25,8 @@ struct FileQuestion {
   FileUse use = FileUse::kOpen;
   // Which names are shown, unless all are asked for; empty: all.
   std::function<bool(const std::string& name)> shows = {};
+  // What a typed name gets that has none of skel's own (withEnding()); empty: names are left as typed.
+  std::string ending = {};
   // What is done with the answer; "" if it was done, else why not.
   std::function<std::string(const std::string& path)> answer = {};
   // More to choose, between names and buttons.
@@ -48,7 +50,10 @@ class FileDialog {
   void drawPlace();
   // Whether a file was chosen twice in a row.
   bool drawNames(float height);
-  void answerWith(const std::string& name);
+  // Where the name leads.
+  std::string path() const;
+  // `sees_replace`: by a button that says so; else what would be written over is asked about first.
+  void answer(bool sees_replace);
   bool saves() const;
   bool replaces() const;
 
@@ -57,6 +62,7 @@ class FileDialog {
   std::map<std::string, std::string> places_;  // of kinds
   std::array<char, 4096> name_{};
   std::string problem_;
+  std::string asked_;  // the path whose file may be replaced if the same answer comes once more
   bool open_ = false, opens_ = false, shows_all_ = false, scrolls_up_ = false;
 };
 

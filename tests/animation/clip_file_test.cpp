@@ -265,6 +265,22 @@ TEST_CASE("a folder of clips adds to those that come with skel and takes their p
                         ": is the second clip \"nod\" for the template \"biped\" in " + dir.path());
 }
 
+TEST_CASE("keys that ease come and go as they stand for who edits them") {
+  for (const std::string ease : {"rest", "flow", "loop"})
+    for (const std::string loop : {"", "\"loop\": true, ", "\"loop\": false, "}) {
+      const std::string text = fileWith("\"ease\": \"" + ease + "\", " + loop +
+                                        R"("tracks": [{"joint": "head",
+          "rotations": [[0, 0, 0, 0, 1], [1, 0, 0, 0.6, 0.8], [2, 0, 0, 0, 1]]}])");
+      const ClipKeys keys = parseClipKeys(text, "a");
+      const Clip even = parseClip(text, "a");
+      CHECK(keys.clip.tracks[0].times_s == std::vector<float>{0, 1, 2});
+      CHECK(parseClipKeys(formatClipKeys(keys), "a") == keys);
+      CHECK(withEvenKeys(keys) == even);
+      CHECK(withEvenKeys({even}) == even);
+      CHECK(even.tracks[0].times_s.size() == 61);
+    }
+}
+
 TEST_CASE("an own clip without a template takes the place of those that have its joints") {
   const TempDir dir;
   const auto write = [&](const std::string& name, Clip clip) {

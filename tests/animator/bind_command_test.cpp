@@ -199,6 +199,8 @@ TEST_CASE("bad models, weights and tables are refused, and nothing is written") 
   const auto bind = [&](const std::string& arguments) {
     return animate(dir, "bind " + arguments + " -o out.glb");
   };
+  expect(animate(dir, "bind m.obj --skeleton s.json -o e.fbx"), 1, "e.fbx: must end in .glb");
+  expect(animate(dir, "weights m.obj --skeleton s.json -o x.txt"), 1, "x.txt: must end in .json");
   expect(bind("m.obj"), 1, "m.obj has no skeleton of its own; name one by --skeleton FILE");
   expect(bind("gone.obj --skeleton s.json"), 2, "gone.obj: cannot be read: No such file or directory");
   expect(bind("gone.glb"), 2, "gone.glb: cannot be read: No such file or directory");

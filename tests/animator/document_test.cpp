@@ -2,11 +2,14 @@
 
 #include "animator/rig_text.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 
 #include "libskel/animation/clip_file.h"
 #include "libskel/core/error.h"
+#include "libskel/core/files.h"
 #include "libskel/export/formats.h"
 #include "libskel/import/read_character.h"
 #include "tests/animator/figure_file.h"
@@ -319,6 +322,68 @@ TEST_CASE("a clip comes back from its file with the keys that were set, for the 
   CHECK(on_other.clip()->tracks[0].times_s.size() > 2);
   on_other.setTime(1);
   CHECK(on_other.anglesOf(head).y() == Approx(0.8).margin(0.01));
+}
+
+TEST_CASE("a clip that eases comes back with its keys and its ease, and plays as others play its file") {
+  const TempDir dir;
+  const std::string path = dir.file("bow.clip.json");
+  AnimationDocument document({.path = figureFile(dir)});
+  const int head = document.skeleton().index("head");
+  document.choose(head);
+  document.newClip("bow", 2);
+  document.setKey();
+  document.setTime(2);
+  document.turnJoint(head, 0, 0.8);
+  document.setKey();
+  REQUIRE(document.saveClip(path));
+  std::string text = readFile(path);
+  text.insert(text.find("\"rest_pose\""), "\"ease\": \"rest\",\n  ");
+  writeFile(dir.file("eased/bow.clip.json"), text);
+
+  AnimationDocument again({.path = figureFile(dir, "again.glb")});
+  REQUIRE(again.loadClip(dir.file("eased/bow.clip.json")));
+  again.choose(head);
+  CHECK(again.keyTimes() == std::vector<double>{0, 2});
+  CHECK(again.unsavedClips().empty());
+  again.setTime(0.5);
+  CHECK(again.anglesOf(head).x() == Approx(0.8 * (0.5 - 0.5 * std::cos(std::numbers::pi / 4))).margin(2e-3));
+  REQUIRE(again.saveClip(dir.file("saved.clip.json")));
+  CHECK(readFile(dir.file("saved.clip.json")) == text);
+  const Clip played = readClipFile(dir.file("eased/bow.clip.json"));
+  CHECK(again.clip()->tracks == played.tracks);
+
+  // A model has the even keys that the clip plays by.
+  REQUIRE(again.saveModel(dir.file("saved.glb")));
+  const std::vector<Clip> clips = readGlb(dir.file("saved.glb")).clips;
+  const auto bow = std::find_if(clips.begin(), clips.end(), [](const Clip& c) { return c.name == "bow"; });
+  REQUIRE(bow != clips.end());
+  CHECK(bow->tracks[0].times_s.size() == 61);
+
+  again.setTime(1);
+  again.turnJoint(head, 0, 0.1);
+  again.setKey();
+  CHECK(again.keyTimes() == std::vector<double>{0, 1, 2});
+  again.renameClip("deep-bow");
+  REQUIRE(again.saveClip(dir.file("deep-bow.clip.json")));
+  const ClipKeys deep = parseClipKeys(readFile(dir.file("deep-bow.clip.json")), "deep-bow.clip.json");
+  CHECK(deep.ease == KeyEase::kRest);
+  CHECK(deep.clip.tracks[0].times_s == std::vector<float>{0, 1, 2});
+  CHECK(again.undo());
+  CHECK(again.undo());
+  CHECK(again.keyTimes() == std::vector<double>{0, 2});
+}
+
+TEST_CASE("a pose is taken as a motion of one key") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const int arm = document.skeleton().index("left_shoulder");
+  document.turnJoint(arm, 2, 1.25);
+  REQUIRE(document.savePose(dir.file("hello.pose.json")));
+  document.resetPose();
+  REQUIRE(document.loadClip(dir.file("hello.pose.json")));
+  CHECK(document.clip()->name == "hello");
+  CHECK(document.anglesOf(arm).z() == Approx(1.25).margin(1e-4));
+  CHECK(document.keyTimes() == std::vector<double>{0});
 }
 
 TEST_CASE("times are those of keys, of the end, or of frames") {

@@ -322,6 +322,7 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
   const TempDir dir;
   const std::string model = figureFile(dir), film = dir.file("film.gif");
   writeFile(dir.file("text.glb"), "no model");
+  writeFile(dir.file("model.xyz"), "no model");
   const struct {
     std::string arguments;
     int exit_code;
@@ -358,6 +359,7 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
       {dir.file("none.glb") + " --clip nod -o " + film, 2, "none.glb: cannot be read"},
       {dir.file("text.glb") + " --clip nod -o " + film, 2, "text.glb"},
       {dir.file("model.xyz") + " --clip nod -o " + film, 2, "is neither a rigged character"},
+      {dir.file("none.pgn") + " --clip nod -o " + film, 2, "none.pgn: does not exist"},
       {dir.file("model.fbx") + " --clip nod -o " + film, 2, "is an FBX file; open it in Blender"},
       {dir.file("hero.svg") + " --clip nod -o " + film, 2, "hero.svg -o "},
       {model + " --clip nod -o " + dir.file("text.glb") + "/film.gif", 4, "text.glb"},
@@ -370,7 +372,7 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
     CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
     CHECK(run.out == "");
   }
-  CHECK(filesBelow(dir.path()).size() == 2);
+  CHECK(filesBelow(dir.path()).size() == 3);
 }
 
 TEST_CASE("all clips of a model that can do none are no film and no sheet without sprites") {

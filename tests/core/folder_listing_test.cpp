@@ -56,3 +56,13 @@ TEST_CASE("what is chosen below the process's folder is named from there") {
   CHECK(pathIn(here, "/tmp/a.glb") == "/tmp/a.glb");
   CHECK(pathIn(here, "films/") == "films/");
 }
+
+TEST_CASE("a name that is typed gets the ending of what is saved, unless it has one of skel's own") {
+  CHECK(withEnding("throw", ".clip.json") == "throw.clip.json");
+  CHECK(withEnding("out/throw.v2", ".clip.json") == "out/throw.v2.clip.json");
+  CHECK(withEnding("elkx", ".glb") == "elkx.glb");
+  CHECK(withEnding("my.d/hello", ".pose.json") == "my.d/hello.pose.json");
+  CHECK(withEnding("note.txt", ".pose.json") == "note.txt.pose.json");
+  for (const char* name : {"throw.clip.json", "throw.json", "hello.pose.json", "ELK.GLB", "film/", ""})
+    CHECK(withEnding(name, ".clip.json") == name);
+}

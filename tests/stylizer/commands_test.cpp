@@ -100,6 +100,57 @@ TEST_CASE("from a drawing and two films to a new film, and on from what lies bet
   CHECK_THAT(bad.err, Contains("content.motion.json"));
 }
 
+TEST_CASE("what lies in the work folder is taken for the film that it was made of alone, and not lost") {
+  const TempDir dir;
+  const std::string walk = film(dir, "walk"), run = film(dir, "run");
+  const auto make = [&](const std::string& content, const std::string& options = "") {
+    return "make --character " + kDrawing + " --content " + content + " --style " + run +
+           " --size 96 --fps 10 -o " + dir.file("out.gif") + " " + options;
+  };
+  const std::string content = dir.file("out.gif.work/content.motion.json"),
+                    trace = dir.file("out.gif.work/content.made-of.txt"), taken = "taken as it is";
+  const auto refused = [&](const std::string& arguments, const std::string& message) {
+    CAPTURE(arguments);
+    const std::string before = readFile(content);
+    const ToolRun run = style(arguments);
+    CHECK(run.exit_code == 2);
+    CHECK_THAT(run.err, Contains(message));
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+    CHECK(readFile(content) == before);
+  };
+  done(make(walk));
+  const std::string of_walk = readFile(content);
+  refused(make(dir.file("none.mp4")), "none.mp4: does not exist");
+  refused("make --character " + kDrawing + " --content " + walk + " --style " + dir.file("none.mp4") +
+              " --size 96 --fps 10 -o " + dir.file("out.gif"),
+          "none.mp4: does not exist");
+  // The same name, and other pictures.
+  fs::create_directory(dir.file("other"));
+  fs::rename(walk, dir.file("other/walk"));
+  fs::copy(run, dir.file("walk"));
+  const std::string out = done(make(walk)).out;
+  CHECK_THAT(out,
+             Contains("content.motion.json: 8 frames, made anew") && Contains("style.motion.json: " + taken));
+  CHECK(readFile(content) != of_walk);
+  CHECK_THAT(done(make(walk)).out, Contains("content.motion.json: " + taken));
+
+  // Mended: kept for this film, not lost for another one.
+  const SkeletonTemplate plan = loadTemplate("biped");
+  MotionFile motion = readMotionFile(content, plan);
+  motion.frames[0].joints[0]->origin = JointOrigin::kEdited;
+  writeFile(content, formatMotionFile(motion, plan));
+  const std::string mended = readFile(content);
+  CHECK_THAT(done(make(walk)).out, Contains("content.motion.json: " + taken));
+  refused(make(dir.file("other/walk")), "name another folder by --work, or give --force");
+  CHECK(readFile(content) == mended);
+  // Without a trace, by the film's name.
+  fs::remove(trace);
+  CHECK_THAT(done(make(walk)).out, Contains("content.motion.json: " + taken));
+  refused(make(run), "was mended by hand");
+  done(make(dir.file("other/walk"), "--force"));
+  CHECK_THAT(done(make(dir.file("other/walk"))).out, Contains("content.motion.json: " + taken));
+}
+
 TEST_CASE("key frames and the distances of all frames") {
   const TempDir dir;
   const std::string walk = film(dir, "walk");
