@@ -127,6 +127,8 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
   if (notes) notes->of_character = armsThatStay(clip, character);
   if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton); figure && fits(clip, *figure))
     return fitted(clip, character, source);
+  if (const std::string fault = faultOf(clip, character.skeleton); !fault.empty())
+    throw InputError(path, fault);
   const JointLookup joints(character.skeleton);
   for (const JointTrack& track : clip.tracks)
     if (joints.find(track.joint) < 0)

@@ -46,6 +46,10 @@ ExitCode runList(const ListOptions& options) {
   for (const Clip& clip : file.clips) printClip(clip, "");
   std::printf("clips that fit:\n");
   for (const Clip& clip : clipsFor(library, file.character)) printClip(clip, "");
+  for (const Clip& clip : library)
+    if (const std::string fault = isOwn(clip) ? faultOf(clip, file.character.skeleton) : std::string();
+        !fault.empty())
+      std::printf("  %-12s %s\n", printable(clip.name).c_str(), printable("does not fit: " + fault).c_str());
   printJoints(file.character.skeleton);
   return ExitCode::kDone;
 }

@@ -156,8 +156,10 @@ Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const C
   if (name_or_path.find_first_of("./") != std::string::npos)
     return loadClipFor(name_or_path, file.character, source, notes);
   for (const Clip& clip : library)
-    if (const std::string problem = unknownTemplate(clip); clip.name == name_or_path && !problem.empty())
-      throw UsageError("the clip \"" + clip.name + "\" " + problem);
+    if (const std::string fault =
+            clip.name == name_or_path ? faultOf(clip, file.character.skeleton) : std::string();
+        !fault.empty())
+      throw UsageError("the clip \"" + clip.name + "\" " + fault);
   std::erase_if(fitting, [&](const Clip& clip) { return hasClip(file.clips, clip.name); });
   fitting.insert(fitting.begin(), file.clips.begin(), file.clips.end());
   return clipNamed(fitting, name_or_path);  // names those that there are

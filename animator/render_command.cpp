@@ -34,17 +34,18 @@ void tell(const DrawnCharacter& drawn, const std::string& path, const std::vecto
 
 void complain(const Error& error) { std::fprintf(stderr, "skel-animate: %s\n", error.what()); }
 
-// Which of the user's own clips this character lacks the joints for.
+// Which of the user's own clips do not fit this character.
 void noteUnfitting(const RenderCommandOptions& options, const RiggedCharacter& character,
                    const std::string& path) {
   if (options.library.clips_dir.empty()) return;
   const std::vector<Clip> library = clipLibrary(options.library), fitting = clipsFor(library, character);
   for (const Clip& clip : library)
-    if (isOwn(clip) && std::find(fitting.begin(), fitting.end(), clip) == fitting.end())
-      std::fprintf(stderr, "%s: note: the clip \"%s\" %s and is left out\n", printable(path).c_str(),
+    if (isOwn(clip) && std::find(fitting.begin(), fitting.end(), clip) == fitting.end()) {
+      const std::string fault = faultOf(clip, character.skeleton);
+      std::fprintf(stderr, "%s: note: left out: the clip \"%s\" %s\n", printable(path).c_str(),
                    printable(clip.name).c_str(),
-                   unknownTemplate(clip).empty() ? "does not fit its joints"
-                                                 : printable(unknownTemplate(clip)).c_str());
+                   fault.empty() ? "does not fit its joints" : printable(fault).c_str());
+    }
 }
 
 void sayStayingArms(const std::vector<std::string>& clauses, const std::string& path) {

@@ -97,7 +97,8 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
       ->capture_default_str();
   app.add_option("--frame", options.frame,
                  "What the camera shows all of: each clip by itself, or all clips of the character, so that "
-                 "its films have one scale and one ground; auto: clips where several are asked for")
+                 "its films have one scale and one ground; auto: clips where several are asked for "
+                 "in films; a sheet's clips share a scale anyway")
       ->check(CLI::IsMember({"auto", "clip", "clips"}))
       ->capture_default_str();
   app.add_option("--background", options.background,

@@ -103,7 +103,9 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--max-influences", options.max_influences, "Joints that carry one vertex at most")
       ->check(numberIn(1, 4));
   app.add_option("--clips", options.clips,
-                 "Motions to put into the .glb, or none (default: the built-in ones that fit the body plan)")
+                 "Motions to put into the .glb, or none (default: the built-in ones that fit the body plan, "
+                 "and those\n"
+                 "of --clips-dir)")
       ->delimiter(',')
       ->transform(withoutBlanks())
       ->always_capture_default(false);

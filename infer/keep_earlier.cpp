@@ -7,6 +7,9 @@
 #include "infer/outputs.h"
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
+#include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
+#include "libskel/image/sealed_png.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -14,6 +17,17 @@ namespace {
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+// From `path` to <start>, a number where that is taken, <end>; returns what it is called now.
+std::string keepAs(const std::string& path, const std::string& start, const std::string& end) {
+  const auto named = [&](int number) { return numberedName(start, end, number); };
+  std::string kept = named(1);
+  std::error_code failure;
+  for (int number = 2; fs::exists(fs::symlink_status(kept, failure)); ++number) kept = named(number);
+  fs::rename(path, kept, failure);
+  if (failure) throw OutputError(path, "cannot be kept as " + kept + ": " + failure.message());
+  return kept;
 }
 
 }  // namespace
@@ -31,15 +45,26 @@ std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& 
   for (const Result& result : kResults) {
     const std::string path = stem + result.ending;
     if (!writes(options, result.format) || !contains(files.earlier, path)) continue;
-    const auto named = [&](int number) { return numberedName(stem + result.start, result.end, number); };
-    std::string kept = named(1);
-    std::error_code failure;
-    for (int number = 2; fs::exists(fs::symlink_status(kept, failure)); ++number) kept = named(number);
-    fs::rename(path, kept, failure);
-    if (failure) throw OutputError(path, "cannot be kept as " + kept + ": " + failure.message());
-    all.push_back({path, kept});
+    all.push_back({path, keepAs(path, stem + result.start, result.end)});
   }
   return all;
+}
+
+std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, const InferOptions& options,
+                                      const std::string& stem) {
+  const std::string start = options.out_dir + "/" + stem, path = start + ".layers.png";
+  std::error_code unknown;
+  if (!writes(options, "layers") || options.force || contains(taken_up, path) ||
+      !fs::is_regular_file(path, unknown))
+    return std::nullopt;
+  {
+    const LookAtOutputs look;
+    if (isAsSealed(readFile(path))) return std::nullopt;
+  }
+  const auto name = [](const std::string& file) { return fs::path(file).filename().string(); };
+  const std::string shared = "painted by hand, not taken up and kept",
+                    what = name(path) + " (now " + name(keepAs(path, start + ".old", ".layers.png")) + ")";
+  return Note{shared + ": " + what, shared, what};
 }
 
 }  // namespace skel

@@ -1,6 +1,7 @@
 // A photo that was taken again under its name: what a person had mended of the one before is kept.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,5 +14,10 @@ namespace skel {
 // <stem>.old.silhouette.png, or with a number where that is taken. Throws OutputError.
 std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& options,
                                   const std::string& skeleton_path);
+
+// The same for layers that a person has painted and that this run has not taken up, where it writes others:
+// <stem>.old.layers.png, or with a number. `taken_up`: paths that stay. With --force nothing is kept.
+std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, const InferOptions& options,
+                                      const std::string& stem);
 
 }  // namespace skel

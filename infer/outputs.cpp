@@ -14,6 +14,7 @@
 #include "libskel/core/text.h"
 #include "libskel/draw/draw_skeleton.h"
 #include "libskel/export/formats.h"
+#include "libskel/image/sealed_png.h"
 #include "libskel/image/write_image.h"
 
 namespace skel {
@@ -67,7 +68,7 @@ std::string makeSkeletonJson(const Request& r) { return formatSkeletonFile(r.fil
 std::string makeSilhouette(const Request& r) { return encodePng(r.drawing.silhouette.mask); }
 
 std::string makeLayers(const Request& r) {
-  return encodePng(layerPicture(r.drawing.layers, r.drawing.silhouette.mask));
+  return encodeSealedPng(layerPicture(r.drawing.layers, r.drawing.silhouette.mask));
 }
 
 // One row a candidate: where it is, what the net saw, what it took it for, whether the rules saw it.
@@ -168,16 +169,16 @@ void noteOutputs(const InferOptions& options, const std::string& stem, const std
 
 std::vector<WrittenFile> writeOutputs(const InferOptions& options, const std::string& stem,
                                       const RiggedDrawing& drawing, const SkeletonFile& file,
-                                      const std::string& painted) {
+                                      const std::vector<std::string>& painted) {
   const Request request{options, stem, drawing, file};
   std::vector<OutputFile> files;
   for (const std::string& name : options.formats)
     for (OutputFile& made : formatNamed(name).make(request)) files.push_back(std::move(made));
   std::vector<WrittenFile> written;
   for (OutputFile& made : files) {
-    if (made.path == painted) {
+    if (std::find(painted.begin(), painted.end(), made.path) != painted.end()) {
       const LookAtOutputs look;
-      made.bytes = readFile(painted);
+      made.bytes = readFile(made.path);
     } else {
       goesOnFrom(options, made.path) ? replaceFile(made.path, made.bytes) : writeFile(made.path, made.bytes);
     }

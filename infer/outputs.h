@@ -26,10 +26,10 @@ LastStage lastStageFor(const InferOptions& options);
 void noteOutputs(const InferOptions& options, const std::string& stem, const std::vector<Clip>& clips);
 
 // Writes options.out_dir/<stem>.* in the formats asked for and returns the files in that order. Nothing is
-// written before all of them are ready. `stem` may begin with folders. `painted`: one of them that a person
-// has painted and that stays as it is; "": none. Throws OutputError.
+// written before all of them are ready. `stem` may begin with folders. `painted`: those that a person has
+// painted and that stay as they are. Throws OutputError.
 std::vector<WrittenFile> writeOutputs(const InferOptions& options, const std::string& stem,
                                       const RiggedDrawing& drawing, const SkeletonFile& file,
-                                      const std::string& painted);
+                                      const std::vector<std::string>& painted);
 
 }  // namespace skel

@@ -118,8 +118,12 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
     file.labels->file = pathSeenFrom(skeleton_path, mended.files.labels);
 
   const std::vector<KeptFile> kept = keepEarlier(mended.files, options, skeleton_path);
+  std::vector<std::string> painted;
+  if (mended.files.painted_silhouette) painted.push_back(mask);
+  if (mended.files.painted_layers) painted.push_back(mended.files.limbs);
+  const std::optional<Note> kept_layers = keepPaintedLayers(painted, options, stem);
   FigureResult result;
-  result.outputs = writeOutputs(options, stem, drawing, file, mended.files.painted_silhouette ? mask : "");
+  result.outputs = writeOutputs(options, stem, drawing, file, painted);
   if (!options.trace_dir.empty()) {
     const bool given_mask = !mask.empty() || isModelAlone(options);
     writeTrace(drawing, given_mask ? SilhouetteSteps{} : silhouetteSteps(drawing.image),
@@ -140,6 +144,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   result.notes = notesOf(options, rig, drawing);
   if (const auto note = mendedNote(mended.files, request, mended.placed)) result.notes.push_back(*note);
   if (const auto note = earlierNote(mended.files, kept)) result.notes.push_back(*note);
+  if (kept_layers) result.notes.push_back(*kept_layers);
   if (const auto note = fitsAgainNote(mended.files)) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
     result.advice = adviceOn(drawing, file, result.mend_file);

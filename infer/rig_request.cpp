@@ -49,7 +49,21 @@ void refuseFile(const std::string& name) {
                      " --to FILE.glb`");
 }
 
-// Throws UsageError where a name is that of no clip of either body plan.
+// What is wrong with it for either body plan; see faultOf().
+std::string faultFor(const Clip& clip, const RigOptions& rig) {
+  if (rig.otherwise && faultOf(clip, rig.otherwise->body_plan).empty()) return "";
+  return faultOf(clip, rig.body_plan);
+}
+
+// Says which of the user's own clips can be no figure's.
+void noteFaults(const std::vector<Clip>& library, const RigOptions& rig) {
+  for (const Clip& clip : library)
+    if (const std::string fault = isOwn(clip) ? faultFor(clip, rig) : std::string(); !fault.empty())
+      std::fprintf(stderr, "skel-infer: note: left out: the clip \"%s\" %s\n", printable(clip.name).c_str(),
+                   printable(fault).c_str());
+}
+
+// Throws UsageError where a name is that of no clip of either body plan, or of one with a fault.
 void keepClips(const std::vector<std::string>& names, const std::vector<Clip>& library, RigOptions& rig) {
   std::vector<Clip> all = rig.clips;
   if (rig.otherwise)
@@ -57,8 +71,10 @@ void keepClips(const std::vector<std::string>& names, const std::vector<Clip>& l
       if (!find(all, clip.name)) all.push_back(clip);
   for (const std::string& name : names) {
     if (!find(all, name)) refuseFile(name);
-    if (const Clip* clip = find(library, name); clip && !find(all, name) && !unknownTemplate(*clip).empty())
-      throw UsageError("the clip \"" + name + "\" " + unknownTemplate(*clip));
+    for (const Clip& clip : library)
+      if (const std::string fault = clip.name == name && isOwn(clip) ? faultFor(clip, rig) : std::string();
+          !fault.empty())
+        throw UsageError("the clip \"" + name + "\" " + fault);
     clipNamed(all, name);
   }
   rig.clips = named(rig.clips, names);
@@ -110,7 +126,10 @@ RigOptions rigOptions(const InferOptions& options) {
     const std::vector<Clip> library = clipLibrary(options);
     rig.clips = clipsFor(library, rig.body_plan);
     if (rig.otherwise) rig.otherwise->clips = clipsFor(library, rig.otherwise->body_plan);
-    if (!options.clips.empty()) keepClips(options.clips, library, rig);
+    if (options.clips.empty())
+      noteFaults(library, rig);
+    else
+      keepClips(options.clips, library, rig);
   }
   return rig;
 }

@@ -9,6 +9,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/nearest_word.h"
 #include "libskel/core/text.h"
+#include "libskel/skeleton/hanging.h"
 
 namespace skel {
 namespace {
@@ -43,6 +44,36 @@ std::vector<Clip> fittingClips(const std::vector<Clip>& library, const Target& t
   for (const Clip& clip : library)
     if (fits(clip, target)) fitting.push_back(clip);
   return fitting;
+}
+
+// `lacking`: who, after "which".
+template <class Target>
+std::string faultFor(const Clip& clip, const Target& target, const std::string& lacking) {
+  if (fits(clip, target)) return "";
+  const std::vector<std::string> templates = builtinTemplates();
+  if (!clip.template_name.empty() &&
+      std::find(templates.begin(), templates.end(), clip.template_name) == templates.end())
+    return "is made for the template \"" + clip.template_name +
+           "\", which is not known; there are: " + joined(templates);
+  std::vector<std::string> known;
+  for (const auto& joint : target.joints) known.push_back(joint.name);
+  for (const std::string& name : templates)
+    if (clip.template_name.empty() || clip.template_name == name)
+      for (const TemplateJoint& joint : loadTemplate(name).joints) known.push_back(joint.name);
+  const auto isKnown = [&](const std::string& joint) {
+    Joint named;
+    named.name = joint;
+    return hangs(named) || std::find(known.begin(), known.end(), joint) != known.end();
+  };
+  const auto lacks = [&](const std::string& joint) {
+    const std::string meant = nearestWord(joint, known);
+    return ", which " + lacking + (meant.empty() ? "" : "; did you mean \"" + meant + "\"?");
+  };
+  for (const JointTrack& track : clip.tracks)
+    if (!isKnown(track.joint)) return "moves \"" + track.joint + '"' + lacks(track.joint);
+  for (const FootContact& contact : clip.contacts)
+    if (!isKnown(contact.joint)) return "puts \"" + contact.joint + "\" on the ground" + lacks(contact.joint);
+  return "";
 }
 
 // Whether a body plan that `other` was made for can do `clip` under the same name.
@@ -124,20 +155,22 @@ std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std:
   return library;
 }
 
-std::string unknownTemplate(const Clip& clip) {
-  const std::vector<std::string> known = builtinTemplates();
-  if (clip.template_name.empty() || std::find(known.begin(), known.end(), clip.template_name) != known.end())
-    return "";
-  return "is made for the template \"" + clip.template_name +
-         "\", which is not known; there are: " + joined(known);
-}
-
 bool fits(const Clip& clip, const Skeleton& skeleton) {
   return fitsTarget(clip, skeleton.template_name, skeleton);
 }
 
 bool fits(const Clip& clip, const SkeletonTemplate& body_plan) {
   return fitsTarget(clip, body_plan.name, body_plan);
+}
+
+std::string faultOf(const Clip& clip, const Skeleton& skeleton) {
+  return faultFor(clip, skeleton, "this character lacks");
+}
+
+std::string faultOf(const Clip& clip, const SkeletonTemplate& body_plan) {
+  return faultFor(
+      clip, body_plan,
+      clip.template_name.empty() ? "no template has" : "the template \"" + clip.template_name + "\" lacks");
 }
 
 std::vector<Clip> clipsFor(const std::vector<Clip>& library, const Skeleton& skeleton) {

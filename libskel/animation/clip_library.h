@@ -26,12 +26,15 @@ bool isOwn(const Clip& clip);
 std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std::string>& names = {},
                                   std::vector<std::string>* left_out = nullptr);
 
-// What to say of a clip whose template is none that comes with skel; else empty.
-std::string unknownTemplate(const Clip& clip);
-
 // Whether the joints are there that the clip moves, those of its template, and limbs for its contacts to end.
 bool fits(const Clip& clip, const Skeleton& skeleton);
 bool fits(const Clip& clip, const SkeletonTemplate& body_plan);
+
+// What is wrong with a clip that does not fit, to stand behind its name: a template that is none that comes
+// with skel, a joint that neither the target nor the clip's template (without one: any) has. Empty where it
+// fits or is made for others.
+std::string faultOf(const Clip& clip, const Skeleton& skeleton);
+std::string faultOf(const Clip& clip, const SkeletonTemplate& body_plan);
 
 // Those of `library` that fit.
 std::vector<Clip> clipsFor(const std::vector<Clip>& library, const Skeleton& skeleton);

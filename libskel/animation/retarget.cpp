@@ -121,13 +121,16 @@ void giveSlack(const Skeleton& skeleton, const std::vector<double>& slack_rad,
   }
 }
 
+// How much of its motion is left to a joint that keeps the share `kept` of how it was drawn.
+double heldShare(double kept) { return 1 - 0.8 * kept; }
+
 // Lets the joints keep the share `kept` of how they were drawn, and move so much less.
 void hold(Retargeter& retargeter, std::initializer_list<int> joints, double kept,
           std::vector<double>& slack_rad) {
   for (const int joint : joints) {
     if (slack_rad[joint] <= 0) continue;
     slack_rad[joint] += kept * 2 * kPi;
-    retargeter.share_of_motion[joint] = 1 - 0.8 * kept;
+    retargeter.share_of_motion[joint] = heldShare(kept);
   }
 }
 
@@ -232,13 +235,15 @@ void turnIntoPicture(const FigureShape& shape, const Clip& clip, const RetargetO
       }
 }
 
-// How far the limb's joints go in the clip, rad, all together.
-double motionOf(const Clip& clip, const std::string& side) {
+// How far the limb's joints go in the clip, rad, all together, if those that hold() finds go this share of
+// it.
+double motionOf(const Clip& clip, const std::string& side, double held_share = 1) {
   double sum = 0;
   for (const JointTrack& track : clip.tracks)
     if (track.joint == side + "shoulder" || track.joint == side + "elbow")
       for (std::size_t k = 1; k < track.rotations.size(); ++k)
-        sum += double(track.rotations[k].angularDistance(track.rotations[k - 1]));
+        sum += (track.slack_rad > 0 ? held_share : 1) *
+               double(track.rotations[k].angularDistance(track.rotations[k - 1]));
   return sum;
 }
 
@@ -559,9 +564,17 @@ std::vector<std::string> armsThatStay(const Clip& clip, const Skeleton& skeleton
       return {stays + "; the " + named(acrossFrom(cannot)) + " does"};
     return {stays + (skeleton.find("body") >= 0 ? "; the trunk rocks" : "")};
   }
+  // Bones of a clip that lets none stay where they were drawn turn all the way, and the flesh that hangs on
+  // them.
+  const auto follows = [&](const std::string& side, double kept) {
+    const int elbow = skeleton.find(side + "elbow");
+    return motionOf(clip, side, heldShare(kept)) >= heldShare(kStays) * motionOf(clip, side) &&
+           (shape.taken.empty() || shape.taken[elbow] >= kStump);
+  };
   std::vector<std::string> stay;
   for (const std::string side : {"left_", "right_"})
-    if (motionOf(clip, side) > kMoves_rad && keptArm(skeleton, shape, side) > kStays)
+    if (const double kept = keptArm(skeleton, shape, side);
+        motionOf(clip, side) > kMoves_rad && kept > kStays && !follows(side, kept))
       stay.push_back("the " + named(side) + " is one piece with the body and does not follow " + quoted);
   return stay;
 }

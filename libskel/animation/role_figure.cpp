@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "libskel/animation/clip_library.h"
 #include "libskel/animation/joint_roles.h"
 
 namespace skel {
@@ -75,6 +76,7 @@ std::optional<RoleFigure> roleFigure(const Skeleton& theirs) {
 
 bool fits(const Clip& clip, const RoleFigure& figure) {
   if (clip.template_name != figure.skeleton.template_name) return false;
+  if (!faultOf(clip, figure.skeleton).empty()) return false;
   const auto there = std::count_if(clip.tracks.begin(), clip.tracks.end(),
                                    [&](const JointTrack& track) { return moves(figure.skeleton, track); });
   return 2 * std::size_t(there) > clip.tracks.size() &&

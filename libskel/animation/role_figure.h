@@ -24,7 +24,8 @@ struct RoleFigure {
 // Nothing: neither arms and legs nor four legs could be told.
 std::optional<RoleFigure> roleFigure(const Skeleton& theirs);
 
-// Made for this body plan, and most of what it moves is there (no tail, no wagging; but walking).
+// Made for this body plan, of whose joints it moves no others, and most of these are there (no tail, no
+// wagging; but walking).
 bool fits(const Clip& clip, const RoleFigure& figure);
 
 // The clip for the rest pose of `theirs`. `shape`: of `figure.skeleton`.

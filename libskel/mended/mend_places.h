@@ -13,7 +13,7 @@ struct MendRequest;
 
 // Paths are without their endings.
 struct MendPlace {
-  std::string results;  // <results>.skeleton.json and .silhouette.png of the figure; "": none
+  std::string results;  // <results>.skeleton.json, .silhouette.png and .layers.png of the figure; "": none
   std::string made;     // <made>.mask.png, .labels.json, .limbs.png, .back.png
   std::optional<SkeletonSource> result;  // what the skeleton file, if there is one, was found in
   bool is_own = false;                   // where this run writes: it is of the drawing's name

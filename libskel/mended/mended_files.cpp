@@ -10,6 +10,7 @@
 #include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
 #include "libskel/image/read_image.h"
+#include "libskel/image/sealed_png.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/mended/earlier_picture.h"
 #include "libskel/mended/mend_places.h"
@@ -94,6 +95,12 @@ bool isPaintedSilhouette(const std::string& path, const MendPlace& place) {
   }
 }
 
+bool arePaintedLayers(const std::string& path, const MendPlace& place, int figure) {
+  if (!place.is_of_picture || place.result->number != figure || ifThere(path).empty()) return false;
+  const LookAtOutputs look;
+  return !isAsSealed(readFile(path));
+}
+
 // Those that a person has placed; of a file that was named also those that were found for it.
 PlacedJoints jointsOfLabels(const std::string& path, bool named, const std::string& source,
                             const std::string& image_sha256) {
@@ -130,7 +137,7 @@ MendedFiles mendedFiles(const MendRequest& request) {
   const bool no_skeleton = request.skeleton.empty(), no_mask = request.mask.empty();
   const std::string number = request.figure > 1 ? "-" + std::to_string(request.figure) : "";
   const std::vector<MendPlace> places = mendPlaces(request);
-  std::string painted;
+  std::string painted, painted_layers;
   for (const MendPlace& place : places) {
     const bool made = place.is_beside ? !annotated : place.is_of_picture;
     if (made && no_mask && no_skeleton && first)
@@ -150,11 +157,18 @@ MendedFiles mendedFiles(const MendRequest& request) {
     if (const std::string silhouette = place.results + ".silhouette.png";
         no_skeleton && no_mask && first && isPaintedSilhouette(silhouette, place))
       offerResult(painted, silhouette, place, sameBytes, files);
+    if (const std::string layers = place.results + ".layers.png";
+        request.finds_limbs && request.limbs.empty() && arePaintedLayers(layers, place, request.figure))
+      offer(painted_layers, layers, sameBytes, files);
   }
   leaveOutEarlier(files, request, resultAmong(places));
   if (!painted.empty()) {
     files.painted_silhouette = files.mask.empty();
     offer(files.mask, painted, sameBytes, files);
+  }
+  if (!painted_layers.empty()) {
+    files.painted_layers = files.limbs.empty();
+    offer(files.limbs, painted_layers, sameBytes, files);
   }
   if (no_skeleton && files.skeleton.empty()) files.fits_again = earlierThatFits(places, request);
   return files;

@@ -34,6 +34,7 @@ struct MendedFiles {
   std::string mask, limbs, back;
   bool painted_silhouette =
       false;  // the mask is a result of that name, painted in place: that one is not written
+  bool painted_layers = false;  // the limbs are <stem>.layers.png, the same
 
   // Of each kind the first place's counts; files of later places that say something else.
   struct PassedOver {
@@ -49,11 +50,12 @@ struct MendedFiles {
 };
 
 // Those that are named, and what a person has left in the folders of mend_places.h, of each kind the first:
-// an edited skeleton, or a silhouette that is not outlined as its skeleton file says, or was that file's mask
-// already; <source's stem>.mask.png, .labels.json, .limbs.png and .back.png (mask and labels of one figure
-// alone), elsewhere than beside the drawing where they, or the result there, name its picture. Beside a
-// drawing with <stem>.joints.json nothing is looked for: that is annotated, not mended. What was made for
-// another picture than the request's is left out (earlier_picture.h).
+// an edited skeleton, a silhouette that is not outlined as its skeleton file says, or was that file's mask
+// already, layers with other pixels than they were written with (sealed_png.h); <source's stem>.mask.png,
+// .labels.json, .limbs.png and .back.png (mask and labels of one figure alone), elsewhere than beside the
+// drawing where they, or the result there, name its picture. Beside a drawing with <stem>.joints.json nothing
+// is looked for: that is annotated, not mended. What was made for another picture than the request's is left
+// out (earlier_picture.h).
 MendedFiles mendedFiles(const MendRequest& request);
 
 // Joints that a person has placed.

@@ -114,7 +114,11 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
   }
   result.mask = useMask(request, mended, given, input);
   const std::string& mask = result.mask.file;
-  if (!mended.limbs.empty()) input.layers = {readImage(mended.limbs), mended.limbs};
+  if (!mended.limbs.empty()) {
+    std::optional<LookAtOutputs> look;
+    if (mended.painted_layers) look.emplace();
+    input.layers = {readImage(mended.limbs), mended.limbs};
+  }
   if (!mended.back.empty()) input.back = {readImage(mended.back), mended.back};
 
   RigOptions figure_rig = forBodyPlan(rig, placed.body_plan);

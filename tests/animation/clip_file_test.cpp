@@ -232,6 +232,38 @@ TEST_CASE("a clip that puts the pelvis on the ground fits nobody") {
   CHECK_FALSE(fits(clip, loadTemplate("biped")));
 }
 
+TEST_CASE("a joint that neither the figure nor the clip's own template has is named, others' clips are not") {
+  const auto moving = [](const std::string& body_plan, const std::string& joint) {
+    return parsed(body_plan + R"("tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [9, 0, 0, 0]]},
+      {"joint": ")" +
+                  joint + R"(", "angles_deg": [[0, 0, 0, 0], [9, 0, 0, 0]]}])");
+  };
+  const SkeletonTemplate biped = loadTemplate("biped"), quadruped = loadTemplate("quadruped");
+  const std::string of_biped = R"("template": "biped", )";
+  const Clip misspelt = moving(of_biped, "left_sholder");
+  CHECK(faultOf(misspelt, figureSkeleton()) ==
+        "moves \"left_sholder\", which this character lacks; did you mean \"left_shoulder\"?");
+  for (const SkeletonTemplate& body_plan : {biped, quadruped})
+    CHECK(faultOf(misspelt, body_plan) ==
+          "moves \"left_sholder\", which the template \"biped\" lacks; did you mean \"left_shoulder\"?");
+  CHECK(faultOf(moving("", "sadle"), biped) == "moves \"sadle\", which no template has");
+  for (const Clip& clip :
+       {moving(of_biped, "left_hand"), moving("", "tail"), moving(R"("template": "quadruped", )", "tail"),
+        moving(of_biped, "hanging_cape_1")}) {
+    CHECK(faultOf(clip, biped) == "");
+    CHECK(faultOf(clip, quadruped) == "");
+  }
+  Clip standing = moving(of_biped, "neck");
+  standing.contacts = {{"left_fot", 0, 1}};
+  CHECK(faultOf(standing, biped) ==
+        "puts \"left_fot\" on the ground, which the template \"biped\" lacks; did "
+        "you mean \"left_foot\"?");
+  Skeleton winged = figureSkeleton();
+  winged.joints.push_back({"wing", 0, {}, winged.joints[0].position});
+  CHECK(faultOf(moving(of_biped, "wing"), winged) == "");
+  CHECK(fits(moving(of_biped, "wing"), winged));
+}
+
 TEST_CASE("an unknown clip lists each clip once, and the one that was probably meant") {
   std::vector<Clip> twice = clipsFor(builtinClips(), loadTemplate("quadruped"));
   for (const Clip& clip : clipsFor(builtinClips(), loadTemplate("quadruped"))) twice.push_back(clip);

@@ -450,6 +450,13 @@ TEST_CASE(
     shape.joined[skeleton.index(joint)] = 1;
   CHECK(armsThatStay(walk, skeleton, shape) ==
         std::vector<std::string>{"the left arm is one piece with the body and does not follow \"walk\""});
+  // One whose bones must turn takes the flesh along that hangs on them, if there is any.
+  Clip swing = walk;
+  for (JointTrack& track : swing.tracks) track.slack_rad = 0;
+  CHECK(armsThatStay(swing, skeleton, shape).empty());
+  shape.taken[skeleton.index("left_elbow")] = 0.3;
+  CHECK(armsThatStay(swing, skeleton, shape).size() == 1);
+  shape.taken[skeleton.index("left_elbow")] = 1;
   Clip left = wave;
   for (JointTrack& track : left.tracks)
     for (const char* part : {"shoulder", "elbow", "hand"})

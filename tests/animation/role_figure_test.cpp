@@ -148,6 +148,9 @@ TEST_CASE("an animal without a tail walks, but wags none") {
   for (Joint& joint : docked.skeleton.joints)
     if (joint.name.starts_with("tail")) joint.name = "none_" + joint.name;
   CHECK(fits(quadrupedClip("walk"), docked));
+  Clip misspelt = quadrupedClip("walk");
+  misspelt.tracks[0].joint = "bodi";
+  CHECK_FALSE(fits(misspelt, docked));
   CHECK_FALSE(fits(quadrupedClip("wag"), docked));
 }
 

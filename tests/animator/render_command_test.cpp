@@ -236,6 +236,34 @@ TEST_CASE(
       Contains("cap_boy.png: there is no clip \"rnu\" for this body plan; there are: idle, walk, run"));
 }
 
+TEST_CASE("a clip with a misspelt joint is no film, and the joint is named") {
+  const TempDir dir;
+  const std::string clip = dir.file("clips/flop.clip.json");
+  writeFile(clip, R"({"format": "skel-clip", "version": 1, "name": "flop", "template": "biped", "tracks": [
+      {"joint": "left_sholder", "angles_deg": [[0, 0, 0, 0], [1, 0, 0, 90]]},
+      {"joint": "left_elbow", "angles_deg": [[0, 0, 0, 0], [1, 0, 0, 9]]},
+      {"joint": "right_shoulder", "angles_deg": [[0, 0, 0, 0], [1, 0, 0, -90]]}]})");
+  const std::string lacks =
+      "moves \"left_sholder\", which this character lacks; did you mean \"left_shoulder\"?\n";
+  const std::string folder = " --clips-dir " + dir.file("clips");
+  const std::string film = " --fps 1 --size 16 --format gif -o " + dir.file("films/");
+  const std::string model = figureFile(dir), mixamo = dir.file("mixamo.glb");
+  writeFile(mixamo, encodeGlb(figure(), {}, {.naming = JointNaming::kMixamo}));
+  for (const std::string& figure : {model, kDrawing, mixamo}) {
+    CAPTURE(figure);
+    const ToolRun by_name = render(figure + " --clips flop" + folder + film);
+    CHECK(by_name.exit_code == 1);
+    CHECK_THAT(by_name.err, Contains("the clip \"flop\" " + lacks));
+    const ToolRun by_path = render(figure + " --clips " + clip + film);
+    CHECK(by_path.exit_code == 2);
+    CHECK_THAT(by_path.err, Contains(clip + ": " + lacks));
+    const ToolRun all = render(figure + " --clips all" + folder + film);
+    CHECK(all.exit_code == 0);
+    CHECK_THAT(all.err, Contains(figure + ": note: left out: the clip \"flop\" " + lacks));
+  }
+  for (const std::string& file : filesBelow(dir.file("films"))) CHECK(file.find("flop") == file.npos);
+}
+
 TEST_CASE("a clip of one's own that an arm cannot do is named with the arm") {
   const TempDir dir;
   RiggedCharacter grown = figure();
@@ -405,8 +433,7 @@ TEST_CASE("all clips are filmed but the one that this character cannot do, and t
     const ToolRun run = render(figure + film + dir.file("films/"));
     CAPTURE(run.err);
     CHECK(run.exit_code == 0);
-    CHECK_THAT(run.err,
-               Contains(figure + ": note: the clip \"sink\" does not fit its joints and is left out\n"));
+    CHECK_THAT(run.err, Contains(figure + ": note: left out: the clip \"sink\" does not fit its joints\n"));
   }
   CHECK(filesBelow(dir.file("films")).size() == 11 + 10);
   std::string steps;

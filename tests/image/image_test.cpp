@@ -14,6 +14,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/rng.h"
 #include "libskel/image/read_image.h"
+#include "libskel/image/sealed_png.h"
 #include "libskel/image/write_image.h"
 #include "tests/support/catch.h"
 #include "tests/support/temp_dir.h"
@@ -173,6 +174,24 @@ TEST_CASE("PNG: what is written is read back") {
   const std::string grey = encodePng(plane);
   CHECK(pixel(decodeImage(grey, "x"), 1, 0) == Bytes{127, 127, 127, 255});
   CHECK(encodePng(plane) == grey);
+}
+
+TEST_CASE("a sealed PNG tells whether somebody has painted in it") {
+  Image image(7, 5);
+  image.rgba.setConstant(150);
+  image.pixel(2, 3)[0] = 9;
+  const std::string sealed = encodeSealedPng(image);
+  CHECK((decodeImage(sealed, "a.png").rgba == image.rgba).all());  // libpng holds its checksum against it
+  CHECK(isAsSealed(sealed));
+  // Painted, by a program that drops texts and by one that keeps them.
+  const std::string plain = encodePng(image), seal = sealed.substr(33, sealed.size() - plain.size());
+  CHECK_FALSE(isAsSealed(plain));
+  CHECK(sealed.substr(0, 33) + seal + plain.substr(33) == sealed);
+  image.pixel(2, 3)[0] = 10;
+  const std::string painted = encodePng(image);
+  CHECK_FALSE(isAsSealed(painted.substr(0, 33) + seal + painted.substr(33)));
+  CHECK_FALSE(isAsSealed(sealed.substr(0, sealed.size() / 2)));
+  CHECK_FALSE(isAsSealed("no picture"));
 }
 
 TEST_CASE("a mask is what is light and opaque") {

@@ -290,6 +290,72 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("layers that were painted in place are taken up, said in one line, and stay as painted") {
+  const TempDir dir;
+  drawBoy(dir);
+  const std::string call = "boy.png --formats glb,json,layers";
+  REQUIRE(infer(dir, call).exit_code == 0);
+  const std::string path = dir.file("out/boy.layers.png"), found = readFile(path);
+  CHECK(infer(dir, call).err.find("layers.png") == std::string::npos);
+  // As a program for painting saves it: the left arm's colour where the left leg was.
+  Image picture = readImage(path);
+  int changed = 0;
+  for (Eigen::Index p = 0; p < picture.rgba.rows(); ++p)
+    if (picture.rgba(p, 0) == 40 && picture.rgba(p, 1) == 170 && picture.rgba(p, 2) == 80) {
+      picture.rgba.row(p) << 150, 150, 150, 255;
+      ++changed;
+    }
+  REQUIRE(changed > 100);
+  const std::string painted = encodePng(picture);
+  writeFile(path, painted);
+  writeFile(dir.file("named.png"), painted);
+  REQUIRE(infer(dir, "boy.png --formats glb -o named --layers named.png").exit_code == 0);
+  SECTION("by each run from then on, also by one that writes no layers") {
+    for (const std::string& again : {call, call, std::string("boy.png --formats glb,json")}) {
+      const ToolRun run = infer(dir, again);
+      CHECK(run.exit_code == 0);
+      CHECK_THAT(run.err, Contains(kTakenUp + std::string("limbs (out/boy.layers.png)\n")));
+      CHECK(readFile(path) == painted);
+      CHECK(readFile(dir.file("out/boy.glb")) == readFile(dir.file("named/boy.glb")));
+    }
+  }
+  SECTION("with --resume it is done once more, and then left") {
+    CHECK(infer(dir, call + " --resume").out.find("done before") == std::string::npos);
+    CHECK_THAT(infer(dir, call + " --resume").out, Contains("done before"));
+    CHECK(readFile(path) == painted);
+  }
+  SECTION("--force leaves it out and writes over it") {
+    CHECK(infer(dir, call + " --force").exit_code == 0);
+    CHECK(readFile(path) == found);
+  }
+  SECTION("a run that goes by others keeps it under another name") {
+    const auto keeps = [&](const std::string& now) {
+      CAPTURE(now);
+      const ToolRun run = infer(dir, call + " --layers off");
+      CHECK(run.exit_code == 0);
+      CHECK_THAT(run.err,
+                 Contains("painted by hand, not taken up and kept: boy.layers.png (now " + now + ")"));
+      CHECK(readFile(dir.file("out/" + now)) == painted);
+      CHECK(infer(dir, call + " --layers off").err.find("painted") == std::string::npos);
+    };
+    keeps("boy.old.layers.png");
+    writeFile(path, painted);
+    keeps("boy.old-2.layers.png");
+  }
+  SECTION("of a photo that was taken again it is left out and kept") {
+    takeAgain(dir, "clown");
+    CHECK_THAT(infer(dir, call).err, Contains("boy.layers.png (now boy.old.layers.png)\n"));
+    CHECK(readFile(dir.file("out/boy.old.layers.png")) == painted);
+  }
+  SECTION("limbs of skel-label come first") {
+    writeFile(dir.file("boy.limbs.png"), found);
+    CHECK_THAT(
+        infer(dir, call).err,
+        Contains(kTakenUp + std::string("limbs (boy.limbs.png; not out/boy.layers.png, which differs)")));
+    CHECK(readFile(dir.file("out/boy.old.layers.png")) == painted);
+  }
+}
+
 TEST_CASE("what skel wrote and nobody touched is not taken for mended") {
   const TempDir dir;
   drawBoy(dir);

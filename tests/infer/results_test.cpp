@@ -165,6 +165,24 @@ TEST_CASE("a format without clips says nothing of clips that were asked for") {
   CHECK_FALSE(contains(infer(dir, asked + " --formats json").err, "there is no clip"));
 }
 
+TEST_CASE("a clip of one's own with a misspelt joint is named with the joint, asked for or not") {
+  const TempDir dir;
+  writeFile(dir.file("clips/flop.clip.json"),
+            R"({"format": "skel-clip", "version": 1, "name": "flop", "template": "biped", "tracks": [
+      {"joint": "left_sholder", "angles_deg": [[0, 0, 0, 0], [1, 0, 0, 90]]}]})");
+  const std::string fault =
+      "the clip \"flop\" moves \"left_sholder\", which the template \"biped\" lacks; did you mean "
+      "\"left_shoulder\"?\n";
+  const std::string call = kDrawing + " --formats glb --clips-dir clips";
+  const ToolRun asked = infer(dir, call + " --clips idle,flop");
+  CHECK(asked.exit_code == 1);
+  CHECK(contains(asked.err, "skel-infer: " + fault));
+  const ToolRun all = infer(dir, call);
+  CHECK(all.exit_code == 0);
+  CHECK(contains(all.err, "skel-infer: note: left out: " + fault));
+  CHECK(infer(dir, call + " --clips idle").err.find("flop") == std::string::npos);
+}
+
 TEST_CASE("option --formats obj reports the .obj, not a .png") {
   const TempDir dir;
   CHECK(contains(infer(dir, kDrawing + " --formats obj").out, ": out/cap_boy.obj  confidence"));

@@ -5,9 +5,14 @@ const AUTO = "auto"  # clips go on and on as the file says
 
 # `loops`: the names of clips that go on and on, or AUTO; others are played once. `glb`: the path of the file.
 static func mend(scene: Node, loops: String, glb: String) -> void:
-	var looping = _loops_of(glb) if loops.strip_edges() == AUTO else []
-	for name in loops.split(",", false):
-		looping.append(name.strip_edges())
+	var looping = []
+	if loops.strip_edges() == AUTO:
+		looping = _loops_of(glb)
+	else:
+		for name in loops.split(",", false):
+			looping.append(name.strip_edges())
+			if not _has_clip(scene, looping.back()):
+				push_warning("skel: %s has no clip \"%s\" that could loop; see the option clips/loop" % [glb.get_file(), looping.back()])
 	_mend(scene, scene.name, looping)
 
 # Of the animations whose extras say so.
@@ -25,6 +30,14 @@ static func _loops_of(glb: String) -> Array:
 		if extras is Dictionary and extras.get("loop") is bool and extras.loop:
 			names.append(animation.get("name", ""))
 	return names
+
+static func _has_clip(node: Node, name: String) -> bool:
+	if node is AnimationPlayer and node.has_animation(name):
+		return true
+	for child in node.get_children():
+		if _has_clip(child, name):
+			return true
+	return false
 
 static func _mend(node: Node, name: String, looping: Array) -> void:
 	if node is MeshInstance:
