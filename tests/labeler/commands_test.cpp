@@ -209,6 +209,46 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
   CHECK(contains(run.err, "found/cap_boy.skeleton.json: cap_boy.png has changed since"));
 }
 
+TEST_CASE(
+    "import: a picture that has changed stops no other, and newer joints are told, taken by force alone") {
+  const TempDir dir;
+  const auto write = [&](const std::string& name, double head_x) {
+    SkeletonFile file;
+    file.image_file = name + ".png";
+    file.image_sha256 = sha256(readFile(kCharacters + name + ".png"));
+    file.image_width = file.image_height = 600;
+    file.skeleton = presetSkeleton(loadTemplate("biped"), {150, 50}, {450, 550});
+    Joint& head = file.skeleton.joints[static_cast<size_t>(file.skeleton.index("head"))];
+    head.origin = JointOrigin::kEdited;
+    head.image.x() = head_x;
+    writeFile(dir.file(name + ".skeleton.json"), formatSkeletonFile(file));
+  };
+  for (const char* name : {"cap_boy", "box_robot"}) {
+    fs::copy(kCharacters + name + ".png", dir.file(name + std::string(".png")));
+    write(name, 300);
+  }
+  writeFile(dir.file("box_robot.png"), readFile(dir.file("box_robot.png")) + "x");
+  ToolRun run = label(dir, "import .");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.out, "1 label files made, 0 kept as they were, 1 failed\n1 joints placed, 13 found\n"));
+  CHECK(contains(run.err, "box_robot.skeleton.json: box_robot.png has changed since"));
+  fs::remove(dir.file("box_robot.skeleton.json"));
+
+  run = label(dir, "import .");
+  CHECK(run.exit_code == 0);
+  CHECK(run.err == "");
+  write("cap_boy", 310);
+  run = label(dir, "import .");
+  CHECK(run.exit_code == 0);
+  CHECK(run.out == "0 label files made, 1 kept as they were, 0 failed\n");
+  CHECK(run.err ==
+        "skel-label: note: cap_boy.labels.json: kept, with other joints than what is to be imported; --force "
+        "takes the latter, and drops joints and classes set by hand\n");
+  CHECK(label(dir, "import . --force").err == "");
+  for (const auto& [name, place] : readLabelFile(dir.file("cap_boy.labels.json")).joints)
+    if (name == "head") CHECK(place->x() == 310);
+}
+
 TEST_CASE("import: a skeleton without its picture's hash writes beside no picture outside of its folder") {
   const TempDir dir;
   fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
