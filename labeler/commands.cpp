@@ -88,10 +88,17 @@ ExitCode exportLabels(const LabelerOptions& options) {
                              : options.coco          ? "out/labels.coco.json"
                                                      : "out/labels.csv";
   noteOutput(output);
-  writeFile(output, options.coco ? labelsAsCoco(options.dir, loadTemplate(options.body_plan))
-                                 : labelsAsCsv(options.dir));
+  ExitCode code = ExitCode::kDone;
+  const OnError on_error = [&](const Error& error) {
+    complaints()(error);
+    if (code == ExitCode::kDone) code = error.exitCode();
+  };
+  const std::string text = options.coco ? labelsAsCoco(options.dir, loadTemplate(options.body_plan), on_error)
+                                        : labelsAsCsv(options.dir, on_error);
+  if (text.empty()) return code;
+  writeFile(output, text);
   print(printable(output) + "\n");
-  return ExitCode::kDone;
+  return code;
 }
 
 }  // namespace
