@@ -100,6 +100,16 @@ MeasuredDrawing fromLabels(const std::string& path) {
   return drawing;
 }
 
+void readAnnotation(const std::string& path, MeasuredDrawing& drawing) {
+  const JsonDocument document = JsonDocument::readFile(path);
+  if (const auto view = document.root().find("view")) drawing.side_view = view->asString() == "side";
+  const JsonValue joints = document.root().at("joints");
+  for (const std::string& name : joints.keys()) drawing.joints.emplace(name, jointPlaceAt(joints.at(name)));
+  // Some sets say torso where we say body.
+  if (const auto torso = drawing.joints.find("torso"); torso != drawing.joints.end() && torso->second)
+    if (auto& body = drawing.joints["body"]; !body) body = torso->second;
+}
+
 }  // namespace
 
 std::vector<std::string> findDrawings(const std::string& root) {
@@ -129,7 +139,13 @@ MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& 
   }
   const std::string stem = root + "/" + id + (own_folder ? "/" : ".");
   const std::string image = own_folder ? stem + "image.png" : stem + "png";
-  const std::string mask = stem + "mask.png", annotation = stem + "joints.json";
+  const std::string annotation = stem + "joints.json", label_file = labelFileFor(image);
+  std::string mask = stem + "mask.png";
+  const std::optional<LabelFile> labels = placedLabelsBeside(image);
+  if (labels) {
+    ensureUnchanged(label_file, *labels);
+    if (labels->mask) mask = besideLabelFile(label_file, labels->mask->file);
+  }
   MeasuredDrawing drawing;
   drawing.id = id;
   drawing.image = readImage(image);
@@ -138,29 +154,23 @@ MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& 
     if (drawing.mask->cols() != drawing.image.width || drawing.mask->rows() != drawing.image.height)
       throw InputError(mask, "has another size than the picture beside it");
   }
-  if (!fs::exists(annotation)) return drawing;
+  const bool annotated = fs::exists(annotation);
+  if (!annotated && !labels) return drawing;
   if (drawing.mask && (*drawing.mask == 0).all())
     throw InputError(mask, "is blank: errors are relative to the figure's size");
-  const JsonDocument document = JsonDocument::readFile(annotation);
-  if (const auto view = document.root().find("view")) drawing.side_view = view->asString() == "side";
-  const JsonValue joints = document.root().at("joints");
-  for (const std::string& name : joints.keys()) drawing.joints.emplace(name, jointPlaceAt(joints.at(name)));
-  // Some sets say torso where we say body.
-  if (const auto torso = drawing.joints.find("torso"); torso != drawing.joints.end() && torso->second)
-    if (auto& body = drawing.joints["body"]; !body) body = torso->second;
+  if (annotated) readAnnotation(annotation, drawing);
+  if (labels) {
+    NamedJoints joints(drawing.joints.begin(), drawing.joints.end());
+    if (!overrule(joints, *labels).empty()) drawing.overruled = label_file;
+    for (const auto& [name, place] : joints) drawing.joints[name] = place;
+  }
   return drawing;
 }
 
 std::string otherPlanOf(const MeasuredDrawing& drawing, const SkeletonTemplate& body_plan) {
-  const auto hasAll = [&](const SkeletonTemplate& plan) {
-    return std::all_of(drawing.joints.begin(), drawing.joints.end(), [&](const auto& joint) {
-      return !joint.second || joint.first == "torso" || plan.find(joint.first) >= 0;
-    });
-  };
-  if (hasAll(body_plan)) return "";
-  for (const std::string& name : builtinTemplates())
-    if (name != body_plan.name && hasAll(loadTemplate(name))) return name;
-  return "";
+  NamedJoints joints(drawing.joints.begin(), drawing.joints.end());
+  std::erase_if(joints, [](const auto& joint) { return joint.first == "torso"; });
+  return otherPlanOf(joints, body_plan);
 }
 
 void turnClockwise(MeasuredDrawing& drawing, int quarters) {

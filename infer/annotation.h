@@ -14,14 +14,16 @@
 namespace skel {
 
 // image.png, and beside it joints.json where the figure is annotated, and mask.png; or <name>.png,
-// <name>.joints.json and <name>.mask.png; or what a person has placed in <name>.labels.json.
+// <name>.joints.json and <name>.mask.png; what a person has placed in <name>.labels.json (image.labels.json)
+// counts before those.
 struct MeasuredDrawing {
   std::string id;  // folder or name relative to the set's
   Image image;
   std::optional<Plane8> mask;  // none: the silhouette is not measured
   bool side_view = false;
   std::map<std::string, std::optional<Eigen::Vector2d>>
-      joints;  // image px; empty: not annotated; null: not visible
+      joints;             // image px; empty: not annotated; null: not visible
+  std::string overruled;  // the label file that places joints elsewhere than the joints file; "": none
 };
 
 // All below `root`, sorted. Throws InputError if there are none.

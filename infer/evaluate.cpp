@@ -21,6 +21,7 @@
 #include "libskel/core/text.h"
 #include "libskel/draw/draw_skeleton.h"
 #include "libskel/image/write_image.h"
+#include "libskel/labels/annotated_image.h"
 #include "libskel/recognition/calibration.h"
 
 namespace skel {
@@ -34,6 +35,7 @@ struct Row {
   Score score;
   std::string reason;      // why nothing was found
   std::string other_plan;  // whose joints it has; "": those of the one that is measured
+  std::string overruled;   // see MeasuredDrawing
   std::optional<Error> failure;
 };
 
@@ -42,6 +44,7 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
   Row row;
   row.id = id;
   row.annotated = !truth.joints.empty();
+  row.overruled = truth.overruled;
   row.counts = !options.opaque || (row.annotated && !isTransparent(truth.image));
   if (row.counts) row.other_plan = otherPlanOf(truth, rig.body_plan);
   if (!row.counts || !row.other_plan.empty()) return row;
@@ -158,6 +161,10 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     std::fprintf(stderr, "skel-infer: %s\n", row.failure->what());
     if (code == ExitCode::kDone) code = row.failure->exitCode();
   }
+  std::vector<std::string> overruled;
+  for (const Row& row : all)
+    if (!row.overruled.empty()) overruled.push_back(row.overruled);
+  if (!overruled.empty()) std::fprintf(stderr, "skel-infer: note: %s\n", overruledNote(overruled).c_str());
   std::map<std::string, std::vector<std::string>> of_other_plans;
   for (const Row& row : all)
     if (!row.other_plan.empty()) of_other_plans[row.other_plan].push_back(row.id);

@@ -97,24 +97,37 @@ bool isCoco(const fs::path& path) {
 
 }  // namespace
 
-std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir,
-                                                    const SkeletonTemplate& body_plan) {
+std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir, const SkeletonTemplate& body_plan,
+                                                    const std::function<void(const InputError&)>& on_error) {
   std::vector<AnnotatedDrawing> drawings;
-  for (const AnnotatedImage& annotated : findAnnotatedImages(dir))
-    drawings.push_back(readJoints(annotated, body_plan));
+  const auto attempt = [&](const auto& step) {
+    try {
+      step();
+    } catch (const InputError& error) {
+      if (!on_error) throw;
+      on_error(error);
+    }
+  };
+  std::set<std::string> annotated;  // pictures, also those whose annotation is wrong
+  for (const AnnotatedImage& files : findAnnotatedImages(dir)) {
+    annotated.insert(fs::path(files.image).lexically_normal().string());
+    attempt([&] { drawings.push_back(readJoints(files, body_plan)); });
+  }
   for (const fs::path file : filesBelow(dir)) {
-    if (file.filename() == "char_cfg.yaml") drawings.push_back(readCharCfg(file, body_plan));
+    if (file.filename() == "char_cfg.yaml")
+      attempt([&] { drawings.push_back(readCharCfg(file, body_plan)); });
     if (isCoco(file))
       for (AnnotatedDrawing& drawing : readCoco(file.string(), body_plan))
         drawings.push_back(std::move(drawing));
   }
-  std::set<std::string> annotated;
   for (const AnnotatedDrawing& drawing : drawings)
     annotated.insert(fs::path(drawing.image).lexically_normal().string());
   for (const std::string& file : filesBelow(dir))
-    if (isSkeletonOf(file, body_plan))
+    attempt([&] {
+      if (!isSkeletonOf(file, body_plan)) return;
       if (auto drawing = readSkeleton(file, dir, body_plan); drawing && !annotated.contains(drawing->image))
         drawings.push_back(std::move(*drawing));
+    });
   std::sort(drawings.begin(), drawings.end(), [](const AnnotatedDrawing& a, const AnnotatedDrawing& b) {
     return std::tie(a.image, a.source) < std::tie(b.image, b.source);
   });

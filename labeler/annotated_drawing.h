@@ -1,10 +1,12 @@
 // Drawings that something else has annotated: found in a folder, their joints under our names.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "libskel/core/error.h"
 #include "libskel/image/image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/silhouette/silhouette.h"
@@ -29,9 +31,11 @@ struct AnnotatedDrawing {
 //   <stem>.skeleton.json of the body plan and of its picture's first figure; not of pictures of which others
 //   speak
 // Throws InputError: a file that is broken, two annotations of one picture, a picture that is missing or has
-// changed since its skeleton was found.
-std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir,
-                                                    const SkeletonTemplate& body_plan);
+// changed since its skeleton was found. `on_error`, if given, is told what is wrong with one drawing alone,
+// and the others are found.
+std::vector<AnnotatedDrawing> findAnnotatedDrawings(
+    const std::string& dir, const SkeletonTemplate& body_plan,
+    const std::function<void(const InputError&)>& on_error = {});
 
 // The annotations of one COCO file. Pictures with several: the largest figure.
 std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTemplate& body_plan);

@@ -30,6 +30,16 @@ ExitCode report(const ImportCounts& counts) {
   return counts.exit_code;
 }
 
+void noteDiffering(const std::vector<std::string>& kept) {
+  if (kept.empty()) return;
+  const std::string more = kept.size() > 1 ? " (and " + std::to_string(kept.size() - 1) + " more)" : "";
+  std::fprintf(
+      stderr,
+      "skel-label: note: %s%s: kept, with other joints than what is to be imported; --force takes the "
+      "latter, and drops joints and classes set by hand\n",
+      printable(kept.front()).c_str(), more.c_str());
+}
+
 std::string namesOf(const std::set<std::string>& folders) {
   constexpr std::size_t kMostNamed = 4;
   std::vector<std::string> names;
@@ -78,10 +88,17 @@ ExitCode exportLabels(const LabelerOptions& options) {
                              : options.coco          ? "out/labels.coco.json"
                                                      : "out/labels.csv";
   noteOutput(output);
-  writeFile(output, options.coco ? labelsAsCoco(options.dir, loadTemplate(options.body_plan))
-                                 : labelsAsCsv(options.dir));
+  ExitCode code = ExitCode::kDone;
+  const OnError on_error = [&](const Error& error) {
+    complaints()(error);
+    if (code == ExitCode::kDone) code = error.exitCode();
+  };
+  const std::string text = options.coco ? labelsAsCoco(options.dir, loadTemplate(options.body_plan), on_error)
+                                        : labelsAsCsv(options.dir, on_error);
+  if (text.empty()) return code;
+  writeFile(output, text);
   print(printable(output) + "\n");
-  return ExitCode::kDone;
+  return code;
 }
 
 }  // namespace
@@ -115,6 +132,7 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
                 const ImportCounts counts =
                     importLabels(options.dir, loadTemplate(options.body_plan), options.import, complaints());
                 const ExitCode code = report(counts);
+                noteDiffering(counts.differing);
                 if (counts.made > 0)
                   print(std::to_string(counts.joints_placed) + " joints placed, " +
                         std::to_string(counts.joints_found) + " found\nwritten into " +

@@ -1,5 +1,6 @@
 #include "labeler/import_labels.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "labeler/annotated_drawing.h"
@@ -63,12 +64,33 @@ void countJoints(const LabelFile& labels, const SkeletonTemplate& body_plan, Imp
   }
 }
 
+// Whether the label file has other joints than the annotation, or they are somebody else's: placed by a
+// person, or found. A label file that cannot be read is not compared.
+bool jointsDiffer(const std::string& label_path, const AnnotatedDrawing& drawing) {
+  const auto contains = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  try {
+    const LabelFile labels = readLabelFile(label_path);
+    const auto same = [&](const auto& joint) {
+      return std::find(labels.joints.begin(), labels.joints.end(), joint) != labels.joints.end() &&
+             contains(labels.recognized, joint.first) == contains(drawing.recognized, joint.first);
+    };
+    return !std::all_of(drawing.joints.begin(), drawing.joints.end(), same);
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 // Whether a label file was made.
 bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, const SkeletonTemplate& body_plan,
                    const ImportOptions& options, ImportCounts& counts) {
   const std::string image_path = destination(drawing.image, dir, options);
   const std::string label_path = labelFileFor(image_path);
-  if (!options.force && fs::exists(label_path)) return false;
+  if (!options.force && fs::exists(label_path)) {
+    if (jointsDiffer(label_path, drawing)) counts.differing.push_back(label_path);
+    return false;
+  }
 
   const Image image = readImage(drawing.image);
   checkJoints(drawing, image);
@@ -90,48 +112,57 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
   return true;
 }
 
+void countFailure(const Error& error, ImportCounts& counts, const OnError& on_error) {
+  if (counts.failed++ == 0) counts.exit_code = error.exitCode();
+  on_error(error);
+}
+
 // Runs `make` for each; it says whether a label file was made, and may count what is in it.
 template <class List, class Make>
-ImportCounts forEach(const List& list, const char* title, const OnError& on_error, const Make& make) {
-  ImportCounts counts;
+void forEach(const List& list, const char* title, const OnError& on_error, const Make& make,
+             ImportCounts& counts) {
   ProgressBar bar(title, list.size());
   for (const auto& entry : list) {
     try {
-      make(entry, counts) ? ++counts.made : ++counts.kept;
+      make(entry) ? ++counts.made : ++counts.kept;
     } catch (...) {
-      const Error error = caughtError(entry.image);
-      if (counts.failed++ == 0) counts.exit_code = error.exitCode();
       bar.clear();
-      on_error(error);
+      countFailure(caughtError(entry.image), counts, on_error);
     }
     bar.advance();
   }
-  return counts;
 }
 
 }  // namespace
 
 ImportCounts importLabels(const std::string& dir, const SkeletonTemplate& body_plan,
                           const ImportOptions& options, const OnError& on_error) {
-  const std::vector<AnnotatedDrawing> drawings = findAnnotatedDrawings(dir, body_plan);
-  if (drawings.empty())
+  ImportCounts counts;
+  const std::vector<AnnotatedDrawing> drawings = findAnnotatedDrawings(
+      dir, body_plan, [&](const InputError& error) { countFailure(error, counts, on_error); });
+  if (drawings.empty() && counts.failed == 0)
     throw InputError(dir,
                      "holds nothing to import (char_cfg.yaml, joints.json, <stem>.joints.json, a COCO file "
                      "with keypoints, "
                      "or a skeleton file of the template " +
                          body_plan.name + ")");
-  return forEach(drawings, "import", on_error, [&](const AnnotatedDrawing& drawing, ImportCounts& counts) {
+  const auto make = [&](const AnnotatedDrawing& drawing) {
     return importDrawing(drawing, dir, body_plan, options, counts);
-  });
+  };
+  forEach(drawings, "import", on_error, make, counts);
+  return counts;
 }
 
 ImportCounts makeLabelFiles(const std::string& dir, const SkeletonTemplate& body_plan,
                             const OnError& on_error) {
-  return forEach(findDrawings(dir), "candidates", on_error, [&](const DrawingFiles& files, ImportCounts&) {
+  ImportCounts counts;
+  const auto make = [&](const DrawingFiles& files) {
     if (fs::exists(files.labels)) return false;
     writeLabelFile(files.labels, labelImage(files.image, givenMask(files), {}, body_plan));
     return true;
-  });
+  };
+  forEach(findDrawings(dir), "candidates", on_error, make, counts);
+  return counts;
 }
 
 }  // namespace skel

@@ -4,6 +4,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "libskel/core/error.h"
 #include "libskel/skeleton/template.h"
@@ -18,7 +19,8 @@ struct ImportOptions {
 
 struct ImportCounts {
   int made = 0;
-  int kept = 0;  // there was a label file already
+  int kept = 0;                        // there was a label file already
+  std::vector<std::string> differing;  // of those kept: whose joints are not those of the annotation
   int failed = 0;
   int joints_placed = 0, joints_found = 0;  // in those made: by a person, by the program
   std::set<std::string> folders;            // that those made lie in

@@ -5,12 +5,13 @@
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 
 #include "labeler/annotated_drawing.h"
 #include "labeler/save_drawing.h"
 #include "libskel/classifier/features.h"
 #include "libskel/core/error.h"
-#include "libskel/core/input_guard.h"
+#include "libskel/core/text.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/labels/label_folder.h"
@@ -33,12 +34,28 @@ std::optional<std::string> maskOf(const std::string& path, const LabelFile& labe
   return besideLabelFile(path, labels.mask->file);
 }
 
-void checkFile(const std::string& path, const SkeletonTemplate& body_plan, std::vector<std::string>& lines) {
-  const LabelFile labels = readLabelFile(path);
+Silhouette labelledFigure(const std::string& path, const LabelFile& labels) {
+  return silhouetteOf(besideLabelFile(path, labels.image.file), maskOf(path, labels));
+}
+
+void checkJointNames(const std::string& path, const LabelFile& labels, const SkeletonTemplate& body_plan,
+                     std::vector<std::string>& lines) {
   for (const auto& [name, place] : labels.joints)
     if (body_plan.find(name) < 0)
       lines.push_back(path + ": joints." + name + ": is no joint of the template " + body_plan.name);
-  const Silhouette silhouette = silhouetteOf(besideLabelFile(path, labels.image.file), maskOf(path, labels));
+}
+
+void checkJointsFile(const std::string& path, const LabelFile& labels, std::vector<std::string>& lines) {
+  const auto joints_file = jointsFileBeside(besideLabelFile(path, labels.image.file));
+  if (!joints_file || !labels.hasPlacedJoint()) return;
+  NamedJoints joints = readJointsFile(*joints_file);
+  if (const auto moved = overrule(joints, labels); !moved.empty())
+    lines.push_back(path + ": joints: " + joined(moved) + " placed elsewhere than in " + *joints_file +
+                    ", which does not count: mend or remove that");
+}
+
+void checkFigure(const std::string& path, const LabelFile& labels, const Silhouette& silhouette,
+                 std::vector<std::string>& lines) {
   if (silhouette.mask.cols() != labels.image_width || silhouette.mask.rows() != labels.image_height)
     lines.push_back(path + ": image: is " + std::to_string(silhouette.mask.cols()) + "x" +
                     std::to_string(silhouette.mask.rows()) + " px");
@@ -78,22 +95,64 @@ std::string nameBelow(const std::string& dir, const std::string& path) {
   return fs::path(path).lexically_relative(dir).generic_string();
 }
 
-}  // namespace
-
-std::vector<std::string> checkLabels(const std::string& dir, const SkeletonTemplate& body_plan) {
-  const std::vector<std::string> files = labelFiles(dir);
+void finishSaves(const std::vector<std::string>& files) {
   for (const std::string& path : files) {
     try {
       finishSave(path);
     } catch (const InputError&) {
-      // Among checkLabelFolder()'s complaints.
+      // findProblems() says it.
     }
   }
+}
+
+// Calls `use(path, labels, figure)` for each label file that has nothing wrong; `on_error` is told of the
+// others, of those of another body plan in one line. `body_plan` null: any.
+template <class Use>
+void forEachSound(const std::string& dir, const SkeletonTemplate* body_plan, const OnError& on_error,
+                  const Use& use) {
+  const std::vector<std::string> files = labelFiles(dir);
+  finishSaves(files);
+  std::map<std::string, std::vector<std::string>> of_other_plans;
+  for (const std::string& path : files) {
+    try {
+      std::vector<std::string> lines = findProblems(path);
+      if (lines.empty()) {
+        const LabelFile labels = readLabelFile(path);
+        const std::string plan = body_plan ? otherPlanOf(labels.joints, *body_plan) : "";
+        if (!plan.empty()) {
+          of_other_plans[plan].push_back(nameBelow(dir, path));
+          continue;
+        }
+        if (body_plan) checkJointNames(path, labels, *body_plan, lines);
+        const Silhouette figure = labelledFigure(path, labels);
+        checkFigure(path, labels, figure, lines);
+        if (lines.empty()) use(path, labels, figure);
+      }
+      if (!lines.empty()) throw InputError(path, lines.front().substr(path.size() + 2));
+    } catch (const InputError& error) {
+      on_error(error);
+    }
+  }
+  for (const auto& [plan, names] : of_other_plans)
+    on_error(InputError(dir, std::to_string(names.size()) + " of " + std::to_string(files.size()) +
+                                 " drawings (" + names.front() + (names.size() > 1 ? ", ..." : "") +
+                                 ") have joints of a " + plan + ", not of a " + body_plan->name +
+                                 ": not exported; --template " + plan + " exports them"));
+}
+
+}  // namespace
+
+std::vector<std::string> checkLabels(const std::string& dir, const SkeletonTemplate& body_plan) {
+  const std::vector<std::string> files = labelFiles(dir);
+  finishSaves(files);
   std::vector<std::string> lines = checkLabelFolder(dir);
   for (const std::string& path : files) {
     if (!findProblems(path).empty()) continue;
     try {
-      checkFile(path, body_plan, lines);
+      const LabelFile labels = readLabelFile(path);
+      checkJointNames(path, labels, body_plan, lines);
+      checkJointsFile(path, labels, lines);
+      checkFigure(path, labels, labelledFigure(path, labels), lines);
     } catch (const InputError& error) {
       lines.emplace_back(path + ": " + error.what());
     }
@@ -140,37 +199,35 @@ std::string labelStats(const std::string& dir) {
   return text;
 }
 
-std::string labelsAsCsv(const std::string& dir) {
-  std::string text = "file,candidate,x,y,radius,feature_x,feature_y,feature_radius,label\n";
-  for (const std::string& path : labelFiles(dir)) {
-    const LabelFile labels = readLabelFile(path);
-    noteInput(besideLabelFile(path, labels.image.file));
-    if (const auto mask = maskOf(path, labels)) noteInput(*mask);
-    CandidateSet candidates;
-    candidates.maxima = labels.candidates;
-    const Features rows = features(candidates);
-    const std::string name = quoted(nameBelow(dir, path));
-    for (size_t i = 0; i < labels.candidates.size(); ++i) {
-      const JointCandidate& candidate = labels.candidates[i];
-      text += name + "," + std::to_string(i);
-      for (const float value : {candidate.x, candidate.y, candidate.radius}) text += "," + shown(value);
-      for (int k = 0; k < 3; ++k) text += "," + shown(rows(static_cast<Eigen::Index>(i), k));
-      text += std::string(",") +
-              (labels.labels[i] ? kJointClassNames[static_cast<size_t>(*labels.labels[i])] : "") + "\n";
-    }
-  }
-  return text;
+std::string labelsAsCsv(const std::string& dir, const OnError& on_error) {
+  std::string text;
+  forEachSound(
+      dir, nullptr, on_error, [&](const std::string& path, const LabelFile& labels, const Silhouette&) {
+        CandidateSet candidates;
+        candidates.maxima = labels.candidates;
+        const Features rows = features(candidates);
+        const std::string name = quoted(nameBelow(dir, path));
+        for (size_t i = 0; i < labels.candidates.size(); ++i) {
+          const JointCandidate& candidate = labels.candidates[i];
+          text += name + "," + std::to_string(i);
+          for (const float value : {candidate.x, candidate.y, candidate.radius}) text += "," + shown(value);
+          for (int k = 0; k < 3; ++k) text += "," + shown(rows(static_cast<Eigen::Index>(i), k));
+          text += std::string(",") +
+                  (labels.labels[i] ? kJointClassNames[static_cast<size_t>(*labels.labels[i])] : "") + "\n";
+        }
+      });
+  return text.empty() ? text : "file,candidate,x,y,radius,feature_x,feature_y,feature_radius,label\n" + text;
 }
 
-std::string labelsAsCoco(const std::string& dir, const SkeletonTemplate& body_plan) {
+std::string labelsAsCoco(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error) {
   std::vector<CocoPicture> pictures;
-  for (const std::string& path : labelFiles(dir)) {
-    const LabelFile labels = readLabelFile(path);
-    const std::string image = besideLabelFile(path, labels.image.file);
-    pictures.push_back({nameBelow(dir, image), labels.image_width, labels.image_height, labels.joints,
-                        labels.recognized, silhouetteOf(image, maskOf(path, labels)).outline});
-  }
-  return formatCoco(pictures, body_plan);
+  forEachSound(
+      dir, &body_plan, on_error,
+      [&](const std::string& path, const LabelFile& labels, const Silhouette& figure) {
+        pictures.push_back({nameBelow(dir, besideLabelFile(path, labels.image.file)), labels.image_width,
+                            labels.image_height, labels.joints, labels.recognized, figure.outline});
+      });
+  return pictures.empty() ? "" : formatCoco(pictures, body_plan);
 }
 
 }  // namespace skel

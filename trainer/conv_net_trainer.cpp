@@ -133,7 +133,7 @@ std::string ConvNetTrainer::checkpoint() const {
 void ConvNetTrainer::restore(const std::string& file_bytes, const std::string& file) {
   const std::string_view bytes = stateIn(file_bytes, file);
   if (bytes.size() != sizeof state_.step + 4 * state_.parameters.size() * sizeof(float)) {
-    throw InputError(file, "is no checkpoint of this net: remove it to start anew");
+    throw InputError(file, "is no checkpoint of this net");
   }
   const char* at = bytes.data();
   std::memcpy(&state_.step, at, sizeof state_.step);

@@ -1,6 +1,7 @@
 #include "trainer/jointed_drawing.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <locale>
 #include <map>
@@ -52,20 +53,30 @@ JointedDrawing fromLabels(const std::string& path, const LabelFile& file) {
 std::vector<JointedDrawing> findJointedDrawings(const std::string& dir) {
   std::map<std::string, JointedDrawing> by_image;
   std::vector<InputError> changed;
-  const auto add = [&](JointedDrawing drawing, const auto& file) {
-    const std::string path = drawing.joints_file, image = fs::path(drawing.image).lexically_normal().string();
-    if (!by_image.try_emplace(image, std::move(drawing)).second) return;
+  const auto check = [&](const std::string& path, const auto& file) {
     try {
       ensureUnchanged(path, file);
     } catch (const InputError& error) {
       changed.push_back(error);
     }
   };
+  const auto add = [&](JointedDrawing drawing, const auto& file) {
+    const std::string path = drawing.joints_file, image = fs::path(drawing.image).lexically_normal().string();
+    if (by_image.try_emplace(image, std::move(drawing)).second) check(path, file);
+  };
+  std::vector<std::string> overruled;
   for (const AnnotatedImage& files : findAnnotatedImages(dir)) {
-    by_image[fs::path(files.image).lexically_normal().string()] = {files.image, files.mask, files.joints,
-                                                                   readJointsFile(files.joints),
-                                                                   readView(files.joints) == "side"};
+    JointedDrawing drawing{files.image, files.mask, files.joints, readJointsFile(files.joints),
+                           readView(files.joints) == "side"};
+    if (const auto labels = placedLabelsBeside(files.image)) {
+      const std::string path = labelFileFor(files.image);
+      check(path, *labels);
+      if (labels->mask) drawing.mask = besideLabelFile(path, labels->mask->file);
+      if (!overrule(drawing.joints, *labels).empty()) overruled.push_back(drawing.joints_file = path);
+    }
+    by_image[fs::path(files.image).lexically_normal().string()] = std::move(drawing);
   }
+  if (!overruled.empty()) std::fprintf(stderr, "skel-train: note: %s\n", overruledNote(overruled).c_str());
   const std::vector<std::string> all = filesBelow(dir);
   for (const std::string& path : all) {
     if (!path.ends_with(kLabelFileEnding)) continue;

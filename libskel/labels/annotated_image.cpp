@@ -8,6 +8,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
+#include "libskel/core/text.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/label_from_joints.h"
 
@@ -75,6 +76,55 @@ NamedJoints readJointsFile(const std::string& path) {
   }
   if (joints.empty()) list.fail("is empty");
   return joints;
+}
+
+std::optional<LabelFile> placedLabelsBeside(const std::string& image) {
+  const std::string path = labelFileFor(image);
+  if (!fs::is_regular_file(path)) return std::nullopt;
+  LabelFile labels = readLabelFile(path);
+  return labels.hasPlacedJoint() ? std::optional(std::move(labels)) : std::nullopt;
+}
+
+std::vector<std::string> overrule(NamedJoints& joints, const LabelFile& labels) {
+  std::vector<std::string> moved;
+  for (const auto& [name, place] : labels.joints) {
+    if (!labels.isPlaced(name)) continue;
+    const auto known =
+        std::find_if(joints.begin(), joints.end(), [&](const auto& joint) { return joint.first == name; });
+    if (known == joints.end()) {
+      joints.emplace_back(name, place);
+    } else if (known->second != place) {
+      known->second = place;
+      moved.push_back(name);
+    }
+  }
+  return moved;
+}
+
+std::string overruledNote(const std::vector<std::string>& label_files) {
+  const std::string more =
+      label_files.size() > 1 ? " (and " + std::to_string(label_files.size() - 1) + " more)" : "";
+  return printable(label_files.front()) + more +
+         " places joints elsewhere than the joints file beside it; the label file counts";
+}
+
+std::optional<std::string> jointsFileBeside(const std::string& image) {
+  const fs::path stem = fs::path(image).replace_extension();
+  const std::string own = (stem.parent_path() / "joints.json").string(),
+                    named = stem.string() + std::string(kJointsEnding);
+  if (stem.filename() == "image" && fs::is_regular_file(own)) return own;
+  return fs::is_regular_file(named) ? std::optional(named) : std::nullopt;
+}
+
+std::string otherPlanOf(const NamedJoints& joints, const SkeletonTemplate& body_plan) {
+  const auto hasAll = [&](const SkeletonTemplate& plan) {
+    return std::all_of(joints.begin(), joints.end(),
+                       [&](const auto& joint) { return !joint.second || plan.find(joint.first) >= 0; });
+  };
+  if (hasAll(body_plan)) return "";
+  for (const std::string& name : builtinTemplates())
+    if (name != body_plan.name && hasAll(loadTemplate(name))) return name;
+  return "";
 }
 
 std::optional<Eigen::Vector2d> jointPlaceAt(const JsonValue& place) {

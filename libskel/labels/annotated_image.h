@@ -32,6 +32,23 @@ NamedJoints readJointsFile(const std::string& path);
 // One of its places, px; null: none. Throws InputError where it lies in no picture.
 std::optional<Eigen::Vector2d> jointPlaceAt(const JsonValue& place);
 
+// The label file beside a picture, `<stem>.labels.json`, if a person has placed a joint in it: that is a
+// later word than a joints file beside it. Throws InputError: it cannot be read.
+std::optional<LabelFile> placedLabelsBeside(const std::string& image);
+
+// Puts what a person has placed in `labels` into `joints`. Says which of those that are named there lay
+// elsewhere.
+std::vector<std::string> overrule(NamedJoints& joints, const LabelFile& labels);
+
+// One line about label files that do so.
+std::string overruledNote(const std::vector<std::string>& label_files);
+
+// The joints file beside a picture, if there is one.
+std::optional<std::string> jointsFileBeside(const std::string& image);
+
+// The body plan whose joints these are, if it is not that one but another that skel brings along; else "".
+std::string otherPlanOf(const NamedJoints& joints, const SkeletonTemplate& body_plan);
+
 // What such a file says of the view: "front", "three-quarter" or "side"; "" if nothing. Throws InputError.
 std::string readView(const std::string& joints_file);
 

@@ -155,6 +155,45 @@ TEST_CASE("evaluate leaves out a picture that has changed since its joints were 
   CHECK(run.out.find("mean over 1 characters") != std::string::npos);
 }
 
+TEST_CASE("evaluate measures by what a person has placed in a label file, not by the joints file beside it") {
+  const skel::TempDir dir;
+  for (const std::string stem : {"cap_boy.", "boy/"}) {
+    const auto file = [&](const char* name) {
+      return dir.file(stem + (stem == "boy/" && name == std::string("png") ? "image.png" : name));
+    };
+    std::filesystem::create_directories(dir.file("boy"));
+    for (const char* end : {"png", "mask.png", "joints.json"})
+      std::filesystem::copy_file(SKEL_DATASETS "/characters/cap_boy." + std::string(end), file(end));
+    skel::LabelFile labels =
+        skel::labelImage(file("png"), file("mask.png"), skel::readJointsFile(file("joints.json")),
+                         skel::loadTemplate("biped"));
+    for (auto& [name, place] : labels.joints)
+      if (name == "left_hand") place = {{5, 5}};
+    skel::writeLabelFile(skel::labelFileFor(file("png")), labels);
+  }
+  const std::string evaluate =
+      "skel-infer evaluate '" + dir.path() + "' --given-mask --json '" + dir.file("figures.json") + "'";
+  auto run = skel::runTool(evaluate);
+  CAPTURE(run.out, run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(run.err ==
+        "skel-infer: note: " + dir.file("boy/image.labels.json") +
+            " (and 1 more) places joints elsewhere than the joints file beside it; the label file counts\n");
+  const skel::JsonDocument figures = skel::JsonDocument::readFile(dir.file("figures.json"));
+  for (const char* name : {"boy", "cap_boy"})
+    CHECK(figures.root().at("characters").at(name).at("worst_joint").asString() == "left_hand");
+
+  skel::writeFile(dir.file("cap_boy.mask.png"), skel::readFile(dir.file("cap_boy.mask.png")) + "x");
+  std::filesystem::remove(dir.file("boy/joints.json"));
+  run = skel::runTool(evaluate);
+  CAPTURE(run.out, run.err);
+  CHECK(run.exit_code == 2);
+  CHECK(run.err ==
+        "skel-infer: " + dir.file("cap_boy.labels.json") +
+            ": mask.file: \"cap_boy.mask.png\" has changed since it was labelled; label it anew\n");
+  CHECK(run.out.find("mean over 1 characters") != std::string::npos);
+}
+
 TEST_CASE("evaluate measures no animal as a biped, and says by which template it is measured") {
   const skel::TempDir dir;
   for (const char* name : {"characters/cap_boy", "animals/walking_dog"})

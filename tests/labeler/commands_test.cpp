@@ -209,6 +209,46 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
   CHECK(contains(run.err, "found/cap_boy.skeleton.json: cap_boy.png has changed since"));
 }
 
+TEST_CASE(
+    "import: a picture that has changed stops no other, and newer joints are told, taken by force alone") {
+  const TempDir dir;
+  const auto write = [&](const std::string& name, double head_x) {
+    SkeletonFile file;
+    file.image_file = name + ".png";
+    file.image_sha256 = sha256(readFile(kCharacters + name + ".png"));
+    file.image_width = file.image_height = 600;
+    file.skeleton = presetSkeleton(loadTemplate("biped"), {150, 50}, {450, 550});
+    Joint& head = file.skeleton.joints[static_cast<size_t>(file.skeleton.index("head"))];
+    head.origin = JointOrigin::kEdited;
+    head.image.x() = head_x;
+    writeFile(dir.file(name + ".skeleton.json"), formatSkeletonFile(file));
+  };
+  for (const char* name : {"cap_boy", "box_robot"}) {
+    fs::copy(kCharacters + name + ".png", dir.file(name + std::string(".png")));
+    write(name, 300);
+  }
+  writeFile(dir.file("box_robot.png"), readFile(dir.file("box_robot.png")) + "x");
+  ToolRun run = label(dir, "import .");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.out, "1 label files made, 0 kept as they were, 1 failed\n1 joints placed, 13 found\n"));
+  CHECK(contains(run.err, "box_robot.skeleton.json: box_robot.png has changed since"));
+  fs::remove(dir.file("box_robot.skeleton.json"));
+
+  run = label(dir, "import .");
+  CHECK(run.exit_code == 0);
+  CHECK(run.err == "");
+  write("cap_boy", 310);
+  run = label(dir, "import .");
+  CHECK(run.exit_code == 0);
+  CHECK(run.out == "0 label files made, 1 kept as they were, 0 failed\n");
+  CHECK(run.err ==
+        "skel-label: note: cap_boy.labels.json: kept, with other joints than what is to be imported; --force "
+        "takes the latter, and drops joints and classes set by hand\n");
+  CHECK(label(dir, "import . --force").err == "");
+  for (const auto& [name, place] : readLabelFile(dir.file("cap_boy.labels.json")).joints)
+    if (name == "head") CHECK(place->x() == 310);
+}
+
 TEST_CASE("import: a skeleton without its picture's hash writes beside no picture outside of its folder") {
   const TempDir dir;
   fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
@@ -281,6 +321,24 @@ TEST_CASE("check names every inconsistency with file and path") {
                  "cap_boy.labels.json: mask.file: \"cap_boy.mask.png\" has changed"));
 }
 
+TEST_CASE("check names joints that a person has placed elsewhere than a joints file beside them") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  LabelFile labels = readLabelFile(dir.file("cap_boy.labels.json"));
+  for (auto& [name, place] : labels.joints)
+    if (name == "head" || name == "left_hand") place->x() += 1;
+  writeLabelFile(dir.file("cap_boy.labels.json"), labels);
+  const ToolRun run = label(dir, "check .");
+  CHECK(run.exit_code == 2);
+  CHECK(run.err ==
+        "skel-label: ./cap_boy.labels.json: joints: head, left_hand placed elsewhere than in "
+        "./cap_boy.joints.json, which does not count: mend or remove that\n");
+  labels.recognized = {"head", "left_hand"};
+  writeLabelFile(dir.file("cap_boy.labels.json"), labels);
+  CHECK(label(dir, "check .").exit_code == 0);
+}
+
 TEST_CASE("the labelled set of the repository has no inconsistency") {
   const ToolRun run =
       runTool("env -u DISPLAY -u WAYLAND_DISPLAY skel-label check '" SKEL_SOURCE_DIR "/datasets/characters'");
@@ -307,6 +365,46 @@ TEST_CASE("stats and the table count the same candidates") {
   CHECK(csv.starts_with(
       "file,candidate,x,y,radius,feature_x,feature_y,feature_radius,label\ncap_boy.labels.json,0,"));
   CHECK(csv.substr(0, csv.find("cap_boy.labels.json,1,")).ends_with(",\n"));  // the one without label
+}
+
+TEST_CASE("export leaves out what check complains about and drawings of another body plan, and says so") {
+  const TempDir dir;
+  for (const char* name : {"cap_boy", "box_robot"}) {
+    copyCharacter(name, dir.path());
+    REQUIRE(label(dir, "import .").exit_code == 0);
+  }
+  writeFile(dir.file("box_robot.mask.png"), readFile(dir.file("cap_boy.mask.png")));
+  for (const std::string format : {"csv", "coco"}) {
+    INFO(format);
+    const ToolRun run = label(dir, "export . -o out --" + format);
+    CHECK(run.exit_code == 2);
+    CHECK(run.err ==
+          "skel-label: ./box_robot.labels.json: mask.file: \"box_robot.mask.png\" has changed since it was "
+          "labelled; label it anew\n");
+    CHECK(run.out == "out\n");
+    CHECK(contains(readFile(dir.file("out")), "cap_boy"));
+    CHECK_FALSE(contains(readFile(dir.file("out")), "box_robot"));
+  }
+  const std::string before = readFile(dir.file("out")), path = dir.file("cap_boy.labels.json");
+  fs::remove(dir.file("box_robot.labels.json"));
+  const LabelFile good = readLabelFile(path);
+  LabelFile bad = good;
+  bad.candidates[2].radius += 1;
+  writeLabelFile(path, bad);
+  CHECK(contains(label(dir, "export . -o out --csv").err, "candidates[2]: is not the figure's"));
+  CHECK(readFile(dir.file("out")) == before);  // nothing is left to be exported
+
+  bad = good;
+  bad.joints = {{"head", Eigen::Vector2d(300, 200)}, {"tail", Eigen::Vector2d(30, 20)}};
+  writeLabelFile(path, bad);
+  const ToolRun run = label(dir, "export . -o out --coco");
+  CHECK(run.exit_code == 2);
+  CHECK(
+      run.err ==
+      "skel-label: .: 1 of 1 drawings (cap_boy.labels.json) have joints of a quadruped, not of a biped: not "
+      "exported; --template quadruped exports them\n");
+  CHECK(label(dir, "export . -o out --coco --template quadruped").exit_code == 0);
+  CHECK(contains(readFile(dir.file("out")), "\"name\": \"quadruped\""));
 }
 
 TEST_CASE("motion: the joints of every frame, in the order of their numbers") {

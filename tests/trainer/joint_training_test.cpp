@@ -165,7 +165,7 @@ TEST_CASE("joint training refuses what it cannot go on from or learn from") {
   writeFile(dir.file("state"), "short");
   const auto bad = runTool(command(dir, "n.bin", "--checkpoint '" + dir.file("state") + "'"));
   CHECK(bad.exit_code == 2);
-  CHECK(bad.err.find("is no checkpoint of this net: remove it to start anew") != std::string::npos);
+  CHECK(bad.err.ends_with("is no checkpoint of this net\n"));  // it may be anything: nobody says to remove it
   CHECK(runTool(command(dir, "n.bin", "--hold-back 99")).exit_code == 1);
   const auto empty = runTool(command(dir, "n.bin", "--drawings '" + dir.path() + "'"));
   CHECK(empty.exit_code == 2);

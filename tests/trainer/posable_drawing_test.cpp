@@ -210,5 +210,36 @@ TEST_CASE("joints of a label file that were found, not placed, are not learned f
   CHECK(read(dir).size() == 1);
 }
 
+TEST_CASE("what a person has placed in a label file is learned from, not the joints file beside it") {
+  const TempDir dir;
+  write(dir, "", "left_hand");
+  const JointedDrawing before = findJointedDrawings(dir.path())[0];
+  LabelFile labels =
+      labelImage(dir.file("a.png"), dir.file("a.mask.png"), before.joints, loadTemplate("biped"));
+  const auto found = [&] {
+    writeLabelFile(dir.file("a.labels.json"), labels);
+    return findJointedDrawings(dir.path())[0];
+  };
+  const auto set = [](NamedJoints& joints, const std::string& name, const Eigen::Vector2d& place) {
+    for (auto& [joint, at] : joints)
+      if (joint == name) at = place;
+  };
+  CHECK(found().joints == before.joints);
+  CHECK(found().joints_file == dir.file("a.joints.json"));
+  CHECK(contentOf({found()}) == contentOf({before}));
+
+  NamedJoints mended = before.joints;
+  for (NamedJoints* joints : {&mended, &labels.joints}) {
+    set(*joints, "left_hand", {7, 8});
+    set(*joints, "head", {9, 10});
+  }
+  set(labels.joints, "left_foot", {11, 12});  // found, not placed
+  labels.recognized = {"left_foot"};
+  CHECK(found().joints == mended);
+  CHECK(found().joints_file == dir.file("a.labels.json"));
+  writeFile(dir.file("a.mask.png"), readFile(dir.file("a.mask.png")) + "x");
+  CHECK(complaint(dir).find("a.labels.json: mask.file: \"a.mask.png\" has changed") != std::string::npos);
+}
+
 }  // namespace
 }  // namespace skel
