@@ -8,7 +8,7 @@
 
 int main(int argc, char** argv) {
   CLI::App app("Brings rigged characters to life: bind, pose, play, export.", "skel-animate");
-  app.footer("Example: skel-animate bind elk.obj --skeleton elk.rig.json -o elk.glb");
+  app.footer("Example: skel-animate render drawing.png --clips all -o films/");
   app.require_subcommand(1);
   std::function<skel::ExitCode()> chosen;
   skel::addCommand(app, chosen, "info", "Says what a model holds", skel::bindInfoOptions, skel::runInfo,

@@ -73,8 +73,10 @@ TEST_CASE("the model, the skeleton and the textures that skel-animate binds are 
   fs::copy_file(elk + "elk.rig.json", dir.file("rig.json"));
   keeps(dir, "rig.json", "skel-animate weights " + elk + "elk.obj --skeleton rig.json -o rig.json");
   done(dir, "skel-infer cat.png -o obj --formats obj");
-  for (const std::string named : {"obj/cat.obj", "obj/cat.mtl", "obj/cat.png"})
-    keeps(dir, named, "skel-animate bind obj/cat.obj --skeleton rig.json -o " + named);
+  for (const std::string named : {"cat.obj", "cat.mtl", "cat.png"}) {
+    fs::create_hard_link(dir.file("obj/" + named), dir.file(named + ".glb"));
+    keeps(dir, "obj/" + named, "skel-animate bind obj/cat.obj --skeleton rig.json -o " + named + ".glb");
+  }
 }
 
 TEST_CASE("films, frames and motions that skel-style is given are kept") {
