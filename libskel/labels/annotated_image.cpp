@@ -89,8 +89,8 @@ std::vector<std::string> overrule(NamedJoints& joints, const LabelFile& labels) 
   std::vector<std::string> moved;
   for (const auto& [name, place] : labels.joints) {
     if (!labels.isPlaced(name)) continue;
-    const auto known =
-        std::find_if(joints.begin(), joints.end(), [&](const auto& joint) { return joint.first == name; });
+    const auto known = std::find_if(joints.begin(), joints.end(),
+                                    [&name = name](const auto& joint) { return joint.first == name; });
     if (known == joints.end()) {
       joints.emplace_back(name, place);
     } else if (known->second != place) {
