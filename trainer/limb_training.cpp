@@ -82,8 +82,8 @@ std::vector<Case> limbsOf(const JointedDrawing& drawing, const std::string& shap
   const std::array<bool, 4> is_true = trueLimbs(found->picture, *truth);
   std::vector<Case> cases;
   for (std::size_t k = 0; k < is_true.size(); ++k) {
-    const LimbEvidence& evidence = found->limbs[k];
-    if (evidence.area == 0 || !liesAgainst(evidence.border)) continue;
+    if (!liesAgainst(found->borders[k])) continue;
+    const LimbEvidence evidence = limbEvidence(*found, static_cast<int>(k));
     const std::string pair = plan == "biped" ? (k < 2 ? "arms" : "legs") : "legs of animals";
     cases.push_back({pair, drawingName(drawing.image), evidence.inputs, is_true[k]});
   }

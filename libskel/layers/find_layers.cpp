@@ -86,9 +86,9 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
   map.far = farLimbs(body_plan, picture.before);
   Plane8 limbs = Plane8::Zero(picture.part.rows(), picture.part.cols());
   for (int k = 0; k < 4; ++k) {
-    const LimbEvidence& evidence = found->limbs[static_cast<std::size_t>(k)];
-    if (liesAgainst(evidence.border) && isDivided(evidence.border) &&
-        builtInLimbNet().isLimb(evidence) >= kIsLimb) {
+    const LimbBorder& border = found->borders[static_cast<std::size_t>(k)];
+    if (liesAgainst(border) && isDivided(border) &&
+        builtInLimbNet().isLimb(limbEvidence(*found, k)) >= kIsLimb) {
       limbs =
           (picture.part == static_cast<std::uint8_t>(limbPart(k)))
               .select(Plane8::Constant(limbs.rows(), limbs.cols(), static_cast<std::uint8_t>(k + 1)), limbs);
@@ -98,7 +98,7 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
     const int end = skeleton.find(body_plan.joints[static_cast<std::size_t>(limb.joints[2])].name);
     if (limb.limb_class == JointClass::kHand &&
         skeleton.joints[static_cast<std::size_t>(end)].confidence < kSure &&
-        (evidence.seen < kSeen || isGrown(evidence.border)))
+        (seenOf(picture, found->skeleton, k) < kSeen || isGrown(border)))
       map.hidden.push_back(k + 1);
   }
   map.part = enlarged(picture, picture.part, silhouette.mask);

@@ -48,10 +48,15 @@ std::optional<FoundLimbs> findLimbs(const Image& image, const Silhouette& silhou
                                     const PartNet& net) {
   const std::optional<PartSkeleton> bones = partSkeletonOf(skeleton, body_plan);
   if (!bones) return std::nullopt;
-  FoundLimbs found;
-  found.picture = findParts(image, silhouette.mask, *bones, net);
-  found.limbs = limbEvidence(found.picture, *bones, confidencesOf(skeleton, body_plan));
+  FoundLimbs found{
+      findParts(image, silhouette.mask, *bones, net), *bones, confidencesOf(skeleton, body_plan), {}};
+  found.borders = limbBorders(found.picture, *bones);
   return found;
+}
+
+LimbEvidence limbEvidence(const FoundLimbs& found, int limb) {
+  return limbEvidence(found.picture, found.skeleton, found.confidences,
+                      found.borders[static_cast<std::size_t>(limb)], limb);
 }
 
 }  // namespace skel

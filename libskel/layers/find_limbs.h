@@ -1,4 +1,4 @@
-// The limbs of a recognised figure, each with what speaks for it.
+// The limbs of a recognised figure, and what speaks for each.
 #pragma once
 
 #include <array>
@@ -14,7 +14,9 @@ namespace skel {
 
 struct FoundLimbs {
   PartPicture picture;
-  std::array<LimbEvidence, 4> limbs;  // in the template's order
+  PartSkeleton skeleton;
+  LimbConfidences confidences;
+  std::array<LimbBorder, 4> borders;  // in the template's order
 };
 
 // `skeleton` in image px. Nothing for a body plan that the net does not know (knowsParts()), or where the
@@ -22,5 +24,7 @@ struct FoundLimbs {
 std::optional<FoundLimbs> findLimbs(const Image& image, const Silhouette& silhouette,
                                     const Skeleton& skeleton, const SkeletonTemplate& body_plan,
                                     const PartNet& net);
+
+LimbEvidence limbEvidence(const FoundLimbs& found, int limb);
 
 }  // namespace skel

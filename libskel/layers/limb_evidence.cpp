@@ -74,6 +74,13 @@ struct LimbBones {
   }
 };
 
+LimbBones bonesOf(const PartLook& look, const PartSkeleton& skeleton, int limb) {
+  LimbBones bones;
+  for (std::size_t i = 0; i < 3; ++i)
+    bones.joints[i] = look.toPicture(skeleton.limbs[static_cast<std::size_t>(limb)][i]);
+  return bones;
+}
+
 // What `others` hold is no border of this limb but of those: a hand on the hip.
 LimbBorder borderOf(const PartLook& look, const LimbBones& bones, const cv::Mat& own, const cv::Mat& others,
                     const cv::Mat& edge) {
@@ -140,13 +147,14 @@ struct Form {
   std::array<double, 4> quarters{};
   std::array<double, kStations> widths{};  // px, half of
 };
-Form formOf(const cv::Mat& own, const cv::Mat& depth, const LimbBones& bones) {
+// `corner`: of these planes in the picture.
+Form formOf(const cv::Mat& own, const cv::Mat& depth, const cv::Point& corner, const LimbBones& bones) {
   Form form;
   std::vector<double> distances;
   for (int y = 0; y < own.rows; ++y)
     for (int x = 0; x < own.cols; ++x) {
       if (own.at<std::uint8_t>(y, x) == 0) continue;
-      const auto [along, distance] = bones.nearest(Vec(x + .5, y + .5));
+      const auto [along, distance] = bones.nearest(Vec(corner.x + x + .5, corner.y + y + .5));
       distances.push_back(distance);
       form.quarters[static_cast<std::size_t>(std::min(3., std::floor(2 * along)))] += 1;
       const auto station =
@@ -184,74 +192,83 @@ bool liesAgainst(const LimbBorder& border) {
   return border.beside > 0 && border.beside >= kLeastBeside * border.all;
 }
 
-std::array<LimbEvidence, 4> limbEvidence(const PartPicture& found, const PartSkeleton& skeleton,
-                                         const LimbConfidences& confidences) {
-  const PartLook look(found);
-  const int figure = cv::countNonZero(look.mask), unit = std::max(look.mask.rows, look.mask.cols);
-  const std::array<cv::Mat, 4> masks = {look.of(0), look.of(1), look.of(2), look.of(3)};
-  std::array<LimbEvidence, 4> all;
-  for (std::size_t k = 0; k < all.size(); ++k) all[k].area = cv::countNonZero(masks[k]);
-  const cv::Mat none = cv::Mat::zeros(look.mask.size(), CV_8U), arms = masks[0] | masks[1];
+std::array<LimbBorder, 4> limbBorders(const PartPicture& picture, const PartSkeleton& skeleton) {
+  const PartLook look(picture);
+  const cv::Mat none = cv::Mat::zeros(look.mask.size(), CV_8U), arms = look.of(0) | look.of(1);
   cv::Mat edge = edgesOf(look, none);
+  std::array<LimbBorder, 4> borders;
   for (int k = 0; k < 4; ++k) {
-    LimbEvidence& evidence = all[static_cast<std::size_t>(k)];
     if (k == 2) edge = edgesOf(look, arms);
-    LimbBones bones;
-    for (std::size_t i = 0; i < 3; ++i)
-      bones.joints[i] = look.toPicture(skeleton.limbs[static_cast<std::size_t>(k)][i]);
-    evidence.seen = seenAlong(look, bones, k, .4, 2).own;
-    if (evidence.area == 0) continue;
-    const cv::Mat& own = masks[static_cast<std::size_t>(k)];
-    const LimbBorder& border = evidence.border = borderOf(look, bones, own, k < 2 ? none : arms, edge);
-    const double length = std::max(1., bones.length());
-    const cv::Mat depth = depthOf(own);
-    const Form form = formOf(own, depth, bones);
-    const std::vector<double> widths(form.widths.begin(), form.widths.end());
-    const double width = std::max(.5, median(widths));
-    double uneven = 0;
-    for (const double w : widths) uneven += (w - width) * (w - width) / kStations;
-    const double thinnest = *std::min_element(widths.begin() + 2, widths.end());
-    const Seen upper = seenAlong(look, bones, k, 0, 1), lower = seenAlong(look, bones, k, 1, 2),
-               end = seenAlong(look, bones, k, 1.5, 2);
-    const auto& sure = confidences.of_limb[static_cast<std::size_t>(k)];
-    const std::vector<double> inputs = {
-        double(k >= 2),
-        double(skeleton.animal),
-        share(evidence.area, figure),
-        std::log(evidence.area / (length * length) + 1e-4),
-        length / unit,
-        largestShare(own),
-        form.mean_distance / length,
-        form.far / unit,
-        upper.own,
-        lower.own,
-        end.own,
-        (upper.other + lower.other) / 2,
-        (upper.outside + lower.outside) / 2,
-        raggedness(own, depth, evidence.area, std::max(1., kRagged * width)),
-        width / unit,
-        std::sqrt(uneven) / width,
-        thinnest / width,
-        share(border.against, border.all),
-        share(border.drawn, border.against),
-        share(border.beside, border.all),
-        share(border.beside_drawn, border.beside),
-        form.quarters[0],
-        form.quarters[1],
-        form.quarters[2],
-        (1 - largestShare(look.mask & ~own)) * (1 - share(evidence.area, figure)),
-        found.sure[static_cast<std::size_t>(k)],
-        found.before[static_cast<std::size_t>(k)],
-        sure[0],
-        sure[1],
-        sure[2],
-        confidences.mean,
-        std::log((all[static_cast<std::size_t>(k ^ 1)].area + 1.) / evidence.area)};
-    SKEL_CHECK_EQ(inputs.size(), kLimbInputs.size());
-    evidence.inputs =
-        Eigen::Map<const Eigen::VectorXd>(inputs.data(), static_cast<Eigen::Index>(inputs.size()));
+    borders[static_cast<std::size_t>(k)] =
+        borderOf(look, bonesOf(look, skeleton, k), look.of(k), k < 2 ? none : arms, edge);
   }
-  return all;
+  return borders;
+}
+
+double seenOf(const PartPicture& picture, const PartSkeleton& skeleton, int limb) {
+  const PartLook look(picture);
+  return seenAlong(look, bonesOf(look, skeleton, limb), limb, .4, 2).own;
+}
+
+LimbEvidence limbEvidence(const PartPicture& picture, const PartSkeleton& skeleton,
+                          const LimbConfidences& confidences, const LimbBorder& border, int limb) {
+  const PartLook look(picture);
+  const auto index = static_cast<std::size_t>(limb);
+  const cv::Mat whole = look.of(limb);
+  LimbEvidence evidence{cv::countNonZero(whole), {}};
+  if (evidence.area == 0) return evidence;
+  const cv::Rect box = cv::boundingRect(whole);
+  const cv::Mat own = whole(box);
+  const int figure = cv::countNonZero(look.mask), unit = std::max(look.mask.rows, look.mask.cols);
+  const LimbBones bones = bonesOf(look, skeleton, limb);
+  const double length = std::max(1., bones.length());
+  const cv::Mat depth = depthOf(own);
+  const Form form = formOf(own, depth, box.tl(), bones);
+  const std::vector<double> widths(form.widths.begin(), form.widths.end());
+  const double width = std::max(.5, median(widths));
+  double uneven = 0;
+  for (const double w : widths) uneven += (w - width) * (w - width) / kStations;
+  const double thinnest = *std::min_element(widths.begin() + 2, widths.end());
+  const Seen upper = seenAlong(look, bones, limb, 0, 1), lower = seenAlong(look, bones, limb, 1, 2),
+             end = seenAlong(look, bones, limb, 1.5, 2);
+  const auto& sure = confidences.of_limb[index];
+  const std::vector<double> inputs = {
+      double(limb >= 2),
+      double(skeleton.animal),
+      share(evidence.area, figure),
+      std::log(evidence.area / (length * length) + 1e-4),
+      length / unit,
+      largestShare(own),
+      form.mean_distance / length,
+      form.far / unit,
+      upper.own,
+      lower.own,
+      end.own,
+      (upper.other + lower.other) / 2,
+      (upper.outside + lower.outside) / 2,
+      raggedness(own, depth, evidence.area, std::max(1., kRagged * width)),
+      width / unit,
+      std::sqrt(uneven) / width,
+      thinnest / width,
+      share(border.against, border.all),
+      share(border.drawn, border.against),
+      share(border.beside, border.all),
+      share(border.beside_drawn, border.beside),
+      form.quarters[0],
+      form.quarters[1],
+      form.quarters[2],
+      (1 - largestShare(look.mask & ~whole)) * (1 - share(evidence.area, figure)),
+      picture.sure[index],
+      picture.before[index],
+      sure[0],
+      sure[1],
+      sure[2],
+      confidences.mean,
+      std::log((cv::countNonZero(look.of(limb ^ 1)) + 1.) / evidence.area)};
+  SKEL_CHECK_EQ(inputs.size(), kLimbInputs.size());
+  evidence.inputs =
+      Eigen::Map<const Eigen::VectorXd>(inputs.data(), static_cast<Eigen::Index>(inputs.size()));
+  return evidence;
 }
 
 }  // namespace skel

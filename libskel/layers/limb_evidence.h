@@ -57,12 +57,12 @@ struct LimbBorder {
 // it were one with it.
 bool liesAgainst(const LimbBorder& border);
 
-struct LimbEvidence {
-  int area = 0;  // px of the picture; 0: nothing of it was found
-  LimbBorder border;
-  double seen = 0;         // of points on its bones beyond the root, the share that shows it
-  Eigen::VectorXd inputs;  // kLimbInputs; empty where nothing was found
-};
+// Of the four limbs, by arms first: what arms hold is no border of the legs. `skeleton` in image px, the
+// corner of the first px at 0.
+std::array<LimbBorder, 4> limbBorders(const PartPicture& picture, const PartSkeleton& skeleton);
+
+// Of points on the limb's bones beyond its root, the share that shows it.
+double seenOf(const PartPicture& picture, const PartSkeleton& skeleton, int limb);
 
 // Confidence in the joints of a skeleton, [0, 1].
 struct LimbConfidences {
@@ -70,8 +70,13 @@ struct LimbConfidences {
   double mean = 0;  // of all joints
 };
 
-// Of the four limbs. `skeleton` in image px, the corner of the first px at 0.
-std::array<LimbEvidence, 4> limbEvidence(const PartPicture& found, const PartSkeleton& skeleton,
-                                         const LimbConfidences& confidences);
+struct LimbEvidence {
+  int area = 0;            // px of the picture; 0: nothing of it was found
+  Eigen::VectorXd inputs;  // kLimbInputs; empty where nothing was found
+};
+
+// `border`: of this limb.
+LimbEvidence limbEvidence(const PartPicture& picture, const PartSkeleton& skeleton,
+                          const LimbConfidences& confidences, const LimbBorder& border, int limb);
 
 }  // namespace skel

@@ -526,8 +526,9 @@ TEST_CASE("an arm along its bones is a limb, scraps beside bones that are a gues
     const auto found =
         findLimbs(drawing.image, drawing.silhouette, drawing.skeleton, drawing.body_plan, builtInPartNet());
     REQUIRE(found);
-    REQUIRE(found->limbs[0].area > 0);
-    return builtInLimbNet().isLimb(found->limbs[0]);
+    const LimbEvidence arm = limbEvidence(*found, 0);
+    REQUIRE(arm.area > 0);
+    return builtInLimbNet().isLimb(arm);
   };
   CHECK(chance() > .8);
   // The shoulder and the elbow where the other arm is, the hand where it was.
@@ -546,12 +547,13 @@ TEST_CASE("what speaks for a limb has a name each, and nothing speaks for one th
   const auto found =
       findLimbs(drawing.image, drawing.silhouette, drawing.skeleton, drawing.body_plan, builtInPartNet());
   REQUIRE(found);
-  for (const LimbEvidence& limb : found->limbs) {
+  for (int k = 0; k < 4; ++k) {
+    const LimbEvidence limb = limbEvidence(*found, k);
     if (limb.area == 0) continue;
     REQUIRE(limb.inputs.size() == Eigen::Index(kLimbInputs.size()));
     CHECK(limb.inputs.allFinite());
   }
-  CHECK(liesAgainst(found->limbs[0].border));
+  CHECK(liesAgainst(found->borders[0]));
   CHECK(builtInLimbNet().isLimb(LimbEvidence{}) == 0);
 }
 
