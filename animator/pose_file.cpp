@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "libskel/animation/clip_keys.h"
+#include "libskel/core/error.h"
 #include "libskel/core/json.h"
 
 namespace skel {
@@ -70,8 +71,15 @@ Pose parsePose(std::string_view text, const std::string& file, const Skeleton& s
 }
 
 bool isPoseFile(std::string_view text) {
-  const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
-  return document.is_object() && document.contains("format") && document["format"] == kPoseFormat;
+  try {
+    const JsonDocument document = JsonDocument::parse(text, "");
+    const JsonValue root = document.root();
+    if (!root.isObject()) return false;
+    const auto format = root.find("format");
+    return format && format->asString() == kPoseFormat;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 Clip clipOfPose(const Pose& pose, const Skeleton& skeleton, const std::string& name) {

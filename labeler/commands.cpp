@@ -32,12 +32,10 @@ ExitCode report(const ImportCounts& counts) {
 
 void noteDiffering(const std::vector<std::string>& kept) {
   if (kept.empty()) return;
-  const std::string more = kept.size() > 1 ? " (and " + std::to_string(kept.size() - 1) + " more)" : "";
-  std::fprintf(
-      stderr,
-      "skel-label: note: %s%s: kept, with other joints than what is to be imported; --force takes the "
-      "latter, and drops joints and classes set by hand\n",
-      printable(kept.front()).c_str(), more.c_str());
+  std::fprintf(stderr,
+               "skel-label: note: %s: kept, with other joints than what is to be imported; --force takes the "
+               "latter, and drops joints and classes set by hand\n",
+               firstAndMore(kept).c_str());
 }
 
 std::string namesOf(const std::set<std::string>& folders) {

@@ -76,4 +76,9 @@ std::string messageLine(std::string_view text) {
   return line.substr(0, end) + "…" + line.substr(begin);
 }
 
+std::string firstAndMore(const std::vector<std::string>& texts) {
+  return printable(texts.front()) +
+         (texts.size() > 1 ? " (and " + std::to_string(texts.size() - 1) + " more)" : "");
+}
+
 }  // namespace skel

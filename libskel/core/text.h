@@ -19,4 +19,7 @@ std::string printable(std::string_view text);
 // file and the place come first, what to do last.
 std::string messageLine(std::string_view text);
 
+// The first as printable(), and how many there are besides: "a.json (and 3 more)". At least one.
+std::string firstAndMore(const std::vector<std::string>& texts);
+
 }  // namespace skel

@@ -1,5 +1,7 @@
 #include "libskel/image/sealed_png.h"
 
+#include <zlib.h>
+
 #include <cstdint>
 
 #include "libskel/core/error.h"
@@ -19,14 +21,9 @@ std::string bigEndian(std::uint32_t number) {
   return bytes;
 }
 
-// CRC-32 (ISO 3309), as chunks of a PNG end in.
-std::uint32_t chunkCrc(std::string_view bytes) {
-  std::uint32_t crc = ~0u;
-  for (const char byte : bytes) {
-    crc ^= static_cast<std::uint8_t>(byte);
-    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
-  }
-  return ~crc;
+std::uint32_t chunkCrc(const std::string& bytes) {
+  return static_cast<std::uint32_t>(
+      crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
 }
 
 std::string pixelHash(const Image& image) {

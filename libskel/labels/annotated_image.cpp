@@ -102,9 +102,7 @@ std::vector<std::string> overrule(NamedJoints& joints, const LabelFile& labels) 
 }
 
 std::string overruledNote(const std::vector<std::string>& label_files) {
-  const std::string more =
-      label_files.size() > 1 ? " (and " + std::to_string(label_files.size() - 1) + " more)" : "";
-  return printable(label_files.front()) + more +
+  return firstAndMore(label_files) +
          " places joints elsewhere than the joints file beside it; the label file counts";
 }
 
