@@ -7,6 +7,7 @@
 
 #include "libskel/cutout/limb_plane.h"
 #include "libskel/mesh/fill_hidden.h"
+#include "libskel/skeleton/frontal.h"
 #include "libskel/skin/skin_weights.h"
 
 namespace skel {
@@ -50,6 +51,8 @@ class PaintOrder {
       ++trunk_joints;
     }
     trunk_z /= std::max(1, trunk_joints);
+    // Arms of who is drawn from the front are about as deep as the trunk: small differences say nothing.
+    const bool from_front = frontal(skeleton, figure.body_plan) == 1;
     for (std::size_t k = 0; k < figure.body_plan.limbs.size(); ++k) {
       const TemplateLimb& limb = figure.body_plan.limbs[k];
       const auto piece = std::find_if(pieces.begin(), pieces.end(),
@@ -61,10 +64,12 @@ class PaintOrder {
       const int turn = int(piece - pieces.begin());  // after all others where it is no sheet of its own
       constexpr double kFar = 0.015;                 // of the figure's height
       const std::vector<int>& far = figure.layers.far;
-      if (std::find(far.begin(), far.end(), int(k) + 1) != far.end() || z < -kFar * (high - low))
+      const bool leg = isLeg(figure.body_plan, limb);
+      if (std::find(far.begin(), far.end(), int(k) + 1) != far.end() ||
+          (z < -kFar * (high - low) && (leg || !from_front)))
         order_[k + 1] = turn - 200;
       else if (piece == pieces.end())
-        order_[k + 1] = isLeg(figure.body_plan, limb) ? -100 : 100;
+        order_[k + 1] = leg ? -100 : 100;
       else
         order_[k + 1] = turn;
     }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "libskel/silhouette/outline.h"
+#include "libskel/skeleton/frontal.h"
 
 namespace skel {
 namespace {
@@ -26,9 +27,6 @@ constexpr Build kAnimalTrunkBuild{2, 1.05}, kAnimalHeadBuild{2.2, 1.2};  // draw
 constexpr double kForward = 0.5;     // DepthBone::forward of who faces the viewer; by eye, of .5 and .7
 constexpr double kLimbRadius = 0.4;  // at most, as a share of a bone's length: where it lies on the body
 constexpr double kNeckReach = 0.45;  // of the head's radius
-// The distance of the shoulders as a share of the trunk's length: below the first it is seen from the side,
-// above the second from the front.
-constexpr double kSideShoulders = 0.2, kFrontShoulders = 0.5;
 
 class DepthFinder {
  public:
@@ -42,7 +40,7 @@ class DepthFinder {
     const double head_px = radius(*head), neck_px = radius(*neck), body_px = radius(*body);
     const bool in_one = !body_plan_.from_side && neck_px > kNoNeck * std::max(head_px, body_px) &&
                         (*head - *body).norm() < kInOne * neck_px;
-    const double front = frontal(*pelvis, *neck);
+    const double front = frontal(skeleton_, body_plan_);
     forward_ = kForward * front;
     const Build trunk = in_one ? kBallBuild : trunkBuild(front);
     const double trunk_px = in_one ? neck_px : body_px;
@@ -79,15 +77,6 @@ class DepthFinder {
                int layer = 0) {
     radius_px = std::max(radius_px, 1.0);
     depth_.bones.push_back({from, to, radius_px, build.source, build.most * radius_px, layer, forward_});
-  }
-
-  // 1: drawn from the front or from behind; 0: from the side.
-  double frontal(const Vector2d& pelvis, const Vector2d& neck) const {
-    if (body_plan_.from_side) return 0;
-    const auto left = at("left_shoulder"), right = at("right_shoulder");
-    if (!left || !right) return 1;
-    const double wide = (*left - *right).norm() / std::max((pelvis - neck).norm(), 1.0);
-    return std::clamp((wide - kSideShoulders) / (kFrontShoulders - kSideShoulders), 0.0, 1.0);
   }
 
   Build trunkBuild(double front) const {

@@ -6,6 +6,7 @@
 #include "libskel/animation/clip_library.h"
 #include "libskel/cutout/paint_cut_out.h"
 #include "libskel/draw/canvas.h"
+#include "libskel/skeleton/frontal.h"
 #include "tests/support/catch.h"
 #include "tests/support/clips_on_drawings.h"
 
@@ -111,6 +112,27 @@ TEST_CASE("paper bends at joints and keeps its size everywhere else") {
       CHECK(stretched < 0.05 * sides);
     }
   }
+}
+
+TEST_CASE("arms of who is drawn from the front pass before the trunk, however little they lie behind it") {
+  RiggedDrawing drawing = drawn("characters/cap_boy.png", "biped");
+  REQUIRE(frontal(drawing.character.skeleton, drawing.body_plan) == 1);
+  for (Joint& joint : drawing.character.skeleton.joints)
+    if (joint.name.ends_with("_shoulder") || joint.name.ends_with("_elbow") || joint.name.ends_with("_hand"))
+      joint.position.z() = -0.05;
+  const CutOut cut_out = cutOutOf(drawing);
+  std::array<std::size_t, 5> first, last;
+  first.fill(cut_out.patches.size()), last.fill(0);
+  for (std::size_t i = 0; i < cut_out.patches.size(); ++i) {
+    const CutOut::Patch& patch = cut_out.patches[i];
+    const std::size_t part = std::size_t(cut_out.sheets[patch.sheet].part[patch.square]);
+    first[part] = std::min(first[part], i), last[part] = std::max(last[part], i);
+  }
+  for (std::size_t k = 0; k < drawing.body_plan.limbs.size(); ++k)
+    if (drawing.body_plan.limbs[k].limb_class == JointClass::kHand) {
+      REQUIRE(first[k + 1] < cut_out.patches.size());
+      CHECK(first[k + 1] > last[0]);
+    }
 }
 
 TEST_CASE("every patch is painted once, far limbs before the trunk") {
