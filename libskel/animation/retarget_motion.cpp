@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <set>
 
 #include "libskel/animation/joint_roles.h"
@@ -120,6 +122,12 @@ Source readSource(const BvhMotion& motion, const std::string& file) {
   return source;
 }
 
+// Hanging joints need not be there: they follow.
+bool hasAllNames(const Skeleton& theirs, const Skeleton& target) {
+  return std::all_of(target.joints.begin(), target.joints.end(),
+                     [&](const Joint& joint) { return hangs(joint) || theirs.find(joint.name) >= 0; });
+}
+
 // Which joint of theirs moves each of ours, -1: none; and whether all names are ours.
 struct Mapping {
   std::vector<int> theirs;
@@ -129,9 +137,7 @@ struct Mapping {
 Mapping mapJoints(const Source& source, const std::string& file, const Skeleton& target) {
   Mapping mapping;
   for (const Joint& joint : target.joints) mapping.theirs.push_back(source.motion.skeleton.find(joint.name));
-  mapping.same_names = true;
-  for (std::size_t j = 0; j < target.joints.size(); ++j)
-    if (mapping.theirs[j] < 0 && !hangs(target.joints[j])) mapping.same_names = false;
+  mapping.same_names = hasAllNames(source.motion.skeleton, target);
   if (mapping.same_names) return mapping;
   const JointRoles ours = findJointRoles(target);
   if (ours.joint("left_hip") < 0)
@@ -164,7 +170,9 @@ JointMatch matchOf(const Mapping& mapping, const Source& source, const Skeleton&
     match.joints.emplace_back(target.joints[j].name, joints[std::size_t(mapping.theirs[j])].name);
   }
   for (std::size_t j = 0; j < joints.size(); ++j)
-    if (!used.count(int(j))) match.theirs_left.push_back(joints[j].name);
+    if (const int same = target.find(joints[j].name);
+        !used.count(int(j)) && !(same >= 0 && hangs(target.joints[std::size_t(same)])))
+      match.theirs_left.push_back(joints[j].name);
   return match;
 }
 
@@ -297,7 +305,85 @@ Vector3d restBoneOf(const BvhMotion& motion, const Mapping& mapping, const Skele
 
 bool isLimb(const std::string& name) { return name.starts_with("left_") || name.starts_with("right_"); }
 
-// A motion for our own joints: its turns are ours.
+// From each joint's parent to the joint, of those joints of `like` that `skeleton` has and that stay in the
+// rest pose; zero for others.
+std::vector<Vector3d> offsetsOf(const Skeleton& skeleton, const Skeleton& like) {
+  std::vector<Vector3d> offsets;
+  for (const Joint& joint : like.joints) {
+    const int own = hangs(joint) ? -1 : skeleton.find(joint.name);
+    const int parent = own < 0 ? -1 : skeleton.joints[std::size_t(own)].parent;
+    offsets.push_back(parent < 0 ? Vector3d::Zero()
+                                 : Vector3d(skeleton.joints[std::size_t(own)].position -
+                                            skeleton.joints[std::size_t(parent)].position));
+  }
+  return offsets;
+}
+
+// The turn of the file's axes that brings the rest pose nearest to the target's: none, but for programs whose
+// up is another axis (Blender's is z).
+Quaterniond turnOfAxes(const Skeleton& theirs, const Skeleton& target) {
+  const std::vector<Vector3d> from = offsetsOf(theirs, target), to = offsetsOf(target, target);
+  Quaterniond best = Quaterniond::Identity();
+  double best_sum = -1e300;
+  for (int k = 0; k < 24; ++k) {
+    // Where x goes, and about that by quarters.
+    const Vector3d x = Vector3d::Unit(k / 8) * (k / 4 % 2 ? -1 : 1);
+    const Quaterniond turn =
+        Eigen::AngleAxisd(k % 4 * std::numbers::pi / 2, x) * shortestTurn(Vector3d::UnitX(), x);
+    double sum = k == 0 ? 1e-6 : 0;  // of cosines; the file's own axes where others are no better
+    for (std::size_t j = 0; j < from.size(); ++j)
+      if (from[j].norm() > 1e-9 && to[j].norm() > 1e-9)
+        sum += (turn * from[j]).normalized().dot(to[j].normalized());
+    if (sum > best_sum) best_sum = sum, best = turn;
+  }
+  return best;
+}
+
+BvhMotion turnedBy(const Quaterniond& turn, BvhMotion motion) {
+  for (Joint& joint : motion.skeleton.joints) joint.position = turn * joint.position;
+  for (Vector3d& tip : motion.tips) tip = turn * tip;
+  for (JointTrack& track : motion.clip.tracks) {
+    for (Eigen::Quaternionf& rotation : track.rotations)
+      rotation = (turn * rotation.cast<double>() * turn.conjugate()).cast<float>();
+    for (Eigen::Vector3f& place : track.translations_m) place = (turn * place.cast<double>()).cast<float>();
+  }
+  return motion;
+}
+
+// What a length of theirs is of ours, m, if their rest pose is ours in other lengths: a motion written for
+// this very character.
+std::optional<double> scaleOfOwn(const Skeleton& theirs, const Skeleton& target, double height_m) {
+  constexpr double kSame = 2e-3;  // of the height: numbers in text, through other programs
+  const std::vector<Vector3d> from = offsetsOf(theirs, target), to = offsetsOf(target, target);
+  double ours = 0, all = 0;
+  for (std::size_t j = 0; j < from.size(); ++j) ours += from[j].dot(to[j]), all += from[j].squaredNorm();
+  if (!(all > 0) || !(ours > 0)) return std::nullopt;
+  const double scale = ours / all;
+  for (std::size_t j = 0; j < from.size(); ++j)
+    if (!((scale * from[j] - to[j]).norm() <= kSame * height_m)) return std::nullopt;
+  return scale;
+}
+
+// A motion of this very character, as it is.
+Clip ownClip(const Source& source, const Skeleton& target, double scale, double height_m) {
+  const Skeleton& theirs = source.motion.skeleton;
+  Clip clip;
+  for (const Joint& joint : target.joints)
+    for (const JointTrack& track : source.motion.clip.tracks)
+      if (track.joint == joint.name) {
+        JointTrack& own = clip.tracks.emplace_back(track);
+        if (joint.parent < 0) own.translations_m.clear(), own.translation_times_s.clear();
+        for (Eigen::Vector3f& place : own.translations_m) place *= float(scale);
+      }
+  const std::size_t root = std::size_t(theirs.index(target.joints[0].name));
+  clip.root_times_s = source.times_s;
+  for (const SourcePose& pose : source.poses)
+    clip.root_translations.push_back(
+        ((scale * pose.positions[root] - target.joints[0].position) / height_m).cast<float>());
+  return clip;
+}
+
+// A motion for our own joints, of another character: its turns are ours.
 void takeTurns(const Source& source, const Mapping& mapping, const Skeleton& target, Clip& clip) {
   clip.frame = ClipFrame::kPicture;
   for (std::size_t j = 0; j < target.joints.size(); ++j) {
@@ -426,12 +512,20 @@ bool isFinite(const Clip& clip) {
 
 }  // namespace
 
-RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file, const Skeleton& target,
+RetargetedMotion retargetMotion(const BvhMotion& given, const std::string& file, const Skeleton& target,
                                 const FigureShape& shape, double into_picture) {
+  const bool all_names = hasAllNames(given.skeleton, target);
+  const BvhMotion motion = all_names ? turnedBy(turnOfAxes(given.skeleton, target), given) : given;
   const Source source = readSource(motion, file);
   const Mapping mapping = mapJoints(source, file, target);
   RetargetedMotion result;
   result.match = matchOf(mapping, source, target);
+  if (all_names)
+    if (const auto own = scaleOfOwn(motion.skeleton, target, shape.height_m)) {
+      result.clip = ownClip(source, target, *own, shape.height_m);
+      result.clip.name = motion.clip.name;
+      return result;
+    }
 
   Clip clip;
   clip.name = motion.clip.name;

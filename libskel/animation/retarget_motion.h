@@ -24,9 +24,10 @@ struct RetargetedMotion {
 // Where their bones point in the world decides, the trunk and the ground included; their rest pose says
 // nothing, nor which axis is up, nor how a bone is turned about itself. The figure starts where it stands,
 // looking where it was drawn to look; ways are scaled by the length of the legs, and its feet come as near to
-// the ground as theirs. A motion whose joints are all named like the target's is one of its own: its turns
-// are taken as they are. Else joints are matched by findJointRoles(). Throws InputError (of `file`) if that
-// finds no arms and legs on either side.
+// the ground as theirs. Of a motion whose joints are all named like the target's the axes are turned as the
+// target's are; if then its rest pose is the target's, in any length, it is the target's own and comes back
+// as it is, and if not, its turns are taken as they are. Else joints are matched by findJointRoles(). Throws
+// InputError (of `file`) if that finds no arms and legs on either side.
 RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file, const Skeleton& target,
                                 const FigureShape& shape,
                                 double into_picture = RetargetOptions().into_picture);
