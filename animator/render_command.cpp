@@ -12,6 +12,7 @@
 #include "libskel/animation/clip_library.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
+#include "libskel/core/new_folders.h"
 #include "libskel/core/text.h"
 #include "libskel/pipeline/drawing_notes.h"
 
@@ -178,27 +179,6 @@ void checkFiles(const RenderCommandOptions& options) {
   }
   checkNames(options.files);
 }
-
-// What was made for results and is empty in the end goes again.
-class NewFolders {
- public:
-  explicit NewFolders(const std::string& output) {
-    std::error_code unknown;
-    for (fs::path dir = fs::path(output).parent_path(); !dir.empty() && !fs::exists(dir, unknown);
-         dir = dir.parent_path())
-      made_.push_back(dir);
-  }
-  ~NewFolders() {
-    std::error_code unknown, holds_something;
-    for (const fs::path& dir : made_)
-      if (fs::is_directory(dir, unknown)) fs::remove(dir, holds_something);
-  }
-  NewFolders(const NewFolders&) = delete;
-  NewFolders& operator=(const NewFolders&) = delete;
-
- private:
-  std::vector<fs::path> made_;  // the deepest first
-};
 
 }  // namespace
 
