@@ -411,3 +411,29 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
   }
   CHECK(filesBelow(dir.path()).size() == 1);
 }
+
+TEST_CASE("a folder in place of the motion file is told from a motion, as with every output") {
+  const TempDir dir;
+  const std::string walk = film(dir, "walk");
+  fs::create_directories(dir.file("there"));
+  for (const std::string command : {"skel-style keypoints ", "skel-label motion "}) {
+    const ToolRun run = runTool(command + walk + " -o " + dir.file("there"));
+    CHECK(run.exit_code == 4);
+    CHECK_THAT(run.err, Contains("there: is a folder; name a file by -o"));
+  }
+}
+
+TEST_CASE("key frames of a film that holds no pictures leave no folder behind") {
+  const TempDir dir;
+  fs::create_directories(dir.file("empty"));
+  fs::create_directories(dir.file("there"));
+  for (const char* output : {"frames", "new/frames/", "there"}) {
+    CAPTURE(output);
+    const ToolRun run = style("keyframes " + dir.file("empty") + " -o " + dir.file(output));
+    CHECK(run.exit_code == 2);
+    CHECK_THAT(run.err, Contains("holds no pictures"));
+  }
+  CHECK_FALSE(fs::exists(dir.file("frames")));
+  CHECK_FALSE(fs::exists(dir.file("new")));
+  CHECK(fs::exists(dir.file("there")));
+}
