@@ -266,7 +266,8 @@ TEST_CASE("import: our own export put old joints back, and a second one stopped 
   writeSkeleton(dir, "cap_boy", 310);
   const std::string labels = dir.file("cap_boy.labels.json");
   const std::string passed_over =
-      "skel-label: note: joints.coco.json (and 1 more): exported from label files, not imported beside what "
+      "skel-label: note: ./joints.coco.json (and 1 more): exported from label files, not imported beside "
+      "what "
       "it was made of; skel-label import FILE takes it\n";
   ToolRun run = label(dir, "import .");
   CHECK(run.exit_code == 0);
@@ -311,8 +312,8 @@ TEST_CASE("import: a joint that is missing is said, and candidates that may belo
   const auto open = std::count(labels.labels.begin(), labels.labels.end(), std::nullopt);
   CHECK(open > 0);
   CHECK(open < static_cast<long>(labels.labels.size()) / 2);
-  CHECK(run.err == "skel-label: note: cap_boy.labels.json: no place for left_elbow: " + std::to_string(open) +
-                       " candidates have no class\n");
+  CHECK(run.err == "skel-label: note: ./cap_boy.labels.json: no place for left_elbow: " +
+                       std::to_string(open) + " candidates have no class\n");
   CHECK(contains(label(dir, "stats .").out, "finished          1   50.0 %"));
 
   // COCO says so by a visibility of 0.

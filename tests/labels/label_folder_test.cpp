@@ -144,12 +144,12 @@ TEST_CASE("label files with placed joints were no pictures with joints to candid
   writeFile(dir.file("man.mask.png"), encodePng(blockMan()));
   const std::string joints_file = dir.file("man.joints.json"), label_file = dir.file("man.labels.json");
   writeFile(joints_file, kBlockManJoints);
-  const LabelledSet of_joints = labelAnnotatedImages(dir.path(), {CandidateMethod::kStrict});
+  const LabelledSet of_joints = labelAnnotatedImages(dir.path(), {CandidateMethod::kDiscs});
   LabelFile labels = labelImage(dir.file("man.png"), dir.file("man.mask.png"), readJointsFile(joints_file),
                                 loadTemplate("biped"));
   std::filesystem::remove(joints_file);
   writeLabelFile(label_file, labels);
-  const LabelledSet of_labels = labelAnnotatedImages(dir.path(), {CandidateMethod::kStrict});
+  const LabelledSet of_labels = labelAnnotatedImages(dir.path(), {CandidateMethod::kDiscs});
   REQUIRE(of_labels.characters.size() == 1);
   CHECK(of_labels.characters[0].name == "man.png");
   CHECK(of_labels.characters[0].labels == of_joints.characters[0].labels);

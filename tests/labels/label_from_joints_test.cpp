@@ -95,7 +95,7 @@ TEST_CASE("candidates of a limb that lacks a joint took the class of another par
     CHECK(label(left_arm, unnamed) == Labels(4));
   }
   // The upper arm is known, but for its end.
-  CHECK(label(left_arm, without({"left_hand"})) == Labels{kHand, std::nullopt, std::nullopt, std::nullopt});
+  CHECK(label(left_arm, without({"left_hand"})) == Labels{kHand, kHand, std::nullopt, std::nullopt});
   CHECK(label(others, without({"left_hand"})) == others_classes);
   // The pelvis follows from the hips.
   CHECK(label({{50, 76, 1}, {58, 84, 1}, {60, 98, 1}, {38, 122, 1}, {6, 70, 1}}, without({"left_hip"})) ==
