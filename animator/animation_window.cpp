@@ -99,7 +99,9 @@ std::function<bool(const std::string&)> endsWith(std::vector<std::string> ending
 
 class AnimationWindow {
  public:
-  explicit AnimationWindow(AnimationDocument& document) : document_(document), stage_(document) {}
+  explicit AnimationWindow(AnimationDocument& document) : document_(document), stage_(document) {
+    ImGui::GetIO().ConfigDragClickToInputText = true;
+  }
 
   // With a star where clips are not saved.
   std::string title() const {
@@ -115,7 +117,7 @@ class AnimationWindow {
   NextFrame frame() {
     if (next_) std::exchange(next_, {})();
     const bool moves = document_.advance(double(ImGui::GetIO().DeltaTime));
-    if (!ImGui::GetIO().WantTextInput && !dialog_.isOpen() && !losing_ && !renames_) keys();
+    if (!isTyping() && !dialog_.isOpen() && !losing_ && !renames_) keys();
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
     // Fields are seen on white, the menu bar belongs to the window.
@@ -154,6 +156,11 @@ class AnimationWindow {
   }
 
  private:
+  // Also as a field opens: that it wants text is said a frame later.
+  static bool isTyping() {
+    return ImGui::GetIO().WantTextInput || ImGui::IsMouseReleased(0) || ImGui::IsMouseDoubleClicked(0);
+  }
+
   void keys() {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.KeyCtrl) {
@@ -226,26 +233,31 @@ class AnimationWindow {
 
   // What is about to be lost, and what comes when it is saved or given up.
   struct Losing {
-    std::vector<std::string> clips;
+    std::vector<std::string> clips;  // none: the pose
     std::string why;
     std::function<void()> then;
   };
 
   void unlessUnsaved(std::function<void()> then) {
     std::vector<std::string> clips = document_.unsavedClips();
-    if (clips.empty()) return then();
+    if (clips.empty()) return unlessPosed(std::move(then));
     const std::string why = clips.size() == 1 ? "is not saved." : "are not saved.";
-    losing_ = Losing{std::move(clips), why, std::move(then)};
+    losing_ = Losing{std::move(clips), why, [this, then] { unlessPosed(then); }};
+  }
+  void unlessPosed(std::function<void()> then) {
+    if (!document_.hasUnsavedPose()) return then();
+    losing_ = Losing{{}, "The pose is neither a key of a clip nor saved.", std::move(then)};
   }
 
   void quit() {
     const bool asks = dialog_.isOpen() || renames_;  // something else
-    if (losing_ || (asks && !document_.unsavedClips().empty())) return;
+    if (losing_ || (asks && (!document_.unsavedClips().empty() || document_.hasUnsavedPose()))) return;
     unlessUnsaved([this] { closes_ = true; });
   }
 
   // One clip as a file, several with the character.
   void save(const Losing& losing) {
+    if (losing.clips.empty()) return askSavePose(losing.then);
     if (losing.clips.size() > 1) return askSaveModel(losing.then);
     for (int i = 0; i < int(document_.clips().size()); ++i)
       if (document_.clips()[std::size_t(i)].name == losing.clips.front()) document_.chooseClip(i);
@@ -257,7 +269,8 @@ class AnimationWindow {
     beginQuestion("losing");
     if (ImGui::BeginPopupModal("losing", nullptr, kQuestionFlags)) {
       ImGui::PushTextWrapPos(kQuestionWidth);
-      ImGui::TextUnformatted((joined(losing_->clips) + " " + losing_->why).c_str());
+      const std::string clips = joined(losing_->clips);
+      ImGui::TextUnformatted((clips + (clips.empty() ? "" : " ") + losing_->why).c_str());
       ImGui::PopTextWrapPos();
       ImGui::Spacing();
       const bool saves = ImGui::Button("Save ...", kQuestionButton);
@@ -329,10 +342,10 @@ class AnimationWindow {
     ask({"Load a pose", "Load", "pose", suggestion(kPoseFileEnding), FileUse::kOpen, endsWith({".json"})},
         &AnimationDocument::loadPose);
   }
-  void askSavePose() {
+  void askSavePose(std::function<void()> then = {}) {
     ask({"Save the pose", "Save", "pose", suggestion(kPoseFileEnding), FileUse::kSave,
          endsWith({kPoseFileEnding}), kPoseFileEnding},
-        &AnimationDocument::savePose);
+        &AnimationDocument::savePose, std::move(then));
   }
   void askClip() {
     FileQuestion question{"Load a clip (.clip.json, .bvh, key frames)",
@@ -405,6 +418,11 @@ class AnimationWindow {
     return {byte(film_color_[0]), byte(film_color_[1]), byte(film_color_[2])};
   }
 
+  static void endMenu() {
+    if (pressed(key::kEscape)) ImGui::CloseCurrentPopup();
+    ImGui::EndMenu();
+  }
+
   void drawMenu() {
     const bool has_clip = document_.clip() != nullptr;
     if (!ImGui::BeginMenuBar()) return;
@@ -426,7 +444,7 @@ class AnimationWindow {
       if (ImGui::MenuItem("Write film ...", "Ctrl E")) askFilm();
       ImGui::Separator();
       if (ImGui::MenuItem("Quit", "Ctrl Q")) quit();
-      ImGui::EndMenu();
+      endMenu();
     }
     if (ImGui::BeginMenu("Edit")) {
       if (ImGui::MenuItem("Undo", "Ctrl Z", false, document_.canUndo())) document_.undo();
@@ -436,7 +454,7 @@ class AnimationWindow {
       if (ImGui::MenuItem("Remove key", "Delete", false, has_clip)) document_.removeKey();
       if (ImGui::MenuItem("Reset pose", "Shift R")) document_.resetPose();
       if (ImGui::MenuItem("Rename clip ...", nullptr, false, has_clip)) askName();
-      ImGui::EndMenu();
+      endMenu();
     }
     if (ImGui::BeginMenu("View")) {
       if (ImGui::MenuItem("Fit", "F")) stage_.fit();
@@ -448,7 +466,7 @@ class AnimationWindow {
       const bool dual = stage_.look.blending == Blending::kDualQuaternions;
       if (ImGui::MenuItem("Dual quaternions", nullptr, dual))
         stage_.look.blending = dual ? Blending::kLinear : Blending::kDualQuaternions;
-      ImGui::EndMenu();
+      endMenu();
     }
     if (ImGui::MenuItem("Help")) help_ = !help_;
     ImGui::EndMenuBar();
@@ -656,7 +674,12 @@ class AnimationWindow {
     const TriangleMesh& mesh = document_.character().mesh;
     ImGui::TextDisabled("%d joints, %d bones", document_.jointCount(), boneCount(document_.skeleton()));
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6);
-    ImGui::TextDisabled("%d vertices, %d triangles", int(mesh.vertices.rows()), int(mesh.triangles.rows()));
+    const std::string size = std::to_string(mesh.vertices.rows()) + " vertices, " +
+                             std::to_string(mesh.triangles.rows()) + " triangles";
+    // As large as it fits.
+    ImGui::SetWindowFontScale(std::min(1.f, width / ImGui::CalcTextSize(size.c_str()).x));
+    ImGui::TextDisabled("%s", size.c_str());
+    ImGui::SetWindowFontScale(1);
     ImGui::PopStyleVar();
     ImGui::EndChild();
   }
@@ -696,7 +719,7 @@ class AnimationWindow {
       ImGui::PopStyleVar();
       groupStep();
       angles_held_ |= ImGui::IsItemActive();
-      tip("Drag, or double-click to type");
+      tip("Drag, or click to type");
       ImGui::PopID();
     }
     if (changed) document_.setAngles(joint, angles_deg_ * std::numbers::pi / 180);

@@ -106,10 +106,25 @@ std::string stemOfPose(const std::string& path) {
                                                         : name.rfind('.'));
 }
 
+// What is to be said of a person's motion for an animal.
+std::string otherBodyPlan(const RetargetedMotion& motion, const std::string& path,
+                          const RiggedCharacter& character) {
+  const std::optional<RoleFigure> figure = roleFigure(character.skeleton);
+  if (!figure || figure->skeleton.template_name == "biped" || motion.match.ours_left.empty()) return "";
+  return "is a " + figure->skeleton.template_name + ", " + path + " a biped's motion: it moves " +
+         std::to_string(motion.match.joints.size()) + " of " +
+         std::to_string(character.skeleton.joints.size()) + " joints (skel-animate retarget says which)";
+}
+
 Clip readClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source,
                  ClipNotes* notes) {
   const std::string ending = std::filesystem::path(path).extension().string();
-  if (isBvh(path)) return loadBvhFor(path, character, source).clip;
+  if (isBvh(path)) {
+    RetargetedMotion motion = loadBvhFor(path, character, source);
+    if (const std::string clause = otherBodyPlan(motion, path, character); notes && !clause.empty())
+      notes->of_character.push_back(clause);
+    return std::move(motion.clip);
+  }
   if (ending == ".glb" || ending == ".GLB")
     throw InputError(path, "is a character, no motion; write the clip that you want of it first, `" +
                                toolCommand("skel-animate") + " retarget CLIP --to " + shellWord(path) +

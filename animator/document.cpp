@@ -426,6 +426,17 @@ std::vector<std::string> AnimationDocument::unsavedClips() const {
   return names;
 }
 
+bool AnimationDocument::hasUnsavedPose() const {
+  const auto stands = [&](const Pose& pose) {
+    return pose.rotations.size() == state_.pose.rotations.size() &&
+           std::equal(pose.rotations.begin(), pose.rotations.end(), state_.pose.rotations.begin(),
+                      sameTurn) &&
+           state_.pose.root_translation.isApprox(pose.root_translation, 1e-6f);
+  };
+  return !stands(clip() ? samplePose(*clip(), skeleton(), float(state_.time_s)) : restPose(skeleton())) &&
+         !(saved_pose_ && stands(*saved_pose_));
+}
+
 std::string AnimationDocument::unsavedBelow(const std::string& path) const {
   try {
     const std::string name = loadClipFor(path, character(), library_).name;
@@ -503,6 +514,7 @@ bool AnimationDocument::loadPose(const std::string& path) {
     Pose pose = parsePose(readFile(path), path, skeleton());
     const StepScope step(*this);
     playing = false;
+    saved_pose_ = pose;
     state_.pose = std::move(pose);
     return "loaded " + path;
   });
@@ -511,6 +523,7 @@ bool AnimationDocument::loadPose(const std::string& path) {
 bool AnimationDocument::savePose(const std::string& path) {
   return attempt([&] {
     save(path, kPoseFileEnding, formatPose(state_.pose, skeleton()));
+    saved_pose_ = state_.pose;
     return "saved " + path;
   });
 }

@@ -6,6 +6,7 @@
 #include <future>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -116,6 +117,8 @@ class AnimationDocument {
 
   // Clips that move something and that no file holds as they are.
   std::vector<std::string> unsavedClips() const;
+  // Whether joints stand as neither the clip, or the rest pose, nor a file has them.
+  bool hasUnsavedPose() const;
   // That of them which loadClip() would replace; "": none.
   std::string unsavedBelow(const std::string& path) const;
 
@@ -171,6 +174,7 @@ class AnimationDocument {
   UndoHistory<AnimationState> history_{200};
   std::string message_;
   std::vector<Clip> saved_;            // as files hold them
+  std::optional<Pose> saved_pose_;     // the same of the last one
   std::set<std::string> given_names_;  // by newClip()
 };
 

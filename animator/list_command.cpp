@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "animator/load_character.h"
 #include "animator/rig_text.h"
 #include "libskel/animation/clip_library.h"
+#include "libskel/animation/joint_roles.h"
 #include "libskel/core/text.h"
 
 namespace skel {
@@ -41,11 +43,13 @@ ExitCode runList(const ListOptions& options) {
     }
     return ExitCode::kDone;
   }
-  const CharacterFile file = readGlb(options.file);
+  const CharacterFile file = loadModel(options.file);
   std::printf("clips of %s:\n", printable(options.file).c_str());
   for (const Clip& clip : file.clips) printClip(clip, "");
   std::printf("clips that fit:\n");
-  for (const Clip& clip : clipsFor(library, file.character)) printClip(clip, "");
+  const std::vector<Clip> fitting = clipsFor(library, file.character);
+  for (const Clip& clip : fitting) printClip(clip, "");
+  if (fitting.empty()) std::printf("  none: %s\n", printable(whyNoRoles(file.character.skeleton)).c_str());
   for (const Clip& clip : library)
     if (const std::string fault = isOwn(clip) ? faultOf(clip, file.character.skeleton) : std::string();
         !fault.empty())

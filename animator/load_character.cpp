@@ -10,6 +10,7 @@
 #include "libskel/animation/clip_library.h"
 #include "libskel/cli/number.h"
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/foreign_files.h"
 #include "libskel/core/sha256.h"
@@ -117,6 +118,13 @@ CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& cli
   skin.file = source.path;
   character.weights = computeSkinWeights(character.mesh, character.skeleton, SkinMethod::kGeodesic, skin);
   return file;
+}
+
+CharacterFile loadModel(const std::string& path) {
+  if (isDrawing({.path = path}))
+    throw InputError(path, "is a drawing; `skel-infer " + shellWord(path) + "` makes " +
+                               shellWord("out/" + stemOf(path) + ".glb") + " of it: name that");
+  return readGlb(path);
 }
 
 std::vector<Error> addLibrary(CharacterFile& file, const ClipSource& clips) {

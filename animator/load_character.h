@@ -49,6 +49,9 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
 CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& clips = {},
                             std::string* note = nullptr);
 
+// Of a .glb alone. Throws InputError, of a drawing one that says how to make a .glb of it.
+CharacterFile loadModel(const std::string& path);
+
 // Adds the motions of skel that fit it and whose names its own clips leave free. Those that it cannot do for
 // all that are returned, as what is wrong with each.
 std::vector<Error> addLibrary(CharacterFile& file, const ClipSource& clips = {});

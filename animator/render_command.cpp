@@ -10,6 +10,7 @@
 #include "animator/render_sheet.h"
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_library.h"
+#include "libskel/animation/joint_roles.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 #include "libskel/core/new_folders.h"
@@ -154,7 +155,8 @@ Cast cast(const RenderCommandOptions& options, const std::string& path) {
   file.name = stemOf(path);
   const auto [clips, left_out_code] = askedClips(options, file, path);
   if (clips.empty())
-    throw InputError(path, "can do no clip: it has none, and none that come with skel fit its joints");
+    throw InputError(path, "can do no clip: it has none, and none that come with skel fit its joints: " +
+                               whyNoRoles(file.character.skeleton));
   if (drawn) tell(*drawn, path, clips);
   noteStayingArms(options, file.character, path, clips, drawn ? std::vector<Clip>{} : file.clips);
   std::optional<RiggedDrawing> drawing;

@@ -34,8 +34,14 @@ CLI::Option* bindSheetOptions(CLI::App& app, CLI::Option* film, SheetOptions& op
                      "The frames in the .json: array, hash (by name), or aseprite (hash by number)")
           ->check(CLI::IsMember({"array", "hash", "aseprite"}))
           ->capture_default_str());
-  add(app.add_flag("--same-scale", options.same_scale,
+  CLI::Option* same_scale = add(
+      app.add_flag("--same-scale", options.same_scale,
                    "Of several drawings: a metre is as many pixels in all sheets, and all pivots are one"));
+  add(app.add_option("--like", options.like,
+                     "The .json of a sheet that is there: its size, scale and pivot are taken")
+          ->type_name("SHEET.json")
+          ->check(pickedFiles()))  // it may be made again
+      ->excludes(same_scale);
   add(app.add_flag("--trim", options.trim, "What is clear around a frame is cut off, frames lie close"));
   CLI::Option* pixels =
       add(app.add_flag("--pixels", options.pixels, "As pixel artists draw: no mixed colours, hard edges"));

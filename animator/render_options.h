@@ -25,6 +25,7 @@ struct SheetOptions {
   int most_frames = 0;  // a clip; 0: as many as the rate gives
   bool trim = false;
   bool same_scale = false;      // all characters of the run
+  std::string like;             // the .json of a sheet whose cell and scale are taken; or ""
   std::string atlas = "array";  // hash, aseprite
   bool pixels = false, outline = false;
   int palette = 0;  // colours; 0: as many as there are

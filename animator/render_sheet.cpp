@@ -1,11 +1,13 @@
 #include "animator/render_sheet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include "animator/film.h"
 #include "animator/in_place.h"
@@ -26,14 +28,28 @@ namespace skel {
 namespace {
 namespace fs = std::filesystem;
 
+std::string degreesText(double angle_deg) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%g", angle_deg);
+  return text.data();
+}
+
 struct Sheets {
   const RenderCommandOptions& options;
+  std::optional<SpriteCell> like;  // of --like
   PictureSize size;
   bool in_folder;
   SpriteExtent shared = {};  // of --same-scale
 
   explicit Sheets(const RenderCommandOptions& asked)
-      : options(asked), size(sizeOf(asked, {64, 64})), in_folder(asked.sheet.output.ends_with('/')) {
+      : options(asked),
+        like(cellLike(asked)),
+        size(like ? PictureSize{like->width, like->height} : sizeOf(asked, {64, 64})),
+        in_folder(asked.sheet.output.ends_with('/')) {
+    if (options.sheet.same_scale && options.files.size() == 1)
+      std::fprintf(stderr,
+                   "skel-animate: note: --same-scale does nothing for one drawing; --like SHEET.json takes "
+                   "the scale of a sheet that is there\n");
     const std::string& path = options.sheet.output;
     if (!in_folder && fs::path(path).extension() != ".png" && fs::path(path).extension() != ".PNG")
       throw UsageError(path + ": a sprite sheet is a .png, or a folder (a name that ends with /) of such");
@@ -42,6 +58,24 @@ struct Sheets {
     checkSheetSize({}, {size.width, size.height}, SpritePacking::kEven);
     if (!in_folder) noteNamedOutput(atlasOf(path));
     ensureWritableFolderOf(path);
+  }
+
+  // Throws UsageError where something else is asked for than that sheet has.
+  static std::optional<SpriteCell> cellLike(const RenderCommandOptions& asked) {
+    const std::string& path = asked.sheet.like;
+    if (path.empty()) return std::nullopt;
+    const LookAtOutputs it_may_be_made_again;
+    const SpriteCell cell = readSpriteCell(path);
+    const PictureSize size = sizeOf(asked, {cell.width, cell.height});
+    const auto refuse = [&](const char* option, const std::string& wanted, const std::string& there) {
+      throw UsageError(std::string(option) + " is " + wanted + ", in " + path + " it is " + there +
+                       ": leave --like out, or ask for " + option + " " + there);
+    };
+    if (size.width != cell.width || size.height != cell.height)
+      refuse("--size", asked.size, std::to_string(cell.width) + "x" + std::to_string(cell.height));
+    if (asked.pitch_deg != cell.pitch_deg)
+      refuse("--pitch", degreesText(asked.pitch_deg), degreesText(cell.pitch_deg));
+    return cell;
   }
 
   static std::string atlasOf(const std::string& sheet) {
@@ -132,8 +166,12 @@ struct Sheets {
       clips.push_back(std::move(moved.clip));
     }
     const SpriteExtent extent = options.sheet.same_scale ? shared : extentOf(file, clips);
-    const SpriteCamera camera =
-        spriteCamera(extent, pitch_rad(), size.width, size.height, options.sheet.outline ? 2 : 1);
+    const SpriteCamera camera = like ? spriteCamera(*like)
+                                     : spriteCamera(extent, options.pitch_deg, size.width, size.height,
+                                                    options.sheet.outline ? 2 : 1);
+    if (const int beyond = like ? beyondCell_px(extent, *like) : 0; beyond > 0)
+      std::fprintf(stderr, "%s: note: reaches %d px beyond the cell of %s, and is cut off there\n",
+                   printable(file.name).c_str(), beyond, printable(options.sheet.like).c_str());
     const SpritePacking packing = options.sheet.trim ? SpritePacking::kTrimmed : SpritePacking::kEven;
     const std::vector<SpriteTag> tags = tagsOf(clips, directions, camera.cell, packing);
     struct Moment {

@@ -82,7 +82,7 @@ ExitCode runRetarget(const RetargetCommandOptions& options) {
   if (!path.ends_with(".glb") && !path.ends_with(".bvh") && !path.ends_with(kClipFileEnding))
     throw UsageError(path + ": must end in .glb, .clip.json or .bvh");
   noteOutput(path);
-  CharacterFile file = readGlb(options.target);
+  CharacterFile file = loadModel(options.target);
   Clip clip = motionFor(options, file);
   if (!options.name.empty()) clip.name = printable(options.name);
   writeFile(path, encoded(path, std::move(file), clip));

@@ -1,7 +1,10 @@
 #include "animator/rig_source.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "libskel/core/error.h"
@@ -32,6 +35,50 @@ void checkSize(const TriangleMesh& mesh, const std::string& path) {
   if (!(size.maxCoeff() >= 1e-6f)) throw InputError(path, "is smaller than 1e-6; scale it to metres");
 }
 
+struct Extent {
+  Eigen::Vector3d low, high;
+  double longest() const { return (high - low).maxCoeff(); }
+};
+
+Extent extentOf(const TriangleMesh& mesh) {
+  return {mesh.vertices.colwise().minCoeff().transpose().cast<double>(),
+          mesh.vertices.colwise().maxCoeff().transpose().cast<double>()};
+}
+
+Extent extentOf(const Skeleton& skeleton) {
+  Extent extent{skeleton.joints[0].position, skeleton.joints[0].position};
+  const auto take = [&](const Eigen::Vector3d& point) {
+    extent.low = extent.low.cwiseMin(point), extent.high = extent.high.cwiseMax(point);
+  };
+  for (const Joint& joint : skeleton.joints) {
+    take(joint.position);
+    if (joint.tail) take(*joint.tail);
+  }
+  return extent;
+}
+
+std::string lengthText(double length) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.3g", length);
+  return text.data();
+}
+
+// Of a skeleton none of whose bones lies in the mesh: refused if it lies elsewhere, or has other units.
+void checkOverlap(const Skeleton& skeleton, const TriangleMesh& mesh, const std::string& path) {
+  constexpr double kOtherUnits = 5;
+  const Extent bones = extentOf(skeleton), model = extentOf(mesh);
+  const double ratio = bones.longest() > 0 ? model.longest() / bones.longest() : 1;
+  const bool apart =
+      (bones.low.array() > model.high.array()).any() || (bones.high.array() < model.low.array()).any();
+  const bool other_units = ratio > kOtherUnits || ratio < 1 / kOtherUnits;
+  if (!apart && !other_units) return;
+  throw InputError(
+      path, "does not overlap with the model: the skeleton's longest side is " + lengthText(bones.longest()) +
+                ", the model's " + lengthText(model.longest()) +
+                (other_units ? "; other units? Scale one of them by " + lengthText(std::max(ratio, 1 / ratio))
+                             : "; move one of them to the other"));
+}
+
 }  // namespace
 
 void bindRigSource(CLI::App& app, RigSource& source) {
@@ -52,9 +99,9 @@ Skeleton readSkeletonFor(const TriangleMesh& mesh, const std::string& path, cons
   if (isSkelFile(path)) {
     const std::string text = readFile(path);
     Skeleton skeleton = parseSkeletonFile(text, path, loadTemplate(templateOfSkeleton(text, path))).skeleton;
-    if (note)
-      *note =
-          printable(path) + ": " + percent(shareInside(skeleton, mesh)) + " of its bones lie in the model";
+    const double inside = shareInside(skeleton, mesh);
+    if (inside == 0) checkOverlap(skeleton, mesh, path);
+    if (note) *note = printable(path) + ": " + percent(inside) + " of its bones lie in the model";
     return skeleton;
   }
   std::string unused;
@@ -62,6 +109,7 @@ Skeleton readSkeletonFor(const TriangleMesh& mesh, const std::string& path, cons
   checkBindable(mesh, as_is.joints.size(), path);
   const double y = shareInside(as_is, mesh), z = shareInside(turned, mesh);
   const bool z_up = up == "z" || (up == "auto" && z > y);
+  if (y == 0 && z == 0) checkOverlap(z_up ? turned : as_is, mesh, path);
   if (note)
     *note = printable(path) + ": " + (z_up ? "z" : "y") + " is up" + (up == "auto" ? "" : " (--up)") + "; " +
             percent(z_up ? z : y) + " of its bones lie in the model, " + percent(z_up ? y : z) + " with " +

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "libskel/core/error.h"
+#include "libskel/core/json.h"
 #include "libskel/core/json_names.h"
 
 namespace skel {
@@ -55,8 +57,34 @@ std::string formatAtlas(const std::vector<Sprite>& sprites, const std::vector<Sp
                         {"size", sizeOf(sheet.picture.width, sheet.picture.height)},
                         {"scale", "1"},
                         {"frameTags", std::move(frame_tags)},
-                        {"slices", Json::array({slice})}}}};
+                        {"slices", Json::array({slice})},
+                        {"skel", {{"pxPerM", cell.px_per_m}, {"pitchDeg", cell.pitch_deg}}}}}};
   return atlas.dump(1) + "\n";
+}
+
+SpriteCell readSpriteCell(const std::string& path) {
+  const JsonDocument document = JsonDocument::readFile(path);
+  const JsonValue root = document.root();
+  const std::optional<JsonValue> meta = root.isObject() ? root.find("meta") : std::nullopt;
+  const std::optional<JsonValue> view = meta && meta->isObject() ? meta->find("skel") : std::nullopt;
+  if (!view)
+    throw InputError(path,
+                     "does not say how large a metre is in it: no sheet's .json of skel, or one of "
+                     "before; make the sheet again, without --like");
+  const auto only = [](const JsonValue& list) {
+    if (list.size() != 1) list.fail("must be one, as skel writes it");
+    return list.item(0);
+  };
+  const JsonValue key = only(only(meta->at("slices")).at("keys")), bounds = key.at("bounds"),
+                  pivot = key.at("pivot");
+  SpriteCell cell;
+  cell.width = bounds.at("w").asInt(1, kLongestCell_px);
+  cell.height = bounds.at("h").asInt(1, kLongestCell_px);
+  cell.pivot_x = pivot.at("x").asInt(-kLongestCell_px, kLongestCell_px);
+  cell.pivot_y = pivot.at("y").asInt(-kLongestCell_px, kLongestCell_px);
+  cell.px_per_m = view->at("pxPerM").asNumber(1e-6, 1e6);
+  cell.pitch_deg = view->at("pitchDeg").asNumber(-89, 89);
+  return cell;
 }
 
 }  // namespace skel

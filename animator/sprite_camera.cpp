@@ -74,19 +74,30 @@ SpriteExtent spriteExtent(const RiggedCharacter& character, const Eigen::MatrixX
   return extent;
 }
 
-SpriteCamera spriteCamera(const SpriteExtent& extent, double pitch_rad, int width, int height,
+SpriteCamera spriteCamera(const SpriteExtent& extent, double pitch_deg, int width, int height,
                           int margin_px) {
   const auto& [aside, low, high] = extent;
   // A pixel of the height is kept for the ground's whole number.
   const double px_per_m = std::min((width - 2.0 * margin_px) / (2 * aside),
                                    std::max(1.0, height - 2.0 * margin_px - 1) / (high - low));
+  const int pivot_y = int(std::floor(height - margin_px + low * px_per_m));
+  return spriteCamera({width, height, width / 2, pivot_y, px_per_m, pitch_deg});
+}
+
+SpriteCamera spriteCamera(const SpriteCell& cell) {
   SpriteCamera result;
-  result.cell = {width, height, width / 2, 0};
-  result.cell.pivot_y = int(std::floor(height - margin_px + low * px_per_m));
-  result.camera.pitch_rad = pitch_rad;
-  result.camera.view_height_m = height / px_per_m;
-  result.camera.distance_m = 50 * (high - low);
+  result.cell = cell;
+  result.camera.pitch_rad = cell.pitch_deg * kPi / 180;
+  result.camera.view_height_m = cell.height / cell.px_per_m;
+  result.camera.distance_m = 50 * result.camera.view_height_m;
   return result;
+}
+
+int beyondCell_px(const SpriteExtent& extent, const SpriteCell& cell) {
+  const double aside = extent.aside * cell.px_per_m - std::min(cell.pivot_x, cell.width - cell.pivot_x),
+               above = extent.high * cell.px_per_m - cell.pivot_y,
+               below = -extent.low * cell.px_per_m - (cell.height - cell.pivot_y);
+  return int(std::lround(std::max({0.0, aside, above, below})));
 }
 
 Camera turned(const SpriteCamera& sprites, const RiggedCharacter& character, double yaw_rad) {

@@ -36,7 +36,12 @@ struct SpriteCamera {
   SpriteCell cell;
   Camera camera;  // but for its yaw
 };
-SpriteCamera spriteCamera(const SpriteExtent& extent, double pitch_rad, int width, int height, int margin_px);
+SpriteCamera spriteCamera(const SpriteExtent& extent, double pitch_deg, int width, int height, int margin_px);
+
+// The same for a cell that is given. What reaches beyond it is not seen.
+SpriteCamera spriteCamera(const SpriteCell& cell);
+// How far that is, px; 0: all is seen.
+int beyondCell_px(const SpriteExtent& extent, const SpriteCell& cell);
 
 // Of one direction.
 Camera turned(const SpriteCamera& camera, const RiggedCharacter& character, double yaw_rad);

@@ -30,10 +30,18 @@ std::string keepAs(const std::string& path, const std::string& start, const std:
   return kept;
 }
 
+std::string whyNotTakenUp(const MendedFiles& files, const InferOptions& options) {
+  if (options.layers != "auto") return "--layers asks for others";
+  if (!options.model_file.empty()) return "--model is a body of its own";
+  if (files.earlier_result) return "the picture has changed";
+  if (!files.limbs.empty()) return fs::path(files.limbs).filename().string() + " comes first";
+  return "no skeleton file beside it says that it is of this figure";
+}
+
 }  // namespace
 
 std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& options,
-                                  const std::string& skeleton_path) {
+                                  const std::string& skeleton_path, const Image& image) {
   struct Result {
     const char *format, *ending, *start, *end;  // <stem><start>, a number, <end>: a drawing is none of them
   };
@@ -45,13 +53,15 @@ std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& 
   for (const Result& result : kResults) {
     const std::string path = stem + result.ending;
     if (!writes(options, result.format) || !contains(files.earlier, path)) continue;
-    all.push_back({path, keepAs(path, stem + result.start, result.end)});
+    const std::optional<SkeletonSource> source = sourceOfSkeleton(path);
+    all.push_back({path, keepAs(path, stem + result.start, result.end),
+                   source && source->image_width == image.width && source->image_height == image.height});
   }
   return all;
 }
 
-std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, const InferOptions& options,
-                                      const std::string& stem) {
+std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, const MendedFiles& files,
+                                      const InferOptions& options, const std::string& stem) {
   const std::string start = options.out_dir + "/" + stem, path = start + ".layers.png";
   std::error_code unknown;
   if (!writes(options, "layers") || options.force || contains(taken_up, path) ||
@@ -63,7 +73,8 @@ std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, 
   }
   const auto name = [](const std::string& file) { return fs::path(file).filename().string(); };
   const std::string shared = "painted by hand, not taken up and kept",
-                    what = name(path) + " (now " + name(keepAs(path, start + ".old", ".layers.png")) + ")";
+                    what = name(path) + " (now " + name(keepAs(path, start + ".old", ".layers.png")) +
+                           "), as " + whyNotTakenUp(files, options);
   return Note{shared + ": " + what, shared, what};
 }
 

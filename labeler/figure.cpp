@@ -58,8 +58,8 @@ std::shared_ptr<const Figure> figureOf(const Image& image, const MaskVersion* ma
   SilhouetteOptions options;
   options.figure = number;
   if (!mask) return figureOf(extractSilhouette(image, options), mlp);
-  Silhouette silhouette = silhouetteFromMask(mask->pixels, options);
-  if (!silhouette.found() && number > 1) silhouette = silhouetteFromMask(mask->pixels);
+  Silhouette silhouette = silhouetteFromMask(mask->pixels, image, options);
+  if (!silhouette.found() && number > 1) silhouette = silhouetteFromMask(mask->pixels, image);
   return figureOf(std::move(silhouette), mlp);
 }
 

@@ -165,7 +165,7 @@ FoundCandidates candidates(const py::object& image, const py::object& mask, int 
     SilhouetteOptions wanted;
     wanted.figure = figure;
     const Silhouette silhouette =
-        given ? silhouetteFromMask(*given, wanted) : extractSilhouette(picture, wanted);
+        given ? silhouetteFromMask(*given, picture, wanted) : extractSilhouette(picture, wanted);
     if (!silhouette.found()) throw InputError(source, silhouette.reason);
     const CandidateSet set = extractCandidates(silhouette, options);
     return candidatesOf(silhouette, set, features(set));

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <initializer_list>
 #include <string>
+#include <utility>
+
+#include "libskel/core/text.h"
 
 namespace skel {
 namespace {
@@ -381,6 +384,35 @@ JointRoles findJointRoles(const Skeleton& skeleton, const std::vector<Vector3d>&
   if (spine.size() > 2) set("body", spine[spine.size() / 2]);
   set("head", headOf(tree, chest, limbs));
   return roles;
+}
+
+std::string whyNoRoles(const Skeleton& skeleton) {
+  std::vector<PlainName> names;
+  for (const Joint& joint : skeleton.joints) names.push_back(plainName(joint.name));
+  constexpr std::array<std::string_view, 3> kArmRoles = {"shoulder", "elbow", "hand"},
+                                            kLegRoles = {"hip", "knee", "foot"};
+  std::vector<std::string> missing;
+  std::size_t found = 0;
+  const auto look = [&](Side side, const char* prefix,
+                        const std::initializer_list<std::string_view>(&wanted)[3],
+                        const std::array<std::string_view, 3>& roles) {
+    for (std::size_t part = 0; part < 3; ++part) {
+      const bool there = std::any_of(names.begin(), names.end(), [&](const PlainName& name) {
+        return name.side == side &&
+               std::find(wanted[part].begin(), wanted[part].end(), name.base) != wanted[part].end();
+      });
+      found += there;
+      if (!there) missing.push_back(prefix + std::string(roles[part]));
+    }
+  };
+  for (const auto& [side, prefix] : {std::pair(Side::kLeft, "left_"), std::pair(Side::kRight, "right_")}) {
+    look(side, prefix, kArm, kArmRoles);
+    look(side, prefix, kLeg, kLegRoles);
+  }
+  if (found == 0) return "neither the names of its joints nor their tree tell arms and legs, or four legs";
+  if (missing.empty()) return "its joints do not hang together as arms and legs on a trunk do";
+  return "no joint for " + joined(missing) +
+         "; an arm or a leg is three joints, the last one at hand or foot";
 }
 
 QuadrupedRoles findQuadrupedRoles(const Skeleton& skeleton) {

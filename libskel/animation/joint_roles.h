@@ -32,6 +32,9 @@ struct JointRoles {
 // joint, one a joint or empty. Roles that are not found are -1; without both legs or both arms, all are.
 JointRoles findJointRoles(const Skeleton& skeleton, const std::vector<Eigen::Vector3d>& tips = {});
 
+// Why there are no roles in a skeleton that has none, a clause: which joints of arms and legs it lacks.
+std::string whyNoRoles(const Skeleton& skeleton);
+
 struct RoleJoint {
   std::string role;  // a joint of our quadruped template
   int joint;

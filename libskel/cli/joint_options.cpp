@@ -31,7 +31,8 @@ ExportOptions exportOptions(const std::string& name, const JointOptions& options
 
 std::string namingNote(const Skeleton& skeleton, const JointOptions& options) {
   if (namesFit(skeleton, kNamingNames.at(options.naming))) return "";
-  return "the joints keep their names: --names " + options.naming + " is for bipeds";
+  return "the joints keep their names: --names " + options.naming +
+         " is for bipeds whose joints are called as skel's are (pelvis, left_elbow ...)";
 }
 
 }  // namespace skel

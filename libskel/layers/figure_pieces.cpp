@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <optional>
 
 #include "libskel/candidates/candidates.h"
@@ -260,6 +261,14 @@ void giveAway(const Plane8& figure, const PixelBox& box, std::vector<Draft>& dra
 }
 
 }  // namespace
+
+int loosePixels(const LayerMap& layers, int limb) {
+  if (!layers.any()) return 0;
+  const MaskParts parts = maskParts((layers.limb == std::uint8_t(limb)).cast<std::uint8_t>());
+  return parts.size.empty() ? 0
+                            : int(std::accumulate(parts.size.begin(), parts.size.end(), std::int64_t(0)) -
+                                  parts.size[std::size_t(parts.largest())]);
+}
 
 std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& silhouette,
                                       const Skeleton& skeleton, const SkeletonTemplate& body_plan) {

@@ -43,7 +43,7 @@ std::string lastThatFits(const std::string& results, const MendRequest& request)
     const std::string path = numberedName(results + kEarlierSkeletonStart, kEarlierSkeletonEnd, number);
     if (std::error_code unknown; !fs::is_regular_file(path, unknown)) return fitting;
     const std::optional<SkeletonSource> source = sourceOfSkeleton(path);
-    if (source && source->number == request.figure && source->image_sha256 == request.image_sha256)
+    if (source && source->number == request.figure && request.isOfPicture(source->image_sha256))
       fitting = path;
   }
 }
@@ -60,19 +60,18 @@ std::string earlierThatFits(const std::vector<MendPlace>& places, const MendRequ
 
 void leaveOutEarlier(MendedFiles& files, const MendRequest& request,
                      const std::optional<SkeletonSource>& result) {
-  const std::string& image_sha256 = request.image_sha256;
-  const bool changed = result && !result->image_sha256.empty() && result->image_sha256 != image_sha256;
+  const bool changed = result && !result->image_sha256.empty() && !request.isOfPicture(result->image_sha256);
 
   const bool found_labels = files.labels != request.skeleton, found_mask = files.mask != request.mask;
   const std::string mask_sha256 = found_mask ? sha256(readFile(files.mask)) : "";
   const std::optional<LabelFile> labels = labelsIn(found_labels ? files.labels : "");
   const bool are_of_mask = labels && found_mask && labels->mask && labels->mask->sha256 == mask_sha256;
-  if (labels && labels->image.sha256 != image_sha256 && (labels->mask || labels->hasPlacedJoint())) {
+  if (labels && !request.isOfPicture(labels->image.sha256) && (labels->mask || labels->hasPlacedJoint())) {
     leaveOut(files.labels, files);
     if (are_of_mask) leaveOut(files.mask, files);
   }
   // A person who has saved labels of the new picture has seen the mask on it.
-  const bool seen = are_of_mask && labels->image.sha256 == image_sha256;
+  const bool seen = are_of_mask && request.isOfPicture(labels->image.sha256);
   files.mask_before = changed && found_mask && !files.mask.empty() && !seen && result->mask &&
                       result->mask->sha256 == mask_sha256;
   files.limbs_before = changed && !files.limbs.empty() && files.limbs != request.limbs;
@@ -107,7 +106,9 @@ std::optional<Note> earlierNote(const MendedFiles& files, const std::vector<Kept
   for (const std::string& file : files.earlier) {
     names.push_back(fileName(file));
     for (const KeptFile& one : kept)
-      if (one.was == file) names.back() += " (now " + fileName(one.is) + ")";
+      if (one.was == file)
+        names.back() += " (now " + fileName(one.is) +
+                        (one.may_be_named ? "; --skeleton " + shellWord(one.is) + " takes it up" : "") + ")";
   }
   const std::string shared = "mended for an earlier picture of this name, not taken up for this one";
   return Note{shared + ": " + joined(names), shared, joined(names)};

@@ -32,7 +32,8 @@ std::vector<const char*> warningsOfEarlier(const MendedFiles& files);
 
 // A result that has another name now.
 struct KeptFile {
-  std::string was, is;  // paths
+  std::string was, is;        // paths
+  bool may_be_named = false;  // a skeleton of a picture of this size
 };
 
 // Which files were left out; nothing where none was.

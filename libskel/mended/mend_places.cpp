@@ -23,7 +23,7 @@ void judge(MendPlace& place, const MendRequest& request) {
   if (!place.result) return;
   const bool knows_picture = !place.result->image_sha256.empty();
   const bool of_drawing = place.is_own || isOfDrawing(*place.result, place.results, request.source);
-  place.is_of_picture = knows_picture ? place.result->image_sha256 == request.image_sha256 : of_drawing;
+  place.is_of_picture = knows_picture ? request.isOfPicture(place.result->image_sha256) : of_drawing;
   place.is_earlier = of_drawing && !place.is_of_picture;
 }
 

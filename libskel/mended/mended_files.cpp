@@ -36,10 +36,10 @@ std::string backIn(const MendPlace& place) {
 }
 
 // Not of a file that cannot be read.
-bool areOfPicture(const std::string& labels, const std::string& image_sha256) {
+bool areOfPicture(const std::string& labels, const MendRequest& request) {
   if (ifThere(labels).empty()) return false;
   try {
-    return readLabelFile(labels).image.sha256 == image_sha256;
+    return request.isOfPicture(readLabelFile(labels).image.sha256);
   } catch (const InputError&) {
     return false;
   }
@@ -141,6 +141,7 @@ MendedFiles mendedFiles(const MendRequest& request) {
   const std::vector<MendPlace> places = mendPlaces(request);
   std::string painted, painted_layers;
   for (const MendPlace& place : places) {
+    if (place.is_earlier && !files.earlier_result) files.earlier_result = place.result;
     const bool made = place.is_beside ? !annotated : place.is_of_picture;
     if (made && no_mask && no_skeleton && first)
       offer(files.mask, place.made + ".mask.png", sameBytes, files);
@@ -150,7 +151,7 @@ MendedFiles mendedFiles(const MendRequest& request) {
       offer(files.back, backIn(place), sameBytes, files);
     const std::string labels = place.made + kLabelFileEnding;
     if (no_skeleton && first && !(place.is_beside && annotated) &&
-        (place.is_beside || areOfPicture(labels, request.image_sha256)))
+        (place.is_beside || areOfPicture(labels, request)))
       offer(files.labels, labels, sameBytes, files);
     if (place.results.empty() || (place.is_beside && annotated && !place.is_own)) continue;
     if (const std::string skeleton = place.results + kSkeletonFileEnding;

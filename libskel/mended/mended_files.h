@@ -16,15 +16,20 @@ namespace skel {
 
 // A figure of a drawing, and what the user has named for it. Paths; "": there is none.
 struct MendRequest {
-  std::string source;          // the drawing
-  std::string image_sha256;    // of its bytes
-  std::string results;         // where this run writes, without endings; "": nowhere
-  int figure = 1;              // 1 is the largest
-  bool is_one_of_all = false;  // all figures of the drawing are rigged
-  std::string skeleton;        // a .skeleton.json as it stands, or all joints of a .labels.json
+  std::string source;                 // the drawing
+  std::string image_sha256;           // of its bytes
+  std::string recolored_sha256 = {};  // of a picture before with the very same figure; "": none is known
+  std::string results;                // where this run writes, without endings; "": nowhere
+  int figure = 1;                     // 1 is the largest
+  bool is_one_of_all = false;         // all figures of the drawing are rigged
+  std::string skeleton;               // a .skeleton.json as it stands, or all joints of a .labels.json
   std::string mask, limbs, back;
   bool finds_limbs = true, finds_back = true;  // where none are named
   bool takes_up = true;                        // what nobody has named
+
+  bool isOfPicture(const std::string& sha256) const {
+    return sha256 == image_sha256 || (!recolored_sha256.empty() && sha256 == recolored_sha256);
+  }
 };
 
 // Paths; "": there is none.
@@ -43,10 +48,11 @@ struct MendedFiles {
   std::vector<PassedOver> passed_over;
 
   // A photo that was taken again has the name of the one before.
-  std::vector<std::string> earlier;  // files made for that one: not among those above
-  std::string fits_again;            // a skeleton that was kept and is of this picture
-  bool mask_before = false;          // the mask was there before the picture changed
-  bool limbs_before = false;         // the limbs may have been
+  std::optional<SkeletonSource> earlier_result;  // what was found in that one
+  std::vector<std::string> earlier;              // files made for that one: not among those above
+  std::string fits_again;                        // a skeleton that was kept and is of this picture
+  bool mask_before = false;                      // the mask was there before the picture changed
+  bool limbs_before = false;                     // the limbs may have been
 };
 
 // Those that are named, and what a person has left in the folders of mend_places.h, of each kind the first:

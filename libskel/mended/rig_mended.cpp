@@ -43,6 +43,19 @@ SkeletonFile::Mask useMask(const MendRequest& request, const MendedFiles& mended
   return {path, sha256(readFile(path))};
 }
 
+// The request as it is where an earlier picture of this size shows the very same figure in other colours.
+MendRequest knowingRecolored(MendRequest request, const SkeletonSource& earlier, const Image& image,
+                             SilhouetteOptions options) {
+  if (earlier.number != request.figure || earlier.outline_sha256.empty() || earlier.mask ||
+      earlier.image_width != image.width || earlier.image_height != image.height)
+    return request;
+  options.figure = std::max(request.figure, 1);
+  const Silhouette silhouette = extractSilhouette(image, options);
+  if (silhouette.found() && outlineHash(silhouette) == earlier.outline_sha256)
+    request.recolored_sha256 = earlier.image_sha256;
+  return request;
+}
+
 // The joints must be this figure's. `file`: where they are from.
 void checkJoints(const Skeleton& skeleton, const std::string& file, int figure, const Plane8& mask) {
   const Joint* stray = jointFarOutside(skeleton, mask);
@@ -53,6 +66,20 @@ void checkJoints(const Skeleton& skeleton, const std::string& file, int figure, 
 
 constexpr const char* kOutlineChanged =
     "the figure is not outlined as it was when the joints were found: look at them";
+
+// Of limbs that were painted in pieces.
+std::vector<std::string> looseLimbs(const RiggedDrawing& drawing) {
+  constexpr double kSpecks = .02;  // of the limb: less is the brush's
+  std::vector<std::string> warnings;
+  for (int limb = 1; limb <= int(drawing.body_plan.limbs.size()); ++limb) {
+    const int loose = loosePixels(drawing.layers, limb);
+    if (loose == 0 || loose < kSpecks * double((drawing.layers.limb == limb).count())) continue;
+    warnings.push_back(std::to_string(loose) + " px painted as the " + limbName(drawing.body_plan, limb) +
+                       " are not joined to the rest of it and stay with the body: look at them (skel-label "
+                       "FILE, key G)");
+  }
+  return warnings;
+}
 
 // What to say of a figure whose joints were given.
 std::vector<std::string> warningsOf(const SkeletonFile& given, const RiggedDrawing& drawing, bool own_mask) {
@@ -103,6 +130,8 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
   MendedRig result;
   MendedFiles& mended = result.files;
   mended = mendedFiles(request);
+  if (mended.earlier_result)
+    mended = mendedFiles(knowingRecolored(request, *mended.earlier_result, input.image, rig.silhouette));
   leaveOutOtherSizes(mended, input.image);
   PlacedJoints& placed = result.placed;
   placed = placedJoints(mended, request, rig, input.image);
@@ -145,6 +174,8 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
         placed.outline_sha256 != result.outline_sha256)
       result.warnings.push_back(kOutlineChanged);
   }
+  if (!mended.limbs.empty())
+    for (std::string& warning : looseLimbs(drawing)) result.warnings.push_back(std::move(warning));
   for (const char* warning : warningsOfEarlier(mended)) result.warnings.emplace_back(warning);
   return result;
 }

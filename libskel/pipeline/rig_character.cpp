@@ -261,13 +261,12 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
   const Change image_change = own_view ? stage.of(&M::front_view) : stage.of(RigPart::kImage);
   const Change mask_change = own_view ? stage.of(&M::front_view) : stage.of(RigPart::kMask);
 
-  drawing.silhouette =
-      stage("silhouette", &M::silhouette,
-            {input.mask ? 0 : image_change, mask_change, stage.of(RigPart::kSilhouetteOptions)}, [&] {
-              if (input.mask) return silhouetteFromMask(*input.mask, options.silhouette);
-              return input.figures ? input.figures->take(input.image, options.silhouette.figure)
-                                   : extractSilhouette(input.image, options.silhouette);
-            });
+  drawing.silhouette = stage(
+      "silhouette", &M::silhouette, {image_change, mask_change, stage.of(RigPart::kSilhouetteOptions)}, [&] {
+        if (input.mask) return silhouetteFromMask(*input.mask, input.image, options.silhouette);
+        return input.figures ? input.figures->take(input.image, options.silhouette.figure)
+                             : extractSilhouette(input.image, options.silhouette);
+      });
   drawing.image = std::move(input.image);
   if (!drawing.found()) return drawing;
   if (const auto doubt = silhouetteDoubt(drawing.silhouette, builtInSilhouetteConfidence()))

@@ -74,7 +74,7 @@ Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
   }
   recognition.confidence = sure.figure;
   recognition.likeness = tree.likeness;
-  if (shareCutOff(silhouette.mask, grid) > kCutOff)
+  if (!silhouette.clear_around && shareCutOff(silhouette.mask, grid) > kCutOff)
     recognition.likeness = std::min(recognition.likeness, kNotWhole);
   // Where there is no figure nobody can be sure of its joints.
   if (recognition.likeness < kHardlyOne) recognition.confidence = std::min(recognition.confidence, kNotWhole);

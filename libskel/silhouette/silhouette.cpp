@@ -61,6 +61,7 @@ struct Cut {
   std::vector<JoinedFigure> figures = {};  // the largest first
   Eigen::Index height = 0, width = 0;
   bool close_slits = false;
+  bool clear_around = false;
   std::string reason;  // why there are none
   std::optional<SeenPage> seen = std::nullopt;
 };
@@ -70,6 +71,7 @@ Cut cutOut(const Plane8& foreground, int min_long_side, const PieceOptions& piec
           foreground.rows(),
           foreground.cols(),
           pieces.close_slits,
+          false,
           "",
           std::nullopt};
   if (cut.figures.empty())
@@ -99,7 +101,8 @@ Silhouette finish(const Cut& cut, const SilhouetteOptions& options) {
     out.warnings.push_back("the picture shows " + std::to_string(out.figure_count) +
                            " figures; the largest is taken (choose another with --figure)");
   }
-  out.cut_sides = cutSides(out.mask);
+  out.clear_around = cut.clear_around;
+  if (!out.clear_around) out.cut_sides = cutSides(out.mask);
   if (!out.cut_sides.empty())
     out.warnings.push_back("the figure is cut by the border of the picture (" + out.cut_sides + ")");
   if (cut.seen) out.evidence = evidenceOfMask(out.mask, *cut.seen);
@@ -195,12 +198,18 @@ Cut cutOfLines(const Image& image, const SilhouetteOptions& options) {
     std::copy_n(image.pixel(0, y), 4 * image.width, wide.pixel(margin, margin + y));
   const Segmentation segmentation = segment(laidOnPaper(std::move(wide)), options.page_net.get());
   if (!segmentation.reason.empty()) return {.reason = segmentation.reason};
-  return cutOut(segmentation.foreground.block(margin, margin, image.height, image.width),
-                leastLongSide(image), piecesOnPaper());
+  Cut cut = cutOut(segmentation.foreground.block(margin, margin, image.height, image.width),
+                   leastLongSide(image), piecesOnPaper());
+  cut.clear_around = true;
+  return cut;
 }
 
 Cut cutByAlpha(const Image& image, const AlphaMask& alpha, const SilhouetteOptions& options) {
-  if ((alpha.opaque != 0).any()) return cutOut(alpha.opaque, kMinLongSide);
+  if ((alpha.opaque != 0).any()) {
+    Cut cut = cutOut(alpha.opaque, kMinLongSide);
+    cut.clear_around = true;
+    return cut;
+  }
   return {.reason = image.rgba.col(3).maxCoeff() > 0 && options.alpha
                         ? "nothing in the picture is as opaque as --alpha asks for"
                         : "the picture is fully transparent"};
@@ -222,7 +231,10 @@ Silhouette FigureFinder::take(const Image& image, int figure) {
   if (!found_) found_ = std::make_unique<Found>();
   if (options_.method == SilhouetteMethod::kPaper) {
     options_.fill_holes = true;
-    if (!found_->all) found_->all = cutOut(paperForeground(image), leastLongSide(image));
+    if (!found_->all) {
+      found_->all = cutOut(paperForeground(image), leastLongSide(image));
+      found_->all->clear_around = alphaMask(image).meaningful;
+    }
     return finish(*found_->all, options_);
   }
   if (!found_->lines && !found_->all) {
@@ -256,16 +268,30 @@ SilhouetteSteps silhouetteSteps(const Image& image) {
   return segment(image, nullptr, true).steps;
 }
 
-Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options) {
+namespace {
+
+Silhouette silhouetteOfMask(const Plane8& mask, bool clear_around, const SilhouetteOptions& options) {
   if (mask.size() == 0) return noFigure("the mask is empty");
   const Eigen::Index w = mask.cols(), h = mask.rows();
   Plane8 figures = (mask >= 128).select(Plane8::Constant(h, w, 255), Plane8::Zero(h, w));
   PieceOptions pieces;
   pieces.leave_ground = false;
   pieces.widest_gap = 0.16;
-  Silhouette out = finish(cutOut(figures, kMinLongSide, pieces), options);
+  Cut cut = cutOut(figures, kMinLongSide, pieces);
+  cut.clear_around = clear_around;
+  Silhouette out = finish(cut, options);
   if (!out.found() && out.reason == "the picture is blank") out.reason = "the mask is blank";
   return out;
+}
+
+}  // namespace
+
+Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options) {
+  return silhouetteOfMask(mask, false, options);
+}
+
+Silhouette silhouetteFromMask(const Plane8& mask, const Image& image, const SilhouetteOptions& options) {
+  return silhouetteOfMask(mask, !image.empty() && alphaMask(image).meaningful, options);
 }
 
 std::string outlineHash(const Silhouette& silhouette) {

@@ -41,8 +41,9 @@ struct Silhouette {
   SilhouetteStatus status = SilhouetteStatus::kNoFigure;
   std::string reason;                 // why there is none, one clause
   std::vector<std::string> warnings;  // e.g. other figures in the picture, the figure cut by the border
-  std::string cut_sides;              // of the picture, by which the figure is cut: "left, bottom"
-  bool is_sheet = false;              // the sheet itself was probably taken for the figure
+  bool clear_around = false;  // the picture is clear beside the figure: its border cuts nothing, only crops
+  std::string cut_sides;      // of the picture, by which the figure is cut: "left, bottom"
+  bool is_sheet = false;      // the sheet itself was probably taken for the figure
 
   std::optional<MaskEvidence> evidence;  // of pages that are not tidy
 
@@ -101,5 +102,8 @@ std::string outlineHash(const Silhouette& silhouette);
 // From a mask given by hand (255 on the figure): cleaned, the chosen figure taken, scaled to the grid.
 // `options.method` does not matter.
 Silhouette silhouetteFromMask(const Plane8& mask, const SilhouetteOptions& options = {});
+
+// The same of a mask of this picture, whose transparency tells whether its border can cut the figure.
+Silhouette silhouetteFromMask(const Plane8& mask, const Image& image, const SilhouetteOptions& options = {});
 
 }  // namespace skel

@@ -22,7 +22,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kSkeletonVersion = 4;         // 3: without `found`
 constexpr std::size_t kMostWarnings = 100;  // all are shown, each once; skel gives a handful
-constexpr double kUnmoved_px = 0.005;       // files keep hundredths of a pixel
+constexpr int kLongestImageSide_px = 1'000'000;
+constexpr double kUnmoved_px = 0.005;  // files keep hundredths of a pixel
 
 std::vector<std::string> textsAt(const JsonValue& value, std::size_t most) {
   if (value.size() > most)
@@ -181,8 +182,8 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
   const JsonValue image = root.at("image");
   image.allowOnly({"file", "width", "height", "sha256"});
   file.image_file = image.at("file").asFileName();
-  file.image_width = image.at("width").asInt(1, 1'000'000);
-  file.image_height = image.at("height").asInt(1, 1'000'000);
+  file.image_width = image.at("width").asInt(1, kLongestImageSide_px);
+  file.image_height = image.at("height").asInt(1, kLongestImageSide_px);
   if (const auto hash = image.find("sha256")) file.image_sha256 = hash->asString();
   if (const auto figure = root.find("figure")) file.figure = figureAt(*figure);  // not in version 1
   checkTemplate(root.at("template"), body_plan.name);
@@ -219,8 +220,11 @@ std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path) {
     const JsonValue root = document.root();
     root.checkFormat("skel-skeleton", kSkeletonVersion);
     SkeletonSource source;
-    source.image_file = root.at("image").at("file").asFileName();
-    if (const auto hash = root.at("image").find("sha256")) source.image_sha256 = hash->asString();
+    const JsonValue image = root.at("image");
+    source.image_file = image.at("file").asFileName();
+    source.image_width = image.at("width").asInt(1, kLongestImageSide_px);
+    source.image_height = image.at("height").asInt(1, kLongestImageSide_px);
+    if (const auto hash = image.find("sha256")) source.image_sha256 = hash->asString();
     if (const auto json = root.find("figure")) {
       const SkeletonFile::Figure figure = figureAt(*json);
       source.outline_sha256 = figure.sha256;

@@ -58,7 +58,8 @@ std::string templateOfSkeleton(std::string_view text, const std::string& path);
 struct SkeletonSource {
   std::string image_file;  // a path relative to the skeleton file
   std::string image_sha256, outline_sha256;
-  int number = 1;  // of the figure
+  int image_width = 0, image_height = 0;  // px
+  int number = 1;                         // of the figure
   std::optional<SkeletonFile::Mask> mask;
 };
 

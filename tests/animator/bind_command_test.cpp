@@ -129,6 +129,57 @@ TEST_CASE("the up axis of a skeleton is found by where it lies, or given") {
   CHECK(says("z.json --up y").find("z.json: y is up (--up); 0 % of its bones lie in the model") == 0);
 }
 
+TEST_CASE("a skeleton in other units than the model was bound with none of its bones in it") {
+  const TempDir dir;
+  writeFile(dir.file("m.obj"), kTetrahedron);
+  const auto bone_from = [&](const std::string& head, const std::string& tail) {
+    writeFile(dir.file("rig.json"),
+              rig("{\"name\": \"a\", \"head\": " + head + ", \"tail\": " + tail + ", \"parent\": null}"));
+    return animate(dir, "bind m.obj -o m.glb --skeleton rig.json");
+  };
+  expect(bone_from("[0, 20, 0]", "[0, 100, 0]"), 2,
+         "rig.json: does not overlap with the model: the skeleton's longest side is 80, the model's 2; other "
+         "units? Scale one of them by 40\n");
+  expect(bone_from("[0, 7, 7]", "[0, 8, 7]"), 2, "the model's 2; move one of them to the other\n");
+  CHECK_FALSE(fs::exists(dir.file("m.glb")));
+  CHECK(bone_from("[0, 0.2, 0]", "[0, 1, 0]").exit_code == 0);
+}
+
+TEST_CASE("of a skeleton whose arms and legs are two bones each nobody said why no clip fits it") {
+  const TempDir dir;
+  writeFile(dir.file("m.obj"), kTetrahedron);
+  std::string joints = bone("Hips", "null", "[0, 0.6, 0]") + "," + bone("Spine", "\"Hips\"", "[0, 1, 0]");
+  for (const std::string side : {"L", "R"}) {
+    const std::string x = side == "L" ? "0." : "-0.", of_side = "." + side;
+    joints += "," + bone("UpperArm" + of_side, "\"Spine\"", "[" + x + "1, 1.2, 0]") + "," +
+              bone("LowerArm" + of_side, "\"UpperArm" + of_side + "\"", "[" + x + "2, 1.1, 0]") + "," +
+              bone("UpperLeg" + of_side, "\"Hips\"", "[" + x + "1, 0.5, 0]") + "," +
+              bone("LowerLeg" + of_side, "\"UpperLeg" + of_side + "\"", "[" + x + "1, 0.3, 0]");
+  }
+  writeFile(dir.file("rig.json"), rig(joints));
+  const ToolRun bound = animate(dir, "bind m.obj --skeleton rig.json --names mixamo -o m.glb");
+  REQUIRE(bound.exit_code == 0);
+  CHECK(bound.out.find("the joints keep their names: --names mixamo is for bipeds whose joints are called as "
+                       "skel's are (pelvis, left_elbow ...)\n") != std::string::npos);
+  const std::string why =
+      ": no joint for left_hand, left_foot, right_hand, right_foot; an arm or a leg is three joints, the "
+      "last "
+      "one at hand or foot\n";
+  CHECK(animate(dir, "list m.glb").out.find("clips that fit:\n  none" + why) != std::string::npos);
+  expect(animate(dir, "render m.glb --clip all -o films/"), 2,
+         "none that come with skel fit its joints" + why);
+}
+
+TEST_CASE("a person's motion moved an animal without a word") {
+  const TempDir dir;
+  REQUIRE(animate(dir, "bind '" + kElk + "' --skeleton '" + kBones + "' -o elk.glb").exit_code == 0);
+  const std::string motion = SKEL_SOURCE_DIR "/tests/data/motions/rokoko.bvh";
+  const ToolRun run = animate(dir, "render elk.glb --clip '" + motion + "' --fps 2 --size 32 -o elk.gif");
+  CHECK(run.exit_code == 0);
+  CHECK(run.err.find("elk.glb: note: is a quadruped, " + motion + " a biped's motion: it moves ") !=
+        std::string::npos);
+}
+
 TEST_CASE("bad skeletons are refused with the place in them, and nothing is written") {
   const TempDir dir;
   writeFile(dir.file("m.obj"), kTetrahedron);

@@ -470,6 +470,35 @@ TEST_CASE("clips that no file holds are known, and a save, a load or undo change
   CHECK(document.unsavedClips().empty());
 }
 
+TEST_CASE("joints that were turned and have no key were lost without a question") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const int head = document.skeleton().index("head");
+  CHECK_FALSE(document.hasUnsavedPose());
+  document.turnJoint(head, 0, kQuarter);
+  CHECK(document.hasUnsavedPose());
+  SECTION("a saved pose is not lost, one that is turned on is") {
+    REQUIRE(document.savePose(dir.file("bow.pose.json")));
+    CHECK_FALSE(document.hasUnsavedPose());
+    document.turnJoint(head, 0, kQuarter / 2);
+    CHECK(document.hasUnsavedPose());
+    REQUIRE(document.loadPose(dir.file("bow.pose.json")));
+    CHECK_FALSE(document.hasUnsavedPose());
+  }
+  SECTION("nor is a key") {
+    document.newClip("bow", 1);
+    CHECK_FALSE(document.hasUnsavedPose());
+    document.turnJoint(head, 0, kQuarter);
+    CHECK(document.hasUnsavedPose());
+    document.setKey();
+    CHECK_FALSE(document.hasUnsavedPose());
+  }
+  SECTION("nor what undo takes back") {
+    document.undo();
+    CHECK_FALSE(document.hasUnsavedPose());
+  }
+}
+
 TEST_CASE("a clip is called as its file, unless somebody has named it, and names are free") {
   const TempDir dir;
   AnimationDocument document({.path = figureFile(dir)});

@@ -54,6 +54,17 @@ TEST_CASE("list names the clips there are, and those of a character with its joi
   checkFails("list --clips-dir " + dir.file("none"), 2, dir.file("none") + ": is not a folder");
 }
 
+TEST_CASE("a drawing in place of a model was called no GLB file, and not what to do") {
+  const std::string drawing = SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png";
+  for (const std::string& call :
+       {"list " + drawing, "retarget cheer --to " + drawing + " -o /dev/null.glb"}) {
+    const ToolRun run = runTool("skel-animate " + call);
+    CHECK(run.exit_code == 2);
+    CHECK(run.err == "skel-animate: " + drawing + ": is a drawing; `skel-infer " + drawing +
+                         "` makes out/cap_boy.glb of it: name that\n");
+  }
+}
+
 TEST_CASE("a list shows each joint below the one that carries it, in whatever order they come") {
   Skeleton skeleton;
   for (const auto& [name, parent] : {std::pair("pelvis", -1), {"tail", 0}, {"body", 0}, {"tail_end", 1}})

@@ -435,8 +435,10 @@ TEST_CASE("all clips of a model that can do none are no film and no sheet withou
   for (const std::string& output : {"--sheet " + dir.file("s.png"), "-o " + dir.file("films/")}) {
     const ToolRun run = render(model + " --clip all " + output);
     CHECK(run.exit_code == 2);
-    CHECK(run.err == "skel-animate: " + model +
-                         ": can do no clip: it has none, and none that come with skel fit its joints\n");
+    CHECK(run.err ==
+          "skel-animate: " + model +
+              ": can do no clip: it has none, and none that come with skel fit its joints: neither "
+              "the names of its joints nor their tree tell arms and legs, or four legs\n");
   }
 }
 

@@ -245,6 +245,63 @@ TEST_CASE("sheets of one run have one scale and one pivot where that is asked fo
   CHECK(dog < alone);
 }
 
+TEST_CASE(
+    "a sheet that was made another day had another scale, and --same-scale of one drawing said nothing") {
+  const TempDir dir;
+  const std::string sheets = dir.file("sheets/");
+  REQUIRE(render(kDrawing + " " + kDog +
+                 " --clips idle --frames 2 --pitch 20 --size 48x40 --same-scale --sheet " + sheets)
+              .exit_code == 0);
+  const std::string picture = readFile(sheets + "cap_boy.png"), atlas = readFile(sheets + "cap_boy.json");
+  const std::string of_idle = kDrawing + " --clips idle --frames 2 --pitch 20";
+  const auto isAsBefore = [&](const std::string& arguments, const std::string& sheet) {
+    const ToolRun run = render(of_idle + arguments);
+    CHECK(run.err == "");
+    CHECK(run.exit_code == 0);
+    CHECK(readFile(sheet) == picture);
+  };
+  isAsBefore(" --like " + sheets + "walking_dog.json --sheet " + dir.file("cap_boy.png"),
+             dir.file("cap_boy.png"));
+  CHECK(readFile(dir.file("cap_boy.json")) == atlas);
+  isAsBefore(" --size 48x40 --like " + sheets + "cap_boy.json --sheet " + sheets, sheets + "cap_boy.png");
+  CHECK(readFile(sheets + "cap_boy.json") == atlas);
+
+  const ToolRun alone = render(of_idle + " --same-scale --sheet " + dir.file("alone.png"));
+  CHECK(alone.exit_code == 0);
+  CHECK(
+      alone.err ==
+      "skel-animate: note: --same-scale does nothing for one drawing; --like SHEET.json takes the scale of a "
+      "sheet that is there\n");
+
+  Json narrow = Json::parse(atlas);
+  narrow["meta"]["skel"]["pxPerM"] = 40;
+  writeFile(dir.file("narrow.json"), narrow.dump());
+  const ToolRun cut =
+      render(of_idle + " --like " + dir.file("narrow.json") + " --sheet " + dir.file("cut.png"));
+  CHECK(cut.exit_code == 0);
+  CHECK_THAT(cut.err, Contains("cap_boy: note: reaches ") && Contains(" px beyond the cell of "));
+
+  narrow["meta"].erase("skel");
+  writeFile(dir.file("old.json"), narrow.dump());
+  const std::string to = " --sheet " + dir.file("none.png") + " --like ";
+  const ToolRun old = render(of_idle + to + dir.file("old.json"));
+  CHECK(old.exit_code == 2);
+  CHECK_THAT(old.err, Contains("old.json: does not say how large a metre is in it"));
+  narrow = Json::parse(atlas);
+  narrow["meta"]["slices"][0]["keys"].clear();
+  writeFile(dir.file("bare.json"), narrow.dump());
+  const ToolRun bare = render(of_idle + to + dir.file("bare.json"));
+  CHECK(bare.exit_code == 2);
+  CHECK_THAT(bare.err, Contains("meta.slices[0].keys") && Contains("must be one, as skel writes it"));
+  const ToolRun larger = render(of_idle + " --size 64" + to + sheets + "cap_boy.json");
+  CHECK(larger.exit_code == 1);
+  CHECK_THAT(larger.err, Contains("--size is 64, in ") && Contains(" it is 48x40"));
+  const ToolRun level = render(kDrawing + " --clips idle" + to + sheets + "cap_boy.json");
+  CHECK(level.exit_code == 1);
+  CHECK_THAT(level.err, Contains("--pitch is 5, in ") && Contains("or ask for --pitch 20"));
+  CHECK_FALSE(std::filesystem::exists(dir.file("none.png")));
+}
+
 TEST_CASE("a sheet that is refused leaves no folder, nor takes away one that was there") {
   const TempDir dir;
   const std::string model = figureFile(dir);

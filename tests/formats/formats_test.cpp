@@ -9,6 +9,7 @@
 #include <set>
 
 #include "animator/pose_file.h"
+#include "animator/sprite_atlas.h"
 #include "infer/result_file.h"
 #include "labeler/annotated_drawing.h"
 #include "libskel/animation/clip_file.h"
@@ -186,6 +187,15 @@ const std::map<std::string, Reader>& readers() {
          const auto made_by = parseMadeBy(readFile(path), path);
          REQUIRE(made_by);
          return formatMadeBy(*made_by);
+       }},
+      {"sprite-atlas",
+       [](const std::string& path) {
+         const SpriteCell cell = readSpriteCell(path);
+         CHECK(cell.width == 48);
+         CHECK(cell.pivot_y == 37);
+         CHECK(cell.px_per_m == 20.5);
+         CHECK(cell.pitch_deg == 20);
+         return "";
        }},
       {"skel-weights", [](const std::string& path) { return formatWeights(readWeights(path)); }},
   };

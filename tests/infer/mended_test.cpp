@@ -104,12 +104,57 @@ TEST_CASE(
     REQUIRE(infer(dir, "boy.png -o fresh").exit_code == 0);
     const ToolRun run = infer(dir, "boy.png");
     CHECK(run.exit_code == 0);
-    CHECK_THAT(run.err, Contains(kEarlier + std::string("boy.skeleton.json (now ") + kept + ")\n"));
+    CHECK_THAT(run.err, Contains(kEarlier + std::string("boy.skeleton.json (now ") + kept +
+                                 "; --skeleton out/" + kept + " takes it up)\n"));
     CHECK(readFile(dir.file("out/" + kept)) == mended);
     for (const char* result : {"boy.skeleton.json", "boy.glb"})
       CHECK(readFile(dir.file(std::string("out/") + result)) ==
             readFile(dir.file(std::string("fresh/") + result)));
     CHECK(infer(dir, "boy.png").err.find("earlier picture") == std::string::npos);
+  }
+}
+
+TEST_CASE(
+    "a sprite in other colours lost its mended joints and painted limbs, though its outline was the same") {
+  const TempDir dir;
+  Image boy = readImage(kDrawing);
+  const Plane8 mask = extractSilhouette(boy).mask;
+  for (int y = 0; y < boy.height; ++y)
+    for (int x = 0; x < boy.width; ++x) boy.pixel(x, y)[3] = mask(y, x);
+  writeFile(dir.file("boy.png"), encodePng(boy));
+  const std::string call = "boy.png --formats glb,json,layers";
+  REQUIRE(infer(dir, call).exit_code == 0);
+  moveInFile(dir, "left_hand", "420.5");
+  Image layers = readImage(dir.file("out/boy.layers.png"));
+  for (Eigen::Index p = 0; p < layers.rgba.rows(); ++p)
+    if (layers.rgba(p, 0) == 40 && layers.rgba(p, 1) == 170) layers.rgba.row(p) << 150, 150, 150, 255;
+  const std::string painted = encodePng(layers), mended = readFile(dir.file(kSkeleton));
+  writeFile(dir.file("out/boy.layers.png"), painted);
+  for (int y = 0; y < boy.height; ++y)
+    for (int x = 0; x < boy.width; ++x) std::swap(boy.pixel(x, y)[0], boy.pixel(x, y)[2]);
+  writeFile(dir.file("boy.png"), encodePng(boy));
+  SECTION("now they stay") {
+    for (int time = 0; time < 2; ++time) {
+      const ToolRun run = infer(dir, call);
+      CHECK(run.exit_code == 0);
+      CHECK_THAT(run.err, Contains(kTakenUp + std::string("1 joint (out/boy.skeleton.json), limbs "
+                                                          "(out/boy.layers.png)\n")));
+      CHECK(run.err.find("look at") == std::string::npos);
+      CHECK(placeIn(dir, "left_hand").front() == 420.5);
+      CHECK(readFile(dir.file("out/boy.layers.png")) == painted);
+    }
+  }
+  SECTION("of another outline they are kept, and the line says how to take the joints up") {
+    for (int y = 0; y < boy.height; ++y)
+      for (int x = 0; x < boy.width / 2; ++x)
+        if (y > boy.height * 9 / 10) boy.pixel(x, y)[3] = 0;
+    writeFile(dir.file("boy.png"), encodePng(boy));
+    const ToolRun run = infer(dir, call);
+    CHECK_THAT(run.err,
+               Contains(kEarlier + std::string("boy.skeleton.json (now boy.skeleton.old.json; --skeleton "
+                                               "out/boy.skeleton.old.json takes it up)\n")));
+    CHECK_THAT(run.err, Contains("boy.layers.png (now boy.old.layers.png), as the picture has changed\n"));
+    CHECK(readFile(dir.file("out/boy.skeleton.old.json")) == mended);
   }
 }
 
@@ -344,7 +389,8 @@ TEST_CASE("layers that were painted in place are taken up, said in one line, and
   }
   SECTION("of a photo that was taken again it is left out and kept") {
     takeAgain(dir, "clown");
-    CHECK_THAT(infer(dir, call).err, Contains("boy.layers.png (now boy.old.layers.png)\n"));
+    CHECK_THAT(infer(dir, call).err,
+               Contains("boy.layers.png (now boy.old.layers.png), as the picture has changed\n"));
     CHECK(readFile(dir.file("out/boy.old.layers.png")) == painted);
   }
   SECTION("limbs of skel-label come first") {
@@ -354,6 +400,46 @@ TEST_CASE("layers that were painted in place are taken up, said in one line, and
         Contains(kTakenUp + std::string("limbs (boy.limbs.png; not out/boy.layers.png, which differs)")));
     CHECK(readFile(dir.file("out/boy.old.layers.png")) == painted);
   }
+}
+
+TEST_CASE("a patch of a limb that was painted apart from the rest of it was dropped without a word") {
+  const TempDir dir;
+  drawBoy(dir);
+  const std::string call = "boy.png --formats glb,json,layers";
+  REQUIRE(infer(dir, call).exit_code == 0);
+  Image layers = readImage(dir.file("out/boy.layers.png"));
+  const auto isWhole = [&](int x, int y, int side) {
+    for (int v = y; v < y + side; ++v)
+      for (int u = x; u < x + side; ++u)
+        if (layers.pixel(u, v)[3] == 0) return false;
+    return true;
+  };
+  // Two squares, one above the other.
+  std::vector<std::pair<int, int>> corners;
+  for (int y = 0; y + 40 < layers.height && corners.size() < 2; ++y)
+    for (int x = 0; x + 40 < layers.width; ++x)
+      if (isWhole(x, y, 40)) {
+        corners.emplace_back(x, y);
+        y += 60;
+        break;
+      }
+  REQUIRE(corners.size() == 2);
+  for (Eigen::Index p = 0; p < layers.rgba.rows(); ++p)
+    if (layers.rgba(p, 3) > 0) layers.rgba.row(p) << 150, 150, 150, 255;
+  for (const int side : {40, 20}) {
+    const auto [x0, y0] = corners[side == 40 ? 0 : 1];
+    for (int y = y0; y < y0 + side; ++y)
+      for (int x = x0; x < x0 + side; ++x) {
+        const std::uint8_t right_arm[] = {230, 60, 60, 255};
+        std::copy_n(right_arm, 4, layers.pixel(x, y));
+      }
+  }
+  writeFile(dir.file("out/boy.layers.png"), encodePng(layers));
+  const ToolRun run = infer(dir, call);
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err,
+             Contains("400 px painted as the right arm are not joined to the rest of it and stay with the "
+                      "body: look at them (skel-label boy.png, key G)"));
 }
 
 TEST_CASE("what skel wrote and nobody touched is not taken for mended") {

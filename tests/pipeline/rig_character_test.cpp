@@ -49,6 +49,51 @@ TEST_CASE("an input of nothing is refused, not taken for a bug of skel") {
   CHECK_THROWS_WITH(rigCharacter(RigInput(), RigOptions()), "the input: has neither a picture nor a model");
 }
 
+TEST_CASE("a sprite that is cropped to its pixels was called cut by the border, and hardly a biped") {
+  const Image drawing = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");
+  const Plane8 mask = extractSilhouette(drawing).mask;
+  int left = drawing.width, right = 0, top = drawing.height, bottom = 0;
+  for (int y = 0; y < drawing.height; ++y)
+    for (int x = 0; x < drawing.width; ++x)
+      if (mask(y, x)) {
+        left = std::min(left, x), right = std::max(right, x);
+        top = std::min(top, y), bottom = y;
+      }
+  bottom -= (bottom - top) / 20;  // through the shoes, so that they end flat
+  const auto rigged = [&](int margin, bool by_mask) {
+    RigInput input;
+    Image& image = input.image;
+    image = Image(right - left + 1 + 2 * margin, bottom - top + 1 + 2 * margin);
+    image.rgba.setZero();
+    for (int y = top; y <= bottom; ++y)
+      for (int x = left; x <= right; ++x)
+        if (mask(y, x)) std::copy_n(drawing.pixel(x, y), 4, image.pixel(x - left + margin, y - top + margin));
+    if (by_mask) {
+      input.mask = Plane8::Zero(image.height, image.width);
+      for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) (*input.mask)(y, x) = image.pixel(x, y)[3];
+    }
+    return rigCharacter(std::move(input), RigOptions());
+  };
+  for (const bool by_mask : {false, true}) {
+    CAPTURE(by_mask);
+    const RiggedDrawing cropped = rigged(0, by_mask), wide = rigged(7, by_mask);
+    CHECK(cropped.silhouette.warnings.empty());
+    CHECK(cropped.silhouette.cut_sides.empty());
+    CHECK(cropped.recognition.warnings == wide.recognition.warnings);
+    CHECK(cropped.recognition.confidence == wide.recognition.confidence);
+    CHECK(cropped.recognition.likeness == wide.recognition.likeness);
+    for (std::size_t j = 0; j < wide.recognition.skeleton.joints.size(); ++j) {
+      const Joint &of_cropped = cropped.recognition.skeleton.joints[j],
+                  &of_wide = wide.recognition.skeleton.joints[j];
+      CAPTURE(of_wide.name);
+      CHECK((of_cropped.image + Eigen::Vector2d(7, 7) - of_wide.image).norm() < 0.011);
+      CHECK(of_cropped.confidence == of_wide.confidence);
+    }
+    CHECK(cropped.character.mesh.vertices.rows() == wide.character.mesh.vertices.rows());
+  }
+}
+
 TEST_CASE("a model in parts is bound by its whole front view, not by its largest part") {
   RigInput input;
   input.model = figure().mesh;

@@ -644,6 +644,22 @@ TEST_CASE("a figure that is cut by the border is found, and the side is named") 
   CHECK(s.warnings[0] == "the figure is cut by the border of the picture (bottom)");
 }
 
+TEST_CASE("a picture that is clear beside the figure is cropped, not cut, by its border") {
+  std::vector<Capsule> figure = kPerson;
+  for (Capsule& c : figure) c.y0 += 90, c.y1 += 90;
+  Image image = filled(figure, plainWhite, {60, 120, 200});
+  const Plane8 inside = maskOf(figure, image.width, image.height);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) image.pixel(x, y)[3] = inside(y, x);
+  for (const Silhouette& s : {foundIn(image), silhouetteFromMask(inside, image)}) {
+    CHECK((s.mask != 0).row(image.height - 1).any());
+    CHECK(s.clear_around);
+    CHECK(s.cut_sides.empty());
+    CHECK(s.warnings.empty());
+  }
+  CHECK(silhouetteFromMask(inside).cut_sides == "bottom");
+}
+
 TEST_CASE("the paper's method fills what dark lines enclose, and fails where they are open") {
   SilhouetteOptions paper;
   paper.method = SilhouetteMethod::kPaper;
