@@ -13,6 +13,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
+#include "libskel/core/tool_command.h"
 #include "libskel/deform/figure_shape.h"
 #include "libskel/skeleton/joint_lookup.h"
 
@@ -110,10 +111,9 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
   const std::string ending = std::filesystem::path(path).extension().string();
   if (isBvh(path)) return loadBvhFor(path, character, source).clip;
   if (ending == ".glb" || ending == ".GLB")
-    throw InputError(path,
-                     "is a character, no motion; write the clip that you want of it first, `skel-animate "
-                     "retarget CLIP --to " +
-                         shellWord(path) + " -o CLIP.bvh`, and give CLIP.bvh instead");
+    throw InputError(path, "is a character, no motion; write the clip that you want of it first, `" +
+                               toolCommand("skel-animate") + " retarget CLIP --to " + shellWord(path) +
+                               " -o CLIP.bvh`, and give CLIP.bvh instead");
   const std::string text = readFile(path);
   if (isKeyframeClip(text)) {
     KeyframeClipOptions options;
@@ -161,6 +161,15 @@ std::optional<ClipKeys> easedKeysOf(const std::string& path, const Skeleton& ske
   if (keys.ease == KeyEase::kNone || keys.clip.rest_pose != restPoseHash(skeleton)) return std::nullopt;
   keys.clip.rest_pose.clear();
   return keys;
+}
+
+std::vector<ClipKeys> easedKeysOf(const ClipSource& source, const Skeleton& skeleton) {
+  std::vector<ClipKeys> eased;
+  if (source.clips_dir.empty()) return eased;
+  for (const std::string& path : filesBelow(source.clips_dir))
+    if (path.ends_with(kClipFileEnding))
+      if (std::optional<ClipKeys> keys = easedKeysOf(path, skeleton)) eased.push_back(std::move(*keys));
+  return eased;
 }
 
 }  // namespace skel

@@ -131,6 +131,7 @@ AnimationDocument::AnimationDocument(const CharacterSource& source, const ClipSo
   state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
   state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
   state_.pose = restPose(skeleton());
+  takeEaseOfLibrary();
   addSaved(clips());
 }
 
@@ -276,6 +277,17 @@ void AnimationDocument::keepEase(const std::string& before, const ClipKeys& keys
   if (state_.eased) *eased = *state_.eased;
   eased->erase(before);
   if (keys.ease != KeyEase::kNone) (*eased)[keys.clip.name] = keys;
+  state_.eased = std::move(eased);
+}
+
+void AnimationDocument::takeEaseOfLibrary() {
+  auto eased = std::make_shared<std::map<std::string, ClipKeys>>();
+  for (ClipKeys& keys : easedKeysOf(library_, skeleton())) {
+    // The character may have a clip of this name itself.
+    if (std::find(clips().begin(), clips().end(), withEvenKeys(keys)) == clips().end()) continue;
+    const std::string name = keys.clip.name;
+    (*eased)[name] = std::move(keys);
+  }
   state_.eased = std::move(eased);
 }
 
@@ -462,7 +474,7 @@ bool AnimationDocument::openModel(const std::string& path) {
     bones_ = file.bones;
     state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
     state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
-    state_.eased = nullptr;
+    takeEaseOfLibrary();
     state_.clip = -1;
     state_.time_s = 0;
     state_.pose = restPose(skeleton());
@@ -560,7 +572,7 @@ bool AnimationDocument::loadSkeleton(const std::string& path) {
     state_.character = std::make_shared<const RiggedCharacter>(std::move(changed));
     // Clips that were made for other bones go, but for those that say what they need.
     state_.clips = std::make_shared<const std::vector<Clip>>(libraryFor(character(), library_));
-    state_.eased = nullptr;
+    takeEaseOfLibrary();
     addSaved(clips());
     state_.clip = -1;
     state_.time_s = 0;

@@ -154,6 +154,7 @@ class AnimationDocument {
   const Clip& keyed() const;
   void replaceKeys(const ClipKeys& keys);
   void keepEase(const std::string& before, const ClipKeys& keys);
+  void takeEaseOfLibrary();  // of those of its clips that are there
   bool hasOtherClip(const std::string& name) const;
   double snapped(double time_s) const;
   void addSaved(const std::vector<Clip>& clips);

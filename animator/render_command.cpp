@@ -12,6 +12,7 @@
 #include "libskel/animation/clip_library.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
+#include "libskel/core/new_folders.h"
 #include "libskel/core/text.h"
 #include "libskel/pipeline/drawing_notes.h"
 
@@ -76,9 +77,13 @@ bool isKnown(const std::string& name, const ClipSource& library) {
 
 AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, const std::string& path) {
   AskedClips asked;
-  const auto take = [&](const Clip& clip) {
-    if (std::find(asked.clips.begin(), asked.clips.end(), clip) == asked.clips.end())
-      asked.clips.push_back(clip);
+  std::map<std::string, std::string> words;  // that ask for a clip, by its name: films and frames have that
+  const auto take = [&](const Clip& clip, const std::string& word) {
+    if (std::find(asked.clips.begin(), asked.clips.end(), clip) != asked.clips.end()) return;
+    if (const auto [other, is_new] = words.emplace(clip.name, word); !is_new)
+      throw UsageError(other->second + " and " + word + " are both called \"" + clip.name +
+                       "\"; give one of them another \"name\", or render them one at a time");
+    asked.clips.push_back(clip);
   };
   const auto leaveOut = [&](const Error& error) {
     complain(error);
@@ -89,12 +94,13 @@ AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, c
     if (name == kAllClips) {
       noteUnfitting(options, file.character, path);
       for (const Error& error : addLibrary(file, options.library)) leaveOut(InputError(path, error.what()));
-      std::for_each(file.clips.begin(), file.clips.end(), take);
+      for (const Clip& clip : file.clips) take(clip, clip.name);
       continue;
     }
     ClipNotes notes;
+    std::optional<Clip> found;
     try {
-      take(clipFor(name, file, options.library, &notes));
+      found = clipFor(name, file, options.library, &notes);
     } catch (const UsageError& error) {  // others may have it
       const UsageError here(path + ": " + error.what());
       if (options.files.size() == 1) throw here;
@@ -109,6 +115,7 @@ AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, c
       if (options.files.size() == 1 || options.clips.size() == 1) throw;
       leaveOut(InputError(path, error.what()));
     }
+    if (found) take(*found, name);
     if (!notes.of_file.empty()) std::fprintf(stderr, "%s\n", printable(notes.of_file).c_str());
     sayStayingArms(notes.of_character, path);
   }
@@ -178,27 +185,6 @@ void checkFiles(const RenderCommandOptions& options) {
   }
   checkNames(options.files);
 }
-
-// What was made for results and is empty in the end goes again.
-class NewFolders {
- public:
-  explicit NewFolders(const std::string& output) {
-    std::error_code unknown;
-    for (fs::path dir = fs::path(output).parent_path(); !dir.empty() && !fs::exists(dir, unknown);
-         dir = dir.parent_path())
-      made_.push_back(dir);
-  }
-  ~NewFolders() {
-    std::error_code unknown, holds_something;
-    for (const fs::path& dir : made_)
-      if (fs::is_directory(dir, unknown)) fs::remove(dir, holds_something);
-  }
-  NewFolders(const NewFolders&) = delete;
-  NewFolders& operator=(const NewFolders&) = delete;
-
- private:
-  std::vector<fs::path> made_;  // the deepest first
-};
 
 }  // namespace
 

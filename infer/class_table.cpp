@@ -4,6 +4,7 @@
 
 #include "libskel/core/file_names.h"
 #include "libskel/core/text.h"
+#include "libskel/pipeline/drawing_notes.h"
 
 namespace skel {
 namespace {
@@ -79,11 +80,10 @@ std::string ClassTable::text() const {
   count(failed_, " without a result");
   if (kept_ > 0) table += "; " + std::to_string(kept_) + (numbered_ ? " drawings" : "") + " done before";
   table += "\n";
-  for (const Line& line : retake_.lines)
-    table += "retake " + namesOf(line, " ") + ": " + line.sentence + "\n";
-  for (const Line& line : look_at_.lines)
-    table += "look at " + namesOf(line, " ") + ": " + line.sentence + "\n";
-  for (const Line& line : notes_.lines) table += "note: " + line.sentence + ": " + namesOf(line, ", ") + "\n";
+  const auto said = [](const Line& line) { return noteText({line.sentence}, "FILE"); };
+  for (const Line& line : retake_.lines) table += "retake " + namesOf(line, " ") + ": " + said(line) + "\n";
+  for (const Line& line : look_at_.lines) table += "look at " + namesOf(line, " ") + ": " + said(line) + "\n";
+  for (const Line& line : notes_.lines) table += "note: " + said(line) + ": " + namesOf(line, ", ") + "\n";
   if (const std::size_t others = retake_.others + look_at_.others + notes_.others; others > 0)
     table += "and " + std::to_string(others) + " times something else\n";
   return table;

@@ -87,7 +87,8 @@ std::string film(const Card& card) {
   std::snprintf(style, sizeof style, "--columns:%d;--rows:%d;--lasts:%.3fs;--line-lasts:%.3fs", sheet.columns,
                 sheet.rows, sheet.duration_s, sheet.duration_s / sheet.rows);
   return "<div class=\"film\" style=\"" + std::string(style) + "\"><div><img alt=\"" + card.name +
-         ", moving\" src=\"" + sheet.source + "\"></div></div>";
+         ", moving\" src=\"" + sheet.source + "\"></div><img class=\"rest\" alt=\"" + card.name +
+         ", at rest\" src=\"" + sheet.rest + "\"></div>";
 }
 
 std::string verdictChip(const Card& card) {

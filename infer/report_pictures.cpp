@@ -59,7 +59,8 @@ FilmSheet filmSheet(const RiggedDrawing& drawing, const Clip& clip) {
 
   const Eigen::Index vertices = character.mesh.vertices.rows();
   const auto heights = character.mesh.vertices.col(1);
-  Eigen::MatrixX3f all(vertices * count, 3);
+  Eigen::MatrixX3f all(vertices * (count + 1), 3);
+  all.bottomRows(vertices) = character.mesh.vertices;
   for (int i = 0; i < count; ++i) {
     const float time_s = clip.duration_s() * float(i) / float(count);
     all.middleRows(i * vertices, vertices) =
@@ -68,13 +69,17 @@ FilmSheet filmSheet(const RiggedDrawing& drawing, const Clip& clip) {
                                    heights.maxCoeff() - heights.minCoeff()));
   }
   const Camera camera = framingCamera(all, yaw_rad, kPitch_rad, double(kFilmWidth) / kFilmHeight);
+  const auto frame = [&](int i) {
+    return renderMesh(all.middleRows(i * vertices, vertices), character.mesh, camera,
+                      {.width = kFilmWidth, .height = kFilmHeight});
+  };
   Image sheet = blankImage(film.columns * kFilmWidth, film.rows * kFilmHeight);
   for (int i = 0; i < count; ++i)
-    blit(sheet,
-         renderMesh(all.middleRows(i * vertices, vertices), character.mesh, camera,
-                    {.width = kFilmWidth, .height = kFilmHeight}),
-         i % film.columns * kFilmWidth, i / film.columns * kFilmHeight);
+    blit(sheet, frame(i), i % film.columns * kFilmWidth, i / film.columns * kFilmHeight);
   film.source = dataAddress(sheet);
+  Image rest = blankImage(kFilmWidth, kFilmHeight);
+  blit(rest, frame(count), 0, 0);
+  film.rest = dataAddress(rest);
   return film;
 }
 

@@ -9,7 +9,7 @@ namespace skel {
 
 // Frames of a clip in one picture, line by line, each of kFilmWidth × kFilmHeight px.
 struct FilmSheet {
-  std::string source;  // data: address
+  std::string source, rest;  // data: addresses; `rest`: the figure as it was drawn, seen as in the frames
   int columns = 0, rows = 0;
   double duration_s = 0;
 };

@@ -10,6 +10,7 @@
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/text.h"
+#include "libskel/core/tool_command.h"
 #include "libskel/jointnet/net_joints.h"
 #include "libskel/pipeline/rig_drawing.h"
 
@@ -44,9 +45,8 @@ void refuseFile(const std::string& name) {
     throw UsageError("--clips takes names of clips, \"" + name +
                      "\" is a file; name its folder by --clips-dir, and the clip in it by its name");
   if (name.find_first_of("./") != std::string::npos)
-    throw UsageError("--clips takes names of clips, \"" + name +
-                     "\" is a file; after the rig: `skel-animate retarget " + shellWord(name) +
-                     " --to FILE.glb`");
+    throw UsageError("--clips takes names of clips, \"" + name + "\" is a file; after the rig: `" +
+                     toolCommand("skel-animate") + " retarget " + shellWord(name) + " --to FILE.glb`");
 }
 
 // What is wrong with it for either body plan; see faultOf().

@@ -34,7 +34,7 @@ void noteDiffering(const std::vector<std::string>& kept) {
   if (kept.empty()) return;
   std::fprintf(stderr,
                "skel-label: note: %s: kept, with other joints than what is to be imported; --force takes the "
-               "latter, and drops joints and classes set by hand\n",
+               "latter, and drops joints set by hand\n",
                firstAndMore(kept).c_str());
 }
 
@@ -133,14 +133,18 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
                 noteDiffering(counts.differing);
                 if (counts.made > 0)
                   print(std::to_string(counts.joints_placed) + " joints placed, " +
-                        std::to_string(counts.joints_found) + " found\nwritten into " +
-                        namesOf(counts.folders) + "\n");
+                        std::to_string(counts.joints_found) + " found" +
+                        (counts.classes_kept > 0
+                             ? "; classes set by hand and kept: " + std::to_string(counts.classes_kept)
+                             : "") +
+                        "\nwritten into " + namesOf(counts.folders) + "\n");
                 return code;
               });
   import->add_option("-o,--output", options.import.output,
                      "Copy pictures and masks here, with their label files");
   import->add_flag("--force", options.import.force,
-                   "Make label files anew that exist already, also over masks and copies of other content");
+                   "Make label files anew that exist already, also over masks and copies of other content; "
+                   "classes set by hand stay");
   command("check", "Name every inconsistency of the label files", [&] { return check(options); });
   command("stats", "Count drawings, candidates and labels", [&] {
     print(labelStats(options.dir));

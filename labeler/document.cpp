@@ -363,6 +363,24 @@ void Document::paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& 
   if (replaceMask(std::move(mask))) message_ = add ? "added to the figure" : "erased from the figure";
 }
 
+void Document::acceptMask() {
+  if (image_.empty() || !figure_->silhouette.found()) return;
+  if (isOfEarlierPicture()) {
+    acceptJoints();
+    return;
+  }
+  message_ = "the figure: right as it is";
+  if (state_.mask) {  // that lay there before: with a label file of this picture, it has been looked at
+    save();
+    return;
+  }
+  const StepScope scope(*this);
+  auto mask = std::make_shared<MaskVersion>();
+  mask->pixels = figure_->silhouette.mask;
+  mask->file = fs::path(item().files.mask).filename().string();
+  replaceMask(std::move(mask));
+}
+
 void Document::forgetMask() {
   if (!state_.mask) return;
   const StepScope scope(*this);
@@ -434,7 +452,10 @@ bool Document::wantsJoints() const {
 void Document::findJoints() {
   if (!wantsJoints()) return;
   looked_for_joints_ = true;
+  // Nobody has acted on what was said of the drawing.
+  const std::string said = std::exchange(message_, "");
   takeModel();
+  if (!said.empty()) message_ = said + "; " + message_;
   count();
 }
 

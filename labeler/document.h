@@ -105,6 +105,9 @@ class Document {
   // Adds to the figure, or erases from it, along a line with a round brush. Labels stay where the figure
   // stays. A stroke that would leave no figure is refused.
   void paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px, bool add);
+  // Says of the figure that it is outlined as it should be: its mask is kept as if it had been painted. Of an
+  // earlier picture this is acceptJoints().
+  void acceptMask();
   // The figure is found in the picture again.
   void forgetMask();
   // Says which part pixels of the figure are, along a line with a round brush. The first stroke starts from

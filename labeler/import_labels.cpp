@@ -9,6 +9,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/core/progress.h"
+#include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "libskel/labels/annotated_image.h"
@@ -82,6 +83,36 @@ bool jointsDiffer(const std::string& label_path, const AnnotatedDrawing& drawing
   }
 }
 
+// What is to be made anew, if it is a label file of this very picture.
+std::optional<LabelFile> labelsBefore(const std::string& label_path, const std::string& image_path) {
+  if (!fs::exists(label_path)) return std::nullopt;
+  const LookAtOutputs look;
+  try {
+    LabelFile labels = readLabelFile(label_path);
+    if (labels.image.sha256 == sha256(readFile(image_path))) return labels;
+  } catch (const InputError&) {
+  }
+  return std::nullopt;
+}
+
+// Takes over the classes of `before` that its own joints do not explain, for candidates that are still there;
+// returns how many.
+int keepClasses(LabelFile& labels, const LabelFile& before, const LabelFile& by_joints_before) {
+  int kept = 0;
+  for (std::size_t i = 0; i < labels.candidates.size(); ++i) {
+    const JointCandidate& at = labels.candidates[i];
+    const auto same = std::find_if(
+        before.candidates.begin(), before.candidates.end(),
+        [&](const auto& other) { return other.x == at.x && other.y == at.y && other.radius == at.radius; });
+    if (same == before.candidates.end()) continue;
+    const auto& label = before.labels[std::size_t(same - before.candidates.begin())];
+    if (!label || label == by_joints_before.labels[i] || label == labels.labels[i]) continue;
+    labels.labels[i] = label;
+    ++kept;
+  }
+  return kept;
+}
+
 // Whether a label file was made.
 bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, const SkeletonTemplate& body_plan,
                    const ImportOptions& options, ImportCounts& counts) {
@@ -104,7 +135,10 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
     mask = drawingFiles(image_path, {}).mask;
     writeNew(*mask, encodePng(maskFromPolygons(drawing.mask_polygons, image.width, image.height)), options);
   }
-  const LabelFile labels = labelImage(image_path, mask, drawing.joints, body_plan, {}, drawing.recognized);
+  LabelFile labels = labelImage(image_path, mask, drawing.joints, body_plan, {}, drawing.recognized);
+  if (const std::optional<LabelFile> before = labelsBefore(label_path, image_path))
+    counts.classes_kept += keepClasses(
+        labels, *before, labelImage(image_path, mask, before->joints, body_plan, {}, before->recognized));
   writeLabelFile(label_path, labels);
   countJoints(labels, body_plan, counts);
   const std::string folder = fs::path(label_path).lexically_normal().parent_path().string();

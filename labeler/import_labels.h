@@ -14,7 +14,9 @@ namespace skel {
 struct ImportOptions {
   std::string
       output;  // folder that pictures and masks are copied to; empty: label files go beside the pictures
-  bool force = false;  // make label files anew that exist already, also over masks and copies that are there
+  // Make label files anew that exist already, also over masks and copies that are there. Classes that were
+  // set by hand stay where the candidate is still there.
+  bool force = false;
 };
 
 struct ImportCounts {
@@ -23,6 +25,7 @@ struct ImportCounts {
   std::vector<std::string> differing;  // of those kept: whose joints are not those of the annotation
   int failed = 0;
   int joints_placed = 0, joints_found = 0;  // in those made: by a person, by the program
+  int classes_kept = 0;                     // in those made: of a label file before, set by hand
   std::set<std::string> folders;            // that those made lie in
   ExitCode exit_code = ExitCode::kDone;     // of the first failure
 };

@@ -27,7 +27,7 @@ constexpr const char* kToolNames[kToolCount] = {"Joints", "Mask", "Limbs", "Touc
 constexpr const char* kToolKeys[kToolCount] = {"J", "M", "G", "V", "B", "L"};
 constexpr const char* kToolHelp[kToolCount] = {
     "Drag joints to their place; Enter when all are right",
-    "Left adds to the figure, right erases",
+    "Left adds to the figure, right erases; Enter when it is right",
     "Paint limbs that lie before the body, skirt, hair, things; right: that is the body",
     "Point at a disc, press 1 to 4",
     "Paint over discs in the chosen class",
@@ -38,7 +38,7 @@ constexpr int kFirstClassTool = static_cast<int>(Tool::kTouch);
 
 constexpr KeyHelp kHelp[] = {
     {"J", "drag joints"},
-    {"Enter  Space", "all joints are right: the next unfinished drawing"},
+    {"Enter  Space", "all joints are right: the next unfinished drawing; in mask: the figure is right"},
     {"R  Shift R",
      "rig and show the model; forget all joints first, of an earlier photo all that was mended"},
     {"C", "of a motion: joints as in the frame before"},
@@ -159,8 +159,12 @@ class LabelingWindow {
     for (int t = 0; t < kToolCount; ++t)
       if (pressed(tool_keys[t])) chooseTool(static_cast<Tool>(t));
     if (pressed(key::kN) || pressed(key::kTab)) nextUnsure();
-    if (pressed(key::kEnter) || pressed(key::kSpace))
-      subject() == Subject::kJoints ? acceptJoints() : acceptSelected();
+    if (pressed(key::kEnter) || pressed(key::kSpace)) {
+      if (canvas_.tool == Tool::kMask)
+        acceptMask();
+      else
+        subject() == Subject::kJoints ? acceptJoints() : acceptSelected();
+    }
     if (pressed(key::kA)) acceptAll();
     if (pressed(key::kD)) labelFromJoints();
     if (pressed(key::kR)) rig(io.KeyShift);
@@ -221,6 +225,8 @@ class LabelingWindow {
     canvas_.cancel();
     if (document_.acceptJoints()) goToUnfinished();
   }
+
+  void acceptMask() { canvas_.cancel(), document_.acceptMask(); }
 
   void chooseClass(JointClass joint_class, bool label_too) {
     canvas_.active_class = joint_class;
@@ -411,6 +417,9 @@ class LabelingWindow {
     if (colorButton("Erase", {half, kButtonHeight}, {210, 50, 40}, !canvas_.mask_adds))
       canvas_.mask_adds = false;
     tip("With the left button; the right one adds  (key X)");
+    enabledButton(
+        "Right as it is", {width, kButtonHeight}, document_.figure().silhouette.found(),
+        [&] { acceptMask(); }, "Keep it, and do not ask again  (key Enter)");
     enabledButton(
         "Mask from the picture", {width, kButtonHeight}, document_.state().mask != nullptr,
         [&] {

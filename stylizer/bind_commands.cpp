@@ -78,9 +78,9 @@ void bindStyle(CLI::App& app, StyleRequest& request) {
 }
 
 void bindPerform(CLI::App& app, PerformRequest& request) {
-  std::string parts;
-  for (const std::string& part : kPuppetParts) parts += (parts.empty() ? "" : ",") + part;
-  app.add_option("--order", request.order, "The figure's parts, back to front (default: " + parts + ")")
+  app.add_option("--order", request.order,
+                 "The figure's parts, back to front: left_leg, right_leg, body, left_arm, right_arm, with "
+                 "commas (default: as they are drawn)")
       ->type_name("PART,...");
   app.add_option("--background", request.background,
                  "keep (that of the drawing), white, grey, black, none (transparent), #rrggbb, or a picture")

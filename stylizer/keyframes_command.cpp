@@ -6,6 +6,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/core/json_names.h"
+#include "libskel/core/new_folders.h"
 #include "libskel/core/progress.h"
 #include "libskel/core/text.h"
 #include "libskel/draw/canvas.h"
@@ -38,6 +39,7 @@ ExitCode runKeyframes(const KeyframesOptions& options) {
   std::error_code unknown;
   if (fs::equivalent(options.film.path, options.output, unknown))
     throw UsageError(options.output + " holds the frames; name another folder with -o");
+  const NewFolders folders(options.output + "/");
   ensureWritableFolder(options.output);
   checkFrames(options.output, "key-");
   for (const char* name : {"keyframes.json", "distances.json", "distances.png"})

@@ -7,7 +7,9 @@
 #include "libskel/core/error.h"
 #include "libskel/draw/render_mesh.h"
 #include "libskel/import/read_character.h"
+#include "libskel/pipeline/drawing_notes.h"
 #include "libskel/pipeline/rig_drawing.h"
+#include "libskel/skeleton/hanging.h"
 
 namespace skel {
 namespace {
@@ -30,8 +32,12 @@ Performer seenFromTheFront(const std::string& path) {
   options.height = px(size.y());
   if (!mesh.texture.empty()) options.shading = 0;
   const Camera camera = framingCamera(mesh.vertices, 0, 0, double(options.width) / options.height);
-  Performer performer{renderMesh(mesh.vertices, mesh, camera, options), {}, character.skeleton};
+  Performer performer;
+  performer.image = renderMesh(mesh.vertices, mesh, camera, options);
   performer.silhouette = extractSilhouette(performer.image);
+  performer.body_plan = loadTemplate("biped");
+  performer.skeleton = withoutHanging(character.skeleton);
+  performer.model_from_image.scale.setConstant(double(size.y()) / options.height);
   if (!performer.silhouette.found()) throw InputError(path, performer.silhouette.reason);
   const Projection project(camera, options.width, options.height);
   for (Joint& joint : performer.skeleton.joints) {
@@ -39,7 +45,10 @@ Performer seenFromTheFront(const std::string& path) {
     if (!at) throw InputError(path, "has its joint \"" + joint.name + "\" far before the model");
     joint.image = *at;
     joint.tail.reset();
+    joint.position.head<2>() = performer.model_from_image(*at);
   }
+  performer.layers = findLayers(performer.image, performer.silhouette, performer.skeleton,
+                                performer.body_plan, builtInPartNet());
   return performer;
 }
 
@@ -47,8 +56,24 @@ Performer seenFromTheFront(const std::string& path) {
 
 Performer readPerformer(const std::string& path) {
   if (path.ends_with(".glb")) return seenFromTheFront(path);
-  RiggedDrawing drawing = rigDrawing(path, RigOptions{});
-  return {std::move(drawing.image), std::move(drawing.silhouette), std::move(drawing.recognition.skeleton)};
+  RigOptions options = rigOptionsWithoutClips("auto");
+  options.last = LastStage::kModel;
+  RiggedDrawing drawing = rigDrawing(path, options);
+  if (drawing.body_plan.name != "biped")
+    throw InputError(path,
+                     "is a " + drawing.body_plan.name +
+                         "'s figure, and these motions are a person's; if it is a person, give its joints "
+                         "instead: the .skeleton.json that skel-infer --template biped writes");
+  Performer performer;
+  performer.notes = figureNotes(drawing);
+  for (const Note& note : limbNotes(drawing, {})) performer.notes.push_back(noteText(note, path));
+  performer.model_from_image = drawing.character.mesh.model_from_image;
+  performer.skeleton = withoutHanging(drawing.character.skeleton);
+  performer.image = std::move(drawing.image);
+  performer.silhouette = std::move(drawing.silhouette);
+  performer.body_plan = std::move(drawing.body_plan);
+  performer.layers = std::move(drawing.layers);
+  return performer;
 }
 
 }  // namespace skel

@@ -2,21 +2,28 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "libskel/image/image.h"
+#include "libskel/layers/layer_map.h"
 #include "libskel/silhouette/silhouette.h"
 #include "libskel/skeleton/skeleton.h"
+#include "libskel/skeleton/template.h"
 
 namespace skel {
 
 struct Performer {
   Image image;
-  Silhouette silhouette;  // of the image, found
-  Skeleton skeleton;      // a biped's, in image px
+  Silhouette silhouette;       // of the image, found
+  SkeletonTemplate body_plan;  // the biped's
+  Skeleton skeleton;           // its joints, with places in the image and in the model
+  LayerMap layers;
+  ModelFromImage model_from_image;
+  std::vector<std::string> notes;  // a clause each, for the user
 };
 
 // A drawing, which is rigged first, the .skeleton.json of one, or a .glb with the biped's joints. Throws
-// InputError.
+// InputError, also for a figure that fits another body plan: films show people's motions.
 Performer readPerformer(const std::string& path);
 
 }  // namespace skel

@@ -5,7 +5,6 @@
 
 #include "libskel/core/parallel.h"
 #include "libskel/draw/canvas.h"
-#include "libskel/draw/draw_triangles.h"
 #include "libskel/image/read_image.h"
 #include "libskel/style/align_phases.h"
 
@@ -83,19 +82,23 @@ PuppetFrames layOut(const Puppet& puppet, const Performer& performer, const Pose
   // What a frame needs is kept, not where its vertices are: films are long.
   struct Extent {
     Eigen::RowVector2d low, high;
-    int flipped = 0;
+    double torn = 0;
   };
   std::vector<Extent> extents(std::size_t(frames.poses.cols()));
   parallelFor(extents.size(), 0, [&](std::size_t i) {
-    const Eigen::MatrixX2d vertices = posedVertices(puppet, frames.poses.col(Eigen::Index(i)));
-    extents[i] = {vertices.colwise().minCoeff(), vertices.colwise().maxCoeff(),
-                  flippedTriangles(puppet.vertices, vertices, puppet.triangles)};
+    Extent& extent = extents[i];
+    extent.low.setConstant(1e300), extent.high.setConstant(-1e300);
+    for (const Eigen::MatrixX2d& sheet :
+         posedSheets(puppet, frames.poses.col(Eigen::Index(i)), &extent.torn)) {
+      extent.low = extent.low.cwiseMin(sheet.colwise().minCoeff());
+      extent.high = extent.high.cwiseMax(sheet.colwise().maxCoeff());
+    }
   });
   Eigen::RowVector2d low = extents[0].low, high = extents[0].high;
   for (const Extent& extent : extents) {
     low = low.cwiseMin(extent.low);
     high = high.cwiseMax(extent.high);
-    frames.flipped += extent.flipped;
+    frames.torn = std::max(frames.torn, extent.torn);
   }
   const double margin = kMargin * (high - low).maxCoeff();
   low.array() -= margin;
@@ -121,21 +124,28 @@ PuppetFrames layOut(const Puppet& puppet, const Performer& performer, const Pose
   return frames;
 }
 
-Image paintFrame(const Puppet& puppet, const PuppetFrames& frames, std::size_t i) {
+CutOutPainter painterFor(const Puppet& puppet, const PuppetFrames& frames) {
+  return CutOutPainter(puppet.cut_out, frames.scale / puppet.model_from_image.scale.x());
+}
+
+Image paintFrame(const Puppet& puppet, const CutOutPainter& painter, const PuppetFrames& frames,
+                 std::size_t i) {
   Image image = frames.background;
-  const Eigen::MatrixX2d vertices = posedVertices(puppet, frames.poses.col(Eigen::Index(i)));
-  const Eigen::MatrixX2d places =
-      ((vertices.rowwise() - frames.corner.transpose()).array() * frames.scale).matrix();
-  drawTriangles(image, places, puppet.triangles, puppet.texture, puppet.texture_places);
+  std::vector<Eigen::MatrixX2d> places = posedSheets(puppet, frames.poses.col(Eigen::Index(i)));
+  for (Eigen::MatrixX2d& sheet : places)
+    sheet = ((sheet.rowwise() - frames.corner.transpose()).array() * frames.scale).matrix();
+  painter.paint(places, image);
   return image;
 }
 
 void writePuppetFilm(const Puppet& puppet, const PuppetFrames& frames, VideoWriter& video,
                      const std::function<void()>& on_frame) {
   const std::size_t count = std::size_t(frames.poses.cols());
+  const CutOutPainter painter = painterFor(puppet, frames);
   for (std::size_t first = 0; first < count; first += kBatch) {
     std::vector<Image> batch(std::min(kBatch, count - first));
-    parallelFor(batch.size(), 0, [&](std::size_t i) { batch[i] = paintFrame(puppet, frames, first + i); });
+    parallelFor(batch.size(), 0,
+                [&](std::size_t i) { batch[i] = paintFrame(puppet, painter, frames, first + i); });
     for (const Image& image : batch) {
       video.add(image);
       on_frame();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libskel/cutout/paint_cut_out.h"
 #include "libskel/draw/color.h"
 #include "libskel/video/video_writer.h"
 #include "stylizer/puppet.h"
@@ -34,7 +35,7 @@ struct PuppetFrames {
   Image background;                                  // of the film's size
   PoseMatrix poses;                                  // one column a frame, px of the drawing
   double frame_rate = 0;
-  std::int64_t flipped = 0;  // triangles that are turned over, in all frames
+  double torn = 0;  // tornShare() of the frame that tears most
 };
 
 // How long a motion of frames at these times lasts, the last one as long as the others in the mean, or,
@@ -45,7 +46,10 @@ double motionLength_s(const std::vector<double>& times_s, double rate);
 PuppetFrames layOut(const Puppet& puppet, const Performer& performer, const PoseMatrix& worn,
                     const std::vector<double>& times_s, const PuppetFilmOptions& options);
 
-Image paintFrame(const Puppet& puppet, const PuppetFrames& frames, std::size_t i);
+// `painter`: of the puppet, painterFor().
+Image paintFrame(const Puppet& puppet, const CutOutPainter& painter, const PuppetFrames& frames,
+                 std::size_t i);
+CutOutPainter painterFor(const Puppet& puppet, const PuppetFrames& frames);
 
 // All frames into `video`, several painted at once.
 void writePuppetFilm(const Puppet& puppet, const PuppetFrames& frames, VideoWriter& video,

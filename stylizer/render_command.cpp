@@ -14,6 +14,7 @@ namespace skel {
 namespace {
 
 constexpr double kMaxFilm_s = 3600;
+constexpr double kTorn = .02;  // of the drawing, which shows
 
 std::vector<double> timesOf(const MotionFile& motion) {
   std::vector<double> times_s;
@@ -25,15 +26,14 @@ std::vector<double> timesOf(const MotionFile& motion) {
 
 Stage setStage(const std::string& character, const PerformRequest& request, const std::string& output) {
   openVideo(output, {.transparent = request.background == "none"});
-  PuppetOptions options;
-  if (!request.order.empty()) {
-    options.order.clear();
-    std::istringstream parts(request.order);
-    for (std::string part; std::getline(parts, part, ',');) options.order.push_back(part);
-  }
+  std::vector<std::string> order;
+  std::istringstream parts(request.order);
+  for (std::string part; std::getline(parts, part, ',');) order.push_back(part);
   FilmBackground background = readBackground(request.background);
   Performer performer = readPerformer(character);
-  Puppet puppet = makePuppet(performer, loadTemplate("biped"), options);
+  Puppet puppet = makePuppet(performer, order);
+  for (const std::string& note : performer.notes)
+    std::fprintf(stderr, "%s: note: %s\n", printable(character).c_str(), printable(note).c_str());
   return {std::move(performer), std::move(puppet), std::move(background)};
 }
 
@@ -69,10 +69,13 @@ void perform(const Stage& stage, const MotionFile& motion, const std::string& pa
     writePuppetFilm(puppet, frames, *video, [&] { bar.advance(); });
     video->finish();
   }
-  std::printf("%s: %d frames of %dx%d, %.2f s; %lld of %lld triangles turned over\n",
+  std::printf("%s: %d frames of %dx%d, %.2f s; at most %.1f %% of the drawing torn\n",
               printable(output).c_str(), count, frames.width, frames.height, count / frames.frame_rate,
-              static_cast<long long>(frames.flipped),
-              static_cast<long long>(count) * puppet.triangles.rows());
+              100 * frames.torn);
+  if (frames.torn > kTorn)
+    std::fprintf(stderr,
+                 "%s: note: the motion tears the drawing: look at it, and at the joints (skel-label)\n",
+                 printable(output).c_str());
 }
 
 ExitCode runRender(const RenderOptions2D& options) {

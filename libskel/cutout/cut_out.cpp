@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "libskel/core/check.h"
 #include "libskel/cutout/limb_plane.h"
 #include "libskel/mesh/fill_hidden.h"
 #include "libskel/skeleton/frontal.h"
@@ -39,8 +40,10 @@ std::vector<FigurePiece> piecesOf(const DrawnFigure& figure) {
 // How far before the viewer's other things a part is painted.
 class PaintOrder {
  public:
-  PaintOrder(const DrawnFigure& figure, const std::vector<FigurePiece>& pieces)
+  PaintOrder(const DrawnFigure& figure, const std::vector<FigurePiece>& pieces, const std::vector<int>& given)
       : order_(figure.body_plan.limbs.size() + 1, 0) {
+    for (std::size_t i = 0; i < given.size(); ++i) order_[std::size_t(given[i])] = int(i);
+    if (!given.empty()) return;
     const Skeleton& skeleton = figure.skeleton;
     double trunk_z = 0, low = 1e300, high = -1e300;
     int trunk_joints = 0;
@@ -259,7 +262,7 @@ void hang(const SkinWeights& weights, Index first, const Carriers& carriers, Cut
 
 CutOut makeCutOut(const DrawnFigure& figure, const CutOutOptions& options) {
   const std::vector<FigurePiece> pieces = piecesOf(figure);
-  const PaintOrder order(figure, pieces);
+  const PaintOrder order(figure, pieces, options.order);
   const std::vector<Plane8> masks = underlapped(pieces, figure.silhouette.mask, order);
   double area = 0;
   for (const Plane8& mask : masks) area += double((mask != 0).count());
@@ -324,6 +327,28 @@ std::vector<Eigen::MatrixX2d> posedSheets(const CutOut& cut_out, const FlatPose&
     posed.push_back(sheet.mesh->deform(targets));
   }
   return posed;
+}
+
+double tornShare(const CutOut& cut_out, const std::vector<Eigen::MatrixX2d>& posed) {
+  constexpr double kTorn = 2.5;
+  SKEL_CHECK_EQ(posed.size(), cut_out.sheets.size());
+  double torn = 0, all = 0;
+  for (std::size_t s = 0; s < posed.size(); ++s) {
+    const CutOutSheet& sheet = cut_out.sheets[s];
+    const double side = sheet.lattice.side_px * sheet.placed.scale.x(), area = side * side;
+    for (const auto& [a, b, c, d] : sheet.lattice.squares) {
+      const auto way = [&](int from, int to) -> Vector2d {
+        return (posed[s].row(to) - posed[s].row(from)).transpose();
+      };
+      const Vector2d right = way(a, b), down = way(a, c);
+      const double longest = std::max({right.norm(), down.norm(), way(b, d).norm(), way(c, d).norm()});
+      // Down is against y.
+      const bool turned_over = right.x() * down.y() - right.y() * down.x() > 0;
+      all += area;
+      if (longest > kTorn * side || turned_over) torn += area;
+    }
+  }
+  return all > 0 ? torn / all : 0;
 }
 
 }  // namespace skel

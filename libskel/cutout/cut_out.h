@@ -40,6 +40,8 @@ struct CutOutSheet {
 
 struct CutOutOptions {
   int squares = 900;  // about, of all sheets
+  // What is painted after what: 0 trunk and head, else the limb, from 1, each once. Empty: as it is drawn.
+  std::vector<int> order = {};
 };
 
 struct CutOut {
@@ -57,5 +59,9 @@ CutOut makeCutOut(const DrawnFigure& figure, const CutOutOptions& options = {});
 
 // Of each sheet, where its lattice's vertices come to lie: #V×2, model frame, m.
 std::vector<Eigen::MatrixX2d> posedSheets(const CutOut& cut_out, const FlatPose& pose);
+
+// The share of the paper that a pose tears: squares with a side above 2.5 times as long as it was, or turned
+// over. `posed`: posedSheets().
+double tornShare(const CutOut& cut_out, const std::vector<Eigen::MatrixX2d>& posed);
 
 }  // namespace skel

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "libskel/core/check.h"
 
 namespace skel {
 namespace {
@@ -15,12 +18,19 @@ using Eigen::Vector3d;
 // the picture says nothing.
 constexpr double kStump = 0.15, kSeen = 0.45;
 
-// The joint that the bone leads to: towards the head, where there is a way, else the first one.
-int boneEnd(const Skeleton& skeleton, const std::vector<bool>& to_head, int joint) {
-  int end = -1;
+// The joint that each joint's bone leads to: towards the head, where there is a way, else the first one. -1:
+// it has none.
+std::vector<int> boneEnds(const Skeleton& skeleton, const SkeletonTemplate& body_plan) {
+  std::vector<bool> to_head(skeleton.joints.size(), false);
+  if (body_plan.head >= 0)
+    for (int j = skeleton.find(body_plan.joints[std::size_t(body_plan.head)].name); j >= 0;
+         j = skeleton.joints[std::size_t(j)].parent)
+      to_head[std::size_t(j)] = true;
+  std::vector<int> ends(skeleton.joints.size(), -1);
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
-    if (skeleton.joints[j].parent == joint && (end < 0 || to_head[j])) end = int(j);
-  return end;
+    if (const int parent = skeleton.joints[j].parent; parent >= 0)
+      if (int& end = ends[std::size_t(parent)]; end < 0 || to_head[j]) end = int(j);
+  return ends;
 }
 
 double angleBetween(const Vector2d& a, const Vector2d& b) {
@@ -67,11 +77,7 @@ Vector2d FlatPose::moved(std::size_t joint, const Vector2d& p) const {
 FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
                   const JointTransforms& posed_from_rest) {
   const std::size_t count = skeleton.joints.size();
-  std::vector<bool> to_head(count, false);
-  if (body_plan.head >= 0)
-    for (int j = skeleton.find(body_plan.joints[std::size_t(body_plan.head)].name); j >= 0;
-         j = skeleton.joints[std::size_t(j)].parent)
-      to_head[std::size_t(j)] = true;
+  const std::vector<int> ends = boneEnds(skeleton, body_plan);
   const std::vector<Eigen::Vector3f> posed = posedJoints(skeleton, posed_from_rest);
 
   FlatPose pose;
@@ -79,7 +85,7 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
   for (std::size_t j = 0; j < count; ++j) {
     const Joint& joint = skeleton.joints[j];
     const std::size_t parent = std::size_t(std::max(0, joint.parent));
-    const int end = boneEnd(skeleton, to_head, int(j));
+    const int end = ends[j];
     const Vector3d along =
         end >= 0 ? Vector3d(skeleton.joints[std::size_t(end)].position - joint.position) : bones[parent];
     bones[j] = along.norm() > 1e-9 ? Vector3d(along.normalized()) : Vector3d::UnitY();
@@ -96,6 +102,27 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
   }
   const Vector2d off = offGround(skeleton, body_plan, pose, posed);
   for (Vector2d& place : pose.place) place += off;
+  return pose;
+}
+
+FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan, std::vector<Vector2d> places) {
+  SKEL_CHECK_EQ(places.size(), skeleton.joints.size());
+  const std::vector<int> ends = boneEnds(skeleton, body_plan);
+  FlatPose pose;
+  pose.place = std::move(places);
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const Joint& joint = skeleton.joints[j];
+    pose.rest.push_back(joint.position.head<2>());
+    const double carried = joint.parent < 0 ? 0 : pose.turn_rad[std::size_t(joint.parent)];
+    double turn = carried;
+    if (ends[j] >= 0) {
+      const std::size_t end = std::size_t(ends[j]);
+      const Vector2d before = skeleton.joints[end].position.head<2>() - pose.rest[j],
+                     after = pose.place[end] - pose.place[j];
+      if (before.norm() > 1e-9 && after.norm() > 1e-9) turn += wrapped(angleBetween(before, after) - carried);
+    }
+    pose.turn_rad.push_back(turn);
+  }
   return pose;
 }
 

@@ -26,5 +26,8 @@ bool isLeg(const SkeletonTemplate& body_plan, const TemplateLimb& limb);
 // points at him. The feet that are down stand where they do in space: the whole figure is moved so.
 FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
                   const JointTransforms& posed_from_rest);
+// The same of a pose that is flat: each joint at its place, one a joint, model frame.
+FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
+                  std::vector<Eigen::Vector2d> places);
 
 }  // namespace skel

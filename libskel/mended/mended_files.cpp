@@ -9,6 +9,7 @@
 #include "libskel/core/input_guard.h"
 #include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
+#include "libskel/core/tool_command.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/sealed_png.h"
 #include "libskel/labels/label_file.h"
@@ -109,11 +110,12 @@ PlacedJoints jointsOfLabels(const std::string& path, bool named, const std::stri
   for (const auto& [name, place] : file.joints)
     if (place && (named || file.isPlaced(name))) placed.joints.emplace_back(name, *place);
   if (named && placed.joints.empty())
-    throw InputError(path, "holds no joints, only classes of candidates; place them (skel-label " +
-                               shellWord(source) + ", key J), or name a .skeleton.json");
+    throw InputError(path, "holds no joints, only classes of candidates; place them (" +
+                               toolCommand("skel-label") + " " + shellWord(source) +
+                               ", key J), or name a .skeleton.json");
   if (named && file.image.sha256 != image_sha256)
-    throw InputError(path, "was made for another picture than " + source +
-                               "; place the joints anew (skel-label " + shellWord(source) + ")");
+    throw InputError(path, "was made for another picture than " + source + "; place the joints anew (" +
+                               toolCommand("skel-label") + " " + shellWord(source) + ")");
   return placed;
 }
 

@@ -47,6 +47,9 @@ void pullPush(Image& image) {
   }
 }
 
+// A last one that rounding alone would make lies beyond the side.
+int texels(int side_px, double shrink) { return static_cast<int>(std::ceil(side_px / shrink - 1e-9)); }
+
 using Flags = Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // The 3×3 neighbourhood's maximum (`grow`) or minimum; beyond the border lies 0.
@@ -66,8 +69,7 @@ Flags spread(const Flags& flags, bool grow) {
 
 DrawingTexture drawingTexture(const Image& image, const Plane8& mask, const PixelBox& box, int max_size) {
   const double shrink = std::max(1.0, std::max(box.width(), box.height()) / double(max_size - 2 * kMargin));
-  const int width = static_cast<int>(std::ceil(box.width() / shrink));
-  const int height = static_cast<int>(std::ceil(box.height() / shrink));
+  const int width = texels(box.width(), shrink), height = texels(box.height(), shrink);
 
   Flags figure = Flags::Zero(height + 2 * kMargin, width + 2 * kMargin);
   DrawingTexture result;

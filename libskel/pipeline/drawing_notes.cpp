@@ -4,6 +4,7 @@
 
 #include "libskel/core/file_names.h"
 #include "libskel/core/text.h"
+#include "libskel/core/tool_command.h"
 #include "libskel/deform/figure_shape.h"
 #include "libskel/deform/stretch.h"
 
@@ -15,10 +16,11 @@ constexpr const char* kPaintTheLimb = "; if it is drawn before the body, paint i
 }  // namespace
 
 std::string noteText(const Note& note, const std::string& file) {
-  constexpr std::string_view kPlace = " FILE";
+  constexpr std::string_view kPlace = "skel-label FILE";
+  const std::string command = toolCommand("skel-label") + " " + shellWord(file);
   std::string text = note.text;
-  for (std::size_t at = text.find(kPlace); at != text.npos; at = text.find(kPlace, at))
-    text.replace(at + 1, kPlace.size() - 1, shellWord(file));
+  for (std::size_t at = text.find(kPlace); at != text.npos; at = text.find(kPlace, at + command.size()))
+    text.replace(at, kPlace.size(), command);
   return text;
 }
 

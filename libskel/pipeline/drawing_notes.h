@@ -8,7 +8,7 @@
 
 namespace skel {
 
-// One clause. The word FILE in it stands for the file that skel-label opens to mend the drawing.
+// One clause. "skel-label FILE" in it stands for the command that opens what mends the drawing.
 struct Note {
   std::string text;
   // Where many drawings are spoken of, the same is said once of all: `text` without what differs, which is
@@ -16,7 +16,7 @@ struct Note {
   std::string shared = {}, what = {};
 };
 
-// The note's text for a drawing whose file to mend is `file`; the path stands there as a word for the shell.
+// The note's text for a drawing whose file to mend is `file`, with the command as a shell takes it here.
 std::string noteText(const Note& note, const std::string& file);
 
 // Of the figure, its joints and its body plan, where the joints were looked for.

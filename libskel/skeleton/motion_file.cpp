@@ -121,6 +121,7 @@ MotionFile readMotionFile(const std::string& path, const SkeletonTemplate& body_
 
 void requireNoEdits(const std::string& path, const SkeletonTemplate& body_plan) {
   if (!std::filesystem::exists(path)) return;
+  if (std::filesystem::is_directory(path)) throw OutputError(path, "is a folder; name a file by -o");
   const LookAtOutputs look;
   for (const MotionFrame& frame : readMotionFile(path, body_plan).frames)
     for (const auto& joint : frame.joints)

@@ -373,6 +373,40 @@ TEST_CASE("a clip that eases comes back with its keys and its ease, and plays as
   CHECK(again.keyTimes() == std::vector<double>{0, 2});
 }
 
+TEST_CASE("a clip of --clips-dir that eases is edited by its own keys, as one that is opened") {
+  const TempDir dir;
+  const std::string path = dir.file("mine/bow.clip.json");
+  AnimationDocument document({.path = figureFile(dir)});
+  document.choose(document.skeleton().index("head"));
+  document.newClip("bow", 2);
+  document.setKey();
+  document.setTime(2);
+  document.turnJoint(document.skeleton().index("head"), 0, 0.8);
+  document.setKey();
+  REQUIRE(document.saveClip(path));
+  std::string text = readFile(path);
+  text.insert(text.find("\"rest_pose\""), "\"ease\": \"rest\",\n  ");
+  writeFile(path, text);
+
+  ClipSource library;
+  library.clips_dir = dir.file("mine");
+  AnimationDocument again({.path = figureFile(dir, "again.glb")}, library);
+  const auto isEdited = [&] {
+    const auto& clips = again.clips();
+    again.chooseClip(
+        int(std::find_if(clips.begin(), clips.end(), [](const Clip& c) { return c.name == "bow"; }) -
+            clips.begin()));
+    again.choose(again.skeleton().index("head"));
+    CHECK(again.keyTimes() == std::vector<double>{0, 2});
+    REQUIRE(again.saveClip(dir.file("saved.clip.json")));
+    CHECK(readFile(dir.file("saved.clip.json")) == text);
+  };
+  isEdited();
+  CHECK(again.unsavedClips().empty());
+  REQUIRE(again.openModel(figureFile(dir, "third.glb")));
+  isEdited();
+}
+
 TEST_CASE("a pose is taken as a motion of one key") {
   const TempDir dir;
   AnimationDocument document({.path = figureFile(dir)});

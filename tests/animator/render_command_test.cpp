@@ -346,6 +346,28 @@ TEST_CASE("a drawing moves as it was drawn, on a ground that is clear, the same 
             .exit_code == 0);
 }
 
+TEST_CASE("two clip files whose clips have one name are refused in films and sheets, and named") {
+  const TempDir dir;
+  const std::string wave = readFile(SKEL_SOURCE_DIR "/libskel/animation/clips/biped/wave.clip.json");
+  std::string other = wave;
+  other.replace(other.find("\"flow\""), 6, "\"rest\"");
+  const std::string a = dir.file("a/wave.clip.json"), b = dir.file("b/wave.clip.json");
+  writeFile(a, wave);
+  writeFile(b, other);
+  const std::string small = " --size 32 --fps 4 ";
+  for (const std::string& output : {"-o " + dir.file("films/"), "--sheet " + dir.file("sheet.png")}) {
+    CAPTURE(output);
+    const ToolRun run = render(kDrawing + " --clips " + a + "," + b + small + output);
+    CHECK(run.exit_code == 1);
+    CHECK_THAT(run.err, Contains(a + " and " + b + " are both called \"wave\"; give one of them another"));
+    CHECK_FALSE(fs::exists(dir.file("films")));
+    CHECK_FALSE(fs::exists(dir.file("sheet.png")));
+    CHECK(render(kDrawing + " --clips " + a + "," + a + small + output).exit_code == 0);  // one and the same
+    fs::remove_all(dir.file("films"));
+    fs::remove(dir.file("sheet.png"));
+  }
+}
+
 TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
   const TempDir dir;
   const std::string model = figureFile(dir), film = dir.file("film.gif");

@@ -2,6 +2,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/tool_command.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 #include "tests/support/temp_dir.h"
@@ -64,4 +65,8 @@ TEST_CASE("a path as a word of the shell is in quotes where it needs them, and c
   CHECK(shellWord("a\x1b[2J'\n") == "$'a\\x1b[2J\\'\\x0a'");
   for (const std::string path : {"a b", "it's; `x` \"y\" \\ $HOME ~ & | <", "-n"})
     CHECK(runTool("printf %s " + shellWord(path)).out == path);
+}
+
+TEST_CASE("a tool that does not lie beside the running program is called by its name alone") {
+  CHECK(toolCommand("skel-nowhere") == "skel-nowhere");
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "infer/drawings.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/image/write_image.h"
 #include "tests/infer/run_infer.h"
@@ -227,4 +228,23 @@ TEST_CASE("a path in a note can be pasted into a shell") {
   const TempDir dir;
   fs::copy(SKEL_DATASETS "/characters/box_carrier.png", dir.file("Eva's photo.png"));
   CHECK_THAT(infer(dir, "\"Eva's photo.png\"").err, Contains("(skel-label 'Eva'\\''s photo.png', key G)"));
+}
+
+TEST_CASE("a command in a note can be pasted where the tools are not on the PATH") {
+  const TempDir dir;
+  for (const char* name : {"a b.png", "c.png"})
+    fs::copy(SKEL_DATASETS "/characters/box_carrier.png", dir.file(name));
+  const std::string bin = binFolder(), drawing = shellWord(dir.file("a b.png"));
+  const auto says = [&](const std::string& folder, const std::string& tools, const std::string& drawings) {
+    return runTool("cd '" + folder + "' && PATH=/usr/bin:/bin && " + tools + "/skel-infer " + drawings +
+                   " -o '" + dir.file("out") + "'")
+        .err;
+  };
+  CHECK_THAT(says(dir.path(), bin, "'a b.png'"), Contains("(" + bin + "/skel-label 'a b.png', key G)"));
+  CHECK_THAT(says(bin, ".", drawing), Contains("(./skel-label " + drawing + ", key G)"));
+  const fs::path above = fs::path(bin).parent_path(), below = fs::path(bin).filename();
+  CHECK_THAT(says(above, below, drawing),
+             Contains("(" + below.string() + "/skel-label " + drawing + ", key G)"));
+  CHECK_THAT(says(dir.path(), bin, "'a b.png' c.png"),
+             Contains("(" + bin + "/skel-label FILE, key G): 'a b.png'"));
 }

@@ -159,8 +159,11 @@ TEST_CASE("advice fits the picture: of light and pen it speaks for photos alone,
 
 TEST_CASE("a printed report shows the figures at rest") {
   const TempDir dir;
-  const std::string html = reportOf(dir), print = html.substr(html.find("@media print"));
-  CHECK_THAT(print, Contains(".film > div, .film img { animation: none; }"));
+  const std::string html = reportOf(dir, "--clips wave"), print = html.substr(html.find("@media print"));
+  CHECK(countIn(html, "<img class=\"rest\"") == 2);
+  CHECK(countIn(html, ", at rest\" src=\"data:image/") == 2);
+  CHECK_THAT(print,
+             Contains(".film > div { display: none; }") && Contains(".film > .rest { display: block; }"));
 }
 
 TEST_CASE("a report does not go over a result of its own run") {

@@ -8,6 +8,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/sha256.h"
 #include "libskel/image/write_image.h"
+#include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/labels/label_folder.h"
 #include "libskel/skeleton/motion_file.h"
@@ -160,10 +161,46 @@ TEST_CASE("import: beside the pictures, or copied, and labels of a person are ke
   const std::string by_hand = readFile(path);
   CHECK(label(dir, "import in").out == "0 label files made, 2 kept as they were, 0 failed\n");
   CHECK(readFile(path) == by_hand);
-  CHECK(label(dir, "import in --force").out ==
-        "2 label files made, 0 kept as they were, 0 failed\n28 joints placed, 0 found\nwritten into in, "
-        "in/a\n");
-  CHECK(readFile(path) == made);
+  CHECK(
+      label(dir, "import in --force").out ==
+      "2 label files made, 0 kept as they were, 0 failed\n28 joints placed, 0 found; classes set by hand and "
+      "kept: 1\nwritten into in, in/a\n");
+  mended.labels[1] = readLabelFile(dir.file("out/a/cap_boy.labels.json")).labels[1];
+  CHECK(readLabelFile(path).labels == mended.labels);
+}
+
+TEST_CASE("import --force drops classes of joints that are other ones now, and keeps those set by hand") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const std::string path = dir.file("cap_boy.labels.json");
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  const LabelFile made = readLabelFile(path);
+  // As if an annotation with hands for feet had been imported before, and one candidate labelled by hand.
+  LabelFile before = made;
+  for (auto& [name, place] : before.joints) {
+    if (name.ends_with("_foot"))
+      name.replace(name.size() - 4, 4, "hand");
+    else if (name.ends_with("_hand"))
+      name.replace(name.size() - 4, 4, "foot");
+  }
+  before.labels =
+      labelImage(dir.file("cap_boy.png"), dir.file("cap_boy.mask.png"), before.joints, loadTemplate("biped"))
+          .labels;
+  REQUIRE(before.labels != made.labels);
+  const auto body =
+      std::find(made.labels.begin(), made.labels.end(), JointClass::kBody) - made.labels.begin();
+  before.labels[std::size_t(body)] = JointClass::kHead;
+  writeLabelFile(path, before);
+  REQUIRE(label(dir, "import . --force").exit_code == 0);
+  LabelFile wanted = made;
+  wanted.labels[std::size_t(body)] = JointClass::kHead;
+  CHECK(readLabelFile(path).labels == wanted.labels);
+  SECTION("of another picture none is kept") {
+    before.image.sha256 = std::string(64, '0');
+    writeLabelFile(path, before);
+    REQUIRE(label(dir, "import . --force").exit_code == 0);
+    CHECK(readLabelFile(path).labels == made.labels);
+  }
 }
 
 TEST_CASE("import: skeletons that skel-infer has found, of which what a person has moved counts as placed") {
@@ -258,7 +295,7 @@ TEST_CASE(
   CHECK(run.out == "0 label files made, 1 kept as they were, 0 failed\n");
   CHECK(run.err ==
         "skel-label: note: cap_boy.labels.json: kept, with other joints than what is to be imported; --force "
-        "takes the latter, and drops joints and classes set by hand\n");
+        "takes the latter, and drops joints set by hand\n");
   CHECK(label(dir, "import . --force").err == "");
   for (const auto& [name, place] : readLabelFile(dir.file("cap_boy.labels.json")).joints)
     if (name == "head") CHECK(place->x() == 310);

@@ -16,6 +16,7 @@
 #include "tests/labeler/drawing_folder.h"
 #include "tests/support/catch.h"
 #include "tests/support/locked_folder.h"
+#include "tests/support/run_tool.h"
 
 using namespace skel;
 namespace fs = std::filesystem;
@@ -30,7 +31,9 @@ void randomStep(Document& document, Rng& rng) {
     const Eigen::Vector2d p = place();
     return document.candidatesNear(p, rng.uniform(5, 80));
   };
-  switch (rng.below(11)) {
+  switch (rng.below(12)) {
+    case 11:
+      return document.acceptMask();
     case 10:
       return document.paintLayer(place(), place(), rng.uniform(2, 40),
                                  layerBrushes(document.bodyPlan())[rng.below(9)]);
@@ -416,6 +419,39 @@ TEST_CASE("a mask that would show no figure is refused") {
   CHECK(document.state() == before);
   CHECK(contains(document.message(), "no figure"));
   CHECK_FALSE(document.canUndo());
+}
+
+TEST_CASE("a figure that is called right is kept as its mask, and skel-infer no longer asks to look at it") {
+  const TempDir dir;
+  fs::copy(SKEL_SOURCE_DIR "/datasets/unseen/characters/kd_tadpole_papa.png", dir.file("papa.png"));
+  const auto asks = [&] {
+    const ToolRun run = runTool("cd '" + dir.path() + "' && skel-infer papa.png --formats json");
+    REQUIRE(run.exit_code == 0);
+    return contains(run.err, "look at the mask");
+  };
+  REQUIRE(asks());
+  Document document(dir.path(), documentOptions());
+  const Plane8 found = document.figure().silhouette.mask;
+  document.acceptMask();
+  CHECK(document.message() == "the figure: right as it is");
+  CHECK(document.saveProblem().empty());
+  CHECK(document.item().has_shape);
+  CHECK((readMask(dir.file("papa.mask.png")) == found).all());
+  CHECK_FALSE(asks());
+  document.undo();
+  CHECK_FALSE(fs::exists(dir.file("papa.mask.png")));
+  CHECK(asks());
+}
+
+TEST_CASE("a mask that lay there before is called right by a label file, and stays") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const std::string mask = readFile(dir.file("cap_boy.mask.png"));
+  Document document(dir.path(), documentOptions());
+  document.acceptMask();
+  CHECK_FALSE(document.canUndo());
+  CHECK(readLabelFile(dir.file("cap_boy.labels.json")).mask->sha256 == sha256(mask));
+  CHECK(readFile(dir.file("cap_boy.mask.png")) == mask);
 }
 
 TEST_CASE("a mended mask that lay there before comes back byte by byte") {
@@ -944,6 +980,22 @@ TEST_CASE(
   CHECK_FALSE(labels.hasPlacedJoint());
 }
 
+TEST_CASE("that a picture has changed stays said when its joints have been found in it") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path(), false);
+  {
+    Document document(dir.path(), documentOptions());
+    document.label({0}, JointClass::kBody);
+  }
+  fs::copy(kCharacters + "clown.png", dir.file("cap_boy.png"), fs::copy_options::overwrite_existing);
+  Document document(dir.path(), documentOptions());
+  const std::string said = "cap_boy.png has changed since it was labelled: look through the labels";
+  REQUIRE(document.message() == said);
+  REQUIRE(document.wantsJoints());
+  document.findJoints();
+  CHECK(document.message().starts_with(said + "; rigged"));
+}
+
 namespace {
 
 // A photo of which mask, joints and limbs were mended, and another one under its name.
@@ -1064,6 +1116,13 @@ TEST_CASE(
     "of a photo taken again all right is asked twice where a mask of the one before would count for it") {
   const TakenAgain photo;
   Document document(photo.dir.path(), documentOptions());
+  SECTION("also in mask") {
+    document.acceptMask();
+    CHECK(document.isOfEarlierPicture());
+    document.acceptMask();
+    CHECK_FALSE(document.isOfEarlierPicture());
+    return;
+  }
   CHECK_FALSE(document.acceptJoints());
   CHECK(document.message().starts_with("of the picture before: mask (M), limbs (G); look, then Enter again"));
   CHECK(document.isOfEarlierPicture());

@@ -82,7 +82,7 @@ TEST_CASE("from a drawing and two films to a new film, and on from what lies bet
   CHECK(readImage(dir.file("look.png")).width > 400);
   done("render --character " + kDrawing + " --motion " + content +
        " --background keep --in-place --order "
-       "left_arm,left_leg,right_leg,body,head,right_arm -o " +
+       "left_arm,left_leg,right_leg,body,right_arm -o " +
        dir.file("keep/"));
   CHECK(filesBelow(dir.file("keep")).size() == 8);
 
@@ -176,7 +176,7 @@ TEST_CASE("one frame, frames that are all the same, and frames without a figure"
   CHECK_THAT(done("keypoints " + dir.file("same") + " -o " + same).out, Contains("unevenness 0.0000"));
   done("transfer --content " + same + " --style " + one + " -o " + dir.file("t.motion.json"));
   CHECK_THAT(done("render --character " + kDrawing + " --motion " + one + " -o " + dir.file("o.gif")).out,
-             Contains("1 frames") && Contains("0 of "));
+             Contains("1 frames") && Contains("at most 0.0 % of the drawing torn"));
 
   writeFile(dir.file("blank/1.png"), encodePng(blankImage(64, 64)));
   const ToolRun run = style("keypoints " + dir.file("blank") + " -o " + dir.file("b.motion.json"));
@@ -379,6 +379,8 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
       {"database check " + dir.file("empty"), 2, "empty: is no database: it has no index.json"},
       {"make --character " + dir.file("none.glb") + " --content a --style b" + out, 2,
        "none.glb: cannot be read"},
+      {"make --character " SKEL_SOURCE_DIR "/datasets/animals/cloud_sheep.png --content a --style b" + out, 2,
+       "cloud_sheep.png: is a quadruped's figure, and these motions are a person's"},
       {"make --character " + kDrawing + " --content a --style b --order head" + out, 1,
        "--order names each part once"},
       {"make --character " + kDrawing + " --content a --style b --background '#12'" + out, 1,
@@ -408,4 +410,30 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
     CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
   }
   CHECK(filesBelow(dir.path()).size() == 1);
+}
+
+TEST_CASE("a folder in place of the motion file is told from a motion, as with every output") {
+  const TempDir dir;
+  const std::string walk = film(dir, "walk");
+  fs::create_directories(dir.file("there"));
+  for (const std::string command : {"skel-style keypoints ", "skel-label motion "}) {
+    const ToolRun run = runTool(command + walk + " -o " + dir.file("there"));
+    CHECK(run.exit_code == 4);
+    CHECK_THAT(run.err, Contains("there: is a folder; name a file by -o"));
+  }
+}
+
+TEST_CASE("key frames of a film that holds no pictures leave no folder behind") {
+  const TempDir dir;
+  fs::create_directories(dir.file("empty"));
+  fs::create_directories(dir.file("there"));
+  for (const char* output : {"frames", "new/frames/", "there"}) {
+    CAPTURE(output);
+    const ToolRun run = style("keyframes " + dir.file("empty") + " -o " + dir.file(output));
+    CHECK(run.exit_code == 2);
+    CHECK_THAT(run.err, Contains("holds no pictures"));
+  }
+  CHECK_FALSE(fs::exists(dir.file("frames")));
+  CHECK_FALSE(fs::exists(dir.file("new")));
+  CHECK(fs::exists(dir.file("there")));
 }
