@@ -33,9 +33,10 @@ struct Row {
   std::string id;
   bool annotated = false, counts = true, found = false;
   Score score;
-  std::string reason;      // why nothing was found
-  std::string other_plan;  // whose joints it has; "": those of the one that is measured
-  std::string overruled;   // see MeasuredDrawing
+  std::string reason;       // why nothing was found
+  std::string other_plan;   // whose joints it has; "": those of the one that is measured
+  std::string overruled;    // see MeasuredDrawing
+  bool lacks_mask = false;  // which --given-mask would hand over
   std::optional<Error> failure;
 };
 
@@ -53,6 +54,7 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
   input.image = truth.image;
   input.file = id;
   if (options.given_mask) input.mask = truth.mask;  // without one it has to be found
+  row.lacks_mask = options.given_mask && !truth.mask;
   const RiggedDrawing drawing = rigCharacter(std::move(input), rig);
   row.found = drawing.found();
   row.reason = drawing.silhouette.reason;
@@ -165,6 +167,13 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
   for (const Row& row : all)
     if (!row.overruled.empty()) overruled.push_back(row.overruled);
   if (!overruled.empty()) std::fprintf(stderr, "skel-infer: note: %s\n", overruledNote(overruled).c_str());
+  std::vector<std::string> without_mask;
+  for (const Row& row : all)
+    if (row.lacks_mask) without_mask.push_back(row.id);
+  if (!without_mask.empty())
+    std::fprintf(stderr,
+                 "skel-infer: note: %s: no mask to hand over (--given-mask), so the figure was found\n",
+                 firstAndMore(without_mask).c_str());
   std::map<std::string, std::vector<std::string>> of_other_plans;
   for (const Row& row : all)
     if (!row.other_plan.empty()) of_other_plans[row.other_plan].push_back(row.id);

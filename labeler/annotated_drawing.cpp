@@ -22,15 +22,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 // Where others leave the middle of the trunk out, it is half way between shoulders and hips.
-void addBody(NamedJoints& joints) {
+void addBody(AnnotatedDrawing& drawing) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  int found = 0;
-  for (const auto& [name, place] : joints) {
+  int known = 0;
+  bool recognized = false;
+  for (const auto& [name, place] : drawing.joints) {
     if (name == "body") return;
-    if (place && (name.ends_with("_shoulder") || name.ends_with("_hip"))) sum += *place, ++found;
+    if (!place || !(name.ends_with("_shoulder") || name.ends_with("_hip"))) continue;
+    sum += *place, ++known;
+    recognized = recognized || contains(drawing.recognized, name);
   }
-  if (found == 4) joints.emplace_back("body", sum / 4);
+  if (known < 4) return;
+  drawing.joints.emplace_back("body", sum / 4);
+  if (recognized) drawing.recognized.push_back("body");
 }
 
 AnnotatedDrawing readCharCfg(const fs::path& path, const SkeletonTemplate& body_plan) {
@@ -38,13 +47,18 @@ AnnotatedDrawing readCharCfg(const fs::path& path, const SkeletonTemplate& body_
   for (const fs::path& needed : {image, mask})
     if (!fs::is_regular_file(needed))
       throw InputError(path.string(), "needs " + needed.filename().string() + " beside it");
-  AnnotatedDrawing drawing{path.string(), image.string(), mask.string(), {}, {}, {}};
   const CharCfg cfg = parseCharCfg(readFile(path.string()), path.string());
+  AnnotatedDrawing drawing{path.string(), image.string(), mask.string(), {}, {}, {}};
+  if (!cfg.found_mask_sha256.empty() && sha256(readFile(mask.string())) == cfg.found_mask_sha256)
+    drawing.mask.reset();
   for (const auto& [theirs, ours] : charCfgJointNames())
-    for (const auto& [name, point] : cfg.joints)
-      if (name == theirs && body_plan.find(ours) >= 0) drawing.joints.emplace_back(ours, point);
+    for (const auto& [name, point] : cfg.joints) {
+      if (name != theirs || body_plan.find(ours) < 0) continue;
+      drawing.joints.emplace_back(ours, point);
+      if (contains(cfg.found, name)) drawing.recognized.push_back(ours);
+    }
   if (drawing.joints.empty()) throw InputError(path.string(), "none of its joints is known");
-  addBody(drawing.joints);
+  addBody(drawing);
   return drawing;
 }
 
@@ -75,6 +89,9 @@ std::optional<AnnotatedDrawing> readSkeleton(const std::string& path, const std:
   if (file.image_sha256.empty() && !liesBelow(dir, drawing.image))
     throw InputError(path, "does not know the hash of " + drawing.image + ", which lies outside of " + dir +
                                "; find its joints anew (skel-infer)");
+  if (!fs::exists(drawing.image))
+    throw InputError(path, "image.file: there is no " + drawing.image +
+                               "; give the picture that name again, or find its joints anew (skel-infer)");
   if (!file.image_sha256.empty() && sha256(readFile(drawing.image)) != file.image_sha256)
     throw InputError(path, drawing.image + " has changed since; find its joints anew (skel-infer)");
   if (file.mask) drawing.mask = beside(file.mask->file);
@@ -85,21 +102,22 @@ std::optional<AnnotatedDrawing> readSkeleton(const std::string& path, const std:
   return drawing;
 }
 
-bool isCoco(const fs::path& path) {
-  const std::string name = path.filename().string();
+}  // namespace
+
+bool isCoco(const std::string& path) {
+  const std::string name = fs::path(path).filename().string();
   if (!name.ends_with(".json") || name == "joints.json") return false;
   for (const char* ending : {kLabelFileEnding, kSkeletonFileEnding, ".joints.json", kMotionFileEnding})
     if (name.ends_with(ending)) return false;
-  const JsonDocument document = JsonDocument::readFile(path.string());
+  const JsonDocument document = JsonDocument::readFile(path);
   const JsonValue root = document.root();
   return root.isObject() && root.find("annotations") && root.find("images");
 }
 
-}  // namespace
-
 std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir, const SkeletonTemplate& body_plan,
-                                                    const std::function<void(const InputError&)>& on_error) {
-  std::vector<AnnotatedDrawing> drawings;
+                                                    const OnInputError& on_error,
+                                                    std::set<std::string>* passed_over) {
+  std::vector<AnnotatedDrawing> drawings, exports;
   const auto attempt = [&](const auto& step) {
     try {
       step();
@@ -116,18 +134,29 @@ std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir, cons
   for (const fs::path file : filesBelow(dir)) {
     if (file.filename() == "char_cfg.yaml")
       attempt([&] { drawings.push_back(readCharCfg(file, body_plan)); });
-    if (isCoco(file))
-      for (AnnotatedDrawing& drawing : readCoco(file.string(), body_plan))
-        drawings.push_back(std::move(drawing));
+    if (isCoco(file.string()))
+      for (AnnotatedDrawing& drawing : readCoco(file.string(), body_plan, on_error))
+        (drawing.is_export ? exports : drawings).push_back(std::move(drawing));
   }
   for (const AnnotatedDrawing& drawing : drawings)
     annotated.insert(fs::path(drawing.image).lexically_normal().string());
+  std::set<std::string> with_skeleton;
   for (const std::string& file : filesBelow(dir))
     attempt([&] {
       if (!isSkeletonOf(file, body_plan)) return;
-      if (auto drawing = readSkeleton(file, dir, body_plan); drawing && !annotated.contains(drawing->image))
-        drawings.push_back(std::move(*drawing));
+      auto drawing = readSkeleton(file, dir, body_plan);
+      if (!drawing || annotated.contains(drawing->image)) return;
+      with_skeleton.insert(drawing->image);
+      drawings.push_back(std::move(*drawing));
     });
+  for (AnnotatedDrawing& drawing : exports) {
+    const std::string image = fs::path(drawing.image).lexically_normal().string();
+    if (annotated.contains(image) || with_skeleton.contains(image) || fs::exists(labelFileFor(image))) {
+      if (passed_over) passed_over->insert(drawing.source);
+    } else {
+      drawings.push_back(std::move(drawing));
+    }
+  }
   std::sort(drawings.begin(), drawings.end(), [](const AnnotatedDrawing& a, const AnnotatedDrawing& b) {
     return std::tie(a.image, a.source) < std::tie(b.image, b.source);
   });

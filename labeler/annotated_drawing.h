@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,10 @@ struct AnnotatedDrawing {
   std::vector<Polygon> mask_polygons;  // instead of a file, image px; empty: none
   NamedJoints joints;
   std::vector<std::string> recognized;  // those of `joints` that no person has placed
+  bool is_export = false;               // of our own label files: formatCoco()
 };
+
+using OnInputError = std::function<void(const InputError&)>;
 
 // All below `dir`, by path:
 //   char_cfg.yaml with texture.png and mask.png          AnimatedDrawings
@@ -30,24 +34,33 @@ struct AnnotatedDrawing {
 //   a COCO file (.json with "images" and "annotations") with keypoints and polygons
 //   <stem>.skeleton.json of the body plan and of its picture's first figure; not of pictures of which others
 //   speak
+// A COCO file that we have exported does not count for pictures of which others speak, or that have a label
+// file: `passed_over`, if given, is told its name.
 // Throws InputError: a file that is broken, two annotations of one picture, a picture that is missing or has
 // changed since its skeleton was found. `on_error`, if given, is told what is wrong with one drawing alone,
 // and the others are found.
-std::vector<AnnotatedDrawing> findAnnotatedDrawings(
-    const std::string& dir, const SkeletonTemplate& body_plan,
-    const std::function<void(const InputError&)>& on_error = {});
+std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir, const SkeletonTemplate& body_plan,
+                                                    const OnInputError& on_error = {},
+                                                    std::set<std::string>* passed_over = nullptr);
 
-// The annotations of one COCO file. Pictures with several: the largest figure.
-std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTemplate& body_plan);
+// Whether a file holds COCO annotations. Throws InputError: a .json file that cannot be read.
+bool isCoco(const std::string& path);
+
+// The annotations of one COCO file. Pictures with several: the largest figure. `on_error`, if given, is told
+// of pictures that are missing, and the others are read.
+std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTemplate& body_plan,
+                                       const OnInputError& on_error = {});
 
 // COCO keypoints that readCoco() reads back. `recognized` joints are no keypoints of the file (visibility 0):
-// they stand in `skel_found`, which nobody else takes for truth.
+// they stand in `skel_found`, which nobody else takes for truth. An outline that was found comes back as
+// none.
 struct CocoPicture {
   std::string file_name;
   int width = 0, height = 0;
   NamedJoints joints;
   std::vector<std::string> recognized;  // those of `joints` that no person has placed
   std::vector<Polygon> mask_polygons;
+  bool outline_found = false;  // by the program: no person has given or mended a mask
 };
 std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonTemplate& body_plan);
 

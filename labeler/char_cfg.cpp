@@ -49,6 +49,8 @@ class Reader {
         cfg_.height = size(value);
       } else if (key == "skeleton") {
         readJoints();
+      } else if (key == "skel_found_mask") {
+        cfg_.found_mask_sha256 = unquoted(value);
       } else {
         fail("unknown key '" + std::string(key) + "'");
       }
@@ -115,13 +117,14 @@ class Reader {
 
   void readJoints() {
     while (!atEnd() && lines_[next_].starts_entry) {
-      std::optional<Eigen::Vector2d> loc;
+      std::optional<Eigen::Vector2d> loc, found;
       std::string name;
       bool first = true;
       while (!atEnd() && (first || !lines_[next_].starts_entry) && isJointKey()) {
         first = false;
         const auto [key, value] = keyAndValue();
         if (key == "loc") loc = location(value);
+        if (key == "skel_found") found = location(value);
         if (key == "name") name = unquoted(value);
       }
       if (first) {
@@ -131,12 +134,13 @@ class Reader {
       if (!loc || name.empty()) fail("a joint needs loc and name");
       if (!names_.insert(name).second) fail("the joint '" + name + "' is there twice");
       cfg_.joints.emplace_back(name, *loc);
+      if (found == loc) cfg_.found.push_back(name);
     }
   }
 
   bool isJointKey() const {
     const std::string_view key = unquoted(lines_[next_].text.substr(0, lines_[next_].text.find(':')));
-    return key == "loc" || key == "name" || key == "parent";
+    return key == "loc" || key == "name" || key == "parent" || key == "skel_found";
   }
 
   const std::string& file_;

@@ -13,6 +13,10 @@ namespace skel {
 struct CharCfg {
   int width = 0, height = 0;                                    // of texture.png, px
   std::vector<std::pair<std::string, Eigen::Vector2d>> joints;  // in the file's order, image px
+  // What skel-infer says of its own: joints that lie where it has found them, and the hash of the mask that
+  // it has found.
+  std::vector<std::string> found;
+  std::string found_mask_sha256;
 };
 
 // Reads the part of YAML that such files use: block mappings and lists by indentation, [x, y] in one line,

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
+#include <utility>
 
 #include "labeler/annotated_drawing.h"
 #include "libskel/core/error.h"
@@ -113,6 +114,16 @@ std::vector<Polygon> polygons(const JsonValue& annotation) {
   return result;
 }
 
+// COCO has a place for who made a file.
+constexpr const char* kContributor = "skel-label export";
+
+bool isExport(const JsonValue& root) {
+  const std::optional<JsonValue> info = root.find("info");
+  if (!info || !info->isObject()) return false;
+  const std::optional<JsonValue> contributor = info->find("contributor");
+  return contributor && contributor->isString() && contributor->asString() == kContributor;
+}
+
 double boxArea(const JsonValue& annotation) {
   const std::optional<JsonValue> box = annotation.find("bbox");
   if (!box) return 0;
@@ -122,9 +133,11 @@ double boxArea(const JsonValue& annotation) {
 
 }  // namespace
 
-std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTemplate& body_plan) {
+std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTemplate& body_plan,
+                                       const OnInputError& on_error) {
   const JsonDocument document = JsonDocument::readFile(path);
   const JsonValue root = document.root();
+  const bool is_export = isExport(root);
 
   std::map<double, std::vector<std::string>> names_of;  // by category
   if (const auto categories = root.find("categories"))
@@ -142,7 +155,11 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTe
     if (is_new) {
       // Masks are written beside the pictures.
       named->second = pathInside(fs::path(path).parent_path().string(), named->first, path);
-      if (!fs::is_regular_file(named->second)) name.fail("there is no " + named->second);
+      if (!fs::is_regular_file(named->second)) {
+        const std::string missing = std::exchange(named->second, "");
+        if (!on_error) name.fail("there is no " + missing);
+        on_error(InputError(path, name.path() + ": there is no " + missing));
+      }
     }
     file_of[image.at("id").asNumber()] = named->second;
   }
@@ -153,6 +170,7 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTe
     const JsonValue image_id = annotation.at("image_id");
     const auto file = file_of.find(image_id.asNumber());
     if (file == file_of.end()) image_id.fail("is no image of this file");
+    if (file->second.empty()) continue;  // it is missing
     const auto category = annotation.find("category_id");
     const auto names = category ? names_of.find(category->asNumber()) : names_of.end();
     AnnotatedDrawing drawing;
@@ -162,6 +180,8 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTe
     drawing.joints = underOurNames(points, body_plan);
     takeFound(annotation, points, body_plan, drawing);
     drawing.mask_polygons = polygons(annotation);
+    if (annotation.find("skel_outline_found")) drawing.mask_polygons.clear();
+    drawing.is_export = is_export;
     const double area = boxArea(annotation);
     const auto [other, is_new] = largest.try_emplace(file->second, area, drawing);
     if (!is_new && area > other->second.first) other->second = {area, std::move(drawing)};
@@ -223,10 +243,14 @@ std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonT
                            {"area", area},
                            {"segmentation", std::move(segmentation)}});
     if (!recognized.empty()) annotations.back()["skel_found"] = std::move(recognized);
+    if (picture.outline_found) annotations.back()["skel_outline_found"] = true;
   }
   const Json category = {{"id", 1}, {"name", body_plan.name}, {"keypoints", names}, {"skeleton", bones}};
-  return Json{{"images", images}, {"annotations", annotations}, {"categories", Json::array({category})}}.dump(
-             1) +
+  return Json{{"info", {{"contributor", kContributor}}},
+              {"images", images},
+              {"annotations", annotations},
+              {"categories", Json::array({category})}}
+             .dump(1) +
          "\n";
 }
 

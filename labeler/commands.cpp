@@ -38,6 +38,22 @@ void noteDiffering(const std::vector<std::string>& kept) {
                firstAndMore(kept).c_str());
 }
 
+void notePassedOver(const std::set<std::string>& exports) {
+  if (exports.empty()) return;
+  std::fprintf(stderr,
+               "skel-label: note: %s: exported from label files, not imported beside what it was made of; "
+               "skel-label import FILE takes it\n",
+               firstAndMore({exports.begin(), exports.end()}).c_str());
+}
+
+void noteLacking(const ImportCounts& counts) {
+  if (counts.lacking.empty()) return;
+  std::fprintf(stderr, "skel-label: note: %s: no place for %s: %zu candidates have no class\n",
+               firstAndMore(counts.lacking).c_str(),
+               joined({counts.missing_joints.begin(), counts.missing_joints.end()}).c_str(),
+               counts.without_class);
+}
+
 std::string namesOf(const std::set<std::string>& folders) {
   constexpr std::size_t kMostNamed = 4;
   std::vector<std::string> names;
@@ -92,7 +108,7 @@ ExitCode exportLabels(const LabelerOptions& options) {
     if (code == ExitCode::kDone) code = error.exitCode();
   };
   const std::string text = options.coco ? labelsAsCoco(options.dir, loadTemplate(options.body_plan), on_error)
-                                        : labelsAsCsv(options.dir, on_error);
+                                        : labelsAsCsv(options.dir, loadTemplate(options.body_plan), on_error);
   if (text.empty()) return code;
   writeFile(output, text);
   print(printable(output) + "\n");
@@ -114,7 +130,10 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
 
   const auto command = [&](const char* name, const char* description, std::function<ExitCode()> action) {
     CLI::App* sub = app.add_subcommand(name, description);
-    sub->add_option("dir", options.dir, "Folder, at any depth")->required();
+    sub->add_option("dir", options.dir,
+                    std::string_view(name) == "import" ? "Folder, at any depth, or a COCO file"
+                                                       : "Folder, at any depth")
+        ->required();
     sub->fallthrough();
     sub->parse_complete_callback([&run, action] { run = action; });
     return sub;
@@ -130,7 +149,9 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
                 const ImportCounts counts =
                     importLabels(options.dir, loadTemplate(options.body_plan), options.import, complaints());
                 const ExitCode code = report(counts);
+                notePassedOver(counts.passed_over);
                 noteDiffering(counts.differing);
+                noteLacking(counts);
                 if (counts.made > 0)
                   print(std::to_string(counts.joints_placed) + " joints placed, " +
                         std::to_string(counts.joints_found) + " found" +

@@ -55,6 +55,21 @@ void checkJoints(const AnnotatedDrawing& drawing, const Image& image) {
       throw InputError(drawing.source, "joint " + name + " lies outside " + drawing.image);
 }
 
+void countMissing(const std::string& label_path, const LabelFile& labels, const SkeletonTemplate& body_plan,
+                  ImportCounts& counts) {
+  const auto has = [&](const std::string& name) {
+    return std::any_of(labels.joints.begin(), labels.joints.end(),
+                       [&](const auto& joint) { return joint.first == name && joint.second; });
+  };
+  bool lacks = false;
+  for (const TemplateJoint& joint : body_plan.joints)
+    if (!joint.derived && !has(joint.name)) lacks = true, counts.missing_joints.insert(joint.name);
+  if (!lacks) return;
+  counts.lacking.push_back(label_path);
+  counts.without_class +=
+      static_cast<std::size_t>(std::count(labels.labels.begin(), labels.labels.end(), std::nullopt));
+}
+
 void countJoints(const LabelFile& labels, const SkeletonTemplate& body_plan, ImportCounts& counts) {
   for (const auto& [name, place] : labels.joints) {
     const int joint = body_plan.find(name);
@@ -141,6 +156,7 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
         labels, *before, labelImage(image_path, mask, before->joints, body_plan, {}, before->recognized));
   writeLabelFile(label_path, labels);
   countJoints(labels, body_plan, counts);
+  countMissing(label_path, labels, body_plan, counts);
   const std::string folder = fs::path(label_path).lexically_normal().parent_path().string();
   counts.folders.insert(folder.empty() ? "." : folder);
   return true;
@@ -169,17 +185,23 @@ void forEach(const List& list, const char* title, const OnError& on_error, const
 
 }  // namespace
 
-ImportCounts importLabels(const std::string& dir, const SkeletonTemplate& body_plan,
+ImportCounts importLabels(const std::string& path, const SkeletonTemplate& body_plan,
                           const ImportOptions& options, const OnError& on_error) {
   ImportCounts counts;
-  const std::vector<AnnotatedDrawing> drawings = findAnnotatedDrawings(
-      dir, body_plan, [&](const InputError& error) { countFailure(error, counts, on_error); });
-  if (drawings.empty() && counts.failed == 0)
-    throw InputError(dir,
+  const OnInputError on_input_error = [&](const InputError& error) { countFailure(error, counts, on_error); };
+  const bool is_file = fs::is_regular_file(path);
+  if (is_file && !isCoco(path))
+    throw InputError(path, "is no COCO file; of other annotations name the folder");
+  const std::vector<AnnotatedDrawing> drawings =
+      is_file ? readCoco(path, body_plan, on_input_error)
+              : findAnnotatedDrawings(path, body_plan, on_input_error, &counts.passed_over);
+  if (drawings.empty() && counts.failed == 0 && counts.passed_over.empty())
+    throw InputError(path,
                      "holds nothing to import (char_cfg.yaml, joints.json, <stem>.joints.json, a COCO file "
                      "with keypoints, "
                      "or a skeleton file of the template " +
                          body_plan.name + ")");
+  const std::string dir = is_file ? fs::path(path).parent_path().string() : path;
   const auto make = [&](const AnnotatedDrawing& drawing) {
     return importDrawing(drawing, dir, body_plan, options, counts);
   };

@@ -26,6 +26,10 @@ struct ImportCounts {
   int failed = 0;
   int joints_placed = 0, joints_found = 0;  // in those made: by a person, by the program
   int classes_kept = 0;                     // in those made: of a label file before, set by hand
+  std::vector<std::string> lacking;         // of those made: without a place for some joint
+  std::set<std::string> missing_joints;     // of these
+  std::size_t without_class = 0;            // candidates of these
+  std::set<std::string> passed_over;        // files that we have exported, beside what they were made of
   std::set<std::string> folders;            // that those made lie in
   ExitCode exit_code = ExitCode::kDone;     // of the first failure
 };
@@ -33,8 +37,9 @@ struct ImportCounts {
 // Is told the error of every drawing that could not be used; the others are still processed.
 using OnError = std::function<void(const Error&)>;
 
-// See findAnnotatedDrawings() for what is read. Throws InputError where there is nothing to import.
-ImportCounts importLabels(const std::string& dir, const SkeletonTemplate& body_plan,
+// `path`: a folder (see findAnnotatedDrawings() for what is read), or a COCO file. Throws InputError where
+// there is nothing to import.
+ImportCounts importLabels(const std::string& path, const SkeletonTemplate& body_plan,
                           const ImportOptions& options, const OnError& on_error);
 
 // A label file without labels for every drawing below `dir` that has none.

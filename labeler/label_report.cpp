@@ -106,9 +106,9 @@ void finishSaves(const std::vector<std::string>& files) {
 }
 
 // Calls `use(path, labels, figure)` for each label file that has nothing wrong; `on_error` is told of the
-// others, of those of another body plan in one line. `body_plan` null: any.
+// others, of those of another body plan in one line.
 template <class Use>
-void forEachSound(const std::string& dir, const SkeletonTemplate* body_plan, const OnError& on_error,
+void forEachSound(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error,
                   const Use& use) {
   const std::vector<std::string> files = labelFiles(dir);
   finishSaves(files);
@@ -118,12 +118,12 @@ void forEachSound(const std::string& dir, const SkeletonTemplate* body_plan, con
       std::vector<std::string> lines = findProblems(path);
       if (lines.empty()) {
         const LabelFile labels = readLabelFile(path);
-        const std::string plan = body_plan ? otherPlanOf(labels.joints, *body_plan) : "";
+        const std::string plan = otherPlanOf(labels.joints, body_plan);
         if (!plan.empty()) {
           of_other_plans[plan].push_back(nameBelow(dir, path));
           continue;
         }
-        if (body_plan) checkJointNames(path, labels, *body_plan, lines);
+        checkJointNames(path, labels, body_plan, lines);
         const Silhouette figure = labelledFigure(path, labels);
         checkFigure(path, labels, figure, lines);
         if (lines.empty()) use(path, labels, figure);
@@ -136,7 +136,7 @@ void forEachSound(const std::string& dir, const SkeletonTemplate* body_plan, con
   for (const auto& [plan, names] : of_other_plans)
     on_error(InputError(dir, std::to_string(names.size()) + " of " + std::to_string(files.size()) +
                                  " drawings (" + names.front() + (names.size() > 1 ? ", ..." : "") +
-                                 ") have joints of a " + plan + ", not of a " + body_plan->name +
+                                 ") have joints of a " + plan + ", not of a " + body_plan.name +
                                  ": not exported; --template " + plan + " exports them"));
 }
 
@@ -199,10 +199,10 @@ std::string labelStats(const std::string& dir) {
   return text;
 }
 
-std::string labelsAsCsv(const std::string& dir, const OnError& on_error) {
+std::string labelsAsCsv(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error) {
   std::string text;
   forEachSound(
-      dir, nullptr, on_error, [&](const std::string& path, const LabelFile& labels, const Silhouette&) {
+      dir, body_plan, on_error, [&](const std::string& path, const LabelFile& labels, const Silhouette&) {
         CandidateSet candidates;
         candidates.maxima = labels.candidates;
         const Features rows = features(candidates);
@@ -221,12 +221,12 @@ std::string labelsAsCsv(const std::string& dir, const OnError& on_error) {
 
 std::string labelsAsCoco(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error) {
   std::vector<CocoPicture> pictures;
-  forEachSound(
-      dir, &body_plan, on_error,
-      [&](const std::string& path, const LabelFile& labels, const Silhouette& figure) {
-        pictures.push_back({nameBelow(dir, besideLabelFile(path, labels.image.file)), labels.image_width,
-                            labels.image_height, labels.joints, labels.recognized, figure.outline});
-      });
+  forEachSound(dir, body_plan, on_error,
+               [&](const std::string& path, const LabelFile& labels, const Silhouette& figure) {
+                 pictures.push_back({nameBelow(dir, besideLabelFile(path, labels.image.file)),
+                                     labels.image_width, labels.image_height, labels.joints,
+                                     labels.recognized, figure.outline, !labels.mask});
+               });
   return pictures.empty() ? "" : formatCoco(pictures, body_plan);
 }
 

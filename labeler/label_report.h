@@ -18,12 +18,12 @@ std::string labelStats(const std::string& dir);
 
 // One row a candidate: file, index, place and radius on the grid, the three features, the label (empty:
 // none). Drawings whose picture or mask has changed, or of which checkLabels() has another complaint than a
-// joints file beside them, are left out: `on_error` is told. "": none is left. Throws InputError: no label
-// files.
-std::string labelsAsCsv(const std::string& dir, const OnError& on_error);
+// joints file beside them, and those of another body plan, are left out: `on_error` is told. "": none is
+// left. Throws InputError: no label files.
+std::string labelsAsCsv(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error);
 
 // One annotation a drawing: placed joints as keypoints, found ones beside them, the outline as polygons.
-// Pictures by their path below `dir`. Left out as above, and where the joints are those of another body plan.
+// Pictures by their path below `dir`. Left out as above.
 std::string labelsAsCoco(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error);
 
 }  // namespace skel

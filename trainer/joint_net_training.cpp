@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <numbers>
 #include <sstream>
@@ -13,6 +14,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
+#include "libskel/core/text.h"
 #include "trainer/checkpoint.h"
 #include "trainer/conv_net_trainer.h"
 #include "trainer/figures/figure.h"
@@ -256,6 +258,7 @@ class Training {
     goOnFrom(options.checkpoint, made_by_, trainer_);
     if (!drawings.empty()) {
       splitOff(drawings);
+      own_ = drawings.size();
       repeatHard(drawings);
       learned_ = drawings.size();
       std::move(rehearsed.begin(), rehearsed.end(), std::back_inserter(drawings));
@@ -270,6 +273,7 @@ class Training {
 
   void run() {
     const int steps_per_round = options_.figures_per_round * options_.passes / options_.batch;
+    reportDrawings();
     reportLeftOut("before", net_);
     ProgressBar bar("training", static_cast<std::size_t>(schedule_.steps));
     bar.advance(static_cast<std::size_t>(trainer_.steps()));
@@ -296,6 +300,7 @@ class Training {
       }
     }
     reportLeftOut("after", result());
+    std::printf("wrote %s\n", printable(options_.output).c_str());
   }
 
  private:
@@ -336,6 +341,18 @@ class Training {
     std::fflush(stdout);
     for (int copy = 1; copy < options_.hard_copies; ++copy)
       drawings.insert(drawings.end(), hard.begin(), hard.end());
+  }
+
+  void reportDrawings() const {
+    if (own_ == 0) return;
+    std::printf("%zu drawings are learned from", own_);
+    if (learned_ < drawings_.size()) std::printf(", %zu rehearsed", drawings_.size() - learned_);
+    if (!left_out_.empty())
+      std::printf(", %zu left out to measure by\n", left_out_.size());
+    else
+      std::printf("; none is left out to measure by (%s)\n",
+                  schedule_.left_out > 0 ? "they are too few for --left-out" : "--left-out 0");
+    std::fflush(stdout);
   }
 
   void reportLeftOut(const char* when, const JointNet& net) const {
@@ -438,7 +455,8 @@ class Training {
   ConvNetTrainer trainer_;
   FigureOptions figure_options_;
   std::vector<PosableDrawing> drawings_;
-  std::size_t learned_ = 0;         // of drawings_; the others are rehearsed
+  std::size_t own_ = 0;      // drawings that are learned from
+  std::size_t learned_ = 0;  // of drawings_, hard ones as often as they count; the others are rehearsed
   std::vector<std::size_t> shown_;  // numbers of drawings_, which a round shows
   std::vector<JointedDrawing> left_out_;
   std::vector<Figure> validation_, figures_;

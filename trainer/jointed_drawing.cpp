@@ -78,14 +78,22 @@ std::vector<JointedDrawing> findJointedDrawings(const std::string& dir) {
   }
   if (!overruled.empty()) std::fprintf(stderr, "skel-train: note: %s\n", overruledNote(overruled).c_str());
   const std::vector<std::string> all = filesBelow(dir);
+  std::map<std::string, std::string> skipped;  // files without a joint that a person has placed, by image
   for (const std::string& path : all) {
     if (!path.ends_with(kLabelFileEnding)) continue;
     const LabelFile file = readLabelFile(path);
-    if (!file.hasPlacedJoint()) continue;
+    if (!file.hasPlacedJoint()) {
+      skipped.emplace(fs::path(besideLabelFile(path, file.image.file)).lexically_normal().string(), path);
+      continue;
+    }
     add(fromLabels(path, file), file);
   }
   for (const std::string& path : all) {
-    if (!path.ends_with(kSkeletonFileEnding) || !hasEditedJoint(path)) continue;
+    if (!path.ends_with(kSkeletonFileEnding)) continue;
+    if (!hasEditedJoint(path)) {
+      if (const auto source = sourceOfSkeleton(path)) skipped.emplace(beside(path, source->image_file), path);
+      continue;
+    }
     const std::string body_plan = JsonDocument::readFile(path).root().at("template").asString();
     const SkeletonFile file = readSkeletonFile(path, loadTemplate(body_plan));
     add(fromSkeleton(path, file), file);
@@ -101,6 +109,12 @@ std::vector<JointedDrawing> findJointedDrawings(const std::string& dir) {
     throw InputError(changed.front().file(), changed.front().problem() + "; the same of " +
                                                  std::to_string(others.size()) + " more: " + joined(others));
   }
+  std::vector<std::string> unplaced;
+  for (const auto& [image, path] : skipped)
+    if (!by_image.contains(image)) unplaced.push_back(path);
+  if (!unplaced.empty())
+    std::fprintf(stderr, "skel-train: note: %s: without a joint that a person has placed, not learned from\n",
+                 firstAndMore(unplaced).c_str());
   std::vector<JointedDrawing> drawings;
   for (auto& [image, drawing] : by_image) drawings.push_back(std::move(drawing));
   return drawings;

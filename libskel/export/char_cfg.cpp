@@ -6,6 +6,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
+#include "libskel/core/sha256.h"
 #include "libskel/export/formats.h"
 #include "libskel/image/write_image.h"
 
@@ -88,9 +89,15 @@ std::vector<ExportedFile> exportCharCfg(const ExportInput& input) {
     yaml += "- loc:\n  - " + std::to_string(whole(at.x(), width)) + "\n  - " +
             std::to_string(whole(at.y(), height)) + "\n  name: " + joint.name +
             "\n  parent: " + (joint.parent ? joint.parent : "null") + "\n";
+    // Its reader goes by the keys that it knows.
+    if (skeleton.joints[ours].origin != JointOrigin::kEdited)
+      yaml += "  skel_found: [" + std::to_string(whole(at.x(), width)) + ", " +
+              std::to_string(whole(at.y(), height)) + "]\n";
   }
+  const std::string mask_png = encodePng(crop);
+  if (!input.mask_is_given) yaml += "skel_found_mask: " + sha256(mask_png) + "\n";
   yaml += "width: " + std::to_string(width) + "\n";
-  return {{"/mask.png", encodePng(crop)}, {"/texture.png", encodePng(texture)}, {"/char_cfg.yaml", yaml}};
+  return {{"/mask.png", mask_png}, {"/texture.png", encodePng(texture)}, {"/char_cfg.yaml", yaml}};
 }
 
 }  // namespace skel

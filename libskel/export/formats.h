@@ -17,6 +17,7 @@ struct ExportInput {
   ExportOptions options;           // name: the files' stem, as files name each other by it
   const Image* drawing = nullptr;  // Joint::image is in its px
   const Plane8* mask = nullptr;    // of the drawing's size, 255 on the figure
+  bool mask_is_given = false;      // by a person; else it was found
 };
 
 struct ExportedFile {

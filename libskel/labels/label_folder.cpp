@@ -1,10 +1,14 @@
 #include "libskel/labels/label_folder.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
+#include <optional>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/sha256.h"
+#include "libskel/core/text.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/skeleton/template.h"
 
@@ -35,6 +39,51 @@ LabelledCharacter characterOf(const std::string& name, const std::string& path, 
     character.labels.push_back(*labels.labels[i]);
   }
   return character;
+}
+
+struct JointedImage {
+  std::string image, source;  // paths; source: of the joints
+  std::optional<std::string> mask;
+  NamedJoints joints;
+  std::vector<std::string> recognized;
+};
+
+// A label file's placed joints count before a joints file beside it. Sorted by the picture's path.
+std::vector<JointedImage> findJointedImages(const std::string& dir) {
+  std::map<std::string, JointedImage> by_image;
+  for (const AnnotatedImage& annotated : findAnnotatedImages(dir))
+    by_image[annotated.image] = {
+        annotated.image, annotated.joints, annotated.mask, readJointsFile(annotated.joints), {}};
+  for (const std::string& path : findLabelFiles(dir)) {
+    const LabelFile labels = readLabelFile(path);
+    if (!labels.hasPlacedJoint()) continue;
+    ensureUnchanged(path, labels);
+    const std::string image = besideLabelFile(path, labels.image.file);
+    const auto [known, is_new] = by_image.try_emplace(image);
+    JointedImage& drawing = known->second;
+    if (labels.mask) drawing.mask = besideLabelFile(path, labels.mask->file);
+    if (is_new) {
+      drawing.image = image;
+      drawing.source = path;
+      drawing.joints = labels.joints;
+      drawing.recognized = labels.recognized;
+    } else if (!overrule(drawing.joints, labels).empty()) {
+      drawing.source = path;
+    }
+  }
+  std::vector<JointedImage> images;
+  for (auto& [image, drawing] : by_image) images.push_back(std::move(drawing));
+  return images;
+}
+
+void checkAllLabelled(const std::string& source, const LabelFile& labels, const SkeletonTemplate& body_plan) {
+  const auto count = std::count(labels.labels.begin(), labels.labels.end(), std::nullopt);
+  if (count == 0) return;
+  std::vector<std::string> unplaced;
+  for (const TemplateJoint& joint : body_plan.joints)
+    if (!joint.derived && !labels.isPlaced(joint.name)) unplaced.push_back(joint.name);
+  throw InputError(source, "no person has placed " + joined(unplaced) + ": " + std::to_string(count) +
+                               " candidates get no class; place them, or take the drawing away");
 }
 
 void checkClasses(const std::string& dir, const LabelledSet& set) {
@@ -117,14 +166,18 @@ LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions&
   const SkeletonTemplate body_plan = loadTemplate("biped");
   LabelledSet set;
   std::string hashed;
-  for (const AnnotatedImage& annotated : findAnnotatedImages(dir)) {
+  for (const JointedImage& drawing : findJointedImages(dir)) {
     const LabelFile labels =
-        labelImage(annotated.image, annotated.mask, readJointsFile(annotated.joints), body_plan, options);
-    const std::string name = nameBelow(dir, annotated.image);
-    set.characters.push_back(characterOf(name, annotated.joints, labels));
+        labelImage(drawing.image, drawing.mask, drawing.joints, body_plan, options, drawing.recognized);
+    checkAllLabelled(drawing.source, labels, body_plan);
+    const std::string name = nameBelow(dir, drawing.image);
+    set.characters.push_back(characterOf(name, drawing.source, labels));
     hashed += name + " " + sha256(formatLabelFile(labels)) + "\n";
   }
-  if (set.characters.empty()) throw InputError(dir, "holds no pictures with joints (*.joints.json)");
+  if (set.characters.empty())
+    throw InputError(dir,
+                     "holds no pictures with joints (*.joints.json, or *.labels.json of which a person "
+                     "has placed a joint)");
   checkClasses(dir, set);
   set.sha256 = sha256(hashed);
   return set;

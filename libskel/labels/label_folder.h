@@ -37,8 +37,9 @@ std::vector<std::string> checkLabelFolder(const std::string& dir);
 // at all, a candidate without label, a class that no candidate has.
 LabelledSet readLabelledSet(const std::string& dir);
 
-// The same from annotated pictures (see annotated_image.h) without label files: candidates of any method,
-// labelled from the joints.
+// The same with candidates of any method, labelled from the joints: of annotated pictures (see
+// annotated_image.h), and of label files, in which only joints count that a person has placed. Throws
+// InputError: a candidate without class, too.
 LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions& options = {});
 
 }  // namespace skel

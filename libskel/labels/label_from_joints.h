@@ -12,10 +12,10 @@
 
 namespace skel {
 
-// One entry for each of candidates.maxima. Bones whose joints are not visible are left out; joints that the
-// template derives are derived where they are not given. All nullopt if no bone can be formed. Names that the
-// template does not have are ignored. `recognized` names the joints that no person has placed: what is
-// nearest to a bone of theirs gets no class, since nobody has said where that bone is. A joint that the
+// One entry for each of candidates.maxima; joints that the template derives are derived where they are not
+// given. Nullopt where the nearest bone may be one that lacks a joint; all, if no bone can be formed. Names
+// that the template does not have are ignored. `recognized` names the joints that no person has placed: what
+// is nearest to a bone of theirs gets no class, since nobody has said where that bone is. A joint that the
 // template derives counts as placed where those are that it follows from.
 std::vector<std::optional<JointClass>> labelFromJoints(const CandidateSet& candidates,
                                                        const WorkingGrid& grid, const NamedJoints& joints,

@@ -113,6 +113,8 @@ TEST_CASE("evaluate measures joints without a mask, and what there is nothing to
                                  dir.file("figures.json") + "'");
   CAPTURE(run.out, run.err);
   REQUIRE(run.exit_code == 0);
+  CHECK(run.err ==
+        "skel-infer: note: cap_boy: no mask to hand over (--given-mask), so the figure was found\n");
   CHECK(run.out.find("silhouette IoU -, >= .9 in -  |") != std::string::npos);
   CHECK(run.out.find("area under ROC -, calibration error 0.") != std::string::npos);
   const skel::JsonDocument figures = skel::JsonDocument::readFile(dir.file("figures.json"));

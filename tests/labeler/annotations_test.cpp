@@ -7,6 +7,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
+#include "libskel/export/formats.h"
 #include "libskel/image/write_image.h"
 #include "tests/labeler/drawing_folder.h"
 #include "tests/support/catch.h"
@@ -130,6 +131,47 @@ TEST_CASE("all layouts are found at any depth") {
   fs::remove(dir.file("meta/mask.png"));
   CHECK_THROWS_WITH(findAnnotatedDrawings(dir.path(), plan),
                     dir.file("meta/char_cfg.yaml") + ": needs mask.png beside it");
+}
+
+TEST_CASE("char_cfg.yaml of skel-infer: what the program had found came back as placed by a person") {
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const TempDir dir;
+  RiggedCharacter character;
+  character.skeleton = presetSkeleton(plan, {20, 10}, {80, 110});
+  character.skeleton.joints[static_cast<size_t>(character.skeleton.index("left_hand"))].origin =
+      JointOrigin::kEdited;
+  const Image drawing(100, 120);
+  Plane8 mask = Plane8::Zero(120, 100);
+  mask.block(10, 20, 100, 60) = 255;
+  const auto write = [&](bool mask_is_given) {
+    for (const ExportedFile& file : exportCharCfg({character, {}, {}, &drawing, &mask, mask_is_given}))
+      writeFile(dir.file("hero" + file.suffix), file.bytes);
+  };
+  const auto read = [&] { return findAnnotatedDrawings(dir.path(), plan).at(0); };
+  const auto is_placed = [](const AnnotatedDrawing& read, const std::string& name) {
+    place(read.joints, name);
+    return std::find(read.recognized.begin(), read.recognized.end(), name) == read.recognized.end();
+  };
+  write(false);
+  AnnotatedDrawing back = read();
+  CHECK_FALSE(back.mask);
+  for (const auto& [name, at] : back.joints) CHECK(is_placed(back, name) == (name == "left_hand"));
+
+  const std::string cfg = dir.file("hero/char_cfg.yaml"), mask_file = dir.file("hero/mask.png");
+  const Eigen::Vector2d foot = place(back.joints, "left_foot");
+  std::string text = readFile(cfg);
+  const size_t found = text.find("skel_found:", text.find("name: left_foot"));
+  REQUIRE(found != std::string::npos);
+  writeFile(cfg, text.insert(found + 13, "1"));  // it was found elsewhere: a person has moved it since
+  back = read();
+  CHECK(place(back.joints, "left_foot") == foot);
+  CHECK(is_placed(back, "left_foot"));
+  CHECK_FALSE(is_placed(back, "right_foot"));
+  mask.block(10, 20, 5, 5) = 0;
+  writeFile(mask_file, encodePng(mask));
+  CHECK(read().mask == mask_file);
+  write(true);
+  CHECK(read().mask == mask_file);
 }
 
 TEST_CASE("a folder of annotations that may not be read is named") {

@@ -33,6 +33,25 @@ void replaceIn(const std::string& file, const std::string& from, const std::stri
   writeFile(file, text.replace(at, from.size(), to));
 }
 
+// Of a picture of the labelled set that lies in `dir`, the head placed by a person.
+void writeSkeleton(const TempDir& dir, const std::string& name, double head_x) {
+  SkeletonFile file;
+  file.image_file = name + ".png";
+  file.image_sha256 = sha256(readFile(kCharacters + name + ".png"));
+  file.image_width = file.image_height = 600;
+  file.skeleton = presetSkeleton(loadTemplate("biped"), {150, 50}, {450, 550});
+  Joint& head = file.skeleton.joints[static_cast<size_t>(file.skeleton.index("head"))];
+  head.origin = JointOrigin::kEdited;
+  head.image.x() = head_x;
+  writeFile(dir.file(name + ".skeleton.json"), formatSkeletonFile(file));
+}
+
+double headOf(const std::string& label_file) {
+  for (const auto& [name, place] : readLabelFile(label_file).joints)
+    if (name == "head" && place) return place->x();
+  return -1;
+}
+
 }  // namespace
 
 TEST_CASE("wrong arguments are refused with one line") {
@@ -264,20 +283,9 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
 TEST_CASE(
     "import: a picture that has changed stops no other, and newer joints are told, taken by force alone") {
   const TempDir dir;
-  const auto write = [&](const std::string& name, double head_x) {
-    SkeletonFile file;
-    file.image_file = name + ".png";
-    file.image_sha256 = sha256(readFile(kCharacters + name + ".png"));
-    file.image_width = file.image_height = 600;
-    file.skeleton = presetSkeleton(loadTemplate("biped"), {150, 50}, {450, 550});
-    Joint& head = file.skeleton.joints[static_cast<size_t>(file.skeleton.index("head"))];
-    head.origin = JointOrigin::kEdited;
-    head.image.x() = head_x;
-    writeFile(dir.file(name + ".skeleton.json"), formatSkeletonFile(file));
-  };
   for (const char* name : {"cap_boy", "box_robot"}) {
     fs::copy(kCharacters + name + ".png", dir.file(name + std::string(".png")));
-    write(name, 300);
+    writeSkeleton(dir, name, 300);
   }
   writeFile(dir.file("box_robot.png"), readFile(dir.file("box_robot.png")) + "x");
   ToolRun run = label(dir, "import .");
@@ -289,7 +297,7 @@ TEST_CASE(
   run = label(dir, "import .");
   CHECK(run.exit_code == 0);
   CHECK(run.err == "");
-  write("cap_boy", 310);
+  writeSkeleton(dir, "cap_boy", 310);
   run = label(dir, "import .");
   CHECK(run.exit_code == 0);
   CHECK(run.out == "0 label files made, 1 kept as they were, 0 failed\n");
@@ -297,8 +305,101 @@ TEST_CASE(
         "skel-label: note: cap_boy.labels.json: kept, with other joints than what is to be imported; --force "
         "takes the latter, and drops joints set by hand\n");
   CHECK(label(dir, "import . --force").err == "");
-  for (const auto& [name, place] : readLabelFile(dir.file("cap_boy.labels.json")).joints)
-    if (name == "head") CHECK(place->x() == 310);
+  CHECK(headOf(dir.file("cap_boy.labels.json")) == 310);
+}
+
+TEST_CASE("import: our own export put old joints back, and a second one stopped every import") {
+  const TempDir dir;
+  fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
+  writeSkeleton(dir, "cap_boy", 300);
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  for (const char* name : {"joints", "more"})
+    REQUIRE(label(dir, "export . --coco -o " + std::string(name) + ".coco.json").exit_code == 0);
+  writeSkeleton(dir, "cap_boy", 310);
+  const std::string labels = dir.file("cap_boy.labels.json");
+  const std::string passed_over =
+      "skel-label: note: ./joints.coco.json (and 1 more): exported from label files, not imported beside "
+      "what "
+      "it was made of; skel-label import FILE takes it\n";
+  ToolRun run = label(dir, "import .");
+  CHECK(run.exit_code == 0);
+  CHECK(run.out == "0 label files made, 1 kept as they were, 0 failed\n");
+  CHECK(run.err.starts_with(passed_over));
+  CHECK(contains(run.err, "cap_boy.labels.json: kept, with other joints than what is to be imported"));
+  CHECK(label(dir, "import . --force").err == passed_over);
+  CHECK(headOf(labels) == 310);
+
+  CHECK(contains(label(dir, "import joints.coco.json --force").out, "1 label files made"));
+  CHECK(headOf(labels) == 300);
+  run = label(dir, "import cap_boy.skeleton.json");
+  CHECK(run.exit_code == 2);
+  CHECK(run.err ==
+        "skel-label: cap_boy.skeleton.json: is no COCO file; of other annotations name the folder\n");
+
+  // What was set by hand in the label file is older in the export.
+  fs::remove(dir.file("cap_boy.skeleton.json"));
+  const std::string before = readFile(labels);
+  run = label(dir, "import . --force");
+  CHECK(run.exit_code == 0);
+  CHECK(run.err == passed_over);
+  CHECK(readFile(labels) == before);
+  // Where nothing else speaks of a picture it counts.
+  fs::remove(labels);
+  fs::remove(dir.file("more.coco.json"));
+  CHECK(contains(label(dir, "import .").out, "1 label files made"));
+}
+
+TEST_CASE("import: a joint that is missing is said, and candidates that may belong to it have no class") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  copyCharacter("box_robot", dir.path());
+  std::string joints = readFile(dir.file("cap_boy.joints.json"));
+  const size_t elbow = joints.find("\"left_elbow\": [");
+  REQUIRE(elbow != std::string::npos);
+  joints.replace(elbow + 14, joints.find(']', elbow) - elbow - 13, "null");
+  writeFile(dir.file("cap_boy.joints.json"), joints);
+  const ToolRun run = label(dir, "import .");
+  CHECK(run.exit_code == 0);
+  const LabelFile labels = readLabelFile(dir.file("cap_boy.labels.json"));
+  const auto open = std::count(labels.labels.begin(), labels.labels.end(), std::nullopt);
+  CHECK(open > 0);
+  CHECK(open < static_cast<long>(labels.labels.size()) / 2);
+  CHECK(run.err == "skel-label: note: ./cap_boy.labels.json: no place for left_elbow: " +
+                       std::to_string(open) + " candidates have no class\n");
+  CHECK(contains(label(dir, "stats .").out, "finished          1   50.0 %"));
+
+  // COCO says so by a visibility of 0.
+  REQUIRE(label(dir, "export . --coco -o round/coco.json").exit_code == 0);
+  fs::copy(dir.file("cap_boy.png"), dir.file("round/cap_boy.png"));
+  fs::copy(dir.file("box_robot.png"), dir.file("round/box_robot.png"));
+  CHECK(contains(label(dir, "import round").err, "no place for left_elbow"));
+  CHECK(readLabelFile(dir.file("round/cap_boy.labels.json")).labels == labels.labels);
+}
+
+TEST_CASE("import: one picture of a COCO file that was missing kept all others from being imported") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.file("in"));
+  copyCharacter("box_robot", dir.file("in"));
+  REQUIRE(label(dir, "import in").exit_code == 0);
+  REQUIRE(label(dir, "export in --coco -o round/coco.json").exit_code == 0);
+  fs::copy(dir.file("in/cap_boy.png"), dir.file("round/cap_boy.png"));
+  const ToolRun run = label(dir, "import round");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.out, "1 label files made, 0 kept as they were, 1 failed\n"));
+  CHECK(run.err == "skel-label: round/coco.json: images[0].file_name: there is no round/box_robot.png\n");
+  CHECK(fs::exists(dir.file("round/cap_boy.labels.json")));
+}
+
+TEST_CASE("import: a drawing that was renamed with its skeleton is complained of by the skeleton's name") {
+  const TempDir dir;
+  fs::copy(kCharacters + "cap_boy.png", dir.file("boy.png"));
+  writeSkeleton(dir, "cap_boy", 300);
+  fs::rename(dir.file("cap_boy.skeleton.json"), dir.file("boy.skeleton.json"));
+  const ToolRun run = label(dir, "import .");
+  CHECK(run.exit_code == 2);
+  CHECK(run.err ==
+        "skel-label: ./boy.skeleton.json: image.file: there is no cap_boy.png; give the picture that name "
+        "again, or find its joints anew (skel-infer)\n");
 }
 
 TEST_CASE("import: a skeleton without its picture's hash writes beside no picture outside of its folder") {
@@ -449,13 +550,16 @@ TEST_CASE("export leaves out what check complains about and drawings of another 
   bad = good;
   bad.joints = {{"head", Eigen::Vector2d(300, 200)}, {"tail", Eigen::Vector2d(30, 20)}};
   writeLabelFile(path, bad);
-  const ToolRun run = label(dir, "export . -o out --coco");
-  CHECK(run.exit_code == 2);
-  CHECK(
-      run.err ==
-      "skel-label: .: 1 of 1 drawings (cap_boy.labels.json) have joints of a quadruped, not of a biped: not "
-      "exported; --template quadruped exports them\n");
-  CHECK(label(dir, "export . -o out --coco --template quadruped").exit_code == 0);
+  for (const std::string format : {"csv", "coco"}) {
+    INFO(format);
+    const ToolRun run = label(dir, "export . -o out --" + format);
+    CHECK(run.exit_code == 2);
+    CHECK(run.err ==
+          "skel-label: .: 1 of 1 drawings (cap_boy.labels.json) have joints of a quadruped, not of a biped: "
+          "not "
+          "exported; --template quadruped exports them\n");
+    CHECK(label(dir, "export . -o out --template quadruped --" + format).exit_code == 0);
+  }
   CHECK(contains(readFile(dir.file("out")), "\"name\": \"quadruped\""));
 }
 
@@ -554,6 +658,19 @@ TEST_CASE("COCO: what was found goes out and comes in as found, so that nothing 
   CHECK(back.joints.size() == labels.joints.size());
   for (const auto& [name, place] : back.joints)
     CHECK(back.isPlaced(name) == (std::find(found.begin(), found.end(), name) == found.end()));
+}
+
+TEST_CASE("COCO: an outline that was found came back as a mask, by which silhouettes were measured") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.file("in"), false);
+  REQUIRE(label(dir, "import in").exit_code == 0);
+  REQUIRE(label(dir, "export in --coco -o round/coco.json").exit_code == 0);
+  fs::copy(dir.file("in/cap_boy.png"), dir.file("round/cap_boy.png"));
+  CHECK(label(dir, "import round").exit_code == 0);
+  CHECK_FALSE(fs::exists(dir.file("round/cap_boy.mask.png")));
+  const LabelFile back = readLabelFile(dir.file("round/cap_boy.labels.json"));
+  CHECK_FALSE(back.mask);
+  CHECK(back.labels == readLabelFile(dir.file("in/cap_boy.labels.json")).labels);
 }
 
 TEST_CASE("the card of the labelled set tells its counts") {

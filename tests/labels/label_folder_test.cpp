@@ -138,10 +138,40 @@ TEST_CASE("annotated pictures of both layouts are found and labelled") {
         from_joints.sampleCount());
 }
 
+TEST_CASE("label files with placed joints were no pictures with joints to candidates of other methods") {
+  const TempDir dir;
+  writeFile(dir.file("man.png"), encodePng(blockMan()));
+  writeFile(dir.file("man.mask.png"), encodePng(blockMan()));
+  const std::string joints_file = dir.file("man.joints.json"), label_file = dir.file("man.labels.json");
+  writeFile(joints_file, kBlockManJoints);
+  const LabelledSet of_joints = labelAnnotatedImages(dir.path(), {CandidateMethod::kDiscs});
+  LabelFile labels = labelImage(dir.file("man.png"), dir.file("man.mask.png"), readJointsFile(joints_file),
+                                loadTemplate("biped"));
+  std::filesystem::remove(joints_file);
+  writeLabelFile(label_file, labels);
+  const LabelledSet of_labels = labelAnnotatedImages(dir.path(), {CandidateMethod::kDiscs});
+  REQUIRE(of_labels.characters.size() == 1);
+  CHECK(of_labels.characters[0].name == "man.png");
+  CHECK(of_labels.characters[0].labels == of_joints.characters[0].labels);
+  CHECK(of_labels.sha256 == of_joints.sha256);
+
+  labels.recognized = {"left_hand"};
+  writeLabelFile(label_file, labels);
+  try {
+    labelAnnotatedImages(dir.path());
+    FAIL("it has candidates without class");
+  } catch (const InputError& error) {
+    CHECK(error.file() == label_file);
+    CHECK(error.problem().starts_with("no person has placed left_hand: "));
+  }
+}
+
 TEST_CASE("annotated pictures that cannot be used are refused") {
   const TempDir dir;
   CHECK_THROWS_WITH(labelAnnotatedImages(dir.path()),
-                    dir.path() + ": holds no pictures with joints (*.joints.json)");
+                    dir.path() +
+                        ": holds no pictures with joints (*.joints.json, or *.labels.json of which a person "
+                        "has placed a joint)");
   writeFile(dir.file("man.joints.json"), kBlockManJoints);
   CHECK_THROWS_WITH(findAnnotatedImages(dir.path()),
                     dir.file("man.joints.json") + ": has no image beside it, man.png");

@@ -1,5 +1,7 @@
 #include "libskel/labels/label_from_joints.h"
 
+#include <set>
+
 #include "tests/support/catch.h"
 
 using namespace skel;
@@ -72,12 +74,36 @@ TEST_CASE("what is nearest to a bone that nobody has placed gets no class") {
   CHECK(labels(all, with_neck, {"neck", "pelvis"}) == labels(all, standing(), {}));
 }
 
-TEST_CASE("joints that are not visible take their bones with them") {
-  NamedJoints joints = standing();
-  for (auto& [name, place] : joints)
-    if (name == "left_hand" || name == "left_elbow") place.reset();
-  CHECK(label({{90, 70, 1}}, joints) == Labels{kLeg});
-  CHECK(label({{90, 70, 1}}, {}) == Labels{std::nullopt});
+TEST_CASE("candidates of a limb that lacks a joint took the class of another part") {
+  const auto without = [](const std::set<std::string>& missing) {
+    NamedJoints joints = standing();
+    for (auto& [name, place] : joints)
+      if (missing.contains(name)) place.reset();
+    return joints;
+  };
+  const std::vector<JointCandidate> left_arm = {{68, 47, 1}, {78, 58, 1}, {90, 66, 1}, {95, 71, 1}},
+                                    others = {{50, 20, 1}, {50, 60, 1},  {20, 58, 1}, {8, 69, 1},
+                                              {41, 90, 1}, {38, 122, 1}, {62, 122, 1}};
+  const Labels others_classes = {kHead, kBody, kHand, kHand, kLeg, kLeg, kLeg};
+  CHECK(label(left_arm, standing()) == Labels(4, kHand));
+  for (const std::set<std::string>& missing :
+       {std::set<std::string>{"left_elbow"}, {"left_elbow", "left_hand"}}) {
+    CHECK(label(left_arm, without(missing)) == Labels(4));
+    CHECK(label(others, without(missing)) == others_classes);
+    NamedJoints unnamed = without(missing);
+    std::erase_if(unnamed, [](const auto& joint) { return !joint.second; });
+    CHECK(label(left_arm, unnamed) == Labels(4));
+  }
+  // The upper arm is known, but for its end.
+  CHECK(label(left_arm, without({"left_hand"})) == Labels{kHand, kHand, std::nullopt, std::nullopt});
+  CHECK(label(others, without({"left_hand"})) == others_classes);
+  // The pelvis follows from the hips.
+  CHECK(label({{50, 76, 1}, {58, 84, 1}, {60, 98, 1}, {38, 122, 1}, {6, 70, 1}}, without({"left_hip"})) ==
+        Labels{std::nullopt, std::nullopt, std::nullopt, kLeg, kHand});
+  CHECK(label({{50, 20, 1}, {50, 40, 1}, {50, 70, 1}, {20, 60, 1}}, without({"head"})) ==
+        Labels{std::nullopt, std::nullopt, kBody, kHand});
+  CHECK(label(left_arm, {}) == Labels(4));
+  CHECK(label(left_arm, {{"left_hand", Eigen::Vector2d(95, 70)}}) == Labels(4));
   CHECK(label({}, standing()).empty());
 }
 

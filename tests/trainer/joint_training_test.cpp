@@ -6,6 +6,7 @@
 
 #include "libskel/core/files.h"
 #include "libskel/jointnet/joint_net.h"
+#include "libskel/labels/label_file.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 #include "tests/support/temp_dir.h"
@@ -91,10 +92,22 @@ TEST_CASE(
     for (const char* end : {".png", ".mask.png", ".labels.json"})
       std::filesystem::copy_file(SKEL_DATASETS "/characters/" + std::string(name) + end,
                                  dir.file("drawings/") + name + end);
+  // Nobody has looked at this one.
+  std::filesystem::copy_file(SKEL_DATASETS "/characters/runner.png", dir.file("drawings/runner.png"));
+  std::filesystem::copy_file(SKEL_DATASETS "/characters/runner.mask.png",
+                             dir.file("drawings/runner.mask.png"));
+  LabelFile found = readLabelFile(SKEL_DATASETS "/characters/runner.labels.json");
+  for (const auto& [name, place] : found.joints) found.recognized.push_back(name);
+  writeLabelFile(dir.file("drawings/runner.labels.json"), found);
   REQUIRE(runTool(command(dir, "first.bin", "")).exit_code == 0);
   const auto result =
       runTool(command(dir, "mine.bin", "--left-out .34 --start '" + dir.file("first.bin") + "'" + from));
   CHECK(result.exit_code == 0);
+  CHECK(result.err.find("skel-train: note: " + dir.file("drawings/runner.labels.json") +
+                        ": without a joint that a person has placed, not learned from\n") !=
+        std::string::npos);
+  CHECK(result.out.find("2 drawings are learned from, 1 left out to measure by\n") != std::string::npos);
+  CHECK(result.out.ends_with("wrote " + dir.file("mine.bin") + "\n"));
   CHECK(result.out.find("before: 1 drawings left out: joints within 5 % ") != std::string::npos);
   CHECK(result.out.find("after: 1 drawings left out: joints within 5 % ") != std::string::npos);
   CHECK(readFile(dir.file("mine.bin")) != readFile(dir.file("first.bin")));
@@ -103,6 +116,8 @@ TEST_CASE(
       command(dir, "hard.bin", "--hard 2 --left-out 0 --start '" + dir.file("first.bin") + "'" + from));
   CHECK(hard.exit_code == 0);
   CHECK(hard.out.find("3 of 3 drawings are hard") != std::string::npos);
+  CHECK(hard.out.find("3 drawings are learned from; none is left out to measure by (--left-out 0)\n") !=
+        std::string::npos);
   const auto nothing = runTool(command(dir, "hard.bin", "--hard 2" + from));
   CHECK(nothing.exit_code == 1);
   CHECK(nothing.err.find("--hard needs --start and --drawings") != std::string::npos);
