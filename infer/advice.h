@@ -9,6 +9,11 @@
 
 namespace skel {
 
+// Of a picture that shows no figure.
+inline constexpr const char* kAdviceOnNothing =
+    "Nothing was found on it. If something is drawn there, go over its lines with a felt pen and take the "
+    "photo by day, from straight above.";
+
 // One sentence a warning of the file: what is unusual, and what helps. `mend_file`: what skel-label opens.
 std::vector<std::string> adviceOn(const RiggedDrawing& drawing, const SkeletonFile& file,
                                   const std::string& mend_file);

@@ -43,7 +43,12 @@ void ClassTable::add(Lines& all, const std::string& sentence, const std::string&
 }
 
 void ClassTable::add(const DrawingResult& drawing) {
-  failed_ += !drawing.error.empty();
+  if (drawing.nothing_found) {
+    ++to_retake_;
+    add(retake_, "nothing was found on it", shellWord(drawing.source));
+  } else {
+    failed_ += !drawing.error.empty();
+  }
   kept_ += drawing.kept;
   for (const FigureResult& figure : drawing.figures) {
     const std::string name =

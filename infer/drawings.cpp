@@ -57,16 +57,7 @@ std::vector<std::string> drawingsIn(const fs::path& dir, NamedDrawings& found) {
   if (names.empty())
     throw InputError(dir.string(), "holds no drawing (" + std::string(kPictureEndings) +
                                        "); folders in it are not looked into");
-  const auto foreign = std::partition(names.begin(), names.end(),
-                                      [](const std::string& name) { return howToConvert(name).empty(); });
-  std::set<fs::path> readable;
-  std::for_each(names.begin(), foreign,
-                [&](const std::string& name) { readable.insert(fs::path(name).stem()); });
-  // A photo that was converted, or that the telephone has stored twice.
-  names.erase(
-      std::remove_if(foreign, names.end(),
-                     [&](const std::string& name) { return readable.contains(fs::path(name).stem()); }),
-      names.end());
+  passOverConverted(names);
   std::sort(names.begin(), names.end(), comesBefore);
   for (std::string& name : names) name = (dir / name).string();
   return names;

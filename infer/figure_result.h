@@ -38,6 +38,7 @@ struct FigureResult {
   std::vector<std::string> reasons;  // of the verdict
   std::vector<Note> notes;           // of what is no reason to doubt the figure
   std::vector<std::string> advice;   // the reasons in a teacher's words
+  std::string left_out;              // files mended for an earlier picture of this name; "": none
   ReportPictures pictures;           // if a report is wanted
   std::vector<StageTime> times;
 };
@@ -56,8 +57,10 @@ struct DrawingResult {
   std::string source;                 // path
   std::vector<FigureResult> figures;  // that were written
   ExitCode code = ExitCode::kDone;
-  std::string error;    // what() of what stopped it; "": nothing
-  std::string problem;  // the same without the file's name, where the drawing itself is to blame
+  std::string error;           // what() of what stopped it; "": nothing
+  std::string problem;         // the same without the file's name, where the drawing itself is to blame
+  bool nothing_found = false;  // which is that the picture shows no figure
+  std::string picture;         // the same drawing's, if a report is wanted: data: address
   Origin origin;
   bool opened = false;    // its picture could be read, or none was needed
   bool kept = false;      // an earlier run has done it

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "embedded/report_css.h"
+#include "infer/advice.h"
 #include "libskel/core/json_names.h"
 
 namespace skel {
@@ -36,12 +37,29 @@ std::string escaped(const std::string& text) {
   return html;
 }
 
+// Text with `commands` in it.
+std::string proseHtml(const std::string& text) {
+  std::string html;
+  std::size_t begin = 0;
+  for (std::size_t from; (from = text.find('`', begin)) != text.npos;) {
+    const std::size_t to = text.find('`', from + 1);
+    if (to == text.npos) break;
+    html += escaped(text.substr(begin, from - begin)) + "<code>" +
+            escaped(text.substr(from + 1, to - from - 1)) + "</code>";
+    begin = to + 1;
+  }
+  return html + escaped(text.substr(begin));
+}
+
 // One card of the page: a figure, or a drawing of which there is none.
 struct Card {
-  std::string name;  // HTML
-  const FigureResult* figure = nullptr;
-  std::string problem;  // of a drawing without a figure
-  bool again() const { return !figure || figure->verdict == Verdict::kRetake; }
+  std::string name;                        // HTML
+  const FigureResult* figure = nullptr;    // or
+  const DrawingResult* without = nullptr;  // that has none
+
+  bool again() const { return figure ? figure->verdict == Verdict::kRetake : without->nothing_found; }
+  bool fine() const { return figure && figure->verdict == Verdict::kFine; }
+  std::string problem() const { return without->nothing_found ? kAdviceOnNothing : without->problem; }
 };
 
 std::vector<Card> cardsOf(const std::vector<DrawingResult>& drawings) {
@@ -50,10 +68,8 @@ std::vector<Card> cardsOf(const std::vector<DrawingResult>& drawings) {
     const std::string name = std::filesystem::path(drawing.source).stem().string();
     for (const FigureResult& figure : drawing.figures)
       cards.push_back(
-          {escaped(drawing.figures.size() > 1 ? name + " " + std::to_string(figure.number) : name),
-           &figure,
-           {}});
-    if (!drawing.error.empty()) cards.push_back({escaped(name), nullptr, drawing.problem});
+          {escaped(drawing.figures.size() > 1 ? name + " " + std::to_string(figure.number) : name), &figure});
+    if (!drawing.error.empty()) cards.push_back({escaped(name), nullptr, &drawing});
   }
   return cards;
 }
@@ -76,36 +92,36 @@ std::string film(const Card& card) {
 }
 
 std::string verdictChip(const Card& card) {
-  if (!card.figure) return "<span class=\"chip again\">no figure</span>";
-  switch (card.figure->verdict) {
-    case Verdict::kRetake:
-      return "<span class=\"chip again\">take again</span>";
-    case Verdict::kLookAt:
-      return "<span class=\"chip look\">look at it</span>";
-    case Verdict::kFine:
-      break;
-  }
-  return "<span class=\"chip fine\">fine</span>";
+  if (card.again()) return "<span class=\"chip again\">take again</span>";
+  if (!card.figure) return "<span class=\"chip look\">no figure</span>";
+  return card.fine() ? "<span class=\"chip fine\">fine</span>"
+                     : "<span class=\"chip look\">look at it</span>";
 }
 
 std::string cardHtml(const Card& card, std::size_t number) {
   std::string html = "<article id=\"d" + std::to_string(number) +
                      (card.figure ? "\"><h2>" : "\" class=\"none\"><h2>") + card.name + "</h2>" +
                      verdictChip(card);
-  if (!card.figure) return html + "<p class=\"advice\">" + escaped(card.problem) + "</p></article>\n";
+  const auto drawn = [&](const std::string& picture) {
+    return "<img class=\"drawing\" alt=\"" + card.name + ", as drawn\" src=\"" + picture + "\">";
+  };
+  if (!card.figure) {
+    if (!card.without->picture.empty())
+      html += "<div class=\"pair\">" + drawn(card.without->picture) + "</div>";
+    return html + "<p class=\"advice\">" + proseHtml(card.problem()) + "</p></article>\n";
+  }
   const FigureResult& figure = *card.figure;
   const double sure = figure.confidence.value_or(0);
-  html += "<div class=\"pair\"><img class=\"drawing\" alt=\"" + card.name + ", as drawn\" src=\"" +
-          figure.pictures.drawing + "\">" + film(card) + "</div>";
+  html += "<div class=\"pair\">" + drawn(figure.pictures.drawing) + film(card) + "</div>";
   html += figure.all_placed ? "<p class=\"sure\">a person has placed the joints</p>"
                             : "<p class=\"sure\"><span><i style=\"width:" + percent(sure) + "\"></i></span>" +
                                   percent(sure) +
                                   (figure.placed > 0 ? " sure of the joints that no person has placed</p>"
                                                      : " sure of the joints</p>");
   for (const std::string& sentence : figure.advice)
-    html += "<p class=\"advice\">" + escaped(sentence) + "</p>";
+    html += "<p class=\"advice\">" + proseHtml(sentence) + "</p>";
   for (const Note& note : figure.notes)
-    html += "<p class=\"note\">" + escaped(noteText(note, figure.mend_file)) + "</p>";
+    html += "<p class=\"note\">" + proseHtml(noteText(note, figure.mend_file)) + "</p>";
   return html + "</article>\n";
 }
 
@@ -117,7 +133,7 @@ std::string inOneLine(const std::vector<std::string>& sentences) {
 
 // All that is said of it.
 std::string reasonsFor(const Card& card) {
-  return card.figure ? inOneLine(card.figure->advice) : card.problem;
+  return card.figure ? inOneLine(card.figure->advice) : card.problem();
 }
 
 // One line a drawing; "" where there is none.
@@ -131,22 +147,29 @@ std::string listHtml(const char* look, const char* title, const std::string& lin
 
 std::string reportPage(const std::vector<DrawingResult>& drawings) {
   const std::vector<Card> cards = cardsOf(drawings);
-  std::size_t fine = 0, look = 0;
-  std::string again, look_at, all;
+  std::size_t fine = 0, look = 0, retake = 0, without = 0, shown = 0;
+  std::string again, look_at, not_used, left_out, all;
   for (std::size_t i = 0; i < cards.size(); ++i) {
     const Card& card = cards[i];
     all += cardHtml(card, i + 1);
-    const bool is_fine = card.figure && card.figure->verdict == Verdict::kFine;
-    if (!card.again()) ++(is_fine ? fine : look);
-    if (!is_fine)
-      (card.again() ? again : look_at) += "<li><a href=\"#d" + std::to_string(i + 1) + "\">" + card.name +
-                                          "</a> " + escaped(reasonsFor(card)) + "</li>\n";
+    shown += card.figure != nullptr;
+    ++(card.again() ? retake : !card.figure ? without : card.fine() ? fine : look);
+    const auto line = [&](const std::string& text) {
+      return "<li><a href=\"#d" + std::to_string(i + 1) + "\">" + card.name + "</a> " + proseHtml(text) +
+             "</li>\n";
+    };
+    if (!card.fine()) (card.again() ? again : card.figure ? look_at : not_used) += line(reasonsFor(card));
+    if (card.figure && !card.figure->left_out.empty()) left_out += line(card.figure->left_out);
   }
-  const std::size_t retake = cards.size() - fine - look;
   const std::string title = counted(cards.size(), "drawing", "drawings");
+  std::string heading = title;
+  if (shown < cards.size())
+    heading = "<span class=\"all\">" + title + "</span><span class=\"shown\">" +
+              counted(shown, "drawing", "drawings") + "</span>";
   std::string summary = std::to_string(fine) + " fine";
   if (look > 0) summary += ", " + std::to_string(look) + " to look at";
   if (retake > 0) summary += ", " + std::to_string(retake) + " to take again";
+  if (without > 0) summary += ", " + std::to_string(without) + " without a figure";
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
@@ -156,9 +179,12 @@ std::string reportPage(const std::vector<DrawingResult>& drawings) {
       title + ", moving</title>\n<style>\n" + std::string(embedded::report_css) +
       "</style></head>\n<body>\n<input type=\"checkbox\" id=\"still\"><input type=\"checkbox\" "
       "id=\"pictures\">\n<header><h1>" +
-      title + "</h1><p>" + summary +
+      heading + "</h1><p>" + summary +
       "</p><label for=\"still\">stand still</label><label for=\"pictures\">pictures alone</label></header>\n";
-  html += listHtml("again", "Photos to take again", again) + listHtml("look", "Drawings to look at", look_at);
+  html += listHtml("again", "Photos to take again", again) +
+          listHtml("look", "Drawings to look at", look_at) +
+          listHtml("look", "Files without a figure", not_used) +
+          listHtml("look", "What was mended of an earlier photo, and is left out", left_out);
   return html + "<main>\n" + all + "</main>\n</body></html>\n";
 }
 

@@ -85,11 +85,15 @@ FilmSheet filmSheet(const RiggedDrawing& drawing, const Clip& clip) {
 
 }  // namespace
 
+std::string reportPicture(const Image& drawing) {
+  Image paper = blankImage(drawing.width, drawing.height);
+  blit(paper, drawing, 0, 0);
+  return dataAddress(fitted(paper, kDrawingWidth, kDrawingHeight));
+}
+
 ReportPictures reportPictures(const RiggedDrawing& drawing, const std::string& clip) {
-  Image paper = blankImage(drawing.image.width, drawing.image.height);
-  blit(paper, drawing.image, 0, 0);
   ReportPictures pictures;
-  pictures.drawing = dataAddress(fitted(paper, kDrawingWidth, kDrawingHeight));
+  pictures.drawing = reportPicture(drawing.image);
   if (const Clip* shown = shownClip(drawing.clips, clip)) pictures.film = filmSheet(drawing, *shown);
   return pictures;
 }

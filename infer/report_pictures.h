@@ -20,6 +20,8 @@ struct ReportPictures {
   FilmSheet film;       // without columns: the character has no clip
 };
 
+// Of the drawing alone: data: address.
+std::string reportPicture(const Image& drawing);
 // `clip`: the one that is shown, where the character has it; else its dance, its walk, or its first.
 ReportPictures reportPictures(const RiggedDrawing& drawing, const std::string& clip);
 

@@ -143,7 +143,10 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   result.reasons = file.warnings;
   result.notes = notesOf(options, rig, drawing);
   if (const auto note = mendedNote(mended.files, request, mended.placed)) result.notes.push_back(*note);
-  if (const auto note = earlierNote(mended.files, kept)) result.notes.push_back(*note);
+  if (const auto note = earlierNote(mended.files, kept)) {
+    result.notes.push_back(*note);
+    result.left_out = note->what;
+  }
   if (kept_layers) result.notes.push_back(*kept_layers);
   if (const auto note = fitsAgainNote(mended.files)) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
@@ -153,6 +156,15 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   result.times = drawing.times;
   results.push_back(std::move(result));
   return drawing.silhouette.figure_count;
+}
+
+// For a report. "": it cannot be read a second time, as a pipe's.
+std::string pictureOf(const RigJob& job) {
+  try {
+    return reportPicture(decodeImage(job.read ? job.read->bytes : readFile(job.source), job.source));
+  } catch (const Error&) {
+    return "";
+  }
 }
 
 }  // namespace
@@ -233,6 +245,10 @@ DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, con
       --left;
       rigFigure(options, rig, job, figure, open, result.figures);
     }
+  } catch (const NoFigureError&) {
+    takeError(result);
+    result.nothing_found = figuresAskedFor(options).first == 1;
+    if (!options.report_file.empty()) result.picture = pictureOf(job);
   } catch (...) {
     takeError(result);
   }

@@ -80,6 +80,10 @@ class Document {
   bool isOfEarlierPicture() const {
     return !motion_ && !image_.empty() && state_.image_sha256 != image_sha256_;
   }
+  // What item().joints counts, to stand behind the numbers.
+  const char* countedJoints() const {
+    return isOfEarlierPicture() ? "for this photo" : editsJointsAlone() ? "joints found" : "joints placed";
+  }
   // Why the last step is not on the disk; empty: it is.
   const std::string& saveProblem() const { return save_problem_; }
 
@@ -125,7 +129,7 @@ class Document {
   // that cannot be done.
   void rig();
   // The model of the last rig(), until picture, mask, joints or painted limbs change; else null.
-  const RiggedDrawing* rigged() const { return rigged_.get(); }
+  const std::shared_ptr<const RiggedDrawing>& rigged() const { return rigged_; }
 
   void beginStep();
   void endStep();

@@ -5,6 +5,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/foreign_files.h"
 #include "libskel/core/natural_order.h"
 #include "libskel/image/result_picture.h"
 #include "libskel/labels/label_file.h"
@@ -31,9 +32,12 @@ std::optional<std::string> givenMask(const DrawingFiles& files) {
 
 std::vector<DrawingFiles> findDrawings(const std::string& dir) {
   std::vector<DrawingFiles> drawings;
-  for (const std::string& file : filesBelow(dir))
-    if (isDrawingName(fs::path(file).filename().string()))
-      drawings.push_back(drawingFiles(file, fs::path(file).lexically_relative(dir).generic_string()));
+  std::vector<std::string> pictures = filesBelow(dir);
+  std::erase_if(pictures,
+                [](const std::string& file) { return !isDrawingName(fs::path(file).filename().string()); });
+  passOverConverted(pictures);
+  for (const std::string& file : pictures)
+    drawings.push_back(drawingFiles(file, fs::path(file).lexically_relative(dir).generic_string()));
   if (drawings.empty()) throw InputError(dir, "holds no picture (" + std::string(kPictureEndings) + ")");
   std::sort(drawings.begin(), drawings.end(),
             [](const DrawingFiles& a, const DrawingFiles& b) { return comesBefore(a.name, b.name); });

@@ -38,8 +38,9 @@ void checkMeansPicture(const Image& image, const std::string& image_path, int wi
 DrawingFiles drawingFiles(const std::string& image, const std::string& name);
 
 // Pictures at any depth below `dir`, in natural order; not masks and what skel-infer writes (mask.png,
-// <stem>.mask.png, .limbs.png, .layers.png, .silhouette.png, .overlay.png). Throws InputError: no folder, no
-// picture in it, two pictures that would share a label file.
+// <stem>.mask.png, .limbs.png, .layers.png, .silhouette.png, .overlay.png) and not those that lie beside
+// what they were converted to. Throws InputError: no folder, no picture in it, two pictures that would share
+// a label file.
 std::vector<DrawingFiles> findDrawings(const std::string& dir);
 
 }  // namespace skel

@@ -82,8 +82,11 @@ std::string shortened(const std::string& text, float room, Keep keep) {
   const auto cut = [&](std::size_t kept) {
     return keep == Keep::kEnd ? ".." + text.substr(text.size() - kept) : text.substr(0, kept) + "..";
   };
+  const auto splitsLetter = [&](std::size_t kept) {  // of UTF-8
+    return (text[keep == Keep::kEnd ? text.size() - kept : kept] & 0xC0) == 0x80;
+  };
   std::size_t kept = text.size();
-  while (kept > 4 && width(cut(kept)) > room) --kept;
+  while (kept > 4 && (splitsLetter(kept) || width(cut(kept)) > room)) --kept;
   return cut(kept);
 }
 
@@ -386,7 +389,7 @@ class LabelingWindow {
         "Rig it", {width, kButtonHeight}, document_.figure().silhouette.found(), [&] { rig(false); }, "R");
     bool moving = false;
     if (document_.rigged())
-      moving = preview_.draw(*document_.rigged(), width,
+      moving = preview_.draw(document_.rigged(), width,
                              std::clamp(ImGui::GetContentRegionAvail().y, 120.f, 1.25f * width));
     ImGui::EndChild();
     return moving;
@@ -397,8 +400,7 @@ class LabelingWindow {
     if (document_.wantsJoints())
       ImGui::TextUnformatted("Finding the joints ...");
     else
-      progressBar(joints,
-                  document_.editsSkeleton() || document_.editsMotion() ? "joints found" : "joints placed");
+      progressBar(joints, document_.countedJoints());
     enabledButton(
         "All right, next", {width, kButtonHeight}, joints.parts > 0, [&] { acceptJoints(); }, "Enter");
     if (document_.editsMotion())

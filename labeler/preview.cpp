@@ -11,16 +11,15 @@
 
 namespace skel {
 
-bool Preview::draw(const RiggedDrawing& rigged, float width, float height) {
-  if (shown_ != &rigged) {
-    shown_ = &rigged;
+bool Preview::draw(const std::shared_ptr<const RiggedDrawing>& rigged, float width, float height) {
+  if (shown_.isAnother(rigged)) {
     start_s_ = ImGui::GetTime();
     resting_ = false;
   }
   const float time_s = static_cast<float>(ImGui::GetTime() - start_s_);
-  const RiggedCharacter& character = rigged.character;
+  const RiggedCharacter& character = rigged->character;
   // Where no clip was made for the body plan, the character only turns.
-  const Clip clip = rigged.clips.empty() ? Clip{} : rigged.clips.front();
+  const Clip clip = rigged->clips.empty() ? Clip{} : rigged->clips.front();
   const float duration_s = std::max(clip.duration_s(), 2.5f);
   if (!resting_) {
     const float share = std::min(time_s / duration_s, 1.f);
@@ -40,7 +39,7 @@ bool Preview::draw(const RiggedDrawing& rigged, float width, float height) {
     resting_ = share >= 1;
   }
   ImGui::Image(texture_.id(), {width, height});
-  if (ImGui::IsItemClicked()) shown_ = nullptr;
+  if (ImGui::IsItemClicked()) shown_.forget();
   return !resting_;
 }
 

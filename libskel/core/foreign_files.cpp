@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -68,6 +69,19 @@ std::string howToConvert(const std::string& path, std::string_view ending) {
     return text;
   }
   return {};
+}
+
+void passOverConverted(std::vector<std::string>& pictures) {
+  const auto isRead = [](const std::string& picture) { return howToConvert(picture).empty(); };
+  const auto nameOf = [](const std::string& picture) {
+    return std::filesystem::path(picture).replace_extension();
+  };
+  std::set<std::filesystem::path> read;
+  for (const std::string& picture : pictures)
+    if (isRead(picture)) read.insert(nameOf(picture));
+  std::erase_if(pictures, [&](const std::string& picture) {
+    return !isRead(picture) && read.contains(nameOf(picture));
+  });
 }
 
 }  // namespace skel

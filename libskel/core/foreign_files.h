@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace skel {
 
@@ -11,5 +12,9 @@ namespace skel {
 std::string howToConvert(const std::string& path);
 // By what is in it, whatever its name: `ending` is that of such files (".heic").
 std::string howToConvert(const std::string& path, std::string_view ending);
+
+// Takes those out of `pictures` that skel does not read and of which one that it reads is among them, under
+// the same name but for the ending: a photo that was converted, or that the telephone has stored twice.
+void passOverConverted(std::vector<std::string>& pictures);
 
 }  // namespace skel

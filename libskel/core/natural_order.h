@@ -5,7 +5,8 @@
 
 namespace skel {
 
-// Whether numbers in names count as numbers: "a9" before "a10".
+// Numbers in names count as numbers, and Latin letters without their marks: "a9" before "a10", "Ömer" (in
+// UTF-8, composed or not) between "Olga" and "Otto".
 bool comesBefore(const std::string& a, const std::string& b);
 
 }  // namespace skel

@@ -157,7 +157,8 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
   result.last = figure_rig.last;
   RiggedDrawing& drawing = result.drawing;
   drawing = rigCharacter(std::move(input), figure_rig);
-  if (!drawing.found()) throw InputError(mask.empty() ? request.source : mask, drawing.silhouette.reason);
+  if (!drawing.found() && !mask.empty()) throw InputError(mask, drawing.silhouette.reason);
+  if (!drawing.found()) throw NoFigureError(request.source, drawing.silhouette.reason);
   if (given) checkJoints(given->skeleton, request.skeleton, request.figure, drawing.silhouette.mask);
   if (const auto& as_it_stands = given ? given : placed.skeleton) {
     drawing.recognition.confidence = as_it_stands->confidence;

@@ -5,11 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "libskel/core/error.h"
 #include "libskel/mended/mended_files.h"
 #include "libskel/pipeline/rig_character.h"
 #include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
+
+// The picture shows no figure.
+struct NoFigureError : InputError {
+  using InputError::InputError;
+};
 
 // The skeleton file that is handed in at `path`; nothing where that is "" or names labels. Throws InputError.
 std::optional<SkeletonFile> givenSkeleton(const std::string& path, const RigOptions& rig);

@@ -10,11 +10,11 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 #include <vector>
 
 #include "libskel/core/error.h"
+#include "libskel/window/font.h"
 
 namespace skel {
 namespace {
@@ -133,25 +133,6 @@ GLFWwindow* createWindow(const WindowOptions& asked) {
   return window;
 }
 
-// Large enough to be read by a child. Dear ImGui's own font is a bitmap that looks coarse at this size.
-void chooseFont(float scale) {
-  ImGuiIO& io = ImGui::GetIO();
-  const float size_px = 19 * scale;
-  for (const char* path :
-       {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
-        "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
-        "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
-        "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-        "/System/Library/Fonts/Helvetica.ttc"}) {
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(path, ignored) && io.Fonts->AddFontFromFileTTF(path, size_px))
-      return;
-  }
-  ImFontConfig config;
-  config.SizePixels = size_px;
-  io.Fonts->AddFontDefault(&config);
-}
-
 void chooseStyle(float scale) {
   ImGui::StyleColorsLight();
   ImGuiStyle& style = ImGui::GetStyle();
@@ -181,7 +162,8 @@ struct Gui {
     float scale_x = 1, scale_y = 1;
     glfwGetWindowContentScale(window, &scale_x, &scale_y);
     const float scale = std::clamp(std::max(scale_x, scale_y), 1.f, 4.f);
-    chooseFont(scale);
+    constexpr float kLetters_px = 19;  // large enough to be read by a child
+    addFont(*ImGui::GetIO().Fonts, kLetters_px * scale);
     chooseStyle(scale);
     watchInput(window);  // Dear ImGui calls what it finds before its own
     ImGui_ImplGlfw_InitForOpenGL(window, true);

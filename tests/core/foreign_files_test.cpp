@@ -30,3 +30,16 @@ TEST_CASE("whoever has a file that is not read learns what to convert it with, b
   }
   for (const char* known : {"h.png", "i.glb", "j.obj", "fbx", ""}) CHECK(howToConvert(known).empty());
 }
+
+TEST_CASE("a photo that lies beside what it was converted to is passed over, in whatever folder") {
+  using Pictures = std::vector<std::string>;
+  const auto left = [](Pictures pictures) {
+    passOverConverted(pictures);
+    return pictures;
+  };
+  CHECK(left({"Ömer.heic", "Ömer.png", "a.b.HEIC", "a.b.jpg"}) == Pictures{"Ömer.png", "a.b.jpg"});
+  CHECK(left({"1/Eva.heic", "2/Eva.png", "Eva.avif", "Eva 2.png"}) ==
+        Pictures{"1/Eva.heic", "2/Eva.png", "Eva.avif", "Eva 2.png"});
+  CHECK(left({"Eva.heic", "Eva.avif"}) == Pictures{"Eva.heic", "Eva.avif"});
+  CHECK(left({"Eva.jpg", "Eva.png"}) == Pictures{"Eva.jpg", "Eva.png"});
+}

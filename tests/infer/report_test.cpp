@@ -37,8 +37,8 @@ std::string reportOf(const TempDir& dir, const std::string& options = "") {
 TEST_CASE("the report shows each drawing beside its moving figure, and what to take again and why") {
   const TempDir dir;
   const std::string html = reportOf(dir);
-  CHECK_THAT(html, Contains("<h1>3 drawings</h1>"));
-  CHECK_THAT(html, Contains("2 to take again"));
+  CHECK_THAT(html, Contains("<h1><span class=\"all\">3 drawings</span>"));
+  CHECK_THAT(html, Contains(", 1 to take again, 1 without a figure<"));
   CHECK(countIn(html, "<article ") == 3);
   CHECK(countIn(html, "class=\"drawing\"") == 2);
   CHECK(countIn(html, "class=\"film\"") == 2);
@@ -81,6 +81,59 @@ TEST_CASE("the report lists on top what to look at, one line a child, and says a
         "The figure is cut off at the bottom. Step back", "No whole figure could be made out"})
     CHECK_THAT(again, Contains(reason));
   CHECK_THAT(html, Contains("<p class=\"note\">made by hand and taken up"));
+}
+
+TEST_CASE("a blank sheet had neither picture nor advice, and files to convert were photos to take again") {
+  const TempDir dir;
+  writeFile(dir.file("class/Ann.png"), encodePng(capsuleImage()));
+  Image blank(300, 400);
+  blank.rgba.setConstant(255);
+  writeFile(dir.file("class/Blank.png"), encodePng(blank));
+  writeFile(dir.file("class/Eva.heic"), "no picture");
+  const ToolRun run = infer(dir, "class -o class --formats json --report class/report.html");
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("3 drawings: 1 fine, 1 to retake, 1 without a result\n"
+                               "retake class/Blank.png: nothing was found on it\n"));
+  const std::string html = readFile(dir.file("class/report.html"));
+  const auto partFrom = [&](const std::string& start, const char* end) {
+    const size_t at = html.find(start);
+    REQUIRE(at != html.npos);
+    return html.substr(at, html.find(end, at) - at);
+  };
+  const std::string again = partFrom("<h2>Photos to take again</h2>", "</section>");
+  CHECK(countIn(again, "<li>") == 1);
+  CHECK_THAT(again, Contains(">Blank</a> Nothing was found on it. "));
+  const std::string not_used = partFrom("<h2>Files without a figure</h2>", "</section>");
+  CHECK(countIn(not_used, "<li>") == 1);
+  CHECK_THAT(not_used, Contains(">Eva</a> is a HEIC picture; convert it by <code>heif-convert class/Eva.heic "
+                                "class/Eva.png</code> (Debian"));
+  const std::string card = partFrom("<h2>Blank</h2>", "</article>");
+  CHECK_THAT(card, Contains(">take again</span>") && Contains("class=\"drawing\"") &&
+                       Contains("Nothing was found on it. "));
+  // Beside the pictures alone, those that are shown are counted.
+  CHECK_THAT(html,
+             Contains("<h1><span class=\"all\">3 drawings</span><span class=\"shown\">1 drawing</span>"));
+}
+
+TEST_CASE("what was mended of an earlier photo and is left out was not said on top of the report") {
+  const TempDir dir;
+  std::filesystem::create_directories(dir.file("class"));
+  const std::string photo = dir.file("class/Jörg.png"), skeleton = dir.file("class/Jörg.skeleton.json");
+  std::filesystem::copy(SKEL_DATASETS "/characters/cap_boy.png", photo);
+  infer(dir, "class -o class --formats json");
+  std::string text = readFile(skeleton);
+  const std::string found = "\"recognized\"";
+  writeFile(skeleton, text.replace(text.find(found), found.size(), "\"edited\""));
+  const auto report = [&] {
+    CHECK(infer(dir, "class -o class --formats json --report class/report.html").exit_code == 0);
+    return readFile(dir.file("class/report.html"));
+  };
+  constexpr const char* kTitle = "<h2>What was mended of an earlier photo, and is left out</h2>";
+  CHECK_THAT(report(), !Contains(kTitle));
+  std::filesystem::copy(SKEL_DATASETS "/characters/clown.png", photo,
+                        std::filesystem::copy_options::overwrite_existing);
+  CHECK_THAT(report(), Contains(kTitle) && Contains(">Jörg</a> Jörg.skeleton.json (now "
+                                                    "Jörg.skeleton.old.json)</li>"));
 }
 
 TEST_CASE("advice fits the picture: of light and pen it speaks for photos alone, and it names the command") {

@@ -1,5 +1,7 @@
 #include "labeler/document.h"
 
+#include "labeler/last_shown.h"
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -363,6 +365,23 @@ TEST_CASE("a joint that is dragged is edited, stays in the picture, and takes it
   CHECK(joint("left_shoulder").image == Eigen::Vector2d(599, 0));
   CHECK(document.rigged()->recognition.skeleton.joints[size_t(plan.find("left_shoulder"))].origin ==
         JointOrigin::kEdited);
+}
+
+TEST_CASE("a model was taken for the one that was shown before, at whose address it lay") {
+  LastShown shown;
+  for (int i = 0; i < 20; ++i) {
+    const auto model = std::make_shared<const RiggedDrawing>();
+    CHECK(shown.isAnother(model));
+    CHECK_FALSE(shown.isAnother(model));
+  }
+  const TempDir dir;
+  for (const char* name : {"cap_boy", "box_robot"}) copyCharacter(name, dir.path());
+  Document document(dir.path(), documentOptions());
+  for (const int drawing : {0, 1, 0, 1}) {
+    REQUIRE(document.go(drawing));
+    document.rig();
+    CHECK(shown.isAnother(document.rigged()));
+  }
 }
 
 TEST_CASE("candidates follow the mask, labels stay where the figure stays") {
@@ -1139,6 +1158,15 @@ TEST_CASE("of a photo taken again without a mask of the one before all right tak
   CHECK(document.acceptJoints());
   CHECK(readLabelFile(dir.file("cap_boy.labels.json")).image.sha256 ==
         sha256(readFile(dir.file("cap_boy.png"))));
+}
+
+TEST_CASE("joints of the photo before were said not to be placed, though they were drawn") {
+  const TakenAgain photo;
+  Document document(photo.dir.path(), documentOptions());
+  CHECK(document.item().joints.done == 0);
+  CHECK(document.countedJoints() == std::string("for this photo"));
+  document.rigAnew();
+  CHECK(document.countedJoints() == std::string("joints placed"));
 }
 
 TEST_CASE("a photo taken again in another size opens without what was mended of the one before") {
