@@ -90,13 +90,14 @@ FromBones fromBones(const std::array<Vector2d, 3>& joints, const Vector2d& p) {
   return nearest;
 }
 
-// Takes from the limbs what lies about their roots and is wider than they are farther out: a piece of the
-// trunk that a net took for a shoulder would be torn out of it.
-void trimRoots(const DrawnFigure& figure, Plane8& limbs) {
+// Takes from the arms what lies about their roots and is wider than they are farther out: a piece of the
+// trunk that a net took for a shoulder would be torn out of it. Legs widen to the hip.
+void trimArms(const DrawnFigure& figure, Plane8& limbs) {
   constexpr double kRoot = 0.5;   // so far along the upper bone
-  constexpr double kMost = 0.9;   // of the limb's pixels farther out lie within its reach
+  constexpr double kMost = 0.9;   // of the arm's pixels farther out lie within its reach
   constexpr double kWider = 1.5;  // of that reach
   for (std::size_t k = 0; k < std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++k) {
+    if (isLeg(figure.body_plan, figure.body_plan.limbs[k])) continue;
     std::array<Vector2d, 3> joints;
     for (std::size_t i = 0; i < 3; ++i) joints[i] = imageOf(figure, figure.body_plan.limbs[k].joints[i]);
     std::vector<double> reach;
@@ -132,7 +133,7 @@ Plane8 limbPlane(const DrawnFigure& figure, const std::vector<FigurePiece>& piec
         !isSheet(limb + 1))
       limbs = (part == std::uint8_t(limbPart(limb)))
                   .select(Plane8::Constant(part.rows(), part.cols(), std::uint8_t(limb + 1)), limbs);
-  trimRoots(figure, limbs);
+  trimArms(figure, limbs);
   const Plane8 open = unsure(mask, part, limbs);
   const MaskParts specks = maskParts(open);
   std::vector<std::array<int, 5>> touched(specks.size.size(), {0, 0, 0, 0, 0});
