@@ -103,7 +103,7 @@ TEST_CASE("what a person has mended of a drawing is taken up in films, as skel-i
   const auto film = [&](const std::string& options, const std::string& note) {
     const ToolRun run =
         runTool(in_folder +
-                "skel-animate render boy.png --clip wave --duration 0.1 --fps 10 --size 64x64 "
+                "skel-animate render boy.png --look solid --clip wave --duration 0.1 --fps 10 --size 64x64 "
                 "-o film.gif " +
                 options);
     CHECK(run.exit_code == 0);
