@@ -85,7 +85,6 @@ Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource
   RetargetOptions options;
   options.shape = measureFigure(character.mesh, character.weights, character.skeleton);
   options.into_picture = intoPicture(source, clip.frame);
-  options.aslant = source.flat;
   return retargetToRest(clip, character.skeleton, options);
 }
 

@@ -1,6 +1,7 @@
 #include "animator/flat_figure.h"
 
 #include "libskel/core/parallel.h"
+#include "libskel/deform/figure_shape.h"
 #include "libskel/draw/draw_skeleton.h"
 #include "libskel/skeleton/hanging.h"
 
@@ -9,14 +10,34 @@ namespace {
 
 constexpr int kFlatMoments = 32;  // of a clip, that decide what the camera shows
 
+// Arms that are one piece with the body in the model, or that it does not move since they would tear it, move
+// nothing here either.
+LayerMap layersOf(const RiggedDrawing& drawing) {
+  LayerMap layers = drawing.layers;
+  const RiggedCharacter& character = drawing.character;
+  const FigureShape shape = measureFigure(character.mesh, character.weights, character.skeleton);
+  for (std::size_t k = 0; k < drawing.body_plan.limbs.size(); ++k) {
+    const TemplateLimb& limb = drawing.body_plan.limbs[k];
+    const int elbow = character.skeleton.find(drawing.body_plan.joints[std::size_t(limb.joints[1])].name);
+    if (isLeg(drawing.body_plan, limb) || elbow < 0 || (layers.limb == std::uint8_t(k + 1)).any()) continue;
+    if (shape.joined[std::size_t(elbow)] >= kGrownArm) layers.hidden.push_back(int(k) + 1);
+  }
+  return layers;
+}
+
 Eigen::Vector3d onPlane(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0}; }
 
 }  // namespace
 
+bool looksBetterFlat(const RiggedDrawing& drawing) {
+  constexpr double kGuess = 0.33;  // below, joints are one
+  return !drawing.body_plan.from_side && drawing.recognition.confidence >= kGuess;
+}
+
 FlatFigure::FlatFigure(const RiggedDrawing& drawing)
     : drawing_(drawing),
       cut_out_(makeCutOut({drawing.image, drawing.silhouette, withoutHanging(drawing.character.skeleton),
-                           drawing.body_plan, drawing.layers, drawing.character.mesh.model_from_image})) {}
+                           drawing.body_plan, layersOf(drawing), drawing.character.mesh.model_from_image})) {}
 
 FlatPose FlatFigure::poseAt(const Clip& clip, double time_s) const {
   return flatPose(drawing_.character.skeleton, drawing_.body_plan, posedAt(drawing_.character, clip, time_s));

@@ -10,6 +10,10 @@
 
 namespace skel {
 
+// Whether films of it look better as it was drawn than as a model: by eye (docs/looks.md) those of people do,
+// unless their joints are a guess. Then more is torn than a model shows.
+bool looksBetterFlat(const RiggedDrawing& drawing);
+
 class FlatFigure {
  public:
   // The drawing outlives the figure.

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "animator/flat_figure.h"
 #include "animator/render_films.h"
 #include "animator/render_sheet.h"
 #include "animator/rig_source.h"
@@ -21,11 +22,12 @@ namespace skel {
 namespace {
 namespace fs = std::filesystem;
 
-// What skel-infer says of it, too.
-void tell(const DrawnCharacter& drawn, const std::string& path, const std::vector<Clip>& clips) {
+// What skel-infer says of it, too; and the look, where it was chosen.
+void tell(const DrawnCharacter& drawn, const char* look, const std::string& path,
+          const std::vector<Clip>& clips) {
   const RiggedDrawing& drawing = drawn.drawing;
-  std::printf("%s: %s, confidence %.2f\n", printable(path).c_str(), drawing.body_plan.name.c_str(),
-              drawing.recognition.confidence);
+  std::printf("%s: %s, confidence %.2f%s\n", printable(path).c_str(), drawing.body_plan.name.c_str(),
+              drawing.recognition.confidence, look);
   std::vector<Note> notes;
   for (const std::string& warning : drawn.warnings) notes.push_back({warning});
   for (Note& note : limbNotes(drawing, clips)) notes.push_back(std::move(note));
@@ -137,17 +139,28 @@ void checkNames(const std::vector<std::string>& files) {
 struct Cast {
   std::string path;
   CharacterFile file;
-  std::optional<RiggedDrawing> drawing;
+  std::optional<RiggedDrawing> flat;  // the drawing, where it is shown itself
   std::vector<Clip> clips;
   ExitCode code = ExitCode::kDone;  // of what it cannot do
 };
 
-Cast cast(const RenderCommandOptions& options, const std::string& path) {
-  CharacterSource source = options.source;
+// Whether the look of a drawing's film is left to skel: nothing is asked for that the flat look refuses or
+// takes no notice of.
+bool choosesLook(const RenderCommandOptions& options) {
+  const RenderCommandOptions otherwise;
+  return options.look == "auto" && options.sheet.output.empty() && !needsModel(options) &&
+         options.pitch_deg == otherwise.pitch_deg && options.blend == otherwise.blend;
+}
+
+Cast cast(const RenderCommandOptions& asked, const std::string& path) {
+  RenderCommandOptions options = asked;
+  CharacterSource& source = options.source;
   source.path = path;
   std::optional<DrawnCharacter> drawn;
   if (isDrawing(source)) drawn = rigDrawing(source, options.library);
-  const bool flat = options.look == "flat";
+  const bool chooses = drawn && choosesLook(options);
+  const bool flat = chooses ? looksBetterFlat(drawn->drawing) : options.look == "flat";
+  options.library.flat = flat;
   if (flat && !drawn)
     throw UsageError(path + " is no drawing (.png, .jpg, ...), which alone can move as it was drawn");
   CharacterFile file = drawn ? CharacterFile{drawn->drawing.character, {}, {}} : loadCharacter(source);
@@ -157,11 +170,11 @@ Cast cast(const RenderCommandOptions& options, const std::string& path) {
   if (clips.empty())
     throw InputError(path, "can do no clip: it has none, and none that come with skel fit its joints: " +
                                whyNoRoles(file.character.skeleton));
-  if (drawn) tell(*drawn, path, clips);
+  if (drawn) tell(*drawn, !chooses ? "" : flat ? ", look flat" : ", look solid", path, clips);
   noteStayingArms(options, file.character, path, clips, drawn ? std::vector<Clip>{} : file.clips);
-  std::optional<RiggedDrawing> drawing;
-  if (drawn) drawing = std::move(drawn->drawing);
-  return {path, std::move(file), std::move(drawing), clips, left_out_code};
+  std::optional<RiggedDrawing> shown;
+  if (flat) shown = std::move(drawn->drawing);
+  return {path, std::move(file), std::move(shown), clips, left_out_code};
 }
 
 // Whether `name` is that of a clip, after which no comma was written.
@@ -192,8 +205,7 @@ void checkFiles(const RenderCommandOptions& options) {
 
 ExitCode runRender(const RenderCommandOptions& asked) {
   RenderCommandOptions options = asked;
-  options.library.flat = options.look == "flat";
-  if (options.library.flat && !options.sheet.output.empty())
+  if (options.look == "flat" && !options.sheet.output.empty())
     throw UsageError(
         "--look flat is a look of films; leave it out beside --sheet, whose frames show the model (--pixels "
         "gives them hard edges)");
@@ -221,7 +233,7 @@ ExitCode runRender(const RenderCommandOptions& asked) {
     if (code == ExitCode::kDone) code = here;
   };
   const auto render = [&](Cast one) {
-    renderer.render(std::move(one.file), one.drawing ? &*one.drawing : nullptr, one.clips);
+    renderer.render(std::move(one.file), one.flat ? &*one.flat : nullptr, one.clips);
     return one.code;
   };
   std::vector<Cast> measured;
@@ -230,7 +242,6 @@ ExitCode runRender(const RenderCommandOptions& asked) {
       Cast one = cast(options, path);
       if (!renderer.measure) return render(std::move(one));
       renderer.measure(one.file, one.clips);
-      one.drawing.reset();
       measured.push_back(std::move(one));
       return ExitCode::kDone;
     });

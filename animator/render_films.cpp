@@ -73,8 +73,7 @@ struct Films {
 
   explicit Films(const RenderCommandOptions& asked)
       : options(asked), names(filmNames(asked)), film(filmOptions(asked)) {
-    if (options.look == "flat" &&
-        (options.angle_deg != 0 || options.wireframe || options.translucent || !options.weights_of.empty()))
+    if (options.look == "flat" && needsModel(options))
       throw UsageError(
           "--look flat shows the drawing as it was drawn: leave out --angle, --wireframe, --translucent and "
           "--show-weights");
@@ -122,7 +121,7 @@ struct Films {
     });
   }
 
-  void operator()(CharacterFile file, const RiggedDrawing* drawing, const std::vector<Clip>& clips) const {
+  void operator()(CharacterFile file, const RiggedDrawing* flat, const std::vector<Clip>& clips) const {
     const RiggedCharacter& character = file.character;
     Look look = film.look;
     if (!options.weights_of.empty()) {
@@ -137,14 +136,16 @@ struct Films {
     }
     const bool one_camera = options.frame == "clips" || (options.frame == "auto" && manyClips(options));
     if (one_camera) {
-      addLibrary(file, options.library);
+      ClipSource library = options.library;
+      library.flat = flat != nullptr;
+      addLibrary(file, library);
       file.clips.insert(file.clips.end(), clips.begin(), clips.end());
     }
     const auto shownWith = [&](const Clip& clip) {
       return one_camera ? file.clips : std::vector<Clip>{clip};
     };
-    if (options.look == "flat") {
-      const FlatFigure figure(*drawing);
+    if (flat) {
+      const FlatFigure figure(*flat);
       for (std::size_t i = 0; i < clips.size(); ++i)
         writeFlat(figure, clips[i], figure.camera(shownWith(clips[i]), double(film.width) / film.height),
                   paths[i]);

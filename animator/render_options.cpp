@@ -88,9 +88,12 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
   app.add_option("--duration", options.duration_s, "In seconds; the clip repeats (default: once)")
       ->check(numberIn(0.0, 3600.0))
       ->excludes(sheet);
-  app.add_option("--look", options.look,
-                 "solid: the model; flat: the drawing itself, its limbs moved in the picture, unlit")
-      ->check(CLI::IsMember({"solid", "flat"}))
+  app.add_option(
+         "--look", options.look,
+         "solid: the model; flat: the drawing itself, its limbs moved in the picture, unlit; auto: "
+         "flat for a drawing of a person whose joints are no guess, unless something is asked for that only "
+         "a model has")
+      ->check(CLI::IsMember({"auto", "solid", "flat"}))
       ->capture_default_str();
   app.add_option("--size", options.size,
                  "WIDTHxHEIGHT, or one number for both, px (default: 512, of a sheet's frames 64)");
@@ -125,6 +128,10 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
   app.add_option("--painter", options.painter, "What draws: auto takes a graphics card if there is one")
       ->check(CLI::IsMember({"auto", "software", "gl"}))
       ->capture_default_str();
+}
+
+bool needsModel(const RenderCommandOptions& options) {
+  return options.angle_deg != 0 || options.wireframe || options.translucent || !options.weights_of.empty();
 }
 
 std::vector<std::string> filmFormats() {

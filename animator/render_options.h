@@ -43,7 +43,7 @@ struct RenderCommandOptions {
   double duration_s = 0;
   std::string size;  // empty: 512x512 of films, 64x64 of sheets
   double angle_deg = 0, pitch_deg = 5;
-  std::string look = "solid";  // or flat: the drawing itself
+  std::string look = "auto";  // solid: the model; flat: the drawing itself; auto: looksBetterFlat()
   std::string background = "white";
   std::string frame = "auto";  // clip or clips: what the camera shows all of
   std::string painter = "auto";
@@ -52,6 +52,9 @@ struct RenderCommandOptions {
   std::string weights_of;
 };
 void bindRenderOptions(CLI::App& app, RenderCommandOptions& options);
+
+// Whether something is asked for that the flat look does not have.
+bool needsModel(const RenderCommandOptions& options);
 
 // For --format, the default first.
 std::vector<std::string> filmFormats();

@@ -137,22 +137,25 @@ Image pictureOf(const DrawnFigure& figure, const FigurePiece& piece, const Plane
 }
 
 // Which limb moves what of a sheet: of each square and of each vertex. `free`: the vertices about the borders
-// between limbs and the rest, where paper bends.
+// between limbs and the rest, where paper bends. `skirt`: those that most of what is around them is a skirt.
 struct Carriers {
   std::vector<int> of_square, of_vertex;
-  std::vector<bool> free;
+  std::vector<bool> free, skirt;
 };
 
-Carriers carriersOf(const CutOutSheet& sheet, const Plane8& limbs, const PixelBox& box,
+Carriers carriersOf(const CutOutSheet& sheet, const Plane8& part, const Plane8& limbs, const PixelBox& box,
                     const std::vector<double>& widths) {
   constexpr double kFree = 0.3;  // of a limb's width, to both sides of where it begins
   const Lattice& lattice = sheet.lattice;
   Carriers carriers;
   std::vector<std::array<int, 5>> votes(lattice.squares.size(), {0, 0, 0, 0, 0});
+  std::vector<int> skirt(lattice.squares.size(), 0), of_skirt(std::size_t(lattice.vertices.rows()), 0);
   for (int v = 0; v < lattice.square_of.rows(); ++v)
     for (int u = 0; u < lattice.square_of.cols(); ++u)
       if (const int square = lattice.square_of(v, u); square >= 0) {
         ++votes[std::size_t(square)][limbs(box.y0 + v, box.x0 + u)];
+        const bool is_skirt = part.size() != 0 && part(box.y0 + v, box.x0 + u) == std::uint8_t(Part::kSkirt);
+        skirt[std::size_t(square)] += is_skirt ? 1 : -1;
       }
   const auto winner = [](const std::array<int, 5>& of) {
     return int(std::max_element(of.begin(), of.end()) - of.begin());
@@ -161,7 +164,10 @@ Carriers carriersOf(const CutOutSheet& sheet, const Plane8& limbs, const PixelBo
   std::vector<std::array<int, 5>> around(count, {0, 0, 0, 0, 0});
   for (std::size_t s = 0; s < lattice.squares.size(); ++s) {
     carriers.of_square.push_back(winner(votes[s]));
-    for (const int v : lattice.squares[s]) ++around[std::size_t(v)][std::size_t(carriers.of_square[s])];
+    for (const int v : lattice.squares[s]) {
+      ++around[std::size_t(v)][std::size_t(carriers.of_square[s])];
+      of_skirt[std::size_t(v)] += skirt[s];
+    }
   }
   std::vector<double> left(count, -1);  // how much farther paper is free, px
   for (std::size_t v = 0; v < count; ++v) {
@@ -181,6 +187,7 @@ Carriers carriersOf(const CutOutSheet& sheet, const Plane8& limbs, const PixelBo
         }
   }
   for (const double reach : left) carriers.free.push_back(reach >= 0);
+  for (const int more : of_skirt) carriers.skirt.push_back(more > 0);
   return carriers;
 }
 
@@ -238,13 +245,30 @@ std::vector<int> partsOf(const Lattice& lattice) {
   return part;
 }
 
-// `first`: the sheet's first vertex among those of `weights`.
-void hang(const SkinWeights& weights, Index first, const Carriers& carriers, CutOutSheet& sheet) {
+// Of each joint of the skeleton: whether it is a leg's.
+std::vector<bool> legJoints(const DrawnFigure& figure) {
+  std::vector<bool> of_leg(figure.skeleton.joints.size(), false);
+  for (const TemplateLimb& limb : figure.body_plan.limbs)
+    for (const int joint : limb.joints)
+      if (const int j = figure.skeleton.find(figure.body_plan.joints[std::size_t(joint)].name);
+          j >= 0 && isLeg(figure.body_plan, limb))
+        of_leg[std::size_t(j)] = true;
+  return of_leg;
+}
+
+// `first`: the sheet's first vertex among those of `weights`. Legs hold no skirt: it hangs from the trunk,
+// and what shows of them below takes its hem along.
+void hang(const SkinWeights& weights, Index first, const Carriers& carriers, const std::vector<bool>& of_leg,
+          CutOutSheet& sheet) {
   const Eigen::MatrixX2d places = placedVertices(sheet);
   const auto hold = [&](Index v) { sheet.handles.push_back({int(v), weights.joints(first + v, 0)}); };
+  const auto isHeld = [&](Index v) {
+    const std::size_t i = std::size_t(v);
+    return !carriers.free[i] && !(carriers.skirt[i] && of_leg[weights.joints(first + v, 0)]);
+  };
   for (Index v = 0; v < places.rows(); ++v)
     if (const double most = carriers.of_vertex[std::size_t(v)] == 0 ? kOneTrunkJoint : kOneLimbJoint;
-        double(weights.weights(first + v, 0)) >= most && !carriers.free[std::size_t(v)])
+        double(weights.weights(first + v, 0)) >= most && isHeld(v))
       hold(v);
   // What hangs on nothing moves with the joint that it is nearest to.
   const std::vector<int> part = partsOf(sheet.lattice);
@@ -288,9 +312,10 @@ CutOut makeCutOut(const DrawnFigure& figure, const CutOutOptions& options) {
     if (sheet.layer != 0)
       carriers.push_back({std::vector<int>(sheet.lattice.squares.size(), sheet.layer),
                           std::vector<int>(std::size_t(sheet.lattice.vertices.rows()), sheet.layer),
+                          std::vector<bool>(std::size_t(sheet.lattice.vertices.rows()), false),
                           std::vector<bool>(std::size_t(sheet.lattice.vertices.rows()), false)});
     else
-      carriers.push_back(carriersOf(sheet, limbs, pieces[i].box, widths));
+      carriers.push_back(carriersOf(sheet, figure.layers.part, limbs, pieces[i].box, widths));
     sheet.part = carriers.back().of_square;
   }
   const TriangleMesh flat = flatMesh(cut_out.sheets, carriers);
@@ -299,9 +324,10 @@ CutOut makeCutOut(const DrawnFigure& figure, const CutOutOptions& options) {
   const SkinWeights weights =
       computeSkinWeights(flat, on_plane, SkinMethod::kGeodesic, {},
                          jointLayers(figure.skeleton, figure.body_plan, flat, figure.layers));
+  const std::vector<bool> of_leg = legJoints(figure);
   Index first = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    hang(weights, first, carriers[i], cut_out.sheets[i]);
+    hang(weights, first, carriers[i], of_leg, cut_out.sheets[i]);
     first += cut_out.sheets[i].lattice.vertices.rows();
   }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 #include "libskel/image/mask_parts.h"
+#include "libskel/mesh/outline.h"
 
 namespace skel {
 namespace {
@@ -33,6 +35,90 @@ Plane8 unsure(const Plane8& mask, const Plane8& part, const Plane8& limbs) {
   return result;
 }
 
+int brightness(const std::uint8_t* p) { return (54 * p[0] + 183 * p[1] + 19 * p[2]) / 256; }
+
+// Whether there is a line or an edge about a pixel of the figure.
+class DrawnEdges {
+ public:
+  explicit DrawnEdges(const DrawnFigure& figure) : figure_(figure) {
+    const Plane8& mask = figure.silhouette.mask;
+    int darkest = 255, brightest = 0;
+    for (int y = 0; y < mask.rows(); ++y)
+      for (int x = 0; x < mask.cols(); ++x)
+        if (mask(y, x) != 0) {
+          const int value = brightness(figure.image.pixel(x, y));
+          darkest = std::min(darkest, value), brightest = std::max(brightest, value);
+        }
+    const PixelBox box = figureBox(mask);
+    constexpr double kSeen = 1. / 160;  // of the figure's long side
+    reach_px_ = std::max(1, int(std::lround(kSeen * std::max(box.width(), box.height()))));
+    constexpr double kContrast = 0.12;
+    contrast_ = kContrast * std::max(40, brightest - darkest);
+  }
+  bool at(int x, int y) const {
+    const Plane8& mask = figure_.silhouette.mask;
+    int darkest = 255, brightest = 0;
+    for (int v = std::max(0, y - reach_px_); v <= std::min(int(mask.rows()) - 1, y + reach_px_); ++v)
+      for (int u = std::max(0, x - reach_px_); u <= std::min(int(mask.cols()) - 1, x + reach_px_); ++u)
+        if (mask(v, u) != 0) {
+          const int value = brightness(figure_.image.pixel(u, v));
+          darkest = std::min(darkest, value), brightest = std::max(brightest, value);
+        }
+    return brightest - darkest > contrast_;
+  }
+
+ private:
+  const DrawnFigure& figure_;
+  int reach_px_ = 1;
+  double contrast_ = 0;
+};
+
+// How far a pixel lies from a limb's bones, and where along them: 0 at the root, 1 at the middle joint, 2 at
+// the end.
+struct FromBones {
+  double distance, along;
+};
+
+FromBones fromBones(const std::array<Vector2d, 3>& joints, const Vector2d& p) {
+  FromBones nearest{1e300, 0};
+  for (std::size_t bone = 0; bone < 2; ++bone) {
+    const Vector2d way = joints[bone + 1] - joints[bone];
+    const double t = std::clamp((p - joints[bone]).dot(way) / std::max(1e-9, way.squaredNorm()), 0., 1.);
+    const double distance = (p - joints[bone] - t * way).norm();
+    if (distance < nearest.distance) nearest = {distance, double(bone) + t};
+  }
+  return nearest;
+}
+
+// Takes from the arms what lies about their roots and is wider than they are farther out: a piece of the
+// trunk that a net took for a shoulder would be torn out of it. Legs widen to the hip.
+void trimArms(const DrawnFigure& figure, Plane8& limbs) {
+  constexpr double kRoot = 0.5;   // so far along the upper bone
+  constexpr double kMost = 0.9;   // of the arm's pixels farther out lie within its reach
+  constexpr double kWider = 1.5;  // of that reach
+  for (std::size_t k = 0; k < std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++k) {
+    if (isLeg(figure.body_plan, figure.body_plan.limbs[k])) continue;
+    std::array<Vector2d, 3> joints;
+    for (std::size_t i = 0; i < 3; ++i) joints[i] = imageOf(figure, figure.body_plan.limbs[k].joints[i]);
+    std::vector<double> reach;
+    std::vector<std::pair<double, std::uint8_t*>> about_root;
+    for (int y = 0; y < limbs.rows(); ++y)
+      for (int x = 0; x < limbs.cols(); ++x) {
+        if (limbs(y, x) != std::uint8_t(k + 1)) continue;
+        const FromBones from = fromBones(joints, Vector2d(x, y));
+        if (from.along < kRoot)
+          about_root.emplace_back(from.distance, &limbs(y, x));
+        else if (from.along < 2)
+          reach.push_back(from.distance);
+      }
+    if (reach.empty()) continue;
+    const auto most = reach.begin() + std::ptrdiff_t(kMost * double(reach.size() - 1));
+    std::nth_element(reach.begin(), most, reach.end());
+    for (const auto& [distance, limb] : about_root)
+      if (distance > kWider * *most) *limb = 0;
+  }
+}
+
 }  // namespace
 
 Plane8 limbPlane(const DrawnFigure& figure, const std::vector<FigurePiece>& pieces) {
@@ -47,6 +133,7 @@ Plane8 limbPlane(const DrawnFigure& figure, const std::vector<FigurePiece>& piec
         !isSheet(limb + 1))
       limbs = (part == std::uint8_t(limbPart(limb)))
                   .select(Plane8::Constant(part.rows(), part.cols(), std::uint8_t(limb + 1)), limbs);
+  trimArms(figure, limbs);
   const Plane8 open = unsure(mask, part, limbs);
   const MaskParts specks = maskParts(open);
   std::vector<std::array<int, 5>> touched(specks.size.size(), {0, 0, 0, 0, 0});
@@ -85,6 +172,7 @@ std::vector<double> limbWidths(const DrawnFigure& figure, const Plane8& limbs) {
 Plane8 limbTouches(const DrawnFigure& figure, const Plane8& limbs, const std::vector<double>& widths) {
   constexpr double kRoot = 0.9, kShort = 0.6;  // of the limb's width
   constexpr double kOver = 1.3;                // of its length
+  constexpr double kDrawn = 0.55;              // of where it touches the trunk
   const Plane8& mask = figure.silhouette.mask;
   std::array<Vector2d, 5> roots;
   roots.fill(Vector2d::Zero());
@@ -133,9 +221,14 @@ Plane8 limbTouches(const DrawnFigure& figure, const Plane8& limbs, const std::ve
     over[limb] = touching[limb] * widths[limb] > kOver * double((limbs == std::uint8_t(limb)).count());
 
   Plane8 cut = Plane8::Zero(mask.rows(), mask.cols());
+  const DrawnEdges edges(figure);
+  std::vector<int> drawn(trunk_parts.size.size(), 0);
+  for (const MaskParts::Run& run : trunk_parts.runs)
+    for (int x = run.x0; x < run.x1; ++x) drawn[std::size_t(run.part)] += edges.at(x, run.y);
   for (const MaskParts::Run& run : trunk_parts.runs) {
     const std::size_t part = std::size_t(run.part), limb = limb_of[part];
-    if (!over[limb] && (hangs[limb] || distance[part] > nearest[limb]))
+    if (!over[limb] && double(drawn[part]) >= kDrawn * double(trunk_parts.size[part]) &&
+        (hangs[limb] || distance[part] > nearest[limb]))
       cut.row(run.y).segment(run.x0, run.x1 - run.x0).setOnes();
   }
   for (const MaskParts::Run& run : limb_parts.runs)  // two pixels a pixel of length

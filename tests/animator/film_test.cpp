@@ -1,7 +1,9 @@
 #include "animator/film.h"
 
+#include "animator/flat_figure.h"
 #include "tests/animator/figure_file.h"
 #include "tests/support/catch.h"
+#include "tests/support/clips_on_drawings.h"
 
 using namespace skel;
 
@@ -84,4 +86,36 @@ TEST_CASE("the camera of very many clips looks at as many moments as fit into me
   const Eigen::MatrixX3f points = outermostPoints(character, clips);
   CHECK(points.rows() < 21'000'000);
   CHECK(points.col(1).maxCoeff() > 3);
+}
+
+TEST_CASE("an arm that is one piece with the body in the model is one with it in the drawing that moves") {
+  RiggedDrawing drawing =
+      rigWithClips(std::string(SKEL_SOURCE_DIR) + "/datasets/characters/cap_boy.png", "biped", {});
+  drawing.layers.limb.resize(0, 0);
+  drawing.layers.hidden.clear();
+  const Eigen::Quaternionf up(Eigen::AngleAxisf(1, Eigen::Vector3f::UnitZ()));
+  Clip wave;
+  wave.tracks = {
+      {"left_shoulder", {0, 0.5f, 1}, {Eigen::Quaternionf::Identity(), up, Eigen::Quaternionf::Identity()}}};
+  const auto moved = [&] {
+    const FlatFigure flat(drawing);
+    const FilmOptions options = small();
+    const Camera camera = flat.camera({wave}, double(options.width) / options.height);
+    const CutOutPainter painter = flat.painterFor(camera, options.height);
+    const Image before = flat.paint(wave, 0, camera, painter, options),
+                after = flat.paint(wave, double(wave.duration_s()) / 2, camera, painter, options);
+    return (before.rgba != after.rgba).rowwise().any().count();
+  };
+  CHECK(moved() > 0);
+  const Skeleton& skeleton = drawing.character.skeleton;
+  const auto body = std::uint16_t(skeleton.index("body"));
+  drawing.character.weights.joints =
+      drawing.character.weights.joints
+          .unaryExpr([&](std::uint16_t joint) {
+            const std::string& name = skeleton.joints[joint].name;
+            return name.ends_with("shoulder") || name.ends_with("elbow") || name.ends_with("hand") ? body
+                                                                                                   : joint;
+          })
+          .eval();
+  CHECK(moved() == 0);
 }

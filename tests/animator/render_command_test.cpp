@@ -12,6 +12,7 @@
 
 using namespace skel;
 using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
 namespace fs = std::filesystem;
 
 namespace {
@@ -102,7 +103,7 @@ TEST_CASE("what a person has mended of a drawing is taken up in films, as skel-i
   const auto film = [&](const std::string& options, const std::string& note) {
     const ToolRun run =
         runTool(in_folder +
-                "skel-animate render boy.png --clip wave --duration 0.1 --fps 10 --size 64x64 "
+                "skel-animate render boy.png --look solid --clip wave --duration 0.1 --fps 10 --size 64x64 "
                 "-o film.gif " +
                 options);
     CHECK(run.exit_code == 0);
@@ -366,6 +367,55 @@ TEST_CASE("two clip files whose clips have one name are refused in films and she
     fs::remove_all(dir.file("films"));
     fs::remove(dir.file("sheet.png"));
   }
+}
+
+TEST_CASE(
+    "a film of a person shows the drawing itself, unless the model is asked for or something it alone has") {
+  const TempDir dir;
+  const auto frame = [&](const std::string& options) {
+    const std::string folder = dir.file("look/");
+    fs::remove_all(folder);
+    const ToolRun run = render(kDrawing + " --clip wave --fps 1 --size 64x64 -o " + folder + " " + options);
+    CHECK(run.err == "");
+    REQUIRE(run.exit_code == 0);
+    return std::pair(run.out.substr(0, run.out.find('\n')), readFile(folder + "frame-0001.png"));
+  };
+  const auto [said, drawn] = frame("");
+  CHECK_THAT(said, Contains("confidence 0.") && EndsWith(", look flat"));
+  CHECK(drawn == frame("--look flat").second);
+  CHECK_THAT(frame("--look flat").first, !Contains("look"));
+  const std::string model = frame("--look solid").second;
+  CHECK(drawn != model);
+  for (const char* option :
+       {"--wireframe", "--translucent", "--show-weights head", "--angle 40", "--pitch 30", "--blend dual"}) {
+    CAPTURE(option);
+    const auto [line, with_option] = frame(option);
+    CHECK_THAT(line, !Contains("look"));
+    CHECK(with_option == frame(std::string(option) + " --look solid").second);
+  }
+}
+
+TEST_CASE("a film of an animal, or of a person whose joints are a guess, shows the model, and says so") {
+  const TempDir dir;
+  const std::string animal = std::string(SKEL_SOURCE_DIR) + "/datasets/animals/cloud_sheep.png";
+  const auto filmOf = [&](const std::string& character) {
+    const std::string arguments = character + " --clip walk --fps 1 --size 64x64 -o " + dir.file("it.gif");
+    const ToolRun run = render(arguments);
+    REQUIRE(run.exit_code == 0);
+    const std::string film = readFile(dir.file("it.gif"));
+    REQUIRE(render(arguments + " --look solid").exit_code == 0);
+    CHECK(film == readFile(dir.file("it.gif")));
+    return run.out;
+  };
+  CHECK_THAT(filmOf(animal), Contains(", look solid\n"));
+  REQUIRE(runTool("skel-infer " + kDrawing + " --formats json -o " + dir.file("out")).exit_code == 0);
+  std::string joints = readFile(dir.file("out/cap_boy.skeleton.json"));
+  const std::size_t at = joints.find("\"confidence\": 0.");
+  REQUIRE(at != std::string::npos);
+  joints.replace(joints.find("0.", at), 3, "0.2");
+  writeFile(dir.file("guess.skeleton.json"), joints);
+  CHECK_THAT(filmOf(kDrawing + " --skeleton " + dir.file("guess.skeleton.json")),
+             Contains("confidence 0.2") && Contains(", look solid\n"));
 }
 
 TEST_CASE("what cannot be rendered is said in one line, and no film is left") {

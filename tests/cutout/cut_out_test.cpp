@@ -4,6 +4,7 @@
 #include <array>
 
 #include "libskel/animation/clip_library.h"
+#include "libskel/cutout/limb_plane.h"
 #include "libskel/cutout/paint_cut_out.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/skeleton/frontal.h"
@@ -17,11 +18,6 @@ namespace {
 RiggedDrawing drawn(const std::string& path, const std::string& body_plan) {
   return rigWithClips(std::string(SKEL_SOURCE_DIR) + "/datasets/" + path, body_plan,
                       clipsFor(builtinClips(), loadTemplate(body_plan)));
-}
-
-CutOut cutOutOf(const RiggedDrawing& drawing) {
-  return makeCutOut({drawing.image, drawing.silhouette, drawing.character.skeleton, drawing.body_plan,
-                     drawing.layers, drawing.character.mesh.model_from_image});
 }
 
 std::vector<Eigen::MatrixX2d> posedBy(const RiggedDrawing& drawing, const CutOut& cut_out, const Clip& clip,
@@ -42,6 +38,36 @@ Image painted(const RiggedDrawing& drawing, const CutOut& cut_out, std::vector<E
   Image image = blankImage(drawing.image.width, drawing.image.height, kClear);
   CutOutPainter(cut_out, 1 / model.scale.x()).paint(sheets, image);
   return image;
+}
+
+DrawnFigure figureOf(const RiggedDrawing& drawing) {
+  return {drawing.image,     drawing.silhouette, drawing.character.skeleton,
+          drawing.body_plan, drawing.layers,     drawing.character.mesh.model_from_image};
+}
+
+CutOut cutOutOf(const RiggedDrawing& drawing) { return makeCutOut(figureOf(drawing)); }
+
+// Where the joint is drawn, image px.
+Eigen::Vector2d at(const RiggedDrawing& drawing, const std::string& joint) {
+  const Skeleton& skeleton = drawing.character.skeleton;
+  return skeleton.joints[std::size_t(skeleton.index(joint))].image;
+}
+
+// Says that the figure's pixels for which `is` holds are of this part.
+template <class Is>
+void relabel(RiggedDrawing& drawing, Part part, const Is& is) {
+  for (int y = 0; y < drawing.image.height; ++y)
+    for (int x = 0; x < drawing.image.width; ++x)
+      if (drawing.silhouette.mask(y, x) != 0 && is(Eigen::Vector2d(x, y)))
+        drawing.layers.part(y, x) = std::uint8_t(part);
+}
+
+// With arms and legs that are no sheets of their own.
+RiggedDrawing inOneSheet() {
+  RiggedDrawing drawing = drawn("characters/cap_boy.png", "biped");
+  drawing.layers.limb.resize(0, 0);
+  drawing.layers.hidden.clear();
+  return drawing;
 }
 
 }  // namespace
@@ -172,4 +198,59 @@ TEST_CASE("the same drawing in the same pose gives the same bytes") {
   const Image a = painted(drawing, one, posedBy(drawing, one, dance, 0.7f)),
               b = painted(drawing, other, posedBy(drawing, other, dance, 0.7f));
   CHECK((a.rgba == b.rgba).all());
+}
+
+TEST_CASE("an arm takes no piece of the body along that a net took for its shoulder") {
+  RiggedDrawing drawing = inOneSheet();
+  const Eigen::Vector2d shoulder = at(drawing, "right_shoulder"), body = at(drawing, "body");
+  relabel(drawing, Part::kRightArm, [&](const Eigen::Vector2d& p) {
+    return (p - shoulder).norm() + (p - body).norm() < 1.2 * (shoulder - body).norm();
+  });
+  const Plane8 limbs = limbPlane(figureOf(drawing), {});
+  const Eigen::Vector2d elbow = at(drawing, "right_elbow");
+  CHECK(int(limbs(int(elbow.y()), int(elbow.x()))) == 1);
+  CHECK(int(limbs(int(body.y()), int(body.x()))) == 0);
+}
+
+TEST_CASE("an arm is cut from the body that it touches where a line is drawn between them, and only there") {
+  RiggedDrawing drawing = inOneSheet();
+  const Eigen::Vector2d middle = at(drawing, "body");
+  relabel(drawing, Part::kTrunk, [](const Eigen::Vector2d&) { return true; });
+  const auto isHand = [&](const Eigen::Vector2d& p) { return (p - middle).cwiseAbs().maxCoeff() < 20; };
+  Plane8 limbs = Plane8::Zero(drawing.image.height, drawing.image.width);
+  for (int y = 0; y < limbs.rows(); ++y)
+    for (int x = 0; x < limbs.cols(); ++x)
+      if (isHand(Eigen::Vector2d(x, y)) ||
+          (Eigen::Vector2d(x, y) - at(drawing, "right_shoulder")).norm() < 11)
+        limbs(y, x) = 1;
+  const auto paint = [&](int line) {
+    for (int y = 0; y < limbs.rows(); ++y)
+      for (int x = 0; x < limbs.cols(); ++x) {
+        const double away = (Eigen::Vector2d(x, y) - middle).cwiseAbs().maxCoeff();
+        std::fill_n(drawing.image.pixel(x, y), 3, std::uint8_t(away > 18 && away < 22 ? line : 180));
+      }
+  };
+  const std::vector<double> widths{0, 14, 0, 0, 0};
+  paint(180);
+  CHECK((limbTouches(figureOf(drawing), limbs, widths) == 0).all());
+  paint(0);
+  CHECK((limbTouches(figureOf(drawing), limbs, widths) != 0).any());
+}
+
+TEST_CASE("legs hold no skirt") {
+  RiggedDrawing drawing = inOneSheet();
+  relabel(drawing, Part::kTrunk, [](const Eigen::Vector2d&) { return true; });
+  const auto heldByLegs = [&] {
+    int count = 0;
+    for (const CutOutSheet& sheet : cutOutOf(drawing).sheets)
+      for (const CutOutSheet::Handle& handle : sheet.handles) {
+        const std::string& joint = drawing.character.skeleton.joints[handle.joint].name;
+        count += joint.ends_with("_hip") || joint.ends_with("_knee") || joint.ends_with("_foot");
+      }
+    return count;
+  };
+  CHECK(heldByLegs() > 0);
+  const double waist = at(drawing, "pelvis").y();
+  relabel(drawing, Part::kSkirt, [&](const Eigen::Vector2d& p) { return p.y() > waist; });
+  CHECK(heldByLegs() == 0);
 }
