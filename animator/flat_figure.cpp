@@ -15,7 +15,7 @@ Eigen::Vector3d onPlane(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0}; }
 
 FlatFigure::FlatFigure(const RiggedDrawing& drawing)
     : drawing_(drawing),
-      cut_out_(makeCutOut({drawing.image, drawing.silhouette, withoutHanging(drawing.character.skeleton),
+      cut_out_(makeCutOut({drawing.colors(), drawing.silhouette, withoutHanging(drawing.character.skeleton),
                            drawing.body_plan, drawing.layers, drawing.character.mesh.model_from_image})) {}
 
 FlatPose FlatFigure::poseAt(const Clip& clip, double time_s) const {

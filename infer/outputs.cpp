@@ -112,8 +112,9 @@ std::vector<Format> makeFormats() {
     all.push_back({format.name, stageOfExport(format.name), format.suffixes, [&format](const Request& r) {
                      std::vector<OutputFile> files;
                      const ExportOptions options = exportOptions(nameOf(r.stem), r.options.joints);
-                     for (ExportedFile& file : format.encode({r.drawing.character, r.drawing.clips, options,
-                                                              &r.drawing.image, &r.drawing.silhouette.mask}))
+                     for (ExportedFile& file :
+                          format.encode({r.drawing.character, r.drawing.clips, options, &r.drawing.colors(),
+                                         &r.drawing.silhouette.mask}))
                        files.push_back({r.path(file.suffix), std::move(file.bytes)});
                      return files;
                    }});

@@ -48,7 +48,7 @@ Performer seenFromTheFront(const std::string& path) {
 Performer readPerformer(const std::string& path) {
   if (path.ends_with(".glb")) return seenFromTheFront(path);
   RiggedDrawing drawing = rigDrawing(path, RigOptions{});
-  return {std::move(drawing.image), std::move(drawing.silhouette), std::move(drawing.recognition.skeleton)};
+  return {drawing.colors(), std::move(drawing.silhouette), std::move(drawing.recognition.skeleton)};
 }
 
 }  // namespace skel
