@@ -36,7 +36,7 @@ bool looksBetterFlat(const RiggedDrawing& drawing) {
 
 FlatFigure::FlatFigure(const RiggedDrawing& drawing)
     : drawing_(drawing),
-      cut_out_(makeCutOut({drawing.image, drawing.silhouette, withoutHanging(drawing.character.skeleton),
+      cut_out_(makeCutOut({drawing.colors(), drawing.silhouette, withoutHanging(drawing.character.skeleton),
                            drawing.body_plan, layersOf(drawing), drawing.character.mesh.model_from_image})) {}
 
 FlatPose FlatFigure::poseAt(const Clip& clip, double time_s) const {

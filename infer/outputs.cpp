@@ -113,7 +113,7 @@ std::vector<Format> makeFormats() {
                      std::vector<OutputFile> files;
                      const ExportOptions options = exportOptions(nameOf(r.stem), r.options.joints);
                      for (ExportedFile& file :
-                          format.encode({r.drawing.character, r.drawing.clips, options, &r.drawing.image,
+                          format.encode({r.drawing.character, r.drawing.clips, options, &r.drawing.colors(),
                                          &r.drawing.silhouette.mask, r.file.mask.has_value()}))
                        files.push_back({r.path(file.suffix), std::move(file.bytes)});
                      return files;

@@ -69,7 +69,7 @@ Performer readPerformer(const std::string& path) {
   for (const Note& note : limbNotes(drawing, {})) performer.notes.push_back(noteText(note, path));
   performer.model_from_image = drawing.character.mesh.model_from_image;
   performer.skeleton = withoutHanging(drawing.character.skeleton);
-  performer.image = std::move(drawing.image);
+  performer.image = drawing.colors();
   performer.silhouette = std::move(drawing.silhouette);
   performer.body_plan = std::move(drawing.body_plan);
   performer.layers = std::move(drawing.layers);

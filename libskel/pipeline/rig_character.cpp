@@ -21,6 +21,7 @@
 #include "libskel/recognition/paper_recognizer.h"
 #include "libskel/recognition/silhouette_confidence.h"
 #include "libskel/recognition/tree_recognition.h"
+#include "libskel/silhouette/even_light.h"
 #include "libskel/silhouette/line_art.h"
 #include "libskel/silhouette/outline.h"
 #include "libskel/skeleton/hanging.h"
@@ -281,6 +282,9 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
 
   if (last == LastStage::kSilhouette) return drawing;
 
+  if (inflated)
+    drawing.even_light = stage("even light", &M::even_light, figureAnd({}),
+                               [&] { return evenLight(drawing.image, silhouette); });
   drawing.candidates =
       stage("candidates", &M::candidates, {stage.of(&M::silhouette), stage.of(RigPart::kCandidateOptions)},
             [&] { return extractCandidates(silhouette, options.candidates); });
@@ -352,7 +356,7 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
                  stage.of(RigPart::kLayerOptions), stage.of(RigPart::kLayers)});
   const auto makeMesh = [&] {
     if (!input.model)
-      return inflate(drawing.image, silhouette, inflateOptions(input, drawing, options), pieces);
+      return inflate(drawing.colors(), silhouette, inflateOptions(input, drawing, options), pieces);
     if (!own_view) input.model->model_from_image = bindByBoundingBox(silhouette.mask, *input.model);
     return std::move(*input.model);
   };

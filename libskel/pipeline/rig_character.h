@@ -104,7 +104,8 @@ struct StageTime {
 
 // Everything that was found on the way.
 struct RiggedDrawing {
-  Image image;  // what was looked at: the input's, or the model's front view
+  Image image;       // what was looked at: the input's, or the model's front view
+  Image even_light;  // the figure without a photographed page's light and ruling (even_light.h); mostly empty
   Silhouette silhouette;
   CandidateSet candidates;
   Features features;
@@ -117,6 +118,8 @@ struct RiggedDrawing {
   std::vector<StageTime> times;
 
   bool found() const { return silhouette.found(); }
+  // The picture in the colours that the character wears.
+  const Image& colors() const { return even_light.empty() ? image : even_light; }
 };
 
 // Stages 2 to 8, or up to options.last. Where there is no figure, `found()` is false and silhouette.reason

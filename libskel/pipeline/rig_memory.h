@@ -84,6 +84,7 @@ struct RigMemory {
   RigChanges changes;
   Made<FrontView> front_view;
   Made<Silhouette> silhouette;
+  Made<Image> even_light;
   Made<CandidateSet> candidates;
   Made<FoundJoints> recognized;
   Made<LayerMap> layers;  // found, not given

@@ -195,6 +195,15 @@ Image sides(const RiggedDrawing& drawing) {
   return montage(panels, {.gap_px = 4});
 }
 
+// The figure alone, without the light of its page.
+Image evenlyLit(const RiggedDrawing& drawing) {
+  Image picture = drawing.even_light;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      if (drawing.silhouette.mask(y, x) == 0) std::fill_n(picture.pixel(x, y), 3, std::uint8_t{255});
+  return fitted(picture, kPictureSize, kPictureSize);
+}
+
 // From the drawing to the model that moves, in one row: two moments of the walk tell it at a glance.
 Image summary(const RiggedDrawing& drawing, const Image& skeleton) {
   std::vector<Panel> panels = {{fitted(onPaper(drawing.image), 420, 420), "the drawing"},
@@ -215,6 +224,7 @@ void writeTrace(const RiggedDrawing& drawing, const SilhouetteSteps& steps, cons
   write("1-drawing.png", onPaper(drawing.image));
   if (!steps.sheet.empty()) write("2-sheet.png", steps.sheet);
   if (!steps.unruled.empty()) write("2-unruled.png", steps.unruled);
+  if (!drawing.even_light.empty()) write("2-even-light.png", evenlyLit(drawing));
   if (steps.figure_share.size() > 0) write("2-page-net.png", sharePicture(steps.figure_share));
   write("2-silhouette.png", silhouettePicture(drawing));
   if (drawing.silhouette.bridges.size() > 0) write("2-pieces.png", piecesPicture(drawing));

@@ -176,26 +176,27 @@ std::vector<Line> linesIn(const cv::Mat& dark) {
   return lines;
 }
 
-// Erases level lines.
-bool eraseLevel(cv::Mat& rgb) {
+// Erases level lines and returns them.
+std::vector<RuledLine> eraseLevel(cv::Mat& rgb) {
   const cv::Mat dark = thinDarkness(rgb);
   const std::vector<Line> lines = linesIn(dark);
-  if (lines.empty()) return false;
+  if (lines.empty()) return {};
   cv::Mat closed;
   cv::morphologyEx(rgb, closed, cv::MORPH_CLOSE, cv::Mat::ones(kThickest, 1, CV_8U));
   const double strip = static_cast<double>(rgb.cols) / kStrips;
+  std::vector<RuledLine> erased;
   for (const Line& line : lines) {
-    std::vector<std::pair<double, double>> points;
+    RuledLine ruled;
+    std::vector<Eigen::Vector2d>& points = ruled.points;
     for (std::size_t s = 0; s < kStrips; ++s) {
       if (line.heights[s] >= 0) points.emplace_back((static_cast<double>(s) + 0.5) * strip, line.heights[s]);
     }
     const double most = kMostTimes * line.darkness + 3;
     std::size_t next = 1;
     for (int x = 0; x < rgb.cols; ++x) {
-      while (next + 1 < points.size() && points[next].first < x) ++next;
-      const auto& [xa, ya] = points[next - 1];
-      const auto& [xb, yb] = points[next];
-      const int middle = cvRound(ya + (yb - ya) * (x - xa) / (xb - xa));
+      while (next + 1 < points.size() && points[next].x() < x) ++next;
+      const Eigen::Vector2d &a = points[next - 1], &b = points[next];
+      const int middle = cvRound(a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x()));
       constexpr int kHalf = 2;
       for (int y = std::max(0, middle - kHalf); y <= std::min(rgb.rows - 1, middle + kHalf); ++y) {
         cv::Vec3b& p = rgb.at<cv::Vec3b>(y, x);
@@ -203,20 +204,26 @@ bool eraseLevel(cv::Mat& rgb) {
         for (int k = 0; k < 3; ++k) p[k] = static_cast<std::uint8_t>(std::min<double>(c[k], p[k] + most));
       }
     }
+    erased.push_back(std::move(ruled));
   }
-  return true;
+  return erased;
 }
 
 }  // namespace
 
-bool eraseRuling(cv::Mat& rgb) {
-  if (std::min(rgb.cols, rgb.rows) < 10 * kStrips) return false;
-  const bool level = eraseLevel(rgb);
+std::vector<RuledLine> eraseRuling(cv::Mat& rgb) {
+  if (std::min(rgb.cols, rgb.rows) < 10 * kStrips) return {};
+  std::vector<RuledLine> lines = eraseLevel(rgb);
   cv::Mat turned;
   cv::transpose(rgb, turned);
-  const bool upright = eraseLevel(turned);
-  if (upright) cv::transpose(turned, rgb);
-  return level || upright;
+  const std::vector<RuledLine> upright = eraseLevel(turned);
+  if (!upright.empty()) cv::transpose(turned, rgb);
+  for (RuledLine line : upright) {
+    line.upright = true;
+    for (Eigen::Vector2d& p : line.points) p.reverseInPlace();
+    lines.push_back(std::move(line));
+  }
+  return lines;
 }
 
 }  // namespace skel

@@ -1,5 +1,6 @@
 #include "libskel/silhouette/segment.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
@@ -71,6 +72,37 @@ cv::Mat straightened(const Image& image, cv::Mat& rgb, PageCorners corners) {
   const cv::Mat image_from_picture =
       (cv::Mat_<double>(3, 3) << image_px, 0, half, 0, image_px, half, 0, 0, 1);
   return page_from_image * image_from_picture;
+}
+
+// What a drawing lies on, straightened and without its ruling.
+struct BarePage {
+  cv::Mat rgb, lab;                    // of the sheet, else of the whole picture
+  cv::Mat page_from_picture;           // of the working size; empty: there is no sheet
+  std::vector<RuledLine> ruling = {};  // image px
+};
+
+// `steps`, if not null, keeps what was seen.
+BarePage barePage(const Image& image, const cv::Mat& picture, SilhouetteSteps* steps) {
+  BarePage page{picture.clone(), labOf(picture), {}};
+  if (const std::optional<PageCorners> corners = findPage(page.lab)) {
+    page.page_from_picture = straightened(image, page.rgb, *corners);
+    page.lab = labOf(page.rgb);
+    if (steps) steps->sheet = imageOfRgb(page.rgb);
+  }
+  page.ruling = eraseRuling(page.rgb);
+  if (page.ruling.empty()) return page;
+  page.lab = labOf(page.rgb);
+  if (steps) steps->unruled = imageOfRgb(page.rgb);
+  Eigen::Matrix3d picture_from_page = Eigen::Matrix3d::Identity();
+  if (!page.page_from_picture.empty()) {
+    const cv::Mat inverse = page.page_from_picture.inv();
+    picture_from_page = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(inverse.ptr<double>());
+  }
+  const double image_px = static_cast<double>(image.width) / picture.cols;
+  for (RuledLine& line : page.ruling)
+    for (Eigen::Vector2d& p : line.points)
+      p = (((picture_from_page * p.homogeneous()).hnormalized().array() + 0.5) * image_px - 0.5).matrix();
+  return page;
 }
 
 Plane8 sharesOf(const cv::Mat& probability) {
@@ -215,19 +247,11 @@ cv::Mat agreed(const cv::Mat& drawn, const cv::Mat& page) {
 Segmentation segment(const Image& image, const PageNet* page_net, bool keep_steps) {
   Segmentation out;
   const cv::Mat picture = workingRgb(image);
-  cv::Mat rgb = picture.clone(), lab = labOf(rgb), page_from_picture;
-  const std::optional<PageCorners> corners = findPage(lab);
-  if (corners) {
-    page_from_picture = straightened(image, rgb, *corners);
-    lab = labOf(rgb);
-    if (keep_steps) out.steps.sheet = imageOfRgb(rgb);
-  }
-  const bool ruled = eraseRuling(rgb);
-  if (ruled) {
-    lab = labOf(rgb);
-    if (keep_steps) out.steps.unruled = imageOfRgb(rgb);
-  }
-  const Drawn drawn = figuresIn(rgb, lab);
+  BarePage page = barePage(image, picture, keep_steps ? &out.steps : nullptr);
+  const cv::Mat &rgb = page.rgb, &page_from_picture = page.page_from_picture;
+  const bool sheet = !page_from_picture.empty(), ruled = !page.ruling.empty();
+  out.ruling = std::move(page.ruling);
+  const Drawn drawn = figuresIn(rgb, page.lab);
   const PageNet* net = page_net || !hasBuiltInPageNet() ? page_net : &builtInPageNet();
   cv::Mat probability;  // of the picture
   const auto look = [&] {
@@ -242,23 +266,23 @@ Segmentation segment(const Image& image, const PageNet* page_net, bool keep_step
   if (!loops.empty()) {
     look();
     cv::Mat seen = probability;
-    if (corners) cv::warpPerspective(probability, seen, page_from_picture, rgb.size(), cv::INTER_LINEAR);
+    if (sheet) cv::warpPerspective(probability, seen, page_from_picture, rgb.size(), cv::INTER_LINEAR);
     lookInto(loops, drawn.figures, seen);
     openLoops(loops, builtInLoopNet(), figures);
   }
-  if (corners) {
+  if (sheet) {
     cv::warpPerspective(figures, figures, page_from_picture, picture.size(),
                         cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
     figures = figures >= 128;
   }
-  if (corners || ruled || !drawn.tidy) {
+  if (sheet || ruled || !drawn.tidy) {
     look();
-    out.seen = {sharesOf(probability), corners.has_value(), ruled, drawn.soft};
+    out.seen = {sharesOf(probability), sheet, ruled, drawn.soft};
     if (keep_steps) out.steps.figure_share = out.seen->share;
     figures = agreed(figures, probability);
   }
   if (keep_steps) {
-    if (corners) toPicture(loops, rgb.size(), page_from_picture, picture.size());
+    if (sheet) toPicture(loops, rgb.size(), page_from_picture, picture.size());
     out.loops = std::move(loops);
   }
   if (cv::countNonZero(figures) == 0) {
@@ -277,6 +301,10 @@ Segmentation segment(const Image& image, const PageNet* page_net, bool keep_step
   trimToInk(image, cvCeil(kReach * std::max(1., static_cast<double>(full.cols) / figures.cols)), full);
   out.foreground = Eigen::Map<Plane8>(full.data, full.rows, full.cols);
   return out;
+}
+
+std::vector<RuledLine> rulingOf(const Image& image) {
+  return barePage(image, workingRgb(image), nullptr).ruling;
 }
 
 }  // namespace skel

@@ -8,6 +8,7 @@
 #include "libskel/image/image.h"
 #include "libskel/silhouette/loops.h"
 #include "libskel/silhouette/mask_evidence.h"
+#include "libskel/silhouette/ruling.h"
 #include "libskel/silhouette/steps.h"
 
 namespace skel {
@@ -15,11 +16,12 @@ namespace skel {
 struct PageNet;
 
 struct Segmentation {
-  Plane8 foreground;             // 255 on figures, in any number of parts
-  std::string reason;            // why it is empty, where it is
-  std::optional<SeenPage> seen;  // of pages that are not tidy
-  SilhouetteSteps steps;         // only if they are to be kept
-  std::vector<Loop> loops;       // the same; pixels of workingRgb() (working_colors.h)
+  Plane8 foreground;              // 255 on figures, in any number of parts
+  std::string reason;             // why it is empty, where it is
+  std::optional<SeenPage> seen;   // of pages that are not tidy
+  std::vector<RuledLine> ruling;  // of the paper, image px
+  SilhouetteSteps steps;          // only if they are to be kept
+  std::vector<Loop> loops;        // the same; pixels of workingRgb() (working_colors.h)
 };
 
 // Works for drawings on paper (also photographed in uneven light), line art whose white fills open to the
@@ -29,5 +31,8 @@ struct Segmentation {
 // that knows pages (page_net.h; null: the built-in one) says which of it is the figure. Its edge is that of
 // the ink, in the picture's own px (ink_edge.h).
 Segmentation segment(const Image& image, const PageNet* page_net = nullptr, bool keep_steps = false);
+
+// Segmentation::ruling alone.
+std::vector<RuledLine> rulingOf(const Image& image);
 
 }  // namespace skel

@@ -64,6 +64,7 @@ struct Cut {
   bool clear_around = false;
   std::string reason;  // why there are none
   std::optional<SeenPage> seen = std::nullopt;
+  std::optional<std::vector<RuledLine>> ruling = std::nullopt;
 };
 
 Cut cutOut(const Plane8& foreground, int min_long_side, const PieceOptions& pieces = {}) {
@@ -73,6 +74,7 @@ Cut cutOut(const Plane8& foreground, int min_long_side, const PieceOptions& piec
           pieces.close_slits,
           false,
           "",
+          std::nullopt,
           std::nullopt};
   if (cut.figures.empty())
     cut.reason =
@@ -106,6 +108,7 @@ Silhouette finish(const Cut& cut, const SilhouetteOptions& options) {
   if (!out.cut_sides.empty())
     out.warnings.push_back("the figure is cut by the border of the picture (" + out.cut_sides + ")");
   if (cut.seen) out.evidence = evidenceOfMask(out.mask, *cut.seen);
+  out.ruling = cut.ruling;
   out.outline = traceOutline(out.mask);
   out.grid = gridOver(out.mask);
   out.grid_mask = sampleMask(out.mask, out.grid);
@@ -174,6 +177,7 @@ Cut cutOffPaper(const Image& image, const SilhouetteOptions& options) {
   if (!segmentation.reason.empty()) return {.reason = segmentation.reason};
   Cut cut = cutOut(segmentation.foreground, leastLongSide(image), piecesOnPaper());
   cut.seen = segmentation.seen;
+  cut.ruling = segmentation.ruling;
   return cut;
 }
 

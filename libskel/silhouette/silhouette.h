@@ -9,6 +9,7 @@
 
 #include "libskel/image/image.h"
 #include "libskel/silhouette/mask_evidence.h"
+#include "libskel/silhouette/ruling.h"
 
 namespace skel {
 
@@ -46,6 +47,8 @@ struct Silhouette {
   bool is_sheet = false;      // the sheet itself was probably taken for the figure
 
   std::optional<MaskEvidence> evidence;  // of pages that are not tidy
+  // Of the paper, image px; nothing where it was not looked for: the mask was given, or alpha tells it.
+  std::optional<std::vector<RuledLine>> ruling;
 
   Plane8 mask;     // size of the image; one 4-connected figure
   Plane8 bridges;  // where the mask joins pieces of the figure across gaps (pieces.h); empty if it joins none

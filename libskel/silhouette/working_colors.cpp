@@ -10,8 +10,6 @@
 
 namespace skel {
 
-constexpr int kWorkSize = 512;  // long side, px
-
 cv::Mat rgbaOf(const Image& image) {
   return {image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data())};
 }
@@ -26,7 +24,7 @@ Image imageOfRgb(const cv::Mat& rgb) {
 
 cv::Mat workingRgb(const Image& image) {
   const cv::Mat rgba = rgbaOf(image);
-  const double scale = std::min(1.0, kWorkSize / static_cast<double>(std::max(image.width, image.height)));
+  const double scale = std::min(1.0, kWorkingSize / static_cast<double>(std::max(image.width, image.height)));
   cv::Mat small;
   if (scale < 1) {
     const cv::Size size(std::max(1, cvRound(image.width * scale)),

@@ -13,7 +13,8 @@ namespace skel {
 cv::Mat rgbaOf(const Image& image);
 // An opaque picture. `rgb`: CV_8UC3.
 Image imageOfRgb(const cv::Mat& rgb);
-// RGB on white, 8-bit. Figures are found with the long side at 512 px; larger pictures are reduced.
+inline constexpr int kWorkingSize = 512;  // long side in which figures are found, px
+// RGB on white, 8-bit. Larger pictures are reduced.
 cv::Mat workingRgb(const Image& image);
 
 // CIE Lab (D65) of sRGB, 8-bit: L·2.55, a + 128, b + 128.

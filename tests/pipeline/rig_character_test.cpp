@@ -180,6 +180,30 @@ TEST_CASE("a rig that stops after a stage has what the whole has up to there, an
   }
 }
 
+TEST_CASE("the model of a drawing that was photographed in dim light wears paper that is white") {
+  const auto whiteShare = [](const Image& picture) {
+    Eigen::Index white = 0;
+    for (Eigen::Index i = 0; i < picture.rgba.rows(); ++i)
+      white += picture.rgba.row(i).head<3>().minCoeff() > 240;
+    return double(white) / double(picture.rgba.rows());
+  };
+  RigOptions options = rigOptionsWithoutClips("biped");
+  options.last = LastStage::kModel;
+  RigInput input;
+  input.image = readImage(SKEL_SOURCE_DIR "/datasets/characters/crayon_king.png");
+  const bool given_mask = GENERATE(false, true);
+  if (given_mask) input.mask = readMask(SKEL_SOURCE_DIR "/datasets/characters/crayon_king.mask.png");
+  const RiggedDrawing photo = rigCharacter(input, options);
+  CHECK((photo.image.rgba == input.image.rgba).all());
+  CHECK(whiteShare(photo.image) == 0);
+  CHECK(whiteShare(photo.character.mesh.texture) > 0.04);
+
+  input = {};
+  input.image = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");
+  const RiggedDrawing tidy = rigCharacter(input, options);
+  CHECK(&tidy.colors() == &tidy.image);
+}
+
 TEST_CASE("nets that are handed over do what those do that are compiled in") {
   const auto bytesOf = [](const char* file) {
     return readFile(std::string(SKEL_SOURCE_DIR "/weights/") + file);

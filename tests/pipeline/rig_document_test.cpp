@@ -187,8 +187,8 @@ TEST_CASE("a change runs the stages that it touches and no others") {
   CHECK(ran() ==
         Stages{"layers", "pieces", "mesh", "skin", "stretch"});  // what was recognised is known still
   document.setMask(first->silhouette.mask);
-  CHECK(ran() ==
-        Stages{"silhouette", "candidates", "recognition", "layers", "pieces", "mesh", "skin", "stretch"});
+  CHECK(ran() == Stages{"silhouette", "even light", "candidates", "recognition", "layers", "pieces", "mesh",
+                        "skin", "stretch"});
 
   RigOptions options = document.options();
   options.clips.resize(1);

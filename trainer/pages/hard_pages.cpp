@@ -117,10 +117,11 @@ cv::Mat canvasFor(const PageArt& art, double margin) {
 
 HardPage laid(const PageArt& art, cv::Mat page, const cv::Point& at, bool multiplied) {
   put(art, at, multiplied, page);
-  cv::Mat mask = cv::Mat::zeros(page.size(), CV_8U);
+  cv::Mat drawn(page.size(), CV_8UC3, cv::Scalar::all(255)), mask = cv::Mat::zeros(page.size(), CV_8U);
+  put(art, at, false, drawn);
   const cv::Rect to = cv::Rect(at.x, at.y, art.mask.cols, art.mask.rows) & cv::Rect({0, 0}, page.size());
   art.mask(to - at).copyTo(mask(to));
-  return {page, {mask}};
+  return {page, {mask}, drawn};
 }
 cv::Point middle(const PageArt& art, const cv::Mat& page) {
   return {(page.cols - art.rgb.cols) / 2, (page.rows - art.rgb.rows) / 2};
@@ -164,12 +165,14 @@ void ontoTable(Rng& rng, HardPage& sheet) {
              static_cast<float>(size.height * (.08 + .84 * y + rng.normal(0, .025)))};
   }
   const cv::Mat perspective = cv::getPerspectiveTransform(from, to);
-  cv::Mat where, picture, figure;
+  cv::Mat where, picture, figure, drawn;
   cv::warpPerspective(cv::Mat(sheet.rgb.size(), CV_8U, 255), where, perspective, size);
   cv::warpPerspective(sheet.rgb, picture, perspective, size, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   cv::warpPerspective(sheet.figures[0], figure, perspective, size);
+  cv::warpPerspective(sheet.drawn, drawn, perspective, size, cv::INTER_LINEAR, cv::BORDER_CONSTANT,
+                      cv::Scalar::all(255));
   picture.copyTo(table, where > 127);
-  sheet = {table, {figure > 127}};
+  sheet = {table, {figure > 127}, drawn};
   unevenLight(rng, sheet.rgb, false);
 }
 
@@ -228,7 +231,8 @@ std::vector<Circumstance> circumstances() {
                      width = std::max(2, sheet.rgb.rows / 90);
            const cv::Point a = i < 2 ? cv::Point(0, y) : cv::Point(x, 0),
                            b = i < 2 ? cv::Point(sheet.rgb.cols, y) : cv::Point(x, sheet.rgb.rows);
-           cv::line(sheet.rgb, a, b, cv::Scalar::all(255), width);
+           for (cv::Mat picture : {sheet.rgb, sheet.drawn})
+             cv::line(picture, a, b, cv::Scalar::all(255), width);
          }
          return sheet;
        }},
@@ -245,7 +249,8 @@ std::vector<Circumstance> circumstances() {
          if (side == 0) kept.height = box.y + box.height - cut_y;
          if (side == 1) kept.width = box.x + box.width - cut_x;
          if (side == 2) kept.x = box.x + cut_x, kept.width -= kept.x;
-         return HardPage{sheet.rgb(kept).clone(), {sheet.figures[0](kept).clone()}};
+         return HardPage{
+             sheet.rgb(kept).clone(), {sheet.figures[0](kept).clone()}, sheet.drawn(kept).clone()};
        }},
       {"shadow",
        [](Rng& rng, const PageArt& art, const PageArt&) {
@@ -280,7 +285,8 @@ std::vector<Circumstance> circumstances() {
          const cv::Point at(0, page.rows - art.rgb.rows), beside(art.rgb.cols, page.rows - second.rgb.rows);
          HardPage sheet = laid(art, page, at, false);
          const HardPage both = laid(second, sheet.rgb, beside, false);
-         return HardPage{both.rgb, {sheet.figures[0], both.figures[0]}};
+         put(second, beside, false, sheet.drawn);
+         return HardPage{both.rgb, {sheet.figures[0], both.figures[0]}, sheet.drawn};
        }},
       {"table",
        [](Rng& rng, const PageArt& art, const PageArt&) {

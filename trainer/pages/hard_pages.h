@@ -16,6 +16,7 @@ namespace skel {
 struct HardPage {
   cv::Mat rgb;                   // CV_8UC3
   std::vector<cv::Mat> figures;  // CV_8U, 255 on each
+  cv::Mat drawn;                 // CV_8UC3, the drawings alone, on white in even light
 };
 
 struct PageArt {
