@@ -55,11 +55,7 @@ TEST_CASE("the report lists on top what to look at, one line a child, and says a
   const Image boy = readImage(SKEL_DATASETS "/characters/cap_boy.png");
   Image two(2 * boy.width, boy.height * 2 / 3);
   for (int y = 0; y < two.height; ++y)
-    for (int x = 0; x < two.width; ++x) {
-      // On paper, whose border cuts what it shows.
-      const std::uint8_t* p = boy.pixel(x % boy.width, y);
-      for (int c = 0; c < 4; ++c) two.pixel(x, y)[c] = c < 3 && p[3] > 127 ? p[c] : 255;
-    }
+    for (int x = 0; x < two.width; ++x) std::copy_n(boy.pixel(x % boy.width, y), 4, two.pixel(x, y));
   writeFile(dir.file("class/Two.png"), encodePng(two));
   // A mask of another photo: something to look at.
   std::filesystem::copy(SKEL_DATASETS "/characters/clown.png", dir.file("class/Zoe.png"));
@@ -79,10 +75,9 @@ TEST_CASE("the report lists on top what to look at, one line a child, and says a
                            "class/Zoe.png)."));
   const std::string again = html.substr(retake, html.find("</section>", retake) - retake);
   CHECK(countIn(again, "<li>") == 1);
-  REQUIRE(countIn(run.err, "retake class/Two.png: ") == 3);
+  REQUIRE(countIn(run.err, "retake class/Two.png: ") == 2);
   for (const char* reason :
-       {"There are 2 figures in the picture; the largest was taken.",
-        "The figure is cut off at the bottom. Step back", "No whole figure could be made out"})
+       {"There are 2 figures in the picture; the largest was taken.", "No whole figure could be made out"})
     CHECK_THAT(again, Contains(reason));
   CHECK_THAT(html, Contains("<p class=\"note\">made by hand and taken up"));
 }
