@@ -29,20 +29,30 @@ std::string gridComplaint(const std::string& path, const LabelFile& labels, cons
          " it is " + std::to_string(first_size) + " px; label one of them anew";
 }
 
-LabelledCharacter characterOf(const std::string& name, const std::string& path, const LabelFile& labels) {
+// Candidates without class are left out.
+LabelledCharacter characterOf(const std::string& name, const LabelFile& labels) {
   CandidateSet candidates;
   candidates.maxima = labels.candidates;
   LabelledCharacter character{name, features(candidates), {}};
-  for (std::size_t i = 0; i < labels.labels.size(); ++i) {
-    if (!labels.labels[i])
-      throw InputError(path, "candidates[" + std::to_string(i) + "].label: is null; label every candidate");
-    character.labels.push_back(*labels.labels[i]);
-  }
+  Eigen::Index kept = 0;
+  for (std::size_t i = 0; i < labels.labels.size(); ++i)
+    if (labels.labels[i]) {
+      character.features.row(kept++) = character.features.row(static_cast<Eigen::Index>(i)).eval();
+      character.labels.push_back(*labels.labels[i]);
+    }
+  character.features.conservativeResize(kept, Eigen::NoChange);
   return character;
 }
 
+void checkAllLabelled(const std::string& path, const LabelFile& labels) {
+  const auto open = std::find(labels.labels.begin(), labels.labels.end(), std::nullopt);
+  if (open != labels.labels.end())
+    throw InputError(path, "candidates[" + std::to_string(open - labels.labels.begin()) +
+                               "].label: is null; label every candidate");
+}
+
 struct JointedImage {
-  std::string image, source;  // paths; source: of the joints
+  std::string image;  // path
   std::optional<std::string> mask;
   NamedJoints joints;
   std::vector<std::string> recognized;
@@ -52,8 +62,7 @@ struct JointedImage {
 std::vector<JointedImage> findJointedImages(const std::string& dir) {
   std::map<std::string, JointedImage> by_image;
   for (const AnnotatedImage& annotated : findAnnotatedImages(dir))
-    by_image[annotated.image] = {
-        annotated.image, annotated.joints, annotated.mask, readJointsFile(annotated.joints), {}};
+    by_image[annotated.image] = {annotated.image, annotated.mask, readJointsFile(annotated.joints), {}};
   for (const std::string& path : findLabelFiles(dir)) {
     const LabelFile labels = readLabelFile(path);
     if (!labels.hasPlacedJoint()) continue;
@@ -64,26 +73,15 @@ std::vector<JointedImage> findJointedImages(const std::string& dir) {
     if (labels.mask) drawing.mask = besideLabelFile(path, labels.mask->file);
     if (is_new) {
       drawing.image = image;
-      drawing.source = path;
       drawing.joints = labels.joints;
       drawing.recognized = labels.recognized;
-    } else if (!overrule(drawing.joints, labels).empty()) {
-      drawing.source = path;
+    } else {
+      overrule(drawing.joints, labels);
     }
   }
   std::vector<JointedImage> images;
   for (auto& [image, drawing] : by_image) images.push_back(std::move(drawing));
   return images;
-}
-
-void checkAllLabelled(const std::string& source, const LabelFile& labels, const SkeletonTemplate& body_plan) {
-  const auto count = std::count(labels.labels.begin(), labels.labels.end(), std::nullopt);
-  if (count == 0) return;
-  std::vector<std::string> unplaced;
-  for (const TemplateJoint& joint : body_plan.joints)
-    if (!joint.derived && !labels.isPlaced(joint.name)) unplaced.push_back(joint.name);
-  throw InputError(source, "no person has placed " + joined(unplaced) + ": " + std::to_string(count) +
-                               " candidates get no class; place them, or take the drawing away");
 }
 
 void checkClasses(const std::string& dir, const LabelledSet& set) {
@@ -152,7 +150,8 @@ LabelledSet readLabelledSet(const std::string& dir) {
       throw InputError(path, gridComplaint(path, labels, first_path, grid_size).substr(path.size() + 2));
     }
     const std::string name = nameBelow(dir, path);
-    set.characters.push_back(characterOf(name, path, labels));
+    checkAllLabelled(path, labels);
+    set.characters.push_back(characterOf(name, labels));
     hashed += name + " " + sha256(readFile(path)) + "\n";
   }
   if (set.characters.empty())
@@ -169,9 +168,8 @@ LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions&
   for (const JointedImage& drawing : findJointedImages(dir)) {
     const LabelFile labels =
         labelImage(drawing.image, drawing.mask, drawing.joints, body_plan, options, drawing.recognized);
-    checkAllLabelled(drawing.source, labels, body_plan);
     const std::string name = nameBelow(dir, drawing.image);
-    set.characters.push_back(characterOf(name, drawing.source, labels));
+    set.characters.push_back(characterOf(name, labels));
     hashed += name + " " + sha256(formatLabelFile(labels)) + "\n";
   }
   if (set.characters.empty())
