@@ -38,8 +38,8 @@ std::vector<std::string> checkLabelFolder(const std::string& dir);
 LabelledSet readLabelledSet(const std::string& dir);
 
 // The same with candidates of any method, labelled from the joints: of annotated pictures (see
-// annotated_image.h), and of label files, in which only joints count that a person has placed. Candidates that
-// may belong to a joint without a place have no class and are left out.
+// annotated_image.h), and of label files, in which only joints count that a person has placed. Candidates
+// that may belong to a joint without a place have no class and are left out. Throws InputError.
 LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions& options = {});
 
 }  // namespace skel
