@@ -13,23 +13,15 @@
 #include <string>
 #include <vector>
 
+#include "bench/drawn_pages.h"
 #include "libskel/core/files.h"
-#include "libskel/core/parallel.h"
-#include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
-#include "libskel/labels/annotated_image.h"
 #include "libskel/silhouette/page_net.h"
 #include "libskel/silhouette/silhouette.h"
 #include "libskel/silhouette/working_colors.h"
-#include "trainer/pages/hard_pages.h"
 
 namespace skel {
 namespace {
-
-PageArt artOf(const AnnotatedImage& drawing) {
-  const Image image = readImage(drawing.image);
-  return pageArt(image, readMaskOf(image, *drawing.mask));
-}
 
 void dump(const HardPage& page, const cv::Mat& found, const std::string& path) {
   cv::Mat shown = page.rgb.clone(), truth = cv::Mat::zeros(found.size(), CV_8U);
@@ -50,30 +42,20 @@ int run(const std::vector<std::string>& folders, const std::string& net_file,
   if (!net_file.empty())
     options.page_net =
         std::make_shared<const PageNet>(readyToRun(parsePageNet(readFile(net_file), net_file)));
-  std::vector<AnnotatedImage> drawings;
-  for (const std::string& folder : folders)
-    for (const AnnotatedImage& drawing : findAnnotatedImages(folder))
-      if (drawing.mask) drawings.push_back(drawing);
+  const std::vector<AnnotatedImage> drawings = drawingsWithMask(folders);
   const std::vector<Circumstance> all = circumstances();
   std::vector<std::vector<double>> ious(all.size(), std::vector<double>(drawings.size()));
-  parallelFor(drawings.size(), 1, [&](std::size_t i) {
-    const AnnotatedImage &drawing = drawings[i], &other = drawings[(i + 1) % drawings.size()];
-    const PageArt art = artOf(drawing), beside = artOf(other);
-    for (std::size_t c = 0; c < all.size(); ++c) {
-      Rng rng(i, c);
-      const HardPage page = all[c].compose(rng, art, beside);
-      const Silhouette silhouette = extractSilhouette(imageOfRgb(page.rgb), options);
-      cv::Mat found = cv::Mat::zeros(page.rgb.size(), CV_8U);
-      if (silhouette.found())
-        cv::Mat(found.rows, found.cols, CV_8U, const_cast<std::uint8_t*>(silhouette.mask.data()))
-            .copyTo(found);
-      double& iou = ious[c][i];
-      if (silhouette.found()) iou = overlapOnPage(page, silhouette.mask);
-      if (!dump_folder.empty()) {
-        const std::string name = std::filesystem::path(drawing.image).stem().string();
-        dump(page, found,
-             dump_folder + "/" + all[c].name + "-" + std::to_string(int(100 * iou)) + "-" + name + ".png");
-      }
+  forEachPage(drawings, all, [&](std::size_t c, std::size_t i, const HardPage& page) {
+    const Silhouette silhouette = extractSilhouette(imageOfRgb(page.rgb), options);
+    cv::Mat found = cv::Mat::zeros(page.rgb.size(), CV_8U);
+    if (silhouette.found())
+      cv::Mat(found.rows, found.cols, CV_8U, const_cast<std::uint8_t*>(silhouette.mask.data())).copyTo(found);
+    double& iou = ious[c][i];
+    if (silhouette.found()) iou = overlapOnPage(page, silhouette.mask);
+    if (!dump_folder.empty()) {
+      const std::string name = std::filesystem::path(drawings[i].image).stem().string();
+      dump(page, found,
+           dump_folder + "/" + all[c].name + "-" + std::to_string(int(100 * iou)) + "-" + name + ".png");
     }
   });
   double sum = 0, sum_good = 0;

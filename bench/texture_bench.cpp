@@ -18,23 +18,15 @@
 #include <string>
 #include <vector>
 
+#include "bench/drawn_pages.h"
 #include "libskel/core/files.h"
-#include "libskel/core/parallel.h"
 #include "libskel/draw/oklab.h"
-#include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
-#include "libskel/labels/annotated_image.h"
 #include "libskel/silhouette/even_light.h"
 #include "libskel/silhouette/working_colors.h"
-#include "trainer/pages/hard_pages.h"
 
 namespace skel {
 namespace {
-
-PageArt artOf(const AnnotatedImage& drawing) {
-  const Image image = readImage(drawing.image);
-  return pageArt(image, readMaskOf(image, *drawing.mask));
-}
 
 Color colorOf(const std::uint8_t* p) { return {p[0], p[1], p[2], 255}; }
 
@@ -69,16 +61,6 @@ void dump(const HardPage& page, const Image& even, const std::string& path) {
   writeFile(path, encodePng(imageOfRgb(shown)));
 }
 
-std::vector<AnnotatedImage> oneOf(int every, const std::vector<std::string>& folders) {
-  std::vector<AnnotatedImage> drawings;
-  for (const std::string& folder : folders) {
-    int number = 0;
-    for (const AnnotatedImage& drawing : findAnnotatedImages(folder))
-      if (drawing.mask && number++ % every == 0) drawings.push_back(drawing);
-  }
-  return drawings;
-}
-
 double msSince(std::clock_t start) {
   return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
@@ -86,7 +68,7 @@ double msSince(std::clock_t start) {
 int runAsIs(const std::vector<std::string>& folders, int every, const std::string& dump_folder) {
   int count = 0, changed = 0;
   double all_ms = 0, own_ms = 0;
-  for (const AnnotatedImage& drawing : oneOf(every, folders)) {
+  for (const AnnotatedImage& drawing : drawingsWithMask(folders, every)) {
     const Image image = readImage(drawing.image);
     std::clock_t start = std::clock();
     const Silhouette silhouette = extractSilhouette(image);
@@ -119,36 +101,30 @@ int runAsIs(const std::vector<std::string>& folders, int every, const std::strin
 }
 
 int run(const std::vector<std::string>& folders, int every, const std::string& dump_folder) {
-  const std::vector<AnnotatedImage> drawings = oneOf(every, folders);
+  const std::vector<AnnotatedImage> drawings = drawingsWithMask(folders, every);
   const std::vector<Circumstance> all = circumstances();
   struct Page {
     double before = 0, after = 0, time_ms = 0;
     bool changed = false;
   };
   std::vector<std::vector<Page>> pages(all.size(), std::vector<Page>(drawings.size()));
-  parallelFor(drawings.size(), 1, [&](std::size_t i) {
-    const AnnotatedImage &drawing = drawings[i], &other = drawings[(i + 1) % drawings.size()];
-    const PageArt art = artOf(drawing), beside = artOf(other);
-    for (std::size_t c = 0; c < all.size(); ++c) {
-      Rng rng(i, c);
-      const HardPage page = all[c].compose(rng, art, beside);
-      const Image image = imageOfRgb(page.rgb);
-      const Silhouette silhouette = silhouetteFromMask(planeOf(page.figures[0]));
-      if (!silhouette.found()) continue;
-      const std::clock_t start = std::clock();
-      Image even = evenLight(image, silhouette);
-      Page& result = pages[c][i];
-      result.time_ms = msSince(start);
-      result.changed = !even.empty();
-      result.before = result.after = difference(image, page, 0);
-      if (even.empty()) even = image;
-      if (result.changed) result.after = difference(even, page, 0);
-      if (!dump_folder.empty())
-        dump(page, even,
-             dump_folder + "/" + all[c].name + "-" + std::to_string(int(result.before)) + "-" +
-                 std::to_string(int(result.after)) + "-" +
-                 std::filesystem::path(drawing.image).stem().string() + ".png");
-    }
+  forEachPage(drawings, all, [&](std::size_t c, std::size_t i, const HardPage& page) {
+    const Image image = imageOfRgb(page.rgb);
+    const Silhouette silhouette = silhouetteFromMask(planeOf(page.figures[0]));
+    if (!silhouette.found()) return;
+    const std::clock_t start = std::clock();
+    Image even = evenLight(image, silhouette);
+    Page& result = pages[c][i];
+    result.time_ms = msSince(start);
+    result.changed = !even.empty();
+    result.before = result.after = difference(image, page, 0);
+    if (even.empty()) even = image;
+    if (result.changed) result.after = difference(even, page, 0);
+    if (!dump_folder.empty())
+      dump(page, even,
+           dump_folder + "/" + all[c].name + "-" + std::to_string(int(result.before)) + "-" +
+               std::to_string(int(result.after)) + "-" +
+               std::filesystem::path(drawings[i].image).stem().string() + ".png");
   });
   for (std::size_t c = 0; c < all.size(); ++c) {
     double before = 0, after = 0, changed = 0, worse = 0, time_ms = 0;

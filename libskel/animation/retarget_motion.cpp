@@ -514,13 +514,14 @@ bool isFinite(const Clip& clip) {
 
 RetargetedMotion retargetMotion(const BvhMotion& given, const std::string& file, const Skeleton& target,
                                 const FigureShape& shape, double into_picture) {
-  const bool all_names = hasAllNames(given.skeleton, target);
-  const BvhMotion motion = all_names ? turnedBy(turnOfAxes(given.skeleton, target), given) : given;
+  std::optional<BvhMotion> turned;
+  if (hasAllNames(given.skeleton, target)) turned = turnedBy(turnOfAxes(given.skeleton, target), given);
+  const BvhMotion& motion = turned ? *turned : given;
   const Source source = readSource(motion, file);
   const Mapping mapping = mapJoints(source, file, target);
   RetargetedMotion result;
   result.match = matchOf(mapping, source, target);
-  if (all_names)
+  if (mapping.same_names)
     if (const auto own = scaleOfOwn(motion.skeleton, target, shape.height_m)) {
       result.clip = ownClip(source, target, *own, shape.height_m);
       result.clip.name = motion.clip.name;

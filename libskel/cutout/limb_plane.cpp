@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "libskel/image/mask_parts.h"
+#include "libskel/layers/limb_bones.h"
 #include "libskel/mesh/outline.h"
 
 namespace skel {
@@ -73,23 +74,6 @@ class DrawnEdges {
   double contrast_ = 0;
 };
 
-// How far a pixel lies from a limb's bones, and where along them: 0 at the root, 1 at the middle joint, 2 at
-// the end.
-struct FromBones {
-  double distance, along;
-};
-
-FromBones fromBones(const std::array<Vector2d, 3>& joints, const Vector2d& p) {
-  FromBones nearest{1e300, 0};
-  for (std::size_t bone = 0; bone < 2; ++bone) {
-    const Vector2d way = joints[bone + 1] - joints[bone];
-    const double t = std::clamp((p - joints[bone]).dot(way) / std::max(1e-9, way.squaredNorm()), 0., 1.);
-    const double distance = (p - joints[bone] - t * way).norm();
-    if (distance < nearest.distance) nearest = {distance, double(bone) + t};
-  }
-  return nearest;
-}
-
 // Takes from the arms what lies about their roots and is wider than they are farther out: a piece of the
 // trunk that a net took for a shoulder would be torn out of it. Legs widen to the hip.
 void trimArms(const DrawnFigure& figure, Plane8& limbs) {
@@ -98,14 +82,15 @@ void trimArms(const DrawnFigure& figure, Plane8& limbs) {
   constexpr double kWider = 1.5;  // of that reach
   for (std::size_t k = 0; k < std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++k) {
     if (isLeg(figure.body_plan, figure.body_plan.limbs[k])) continue;
-    std::array<Vector2d, 3> joints;
-    for (std::size_t i = 0; i < 3; ++i) joints[i] = imageOf(figure, figure.body_plan.limbs[k].joints[i]);
+    LimbBones bones;
+    for (std::size_t i = 0; i < 3; ++i)
+      bones.joints[i] = imageOf(figure, figure.body_plan.limbs[k].joints[i]);
     std::vector<double> reach;
     std::vector<std::pair<double, std::uint8_t*>> about_root;
     for (int y = 0; y < limbs.rows(); ++y)
       for (int x = 0; x < limbs.cols(); ++x) {
         if (limbs(y, x) != std::uint8_t(k + 1)) continue;
-        const FromBones from = fromBones(joints, Vector2d(x, y));
+        const LimbBones::Near from = bones.nearest(Vector2d(x, y));
         if (from.along < kRoot)
           about_root.emplace_back(from.distance, &limbs(y, x));
         else if (from.along < 2)

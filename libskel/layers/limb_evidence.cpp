@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "libskel/core/check.h"
-#include "libskel/core/segment.h"
+#include "libskel/layers/limb_bones.h"
 
 namespace skel {
 namespace {
@@ -48,31 +47,6 @@ cv::Mat edgesOf(const PartLook& look, const cv::Mat& others) {
   cv::split(high - low, channels);
   return cv::max(channels[0], cv::max(channels[1], channels[2]));
 }
-
-// A limb's bones, px of the picture. Along them 0 is the root, 1 the middle joint, 2 the end.
-struct LimbBones {
-  std::array<Vec, 3> joints;
-
-  double length() const { return (joints[1] - joints[0]).norm() + (joints[2] - joints[1]).norm(); }
-  Vec at(double along) const {
-    return along < 1 ? Vec(joints[0] + along * (joints[1] - joints[0]))
-                     : Vec(joints[1] + (along - 1) * (joints[2] - joints[1]));
-  }
-  struct Near {
-    double along = 0, distance = std::numeric_limits<double>::infinity();
-  };
-  Near nearest(const Vec& p) const {
-    Near near;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const Vec at = nearestOnSegment<Vec>(p, joints[i], joints[i + 1]);
-      const double d = (at - p).norm();
-      if (d >= near.distance) continue;
-      near.distance = d;
-      near.along = double(i) + (at - joints[i]).norm() / std::max(1e-9, (joints[i + 1] - joints[i]).norm());
-    }
-    return near;
-  }
-};
 
 LimbBones bonesOf(const PartLook& look, const PartSkeleton& skeleton, int limb) {
   LimbBones bones;
