@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "libskel/core/check.h"
+#include "libskel/cutout/free_limbs.h"
 #include "libskel/cutout/limb_plane.h"
 #include "libskel/mesh/fill_hidden.h"
 #include "libskel/skeleton/frontal.h"
@@ -137,7 +138,8 @@ Image pictureOf(const DrawnFigure& figure, const FigurePiece& piece, const Plane
 }
 
 // Which limb moves what of a sheet: of each square and of each vertex. `free`: the vertices about the borders
-// between limbs and the rest, where paper bends. `skirt`: those that most of what is around them is a skirt.
+// between limbs and the rest, and about elbows and knees, where paper bends. `skirt`: those that most of what
+// is around them is a skirt.
 struct Carriers {
   std::vector<int> of_square, of_vertex;
   std::vector<bool> free, skirt;
@@ -189,6 +191,22 @@ Carriers carriersOf(const CutOutSheet& sheet, const Plane8& part, const Plane8& 
   for (const double reach : left) carriers.free.push_back(reach >= 0);
   for (const int more : of_skirt) carriers.skirt.push_back(more > 0);
   return carriers;
+}
+
+// Frees the vertices about elbows and knees as far as the limb is wide: thin ones bend at a point, wide ones
+// are round there. Short ones keep what is rigid on both sides of it.
+void freeBends(const DrawnFigure& figure, const std::vector<double>& widths, const CutOutSheet& sheet,
+               const Eigen::Vector2i& corner, Carriers& carriers) {
+  constexpr double kWide = 0.5, kShort = 0.4;  // of the limb's width and of its shorter bone
+  for (std::size_t limb = 1; limb <= std::min(widths.size() - 1, figure.body_plan.limbs.size()); ++limb) {
+    const auto& [root, middle, end] = limbBones(figure, limb).joints;
+    const double shorter = std::min((middle - root).norm(), (end - middle).norm());
+    const double reach = std::min(kWide * widths[limb], kShort * shorter);
+    for (Index v = 0; v < sheet.lattice.vertices.rows(); ++v)
+      if (carriers.of_vertex[std::size_t(v)] == int(limb) &&
+          (sheet.lattice.vertices.row(v).transpose() + corner.cast<double>() - middle).norm() < reach)
+        carriers.free[std::size_t(v)] = true;
+  }
 }
 
 // The drawing flat on the model's plane, all sheets in one mesh, for the skin: what different limbs move is
@@ -284,7 +302,10 @@ void hang(const SkinWeights& weights, Index first, const Carriers& carriers, con
 
 }  // namespace
 
-CutOut makeCutOut(const DrawnFigure& figure, const CutOutOptions& options) {
+CutOut makeCutOut(const DrawnFigure& drawn, const CutOutOptions& options) {
+  const LayerMap layers = withoutFreeLimbs(drawn);
+  const DrawnFigure figure{drawn.image,     drawn.silhouette, drawn.skeleton,
+                           drawn.body_plan, layers,           drawn.model_from_image};
   const std::vector<FigurePiece> pieces = piecesOf(figure);
   const PaintOrder order(figure, pieces, options.order);
   const std::vector<Plane8> masks = underlapped(pieces, figure.silhouette.mask, order);
@@ -294,6 +315,8 @@ CutOut makeCutOut(const DrawnFigure& figure, const CutOutOptions& options) {
   const Plane8 limbs = limbPlane(figure, pieces);
   const std::vector<double> widths = limbWidths(figure, limbs);
   const Plane8 cut = limbTouches(figure, limbs, widths);
+  const std::vector<double> all_widths =
+      layers.any() ? limbWidths(figure, (limbs != 0).select(limbs, layers.limb)) : widths;
   CutOut cut_out;
   std::vector<Carriers> carriers;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -316,6 +339,7 @@ CutOut makeCutOut(const DrawnFigure& figure, const CutOutOptions& options) {
                           std::vector<bool>(std::size_t(sheet.lattice.vertices.rows()), false)});
     else
       carriers.push_back(carriersOf(sheet, figure.layers.part, limbs, pieces[i].box, widths));
+    freeBends(figure, all_widths, sheet, corner, carriers.back());
     sheet.part = carriers.back().of_square;
   }
   const TriangleMesh flat = flatMesh(cut_out.sheets, carriers);

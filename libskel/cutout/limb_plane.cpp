@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "libskel/image/mask_parts.h"
-#include "libskel/layers/limb_bones.h"
 #include "libskel/mesh/outline.h"
 
 namespace skel {
@@ -16,11 +15,6 @@ using Eigen::Vector2d;
 
 constexpr double kHeld = 0.25;   // of what a thing touches, so much is the limb that holds it
 constexpr double kSpeck = 0.05;  // of all that is of a limb
-
-Vector2d imageOf(const DrawnFigure& figure, int joint_of_plan) {
-  const int joint = figure.skeleton.find(figure.body_plan.joints[std::size_t(joint_of_plan)].name);
-  return joint < 0 ? Vector2d::Zero().eval() : figure.skeleton.joints[std::size_t(joint)].image;
-}
 
 // 1 on what is no limb's and not the trunk's for sure: things, and specks apart from the rest of their part.
 Plane8 unsure(const Plane8& mask, const Plane8& part, const Plane8& limbs) {
@@ -82,9 +76,7 @@ void trimArms(const DrawnFigure& figure, Plane8& limbs) {
   constexpr double kWider = 1.5;  // of that reach
   for (std::size_t k = 0; k < std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++k) {
     if (isLeg(figure.body_plan, figure.body_plan.limbs[k])) continue;
-    LimbBones bones;
-    for (std::size_t i = 0; i < 3; ++i)
-      bones.joints[i] = imageOf(figure, figure.body_plan.limbs[k].joints[i]);
+    const LimbBones bones = limbBones(figure, k + 1);
     std::vector<double> reach;
     std::vector<std::pair<double, std::uint8_t*>> about_root;
     for (int y = 0; y < limbs.rows(); ++y)
@@ -105,6 +97,16 @@ void trimArms(const DrawnFigure& figure, Plane8& limbs) {
 }
 
 }  // namespace
+
+LimbBones limbBones(const DrawnFigure& figure, std::size_t limb) {
+  LimbBones bones;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int of_plan = figure.body_plan.limbs[limb - 1].joints[i];
+    const int joint = figure.skeleton.find(figure.body_plan.joints[std::size_t(of_plan)].name);
+    bones.joints[i] = joint < 0 ? Vector2d::Zero().eval() : figure.skeleton.joints[std::size_t(joint)].image;
+  }
+  return bones;
+}
 
 Plane8 limbPlane(const DrawnFigure& figure, const std::vector<FigurePiece>& pieces) {
   const Plane8 &part = figure.layers.part, &mask = figure.silhouette.mask;
@@ -144,11 +146,7 @@ Plane8 limbPlane(const DrawnFigure& figure, const std::vector<FigurePiece>& piec
 std::vector<double> limbWidths(const DrawnFigure& figure, const Plane8& limbs) {
   std::vector<double> widths(5, 0);
   for (std::size_t k = 0; k < std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++k) {
-    double length = 0;
-    for (std::size_t i = 0; i < 2; ++i)
-      length += (imageOf(figure, figure.body_plan.limbs[k].joints[i + 1]) -
-                 imageOf(figure, figure.body_plan.limbs[k].joints[i]))
-                    .norm();
+    const double length = limbBones(figure, k + 1).length();
     if (length > 0) widths[k + 1] = double((limbs == std::uint8_t(k + 1)).count()) / length;
   }
   return widths;
@@ -162,7 +160,7 @@ Plane8 limbTouches(const DrawnFigure& figure, const Plane8& limbs, const std::ve
   std::array<Vector2d, 5> roots;
   roots.fill(Vector2d::Zero());
   for (std::size_t k = 0; k < std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++k)
-    roots[k + 1] = imageOf(figure, figure.body_plan.limbs[k].joints[0]);
+    roots[k + 1] = limbBones(figure, k + 1).joints[0];
   const auto fromRoot = [&](std::size_t limb, int x, int y) { return (Vector2d(x, y) - roots[limb]).norm(); };
   std::array<bool, 5> hangs{};  // there are pixels near its root where the limb and the trunk meet
   Plane8 with_trunk = Plane8::Zero(mask.rows(), mask.cols()), with_limb = with_trunk;

@@ -4,8 +4,12 @@
 #include <vector>
 
 #include "libskel/cutout/cut_out.h"
+#include "libskel/layers/limb_bones.h"
 
 namespace skel {
+
+// Of the body plan's limb, from 1, in the image.
+LimbBones limbBones(const DrawnFigure& figure, std::size_t limb);
 
 // Of the image's size: the limb that a pixel is of, from 1, with what it holds; 0: none, or one that is a
 // sheet of its own or that moves nothing. Specks far from the rest of their limb are what is around them.
