@@ -8,6 +8,7 @@
 #include "libskel/core/check.h"
 #include "libskel/cutout/free_limbs.h"
 #include "libskel/cutout/limb_plane.h"
+#include "libskel/cutout/paper_rim.h"
 #include "libskel/mesh/fill_hidden.h"
 #include "libskel/skeleton/frontal.h"
 #include "libskel/skin/skin_weights.h"
@@ -146,8 +147,7 @@ struct Carriers {
 };
 
 Carriers carriersOf(const CutOutSheet& sheet, const Plane8& part, const Plane8& limbs, const PixelBox& box,
-                    const std::vector<double>& widths) {
-  constexpr double kFree = 0.3;  // of a limb's width, to both sides of where it begins
+                    const std::vector<double>& bends) {
   const Lattice& lattice = sheet.lattice;
   Carriers carriers;
   std::vector<std::array<int, 5>> votes(lattice.squares.size(), {0, 0, 0, 0, 0});
@@ -176,7 +176,7 @@ Carriers carriersOf(const CutOutSheet& sheet, const Plane8& part, const Plane8& 
     carriers.of_vertex.push_back(winner(around[v]));
     if (std::count(around[v].begin(), around[v].end(), 0) == 4) continue;
     for (std::size_t limb = 1; limb < 5; ++limb)
-      if (around[v][limb] > 0) left[v] = std::max(left[v], kFree * widths[limb]);
+      if (around[v][limb] > 0) left[v] = std::max(left[v], bends[limb]);
   }
   for (bool changed = true; changed;) {
     changed = false;
@@ -193,19 +193,35 @@ Carriers carriersOf(const CutOutSheet& sheet, const Plane8& part, const Plane8& 
   return carriers;
 }
 
-// Frees the vertices about elbows and knees as far as the limb is wide: thin ones bend at a point, wide ones
-// are round there. Short ones keep what is rigid on both sides of it.
-void freeBends(const DrawnFigure& figure, const std::vector<double>& widths, const CutOutSheet& sheet,
-               const Eigen::Vector2i& corner, Carriers& carriers) {
-  constexpr double kWide = 0.5, kShort = 0.4;  // of the limb's width and of its shorter bone
-  for (std::size_t limb = 1; limb <= std::min(widths.size() - 1, figure.body_plan.limbs.size()); ++limb) {
-    const auto& [root, middle, end] = limbBones(figure, limb).joints;
-    const double shorter = std::min((middle - root).norm(), (end - middle).norm());
-    const double reach = std::min(kWide * widths[limb], kShort * shorter);
+// How long the piece of a limb is that bends, to both sides of its root and of its middle joint, px: wide
+// limbs are round there, thin ones curve, and short ones keep what is rigid on both sides.
+struct Bends {
+  double root = 0, middle = 0;
+};
+
+Bends bendsOf(const DrawnFigure& figure, std::size_t limb, double width) {
+  constexpr double kRootWide = 0.3, kWide = 0.5;                // of the limb's width
+  constexpr double kRootThin = 0.2, kThin = 0.3, kShort = 0.4;  // of a bone
+  const auto& [root, middle, end] = limbBones(figure, limb).joints;
+  const double upper = (middle - root).norm(), shorter = std::min(upper, (end - middle).norm());
+  return {std::max(kRootWide * width, kRootThin * upper),
+          std::clamp(kWide * width, kThin * shorter, kShort * shorter)};
+}
+
+// Frees the vertices about elbows and knees.
+void freeMiddles(const DrawnFigure& figure, const std::vector<double>& widths, const CutOutSheet& sheet,
+                 const Eigen::Vector2i& corner, Carriers& carriers) {
+  for (std::size_t limb = 1; limb <= std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++limb) {
+    const LimbBones bones = limbBones(figure, limb);
+    const double reach = bendsOf(figure, limb, widths[limb]).middle;
     for (Index v = 0; v < sheet.lattice.vertices.rows(); ++v)
-      if (carriers.of_vertex[std::size_t(v)] == int(limb) &&
-          (sheet.lattice.vertices.row(v).transpose() + corner.cast<double>() - middle).norm() < reach)
-        carriers.free[std::size_t(v)] = true;
+      if (carriers.of_vertex[std::size_t(v)] == int(limb)) {
+        const Vector2d at = sheet.lattice.vertices.row(v).transpose() + corner.cast<double>();
+        const double along = bones.nearest(at).along;
+        const std::size_t half = along < 1 ? 0 : 1;
+        const double bone = (bones.joints[half + 1] - bones.joints[half]).norm();
+        if (std::abs(along - 1) * bone < reach) carriers.free[std::size_t(v)] = true;
+      }
   }
 }
 
@@ -304,7 +320,8 @@ void hang(const SkinWeights& weights, Index first, const Carriers& carriers, con
 
 CutOut makeCutOut(const DrawnFigure& drawn, const CutOutOptions& options) {
   const LayerMap layers = withoutFreeLimbs(drawn);
-  const DrawnFigure figure{drawn.image,     drawn.silhouette, drawn.skeleton,
+  const Image image = withoutPaperRim(drawn.image, drawn.silhouette);
+  const DrawnFigure figure{image,           drawn.silhouette, drawn.skeleton,
                            drawn.body_plan, layers,           drawn.model_from_image};
   const std::vector<FigurePiece> pieces = piecesOf(figure);
   const PaintOrder order(figure, pieces, options.order);
@@ -317,6 +334,9 @@ CutOut makeCutOut(const DrawnFigure& drawn, const CutOutOptions& options) {
   const Plane8 cut = limbTouches(figure, limbs, widths);
   const std::vector<double> all_widths =
       layers.any() ? limbWidths(figure, (limbs != 0).select(limbs, layers.limb)) : widths;
+  std::vector<double> root_bends(widths.size(), 0);
+  for (std::size_t limb = 1; limb <= std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++limb)
+    root_bends[limb] = bendsOf(figure, limb, widths[limb]).root;
   CutOut cut_out;
   std::vector<Carriers> carriers;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -338,8 +358,8 @@ CutOut makeCutOut(const DrawnFigure& drawn, const CutOutOptions& options) {
                           std::vector<bool>(std::size_t(sheet.lattice.vertices.rows()), false),
                           std::vector<bool>(std::size_t(sheet.lattice.vertices.rows()), false)});
     else
-      carriers.push_back(carriersOf(sheet, figure.layers.part, limbs, pieces[i].box, widths));
-    freeBends(figure, all_widths, sheet, corner, carriers.back());
+      carriers.push_back(carriersOf(sheet, figure.layers.part, limbs, pieces[i].box, root_bends));
+    freeMiddles(figure, all_widths, sheet, corner, carriers.back());
     sheet.part = carriers.back().of_square;
   }
   const TriangleMesh flat = flatMesh(cut_out.sheets, carriers);

@@ -37,7 +37,18 @@ double angleBetween(const Vector2d& a, const Vector2d& b) {
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
 }
 
+constexpr double kDegree = std::numbers::pi / 180;
+// Between the bones of a limb, 0 straight: up to the first it bends as it is told, and never much above both.
+constexpr double kBend_rad = 75 * kDegree, kFold_rad = 35 * kDegree;
+
 double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
+
+// A knee or an elbow that bends no farther than a flat limb may that is drawn as bent as `drawn_rad`: folded,
+// its second half hides the first or is hidden by it.
+double bent(double angle_rad, double drawn_rad) {
+  const double free = std::max(kBend_rad, std::abs(drawn_rad)), over = std::abs(angle_rad) - free;
+  return over <= 0 ? angle_rad : std::copysign(free + kFold_rad * std::tanh(over / kFold_rad), angle_rad);
+}
 
 // How far the figure must be moved for its lowest foot to be as low as in space, and for those that are down
 // to be where they are there, in the mean.
@@ -80,6 +91,11 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
   const std::vector<int> ends = boneEnds(skeleton, body_plan);
   const std::vector<Eigen::Vector3f> posed = posedJoints(skeleton, posed_from_rest);
 
+  std::vector<bool> middle(count, false);  // of a limb
+  for (const TemplateLimb& limb : body_plan.limbs)
+    if (const int j = skeleton.find(body_plan.joints[std::size_t(limb.joints[1])].name); j >= 0)
+      middle[std::size_t(j)] = true;
+
   FlatPose pose;
   std::vector<Vector3d> bones(count);
   for (std::size_t j = 0; j < count; ++j) {
@@ -95,7 +111,12 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
     const double shown = std::min(before.norm(), after.norm());
     const double t = std::clamp((shown - kStump) / (kSeen - kStump), 0.0, 1.0);
     const double own = angleBetween(before, after);
-    pose.turn_rad.push_back(carried + t * t * (3 - 2 * t) * wrapped(own - carried));
+    double turn = t * t * (3 - 2 * t) * wrapped(own - carried);
+    if (middle[j] && joint.parent >= 0) {
+      const double drawn = angleBetween(bones[parent].head<2>(), before);
+      turn = bent(wrapped(drawn + turn), drawn) - drawn;
+    }
+    pose.turn_rad.push_back(carried + turn);
     pose.rest.push_back(joint.position.head<2>());
     pose.place.push_back(joint.parent < 0 ? Vector2d(posed[j].head<2>().cast<double>())
                                           : pose.moved(parent, pose.rest[j]));

@@ -389,8 +389,8 @@ cv::Mat carriedLight(const Surroundings& around, const SmoothLight& smooth) {
   return light;
 }
 
-// Divides the figure by the light.
-void divide(const Plane8& figure, const Surroundings& around, const cv::Mat& light, Image& image) {
+// Divides the figure and what is around it by the light.
+void divide(const Surroundings& around, const cv::Mat& light, Image& image) {
   constexpr float kMostGain = 5;
   cv::Mat gain(light.size(), CV_32FC3);
   for (int y = 0; y < light.rows; ++y)
@@ -404,7 +404,6 @@ void divide(const Plane8& figure, const Surroundings& around, const cv::Mat& lig
               v1 = std::min(v0 + 1, light.rows - 1);
     const float fv = static_cast<float>(v - v0);
     for (int x = around.box.x; x < around.box.br().x; ++x) {
-      if (figure(y, x) == 0) continue;
       const double u = std::clamp((x - around.box.x + 0.5) / scale - 0.5, 0.0, light.cols - 1.0);
       const int u0 = std::min(static_cast<int>(u), std::max(0, light.cols - 2)),
                 u1 = std::min(u0 + 1, light.cols - 1);
@@ -467,7 +466,7 @@ Image evenLight(const Image& image, const Silhouette& silhouette) {
     const Surroundings around = surroundingsOf(even, figure, box, *paper);
     const int ground_px = static_cast<int>(around.figure.total()) - cv::countNonZero(around.figure);
     if (cv::countNonZero(around.paper) > kLeastPaper * ground_px && !isWhite(around)) {
-      divide(figure, around, carriedLight(around, smoothLight(around)), even);
+      divide(around, carriedLight(around, smoothLight(around)), even);
       changed = true;
     }
   }

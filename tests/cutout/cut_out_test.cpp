@@ -4,8 +4,11 @@
 #include <array>
 
 #include "libskel/animation/clip_library.h"
+#include "libskel/candidates/candidates.h"
+#include "libskel/cutout/free_limbs.h"
 #include "libskel/cutout/limb_plane.h"
 #include "libskel/cutout/paint_cut_out.h"
+#include "libskel/cutout/paper_rim.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/skeleton/frontal.h"
 #include "tests/support/catch.h"
@@ -86,6 +89,7 @@ TEST_CASE("at rest the cut-out is the drawing: its pixels, and nothing around th
     }
     const Image image = painted(drawing, cut_out, posedSheets(cut_out, rest));
     const Plane8& mask = drawing.silhouette.mask;
+    const DistanceField inside = distanceField(mask);
     int other = 0, around = 0, clear = 0;
     for (int y = 1; y + 1 < image.height; ++y)
       for (int x = 1; x + 1 < image.width; ++x) {
@@ -102,7 +106,7 @@ TEST_CASE("at rest the cut-out is the drawing: its pixels, and nothing around th
           }
         const std::uint8_t* p = image.pixel(x, y);
         around += !near && p[3] != 0;
-        clear += all && p[3] < 250;
+        clear += all && p[3] < 250 && inside(y, x) > 0.02f * float(image.height);
         if (!all) continue;
         for (std::size_t c = 0; c < 3; ++c) other += p[c] + 3 < low[c] || p[c] > high[c] + 3;
       }
@@ -235,6 +239,50 @@ TEST_CASE("an arm is cut from the body that it touches where a line is drawn bet
   CHECK((limbTouches(figureOf(drawing), limbs, widths) == 0).all());
   paint(0);
   CHECK((limbTouches(figureOf(drawing), limbs, widths) != 0).any());
+}
+
+TEST_CASE(
+    "a limb that touches the body about its root alone is no sheet of its own, unless it holds something") {
+  RiggedDrawing drawing = inOneSheet();
+  const Eigen::Vector2d hand = at(drawing, "right_hand");
+  const Plane8 as_drawn = drawing.layers.part;
+  const auto hasArm = [&] { return (withoutFreeLimbs(figureOf(drawing)).limb == 1).any(); };
+  drawing.layers.limb = (as_drawn == std::uint8_t(Part::kRightArm)).cast<std::uint8_t>();
+  REQUIRE(drawing.layers.any());
+  CHECK_FALSE(hasArm());
+  relabel(drawing, Part::kThing, [&](const Eigen::Vector2d& p) { return (p - hand).norm() < 12; });
+  CHECK(hasArm());
+  drawing.layers.part = as_drawn;
+  const Eigen::Vector2d body = at(drawing, "body");
+  for (int y = 0; y < drawing.image.height; ++y)
+    for (int x = 0; x < drawing.image.width; ++x)
+      if (drawing.silhouette.mask(y, x) != 0 && (Eigen::Vector2d(x, y) - body).cwiseAbs().maxCoeff() < 20)
+        drawing.layers.limb(y, x) = 1;
+  CHECK(hasArm());
+}
+
+TEST_CASE(
+    "paper beside the outermost line is taken off, what lines enclose and grounds of many colours are not") {
+  Image image(80, 80);
+  Silhouette figure;
+  figure.mask = Plane8::Zero(80, 80);
+  const auto away = [](int x, int y) { return (Eigen::Vector2d(x, y) - Eigen::Vector2d(40, 40)).norm(); };
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 80; ++x) {
+      const bool line = away(x, y) > 24 && away(x, y) < 28;
+      const std::uint8_t value = line ? 30 : 250;
+      std::copy_n(std::array<std::uint8_t, 4>{value, value, value, 255}.data(), 4, image.pixel(x, y));
+      if (away(x, y) < 29.5) figure.mask(y, x) = 255;
+    }
+  const Image bare = withoutPaperRim(image, figure);
+  CHECK(int(bare.pixel(69, 40)[3]) == 0);
+  CHECK(int(bare.pixel(66, 40)[3]) == 255);
+  CHECK(int(bare.pixel(60, 40)[3]) == 255);
+  CHECK(int(bare.pixel(40, 40)[3]) == 255);
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 80; ++x)
+      if (figure.mask(y, x) == 0) image.pixel(x, y)[(x + y) % 3] = 90;
+  CHECK((withoutPaperRim(image, figure).rgba == image.rgba).all());
 }
 
 TEST_CASE("legs hold no skirt") {

@@ -1,5 +1,9 @@
 #include "libskel/cutout/flat_pose.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "libskel/animation/clip_library.h"
 #include "tests/support/catch.h"
 #include "tests/support/clips_on_drawings.h"
@@ -51,6 +55,30 @@ TEST_CASE("bones keep their length on the screen, whatever they do in space") {
         }
       }
   }
+}
+
+TEST_CASE(
+    "flat knees and elbows fold no farther than both halves of the limb are seen, or as they are drawn") {
+  const RiggedDrawing drawing = rigged("characters/cap_boy.png", "biped");
+  const Skeleton& skeleton = drawing.character.skeleton;
+  double most = 0;
+  for (const Clip& clip : drawing.clips)
+    for (int k = 0; k < 24; ++k) {
+      const FlatPose pose = poseAt(drawing, clip, clip.duration_s() * float(k) / 24);
+      for (const TemplateLimb& limb : drawing.body_plan.limbs) {
+        std::array<std::size_t, 3> joints;
+        for (std::size_t i = 0; i < 3; ++i)
+          joints[i] = std::size_t(skeleton.index(drawing.body_plan.joints[std::size_t(limb.joints[i])].name));
+        const auto bend = [&](const std::vector<Eigen::Vector2d>& at) {
+          const Eigen::Vector2d upper = at[joints[1]] - at[joints[0]], lower = at[joints[2]] - at[joints[1]];
+          return std::acos(std::clamp(upper.normalized().dot(lower.normalized()), -1., 1.)) * 180 / M_PI;
+        };
+        const double folded = bend(pose.place), drawn = bend(pose.rest);
+        CHECK(folded < std::max(75., drawn) + 35);
+        most = std::max(most, folded);
+      }
+    }
+  CHECK(most > 80);
 }
 
 TEST_CASE("the lowest foot is on the screen where it is in space") {
