@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libskel/animation/clip.h"
+#include "libskel/pipeline/posed_character.h"
 #include "libskel/scene/scene.h"
 #include "libskel/video/video_writer.h"
 
@@ -36,11 +37,5 @@ void writeFrames(int count, bool concurrent, const std::function<Image(int)>& pa
 // All frames of a film: `clip` is relative to the character's rest pose.
 void writeFilm(const Scene& scene, const Clip& clip, const Camera& camera, const FilmOptions& options,
                VideoWriter& video, const std::function<void()>& on_frame);
-
-// The character's joints in the clip at that moment; past the end it plays again.
-JointTransforms posedAt(const RiggedCharacter& character, const Clip& clip, double time_s);
-
-// Of its mesh, which is the unit of Clip::root_translations.
-float heightOf(const RiggedCharacter& character);
 
 }  // namespace skel

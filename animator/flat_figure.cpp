@@ -1,29 +1,13 @@
 #include "animator/flat_figure.h"
 
 #include "libskel/core/parallel.h"
-#include "libskel/deform/figure_shape.h"
 #include "libskel/draw/draw_skeleton.h"
-#include "libskel/skeleton/hanging.h"
+#include "libskel/pipeline/drawn_cut_out.h"
 
 namespace skel {
 namespace {
 
 constexpr int kFlatMoments = 32;  // of a clip, that decide what the camera shows
-
-// Arms that are one piece with the body in the model, or that it does not move since they would tear it, move
-// nothing here either.
-LayerMap layersOf(const RiggedDrawing& drawing) {
-  LayerMap layers = drawing.layers;
-  const RiggedCharacter& character = drawing.character;
-  const FigureShape shape = measureFigure(character.mesh, character.weights, character.skeleton);
-  for (std::size_t k = 0; k < drawing.body_plan.limbs.size(); ++k) {
-    const TemplateLimb& limb = drawing.body_plan.limbs[k];
-    const int elbow = character.skeleton.find(drawing.body_plan.joints[std::size_t(limb.joints[1])].name);
-    if (isLeg(drawing.body_plan, limb) || elbow < 0 || (layers.limb == std::uint8_t(k + 1)).any()) continue;
-    if (shape.joined[std::size_t(elbow)] >= kGrownArm) layers.hidden.push_back(int(k) + 1);
-  }
-  return layers;
-}
 
 Eigen::Vector3d onPlane(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0}; }
 
@@ -34,21 +18,14 @@ bool looksBetterFlat(const RiggedDrawing& drawing) {
   return !drawing.body_plan.from_side && drawing.recognition.confidence >= kGuess;
 }
 
-FlatFigure::FlatFigure(const RiggedDrawing& drawing)
-    : drawing_(drawing),
-      cut_out_(makeCutOut({drawing.colors(), drawing.silhouette, withoutHanging(drawing.character.skeleton),
-                           drawing.body_plan, layersOf(drawing), drawing.character.mesh.model_from_image})) {}
-
-FlatPose FlatFigure::poseAt(const Clip& clip, double time_s) const {
-  return flatPose(drawing_.character.skeleton, drawing_.body_plan, posedAt(drawing_.character, clip, time_s));
-}
+FlatFigure::FlatFigure(const RiggedDrawing& drawing) : drawing_(drawing), cut_out_(cutOutOf(drawing)) {}
 
 Camera FlatFigure::camera(const std::vector<Clip>& clips, double width_over_height) const {
   std::vector<Eigen::MatrixX2d> moments(clips.size() * kFlatMoments);
   parallelFor(moments.size(), 0, [&](std::size_t i) {
     const Clip& clip = clips[i / kFlatMoments];
     const double time_s = double(clip.duration_s()) * double(i % kFlatMoments) / kFlatMoments;
-    for (const Eigen::MatrixX2d& sheet : posedSheets(cut_out_, poseAt(clip, time_s))) {
+    for (const Eigen::MatrixX2d& sheet : posedSheets(cut_out_, flatPoseAt(drawing_, clip, time_s))) {
       moments[i].conservativeResize(moments[i].rows() + sheet.rows(), 2);
       moments[i].bottomRows(sheet.rows()) = sheet;
     }
@@ -72,7 +49,7 @@ Image FlatFigure::paint(const Clip& clip, double time_s, const Camera& camera, c
   const auto seen = [&](const Eigen::Vector2d& p) {
     return project(onPlane(p)).value_or(Eigen::Vector2d::Constant(-1e4));
   };
-  const FlatPose pose = poseAt(clip, time_s);
+  const FlatPose pose = flatPoseAt(drawing_, clip, time_s);
   std::vector<Eigen::MatrixX2d> places = posedSheets(cut_out_, pose);
   for (Eigen::MatrixX2d& sheet : places)
     for (Eigen::Index v = 0; v < sheet.rows(); ++v) sheet.row(v) = seen(sheet.row(v).transpose()).transpose();

@@ -29,8 +29,6 @@ class FlatFigure {
   CutOutPainter painterFor(const Camera& camera, int height) const;
 
  private:
-  FlatPose poseAt(const Clip& clip, double time_s) const;
-
   const RiggedDrawing& drawing_;
   CutOut cut_out_;
 };

@@ -33,6 +33,10 @@ target_compile_features(skel_usage INTERFACE cxx_std_20)
 # Eigen's fast square roots start from the CPU's own approximation, which differs between makers. Where two parts of a
 # program disagree about it, the linker chooses.
 target_compile_definitions(skel_usage INTERFACE EIGEN_FAST_MATH=0)
+# Whatever vectors and sanitizers a project is built with, its Eigen lays out, takes and gives back memory as ours does.
+if(CMAKE_SIZEOF_VOID_P EQUAL 8)
+  target_compile_definitions(skel_usage INTERFACE EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
+endif()
 
 # And what only our own files are compiled with.
 add_library(skel_options INTERFACE)
