@@ -3,6 +3,7 @@
 #include <emscripten/bind.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <new>
 #include <optional>
@@ -11,8 +12,10 @@
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 #include "libskel/core/sha256.h"
+#include "libskel/cutout/cut_out_atlas.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
+#include "libskel/pipeline/drawn_cut_out.h"
 #include "libskel/pipeline/rig_document.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/silhouette/page_net.h"
@@ -43,6 +46,12 @@ val arrayOf(const Bytes& bytes) {
   return val::global("Uint8Array")
       .new_(val(emscripten::typed_memory_view(static_cast<std::size_t>(bytes.size()),
                                               reinterpret_cast<const std::uint8_t*>(bytes.data()))));
+}
+
+// The same of numbers; `type` is its name in JavaScript.
+template <class Number>
+val numbersOf(const char* type, const Number* numbers, std::size_t count) {
+  return val::global(type).new_(val(emscripten::typed_memory_view(count, numbers)));
 }
 
 val textsOf(const std::vector<std::string>& texts) {
@@ -119,6 +128,7 @@ struct Character {
   SkeletonFile file;
   Plane8 given_mask;  // empty: none was given
   std::string stem;
+  std::optional<CutOut> cut_out;  // of the drawing, made when it is asked for
 };
 Character current;
 RigDocument document;  // what it was rigged from
@@ -304,6 +314,52 @@ val glb() {
   return arrayOf(encodeGlb(current.drawing->character, current.drawing->clips, {.name = current.stem}));
 }
 
+const CutOut& currentCutOut() {
+  if (!current.cut_out) current.cut_out = cutOutOf(*current.drawing);
+  return *current.cut_out;
+}
+
+// The drawing as a cut-out (cut_out_atlas.h): {width, height, rgba, its colours multiplied by alpha,
+// texcoords: two a corner, vertex: one a corner, triangles: three corners each, in the order in which they
+// are painted}.
+val flat() {
+  return saying(current.stem, [&] {
+    const CutOutAtlas atlas = atlasOf(currentCutOut());
+    const Eigen::Matrix<float, Eigen::Dynamic, 2, Eigen::RowMajor> texcoords = atlas.texcoords;
+    val said = val::object();
+    said.set("width", atlas.picture.width);
+    said.set("height", atlas.picture.height);
+    said.set("rgba", arrayOf(atlas.picture.rgba));
+    said.set("texcoords", numbersOf("Float32Array", texcoords.data(), std::size_t(texcoords.size())));
+    said.set("vertex", numbersOf("Uint32Array", atlas.vertex.data(), atlas.vertex.size()));
+    said.set("triangles", numbersOf("Uint32Array", atlas.triangles.data(), atlas.triangles.size()));
+    return said;
+  });
+}
+
+// Its places in a clip, or in the pose that it was drawn in if there is none of that name, at `rate_hz`
+// moments a second: {frames, duration in s, places: x and y of each vertex, m, frame by frame}.
+val flatClip(const std::string& name, double rate_hz) {
+  return saying(current.stem, [&] {
+    const std::vector<Clip>& clips = current.drawing->clips;
+    const auto clip = std::find_if(clips.begin(), clips.end(), [&](const Clip& c) { return c.name == name; });
+    const Clip chosen = clip == clips.end() ? Clip() : *clip;
+    const double duration_s = double(chosen.duration_s());
+    const int frames = std::max(1, int(std::lround(duration_s * rate_hz)));
+    std::vector<float> places;
+    for (int i = 0; i < frames; ++i)
+      for (const Eigen::MatrixX2d& sheet :
+           posedSheets(currentCutOut(), flatPoseAt(*current.drawing, chosen, duration_s * i / frames)))
+        for (Eigen::Index v = 0; v < sheet.rows(); ++v)
+          places.insert(places.end(), {float(sheet(v, 0)), float(sheet(v, 1))});
+    val said = val::object();
+    said.set("frames", frames);
+    said.set("duration", duration_s);
+    said.set("places", numbersOf("Float32Array", places.data(), places.size()));
+    return said;
+  });
+}
+
 // Its texture, as PNG.
 val texture() { return arrayOf(encodePng(current.drawing->character.mesh.texture)); }
 
@@ -323,6 +379,8 @@ EMSCRIPTEN_BINDINGS(skel) {
   emscripten::function("readMask", &skel::maskOf);
   emscripten::function("rig", &skel::rig);
   emscripten::function("glb", &skel::glb);
+  emscripten::function("flat", &skel::flat);
+  emscripten::function("flatClip", &skel::flatClip);
   emscripten::function("texture", &skel::texture);
   emscripten::function("drawing", &skel::drawing);
   emscripten::function("mask", &skel::mask);

@@ -200,8 +200,8 @@ struct Bends {
 };
 
 Bends bendsOf(const DrawnFigure& figure, std::size_t limb, double width) {
-  constexpr double kRootWide = 0.3, kWide = 0.5;                // of the limb's width
-  constexpr double kRootThin = 0.2, kThin = 0.3, kShort = 0.4;  // of a bone
+  constexpr double kRootWide = 0.3, kWide = 0.35;                // of the limb's width
+  constexpr double kRootThin = 0.1, kThin = 0.12, kShort = 0.3;  // of a bone
   const auto& [root, middle, end] = limbBones(figure, limb).joints;
   const double upper = (middle - root).norm(), shorter = std::min(upper, (end - middle).norm());
   return {std::max(kRootWide * width, kRootThin * upper),

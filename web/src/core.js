@@ -42,4 +42,4 @@ async function call(name, ...values) {
 }
 
 export const core = Object.fromEntries(
-  ['open', 'readMask', 'rig', 'glb', 'texture', 'drawing', 'mask'].map((name) => [name, (...values) => call(name, ...values)]));
+  ['open', 'readMask', 'rig', 'glb', 'flat', 'flatClip', 'texture', 'drawing', 'mask'].map((name) => [name, (...values) => call(name, ...values)]));

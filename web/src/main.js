@@ -1,4 +1,5 @@
 import { core, start } from './core.js';
+import { FlatFigure, kFlatRate_hz } from './flat_figure.js';
 import { History } from './history.js';
 import { bytesOf, download, pngOf, stemOf, zipOf } from './save.js';
 import { DrawingStage } from './stage2d.js';
@@ -102,6 +103,18 @@ async function show(found, keep) {
   $('clip').replaceChildren(new Option(say('rest'), ''), ...model.clips.map(({ name }) =>
     new Option(hasWord(`clip_${name}`) ? say(`clip_${name}`) : name, name)));
   $('clip').value = model.clip;
+  await showLook();
+}
+
+// What the drawing itself looks like in the clip is made when it is asked for.
+async function showLook() {
+  const isFlat = $('look').value === 'flat';
+  $('turn').disabled = isFlat;
+  if (!isFlat) return model.showFlat(null);
+  busy(say('cutting'));
+  const figure = new FlatFigure(await core.flat());
+  figure.use(await core.flatClip(model.clip, kFlatRate_hz));
+  model.showFlat(figure);
 }
 
 // --- mending -----------------------------------------------------------------------------------------------------
@@ -228,7 +241,18 @@ function startModel() {
 function updatePlay() {
   if (model) $('play').textContent = say(model.playing ? 'pause' : 'play');
 }
-$('clip').onchange = () => model.play($('clip').value);
+$('clip').onchange = () => {
+  if (!model.flat) return model.play($('clip').value);
+  inTurn(async () => {
+    const name = $('clip').value;
+    model.flat.use(await core.flatClip(name, kFlatRate_hz));
+    model.play(name);
+  });
+};
+$('look').onchange = () => inTurn(async () => {
+  await showLook();
+  calm();
+});
 $('play').onclick = () => {
   model.playing = !model.playing;
   updatePlay();

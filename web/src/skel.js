@@ -73,6 +73,8 @@ export class Skel {
     return { ...found, warnings: found.warnings.map(withoutDashes) };
   }
   glb() { return this.#core.glb(); }
+  flat() { return checked(this.#core.flat()); }
+  flatClip(name, rate_hz) { return checked(this.#core.flatClip(name, rate_hz)); }
   texture() { return this.#core.texture(); }
   drawing() { return this.#core.drawing(); }
   mask() { return this.#core.mask(); }

@@ -47,7 +47,10 @@ export class ModelStage extends EventTarget {
   }
 
   step(time_s) {
-    if (this.playing) this.mixer?.update(time_s);
+    if (this.playing) {
+      this.mixer?.update(time_s);
+      this.flat?.show(this.action?.time ?? 0);
+    }
     this.controls.update();
     this.renderer.render(this.scene, this.camera);
   }
@@ -65,6 +68,7 @@ export class ModelStage extends EventTarget {
       });
     }
     this.model = scene;
+    scene.visible = !this.flat;
     this.clips = animations;
     scene.traverse((part) => { part.frustumCulled = false; });
     this.scene.add(scene);
@@ -74,6 +78,22 @@ export class ModelStage extends EventTarget {
     this.play(this.clip ?? '', time);
   }
 
+  // The drawing itself in place of the model, from the front; null: the model again.
+  showFlat(figure) {
+    if (this.flat) {
+      this.scene.remove(this.flat.mesh);
+      this.flat.dispose();
+    }
+    const turned = !this.flat !== !figure;
+    this.flat = figure;
+    this.model.visible = this.ground.visible = this.controls.enableRotate = !figure;
+    if (figure) {
+      this.scene.add(figure.mesh);
+      figure.show(this.action?.time ?? 0);
+    }
+    if (turned) this.face(figure ? 0 : 0.35);
+  }
+
   #frame() {
     const box = new Box3().setFromObject(this.model);
     const size = box.getSize(new Vector3());
@@ -81,7 +101,7 @@ export class ModelStage extends EventTarget {
     this.reach = Math.max(size.x, size.y) * 0.5;
     this.ground.position.set(this.center.x, box.min.y, this.center.z);
     this.ground.scale.setScalar(this.reach * 0.9);
-    this.face(0.35);
+    this.face(this.flat ? 0 : 0.35);
   }
 
   // Looks at the model from this angle about the vertical, rad.
@@ -123,12 +143,13 @@ export class ModelStage extends EventTarget {
         this.mixer.setTime(0);
         if (this.action) this.action.time = this.duration * i / count;
         this.mixer.update(0);
+        this.flat?.show(this.action?.time ?? 0);
         renderer.render(this.scene, camera);
         await take(this.canvas, i);
       }
     } finally {
       if (this.action) this.action.time = time;
-      ground.visible = true;
+      ground.visible = !this.flat;
       this.busy = false;
       this.#resize();
     }
