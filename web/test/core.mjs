@@ -102,6 +102,21 @@ for (const file of files) {
   if (differs) fail(`${stem}.glb`, differs);
 }
 
+// The drawing as a cut-out: every corner has a place in every frame, and drawn as it is each lies where the drawing has it.
+if (files.length) {
+  const name = basename(files[0]), picture = core.decode(await readFile(files[0]), name);
+  core.rig({ ...picture, file: name, mask: null, skeleton: null, skeletonFile: '', plan, figure: 1 });
+  const flat = core.flat(), rest = core.flatClip('', 30), walk = core.flatClip('walk', 30);
+  const vertices = Math.max(...flat.vertex) + 1, corners = flat.vertex.length;
+  if (flat.error ?? rest.error ?? walk.error) fail(name, flat.error ?? rest.error ?? walk.error);
+  else if (flat.rgba.length !== 4 * flat.width * flat.height || flat.texcoords.length !== 2 * corners || Math.max(...flat.triangles) !== corners - 1)
+    fail(name, 'the cut-out has other numbers of pixels or corners than it says');
+  else if (rest.frames !== 1 || rest.places.length !== 2 * vertices || walk.frames < 10 || walk.places.length !== 2 * vertices * walk.frames)
+    fail(name, 'the cut-out has other numbers of places than of vertices');
+  else if (!walk.places.every(Number.isFinite) || walk.places.subarray(0, 2 * vertices).every((place, i) => Math.abs(place - walk.places[2 * vertices * 8 + i]) < 1e-3))
+    fail(name, 'the cut-out does not walk');
+}
+
 // A joint that is dragged moves in the model that is there; at rest the character is what it would be from the start.
 if (files.length) {
   const name = basename(files[0]), picture = core.decode(await readFile(files[0]), name), end = plan === 'biped' ? 'left_hand' : 'tail';

@@ -205,6 +205,36 @@ step('clips play, and stop', async () => {
   await page.click('#play');
 });
 
+step('the drawing itself moves, and the model comes back', async () => {
+  const look = () => page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => resolve(document.getElementById('view').toDataURL()))));
+  await page.click('#play');
+  await page.waitForTimeout(1500);
+  const solid = await look();
+  await page.selectOption('#look', 'flat');
+  await idle(page);
+  const flat = await look();
+  assert.notEqual(flat, solid);
+  assert.equal(await page.locator('#turn').isDisabled(), true);
+  await page.click('#play');
+  await page.waitForTimeout(400);
+  assert.notEqual(await look(), flat);
+  await shot(page, 'flat.png');
+  await page.selectOption('#clip', 'wave');
+  await idle(page);
+  await page.waitForTimeout(300);
+  await shot(page, 'flat-wave.png');
+  await drop(page, drawing('cap_boy'));
+  await page.waitForTimeout(300);
+  await shot(page, 'flat-boy.png');
+  assert.equal(await page.locator('#error').isHidden(), true, await page.locator('#error').textContent());
+  const frames = unzipSync(await readFile(await save(page, 'saveFrames')));
+  assert.notDeepEqual(frames['wave_01.png'], frames['wave_08.png']);
+  await page.selectOption('#look', 'solid');
+  await drop(page, drawing('gingerbread'));
+  await page.selectOption('#clip', 'dance');
+  assert.equal(await page.locator('#turn').isDisabled(), false);
+});
+
 step('film, sprite sheet, frames and texture are saved', async () => {
   const film = await readFile(await save(page, 'saveFilm'));
   assert.ok(film.length > 5000 && (film.subarray(0, 4).toString('hex') === '1a45dfa3' || film.subarray(4, 8).toString() === 'ftyp'));
