@@ -32,7 +32,7 @@ const words = {
   motion: ['Motion', 'Bewegung'],
   look: ['Look', 'Aussehen'],
   lookSolid: ['model', 'Modell'],
-  lookFlat: ['the drawing itself', 'die Zeichnung selbst'],
+  lookFlat: ['drawing', 'Zeichnung'],
   cutting: ['Cutting out the drawing …', 'Zeichnung wird ausgeschnitten …'],
   rest: ['stand still', 'stillstehen'],
   play: ['Play', 'Abspielen'],
