@@ -13,15 +13,18 @@ constexpr double kMaxTurns = 2e6;  // of single joints: an hour of a biped at 30
 
 }  // namespace
 
-void checkTimes(const Clip& clip) {
-  const auto refuse = [&](const std::string& why) {
-    throw Error(ExitCode::kInput, "the clip \"" + clip.name + "\" " + why);
-  };
+void checkDuration(const Clip& clip) {
   if (static_cast<double>(clip.duration_s()) > kMaxClip_s)
-    refuse("lasts more than an hour; cut it into parts");
+    throw Error(ExitCode::kInput,
+                "the clip \"" + clip.name + "\" lasts more than an hour; cut it into parts");
+}
+
+void checkTimes(const Clip& clip) {
+  checkDuration(clip);
   const auto check = [&](const std::vector<float>& times_s) {
     if (std::adjacent_find(times_s.begin(), times_s.end(), std::greater_equal<>()) != times_s.end())
-      refuse("has keys that are nearer than times can tell; take frames away");
+      throw Error(ExitCode::kInput, "the clip \"" + clip.name +
+                                        "\" has keys that are nearer than times can tell; take frames away");
   };
   check(clip.root_times_s);
   for (const JointTrack& track : clip.tracks) {

@@ -14,6 +14,9 @@ inline constexpr std::size_t kMaxKeys = 10'000'000;
 // Of a model: each is held against the others, by its name or as a whole.
 inline constexpr std::size_t kMostClips = 25'000;
 
+// Throws Error (refused input) if the clip lasts longer than kMaxClip_s.
+void checkDuration(const Clip& clip);
+
 // Throws Error (refused input) if readers would refuse what is written of the clip: it lasts longer, or two
 // keys of a track are at the same time, as floats.
 void checkTimes(const Clip& clip);

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "libskel/animation/check_clip.h"
 #include "libskel/animation/clip_limits.h"
 #include "libskel/animation/follow_through.h"
 #include "libskel/animation/mirror_clip.h"
@@ -16,6 +17,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
 #include "libskel/core/sha256.h"
+#include "libskel/skeleton/check_skeleton.h"
 #include "libskel/skeleton/hanging.h"
 #include "libskel/skeleton/joint_lookup.h"
 
@@ -90,6 +92,15 @@ struct Retargeter {
 
 std::vector<Vector3d> positions(const Skeleton& skeleton, const std::vector<Quaterniond>& globals) {
   return jointPositions(skeleton, {0, globals, Vector3d::Zero(), 1});
+}
+
+void checkAsked(const Clip& clip, const Skeleton& skeleton, const RetargetOptions& options) {
+  checkClip(clip);
+  checkSkeleton(skeleton, "the skeleton of the clip \"" + clip.name + "\"");
+  if (!(options.rate_hz > 0) || !std::isfinite(options.rate_hz))
+    throw UsageError("RetargetOptions::rate_hz must be a finite number of more than 0");
+  if (!(options.into_picture >= 0 && options.into_picture <= 1))
+    throw UsageError("RetargetOptions::into_picture must be from 0 to 1");
 }
 
 // What the clip puts on the ground must end a limb of two bones.
@@ -591,6 +602,7 @@ std::string restPoseHash(const Skeleton& skeleton) {
 
 Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetOptions& options) {
   const std::size_t count = skeleton.joints.size();
+  checkAsked(asked, skeleton, options);
   checkContacts(asked, skeleton);
   if (isRelativeTo(asked, skeleton)) {
     Clip as_it_is = asked;
@@ -630,9 +642,10 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
   giveSlack(skeleton, slack_rad, shape.hang_rad, retargeter.turns);
 
   const float duration = clip.duration_s();
-  const int keys = int(std::ceil(duration * options.rate_hz - 1e-3f)) + 1;
+  const double most_keys = double(std::ceil(duration * options.rate_hz - 1e-3f)) + 1;
   // Feet are planted contact by contact.
-  checkMoments(clip, keys * std::max(1., double(clip.contacts.size()) / 16), count);
+  checkMoments(clip, most_keys * std::max(1., double(clip.contacts.size()) / 16), count);
+  const int keys = int(most_keys);
   std::vector<std::pair<Pose, double>> moments;
   std::vector<ModelPose> poses(keys);
   const ClipSampler sampler(clip, skeleton);

@@ -48,7 +48,7 @@ bool isFolded(const Skeleton& skeleton, int elbow, int hand);
 double soleBelow(const FigureShape& shape, int foot, const Eigen::Quaterniond& turn);
 
 struct RetargetOptions {
-  float rate_hz = 30;         // most keys a second of the result; fewer where that shows nowhere
+  float rate_hz = 30;         // most keys a second of the result, more than 0; fewer where that shows nowhere
   bool clear_of_head = true;  // raised arms that would pass through the head swing out until they do not
   // Limbs that point at the viewer are stumps in the picture. So much of that way turns into the picture, of
   // a figure in front view: 0 nothing, 1 all of it. By eye on 29 drawings (0, .4 and .8 in hidden order; no
@@ -66,8 +66,9 @@ struct RetargetOptions {
 // added to the drawn pose; joints without a track keep the drawn pose. Limbs are taken out of the drawn pose
 // by the way round the outside of the body, never through it, and arms that are folded or on the hips stay
 // there. Feet that stand, stay (plant_feet.h). A clip whose rest pose this is stays as it is. Throws
-// UsageError if the clip moves a joint that the skeleton lacks, Error (refused input) if it puts one on the
-// ground that is no foot, or is too long.
+// UsageError if the clip moves a joint that the skeleton lacks, or clip, skeleton or options are none
+// (check_clip.h, check_skeleton.h), Error (refused input) if it puts a joint on the ground that is no foot,
+// or is too long.
 Clip retargetToRest(const Clip& clip, const Skeleton& skeleton, const RetargetOptions& options = {});
 
 // Of names and parents of all joints, and of where they are in the rest pose, to the millimetre: as hex.

@@ -1,6 +1,6 @@
-// Whole files in, whole files out.
-//
-// What is read becomes an input, which is never written over (input_guard.h).
+// Whole files in, whole files out. writeFile() replaces what the program has read, too, unless it has called
+// guardInputs() (input_guard.h), as skel's tools do: then what is read becomes an input, which is never
+// written over.
 #pragma once
 
 #include <string>
@@ -17,10 +17,10 @@ std::string readFile(const std::string& path);
 // new ones and never half of either, also where several processes write it. Who is killed leaves the
 // temporary file, which the next to write `path` takes over. Makes missing parent folders. A link stays one
 // and its target is written; a file that is replaced keeps its mode and its owner; devices and pipes
-// (those that may be opened) are written to. Throws OutputError, and UsageError where `path` is an input.
+// (those that may be opened) are written to. Throws OutputError; after guardInputs() UsageError for an input.
 void writeFile(const std::string& path, std::string_view bytes);
 
-// The same for documents that are edited in place: `path` may be an input.
+// The same for documents that are edited in place: `path` may be an input, guarded or not.
 void replaceFile(const std::string& path, std::string_view bytes);
 
 // Paths of all files below `dir`, at any depth, sorted. Links to folders are not followed, devices and pipes

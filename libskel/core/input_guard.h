@@ -1,7 +1,9 @@
-// What a program reads is not written over by it. readFile() and writeFile() keep the lists themselves, so
-// that no tool can forget a file that another one names (a skeleton's mask, the pictures of an OBJ, the
-// frames of a film); a tool that says early what it is going to write is refused before any work. Files are
-// told apart by device and inode: neither `./x`, a link nor another spelling of a folder hides one.
+// What a program reads is not written over by it, once it has called guardInputs(): skel's tools do, a
+// program that uses the library may; one that does not is not protected. readFile() and writeFile() keep the
+// lists themselves, so that no tool can forget a file that another one names (a skeleton's mask, the pictures
+// of an OBJ, the frames of a film); a tool that says early what it is going to write is refused before any
+// work. Files are told apart by device and inode: neither `./x`, a link nor another spelling of a folder
+// hides one.
 //
 // A pipe that nobody writes to is waited for, for ever: only those that the user names are opened, not what
 // lies in a folder or what a file names.
@@ -14,7 +16,8 @@
 
 namespace skel {
 
-// From now on. Tools call it (libskel/cli/tool.h); a program that uses the library may.
+// From now on, for the whole process. Tools call it (libskel/cli/tool.h); a program that uses the library
+// may.
 void guardInputs();
 
 // `path` is read. Does nothing where there is no such file, or where this program has written it. Throws

@@ -13,6 +13,7 @@
 #include "libskel/core/check.h"
 #include "libskel/export/bone_axes.h"
 #include "libskel/export/bone_ends.h"
+#include "libskel/export/check_character.h"
 #include "libskel/export/joint_names.h"
 #include "libskel/export/write_character.h"
 #include "libskel/image/write_image.h"
@@ -458,13 +459,7 @@ std::string meshNodeName(std::string name, const Skeleton& skeleton, JointNaming
 
 std::string encodeGlb(const RiggedCharacter& character, const std::vector<Clip>& clips,
                       const ExportOptions& options) {
-  const TriangleMesh& mesh = character.mesh;
-  SKEL_CHECK(mesh.vertices.rows() > 0 && mesh.triangles.rows() > 0);
-  SKEL_CHECK(!character.skeleton.joints.empty());
-  SKEL_CHECK_EQ(character.weights.weights.rows(), mesh.vertices.rows());
-  SKEL_CHECK_EQ(character.weights.joints.rows(), mesh.vertices.rows());
-  SKEL_CHECK(mesh.uv.rows() == 0 || mesh.uv.rows() == mesh.vertices.rows());
-
+  checkCharacter(character, clips);
   GlbBuilder glb;
   const int kMeshNode = 0, kFirstJoint = 1;
   const std::string name = asUtf8(options.name);

@@ -34,7 +34,9 @@ struct ExportOptions {
 };
 
 // glTF 2.0 binary: one skinned mesh with its texture, the joints, the clips as animations (already retargeted
-// to the rest pose of `character`). Zero errors and warnings in the Khronos validator.
+// to the rest pose of `character`). Zero errors and warnings in the Khronos validator. Throws UsageError
+// where `character` has no mesh (nothing was found) or its parts or the clips do not fit each other, and
+// Error as checkCharacter() of check_character.h does.
 std::string encodeGlb(const RiggedCharacter& character, const std::vector<Clip>& clips,
                       const ExportOptions& options = {});
 

@@ -106,7 +106,7 @@ Eigen::VectorXd inflatedHeights(const PlanarMesh& mesh, const std::vector<DepthT
   return u.unaryExpr([&](double value) { return std::sqrt(std::max(value, floor * floor)); });
 }
 
-constexpr int kLeastTexture = 16;  // texels a side
+constexpr int kLeastTexture = kLeastMaxTexture / 2;  // texels a side
 
 // The back's texture and where the front's points lie in it.
 struct BackTexture {
@@ -424,7 +424,7 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
   SKEL_CHECK(silhouette.found());
   SKEL_CHECK_EQ(silhouette.mask.rows(), image.height);
   SKEL_CHECK_EQ(silhouette.mask.cols(), image.width);
-  SKEL_CHECK(options.spacing_px >= 0 && options.thickness > 0 && options.max_texture_px >= 2 * kLeastTexture);
+  SKEL_CHECK(options.spacing_px >= 0 && options.thickness > 0 && options.max_texture_px >= kLeastMaxTexture);
 
   const PixelBox box = figureBox(silhouette.mask);
   SKEL_CHECK(box.width() > 0);

@@ -32,8 +32,8 @@ struct BackPicture {
 struct InflateOptions {
   double spacing_px = 0;  // mesh grid cell in working-grid px (the figure's long side is 128); 0: chosen so
                           // that the mesh has about 3,500 vertices, whatever the figure's shape
-  double thickness = 1;   // 1: a long limb 1.12 times as thick as wide, a disc 0.79 times
-  int max_texture_px = 2048;  // each side of the texture
+  double thickness = 1;   // 1: a long limb 1.12 times as thick as wide, a disc 0.79 times; more than 0
+  int max_texture_px = 2048;  // each side of the texture; kLeastMaxTexture or more
   double height_m = kModelHeight_m;
   double length_m = 0;    // of the model's longer side, up or across; 0: height_m counts instead
   double turned_rad = 0;  // how far the figure is turned clockwise in the drawing: the model stands upright
@@ -57,5 +57,7 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
                      const std::vector<FigurePiece>& pieces = {});
 
 inline constexpr int kMaxInflatedVertices = 1'000'000;
+// The smallest limit of a texture.
+inline constexpr int kLeastMaxTexture = 32;
 
 }  // namespace skel

@@ -15,6 +15,7 @@
 #include "libskel/jointnet/net_joints.h"
 #include "libskel/mesh/front_view.h"
 #include "libskel/pipeline/body_depth.h"
+#include "libskel/pipeline/check_rig.h"
 #include "libskel/pipeline/rig_memory.h"
 #include "libskel/pipeline/worn_parts.h"
 #include "libskel/recognition/complete_skeleton.h"
@@ -111,8 +112,9 @@ const JointNet& jointNetOf(const RigOptions& options, const SkeletonTemplate& bo
                             ? options.joint_net.get()
                             : jointNetFor(body_plan, jointNetsOf(options));
   if (!net)
-    throw UsageError("no net is built in that knows the joints of the template \"" + body_plan.name +
-                     "\"; name one by --joint-net, or use --recognizer paper");
+    throw UsageError(
+        "no net is built in that knows the joints of the template \"" + body_plan.name +
+        "\"; give a net of it (--joint-net), or recognise by the rules of the paper (--recognizer paper)");
   return *net;
 }
 
@@ -422,7 +424,10 @@ RiggedDrawing rigCharacter(RigInput input, const RigOptions& options) {
 RiggedDrawing rigCharacter(RigInput input, const RigOptions& options, RigMemory* memory, LastStage last,
                            bool draft) {
   const std::string file = input.file;
-  return throwingErrors(file, [&] { return runStages(std::move(input), options, memory, last, draft); });
+  return throwingErrors(file, [&] {
+    checkRig(input, options);
+    return runStages(std::move(input), options, memory, last, draft);
+  });
 }
 
 }  // namespace skel

@@ -28,24 +28,25 @@ namespace skel {
 
 // A picture beside the drawing, and the file that complaints name.
 struct NamedPicture {
-  Image image;
-  std::string file;
+  Image image = {};
+  std::string file = {};
 };
 
 // What a character is made from. `image` is needed unless there is a `model`.
 struct RigInput {
-  Image image;
-  std::string file = {};               // what complaints call the image
-  std::optional<Plane8> mask;          // the figure, given by hand; of the image's size
-  FigureFinder* figures = nullptr;     // of the image, where several of its figures are rigged; null: its own
-  std::optional<TriangleMesh> model;   // take this mesh instead of inflating the silhouette
-  std::optional<NamedPicture> back;    // the figure seen from behind, for the back of the model
-  int turned_deg = 0;                  // of the `skeleton`'s figure, clockwise against upright
-  std::optional<NamedPicture> layers;  // layerPicture(), mended: which limbs lie before the body
-  std::optional<Skeleton> skeleton;    // go on from these joints (image px) instead of recognising any
+  Image image = {};
+  std::string file = {};            // what complaints call the image
+  std::optional<Plane8> mask = {};  // the figure, given by hand; of the image's size
+  FigureFinder* figures = nullptr;  // of the image, where several of its figures are rigged; null: its own
+  std::optional<TriangleMesh> model = {};   // take this mesh instead of inflating the silhouette
+  std::optional<NamedPicture> back = {};    // the figure seen from behind, for the back of the model
+  int turned_deg = 0;                       // of the `skeleton`'s figure, clockwise against upright
+  std::optional<NamedPicture> layers = {};  // layerPicture(), mended: which limbs lie before the body
+  // Go on from these joints (image px) instead of recognising any.
+  std::optional<Skeleton> skeleton = {};
   // Joints of the body plan that a person has placed, image px: they are there and sure, the others are
   // recognised.
-  std::vector<std::pair<std::string, Eigen::Vector2d>> placed;
+  std::vector<std::pair<std::string, Eigen::Vector2d>> placed = {};
 };
 
 // A body plan and the clips that fit it, for the canonical pose.
@@ -71,26 +72,26 @@ enum class LastStage {
 
 struct RigOptions {
   LastStage last = LastStage::kClips;
-  SilhouetteOptions silhouette;
-  CandidateOptions candidates;
+  SilhouetteOptions silhouette = {};
+  CandidateOptions candidates = {};
   Mlp mlp = defaultMlp();  // tells the classes of candidates apart
   SkeletonTemplate body_plan = loadTemplate("biped");
   // Of a figure that fits this body plan better, or whose given skeleton is of it: instead of `body_plan` and
   // `clips`. Of drawings that nobody has learned from the nets mistake 2 people of 322 and 3 animals of 62.
-  std::optional<PlannedClips> otherwise;
+  std::optional<PlannedClips> otherwise = {};
   Recognizer recognizer = Recognizer::kTree;
-  bool upright = false;                         // the figure is not turned: try no other orientations
-  std::shared_ptr<const JointNets> joint_nets;  // of body plans; null: the built-in ones
-  std::shared_ptr<const JointNet> joint_net;    // null: the one of `joint_nets` that knows the body plan
+  bool upright = false;                              // the figure is not turned: try no other orientations
+  std::shared_ptr<const JointNets> joint_nets = {};  // of body plans; null: the built-in ones
+  std::shared_ptr<const JointNet> joint_net = {};    // null: of `joint_nets` the one that knows the body plan
   bool layers = true;  // limbs that are drawn over the body are bodies of their own; false: one skin
-  std::shared_ptr<const PartNet> part_net;  // tells them; null: the built-in one (part_net.h)
+  std::shared_ptr<const PartNet> part_net = {};  // tells them; null: the built-in one (part_net.h)
   InflateOptions inflate{.thin_outline = true};
-  std::optional<Back> back;  // nothing: kPlain, or kSame for a body plan that is drawn from the side
-  double height_m = 0;       // of the model; 0: the body plan's own
+  std::optional<Back> back = {};  // nothing: kPlain, or kSame for a body plan that is drawn from the side
+  double height_m = 0;            // of the model, 1e-3 to 1e5; 0: the body plan's own
   SkinMethod skin_method = SkinMethod::kGeodesic;
-  SkinOptions skin;
+  SkinOptions skin = {};
   RestPose rest_pose = RestPose::kDrawn;
-  std::vector<Clip> clips;                               // for the canonical pose
+  std::vector<Clip> clips = {};                          // for the canonical pose
   double into_picture = RetargetOptions().into_picture;  // of the clips' limbs, see retarget.h
 };
 
@@ -123,9 +124,9 @@ struct RiggedDrawing {
 };
 
 // Stages 2 to 8, or up to options.last. Where there is no figure, `found()` is false and silhouette.reason
-// says why. Throws UsageError if no net knows the body plan, InputError if input.layers does not fit, or
-// input.back shows no figure, UnavailableError's kind of Error if memory or threads do not suffice. Nothing
-// but an Error leaves it.
+// says why. Throws UsageError if an input or an option makes no sense (check_rig.h) or no net knows the body
+// plan, InputError if input.layers does not fit, or input.back shows no figure, UnavailableError's kind of
+// Error if memory or threads do not suffice. Nothing but an Error leaves it.
 RiggedDrawing rigCharacter(RigInput input, const RigOptions& options);
 
 }  // namespace skel

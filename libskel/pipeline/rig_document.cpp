@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "libskel/core/check.h"
 #include "libskel/core/error.h"
 #include "libskel/pipeline/rig_memory.h"
 #include "libskel/pipeline/same_inputs.h"
+#include "libskel/skeleton/check_skeleton.h"
 
 namespace skel {
 RigDocument::RigDocument(RigOptions options)
@@ -27,8 +27,9 @@ void RigDocument::setOptions(RigOptions options) {
 }
 
 void RigDocument::setInput(RigInput input) {
-  SKEL_CHECK(!input.figures);
+  if (input.figures) throw UsageError("RigInput::figures must be null where a RigDocument keeps the input");
   setImage(std::move(input.image));
+  input_.file = std::move(input.file);
   setMask(std::move(input.mask));
   if (input.model || input_.model) note(RigPart::kModel);
   input_.model = std::move(input.model);
@@ -42,8 +43,15 @@ void RigDocument::setInput(RigInput input) {
 
 void RigDocument::setImage(Image image) {
   if (same(image, input_.image)) return;
+  const bool other = !input_.image.empty();
   note(RigPart::kImage);
   input_.image = std::move(image);
+  if (!other) return;
+  input_.file.clear();
+  setMask(std::nullopt);
+  setLayers(std::nullopt);
+  setSkeleton(std::nullopt);
+  input_.placed.clear();
 }
 
 void RigDocument::setMask(std::optional<Plane8> mask) {
@@ -66,6 +74,7 @@ void RigDocument::setSkeleton(std::optional<Skeleton> skeleton, int turned_deg) 
 }
 
 void RigDocument::moveJoint(const std::string& name, const Eigen::Vector2d& image_px) {
+  checkJointPlace(name, image_px, "RigDocument::moveJoint()");
   Skeleton skeleton;
   int turned_deg = input_.turned_deg;
   if (input_.skeleton && input_.placed.empty()) {

@@ -28,14 +28,18 @@ class RigDocument {
   const RigOptions& options() const { return options_; }
 
   void setOptions(RigOptions options);
-  // All of it at once. `input.figures` must be null.
+  // All of it at once: what is not in it is forgotten. Throws UsageError unless `input.figures` is null.
   void setInput(RigInput input);
-  // One by one; what they mean is said at RigInput. A mask is of the image's size.
+  // One by one; what they mean is said at RigInput. Another image than the one before forgets what was made
+  // for that: the mask, the layers, joints that were moved, placed or given, its file's name. Set those after
+  // it, or all by setInput(). A mask of another size than the image is refused by rigged(), as a UsageError.
   void setImage(Image image);
   void setMask(std::optional<Plane8> mask);
   void setLayers(std::optional<NamedPicture> layers);
   void setSkeleton(std::optional<Skeleton> skeleton, int turned_deg = 0);
-  // A joint of rigged(), to a place in image px. The other joints stay where they are.
+  // A joint of rigged(), to a place in image px. The other joints stay where they are. Throws UsageError if
+  // there is none of that name, or the place is not finite or farther than kFarthestJoint_px; and as rigged()
+  // does. To undo it, setInput() a copy of input() from before.
   void moveJoint(const std::string& name, const Eigen::Vector2d& image_px);
 
   // Up to date: runs the stages that a change since the last call has touched; RiggedDrawing::times has

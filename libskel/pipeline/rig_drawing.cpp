@@ -6,6 +6,7 @@
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/image/check_image.h"
 #include "libskel/image/read_image.h"
 #include "libskel/skeleton/skeleton_file.h"
 
@@ -42,7 +43,13 @@ RiggedDrawing rigDrawing(const std::string& path, const RigOptions& options) {
       const std::filesystem::path folder = std::filesystem::path(path).parent_path();
       input.image = readImage((folder / file.image_file).string());
       input.skeleton = file.skeleton;
-      if (file.mask) input.mask = readMask(source = (folder / file.mask->file).string());
+      if (file.mask) {
+        input.mask = readMask(source = (folder / file.mask->file).string());
+        if (input.mask->cols() != input.image.width || input.mask->rows() != input.image.height)
+          throw InputError(source, "is a mask of " + sizeInPx(input.mask->cols(), input.mask->rows()) +
+                                       " px, the image has " +
+                                       sizeInPx(input.image.width, input.image.height));
+      }
     } else {
       input.image = readImage(path);
     }

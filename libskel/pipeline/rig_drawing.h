@@ -18,8 +18,9 @@ const SkeletonTemplate& planOfSkeleton(std::string_view text, const std::string&
                                        const RigOptions& options);
 
 // From a picture, or from the .skeleton.json of one (with its mask, if it names one). encodeGlb() makes a
-// file of the result's character and clips. Throws InputError: cannot be read, no figure in it; nothing but
-// an Error leaves it.
+// file of the result's character and clips. Throws InputError: cannot be read, no figure in it (found() of
+// what comes back is true), a mask of another size; UsageError as rigCharacter() does; nothing but an Error
+// leaves it.
 RiggedDrawing rigDrawing(const std::string& path, const RigOptions& options = rigOptions());
 
 }  // namespace skel

@@ -8,9 +8,9 @@
 namespace skel {
 
 // The picture with the colours of the figure, and of what is close to it, as they would be on white paper in
-// even light: divided by the colour that the paper has around it, and what is printed on the paper taken off. Empty where nothing is to be
-// taken off: the picture has alpha, its ground is no paper, or a white and even one. `silhouette` must be
-// found and belong to `image`.
+// even light: divided by the colour that the paper has around it, and what is printed on the paper taken off.
+// Empty where nothing is to be taken off: the picture has alpha, its ground is no paper, or a white and even
+// one. `silhouette` must be found and belong to `image`.
 Image evenLight(const Image& image, const Silhouette& silhouette);
 
 }  // namespace skel

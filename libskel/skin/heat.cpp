@@ -115,9 +115,9 @@ JointWeights heatWeights(const SkinInput& input) {
   Factor solver;
   solver.analyzePattern(system);
   if (solver.work() > kMostWork)
-    throw InputError(
-        input.options.file,
-        "has triangles that are no surface over which heat could spread in time; take --skin geodesic");
+    throw InputError(input.options.file,
+                     "has triangles that are no surface over which heat could spread in time; take the skin "
+                     "method geodesic (--skin)");
   solver.factorize(system);
   JointWeights weights = JointWeights::Zero(mesh.vertices.rows(), joints);
   if (solver.info() != Eigen::Success) return weights;

@@ -95,9 +95,10 @@ JointWeights bodyWeights(const TriangleMesh& mesh, const Skeleton& skeleton, con
                          const Method& way, const SkinOptions& options) {
   JointWeights weights = way.weights({mesh, skeleton, bones, options});
   if (!(weights.maxCoeff() > 0))
-    throw InputError(options.file, "lies so far from all bones, for its size, that none reaches it by " +
-                                       std::string(way.name) +
-                                       "; look at the skeleton's unit, or take --skin geodesic");
+    throw InputError(options.file,
+                     "lies so far from all bones, for its size, that none reaches it by " +
+                         std::string(way.name) +
+                         "; look at the skeleton's unit, or take the skin method geodesic (--skin)");
   fillFromNearest(mesh.vertices, weights);
   // What is known of bends is known of drawings, whose limbs bend in their plane or out of it.
   const bool flat = nearlyFlat(bones);
@@ -207,7 +208,7 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
     throw UsageError("weights by " + std::string(way.name) + " are for at most " +
                      std::to_string(way.most_vertices) + " vertices, the model has " +
                      std::to_string(mesh.vertices.rows()) +
-                     "; take --skin geodesic, whose time grows as their number");
+                     "; take the skin method geodesic (--skin), whose time grows as their number");
   const std::vector<Bone> bones = skeletonBones(skeleton);
   return packWeights(joint_layers.empty() ? meshWeights(mesh, skeleton, bones, way, options)
                                           : layerWeights(mesh, skeleton, bones, way, options, joint_layers));

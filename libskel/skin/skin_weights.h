@@ -37,8 +37,8 @@ struct SkinOptions {
   int max_influences = 4;  // 1…4
   // How often each vertex moves half way to the mean of its neighbours, at last; 0…1000.
   int smoothing = 0;
-  std::shared_ptr<const SkinRegions> regions;  // of kIdwRegion; null: defaultRegions()
-  std::string file = "the model";              // that the mesh came from, as errors name it
+  std::shared_ptr<const SkinRegions> regions = {};  // of kIdwRegion; null: defaultRegions()
+  std::string file = "the model";                   // that the mesh came from, as errors name it
 };
 
 // Vertices times joints: each pair has a few numbers while weights are computed.

@@ -136,8 +136,9 @@ JointWeights volumetricWeights(const SkinInput& input) {
   BoneDistances distances2 = BoneDistances::Constant(mesh.vertices.rows(), count, kFar);  // m²
   for (int b = 0; b < count; ++b) {
     if (ways.steps() > kMostSteps)
-      throw InputError(input.options.file, "has too many bones (" + std::to_string(count) +
-                                               ") that lie close together; take fewer joints, or --skin idw");
+      throw InputError(input.options.file,
+                       "has too many bones (" + std::to_string(count) +
+                           ") that lie close together; take fewer joints, or the skin method idw (--skin)");
     // A way this much longer than the nearest bone's brings no weight, nor does any that goes on from it.
     ways.spread(seeds[static_cast<std::size_t>(b)], [&](int cube, float length) {
       return length <= kDetour * (1.6f * nearest[static_cast<std::size_t>(cube)] + 3 * cell_m);

@@ -1,9 +1,11 @@
 #include "libskel/animation/retarget.h"
 
+#include <limits>
 #include <numbers>
 
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/sample_pose.h"
+#include "libskel/core/error.h"
 #include "libskel/core/segment.h"
 #include "tests/support/catch.h"
 #include "tests/support/figure.h"
@@ -183,6 +185,27 @@ TEST_CASE("a clip that puts the pelvis, the body, a hip or an unknown joint on t
   clip.contacts = {{"left_foot", 0, .5f}};
   CHECK(fits(clip, skeleton));
   CHECK_NOTHROW(retargetToRest(clip, skeleton));
+}
+
+TEST_CASE("a clip, a skeleton or a rate that is none is refused, not an abort") {
+  Clip clip = clipNamed(builtinClips(), "wave");
+  const Skeleton skeleton = figureSkeleton();
+  for (const float rate_hz :
+       {std::numeric_limits<float>::quiet_NaN(), 0.f, -30.f, std::numeric_limits<float>::infinity()})
+    CHECK_THROWS_AS(retargetToRest(clip, skeleton, {.rate_hz = rate_hz}), UsageError);
+  CHECK_THROWS_WITH(retargetToRest(clip, skeleton, {.rate_hz = 1e9f}),
+                    Catch::Matchers::Contains("is too long"));
+  CHECK_THROWS_AS(retargetToRest(clip, Skeleton()), UsageError);
+  Skeleton ring = skeleton;
+  ring.joints[3].parent = 12;
+  CHECK_THROWS_AS(retargetToRest(clip, ring), UsageError);
+  clip.tracks[1].rotations.pop_back();
+  CHECK_THROWS_WITH(retargetToRest(clip, skeleton),
+                    Catch::Matchers::Contains("the clip \"wave\": tracks[1].rotations has"));
+  clip = clipNamed(builtinClips(), "wave");
+  clip.tracks[0].times_s.back() = 1e9f;
+  CHECK_THROWS_WITH(retargetToRest(clip, skeleton),
+                    "the clip \"wave\" lasts more than an hour; cut it into parts");
 }
 
 TEST_CASE("a clip of too many poses is refused before they are made") {

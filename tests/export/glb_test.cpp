@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
+#include "libskel/core/error.h"
 #include "libskel/export/bone_ends.h"
 #include "libskel/export/joint_names.h"
 #include "libskel/export/write_character.h"
@@ -541,4 +543,43 @@ TEST_CASE("the name of a drawing need not be UTF-8") {
   options.name = "caf\xe9";
   const Glb glb = parseGlb(encodeGlb(figure(), {}, options));
   CHECK(glb.document["scenes"][0]["name"] == "caf\xef\xbf\xbd");
+}
+
+TEST_CASE("what is no character, or no clip of it, is refused, not an abort") {
+  const RiggedCharacter good = figure();
+  const auto said = [](const RiggedCharacter& character, const std::vector<Clip>& clips = {}) {
+    try {
+      encodeGlb(character, clips);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no UsageError");
+  };
+  using Catch::Matchers::Contains;
+  CHECK_THAT(said({}), Contains("has no mesh: no figure was found"));
+  RiggedCharacter joints_alone;
+  joints_alone.skeleton = good.skeleton;
+  CHECK_THAT(said(joints_alone), Contains("has no mesh"));
+  RiggedCharacter character = good;
+  character.skeleton.joints.clear();
+  CHECK_THAT(said(character), Contains("RiggedCharacter::skeleton has no joints"));
+  character = good;
+  character.weights.joints.conservativeResize(5, 4);
+  CHECK_THAT(said(character), Contains("RiggedCharacter::weights has 5 rows of joints"));
+  character = good;
+  character.weights.joints(0, 0) = 99;
+  CHECK_THAT(said(character), Contains("RiggedCharacter::weights.joints"));
+  character = good;
+  character.mesh.vertices(3, 1) = std::numeric_limits<float>::quiet_NaN();
+  CHECK_THAT(said(character), Contains("RiggedCharacter::mesh.vertices"));
+  character = good;
+  character.mesh.uv.setZero(2, 2);
+  CHECK_THAT(said(character), Contains("RiggedCharacter::mesh.uv has 2 rows"));
+
+  Clip clip = retargetToRest(clipNamed(builtinClips(), "wave"), good.skeleton);
+  clip.tracks[2].joint = "wing";
+  CHECK_THAT(said(good, {clip}), Contains("the clip \"wave\" moves \"wing\", which this skeleton lacks"));
+  clip = retargetToRest(clipNamed(builtinClips(), "wave"), good.skeleton);
+  clip.tracks[0].times_s.push_back(9);
+  CHECK_THAT(said(good, {clip}), Contains("the clip \"wave\": tracks[0].rotations has"));
 }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <set>
 
 #include "libskel/animation/clip_library.h"
 #include "libskel/core/error.h"
 #include "libskel/core/rng.h"
 #include "libskel/image/read_image.h"
+#include "libskel/layers/layer_map.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "tests/support/catch.h"
 
@@ -258,4 +260,74 @@ TEST_CASE("a document that cannot be rigged says why, and goes on when it can") 
   CHECK_THROWS_AS(document.moveJoint("left_hand", {1, 1}), UsageError);
   document.setMask(std::nullopt);
   CHECK(document.rigged()->found());
+}
+
+TEST_CASE("a joint cannot be moved to where no joint can be, and the document stays as it is") {
+  RigDocument document(rigOptions("biped"));
+  document.setImage(drawingCalled("characters/cap_boy.png"));
+  const auto rigged = document.rigged();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const Eigen::Vector2d& there :
+       {Eigen::Vector2d(nan, 1), Eigen::Vector2d(1, std::numeric_limits<double>::infinity()),
+        Eigen::Vector2d(1e30, 1)}) {
+    CHECK_THROWS_WITH(document.moveJoint("left_hand", there),
+                      "RigDocument::moveJoint(): the place of \"left_hand\" must be finite numbers of at "
+                      "most 1e6 px");
+    CHECK(document.rigged() == rigged);
+  }
+  document.moveJoint("left_hand", {-500, 900});
+  CHECK(document.draft()->found());
+  CHECK(document.rigged()->found());
+}
+
+TEST_CASE("another drawing does not wear the joints, the mask and the layers of the one before") {
+  const Image boy = drawingCalled("characters/cap_boy.png"), alien = drawingCalled("characters/alien.png");
+  RigDocument document(rigOptions("biped")), fresh(rigOptions("biped"));
+  document.setImage(boy);
+  fresh.setImage(alien);
+  const auto first = document.rigged();
+  document.moveJoint("left_hand", {100, 100});
+  document.setMask(first->silhouette.mask);
+  document.setLayers(NamedPicture{layerPicture(first->layers, first->silhouette.mask), "limbs.png"});
+  document.setImage(alien);
+  CHECK_FALSE(document.input().skeleton);
+  CHECK_FALSE(document.input().mask);
+  CHECK_FALSE(document.input().layers);
+  CHECK(encodeGlb(document.draft()->character, {}) == encodeGlb(fresh.rigged()->character, {}));
+
+  // A smaller one under an old mask was an abort.
+  document.setMask(document.rigged()->silhouette.mask);
+  Image blank(300, 400);
+  blank.rgba.setConstant(255);
+  document.setImage(blank);
+  CHECK_FALSE(document.rigged()->found());
+
+  // The same is no other, and a new input brings its own.
+  document.setImage(boy);
+  document.moveJoint("left_hand", {100, 100});
+  const RigInput moved = document.input();
+  document.setImage(boy);
+  CHECK(document.input().skeleton);
+  document.setImage(alien);
+  document.setInput(moved);
+  REQUIRE(document.input().skeleton);
+  const Skeleton& skeleton = document.rigged()->recognition.skeleton;
+  CHECK(skeleton.joints[std::size_t(skeleton.index("left_hand"))].image == Eigen::Vector2d(100, 100));
+
+  // What is set before the first picture is meant for it.
+  RigDocument early(rigOptions("biped"));
+  early.setMask(first->silhouette.mask);
+  early.setImage(boy);
+  CHECK(early.input().mask);
+}
+
+TEST_CASE("a document's errors name its file, and a finder of figures is refused") {
+  RigDocument document(rigOptions("biped"));
+  RigInput input;
+  input.file = "hero.png";
+  document.setInput(input);
+  CHECK_THROWS_WITH(document.rigged(), "hero.png: has neither a picture nor a model");
+  FigureFinder figures{SilhouetteOptions()};
+  input.figures = &figures;
+  CHECK_THROWS_AS(document.setInput(input), UsageError);
 }

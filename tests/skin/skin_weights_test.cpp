@@ -378,7 +378,8 @@ TEST_CASE("heat refuses more vertices than it is quick for, and names what takes
   mesh.triangles << 0, 1, 2;
   CHECK_THROWS_WITH(
       computeSkinWeights(mesh, capsuleSkeleton({}), SkinMethod::kHeat, {}),
-      Catch::Matchers::Contains("at most 200000 vertices, the model has 200001; take --skin geodesic"));
+      Catch::Matchers::Contains(
+          "at most 200000 vertices, the model has 200001; take the skin method geodesic (--skin)"));
 }
 
 // It took hours: the factor of such a matrix is full.
@@ -393,7 +394,7 @@ TEST_CASE("heat refuses triangles that are no surface, by the file's name") {
   options.file = "knot.obj";
   CHECK_THROWS_WITH(computeSkinWeights(mesh, capsuleSkeleton({}), SkinMethod::kHeat, options),
                     Catch::Matchers::Contains("knot.obj: has triangles that are no surface") &&
-                        Catch::Matchers::Contains("take --skin geodesic"));
+                        Catch::Matchers::Contains("take the skin method geodesic (--skin)"));
 }
 
 // It was an abort.
