@@ -229,10 +229,10 @@ Plane8 madeSmaller(const Plane8& mask, int width, int height) {
   return small;
 }
 
-// Request: {bytes, file, width, height, ofWidth, ofHeight, skeleton, skeletonFile}, of a PNG file that belongs
-// to a picture of that size, which was made of one of that other size or is it, and, unless `skeleton` is
-// null, to the text of that skeleton file. A mask of either size is taken. Returns {mask: width·height bytes,
-// 255 on the figure} or {error}.
+// Request: {bytes, file, width, height, ofWidth, ofHeight, skeleton, skeletonFile}, of a PNG file that
+// belongs to a picture of that size, which was made of one of that other size or is it, and, unless
+// `skeleton` is null, to the text of that skeleton file. A mask of either size is taken. Returns {mask:
+// width·height bytes, 255 on the figure} or {error}.
 val maskOf(const val& request) {
   const auto file = request["file"].as<std::string>();
   return saying(file, [&] {
@@ -262,9 +262,10 @@ val maskOf(const val& request) {
 // Request: {file, width, height, rgba, mask, skeleton, skeletonFile, plan, figure, upright, draft}. `rgba`
 // (width·height·4 bytes) and `mask` are refused if they are shorter or longer than that. `mask` (width·height
 // bytes, 255 on the figure) and `skeleton` (the text of a skeleton file) may be null, `plan` empty: the one
-// that fits; `upright`: the figure is not turned. What is as it was in the last call is not made anew. With `draft`, joints that have moved since
-// then move in the model that is there, for the eye (RigDocument::draft()). Returns {skeleton, plan,
-// confidence, warnings, figures, mask, times in ms} or {error}.
+// that fits; `upright`: the figure is not turned. What is as it was in the last call is not made anew. With
+// `draft`, joints that have moved since then move in the model that is there, for the eye
+// (RigDocument::draft()). Returns {skeleton, plan, confidence, warnings, figures, mask, times in ms} or
+// {error}.
 val rig(const val& request) {
   const auto file = request["file"].as<std::string>();
   return saying(file, [&] {
