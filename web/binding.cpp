@@ -134,8 +134,9 @@ Character current;
 RigDocument document;  // what it was rigged from
 
 // `body_plan`: "": the one that the figure fits.
-RigOptions optionsFor(const std::string& body_plan, int figure) {
+RigOptions optionsFor(const std::string& body_plan, int figure, bool upright) {
   RigOptions options = rigOptions(body_plan.empty() ? "auto" : body_plan);
+  options.upright = upright;
   options.joint_nets = nets.joints;
   options.silhouette.page_net = nets.page;
   options.part_net = nets.parts;
@@ -194,6 +195,7 @@ val useNets(const val& request) {
     given.joints = std::make_shared<const JointNets>(
         std::vector<JointNets::File>{{"biped", given.files[2], "joint net of the biped"},
                                      {"quadruped", given.files[3], "joint net of the quadruped"}});
+    for (const std::string_view plan : given.joints->bodyPlans()) given.joints->of(plan);  // broken: said now
     nets = std::move(given);
     document = RigDocument();
     return val::object();
@@ -212,18 +214,38 @@ val decode(const val& bytes, const std::string& file) {
   });
 }
 
-// Request: {bytes, file, width, height, skeleton, skeletonFile}, of a PNG file that belongs to a picture of
-// that size and, unless `skeleton` is null, to the text of that skeleton file. Returns {mask: width·height
-// bytes, 255 on the figure} or {error}.
+// A mask as small as its drawing was made: on the figure is what is so by half at least.
+Plane8 madeSmaller(const Plane8& mask, int width, int height) {
+  const auto from = [](int i, Eigen::Index size, int count) { return i * std::int64_t{size} / count; };
+  Plane8 small(height, width);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto top = from(y, mask.rows(), height), left = from(x, mask.cols(), width);
+      const auto cell = mask.block(top, left, from(y + 1, mask.rows(), height) - top,
+                                   from(x + 1, mask.cols(), width) - left);
+      small(y, x) = 2 * (cell > 0).count() >= cell.size() ? 255 : 0;
+    }
+  }
+  return small;
+}
+
+// Request: {bytes, file, width, height, ofWidth, ofHeight, skeleton, skeletonFile}, of a PNG file that
+// belongs to a picture of that size, which was made of one of that other size or is it, and, unless
+// `skeleton` is null, to the text of that skeleton file. A mask of either size is taken. Returns {mask:
+// width·height bytes, 255 on the figure} or {error}.
 val maskOf(const val& request) {
   const auto file = request["file"].as<std::string>();
   return saying(file, [&] {
     const std::string bytes = bytesOf(request["bytes"]);
-    const Plane8 mask = decodeMask(bytes, file);
+    Plane8 mask = decodeMask(bytes, file);
     const int width = request["width"].as<int>(), height = request["height"].as<int>();
-    if (mask.cols() != width || mask.rows() != height)
-      throw InputError(file, "is a mask of " + sizeText(mask.cols(), mask.rows()) + " px, the image has " +
-                                 sizeText(width, height));
+    const int of_width = request["ofWidth"].as<int>(), of_height = request["ofHeight"].as<int>();
+    if (mask.cols() != width || mask.rows() != height) {
+      if (mask.cols() != of_width || mask.rows() != of_height)
+        throw InputError(file, "is a mask of " + sizeText(mask.cols(), mask.rows()) + " px, the image has " +
+                                   sizeText(of_width, of_height));
+      mask = madeSmaller(mask, width, height);
+    }
     if (!request["skeleton"].isNull()) {
       const auto name = request["skeletonFile"].as<std::string>();
       const SkeletonFile given = skeletonFileOf(request["skeleton"].as<std::string>(), name);
@@ -237,12 +259,13 @@ val maskOf(const val& request) {
   });
 }
 
-// Request: {file, width, height, rgba, mask, skeleton, skeletonFile, plan, figure, draft}. `rgba`
+// Request: {file, width, height, rgba, mask, skeleton, skeletonFile, plan, figure, upright, draft}. `rgba`
 // (width·height·4 bytes) and `mask` are refused if they are shorter or longer than that. `mask` (width·height
 // bytes, 255 on the figure) and `skeleton` (the text of a skeleton file) may be null, `plan` empty: the one
-// that fits. What is as it was in the last call is not made anew. With `draft`, joints that have moved since
-// then move in the model that is there, for the eye (RigDocument::draft()). Returns {skeleton, plan,
-// confidence, warnings, figures, mask, times in ms} or {error}.
+// that fits; `upright`: the figure is not turned. What is as it was in the last call is not made anew. With
+// `draft`, joints that have moved since then move in the model that is there, for the eye
+// (RigDocument::draft()). Returns {skeleton, plan, confidence, warnings, figures, mask, times in ms} or
+// {error}.
 val rig(const val& request) {
   const auto file = request["file"].as<std::string>();
   return saying(file, [&] {
@@ -268,9 +291,10 @@ val rig(const val& request) {
       figure = given->figure.number;
     }
     // A skeleton says itself of which body plan it is.
-    RigOptions options = optionsFor(given ? "" : request["plan"].as<std::string>(), figure);
+    const bool upright = request["upright"].as<bool>();
+    RigOptions options = optionsFor(given ? "" : request["plan"].as<std::string>(), figure, upright);
     if (given && planNamed(given->skeleton.template_name, options).name != given->skeleton.template_name)
-      options = optionsFor(given->skeleton.template_name, figure);
+      options = optionsFor(given->skeleton.template_name, figure, upright);
     document.setOptions(std::move(options));
     document.setInput(std::move(input));
     made.drawing = request["draft"].as<bool>() ? document.draft() : document.rigged();

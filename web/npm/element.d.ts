@@ -2,13 +2,17 @@ import type { Character, Drawing, Plan, RigOptions } from './index.js';
 
 export interface SkelDrawingEventMap extends Omit<HTMLElementEventMap, 'error' | 'rigged'> {
   rigged: CustomEvent<Character>;
-  /** Of a drawing that cannot be shown, or a clip that it does not have. A SkelError where what was given is wrong. */
+  /**
+   * Of a drawing that cannot be shown, a clip that it does not have, or a WebGL context that the browser took away and has
+   * not given back (then it stands still until it is given back, or another drawing is shown). A SkelError where what
+   * was given is wrong.
+   */
   error: CustomEvent<Error>;
 }
 
-/** `<skel-drawing src="hero.png" clip="dance" plan="auto">`. Needs three.js. What is wrong is shown in it, too: `::part(error)`. */
+/** `<skel-drawing src="hero.png" clip="dance" plan="auto">`. Needs three.js. In node it can be imported, and nothing else. What is wrong is shown in it, too: `::part(error)`. */
 export class SkelDrawing extends HTMLElement {
-  /** As the attribute; '' is none. */
+  /** As the attribute; '' is none, and takes away the one that is shown. */
   src: string;
   plan: Plan | 'auto';
   /** The clip that plays; '' is the rest pose. */

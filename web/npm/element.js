@@ -1,8 +1,8 @@
 // <skel-drawing src="hero.png" clip="dance" plan="auto">: a drawing that moves. Turned by mouse, finger and arrow keys;
-// says `rigged` (detail: the character) or `error` (detail: what is wrong, which it shows as well). One worker does the
-// work of all of them.
+// says `rigged` (detail: the character) or `error` (detail: what is wrong, which it shows as well). One worker and one
+// WebGL context do the work of all of them.
 import { SkelError } from '../src/skel.js';
-import { ModelStage } from '../src/stage3d.js';
+import { DrawingStage } from './stage.js';
 import { startWorker } from './worker.js';
 
 const kShadow = `<style>
@@ -13,14 +13,33 @@ p:empty { display: none; }
 </style><canvas tabindex="0" role="img" part="canvas"></canvas><p role="status" part="error"></p>`;
 let worker;
 
-export class SkelDrawing extends HTMLElement {
+// On a server there are no elements: there it is imported, and nothing else.
+export class SkelDrawing extends (globalThis.HTMLElement ?? class {}) {
   static observedAttributes = ['src', 'clip', 'plan'];
   #stage;
   #complaint;
+  #unable; // why nothing can be shown here
   #asked = 0; // so many drawings; the last one counts
 
   connectedCallback() {
-    if (this.shadowRoot) return;
+    const first = !this.shadowRoot || this.#unable;
+    if (!this.shadowRoot) this.#build();
+    this.#unable = undefined;
+    try {
+      this.#stage.start();
+    } catch (error) {
+      this.#unable = error;
+      this.#complain(error);
+      return;
+    }
+    if (first) this.#showSource();
+  }
+
+  disconnectedCallback() {
+    this.#stage.stop();
+  }
+
+  #build() {
     const root = this.attachShadow({ mode: 'open' });
     root.innerHTML = kShadow;
     this.#complaint = root.querySelector('p');
@@ -29,19 +48,19 @@ export class SkelDrawing extends HTMLElement {
     canvas.addEventListener('keydown', ({ key }) => {
       if (key === 'ArrowLeft' || key === 'ArrowRight') this.#stage?.turn(key === 'ArrowLeft' ? -0.2 : 0.2);
     });
-    try {
-      this.#stage = new ModelStage(canvas);
-    } catch (error) {
-      this.#complain(error);
-      return;
-    }
-    this.#showSource();
+    this.#stage = new DrawingStage(canvas);
+    let complained;
+    this.#stage.onlost = (error) => this.#complain(complained = error);
+    this.#stage.onrestored = () => {
+      if (complained && this.#complaint.textContent === complained.message) this.#complaint.textContent = '';
+    };
   }
 
   attributeChangedCallback(attribute) {
     if (!this.#stage) return;
     if (attribute === 'clip') this.#play();
-    else this.#showSource();
+    else if (this.src) this.#showSource();
+    else if (attribute === 'src') this.#clear();
   }
 
   get src() { return this.getAttribute('src') ?? ''; }
@@ -62,7 +81,7 @@ export class SkelDrawing extends HTMLElement {
     const { src } = this;
     if (!src) return;
     this.#show(async () => {
-      const answer = await fetch(src);
+      const answer = await fetch(src).catch(({ message }) => { throw new SkelError(`${src}: cannot be loaded (${message})`); });
       if (!answer.ok) throw new SkelError(`${src}: ${answer.status} ${answer.statusText}`.trim());
       return [await answer.blob(), { name: src.split(/[?#]/)[0].split('/').pop() || 'drawing.png' }];
     }).catch(() => {}); // it has been said
@@ -72,7 +91,8 @@ export class SkelDrawing extends HTMLElement {
   async #show(take) {
     const mine = ++this.#asked;
     try {
-      if (!this.#stage) throw new SkelError('<skel-drawing>: is not in a page, or has no WebGL there');
+      if (!this.#stage) throw new SkelError('<skel-drawing>: has not been in a page yet');
+      if (this.#unable) throw this.#unable;
       const [drawing, options] = await take();
       worker ??= startWorker();
       const character = await worker.rig(drawing, { plan: this.plan, ...options });
@@ -89,6 +109,12 @@ export class SkelDrawing extends HTMLElement {
     }
   }
 
+  #clear() {
+    ++this.#asked;
+    this.#stage.clear();
+    this.#complaint.textContent = '';
+  }
+
   #play() {
     const { clip, clips } = this;
     this.#stage.play(clip);
@@ -102,4 +128,4 @@ export class SkelDrawing extends HTMLElement {
   }
 }
 
-customElements.define('skel-drawing', SkelDrawing);
+if (globalThis.customElements && !customElements.get('skel-drawing')) customElements.define('skel-drawing', SkelDrawing);

@@ -25,7 +25,9 @@ export interface RigOptions {
   plan?: Plan | 'auto';
   /** Which figure of the drawing, 1 is the largest (the default). */
   figure?: number;
-  /** A PNG file of the drawing's size, the figure white, instead of looking for it. */
+  /** Whether the figure is not turned: no other orientation is tried. */
+  upright?: boolean;
+  /** A PNG file of the drawing's size (or of that of the character, where it was `scaled`), the figure white, instead of looking for it. */
   mask?: Uint8Array | ArrayBuffer | Blob | null;
   /** A skeleton file, as it was returned and then mended: rigs with these joints. */
   skeleton?: SkeletonFile | string | null;
@@ -79,5 +81,8 @@ export interface Character {
   texture: Bytes;
 }
 
-/** Rigs a drawing. The core and its nets (8 MB) are loaded by the first call. Rejects with a SkelError where what was given is wrong. */
+/**
+ * Rigs a drawing. The core and its nets (8 MB) are loaded by the first call. What is given is copied at once: it may be
+ * changed while the promise is waited for. Rejects with a SkelError where what was given is wrong.
+ */
 export function rig(drawing: Drawing, options?: RigOptions): Promise<Character>;

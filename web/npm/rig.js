@@ -1,6 +1,6 @@
 // What node and browsers have in common: `load(file)` gives the bytes of a file of this package, `createSkel` is the core.
 import { Skel, SkelError } from '../src/skel.js';
-import { bytesOf, checkedGiven } from './given.js';
+import { bytesOf, checkedGiven, copied } from './given.js';
 
 const kNets = { page: 'page_net', parts: 'part_net', biped: 'joint_net', quadruped: 'quadruped_joint_net' };
 
@@ -13,9 +13,13 @@ export function rigBy(createSkel, load) {
 
   return async function rig(drawing, options) {
     const given = checkedGiven(drawing, options);
+    given.drawing = copied(given.drawing);
+    given.mask = copied(given.mask);
     const mine = started ??= start();
     try {
-      return await rigged(await mine, given);
+      const skel = await mine;
+      await turn();
+      return await rigged(skel, given);
     } catch (error) {
       // A download that failed may succeed the next time; a core that has crashed is started anew, once.
       if (!(error instanceof SkelError) && started === mine) started = undefined;
@@ -24,13 +28,27 @@ export function rigBy(createSkel, load) {
   };
 }
 
-async function rigged(skel, { drawing, name, plan, figure, mask, skeleton }) {
+// Lets whatever else waits in this thread have its turn: one call after the other would leave it none.
+const turn = () => new Promise((resolve) => {
+  if (globalThis.setImmediate) {
+    setImmediate(resolve);
+    return;
+  }
+  const { port1, port2 } = new MessageChannel(); // sooner than setTimeout(), which pages in the background put off
+  port1.onmessage = () => {
+    port1.close();
+    resolve();
+  };
+  port2.postMessage(null);
+});
+
+async function rigged(skel, { drawing, name, plan, figure, upright, mask, skeleton }) {
   const picture = drawing.rgba ? { name, width: drawing.width, height: drawing.height, rgba: drawing.rgba, scaled: false } :
     await skel.open(await bytesOf(drawing, name), name);
   const maskBytes = mask && await bytesOf(mask, 'the mask');
   // From here on nothing waits: the core holds one character at a time.
   const found = skel.rig(picture, {
-    mask: maskBytes && skel.readMask(picture, { bytes: maskBytes, file: 'the mask' }), plan: plan === 'auto' ? '' : plan, figure: figure ?? 1,
+    mask: maskBytes && skel.readMask(picture, { bytes: maskBytes, file: 'the mask' }), plan: plan === 'auto' ? '' : plan, figure: figure ?? 1, upright,
     skeleton, skeletonFile: skeleton === null ? '' : 'the skeleton',
   });
   const file = JSON.parse(found.skeleton);

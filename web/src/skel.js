@@ -7,8 +7,12 @@ export class SkelError extends Error {
   name = 'SkelError';
 }
 
-// Nobody here types a command line: its options by the names that they have in rig() and on the page.
-const withoutDashes = (text) => text.replace(/--template (\w+)/g, 'plan "$1"').replace(/--template\b/g, 'plan').replace(/--figure\b/g, 'figure');
+// Nobody here types a command line: its options by the names that they have in rig() and on the page, without what is
+// mended in windows of the tools.
+const kFormats = 'PNG, JPEG, WebP, BMP, TIFF or GIF'; // of the tools
+const withoutDashes = (text) => text.replace(/--template (\w+)/g, 'plan "$1"').replace(/--template\b/g, 'plan').replace(/--(figure|upright)\b/g, '$1')
+  .replace(/leave it out by --alpha [\d.]+/g, 'rub it out').replace(/ \(skel-label [^)]*\)/g, '')
+  .replace(`(${kFormats})`, canBrowse() ? '(PNG, and what the browser shows)' : '(PNG; others as { width, height, rgba })');
 
 function checked(said) {
   if (said.error) throw new SkelError(withoutDashes(said.error));
@@ -21,9 +25,12 @@ function pngPixels(bytes) {
   return header.getUint32(16) * header.getUint32(20);
 }
 
+const canBrowse = () => Boolean(globalThis.createImageBitmap && globalThis.OffscreenCanvas);
+
 // What the browser knows and the core does not: JPEG, WebP, GIF, BMP; and large pictures. Null where it does not either.
+// `of`: the size that the picture has in its file.
 async function browserDecode(bytes) {
-  if (!globalThis.createImageBitmap || !globalThis.OffscreenCanvas) return null;
+  if (!canBrowse()) return null;
   let bitmap;
   try {
     bitmap = await createImageBitmap(new Blob([bytes]), {
@@ -37,8 +44,9 @@ async function browserDecode(bytes) {
   const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
   context.imageSmoothingQuality = 'high';
   context.drawImage(bitmap, 0, 0, width, height);
+  const of = { width: bitmap.width, height: bitmap.height };
   bitmap.close();
-  return { width, height, rgba: new Uint8Array(context.getImageData(0, 0, width, height).data.buffer), scaled: shrink < 1 };
+  return { width, height, of, rgba: new Uint8Array(context.getImageData(0, 0, width, height).data.buffer), scaled: shrink < 1 };
 }
 
 export class Skel {
@@ -47,13 +55,15 @@ export class Skel {
   // `createSkel`: what emcc made; `wasm`: the bytes of skel.wasm; `nets`: those of {page, parts, biped, quadruped}.
   static async start(createSkel, wasm, nets) {
     const skel = new Skel();
-    skel.#core = await createSkel({ wasmBinary: wasm });
+    let started = false; // until then the error says all that there is to say
+    skel.#core = await createSkel({ wasmBinary: wasm, printErr: (line) => started && console.error(line) });
+    started = true;
     const { error } = skel.#core.useNets(nets);
     if (error) throw new Error(error); // nothing that was given
     return skel;
   }
 
-  // {name, width, height, rgba, scaled}. The size of what is not PNG is known only when it is there; the ending goes
+  // {name, width, height, of, rgba, scaled}. The size of what is not PNG is known only when it is there; the ending goes
   // where pixels are no longer the file's.
   async open(bytes, name) {
     const small = isPng(bytes) && pngPixels(bytes) <= kMostPixels;
@@ -61,14 +71,17 @@ export class Skel {
     return { ...picture, name: picture.scaled ? name.replace(/\.[^.]*$/, '') + '.png' : name };
   }
 
-  readMask({ width, height }, request) {
-    return checked(this.#core.readMask({ skeleton: null, skeletonFile: '', ...request, width, height })).mask;
+  // Of a picture that was made smaller, of the size that it had or has.
+  readMask({ width, height, of = { width, height } }, request) {
+    return checked(this.#core.readMask({
+      skeleton: null, skeletonFile: '', ...request, width, height, ofWidth: of.width, ofHeight: of.height,
+    })).mask;
   }
 
   // What these calls return is that of the last rig(). In the skeleton, a file of the tools, warnings stay as they say them.
   rig({ name, width, height, rgba }, request) {
     const found = checked(this.#core.rig({
-      mask: null, skeleton: null, skeletonFile: '', plan: '', figure: 1, draft: false, ...request, file: name, width, height, rgba,
+      mask: null, skeleton: null, skeletonFile: '', plan: '', figure: 1, upright: false, draft: false, ...request, file: name, width, height, rgba,
     }));
     return { ...found, warnings: found.warnings.map(withoutDashes) };
   }

@@ -10,6 +10,7 @@ import { extname, join } from 'node:path';
 import { promisify } from 'node:util';
 import { build } from 'esbuild';
 import { chromium } from 'playwright-core';
+import { testElements, testLargeMasks } from './npm_elements.mjs';
 
 const [out, infer] = process.argv.slice(2);
 const root = new URL('../..', import.meta.url).pathname, modules = `${root}/web/node_modules`;
@@ -67,6 +68,11 @@ assert.deepEqual((await rig(drawing, { name })).glb, character.glb);
 await inProject('node', 'same.mjs');
 await cp(`${root}/web/test/npm_given.mjs`, join(project, 'given.mjs'));
 await inProject('node', 'given.mjs');
+await cp(`${root}/web/test/npm_cut.mjs`, join(project, 'cut.mjs'));
+for (const [file, sentence] of [['nets/joint_net.bin', 'joint net of the biped: '], ['nets/page_net.bin', 'page net: '], ['skel.wasm', '']])
+  assert.equal((await inProject('node', 'cut.mjs', file, sentence)).stderr, '', file);
+// A server imports the element with the pages that it writes.
+await inProject('node', '--input-type=module', '-e', "import { SkelDrawing } from 'skel/element'; if (typeof SkelDrawing !== 'function') process.exit(1);");
 
 // In TypeScript: the example, those of the documentation, and what must not compile.
 await symlink(`${modules}/@types`, join(project, 'node_modules/@types'));
@@ -96,18 +102,29 @@ for (const compiler of ['typescript', 'typescript-5.6'])
 
 // Bundled, as docs/javascript.md says: what the bundle loads lies beside it.
 const bundled = join(project, 'bundled');
-await writeFile(join(project, 'app.mjs'), "import { rig } from 'skel';\nimport 'skel/element';\nglobalThis.rig = rig;\n");
+await writeFile(join(project, 'app.mjs'), "import { rig } from 'skel';\nimport 'skel/element';\nglobalThis.rig = rig;\ntry { globalThis.evaluates = Boolean(Function('return 1')()); } catch { globalThis.evaluates = false; }\n");
 await build({ entryPoints: [join(project, 'app.mjs')], bundle: true, format: 'esm', outfile: join(bundled, 'app.js') });
 for (const file of await readdir(join(project, 'node_modules/skel')))
   if (/^(nets|skel\.wasm|worker-thread\.js|chunk-.*\.js)$/.test(file)) await cp(join(project, 'node_modules/skel', file), join(bundled, file), { recursive: true });
 await writeFile(join(bundled, 'index.html'), '<!DOCTYPE html><script type="module" src="app.js"></script><skel-drawing src="../hero.png" clip="dance"></skel-drawing>');
 
+// By the import map of the README.
+const [map] = (await readFile(`${root}/web/npm/README.md`, 'utf8')).match(/<script type="importmap">.*?<\/script>/s);
+await writeFile(join(project, 'mapped.html'), `<!DOCTYPE html>${map}<script type="module">
+import { SkelError } from 'skel';
+import { SkelError as theirs, startWorker } from 'skel/worker';
+import 'skel/element';
+if (SkelError === theirs && startWorker && customElements.get('skel-drawing')) document.body.dataset.ready = '';
+</script>`);
+
 // In a browser.
 const kTypes = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm', '.png': 'image/png' };
+const kPolicy = "script-src 'self' 'wasm-unsafe-eval'"; // of the bundle's page: no more is needed
 const server = createServer(async ({ url }, answer) => {
   try {
-    const bytes = await readFile(join(project, new URL(url, 'http://x').pathname));
-    answer.writeHead(200, { 'Content-Type': kTypes[extname(url)] ?? 'application/octet-stream' }).end(bytes);
+    const path = new URL(url, 'http://x').pathname, bytes = await readFile(join(project, path));
+    const type = { 'Content-Type': kTypes[extname(path)] ?? 'application/octet-stream' };
+    answer.writeHead(200, path.startsWith('/bundled/') ? { ...type, 'Content-Security-Policy': kPolicy } : type).end(bytes);
   } catch {
     answer.writeHead(404).end();
   }
@@ -141,6 +158,10 @@ try {
   assert.deepEqual(scene.problems, []);
   await scene.close();
 
+  const mapped = await open('mapped.html');
+  await mapped.waitForSelector('body[data-ready]', { state: 'attached' });
+  await mapped.close();
+
   const page = await open('element.html');
   await page.waitForFunction(() => document.querySelector('skel-drawing').clips?.includes('dance'));
   assert.ok(await moves(page));
@@ -168,7 +189,7 @@ try {
   assert.match(await complaint("element.show(new Blob(['x']), { name: 'x.png' }).catch(() => {});"), /^SkelError: x\.png: is not a picture/);
   assert.match(await shown(), /^x\.png: is not a picture/);
   assert.match(await page.evaluate(() => document.querySelector('skel-drawing').show('x').catch(String)), /^SkelError: the drawing: is the text "x"/);
-  assert.match(await page.evaluate(() => document.createElement('skel-drawing').show(new Blob(['x'])).catch(String)), /^SkelError: <skel-drawing>: /);
+  assert.match(await page.evaluate(() => document.createElement('skel-drawing').show(new Blob(['x'])).catch(String)), /^SkelError: <skel-drawing>: has not been in a page/);
   assert.match(await complaint("element.src = 'none.png';"), /^SkelError: none\.png: 404/);
   assert.match(await complaint("element.clip = 'fly';"), /^SkelError: clip: there is no "fly"; there are .*dance/);
   assert.match(await shown(), /"fly"/);
@@ -192,11 +213,16 @@ try {
   await page.evaluate(() => { document.querySelector('skel-drawing').clip = ''; });
   await page.waitForTimeout(300);
   assert.ok(!await moves(page));
+  await testLargeMasks(page);
+  await testElements(page, `${out}/shots`);
   assert.deepEqual(page.problems, []);
   await page.close();
 
   const bundle = await open('bundled/index.html');
-  await bundle.waitForFunction(() => document.querySelector('skel-drawing').clips?.includes('dance'));
+  await bundle.evaluate(async () => {
+    while (!document.querySelector('skel-drawing').clips?.includes('dance')) await new Promise((resolve) => setTimeout(resolve, 50));
+  });
+  assert.equal(await bundle.evaluate(() => globalThis.evaluates), false);
   assert.equal(await bundle.evaluate(async () => (await globalThis.rig(await (await fetch('../hero.png')).blob())).plan), 'biped');
   assert.deepEqual(bundle.problems, []);
 } finally {

@@ -28,13 +28,14 @@ const refused = [ // [what rig() is given, the sentence or how it starts]
   [[[1, 2]], 'the drawing: is of the type Array; give'],
   [[new Uint8Array(0)], 'drawing.png: is empty'],
   [[png.subarray(0, 5000)], 'drawing.png: is a broken PNG'],
-  [[new TextEncoder().encode('hello'), { name: 'hello.txt' }], 'hello.txt: is not a picture that can be read'],
+  [[new TextEncoder().encode('hello'), { name: 'hello.txt' }], 'hello.txt: is not a picture that can be read (PNG; others as { width, height, rgba })'],
+  [[new Uint8Array([0xff, 0xd8, 0xff, 0xe0, 0, 16]), { name: 'a.jpg' }], 'a.jpg: this build reads no JPEG; convert the picture to PNG'],
   [[new Response('none', { status: 404, statusText: 'Not Found' }), { name: 'a.png' }], 'a.png: the answer is 404 Not Found'],
   [[read, { name: 'a.png' }], 'a.png: cannot be read: '],
-  [[png, null], 'the options: are null; give an object with name, plan, figure, mask, skeleton'],
+  [[png, null], 'the options: are null; give an object with name, plan, figure, upright, mask, skeleton'],
   [[png, 'biped'], 'the options: are the text "biped"; give'],
   [[png, ['biped']], 'the options: are of the type Array; give'],
-  [[png, { pln: 'biped' }], 'pln: is no option; there are name, plan, figure, mask, skeleton'],
+  [[png, { pln: 'biped' }], 'pln: is no option; there are name, plan, figure, upright, mask, skeleton'],
   [[png, { name: 7 }], 'name: is the number 7; give the file\'s name'],
   [[png, { name: '' }], 'name: is the text ""; give'],
   [[png, { name: null }], 'name: is null; give'],
@@ -43,6 +44,9 @@ const refused = [ // [what rig() is given, the sentence or how it starts]
   [[png, { plan: '' }], 'plan: is the text ""; it must be'],
   ...[0, -1, 1.5, NaN, Infinity].map((figure) => [[png, { figure }], `figure: is the number ${figure}; it must be a whole number, 1 (the largest) or more`]),
   [[png, { figure: '1' }], 'figure: is the text "1"; it must be'],
+  [[png, { figure: 1e12 }], 'figure: is 1000000000000; no drawing shows so many figures'],
+  [[png, { upright: 'yes' }], 'upright: is the text "yes"; it must be true or false'],
+  [[png, { upright: 1 }], 'upright: is the number 1; it must be'],
   [[png, { figure: 9 }], 'drawing.png: there is no figure 9, only 1'],
   [[png, { mask: 'm.png' }], 'mask: is the text "m.png"; give the bytes'],
   [[png, { mask: 3 }], 'mask: is the number 3; give'],
@@ -80,17 +84,20 @@ for (const [given, sentence] of refused) {
 }
 assert.deepEqual(wrong, []);
 
-// Bytes that have gone by the time they are looked at are missing, too.
-const moved = pixels(600, 600, 1440000), asked = rig(moved, { name: 'p' });
-structuredClone(moved.rgba.buffer, { transfer: [moved.rgba.buffer] });
-await assert.rejects(asked, /^SkelError: p: rgba has 0 bytes, /);
-
 // What is right: the same bytes in each of their forms; options that are undefined are those that are left out.
 const same = async (drawing, options) => assert.deepEqual((await rig(drawing, options)).glb, hero.glb);
 await same(Buffer.from(png), { name: undefined, plan: undefined, figure: undefined, mask: null, skeleton: null });
 await same(png.buffer, {});
 await same(new Blob([png]));
 await same(new Response(png), Object.assign(Object.create(null), { figure: 1 }));
+// Whatever becomes of the memory after the call.
+for (const change of [(bytes) => bytes.fill(0), ({ buffer }) => structuredClone(buffer, { transfer: [buffer] })])
+  for (const given of [(bytes) => bytes, ({ buffer }) => buffer]) {
+    const mine = png.slice(), asked = same(given(mine));
+    change(mine);
+    await asked;
+  }
+
 // A picture with a grey square wherever one is asked for: [left, top, size].
 function squares(width, height, ...places) {
   const picture = pixels(width, height, 4 * width * height, Uint8ClampedArray);
@@ -101,6 +108,16 @@ function squares(width, height, ...places) {
   return picture;
 }
 assert.equal((await rig(squares(300, 300, [90, 60, 150]), { name: 'a square' })).width, 300);
+const moved = squares(300, 300, [90, 60, 150]), still = rig(moved, { name: 'a square' });
+moved.rgba.fill(255);
+assert.equal((await still).figures, 1);
+
+// One call after the other leaves what else waits its turn.
+let turns = 0;
+const timer = setInterval(() => ++turns);
+for (let i = 0; i < 4; ++i) await rig(png);
+clearInterval(timer);
+assert.ok(turns >= 3, `${turns} turns`);
 
 // Words of the command line are none of JavaScript's.
 const { warnings, figures } = await rig(squares(600, 300, [60, 40, 200], [400, 40, 120]), { name: 'two' });
@@ -108,13 +125,26 @@ assert.equal(figures, 2);
 assert.ok(warnings.some((warning) => warning.includes('choose another with figure')), warnings.join('\n'));
 assert.ok(!warnings.some((warning) => warning.includes('--')), warnings.join('\n'));
 
+// A drawing that is turned, by the name that the option has here.
+const createSkel = createRequire(import.meta.url)('./node_modules/skel/skel-core.cjs');
+const wasmBinary = await readFile('node_modules/skel/skel.wasm');
+const core = await createSkel({ wasmBinary, printErr: () => {} });
+const { width, height, rgba } = core.decode(png, 'hero.png');
+const turned = pixels(height, width, 4 * width * height);
+for (let y = 0; y < height; ++y)
+  for (let x = 0; x < width; ++x)
+    turned.rgba.set(rgba.subarray(4 * (width * y + x), 4 * (width * y + x) + 4), 4 * (height * x + height - 1 - y));
+const lying = await rig(turned, { name: 'lying' });
+assert.ok(lying.warnings.includes('the figure is turned by 90 degrees (if it is not, use upright)'), lying.warnings.join('\n'));
+assert.ok(lying.warnings.every((warning) => !/--|skel-label/.test(warning)), lying.warnings.join('\n'));
+const standing = await rig(turned, { name: 'lying', upright: true });
+assert.ok(!standing.warnings.some((warning) => warning.includes('turned by')), standing.warnings.join('\n'));
+assert.deepEqual((await rig(png, { upright: true })).skeleton.joints, hero.skeleton.joints);
+
 // The workers of browsers are not node's.
 assert.throws(startWorker, (error) => error instanceof SkelError && error.message.includes('node:worker_threads'));
 
 // A core that fails leaves the process as it was, and so does the next one.
-const createSkel = createRequire(import.meta.url)('./node_modules/skel/skel-core.cjs');
-const wasmBinary = await readFile('node_modules/skel/skel.wasm');
-const core = await createSkel({ wasmBinary, printErr: () => {} });
 assert.throws(() => core.glb(), WebAssembly.RuntimeError); // of no character: it aborts
 assert.deepEqual(listeners(), before);
 let seen = 0;
