@@ -90,7 +90,8 @@ async function show(found, keep) {
   drawing.showSkeleton(JSON.parse(found.skeleton));
   $('confidence').value = found.confidence;
   $('confidence-text').textContent = say('confidence', Math.round(100 * found.confidence));
-  $('warnings').replaceChildren(...found.warnings.map((warning) => Object.assign(document.createElement('li'), { textContent: warning })));
+  $('warnings').replaceChildren(...found.warnings.map((warning) =>
+    Object.assign(document.createElement('li'), { textContent: warning.replace(/ ?\(if it is not, use upright\)/, '') })));
   $('figure-label').hidden = found.figures < 2;
   $('figure').replaceChildren(...Array.from({ length: found.figures }, (_, i) => new Option(i + 1, i + 1)));
   $('figure').value = JSON.parse(found.skeleton).figure.number;
