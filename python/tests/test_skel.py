@@ -338,6 +338,11 @@ class TestMany(unittest.TestCase):
         with self.assertRaises(skel.InputError):
             list(skel.rig_many(paths, clips=False))
 
+    def test_threads_may_be_the_first_to_need_numpy(self) -> None:
+        program = f"import skel; print(len(list(skel.rig_many([{str(BOY)!r}] * 4, jobs=4))))"
+        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.stdout, "4\n", done.stderr)
+
     def test_one_path_is_not_many(self) -> None:
         for one in ("hero.png", BOY):
             with self.assertRaises(skel.UsageError) as caught:
