@@ -118,8 +118,8 @@ PYBIND11_MODULE(_core, module) {
   using namespace skel::python;
   module.doc() = "The library of skel, bound to Python.";
   module.attr("__version__") = SKEL_VERSION;
-  // Now: where several threads are the first to need numpy, one that looks it up without the interpreter's lock
-  // and one that waits for it with the lock wait for each other.
+  // Now: where several threads are the first to need numpy, one that looks it up without the interpreter's
+  // lock and one that waits for it with the lock wait for each other.
   py::array();
   bindErrors(module);
   bindCharacters(module);
