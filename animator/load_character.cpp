@@ -156,20 +156,25 @@ std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource&
 
 Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source,
              ClipNotes* notes) {
-  for (const Clip& clip : file.clips)
+  return clipFor(name_or_path, file.character, file.clips, source, notes);
+}
+
+Clip clipFor(const std::string& name_or_path, const RiggedCharacter& character,
+             const std::vector<Clip>& own_clips, const ClipSource& source, ClipNotes* notes) {
+  for (const Clip& clip : own_clips)
     if (clip.name == name_or_path) return clip;
   const std::vector<Clip> library = clipLibrary(source);
-  std::vector<Clip> fitting = clipsFor(library, file.character);
-  if (hasClip(fitting, name_or_path)) return fitted(clipNamed(fitting, name_or_path), file.character, source);
+  std::vector<Clip> fitting = clipsFor(library, character);
+  if (hasClip(fitting, name_or_path)) return fitted(clipNamed(fitting, name_or_path), character, source);
   if (name_or_path.find_first_of("./") != std::string::npos)
-    return loadClipFor(name_or_path, file.character, source, notes);
+    return loadClipFor(name_or_path, character, source, notes);
   for (const Clip& clip : library)
     if (const std::string fault =
-            clip.name == name_or_path ? faultOf(clip, file.character.skeleton) : std::string();
+            clip.name == name_or_path ? faultOf(clip, character.skeleton) : std::string();
         !fault.empty())
       throw UsageError("the clip \"" + clip.name + "\" " + fault);
-  std::erase_if(fitting, [&](const Clip& clip) { return hasClip(file.clips, clip.name); });
-  fitting.insert(fitting.begin(), file.clips.begin(), file.clips.end());
+  std::erase_if(fitting, [&](const Clip& clip) { return hasClip(own_clips, clip.name); });
+  fitting.insert(fitting.begin(), own_clips.begin(), own_clips.end());
   return clipNamed(fitting, name_or_path);  // names those that there are
 }
 

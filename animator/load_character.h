@@ -66,5 +66,7 @@ std::vector<Clip> libraryFor(const RiggedCharacter& character, const ClipSource&
 // pose. Throws UsageError that lists the names there are, InputError.
 Clip clipFor(const std::string& name_or_path, const CharacterFile& file, const ClipSource& source = {},
              ClipNotes* notes = nullptr);
+Clip clipFor(const std::string& name_or_path, const RiggedCharacter& character,
+             const std::vector<Clip>& own_clips, const ClipSource& source = {}, ClipNotes* notes = nullptr);
 
 }  // namespace skel

@@ -12,10 +12,12 @@ namespace skel::python {
 namespace {
 
 // A character, and what was found out about the drawing that it comes from.
-struct Drawing : CharacterFile {
+struct Drawing : Character {
   RiggedDrawing found;  // without character and clips
   RigOptions options;
 };
+
+constexpr double kMostFigures = 1e6;
 
 template <class Value>
 Value chosen(const std::string& option, const std::string& name, const std::map<std::string, Value>& values) {
@@ -32,15 +34,26 @@ SkinMethod skinNamed(const std::string& name) {
   return chosen("skin", name, methods);
 }
 
+constexpr const char* kPictureOrArray = "the path of a file, or an array";
+
 Image pictureOf(const py::object& image) {
   if (py::isinstance<py::array>(image)) return imageOf(image, "image");
-  const std::string path = pathOf(image, "image");
+  const std::string path = pathOf(image, "image", kPictureOrArray);
   return unlocked(path, [&] { return readImage(path); });
+}
+
+// What the picture is called, and its path among `sources` if it is a file's.
+std::string sourceOf(const py::object& image, std::vector<std::string>& sources, const char* name) {
+  if (image.is_none() || py::isinstance<py::array>(image)) return name;
+  std::string path = pathOf(image, name, kPictureOrArray);
+  std::error_code failure;
+  sources.push_back(std::filesystem::absolute(path, failure).string());
+  return path;
 }
 
 Plane8 figureOf(const py::object& mask, const Image& image) {
   const bool array = py::isinstance<py::array>(mask);
-  const std::string name = array ? "mask" : pathOf(mask, "mask");
+  const std::string name = array ? "mask" : pathOf(mask, "mask", kPictureOrArray);
   Plane8 plane = array ? maskOf(mask, name) : unlocked(name, [&] { return readMask(name); });
   if (plane.rows() != image.height || plane.cols() != image.width)
     throw InputError(name, "has " + std::to_string(plane.cols()) + "x" + std::to_string(plane.rows()) +
@@ -49,7 +62,8 @@ Plane8 figureOf(const py::object& mask, const Image& image) {
   return plane;
 }
 
-std::shared_ptr<Drawing> rigged(RigInput input, const RigOptions& options, const std::string& source) {
+std::shared_ptr<Drawing> rigged(RigInput input, const RigOptions& options, const std::string& source,
+                                const std::vector<std::string>& sources) {
   return unlocked(source, [&] {
     auto drawing = std::make_shared<Drawing>();
     input.file = source;
@@ -57,37 +71,38 @@ std::shared_ptr<Drawing> rigged(RigInput input, const RigOptions& options, const
     if (!drawing->found.found()) throw InputError(source, drawing->found.silhouette.reason);
     drawing->options = options;
     drawing->character = std::move(drawing->found.character);
-    drawing->clips = std::move(drawing->found.clips);
+    drawing->clips = std::make_shared<const std::vector<Clip>>(std::move(drawing->found.clips));
     drawing->name = "character";
+    drawing->drawn = true;
+    drawing->sources = sources;
     return drawing;
   });
 }
 
 std::shared_ptr<Drawing> rig(const py::object& image, const py::object& mask, const std::string& body_plan,
-                             int figure, const std::optional<WeightsFile>& net,
-                             const std::optional<Path>& joint_net, const std::string& recognizer,
-                             const std::string& skin, int max_influences, const std::string& rest_pose,
-                             double into_picture, double height_m, bool layers, bool upright, bool clips) {
+                             std::int64_t figure, const std::optional<WeightsFile>& net,
+                             const py::object& joint_net, const std::string& recognizer,
+                             const std::string& skin, std::int64_t max_influences,
+                             const std::string& rest_pose, double into_picture, double height_m, bool layers,
+                             bool upright, bool clips) {
   RigOptions options = clips ? rigOptions(body_plan) : rigOptionsWithoutClips(body_plan);
-  const auto within = [](const char* name, double value, double low, double high) {
-    if (!(value >= low && value <= high))
-      throw UsageError(std::string(name) + ": must be from " + std::to_string(low) + " to " +
-                       std::to_string(high));
-  };
-  within("figure", figure, 1, 1e6);
-  within("max_influences", max_influences, 1, 4);
-  within("into_picture", into_picture, 0, 1);
-  if (height_m != 0) within("height_m", height_m, 0.001, 1000);
-  options.silhouette.figure = figure;
+  checkRange("figure", double(figure), 1, kMostFigures);
+  checkRange("max_influences", double(max_influences), 1, 4);
+  checkRange("into_picture", into_picture, 0, 1);
+  if (height_m != 0) checkRange("height_m", height_m, 0.001, 1000);
+  options.silhouette.figure = int(figure);
   if (net) options.mlp = net->mlp;
-  if (joint_net)
-    options.joint_net = std::make_shared<const JointNet>(
-        readyToRun(parseJointNet(readFile(joint_net->string()), joint_net->string())));
+  std::vector<std::string> sources;
+  if (!joint_net.is_none()) {
+    const std::string path = pathOf(joint_net, "joint_net");
+    options.joint_net = std::make_shared<const JointNet>(readyToRun(parseJointNet(readFile(path), path)));
+    sourceOf(joint_net, sources, "joint_net");
+  }
   options.recognizer = chosen<Recognizer>("recognizer", recognizer,
                                           {{"paper", Recognizer::kPaper}, {"tree", Recognizer::kTree}});
   options.silhouette.fill_holes = options.recognizer == Recognizer::kPaper;
   options.skin_method = skinNamed(skin);
-  options.skin.max_influences = max_influences;
+  options.skin.max_influences = int(max_influences);
   options.rest_pose = chosen<RestPose>(
       "rest_pose", rest_pose, {{"drawn", RestPose::kDrawn}, {"A", RestPose::kA}, {"T", RestPose::kT}});
   options.into_picture = into_picture;
@@ -97,18 +112,21 @@ std::shared_ptr<Drawing> rig(const py::object& image, const py::object& mask, co
   RigInput input;
   input.image = pictureOf(image);
   if (!mask.is_none()) input.mask = figureOf(mask, input.image);
-  return rigged(std::move(input), options,
-                py::isinstance<py::array>(image) ? "image" : pathOf(image, "image"));
+  const std::string source = sourceOf(image, sources, "image");
+  sourceOf(mask, sources, "mask");
+  sourceOf(py::str(body_plan), sources, "body_plan");
+  return rigged(std::move(input), options, source, sources);
 }
 
-std::shared_ptr<Drawing> withJoints(const Drawing& drawing,
-                                    const std::map<std::string, Eigen::Vector2d>& places) {
+std::shared_ptr<Drawing> withJoints(const Drawing& drawing, const py::object& places) {
   RigInput input;
   input.image = drawing.found.image;
   input.mask = drawing.found.silhouette.mask;
   input.skeleton = drawing.found.recognition.skeleton;
   input.turned_deg = drawing.found.recognition.turned_deg;
-  for (const auto& [name, place] : places) {
+  for (const auto& [name, numbers] : namedIn(places, "joints")) {
+    const std::vector<double> xy = numbersIn(numbers, 2, "joints: \"" + name + "\"");
+    const Eigen::Vector2d place(xy[0], xy[1]);
     const int joint = input.skeleton->find(name);
     if (joint < 0) throw UsageError("joints: the skeleton has no \"" + name + "\"");
     if (!(place.x() >= 0 && place.y() >= 0 && place.x() < input.image.width &&
@@ -127,7 +145,7 @@ std::shared_ptr<Drawing> withJoints(const Drawing& drawing,
   }
   options.otherwise.reset();
   options.silhouette.figure = 1;  // of the mask, which has no other
-  return rigged(std::move(input), options, "image");
+  return rigged(std::move(input), options, "image", drawing.sources);
 }
 
 // Where joints may be, in image px, and how thick the figure is there.
@@ -150,20 +168,21 @@ FoundCandidates candidatesOf(const Silhouette& silhouette, const CandidateSet& s
   return found;
 }
 
-FoundCandidates candidates(const py::object& image, const py::object& mask, int figure,
+FoundCandidates candidates(const py::object& image, const py::object& mask, std::int64_t figure,
                            const std::string& method) {
   const Image picture = pictureOf(image);
   std::optional<Plane8> given;
   if (!mask.is_none()) given = figureOf(mask, picture);
-  if (figure < 1) throw UsageError("figure: must be 1 or more");
+  checkRange("figure", double(figure), 1, kMostFigures);
   const CandidateOptions options{chosen<CandidateMethod>("method", method,
                                                          {{"maxima", CandidateMethod::kMaxima},
                                                           {"strict", CandidateMethod::kStrict},
                                                           {"discs", CandidateMethod::kDiscs}})};
-  const std::string source = py::isinstance<py::array>(image) ? "image" : pathOf(image, "image");
+  std::vector<std::string> sources;
+  const std::string source = sourceOf(image, sources, "image");
   return unlocked(source, [&] {
     SilhouetteOptions wanted;
-    wanted.figure = figure;
+    wanted.figure = int(figure);
     const Silhouette silhouette =
         given ? silhouetteFromMask(*given, picture, wanted) : extractSilhouette(picture, wanted);
     if (!silhouette.found()) throw InputError(source, silhouette.reason);
@@ -185,7 +204,7 @@ void bindDrawings(py::module_& module) {
       .def_readonly("kept", &FoundCandidates::kept, "Indices of those that lie in no disc of a thicker one.")
       .def("__len__", [](const FoundCandidates& f) { return f.radii.size(); });
 
-  py::class_<Drawing, CharacterFile, std::shared_ptr<Drawing>>(
+  py::class_<Drawing, Character, std::shared_ptr<Drawing>>(
       module, "Drawing", "A character, and what was found out about its drawing.")
       .def_property_readonly(
           "image", [](const Drawing& d) { return arrayOf(d.found.image); },
@@ -232,7 +251,10 @@ void bindDrawings(py::module_& module) {
           },
           "How long each stage took, s.")
       .def("with_joints", &withJoints, py::arg("joints"),
-           "Rigged anew with these joints, by name, at these places: (2,), image px.");
+           "Rigged anew with these joints, by name, at these places: (2,), image px.")
+      .def("__repr__", [](const Drawing& d) {
+        return "<skel.Drawing: " + d.found.body_plan.name + ", " + sizesOf(d.character) + ">";
+      });
 
   module.def("rig", &rig, py::arg("image"), py::kw_only(), py::arg("mask") = py::none(),
              py::arg("body_plan") = "auto", py::arg("figure") = 1, py::arg("net") = py::none(),
@@ -242,7 +264,8 @@ void bindDrawings(py::module_& module) {
              py::arg("layers") = true, py::arg("upright") = false, py::arg("clips") = true,
              "From a drawing, a file or an array (H, W), (H, W, 3) or (H, W, 4) of uint8, to a rigged, "
              "animated character.\n\n"
-             "mask: the figure, (H, W), not 0 on it, or a file, instead of finding it. body_plan: biped, "
+             "mask: the figure, (H, W) of bool or uint8, not 0 on it, or a file, instead of finding it. "
+             "body_plan: biped, "
              "quadruped, a file, or auto. "
              "figure: 1 is the largest. net: tells the classes of candidates. joint_net: a file. recognizer: "
              "tree or paper. skin: geodesic, "

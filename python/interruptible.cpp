@@ -11,16 +11,20 @@ struct Interrupted {};
 }  // namespace
 
 void interruptible(std::size_t steps, const py::object& progress,
-                   const std::function<void(const std::function<void(double loss)>& tick)>& work) {
+                   const std::function<void(const Tick& tick, const Pause& pause)>& work) {
   std::atomic<std::size_t> done = 0;
   std::atomic<double> last_loss = 0;
   std::atomic<bool> stop = false;
   std::future<void> working = std::async(std::launch::async, [&] {
-    work([&](double loss) {
+    const auto pause = [&] {
       if (stop) throw Interrupted();
+    };
+    const auto tick = [&](double loss) {
+      pause();
       last_loss = loss;
       ++done;
-    });
+    };
+    work(tick, pause);
   });
   std::optional<py::error_already_set> raised;
   std::size_t told = 0;

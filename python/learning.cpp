@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "libskel/classifier/weights_file.h"
 #include "libskel/core/files.h"
 #include "libskel/core/sha256.h"
@@ -10,6 +12,8 @@
 namespace skel::python {
 namespace {
 
+using Whole = std::int64_t;  // what does not fit an int is told its range, too
+
 struct Trained {
   WeightsFile net;
   Training training;
@@ -17,7 +21,7 @@ struct Trained {
 };
 
 LabelledCharacter labelledCharacter(const std::string& name, const Features& features,
-                                    const std::vector<int>& labels) {
+                                    const std::vector<double>& labels) {
   const std::string where = "character \"" + name + "\": ";
   if (Eigen::Index(labels.size()) != features.rows())
     throw UsageError(where + std::to_string(features.rows()) + " rows of features, " +
@@ -25,10 +29,10 @@ LabelledCharacter labelledCharacter(const std::string& name, const Features& fea
   if (!(features.array() >= 0 && features.array() <= 1).all())
     throw UsageError(where + "features must be from 0 to 1");
   LabelledCharacter character{name, features, {}};
-  for (const int label : labels) {
-    if (label < 0 || label >= kJointClassCount)
+  for (const double label : labels) {
+    if (!(label >= 0 && label < kJointClassCount && label == std::floor(label)))
       throw UsageError(where + "labels must be 0 to 3, indices into skel.CLASSES");
-    character.labels.push_back(static_cast<JointClass>(label));
+    character.labels.push_back(static_cast<JointClass>(int(label)));
   }
   return character;
 }
@@ -39,15 +43,28 @@ std::vector<int> numbersOf(const std::vector<JointClass>& labels) {
   return numbers;
 }
 
-LabelledSet setOf(const std::vector<std::tuple<std::string, Features, std::vector<int>>>& characters) {
+LabelledSet setOf(const py::object& characters) {
+  const auto isList = [](const py::handle& object) {
+    return py::isinstance<py::sequence>(object) && !py::isinstance<py::str>(object);
+  };
+  const std::string wanted = "characters: must be a list, of each character (name, features, labels)";
+  if (!isList(characters)) throw UsageError(wanted);
   LabelledSet set;
   std::string bytes;
-  for (const auto& [name, features, labels] : characters) {
+  for (const py::handle& item : characters) {
+    if (!isList(item) || py::len(item) != 3) throw UsageError(wanted);
+    const auto parts = py::reinterpret_borrow<py::sequence>(item);
+    const py::object first = parts[0];
+    if (!py::isinstance<py::str>(first)) throw UsageError(wanted);
+    const auto name = first.cast<std::string>();
+    const std::string where = "character \"" + name + "\": ";
+    const Features features = rowsIn(parts[1], 3, where + "features");
+    const std::vector<double> labels = numbersIn(parts[2], -1, where + "labels");
     set.characters.push_back(labelledCharacter(name, features, labels));
     bytes += name + '\0' +
              std::string(reinterpret_cast<const char*>(features.data()),
                          std::size_t(features.size()) * sizeof(float));
-    for (const int label : labels) bytes += char(label);
+    for (const double label : labels) bytes += char(label);
   }
   if (set.characters.empty()) throw UsageError("a set needs at least one character");
   set.sha256 = sha256(bytes);
@@ -71,45 +88,46 @@ std::string spelled(const TrainingOptions& options, int generated) {
   return text;
 }
 
-Trained train(const LabelledSet& set, int folds, int epochs, int restarts, double validation, int patience,
-              int generated, int seed, int threads, const py::object& progress) {
-  const auto within = [](const char* name, double value, double low, double high) {
-    if (!(value >= low && value <= high))
-      throw UsageError(std::string(name) + ": out of range; see help(skel.train)");
-  };
-  within("epochs", epochs, 1, 1e6);
-  within("restarts", restarts, 1, 1000);
-  within("validation", validation, 0, 0.9);
-  within("patience", patience, 1, 1e6);
-  within("generated", generated, 0, 1e5);
-  within("seed", seed, 0, 2e9);
-  within("threads", threads, 0, 1024);
+Trained train(const LabelledSet& set, Whole folds, Whole epochs, Whole restarts, double validation,
+              Whole patience, Whole generated, Whole seed, Whole threads, const py::object& progress) {
+  checkRange("epochs", double(epochs), 1, 1e6);
+  checkRange("restarts", double(restarts), 1, 1000);
+  checkRange("validation", validation, 0, 0.9);
+  checkRange("patience", double(patience), 1, 1e6);
+  checkRange("generated", double(generated), 0, 1e5);
+  checkRange("seed", double(seed), 0, 2e9);
+  checkRange("threads", double(threads), 0, 1024);
+  if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0)
+    throw UsageError("progress: must be callable, or None");
   const auto count = static_cast<int>(set.characters.size());
   if (folds != 0 && (folds < 2 || folds > count))
     throw UsageError("folds: must be 0, or from 2 to the " + std::to_string(count) +
                      " characters that there are");
   TrainingOptions options;
-  options.epochs = epochs;
-  options.restarts = restarts;
+  options.epochs = int(epochs);
+  options.restarts = int(restarts);
   options.validation = validation;
-  options.patience = patience;
-  options.seed = seed;
-  options.threads = threads;
+  options.patience = int(patience);
+  options.seed = static_cast<decltype(options.seed)>(seed);
+  options.threads = int(threads);
 
   Trained trained;
-  interruptible(
-      std::size_t(folds + 1) * std::size_t(epochs) * std::size_t(restarts), progress, [&](const auto& tick) {
-        const Characters characters = pointersTo(set.characters);
-        const auto drawn = generateCharacters(generated, static_cast<std::uint64_t>(seed), threads);
-        const Characters more = pointersTo(drawn);
-        trained.training = skel::train(characters, more, options, tick);
-        if (folds > 0) trained.evaluation = crossValidate(characters, more, folds, options, tick);
-        const double accuracy = trained.evaluation ? trained.evaluation->accuracy()
-                                                   : evaluateOn(trained.training.mlp, characters).accuracy();
-        trained.net = {trained.training.mlp,
-                       {set.sha256, spelled(options, generated), seed, trained.training.epochs,
-                        set.sampleCount(), count, accuracy}};
-      });
+  interruptible(std::size_t(folds + 1) * std::size_t(epochs) * std::size_t(restarts), progress,
+                [&](const Tick& tick, const Pause& pause) {
+                  const Characters characters = pointersTo(set.characters);
+                  const auto drawn = generateCharacters(int(generated), static_cast<std::uint64_t>(seed),
+                                                        int(threads), {}, pause);
+                  const Characters more = pointersTo(drawn);
+                  trained.training = skel::train(characters, more, options, tick);
+                  if (folds > 0)
+                    trained.evaluation = crossValidate(characters, more, int(folds), options, tick);
+                  const double accuracy = trained.evaluation
+                                              ? trained.evaluation->accuracy()
+                                              : evaluateOn(trained.training.mlp, characters).accuracy();
+                  trained.net = {trained.training.mlp,
+                                 {set.sha256, spelled(options, int(generated)), options.seed,
+                                  trained.training.epochs, set.sampleCount(), count, accuracy}};
+                });
   return trained;
 }
 
@@ -130,21 +148,24 @@ void bindLearning(py::module_& module) {
                           "The net that tells head, body, hand and leg candidates apart: 3-4-4-2, sigmoids.")
       .def_static(
           "load",
-          [](const Path& path) {
-            return unlocked(path.string(), [&] { return readWeights(path.string()); });
+          [](const py::object& path) {
+            const std::string file = pathOf(path, "path");
+            return unlocked(file, [&] { return readWeights(file); });
           },
           py::arg("path"), "Reads a weights file.")
       .def_static("builtin", &defaultWeights, py::return_value_policy::copy,
                   "The one that skel brings along.")
       .def(
           "save",
-          [](const WeightsFile& net, const Path& path) {
-            unlocked(path.string(), [&] { writeFile(path.string(), formatWeights(net)); });
+          [](const WeightsFile& net, const py::object& path) {
+            const std::string file = pathOf(path, "path");
+            unlocked(file, [&] { writeFile(file, formatWeights(net)); });
           },
           py::arg("path"), "Writes a weights file, for the tools' --weights.")
       .def(
           "classify",
-          [](const WeightsFile& net, const Features& features) {
+          [](const WeightsFile& net, const py::object& numbers) {
+            const Features features = rowsIn(numbers, 3, "features");
             if (!features.allFinite()) throw UsageError("features: must be finite");
             return unlocked("features", [&] { return classify(net.mlp, features); });
           },
@@ -183,8 +204,9 @@ void bindLearning(py::module_& module) {
            "characters: of each a name, features (N, 3) from 0 to 1, and labels (N,), 0 to 3.")
       .def_static(
           "load",
-          [](const Path& folder) {
-            return unlocked(folder.string(), [&] { return readLabelledSet(folder.string()); });
+          [](const py::object& folder) {
+            const std::string path = pathOf(folder, "folder", "the path of a folder");
+            return unlocked(path, [&] { return readLabelledSet(path); });
           },
           py::arg("folder"),
           "All label files below a folder. Raises InputError for whatever `skel-label check` finds.")

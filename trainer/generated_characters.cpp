@@ -27,11 +27,13 @@ LabelledCharacter labelled(const Figure& figure, const std::vector<std::string>&
 }  // namespace
 
 std::vector<LabelledCharacter> generateCharacters(int count, std::uint64_t seed, int threads,
-                                                  const CandidateOptions& options) {
+                                                  const CandidateOptions& options,
+                                                  const std::function<void()>& before_each) {
   const std::vector<std::string> joint_names = jointNames(figurePlan("biped"));
   const SkeletonTemplate body_plan = loadTemplate("biped");
   std::vector<LabelledCharacter> characters(static_cast<std::size_t>(count));
   parallelFor(characters.size(), threads, [&](std::size_t i) {
+    if (before_each) before_each();
     Rng rng(seed, i);
     characters[i] = labelled(generateFigure(rng), joint_names, body_plan, options);
     characters[i].name = "generated " + std::to_string(i);

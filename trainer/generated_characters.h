@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "libskel/candidates/candidates.h"
@@ -11,8 +12,9 @@
 namespace skel {
 
 // The same for the same seed, with any number of threads (0: one a core). The first ones do not depend on how
-// many follow.
+// many follow. `before_each` (or none) is called before each of them, by any thread, and may throw.
 std::vector<LabelledCharacter> generateCharacters(int count, std::uint64_t seed, int threads = 0,
-                                                  const CandidateOptions& options = {});
+                                                  const CandidateOptions& options = {},
+                                                  const std::function<void()>& before_each = {});
 
 }  // namespace skel

@@ -10,7 +10,7 @@ import sys
 import time
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
-from typing import Any, Callable, Deque, Iterable, Iterator, Literal, Optional, Union
+from typing import Any, Callable, Deque, Iterable, Iterator, Literal, Optional, Union, overload
 
 from ._core import (
     CLASSES,
@@ -32,7 +32,6 @@ from ._core import (
     Training,
     UnavailableError,
     UsageError,
-    __version__,
     builtin_clips,
     candidates,
     evaluate,
@@ -40,6 +39,7 @@ from ._core import (
     rig,
     train,
 )
+from ._core import __version__ as __version__
 
 __all__ = [
     "CLASSES", "Candidates", "Character", "Clip", "Drawing", "Error", "Evaluation", "Film", "InputError", "Joint",
@@ -48,6 +48,7 @@ __all__ = [
 ]
 
 Progress = Union[bool, Callable[[int], None]]
+_Paths = Iterable[Union[str, "os.PathLike[str]"]]
 
 
 class _Counter:
@@ -67,8 +68,16 @@ class _Counter:
             print(file=sys.stderr)
 
 
+@overload
 def rig_many(
-    paths: Iterable[Union[str, "os.PathLike[str]"]],
+    paths: _Paths, *, jobs: int = ..., progress: Progress = ..., errors: Literal["raise"] = ..., **options: Any
+) -> Iterator[Drawing]: ...
+@overload
+def rig_many(
+    paths: _Paths, *, jobs: int = ..., progress: Progress = ..., errors: Literal["return"], **options: Any
+) -> Iterator[Union[Drawing, Error]]: ...
+def rig_many(
+    paths: _Paths,
     *,
     jobs: int = 0,
     progress: Progress = True,
@@ -81,11 +90,18 @@ def rig_many(
     first, or "return" an Error in the place of a drawing that cannot be rigged. options: of rig(). Few drawings more than are at
     work are held in memory, however many come. Ctrl+C ends it after those at work.
     """
+    if isinstance(paths, (str, bytes, os.PathLike)):
+        raise UsageError("paths: must be a list of paths, not a single one; rig() takes that")
     if not 0 <= jobs <= 1024:
         raise UsageError("jobs: must be from 0 to 1024")
     if errors not in ("raise", "return"):
         raise UsageError(f'errors: "{errors}" is none of raise, return')
-    workers = jobs or os.cpu_count() or 1
+    return _rigged(paths, jobs or os.cpu_count() or 1, progress, errors == "raise", options)
+
+
+def _rigged(
+    paths: _Paths, workers: int, progress: Progress, raises: bool, options: Any
+) -> Iterator[Union[Drawing, Error]]:
     counter = _Counter()
     tell: Optional[Callable[[int], None]] = progress if callable(progress) else counter if progress else None
 
@@ -113,7 +129,7 @@ def rig_many(
             done += 1
             if tell:
                 tell(done)
-            if isinstance(result, Error) and errors == "raise":
+            if raises and isinstance(result, Error):
                 raise result
             yield result
     finally:

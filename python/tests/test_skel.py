@@ -9,7 +9,7 @@ import tempfile
 import threading
 import time
 import unittest
-from typing import Callable, Iterable, List, Set, Tuple, Type
+from typing import Any, Callable, Iterable, List, Set, Tuple, Type
 
 import numpy as np
 
@@ -19,6 +19,7 @@ DATASETS = pathlib.Path(os.environ["SKEL_DATASETS"])
 BIN = pathlib.Path(os.environ["SKEL_BIN"])
 BOY = DATASETS / "characters" / "cap_boy.png"
 boy = skel.rig(BOY)
+STILL = np.tile([0, 0, 0, 1.0], (2, 1))  # two rotations that turn nothing
 
 
 class TestRigging(unittest.TestCase):
@@ -87,6 +88,77 @@ class TestRigging(unittest.TestCase):
                 work()
             self.assertIn(words, str(caught.exception))
 
+    def test_a_drawing_is_not_written_over_by_what_is_made_of_it(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            hero, mask, other = (pathlib.Path(folder) / name for name in ("hero.png", "figure.png", "other.png"))
+            shutil.copy(BOY, hero)
+            shutil.copy(BOY.with_suffix(".mask.png"), other)
+            mask.symlink_to(other)
+            drawing = skel.rig(hero)
+            before = sorted(os.listdir(folder))
+            for again in (drawing, drawing.with_joints({"left_hand": (1, 1)})):
+                with self.assertRaises(skel.UsageError) as caught:
+                    again.save(hero.with_suffix(".obj"))
+                self.assertIn("hero.png would be written over", str(caught.exception))
+            # Of an array, nobody knows whose drawing it is.
+            with self.assertRaises(skel.UsageError) as caught:
+                boy.save(hero.with_suffix(".obj"))
+            self.assertIn("hero.png would be written over", str(caught.exception))
+            masked = skel.rig(hero, mask=mask)
+            other.with_suffix(".mtl").write_text("")
+            with self.assertRaises(skel.UsageError) as caught:
+                masked.save(other.with_suffix(".obj"))
+            self.assertIn("figure.png", str(caught.exception))
+            other.with_suffix(".mtl").unlink()
+            self.assertEqual(sorted(os.listdir(folder)), before)
+            self.assertEqual(hero.read_bytes(), BOY.read_bytes())
+            self.assertEqual(other.read_bytes(), BOY.with_suffix(".mask.png").read_bytes())
+            drawing.save(hero.with_suffix(".glb"))
+            for _ in range(2):  # its own texture may be written anew
+                drawing.save(pathlib.Path(folder) / "model.obj")
+
+    def test_masks_are_of_bool_or_uint8(self) -> None:
+        for mask in (boy.mask / 255, boy.mask.astype(int), -boy.mask.astype(np.int8), np.full(boy.mask.shape, np.nan)):
+            with self.subTest(type=mask.dtype), self.assertRaises(skel.UsageError) as caught:
+                skel.rig(BOY, mask=mask)
+            self.assertIn("bool or uint8", str(caught.exception))
+
+    def test_objects_and_shapes_that_are_wrong_are_named(self) -> None:
+        net, many = skel.Net.builtin(), 10**12
+        cases: List[Tuple[Callable[[], object], str]] = [
+            (lambda: boy.retarget(None), "motion: must be a Clip"),  # type: ignore[arg-type]
+            (lambda: boy.pose(3, 0), "clip: must be a Clip"),  # type: ignore[arg-type]
+            (lambda: boy.film(None), "clip: must be a Clip"),  # type: ignore[arg-type]
+            (lambda: skel.rig("a\0b.png"), "image: holds a character"),
+            (lambda: boy.save("a\0b.glb"), "path: holds a character"),
+            (lambda: boy.save(3), "path: must be"),  # type: ignore[arg-type]
+            (lambda: skel.load(None), "path: must be"),  # type: ignore[arg-type]
+            (lambda: skel.LabelledSet.load(3), "folder: must be"),  # type: ignore[arg-type]
+            (lambda: skel.rig(BOY, joint_net=3), "joint_net: must be"),  # type: ignore[arg-type]
+            (lambda: net.classify(np.zeros((5, 4))), "features: has shape (5, 4), must be (N, 3)"),
+            (lambda: net.classify(np.zeros(3)), "features: has shape (3,)"),
+            (lambda: net.classify("abc"), "features: must be numbers"),
+            (lambda: skel.Pose(np.zeros((3, 3))), "rotations: has shape (3, 3), must be (N, 4)"),
+            (lambda: skel.Pose(STILL, (1, 2)), "root_translation: has shape (2,), must be (3,)"),
+            (lambda: boy.with_joints({"left_hand": (1, 2, 3)}), 'joints: "left_hand": has shape (3,)'),
+            (lambda: boy.with_joints({"left_hand": "ab"}), 'joints: "left_hand": must be numbers'),
+            (lambda: boy.with_joints(3), "joints: must be a dict"),  # type: ignore[arg-type]
+            (lambda: skel.rig(BOY, figure=many), "figure: must be from 1 to 1000000"),
+            (lambda: skel.rig(BOY, into_picture=2), "into_picture: must be from 0 to 1"),
+            (lambda: skel.candidates(BOY, figure=many), "figure: must be from 1 to 1000000"),
+            (lambda: boy.film("walk", background="#12"), 'background: "#12" is no colour'),
+            (lambda: setattr(boy, "clips", 3), "clips: must be a list"),
+            (lambda: setattr(boy, "clips", ["walk"]), "clips: must be a list"),
+        ]
+        for work, words in cases:
+            with self.subTest(words=words), self.assertRaises(skel.UsageError) as caught:
+                work()
+            self.assertIn(words, str(caught.exception))
+
+    def test_characters_say_what_they_are(self) -> None:
+        self.assertRegex(repr(boy), r"<skel.Drawing: biped, \d+ joints, \d+ vertices>")
+        self.assertRegex(repr(boy.mesh), r"<skel.Mesh: \d+ vertices, \d+ triangles>")
+
 
 class TestMoving(unittest.TestCase):
     def test_a_character_comes_back_from_its_file(self) -> None:
@@ -94,8 +166,18 @@ class TestMoving(unittest.TestCase):
             path = pathlib.Path(folder) / "boy.glb"
             boy.save(path)
             back = skel.load(path)
+            back.save(path)
         np.testing.assert_allclose(back.mesh.vertices.mean(axis=0), boy.mesh.vertices.mean(axis=0), atol=0.05)
         self.assertEqual([clip.name for clip in back.clips], [clip.name for clip in boy.clips])
+
+    def test_joints_of_a_file_have_no_drawing(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            boy.save(pathlib.Path(folder) / "boy.glb")
+            back = skel.load(pathlib.Path(folder) / "boy.glb")
+        for joint, drawn in zip(back.joints, boy.joints):
+            self.assertTrue(np.isnan(joint.image).all() and np.isnan(joint.confidence))
+            self.assertIsNone(joint.origin)
+            np.testing.assert_allclose(joint.position, drawn.position, atol=1e-4)
 
     def test_poses_move_vertices_and_joints(self) -> None:
         rest = boy.rest_pose()
@@ -131,8 +213,105 @@ class TestMoving(unittest.TestCase):
         self.assertEqual(fitted.name, "nod")
         self.assertAlmostEqual(walk.duration_s, boy.clip("walk").duration_s, delta=0.1)
         self.assertAlmostEqual(boy.retarget("walk").duration_s, boy.clip("walk").duration_s, delta=0.1)
-        with self.assertRaises(skel.InputError):
-            skel.Clip("back", {"head": ([1, 0], np.array([[0, 0, 0, 1], [0, 0, 0, 1]]))})
+        for bad in ([1, 0], [0, 0]):
+            with self.assertRaises(skel.UsageError) as caught:
+                skel.Clip("back", {"head": (bad, STILL)})
+            self.assertIn("must ascend", str(caught.exception))
+
+    def test_clips_of_other_counts_are_refused(self) -> None:
+        cases: List[Tuple[Any, str]] = [
+            (([0, 1, 2], STILL), "has 3 times, but 2 rotations"),
+            (([0], STILL), "has 1 times, but 2 rotations"),
+            (([], STILL[:0]), "has no keys"),
+            (([0, float("nan")], STILL), "times: must be finite"),
+            (([-1, 0], STILL), "times: must be finite, from 0"),
+            (([0, 1e9], STILL), "times: must be finite, from 0 to 3600 s"),
+            (([0, 1], STILL[:, :3]), "has shape (2, 3), must be (N, 4)"),
+            (([[0, 1]], STILL), "times: has shape (1, 2)"),
+            ((["a", "b"], STILL), "times: must be numbers"),
+            (3, "must be a pair"),
+        ]
+        for keys, words in cases:
+            with self.subTest(words=words), self.assertRaises(skel.UsageError) as caught:
+                skel.Clip("c", {"left_hand": keys})
+            self.assertIn(words, str(caught.exception))
+            self.assertIn('joint "left_hand"', str(caught.exception))
+        with self.assertRaises(skel.UsageError):
+            skel.Clip("c", {}, root=([0, 1], [[0, 0, 0]]))
+
+    def test_clips_with_joints_that_are_not_there_are_refused(self) -> None:
+        drawing = skel.rig(BOY, clips=False)
+        bad = skel.Clip("c", {"tentacle": ([0, 1], STILL)})
+        works: List[Callable[[], object]] = [
+            lambda: setattr(drawing, "clips", [bad]), lambda: drawing.pose(bad, 0), lambda: drawing.film(bad)
+        ]
+        for work in works:
+            with self.assertRaises(skel.UsageError) as caught:
+                work()
+            self.assertIn("tentacle", str(caught.exception))
+        self.assertEqual(drawing.clips, [])
+        drawing.to_glb()
+
+    def test_clips_that_are_not_of_the_character_are_refused(self) -> None:
+        builtin = next(c for c in skel.builtin_clips() if c.name == "walk" and c.body_plan == "biped")
+        beast = skel.Clip("c", {"head": ([0, 1], STILL)}, "quadruped")
+        for clip, words in [(builtin, "retarget()"), (beast, "quadruped")]:
+            works: List[Callable[[], object]] = [
+                lambda: boy.pose(clip, 0), lambda: boy.film(clip), lambda: setattr(boy, "clips", [clip])
+            ]
+            for work in works:
+                with self.subTest(words=words), self.assertRaises(skel.UsageError) as caught:
+                    work()
+                self.assertIn(words, str(caught.exception))
+        boy.pose(boy.retarget(builtin), 0)
+
+    def test_a_clip_is_made_anew_with_its_root(self) -> None:
+        for clip in boy.clips:
+            again = skel.Clip(clip.name, clip.tracks, clip.body_plan, clip.root)
+            for time_s in (0, clip.duration_s / 3, clip.duration_s):
+                there, here = boy.pose(clip, time_s), boy.pose(again, time_s)
+                np.testing.assert_allclose(here.root_translation, there.root_translation, atol=1e-6)
+                np.testing.assert_allclose(boy.joint_positions(here), boy.joint_positions(there), atol=1e-5)
+        self.assertIsNotNone(boy.clip("jump").root)
+
+    def test_clips_are_set_while_others_use_the_character(self) -> None:
+        drawing = skel.rig(BOY)
+        all_clips = drawing.clips
+        kept = drawing.clips[0]
+        end = time.monotonic() + 3
+        failures: List[BaseException] = []
+
+        def until_the_end(work: Callable[[], object]) -> None:
+            try:
+                while time.monotonic() < end:
+                    work()
+            except BaseException as failure:
+                failures.append(failure)
+
+        def set_them() -> None:
+            drawing.clips = all_clips[:1]
+            drawing.clips = all_clips
+
+        name = all_clips[0].name
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "boy.glb"
+            works: List[Callable[[], object]] = [
+                set_them,
+                lambda: [clip.tracks for clip in drawing.clips],
+                lambda: drawing.pose(name, 0.3),
+                lambda: drawing.film(name, size=(16, 16))[0],
+                lambda: drawing.retarget(name),
+                drawing.to_glb,
+                lambda: drawing.save(path),
+            ]
+            threads = [threading.Thread(target=until_the_end, args=(work,)) for work in works]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+        self.assertEqual(failures, [])
+        drawing.clips = []
+        self.assertEqual(kept.name, name)
 
     def test_a_film_is_a_sequence_of_frames(self) -> None:
         film = boy.film("dance", fps=5, size=(64, 96))
@@ -150,7 +329,6 @@ class TestMany(unittest.TestCase):
         many = list(skel.rig_many(paths, jobs=2, progress=counted.append))
         self.assertEqual(counted, [1, 2, 3, 4, 5])
         for path, drawing in zip(paths, many):
-            assert isinstance(drawing, skel.Drawing)
             self.assertEqual(drawing.to_glb(), skel.rig(path).to_glb())
 
     def test_errors_are_raised_or_returned(self) -> None:
@@ -159,6 +337,17 @@ class TestMany(unittest.TestCase):
         self.assertEqual(kinds, [skel.Drawing, skel.InputError, skel.Drawing])
         with self.assertRaises(skel.InputError):
             list(skel.rig_many(paths, clips=False))
+
+    def test_threads_may_be_the_first_to_need_numpy(self) -> None:
+        program = f"import skel; print(len(list(skel.rig_many([{str(BOY)!r}] * 4, jobs=4))))"
+        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.stdout, "4\n", done.stderr)
+
+    def test_one_path_is_not_many(self) -> None:
+        for one in ("hero.png", BOY):
+            with self.assertRaises(skel.UsageError) as caught:
+                skel.rig_many(one)  # type: ignore[call-overload]
+            self.assertIn("list of paths", str(caught.exception))
 
     def test_other_threads_run_while_one_rigs(self) -> None:
         ticks = 0
@@ -181,6 +370,18 @@ class TestMany(unittest.TestCase):
 
 
 class TestTypes(unittest.TestCase):
+    def test_types_are_as_wide_as_what_runs(self) -> None:
+        # mypy reads this, too.
+        characters = skel.LabelledSet.load(DATASETS / "characters").characters[:2]
+        again = skel.LabelledSet([(c.name, c.features, c.labels) for c in characters])
+        self.assertEqual(len(again), 2)
+        self.assertEqual(len(skel.LabelledSet([("a", [[0.1, 0.2, 0.3]], [1])])), 1)
+        clip = skel.Clip("nod", {"head": (np.linspace(0, 1, 2), STILL)})
+        self.assertEqual(clip.duration_s, 1)
+        self.assertRegex(skel.__version__, r"^\d+\.\d+\.\d+$")
+        confidences = [drawing.confidence for drawing in skel.rig_many([BOY], clips=False)]
+        self.assertEqual(confidences, [boy.confidence])
+
     def test_the_stub_names_what_there_is(self) -> None:
         core = sys.modules["skel._core"]
         assert core.__file__
@@ -251,8 +452,16 @@ class TestLearning(unittest.TestCase):
         for bad in [[("a", features * 9, labels)], [("a", features, labels[1:])], [("a", features, labels + 4)], []]:
             with self.assertRaises(skel.UsageError):
                 skel.LabelledSet(bad)  # type: ignore[arg-type]
+        for wrong, words in [("abc", "characters: must be a list"), ([("a", features[:, :2], labels)], "has shape (200, 2)"),
+                             ([("a", features, labels + 0.5)], "labels must be 0 to 3"), (["abc"], "characters: must be a list")]:
+            with self.assertRaises(skel.UsageError) as caught:
+                skel.LabelledSet(wrong)  # type: ignore[arg-type]
+            self.assertIn(words, str(caught.exception))
         with self.assertRaises(skel.UsageError):
             skel.train(made, folds=5)
+        with self.assertRaises(skel.UsageError) as caught:
+            skel.train(made, seed=2**40)
+        self.assertIn("seed: must be from 0 to 2000000000", str(caught.exception))
 
     def test_ctrl_c_ends_training_and_many_drawings(self) -> None:
         train = f"import skel; skel.train(skel.LabelledSet.load({str(DATASETS / 'characters')!r}), epochs=100000, progress=lambda *_: print('at work', flush=True))"
@@ -268,6 +477,17 @@ class TestLearning(unittest.TestCase):
                 _, said = process.communicate(timeout=120)
                 self.assertIn("KeyboardInterrupt", said)
                 self.assertNotEqual(process.returncode, 0)
+
+    def test_ctrl_c_ends_training_while_figures_are_drawn(self) -> None:
+        program = f"import skel; s = skel.LabelledSet.load({str(DATASETS / 'characters')!r}); print('at work', flush=True); skel.train(s, folds=0, generated=100000)"
+        process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        assert process.stdout
+        self.assertEqual(process.stdout.readline(), "at work\n")
+        time.sleep(2)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=30)  # of many minutes
+        self.assertIn("KeyboardInterrupt", said)
 
 
 if __name__ == "__main__":
