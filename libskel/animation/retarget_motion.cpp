@@ -546,6 +546,10 @@ RetargetedMotion retargetMotion(const BvhMotion& given, const std::string& file,
     const Vector3d way = pose.positions[root] - source.poses[0].positions[root];
     clip.root_translations.push_back((to_ours * way * scale / shape.height_m).cast<float>());
   }
+  const auto checkFinite = [&](const Clip& made) {
+    if (!isFinite(made)) throw InputError(file, "has bones without length, which point nowhere");
+  };
+  checkFinite(clip);
   // Sampled as densely as the tool plays, with the target's own rest pose.
   RetargetOptions options;
   options.clear_of_head = false;
@@ -555,7 +559,7 @@ RetargetedMotion retargetMotion(const BvhMotion& given, const std::string& file,
   options.thin_keys = false;
   result.clip = retargetToRest(clip, target, options);
   standOnGround(source, !mapping.same_names, target, shape, scale, result.clip);
-  if (!isFinite(result.clip)) throw InputError(file, "has bones without length, which point nowhere");
+  checkFinite(result.clip);
   return result;
 }
 
