@@ -145,7 +145,7 @@ assert.deepEqual((await rig(png, { upright: true })).skeleton.joints, hero.skele
 assert.throws(startWorker, (error) => error instanceof SkelError && error.message.includes('node:worker_threads'));
 
 // A core that fails leaves the process as it was, and so does the next one.
-assert.throws(() => core.glb(), WebAssembly.RuntimeError); // of no character: it aborts
+assert.throws(() => core.texture(), WebAssembly.RuntimeError); // of no character: it aborts
 assert.deepEqual(listeners(), before);
 let seen = 0;
 process.once('uncaughtException', () => ++seen);
