@@ -6,6 +6,7 @@
 
 #include "libskel/animation/clip_limits.h"
 #include "libskel/core/error.h"
+#include "libskel/core/json_names.h"
 
 namespace skel {
 namespace {
@@ -17,7 +18,7 @@ struct PlaceInClip {
   int track = -1;  // none: the root, or the clip as a whole
 
   [[noreturn]] void refuse(const std::string& why) const {
-    throw UsageError(before + "the clip \"" + clip.name +
+    throw UsageError(before + "the clip \"" + jsonFromFileName(clip.name) +
                      "\": " + (track < 0 ? "" : "tracks[" + std::to_string(track) + "].") + why);
   }
 };
@@ -37,9 +38,10 @@ void checkKeyCount(const PlaceInClip& place, const char* times, std::size_t time
                  std::to_string(time_count));
 }
 
-void checkFinite(const PlaceInClip& place, const char* member, const std::vector<Eigen::Vector3f>& values) {
+void checkPlaces(const PlaceInClip& place, const char* member, const std::vector<Eigen::Vector3f>& values) {
   for (std::size_t k = 0; k < values.size(); ++k)
-    if (!values[k].allFinite()) place.refuse(keyOf(member, k) + " holds a number that is not finite");
+    if (!(values[k].cwiseAbs().maxCoeff() <= float(kMaxPlace)) || !values[k].allFinite())
+      place.refuse(keyOf(member, k) + " must hold finite numbers of at most 1e6");
 }
 
 void checkTrack(const PlaceInClip& place, const JointTrack& track) {
@@ -59,9 +61,9 @@ void checkTrack(const PlaceInClip& place, const JointTrack& track) {
   for (std::size_t k = 0; k < track.rotations.size(); ++k)
     if (const float length = track.rotations[k].squaredNorm(); !(length >= kLeast && length <= kMost))
       place.refuse(keyOf("rotations", k) + " is no rotation: its four numbers must have length 1");
-  checkFinite(place, "angles_rad", track.angles_rad);
-  checkFinite(place, "translations_m", track.translations_m);
-  checkFinite(place, "scales", track.scales);
+  checkPlaces(place, "angles_rad", track.angles_rad);
+  checkPlaces(place, "translations_m", track.translations_m);
+  checkPlaces(place, "scales", track.scales);
   if (!track.bone.allFinite()) place.refuse("bone holds a number that is not finite");
   if (!std::isfinite(track.slack_rad)) place.refuse("slack_rad must be finite");
 }
@@ -70,6 +72,7 @@ void checkTrack(const PlaceInClip& place, const JointTrack& track) {
 
 void checkClip(const Clip& clip, const std::string& before) {
   const PlaceInClip whole{clip, before};
+  if (jsonFromFileName(clip.name) != clip.name) whole.refuse("name is no UTF-8");
   std::set<std::string_view> moved;
   for (std::size_t t = 0; t < clip.tracks.size(); ++t) {
     const PlaceInClip place{clip, before, int(t)};
@@ -81,7 +84,7 @@ void checkClip(const Clip& clip, const std::string& before) {
   checkClipTimes(whole, "root_times_s", clip.root_times_s);
   checkKeyCount(whole, "root_times_s", clip.root_times_s.size(), "root_translations",
                 clip.root_translations.size());
-  checkFinite(whole, "root_translations", clip.root_translations);
+  checkPlaces(whole, "root_translations", clip.root_translations);
   for (const FootContact& contact : clip.contacts)
     if (!std::isfinite(contact.from_s) || !std::isfinite(contact.to_s))
       whole.refuse("contacts must have finite times");

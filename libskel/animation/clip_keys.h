@@ -10,7 +10,6 @@
 namespace skel {
 
 inline constexpr double kMaxAngle_deg = 3600;
-inline constexpr double kMaxPlace = 1e6;  // of translations and scales, each way
 
 // Refuses a time that does not come after the ones before; `times` grows by it.
 inline void takeTime(const JsonValue& value, double time_s, std::vector<float>& times) {

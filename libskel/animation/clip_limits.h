@@ -8,6 +8,9 @@ namespace skel {
 // Readers refuse what lasts longer.
 inline constexpr double kMaxClip_s = 3600;
 
+// Of translations, in m or in heights of the figure, and of scales, each way: readers refuse more.
+inline constexpr double kMaxPlace = 1e6;
+
 // Of all clips of a model together, whose joints and clips may share the same numbers: readers refuse more.
 inline constexpr std::size_t kMaxKeys = 10'000'000;
 

@@ -1,6 +1,7 @@
 #include "libskel/skeleton/check_skeleton.h"
 
 #include "libskel/core/error.h"
+#include "libskel/core/json_names.h"
 #include "libskel/mesh/triangle_mesh.h"
 
 namespace skel {
@@ -14,8 +15,10 @@ void checkSkeleton(const Skeleton& skeleton, const std::string& name) {
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const Joint& joint = skeleton.joints[j];
     const auto refuse = [&](const std::string& why) {
-      throw UsageError(name + ".joints[" + std::to_string(j) + "], \"" + joint.name + "\", " + why);
+      throw UsageError(name + ".joints[" + std::to_string(j) + "], \"" + jsonFromFileName(joint.name) +
+                       "\", " + why);
     };
+    if (jsonFromFileName(joint.name) != joint.name) refuse("has a name that is no UTF-8");
     if (j == 0 ? joint.parent != -1 : joint.parent < 0 || std::size_t(joint.parent) >= j)
       refuse(j == 0 ? "is the root, and must have the parent -1"
                     : "must have a joint before it as its parent");

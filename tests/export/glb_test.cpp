@@ -564,6 +564,9 @@ TEST_CASE("what is no character, or no clip of it, is refused, not an abort") {
   character.skeleton.joints.clear();
   CHECK_THAT(said(character), Contains("RiggedCharacter::skeleton has no joints"));
   character = good;
+  character.skeleton.joints[3].name = "\xff";
+  CHECK_THAT(said(character), Contains("RiggedCharacter::skeleton.joints[3]") && Contains("no UTF-8"));
+  character = good;
   character.weights.joints.conservativeResize(5, 4);
   CHECK_THAT(said(character), Contains("RiggedCharacter::weights has 5 rows of joints"));
   character = good;

@@ -287,6 +287,14 @@ const std::vector<Case>& cases() {
           },
           "contacts"),
       ofClip(
+          "a clip whose name is no UTF-8", [](Clip& c) { c.name = "\xff\xfe"; }, "name is no UTF-8"),
+      ofClip(
+          "a place of the root that no reader takes",
+          [](Clip& c) {
+            c.root_times_s = {0}, c.root_translations = {{3e38f, 0, 0}};
+          },
+          "root_translations[0] must hold finite numbers of at most 1e6"),
+      ofClip(
           "a lead of NaN", [](Clip& c) { c.lead_s = kNaNf; }, "lead_s"),
       {"a clip of another body plan that is none",
        [](RigInput&, RigOptions& o) {
