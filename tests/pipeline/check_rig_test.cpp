@@ -286,8 +286,13 @@ const std::vector<Case>& cases() {
             c.contacts = {{"left_foot", kNaNf, 1}};
           },
           "contacts"),
-      ofClip(
-          "a clip whose name is no UTF-8", [](Clip& c) { c.name = "\xff\xfe"; }, "name is no UTF-8"),
+      {"a clip whose name is no UTF-8",
+       [](RigInput&, RigOptions& o) {
+         Clip clip = nod();
+         clip.name = "\xff\xfe";
+         o.clips = {clip};
+       },
+       "name is no UTF-8"},
       ofClip(
           "a place of the root that no reader takes",
           [](Clip& c) {
