@@ -138,6 +138,22 @@ Image pictureOf(const DrawnFigure& figure, const FigurePiece& piece, const Plane
   return picture;
 }
 
+// How long the piece of a limb is that bends, to both sides of its root and of its middle joint, px: wide
+// limbs are round there, thin ones curve, and short ones keep what is rigid on both sides.
+struct Bends {
+  double root = 0, middle = 0;
+};
+
+// `root_width`: of what of the limb is in the trunk's sheet.
+Bends bendsOf(const DrawnFigure& figure, std::size_t limb, double root_width, double width) {
+  constexpr double kRootWide = 0.3, kWide = 0.35;                // of the limb's width
+  constexpr double kRootThin = 0.1, kThin = 0.12, kShort = 0.3;  // of a bone
+  const auto& [root, middle, end] = limbBones(figure, limb).joints;
+  const double upper = (middle - root).norm(), shorter = std::min(upper, (end - middle).norm());
+  return {std::max(kRootWide * root_width, kRootThin * upper),
+          std::clamp(kWide * width, kThin * shorter, kShort * shorter)};
+}
+
 // Which limb moves what of a sheet: of each square and of each vertex. `free`: the vertices about the borders
 // between limbs and the rest, and about elbows and knees, where paper bends. `skirt`: those that most of what
 // is around them is a skirt.
@@ -147,7 +163,7 @@ struct Carriers {
 };
 
 Carriers carriersOf(const CutOutSheet& sheet, const Plane8& part, const Plane8& limbs, const PixelBox& box,
-                    const std::vector<double>& bends) {
+                    const std::vector<Bends>& bends) {
   const Lattice& lattice = sheet.lattice;
   Carriers carriers;
   std::vector<std::array<int, 5>> votes(lattice.squares.size(), {0, 0, 0, 0, 0});
@@ -176,7 +192,7 @@ Carriers carriersOf(const CutOutSheet& sheet, const Plane8& part, const Plane8& 
     carriers.of_vertex.push_back(winner(around[v]));
     if (std::count(around[v].begin(), around[v].end(), 0) == 4) continue;
     for (std::size_t limb = 1; limb < 5; ++limb)
-      if (around[v][limb] > 0) left[v] = std::max(left[v], bends[limb]);
+      if (around[v][limb] > 0) left[v] = std::max(left[v], bends[limb].root);
   }
   for (bool changed = true; changed;) {
     changed = false;
@@ -193,34 +209,18 @@ Carriers carriersOf(const CutOutSheet& sheet, const Plane8& part, const Plane8& 
   return carriers;
 }
 
-// How long the piece of a limb is that bends, to both sides of its root and of its middle joint, px: wide
-// limbs are round there, thin ones curve, and short ones keep what is rigid on both sides.
-struct Bends {
-  double root = 0, middle = 0;
-};
-
-Bends bendsOf(const DrawnFigure& figure, std::size_t limb, double width) {
-  constexpr double kRootWide = 0.3, kWide = 0.35;                // of the limb's width
-  constexpr double kRootThin = 0.1, kThin = 0.12, kShort = 0.3;  // of a bone
-  const auto& [root, middle, end] = limbBones(figure, limb).joints;
-  const double upper = (middle - root).norm(), shorter = std::min(upper, (end - middle).norm());
-  return {std::max(kRootWide * width, kRootThin * upper),
-          std::clamp(kWide * width, kThin * shorter, kShort * shorter)};
-}
-
 // Frees the vertices about elbows and knees.
-void freeMiddles(const DrawnFigure& figure, const std::vector<double>& widths, const CutOutSheet& sheet,
+void freeMiddles(const DrawnFigure& figure, const std::vector<Bends>& bends, const CutOutSheet& sheet,
                  const Eigen::Vector2i& corner, Carriers& carriers) {
   for (std::size_t limb = 1; limb <= std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++limb) {
     const LimbBones bones = limbBones(figure, limb);
-    const double reach = bendsOf(figure, limb, widths[limb]).middle;
     for (Index v = 0; v < sheet.lattice.vertices.rows(); ++v)
       if (carriers.of_vertex[std::size_t(v)] == int(limb)) {
         const Vector2d at = sheet.lattice.vertices.row(v).transpose() + corner.cast<double>();
         const double along = bones.nearest(at).along;
         const std::size_t half = along < 1 ? 0 : 1;
         const double bone = (bones.joints[half + 1] - bones.joints[half]).norm();
-        if (std::abs(along - 1) * bone < reach) carriers.free[std::size_t(v)] = true;
+        if (std::abs(along - 1) * bone < bends[limb].middle) carriers.free[std::size_t(v)] = true;
       }
   }
 }
@@ -334,9 +334,9 @@ CutOut makeCutOut(const DrawnFigure& drawn, const CutOutOptions& options) {
   const Plane8 cut = limbTouches(figure, limbs, widths);
   const std::vector<double> all_widths =
       layers.any() ? limbWidths(figure, (limbs != 0).select(limbs, layers.limb)) : widths;
-  std::vector<double> root_bends(widths.size(), 0);
+  std::vector<Bends> bends(widths.size());
   for (std::size_t limb = 1; limb <= std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++limb)
-    root_bends[limb] = bendsOf(figure, limb, widths[limb]).root;
+    bends[limb] = bendsOf(figure, limb, widths[limb], all_widths[limb]);
   CutOut cut_out;
   std::vector<Carriers> carriers;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -358,8 +358,8 @@ CutOut makeCutOut(const DrawnFigure& drawn, const CutOutOptions& options) {
                           std::vector<bool>(std::size_t(sheet.lattice.vertices.rows()), false),
                           std::vector<bool>(std::size_t(sheet.lattice.vertices.rows()), false)});
     else
-      carriers.push_back(carriersOf(sheet, figure.layers.part, limbs, pieces[i].box, root_bends));
-    freeMiddles(figure, all_widths, sheet, corner, carriers.back());
+      carriers.push_back(carriersOf(sheet, figure.layers.part, limbs, pieces[i].box, bends));
+    freeMiddles(figure, bends, sheet, corner, carriers.back());
     sheet.part = carriers.back().of_square;
   }
   const TriangleMesh flat = flatMesh(cut_out.sheets, carriers);

@@ -1,7 +1,6 @@
 #include "libskel/cutout/cut_out_atlas.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "libskel/core/check.h"
@@ -63,10 +62,8 @@ CutOutAtlas atlasOf(const CutOut& cut_out, int most_px) {
       atlas.vertex.push_back(first[patch.sheet] +
                              std::uint32_t(sheet.lattice.squares[patch.square][std::size_t(k)]));
     }
-    const std::array<std::uint32_t, 6> halves = sheet.lattice.cutFromTopRight(patch.square)
-                                                    ? std::array<std::uint32_t, 6>{0, 2, 1, 1, 2, 3}
-                                                    : std::array<std::uint32_t, 6>{0, 2, 3, 0, 3, 1};
-    for (const std::uint32_t k : halves) atlas.triangles.push_back(corner + k);
+    for (const auto& half : sheet.lattice.halves(patch.square))
+      for (const std::size_t k : half) atlas.triangles.push_back(corner + std::uint32_t(k));
   }
   if (const int longest = std::max(atlas.picture.width, atlas.picture.height); longest > most_px)
     atlas.picture =

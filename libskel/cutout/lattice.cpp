@@ -100,17 +100,9 @@ Lattice latticeOf(const Plane8& mask, int side_px, const JoinedPixels& joined) {
 
 Eigen::MatrixX3i Lattice::triangles() const {
   Eigen::MatrixX3i result(2 * Eigen::Index(squares.size()), 3);
-  for (std::size_t s = 0; s < squares.size(); ++s) {
-    const auto& [a, b, c, d] = squares[s];
-    const Eigen::Index row = 2 * Eigen::Index(s);
-    if (cutFromTopRight(s)) {
-      result.row(row) << a, c, b;
-      result.row(row + 1) << b, c, d;
-    } else {
-      result.row(row) << a, c, d;
-      result.row(row + 1) << a, d, b;
-    }
-  }
+  Eigen::Index row = 0;
+  for (std::size_t s = 0; s < squares.size(); ++s)
+    for (const auto& [a, b, c] : halves(s)) result.row(row++) << squares[s][a], squares[s][b], squares[s][c];
   return result;
 }
 

@@ -26,6 +26,11 @@ struct Lattice {
 
   // Which way a square is cut into triangles: from its top right corner, or from its top left one.
   bool cutFromTopRight(std::size_t square) const { return (corners_px[square] / side_px).sum() % 2 == 0; }
+  // The two triangles, of its corners.
+  std::array<std::array<std::size_t, 3>, 2> halves(std::size_t square) const {
+    using Halves = std::array<std::array<std::size_t, 3>, 2>;
+    return cutFromTopRight(square) ? Halves{{{0, 2, 1}, {1, 2, 3}}} : Halves{{{0, 2, 3}, {0, 3, 1}}};
+  }
   // #F×3, two a square, all of one orientation.
   Eigen::MatrixX3i triangles() const;
 };

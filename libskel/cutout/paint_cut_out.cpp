@@ -169,11 +169,8 @@ void CutOutPainter::paint(const std::vector<Eigen::MatrixX2d>& places, Image& im
       p[k] = ((at.array() + 0.5) * kSamples - 0.5).matrix();
       q[k] = {texel(rest.x()), texel(rest.y())};
     }
-    const std::array<std::array<std::size_t, 3>, 2> halves =
-        lattice.cutFromTopRight(patch.square)
-            ? std::array<std::array<std::size_t, 3>, 2>{{{0, 2, 1}, {1, 2, 3}}}
-            : std::array<std::array<std::size_t, 3>, 2>{{{0, 2, 3}, {0, 3, 1}}};
-    for (const auto& [a, b, c] : halves) paintTriangle({p[a], p[b], p[c]}, {q[a], q[b], q[c]}, shown, box);
+    for (const auto& [a, b, c] : lattice.halves(patch.square))
+      paintTriangle({p[a], p[b], p[c]}, {q[a], q[b], q[c]}, shown, box);
   }
 
   constexpr int kAll = kSamples * kSamples;
