@@ -38,9 +38,13 @@ std::vector<RigJob> jobsOf(const InferOptions& options) {
   std::map<std::string, std::string> writers;
   for (const RigJob& job : jobs) {
     const auto [other, is_new] = writers.emplace(job.stem, job.source);
-    if (!is_new)
-      throw UsageError(other->second + " and " + job.source + " would both write " + options.out_dir + "/" +
-                       job.stem + ".*; rename one or run them with different -o");
+    if (is_new) continue;
+    const bool same_folder = fs::path(other->second).parent_path() == fs::path(job.source).parent_path();
+    throw UsageError(other->second + " and " + job.source + " would both write " + options.out_dir + "/" +
+                     job.stem + ".*; " +
+                     (same_folder
+                          ? "if one is the other taken again, move the older one elsewhere, else rename one"
+                          : "rename one or run them with different -o"));
   }
   return jobs;
 }

@@ -38,6 +38,7 @@ void print(const InferOptions& options, bool tells_plan, const DrawingResult& dr
     }
     std::printf("  %-12s %8.2f ms\n", "total", total * 1e3);
   }
+  std::fflush(stdout);  // what is said of it on stderr comes after it in one file, too
 }
 
 // A line is whole or not there, also where several processes write to one file.

@@ -14,6 +14,9 @@ constexpr std::string_view kWithoutMarks =
     "AaAaAaCcCcCcCcDdDdEeEeEeEeEeGgGgGgGgHhHhIiIiIiIiIiIiJjKkkLlLlLlL"
     "lLlNnNnNnnNnOoOoOoOoRrRrRrSsSsSsSsTtTtTtUuUuUuUuUuUuWwYyYZzZzZzs";
 
+// Whatever the locale.
+unsigned char small(char c) { return static_cast<unsigned char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); }
+
 bool isAscii(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
@@ -38,13 +41,13 @@ std::string withoutMarks(const std::string& text) {
   return plain;
 }
 
-// Below 0: `a` comes first. 0: they differ in zeros before numbers at most.
+// Below 0: `a` comes first. 0: they differ in capitals and in zeros before numbers at most.
 int compared(const std::string& a, const std::string& b) {
   const auto isDigit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
   size_t i = 0, k = 0;
   while (i < a.size() && k < b.size()) {
     if (!isDigit(a[i]) || !isDigit(b[k])) {
-      if (a[i] != b[k]) return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[k]) ? -1 : 1;
+      if (small(a[i]) != small(b[k])) return small(a[i]) < small(b[k]) ? -1 : 1;
       ++i, ++k;
       continue;
     }

@@ -5,8 +5,8 @@
 
 namespace skel {
 
-// Numbers in names count as numbers, and Latin letters without their marks: "a9" before "a10", "Ömer" (in
-// UTF-8, composed or not) between "Olga" and "Otto".
+// Numbers in names count as numbers, and Latin letters without their marks, small or capital: "a9" before
+// "a10", "neu" before "Zoe", "Ömer" (in UTF-8, composed or not) between "Olga" and "Otto".
 bool comesBefore(const std::string& a, const std::string& b);
 
 }  // namespace skel

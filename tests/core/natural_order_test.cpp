@@ -25,6 +25,12 @@ TEST_CASE("numbers in the names of frames count as numbers") {
   CHECK(comesBefore("a99999999999999999999", "a100000000000000000000"));
 }
 
+TEST_CASE("names in small letters stood behind all others") {
+  checkOrder({"Anna", "neu 3", "Neu 10", "scan0007", "Zoë"});
+  checkOrder({"_", "a", "z"});
+  CHECK(comesBefore("anna", "Anna") != comesBefore("Anna", "anna"));
+}
+
 TEST_CASE("names that begin with a letter with a mark stood before all others") {
   checkOrder({"Anna", "Åsa", "Ayşe 2", "Ayşe 10", "Çağla", "Carl", "Cem", "Emma", "Łukasz", "Olga", "Ömer",
               "Otto", "Zoë", "Zofia", "Žofie 2", "Σοφία", "Анна"});

@@ -122,6 +122,8 @@ TEST_CASE("wrong usage is told before any work") {
   expect(infer(dir, ""), 1, "name an image, or --model; see --help");
   expect(infer(dir, "a.png more/a.png"), 1,
          "a.png and more/a.png would both write out/a.*; rename one or run them with different -o");
+  writeFile(dir.file("a.jpg"), readFile(kDrawing));
+  expect(infer(dir, "a.jpg a.png"), 1, "if one is the other taken again, move the older one elsewhere");
   expect(infer(dir, "a.png b.png --mask m.png"), 1, "--mask goes with one image, 2 were given");
   expect(infer(dir, "a.png b.png --skeleton s.json"), 1, "--skeleton goes with one image, 2 were given");
   expect(infer(dir, "a.png b.png --layers l.png"), 1, "--layers FILE goes with one image, 2 were given");

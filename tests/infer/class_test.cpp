@@ -152,6 +152,12 @@ TEST_CASE("what is said of many drawings is said once, with the names that it ho
                       "picture (bottom)\n"));
   CHECK(count(run.err, "cut by the border") == 1);
   CHECK(count(run.err, "class/text.png: is not a picture") == 1);
+  SECTION("the list of whom to ask stood before the drawings' lines where both go into one file") {
+    const std::string notes = infer(dir, "class --formats json 2>&1").out;
+    CHECK(notes.find("4 drawings: ") != std::string::npos);
+    CHECK(notes.find("4 drawings: ") > notes.find("Eva B.png: "));
+    CHECK(notes.find("4 drawings: ") > notes.find("Ada.png: "));
+  }
   SECTION("--quiet says what went wrong, nothing else") {
     const ToolRun quiet = infer(dir, "class --formats json --quiet");
     CHECK(quiet.out.empty());
