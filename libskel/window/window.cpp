@@ -44,7 +44,8 @@ struct Glfw {
 // there is one window.
 struct Input {
   std::vector<int> pressed_keys;
-  int clicks = 0;  // presses that no frame has shown
+  int modifiers = 0;  // that were down when one of them was pressed
+  int clicks = 0;     // presses that no frame has shown
   bool changed = false;
 };
 Input& input() {
@@ -53,9 +54,11 @@ Input& input() {
 }
 
 void watchInput(GLFWwindow* window) {
-  glfwSetKeyCallback(window, [](GLFWwindow*, int key, int, int action, int) {
+  glfwSetKeyCallback(window, [](GLFWwindow*, int key, int, int action, int modifiers) {
     input().changed = true;
-    if (key >= 0 && action == GLFW_PRESS) input().pressed_keys.push_back(key);
+    if (key < 0 || action != GLFW_PRESS) return;
+    input().pressed_keys.push_back(key);
+    input().modifiers |= modifiers;
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow*, int button, int action, int) {
     input().changed = true;
@@ -78,6 +81,7 @@ class Taps {
         held_.push_back(key);
       }
     input().pressed_keys.clear();
+    takeModifiers();
     if (input().clicks > 0) {
       io.MouseDown[0] = !was_down_;
       if (!was_down_) --input().clicks;
@@ -91,6 +95,18 @@ class Taps {
   }
 
  private:
+  // Of a Ctrl+Z that is over before the frame begins, Ctrl counts, too, and in that frame alone.
+  void takeModifiers() {
+    ImGuiIO& io = ImGui::GetIO();
+    const auto down = [&](int left, int right, int modifier) {
+      return io.KeysDown[left] || io.KeysDown[right] || (input().modifiers & modifier) != 0;
+    };
+    io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL, GLFW_MOD_CONTROL);
+    io.KeyShift = down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT, GLFW_MOD_SHIFT);
+    io.KeyAlt = down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT, GLFW_MOD_ALT);
+    input().modifiers = 0;
+  }
+
   std::vector<int> held_;
   bool was_down_ = false;  // the left button, in the last frame
 };
