@@ -9,6 +9,7 @@
 #include "libskel/cutout/free_limbs.h"
 #include "libskel/cutout/limb_plane.h"
 #include "libskel/cutout/paper_rim.h"
+#include "libskel/cutout/skirted_legs.h"
 #include "libskel/mesh/fill_hidden.h"
 #include "libskel/skeleton/frontal.h"
 #include "libskel/skin/skin_weights.h"
@@ -319,7 +320,7 @@ void hang(const SkinWeights& weights, Index first, const Carriers& carriers, con
 }  // namespace
 
 CutOut makeCutOut(const DrawnFigure& drawn, const CutOutOptions& options) {
-  const LayerMap layers = withoutFreeLimbs(drawn);
+  const LayerMap layers = withoutFreeLimbs(drawn, withSkirtedLegs(drawn));
   const Image image = withoutPaperRim(drawn.image, drawn.silhouette);
   const DrawnFigure figure{image,           drawn.silhouette, drawn.skeleton,
                            drawn.body_plan, layers,           drawn.model_from_image};

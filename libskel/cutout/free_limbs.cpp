@@ -16,10 +16,10 @@ constexpr double kHolds = 0.02;    // of its pixels
 
 }  // namespace
 
-LayerMap withoutFreeLimbs(const DrawnFigure& figure) {
-  LayerMap layers = figure.layers;
+LayerMap withoutFreeLimbs(const DrawnFigure& figure, LayerMap layers) {
   if (!layers.any()) return layers;
-  const Plane8 &labels = figure.layers.limb, &part = figure.layers.part;
+  const Plane8 labels = layers.limb;
+  const Plane8& part = layers.part;
   const std::vector<double> widths = limbWidths(figure, labels);
   std::array<LimbBones, 5> bones;
   for (std::size_t limb = 1; limb < widths.size(); ++limb)

@@ -5,9 +5,9 @@
 
 namespace skel {
 
-// The figure's layers without the limbs that touch the rest of it about their roots alone, hold nothing and
+// Layers of the figure without the limbs that touch the rest of it about their roots alone, hold nothing and
 // lie behind nothing: as parts of the trunk's sheet they bend at the root, and its outline stays closed
 // there, which a cut would open.
-LayerMap withoutFreeLimbs(const DrawnFigure& figure);
+LayerMap withoutFreeLimbs(const DrawnFigure& figure, LayerMap layers);
 
 }  // namespace skel

@@ -246,7 +246,7 @@ TEST_CASE(
   RiggedDrawing drawing = inOneSheet();
   const Eigen::Vector2d hand = at(drawing, "right_hand");
   const Plane8 as_drawn = drawing.layers.part;
-  const auto hasArm = [&] { return (withoutFreeLimbs(figureOf(drawing)).limb == 1).any(); };
+  const auto hasArm = [&] { return (withoutFreeLimbs(figureOf(drawing), drawing.layers).limb == 1).any(); };
   drawing.layers.limb = (as_drawn == std::uint8_t(Part::kRightArm)).cast<std::uint8_t>();
   REQUIRE(drawing.layers.any());
   CHECK_FALSE(hasArm());
@@ -301,4 +301,53 @@ TEST_CASE("legs hold no skirt") {
   const double waist = at(drawing, "pelvis").y();
   relabel(drawing, Part::kSkirt, [&](const Eigen::Vector2d& p) { return p.y() > waist; });
   CHECK(heldByLegs() == 0);
+}
+
+TEST_CASE("legs that come out from under a skirt swing behind its hem, which stays whole") {
+  RiggedDrawing drawing = inOneSheet();
+  const double waist = at(drawing, "pelvis").y();
+  const double hem = 0.2 * at(drawing, "left_hip").y() + 0.8 * at(drawing, "left_knee").y();
+  const double middle = at(drawing, "pelvis").x();
+  relabel(drawing, Part::kTrunk, [](const Eigen::Vector2d&) { return true; });
+  const auto legs = [&](Part left, Part right) {
+    relabel(drawing, left, [&](const Eigen::Vector2d& p) { return p.y() > hem && p.x() > middle; });
+    relabel(drawing, right, [&](const Eigen::Vector2d& p) { return p.y() > hem && p.x() <= middle; });
+  };
+  const auto sheetsOf = [&] {
+    std::vector<int> layers;
+    for (const CutOutSheet& sheet : cutOutOf(drawing).sheets) layers.push_back(sheet.layer);
+    return layers;
+  };
+  legs(Part::kLeftLeg, Part::kRightLeg);
+  CHECK(sheetsOf() == std::vector<int>{0});
+  relabel(drawing, Part::kSkirt, [&](const Eigen::Vector2d& p) { return p.y() > waist && p.y() <= hem; });
+  CHECK(sheetsOf().size() == 3);
+  const CutOut cut_out = cutOutOf(drawing);
+  std::size_t last_leg = 0, first_trunk = cut_out.patches.size();
+  for (std::size_t i = 0; i < cut_out.patches.size(); ++i)
+    if (cut_out.sheets[cut_out.patches[i].sheet].layer == 0)
+      first_trunk = std::min(first_trunk, i);
+    else
+      last_leg = i;
+  CHECK(last_leg < first_trunk);
+  // A leg's sheet goes on below the skirt, the skirt's ends at the hem.
+  const auto shows = [&](const CutOutSheet& sheet, const Eigen::Vector2d& p) {
+    const Eigen::Vector2d in_sheet =
+        p + sheet.placed.origin_px - drawing.character.mesh.model_from_image.origin_px;
+    const int x = int(in_sheet.x()), y = int(in_sheet.y());
+    return x >= 0 && y >= 0 && x < sheet.picture.width && y < sheet.picture.height &&
+           sheet.picture.pixel(x, y)[3] != 0;
+  };
+  const Eigen::Vector2d knee = at(drawing, "left_knee"), hip = at(drawing, "left_hip");
+  const Eigen::Vector2d below = knee, above = hip + (hem - 5 - hip.y()) / (knee.y() - hip.y()) * (knee - hip);
+  int legs_above = 0, legs_below = 0;
+  for (const CutOutSheet& sheet : cut_out.sheets)
+    if (sheet.layer == 0) {
+      CHECK(shows(sheet, above));
+      CHECK_FALSE(shows(sheet, below));
+    } else {
+      legs_above += shows(sheet, above), legs_below += shows(sheet, below);
+    }
+  CHECK(legs_above == 1);
+  CHECK(legs_below == 1);
 }
