@@ -53,8 +53,8 @@ struct CutOut {
 };
 
 // Limbs of `layers` are sheets of their own; where they hang on the trunk, both sheets show the same. What
-// others hide is filled from around it. Far limbs of a figure from the side lie behind its trunk, free legs,
-// too; free arms before it. The silhouette must be found.
+// others hide is filled from around it. Far limbs of a figure from the side lie behind its trunk, free legs
+// and those that come out from under a skirt, too; free arms before it. The silhouette must be found.
 CutOut makeCutOut(const DrawnFigure& figure, const CutOutOptions& options = {});
 
 // Of each sheet, where its lattice's vertices come to lie: #V×2, model frame, m.
