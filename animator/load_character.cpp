@@ -170,7 +170,7 @@ Clip clipFor(const std::string& name_or_path, const RiggedCharacter& character,
     return loadClipFor(name_or_path, character, source, notes);
   for (const Clip& clip : library)
     if (const std::string fault =
-            clip.name == name_or_path ? faultOf(clip, character.skeleton) : std::string();
+            clip.name == name_or_path && isOwn(clip) ? whyUnfit(clip, character) : std::string();
         !fault.empty())
       throw UsageError("the clip \"" + clip.name + "\" " + fault);
   std::erase_if(fitting, [&](const Clip& clip) { return hasClip(own_clips, clip.name); });
