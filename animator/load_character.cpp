@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "animator/rig_source.h"
+#include "animator/sprite_atlas.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/cli/number.h"
 #include "libskel/core/error.h"
@@ -71,6 +72,9 @@ bool isDrawing(const CharacterSource& source) {
 }
 
 DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips) {
+  if (const std::string atlas = atlasBeside(source.path); !atlas.empty())
+    throw InputError(source.path, "is a sprite sheet of skel (" + fs::path(atlas).filename().string() +
+                                      " beside it); name the drawing or the .glb that it was made of");
   RigOptions options = rigOptionsWithoutClips(source.body_plan);
   const std::vector<Clip> library = clipLibrary(clips);
   options.clips = clipsFor(library, options.body_plan);
