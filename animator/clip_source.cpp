@@ -198,9 +198,14 @@ std::optional<ClipKeys> easedKeysOf(const std::string& path, const Skeleton& ske
 std::vector<ClipKeys> easedKeysOf(const ClipSource& source, const Skeleton& skeleton) {
   std::vector<ClipKeys> eased;
   if (source.clips_dir.empty()) return eased;
-  for (const std::string& path : filesBelow(source.clips_dir))
-    if (path.ends_with(kClipFileEnding))
+  for (const std::string& path : filesBelow(source.clips_dir)) {
+    if (!path.ends_with(kClipFileEnding)) continue;
+    try {
       if (std::optional<ClipKeys> keys = easedKeysOf(path, skeleton)) eased.push_back(std::move(*keys));
+    } catch (const InputError&) {
+      if (source.names.empty()) throw;
+    }
+  }
   return eased;
 }
 

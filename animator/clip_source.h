@@ -64,7 +64,7 @@ Clip loadClipFor(const std::string& path, const RiggedCharacter& character, cons
 // Of a clip file that is for this very rest pose (Clip::rest_pose) and whose keys ease, these keys; else
 // nothing. Throws InputError.
 std::optional<ClipKeys> easedKeysOf(const std::string& path, const Skeleton& skeleton);
-// The same of all clip files of the folder.
+// The same of all clip files of the folder; what is no clip file is refused where all are needed.
 std::vector<ClipKeys> easedKeysOf(const ClipSource& source, const Skeleton& skeleton);
 
 }  // namespace skel

@@ -148,6 +148,11 @@ std::vector<Error> addLibrary(CharacterFile& file, const ClipSource& clips) {
 CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips,
                                      std::string* note) {
   CharacterFile file = loadCharacter(source, clips, note);
+  std::vector<std::string> left_out;
+  clipLibrary(clips, &left_out);
+  if (note)
+    for (const std::string& problem : left_out)
+      *note += (note->empty() ? "note: left out: " : "; left out: ") + problem;
   addLibrary(file, clips);
   return file;
 }
