@@ -394,7 +394,7 @@ class AnimationWindow {
     const std::string name = document_.clip() ? "-" + safeFileName(document_.clip()->name) : "";
     dialog_.ask({"Write a film of what is seen (" + videoFormatNames() + ")", "Write", "film",
                  suggestion(name + ".mp4"), FileUse::kSaveFileOrFolder,
-                 endsWith({".mp4", ".gif", ".webp", ".png"}), "",
+                 endsWith({".mp4", ".gif", ".webp", ".png"}), ".mp4",
                  [this](const std::string& path) { return startFilm(path) ? "" : document_.message(); },
                  [this] { drawFilmOptions(); }});
   }
@@ -482,6 +482,7 @@ class AnimationWindow {
     if (ImGui::Button("New")) document_.newClip("my-clip", 2);
     ImGui::PopStyleVar();
     tip("A clip of your own: pose, set keys, save");
+    ImGui::BeginChild("names of clips");
     if (ImGui::Selectable("(rest pose)", document_.state().clip < 0)) document_.chooseClip(-1);
     for (int i = 0; i < int(document_.clips().size()); ++i) {
       ImGui::PushID(i);
@@ -489,8 +490,14 @@ class AnimationWindow {
         document_.chooseClip(i);
         document_.playing = document_.duration_s() > 0 && !document_.clip()->tracks.empty();
       }
+      if (document_.state().clip == i && seen_clip_ != i) {
+        const float top = ImGui::GetWindowPos().y, bottom = top + ImGui::GetWindowHeight();
+        if (ImGui::GetItemRectMin().y < top || ImGui::GetItemRectMax().y > bottom) ImGui::SetScrollHereY();
+      }
       ImGui::PopID();
     }
+    seen_clip_ = document_.state().clip;
+    ImGui::EndChild();
     ImGui::EndChild();
     ImGui::BeginChild("joints", {0, 0}, true);
     ImGui::TextDisabled("Joints");
@@ -804,6 +811,7 @@ class AnimationWindow {
   AnimationDocument& document_;
   StageView stage_;
   FileDialog dialog_;
+  int seen_clip_ = -1;  // that was chosen in the frame before
   std::unique_ptr<FilmExport> film_;
   std::array<int, 2> film_size_ = {512, 512};
   int film_rate_ = int(kFrameRate);

@@ -13,6 +13,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
+#include "libskel/core/text.h"
 #include "libskel/core/tool_command.h"
 #include "libskel/deform/figure_shape.h"
 #include "libskel/skeleton/joint_lookup.h"
@@ -68,11 +69,36 @@ std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharact
   return fitting;
 }
 
-std::vector<std::string> armsThatStay(const Clip& clip, const RiggedCharacter& character) {
+std::string whyUnfit(const Clip& clip, const RiggedCharacter& character) {
+  if (std::string fault = faultOf(clip, character.skeleton); !fault.empty()) return fault;
+  const std::optional<RoleFigure> figure = roleFigure(character.skeleton);
+  const bool by_parts = figure && isFor(clip, *figure);
+  const JointLookup joints(character.skeleton);
+  const auto lacks = [&](const std::string& joint) {
+    return joints.find(joint) < 0 && !(by_parts && figure->skeleton.find(joint) >= 0);
+  };
+  for (const JointTrack& track : clip.tracks)
+    if (lacks(track.joint)) return "moves \"" + track.joint + "\", which this character lacks";
+  for (const FootContact& contact : clip.contacts)
+    if (lacks(contact.joint))
+      return "puts \"" + contact.joint + "\" on the ground, which this character lacks";
+  return "";
+}
+
+std::vector<std::string> whatStays(const Clip& clip, const RiggedCharacter& character) {
   if (!fits(clip, character.skeleton))
     if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton);
-        figure && fits(clip, *figure))
-      return armsThatStay(clip, figure->skeleton, measureByRoles(character, *figure));
+        figure && fits(clip, *figure)) {
+      std::vector<std::string> clauses =
+          armsThatStay(clip, figure->skeleton, measureByRoles(character, *figure));
+      std::vector<std::string> lacking;
+      for (const JointTrack& track : clip.tracks)
+        if (figure->skeleton.find(track.joint) < 0) lacking.push_back('"' + track.joint + '"');
+      if (!lacking.empty())
+        clauses.push_back("the clip \"" + clip.name + "\" plays without " + joined(lacking) +
+                          ", which this character lacks");
+      return clauses;
+    }
   return armsThatStay(clip, character.skeleton,
                       measureFigure(character.mesh, character.weights, character.skeleton));
 }
@@ -138,18 +164,10 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
   if (isPoseFile(text))
     return clipOfPose(parsePose(text, path, character.skeleton), character.skeleton, stemOfPose(path));
   const Clip clip = parseClip(text, path);
-  if (notes) notes->of_character = armsThatStay(clip, character);
+  if (notes) notes->of_character = whatStays(clip, character);
   if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton); figure && fits(clip, *figure))
     return fitted(clip, character, source);
-  if (const std::string fault = faultOf(clip, character.skeleton); !fault.empty())
-    throw InputError(path, fault);
-  const JointLookup joints(character.skeleton);
-  for (const JointTrack& track : clip.tracks)
-    if (joints.find(track.joint) < 0)
-      throw InputError(path, "moves \"" + track.joint + "\", which this character lacks");
-  for (const FootContact& contact : clip.contacts)
-    if (joints.find(contact.joint) < 0)
-      throw InputError(path, "puts \"" + contact.joint + "\" on the ground, which this character lacks");
+  if (const std::string fault = whyUnfit(clip, character); !fault.empty()) throw InputError(path, fault);
   return fitted(clip, character, source);
 }
 
@@ -180,9 +198,14 @@ std::optional<ClipKeys> easedKeysOf(const std::string& path, const Skeleton& ske
 std::vector<ClipKeys> easedKeysOf(const ClipSource& source, const Skeleton& skeleton) {
   std::vector<ClipKeys> eased;
   if (source.clips_dir.empty()) return eased;
-  for (const std::string& path : filesBelow(source.clips_dir))
-    if (path.ends_with(kClipFileEnding))
+  for (const std::string& path : filesBelow(source.clips_dir)) {
+    if (!path.ends_with(kClipFileEnding)) continue;
+    try {
       if (std::optional<ClipKeys> keys = easedKeysOf(path, skeleton)) eased.push_back(std::move(*keys));
+    } catch (const InputError&) {
+      if (source.names.empty()) throw;
+    }
+  }
   return eased;
 }
 

@@ -37,8 +37,12 @@ std::vector<Clip> clipLibrary(const ClipSource& source, std::vector<std::string>
 // (role_figure.h).
 std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharacter& character);
 
-// What the character's arms do not do of the clip, which is for the canonical pose: a clause an arm.
-std::vector<std::string> armsThatStay(const Clip& clip, const RiggedCharacter& character);
+// What is wrong with a clip that the character cannot do, a clause after the clip's name; "": none can tell.
+std::string whyUnfit(const Clip& clip, const RiggedCharacter& character);
+
+// What the character does not do of a clip that fits it and is for the canonical pose: a clause an arm, and
+// one for the joints that it lacks.
+std::vector<std::string> whatStays(const Clip& clip, const RiggedCharacter& character);
 
 // Made for the canonical pose; the result is for the character's rest pose.
 Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource& source = {});
@@ -50,7 +54,7 @@ RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& char
 // What is to be said of a clip that was read from a file.
 struct ClipNotes {
   std::string of_file;                    // what is not used of it, a line that begins with its name; or ""
-  std::vector<std::string> of_character;  // what its arms do not do of the clip: clauses
+  std::vector<std::string> of_character;  // what it does not do of the clip: clauses
 };
 
 // A clip file, ours or of the elk system, or a .bvh, fitted to the character. `notes` may be null. Throws
@@ -60,7 +64,7 @@ Clip loadClipFor(const std::string& path, const RiggedCharacter& character, cons
 // Of a clip file that is for this very rest pose (Clip::rest_pose) and whose keys ease, these keys; else
 // nothing. Throws InputError.
 std::optional<ClipKeys> easedKeysOf(const std::string& path, const Skeleton& skeleton);
-// The same of all clip files of the folder.
+// The same of all clip files of the folder; what is no clip file is refused where all are needed.
 std::vector<ClipKeys> easedKeysOf(const ClipSource& source, const Skeleton& skeleton);
 
 }  // namespace skel

@@ -123,9 +123,20 @@ class AnimationDocument::StepScope {
   AnimationDocument& document_;
 };
 
+namespace {
+
+// Nobody has asked for one clip of the folder: what is wrong with one of its files keeps no window from
+// opening.
+ClipSource asOffered(ClipSource library) {
+  library.names = {""};
+  return library;
+}
+
+}  // namespace
+
 AnimationDocument::AnimationDocument(const CharacterSource& source, const ClipSource& library)
-    : source_(source), library_(library) {
-  CharacterFile file = loadCharacterWithClips(source, library, &message_);
+    : source_(source), library_(asOffered(library)) {
+  CharacterFile file = loadCharacterWithClips(source, library_, &message_);
   name_ = file.name;
   bones_ = file.bones;
   state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));

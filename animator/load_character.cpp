@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "animator/rig_source.h"
+#include "animator/sprite_atlas.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/cli/number.h"
 #include "libskel/core/error.h"
@@ -71,6 +72,9 @@ bool isDrawing(const CharacterSource& source) {
 }
 
 DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips) {
+  if (const std::string atlas = atlasBeside(source.path); !atlas.empty())
+    throw InputError(source.path, "is a sprite sheet of skel (" + fs::path(atlas).filename().string() +
+                                      " beside it); name the drawing or the .glb that it was made of");
   RigOptions options = rigOptionsWithoutClips(source.body_plan);
   const std::vector<Clip> library = clipLibrary(clips);
   options.clips = clipsFor(library, options.body_plan);
@@ -144,6 +148,11 @@ std::vector<Error> addLibrary(CharacterFile& file, const ClipSource& clips) {
 CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips,
                                      std::string* note) {
   CharacterFile file = loadCharacter(source, clips, note);
+  std::vector<std::string> left_out;
+  clipLibrary(clips, &left_out);
+  if (note)
+    for (const std::string& problem : left_out)
+      *note += (note->empty() ? "note: left out: " : "; left out: ") + problem;
   addLibrary(file, clips);
   return file;
 }
@@ -170,7 +179,7 @@ Clip clipFor(const std::string& name_or_path, const RiggedCharacter& character,
     return loadClipFor(name_or_path, character, source, notes);
   for (const Clip& clip : library)
     if (const std::string fault =
-            clip.name == name_or_path ? faultOf(clip, character.skeleton) : std::string();
+            clip.name == name_or_path && isOwn(clip) ? whyUnfit(clip, character) : std::string();
         !fault.empty())
       throw UsageError("the clip \"" + clip.name + "\" " + fault);
   std::erase_if(fitting, [&](const Clip& clip) { return hasClip(own_clips, clip.name); });

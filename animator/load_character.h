@@ -55,7 +55,7 @@ CharacterFile loadModel(const std::string& path);
 // Adds the motions of skel that fit it and whose names its own clips leave free. Those that it cannot do for
 // all that are returned, as what is wrong with each.
 std::vector<Error> addLibrary(CharacterFile& file, const ClipSource& clips = {});
-// Both.
+// Both. `note` tells of clip files that are left out, too.
 CharacterFile loadCharacterWithClips(const CharacterSource& source, const ClipSource& clips = {},
                                      std::string* note = nullptr);
 

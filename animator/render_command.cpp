@@ -52,19 +52,18 @@ void noteUnfitting(const RenderCommandOptions& options, const RiggedCharacter& c
     }
 }
 
-void sayStayingArms(const std::vector<std::string>& clauses, const std::string& path) {
+void sayWhatStays(const std::vector<std::string>& clauses, const std::string& path) {
   for (const std::string& clause : clauses)
     std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(clause).c_str());
 }
 
 // Of the user's own clips among these that come from the library, not from the character's file (`filed`).
-void noteStayingArms(const RenderCommandOptions& options, const RiggedCharacter& character,
-                     const std::string& path, const std::vector<Clip>& clips,
-                     const std::vector<Clip>& filed) {
+void noteWhatStays(const RenderCommandOptions& options, const RiggedCharacter& character,
+                   const std::string& path, const std::vector<Clip>& clips, const std::vector<Clip>& filed) {
   if (options.library.clips_dir.empty()) return;
   for (const Clip& clip : clipsFor(clipLibrary(options.library), character)) {
     if (!isOwn(clip) || !hasClip(clips, clip.name) || hasClip(filed, clip.name)) continue;
-    sayStayingArms(armsThatStay(clip, character), path);
+    sayWhatStays(whatStays(clip, character), path);
   }
 }
 
@@ -120,7 +119,7 @@ AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, c
     }
     if (found) take(*found, name);
     if (!notes.of_file.empty()) std::fprintf(stderr, "%s\n", printable(notes.of_file).c_str());
-    sayStayingArms(notes.of_character, path);
+    sayWhatStays(notes.of_character, path);
   }
   if (asked.clips.empty() && unknown) throw *unknown;
   return asked;
@@ -171,7 +170,7 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path) {
     throw InputError(path, "can do no clip: it has none, and none that come with skel fit its joints: " +
                                whyNoRoles(file.character.skeleton));
   if (drawn) tell(*drawn, !chooses ? "" : flat ? ", look flat" : ", look solid", path, clips);
-  noteStayingArms(options, file.character, path, clips, drawn ? std::vector<Clip>{} : file.clips);
+  noteWhatStays(options, file.character, path, clips, drawn ? std::vector<Clip>{} : file.clips);
   std::optional<RiggedDrawing> shown;
   if (flat) shown = std::move(drawn->drawing);
   return {path, std::move(file), std::move(shown), clips, left_out_code};

@@ -215,9 +215,9 @@ struct Sheets {
     writeFile(path, encodePng(sheet.picture, 9));
     writeFile(atlasOf(path),
               formatAtlas(sprites, tags, camera.cell, sheet, form, fs::path(path).filename().string()));
-    std::printf("%s: %d frames of %dx%d, %d animations, %dx%d px\n", printable(path).c_str(),
-                int(sprites.size()), size.width, size.height, int(tags.size()), sheet.picture.width,
-                sheet.picture.height);
+    std::printf("%s: %zu %s of %dx%d, %zu %s, %dx%d px\n", printable(path).c_str(), sprites.size(),
+                sprites.size() == 1 ? "frame" : "frames", size.width, size.height, tags.size(),
+                tags.size() == 1 ? "animation" : "animations", sheet.picture.width, sheet.picture.height);
   }
 };
 

@@ -30,12 +30,23 @@ std::string keepAs(const std::string& path, const std::string& start, const std:
   return kept;
 }
 
-std::string whyNotTakenUp(const MendedFiles& files, const InferOptions& options) {
+// Whether limbs beside the result of that skeleton file are taken up for the picture and the figure of
+// `file`.
+bool isOfThis(const std::optional<SkeletonSource>& result, const SkeletonFile& file) {
+  if (!result || result->number != file.figure.number) return false;
+  return result->image_sha256.empty() || result->image_sha256 == file.image_sha256 ||
+         (result->outline_sha256 == file.figure.sha256 && result->image_width == file.image_width &&
+          result->image_height == file.image_height);
+}
+
+std::string whyNotTakenUp(const MendedFiles& files, const InferOptions& options,
+                          const std::optional<SkeletonSource>& result, const SkeletonFile& file) {
+  if (!result) return "no skeleton file beside it says that it is of this figure";
+  if (result->number != file.figure.number) return "it is of figure " + std::to_string(result->number);
+  if (!isOfThis(result, file)) return "the picture has changed";
   if (options.layers != "auto") return "--layers asks for others";
   if (!options.model_file.empty()) return "--model is a body of its own";
-  if (files.earlier_result) return "the picture has changed";
-  if (!files.limbs.empty()) return fs::path(files.limbs).filename().string() + " comes first";
-  return "no skeleton file beside it says that it is of this figure";
+  return fs::path(files.limbs).filename().string() + " comes first";
 }
 
 }  // namespace
@@ -52,7 +63,8 @@ std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& 
   std::vector<KeptFile> all;
   for (const Result& result : kResults) {
     const std::string path = stem + result.ending;
-    if (!writes(options, result.format) || !contains(files.earlier, path)) continue;
+    if ((!writes(options, result.format) && !writes(options, "json")) || !contains(files.earlier, path))
+      continue;
     const std::optional<SkeletonSource> source = sourceOfSkeleton(path);
     all.push_back({path, keepAs(path, stem + result.start, result.end),
                    source && source->image_width == image.width && source->image_height == image.height});
@@ -60,21 +72,25 @@ std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& 
   return all;
 }
 
-std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, const MendedFiles& files,
-                                      const InferOptions& options, const std::string& stem) {
+std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, MendedFiles& files,
+                                      const InferOptions& options, const std::string& stem,
+                                      const SkeletonFile& file) {
   const std::string start = options.out_dir + "/" + stem, path = start + ".layers.png";
+  const std::optional<SkeletonSource> result = sourceOfSkeleton(start + kSkeletonFileEnding);
+  const bool would_lose = writes(options, "layers") && !options.force;
+  const bool would_revive = writes(options, "json") && !writes(options, "layers") && !isOfThis(result, file);
   std::error_code unknown;
-  if (!writes(options, "layers") || options.force || contains(taken_up, path) ||
-      !fs::is_regular_file(path, unknown))
+  if ((!would_lose && !would_revive) || contains(taken_up, path) || !fs::is_regular_file(path, unknown))
     return std::nullopt;
   {
     const LookAtOutputs look;
     if (isAsSealed(readFile(path))) return std::nullopt;
   }
-  const auto name = [](const std::string& file) { return fs::path(file).filename().string(); };
+  std::erase(files.earlier, path);
+  const auto name = [](const std::string& one) { return fs::path(one).filename().string(); };
   const std::string shared = "painted by hand, not taken up and kept",
                     what = name(path) + " (now " + name(keepAs(path, start + ".old", ".layers.png")) +
-                           "), as " + whyNotTakenUp(files, options);
+                           "), as " + whyNotTakenUp(files, options, result, file);
   return Note{shared + ": " + what, shared, what};
 }
 

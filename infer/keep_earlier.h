@@ -10,15 +10,17 @@
 
 namespace skel {
 
-// Gives results that were left out another name before they are written over: <stem>.skeleton.old.json,
-// <stem>.old.silhouette.png, or with a number where that is taken. `image`: the one of now. Throws
-// OutputError.
+// Gives results that were left out another name before they are written over, or a new skeleton file beside
+// them makes them this picture's: <stem>.skeleton.old.json, <stem>.old.silhouette.png, or with a number where
+// that is taken. `image`: the one of now. Throws OutputError.
 std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& options,
                                   const std::string& skeleton_path, const Image& image);
 
-// The same for layers that a person has painted and that this run has not taken up, where it writes others:
-// <stem>.old.layers.png, or with a number. `taken_up`: paths that stay. With --force nothing is kept.
-std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, const MendedFiles& files,
-                                      const InferOptions& options, const std::string& stem);
+// The same for layers that a person has painted and that this run has not taken up: <stem>.old.layers.png, or
+// with a number; they are no longer among files.earlier. Before keepEarlier(). `taken_up`: paths that stay;
+// `file`: that the run writes. With --force layers that are written over are not kept.
+std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, MendedFiles& files,
+                                      const InferOptions& options, const std::string& stem,
+                                      const SkeletonFile& file);
 
 }  // namespace skel

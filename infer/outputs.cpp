@@ -65,7 +65,7 @@ Format single(std::string_view name, LastStage needs, const std::string& suffix,
 
 std::string makeSkeletonJson(const Request& r) { return formatSkeletonFile(r.file); }
 
-std::string makeSilhouette(const Request& r) { return encodePng(r.drawing.silhouette.mask); }
+std::string makeSilhouette(const Request& r) { return encodeSealedPng(r.drawing.silhouette.mask); }
 
 std::string makeLayers(const Request& r) {
   return encodeSealedPng(layerPicture(r.drawing.layers, r.drawing.silhouette.mask));

@@ -117,11 +117,11 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   if (file.labels && !mended.files.labels.empty())
     file.labels->file = pathSeenFrom(skeleton_path, mended.files.labels);
 
-  const std::vector<KeptFile> kept = keepEarlier(mended.files, options, skeleton_path, drawing.image);
   std::vector<std::string> painted;
   if (mended.files.painted_silhouette) painted.push_back(mask);
   if (mended.files.painted_layers) painted.push_back(mended.files.limbs);
-  const std::optional<Note> kept_layers = keepPaintedLayers(painted, mended.files, options, stem);
+  const std::optional<Note> kept_layers = keepPaintedLayers(painted, mended.files, options, stem, file);
+  const std::vector<KeptFile> kept = keepEarlier(mended.files, options, skeleton_path, drawing.image);
   FigureResult result;
   result.outputs = writeOutputs(options, stem, drawing, file, painted);
   if (!options.trace_dir.empty()) {

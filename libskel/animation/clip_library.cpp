@@ -113,10 +113,15 @@ bool isOwn(const Clip& clip) {
 
 namespace {
 
-bool isNeeded(const std::string& path, const std::vector<std::string>& names) {
+bool isNeeded(const std::string& name, const std::vector<std::string>& names) {
+  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// What a file's clip is usually called.
+std::string clipStem(const std::string& path) {
   std::string name = std::filesystem::path(path).filename().string();
   name.resize(name.size() - std::string_view(kClipFileEnding).size());
-  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+  return name;
 }
 
 }  // namespace
@@ -126,21 +131,31 @@ std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std:
   if (dir.empty()) return builtinClips();
   std::vector<Clip> library = builtinClips();
   std::vector<Clip> own;
+  std::vector<std::string> files;  // of `own`
   for (const std::string& path : filesBelow(dir)) {
     if (!path.ends_with(kClipFileEnding)) continue;
     Clip clip;
     try {
       clip = readClipFile(path);
     } catch (const InputError& error) {
-      if (isNeeded(path, names)) throw;
+      if (isNeeded(clipStem(path), names)) throw;
       if (left_out) left_out->push_back(error.what());
       continue;
     }
-    for (const Clip& other : own)
-      if (takesThePlaceOf(clip, other) || takesThePlaceOf(other, clip))
-        throw InputError(
-            path, "is the second clip \"" + clip.name + "\" for " + templateOf(clip, other) + " in " + dir);
+    const auto other = std::find_if(own.begin(), own.end(), [&](const Clip& one) {
+      return takesThePlaceOf(clip, one) || takesThePlaceOf(one, clip);
+    });
+    if (other != own.end()) {
+      const InputError second(path, "is the second clip \"" + clip.name + "\" for " +
+                                        templateOf(clip, *other) + ", after " +
+                                        files[std::size_t(other - own.begin())] +
+                                        "; change \"name\" in one of them, or remove it");
+      if (isNeeded(clip.name, names)) throw second;
+      if (left_out) left_out->push_back(second.what());
+      continue;
+    }
     own.push_back(std::move(clip));
+    files.push_back(path);
   }
   if (own.empty())
     throw InputError(dir, "holds no clip; the files must end in " + std::string(kClipFileEnding));

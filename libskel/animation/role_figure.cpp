@@ -74,12 +74,17 @@ std::optional<RoleFigure> roleFigure(const Skeleton& theirs) {
   return figure;
 }
 
+bool isFor(const Clip& clip, const RoleFigure& figure) {
+  const std::string& body_plan = figure.skeleton.template_name;
+  return clip.template_name.empty() ? fits(clip, loadTemplate(body_plan)) : clip.template_name == body_plan;
+}
+
 bool fits(const Clip& clip, const RoleFigure& figure) {
-  if (clip.template_name != figure.skeleton.template_name) return false;
+  if (!isFor(clip, figure)) return false;
   if (!faultOf(clip, figure.skeleton).empty()) return false;
   const auto there = std::count_if(clip.tracks.begin(), clip.tracks.end(),
                                    [&](const JointTrack& track) { return moves(figure.skeleton, track); });
-  return 2 * std::size_t(there) > clip.tracks.size() &&
+  return (isOwn(clip) ? there > 0 : 2 * std::size_t(there) > clip.tracks.size()) &&
          std::all_of(clip.contacts.begin(), clip.contacts.end(),
                      [&](const FootContact& contact) { return figure.skeleton.find(contact.joint) >= 0; });
 }

@@ -24,8 +24,11 @@ struct RoleFigure {
 // Nothing: neither arms and legs nor four legs could be told.
 std::optional<RoleFigure> roleFigure(const Skeleton& theirs);
 
-// Made for this body plan, of whose joints it moves no others, and most of these are there (no tail, no
-// wagging; but walking).
+// Made for this body plan, or for none and by its names of joints.
+bool isFor(const Clip& clip, const RoleFigure& figure);
+
+// And it moves no others than that body plan's joints, most of which are there (no tail, no wagging; but
+// walking), of a user's own clip one.
 bool fits(const Clip& clip, const RoleFigure& figure);
 
 // The clip for the rest pose of `theirs`. `shape`: of `figure.skeleton`.

@@ -32,13 +32,19 @@ std::string pixelHash(const Image& image) {
   return sha256(std::to_string(image.width) + "x" + std::to_string(image.height) + sha256(pixels));
 }
 
-}  // namespace
-
-std::string encodeSealedPng(const Image& image) {
-  std::string png = encodePng(image);
+std::string sealed(std::string png, const Image& image) {
   const std::string chunk = std::string(kSealStart) + pixelHash(image);
   return png.insert(kHeaderEnd, bigEndian(static_cast<std::uint32_t>(chunk.size() - 4)) + chunk +
                                     bigEndian(chunkCrc(chunk)));
+}
+
+}  // namespace
+
+std::string encodeSealedPng(const Image& image) { return sealed(encodePng(image), image); }
+
+std::string encodeSealedPng(const Plane8& plane) {
+  const std::string png = encodePng(plane);
+  return sealed(png, decodeImage(png, ""));
 }
 
 bool isAsSealed(std::string_view bytes) {

@@ -10,6 +10,7 @@ namespace skel {
 
 // As encodePng(), with a hash of the pixels as a text (tEXt, "skel-pixels").
 std::string encodeSealedPng(const Image& image);
+std::string encodeSealedPng(const Plane8& plane);
 
 // Whether such a picture still has the pixels that it was written with. False of any other bytes: programs
 // for painting leave out texts that they do not know.

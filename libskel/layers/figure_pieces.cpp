@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <optional>
 
 #include "libskel/candidates/candidates.h"
@@ -262,12 +261,15 @@ void giveAway(const Plane8& figure, const PixelBox& box, std::vector<Draft>& dra
 
 }  // namespace
 
-int loosePixels(const LayerMap& layers, int limb) {
+int loosePixels(const LayerMap& layers, int limb, const Plane8& found) {
   if (!layers.any()) return 0;
   const MaskParts parts = maskParts((layers.limb == std::uint8_t(limb)).cast<std::uint8_t>());
-  return parts.size.empty() ? 0
-                            : int(std::accumulate(parts.size.begin(), parts.size.end(), std::int64_t(0)) -
-                                  parts.size[std::size_t(parts.largest())]);
+  const int largest = parts.largest();
+  int loose = 0;
+  for (const MaskParts::Run& run : parts.runs)
+    if (run.part != largest)
+      for (int x = run.x0; x < run.x1; ++x) loose += found.size() == 0 || found(run.y, x) != limb;
+  return loose;
 }
 
 std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& silhouette,

@@ -47,8 +47,9 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
 std::vector<FigurePiece> figurePieces(const LayerMap& layers, const Silhouette& silhouette,
                                       const Skeleton& skeleton, const SkeletonTemplate& body_plan);
 
-// Of a limb of the map: pixels beside its largest connected part, which no body shows as the limb's.
-int loosePixels(const LayerMap& layers, int limb);
+// Of a limb of the map: pixels beside its largest connected part, which no body shows as the limb's. Those
+// that are the limb's in `found`, too, do not count; empty: all do.
+int loosePixels(const LayerMap& layers, int limb, const Plane8& found = {});
 
 // Of each joint of the skeleton, the layer whose vertices it moves: that of the limb it belongs to, if the
 // mesh has it, -1 (none) if it is hidden, else 0.

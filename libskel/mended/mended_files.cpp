@@ -85,6 +85,7 @@ bool isPaintedSilhouette(const std::string& path, const MendPlace& place) {
   if (result->outline_sha256.empty() || result->number != 1) return false;
   try {
     const LookAtOutputs look;
+    if (isAsSealed(readFile(path))) return false;
     const Plane8 grey = readMask(path);
     const Plane8 mask = (grey >= 128).select(Plane8::Constant(grey.rows(), grey.cols(), 255), grey * 0);
     Silhouette silhouette;
@@ -96,8 +97,10 @@ bool isPaintedSilhouette(const std::string& path, const MendPlace& place) {
   }
 }
 
+// For this picture or the one before.
 bool arePaintedLayers(const std::string& path, const MendPlace& place, int figure) {
-  if (!place.is_of_picture || place.result->number != figure || ifThere(path).empty()) return false;
+  if ((!place.is_of_picture && !place.is_earlier) || place.result->number != figure || ifThere(path).empty())
+    return false;
   const LookAtOutputs look;
   return !isAsSealed(readFile(path));
 }
@@ -162,7 +165,7 @@ MendedFiles mendedFiles(const MendRequest& request) {
       offerResult(painted, silhouette, place, sameBytes, files);
     if (const std::string layers = place.results + ".layers.png";
         request.finds_limbs && request.limbs.empty() && arePaintedLayers(layers, place, request.figure))
-      offer(painted_layers, layers, sameBytes, files);
+      offerResult(painted_layers, layers, place, sameBytes, files);
   }
   leaveOutEarlier(files, request, resultAmong(places));
   if (!painted.empty()) {

@@ -72,7 +72,7 @@ std::vector<std::string> looseLimbs(const RiggedDrawing& drawing) {
   constexpr double kSpecks = .02;  // of the limb: less is the brush's
   std::vector<std::string> warnings;
   for (int limb = 1; limb <= int(drawing.body_plan.limbs.size()); ++limb) {
-    const int loose = loosePixels(drawing.layers, limb);
+    const int loose = loosePixels(drawing.layers, limb, drawing.found_limbs);
     if (loose == 0 || loose < kSpecks * double((drawing.layers.limb == limb).count())) continue;
     warnings.push_back(std::to_string(loose) + " px painted as the " + limbName(drawing.body_plan, limb) +
                        " are not joined to the rest of it and stay with the body: look at them (skel-label "

@@ -344,6 +344,7 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
       for (const int limb : drawing.layers.hidden)
         if (!(given.limb == limb).any()) given.hidden.push_back(limb);
       given.far = std::move(drawing.layers.far);
+      drawing.found_limbs = std::move(drawing.layers.limb);
       drawing.layers = std::move(given);
     }
     if (last == LastStage::kLayers) return drawing;

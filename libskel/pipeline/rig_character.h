@@ -114,6 +114,7 @@ struct RiggedDrawing {
   SkeletonTemplate body_plan;  // that it was rigged by
   Recognition recognition;     // with positions in the model as it is drawn, whatever the rest pose
   LayerMap layers;             // empty for a model of a user's own
+  Plane8 found_limbs = {};     // LayerMap::limb as it was found, where input.layers says another
   RiggedCharacter character;   // empty if the silhouette has not been found
   std::vector<Clip> clips;     // retargeted to the rest pose
   std::vector<StageTime> times;

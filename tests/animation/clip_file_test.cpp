@@ -291,10 +291,26 @@ TEST_CASE("a folder of clips adds to those that come with skel and takes their p
   CHECK(clips.size() == 11);
   CHECK(clipNamed(clips, "nod").duration_s() == 9);
   CHECK(clipNamed(clips, "idle").duration_s() == 9);
-  write("second.clip.json", fileWith(bow));
-  CHECK_THROWS_WITH(clipsWithFolder(dir.path()),
-                    dir.file("second.clip.json") +
-                        ": is the second clip \"nod\" for the template \"biped\" in " + dir.path());
+}
+
+TEST_CASE(
+    "a copy of a clip file kept its whole folder from use, and the message named one of the two files") {
+  const TempDir dir;
+  const std::string bow =
+      R"("template": "biped", "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [9, 0, 0, 0]]}])";
+  for (const char* file : {"nod.clip.json", "nod (copy).clip.json"})
+    std::ofstream(dir.file(file)) << fileWith(bow);
+  const std::string problem =
+      dir.file("nod.clip.json") + ": is the second clip \"nod\" for the template \"biped\", after " +
+      dir.file("nod (copy).clip.json") + "; change \"name\" in one of them, or remove it";
+  std::vector<std::string> left_out;
+  for (const std::vector<std::string>& needed : {std::vector<std::string>(), {"walk", "nod"}})
+    CHECK_THROWS_WITH(clipsWithFolder(dir.path(), needed, &left_out), problem);
+  CHECK(left_out.empty());
+  const std::vector<Clip> library = clipsWithFolder(dir.path(), {"walk"}, &left_out);
+  CHECK(left_out == std::vector<std::string>{problem});
+  CHECK(clipNamed(clipsFor(library, loadTemplate("biped")), "nod").duration_s() == 9);
+  CHECK(library.size() == builtinClips().size() + 1);
 }
 
 TEST_CASE("keys that ease come and go as they stand for who edits them") {

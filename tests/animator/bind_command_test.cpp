@@ -170,6 +170,46 @@ TEST_CASE("of a skeleton whose arms and legs are two bones each nobody said why 
          "none that come with skel fit its joints" + why);
 }
 
+TEST_CASE("a clip of one's own did not play on a model without one of its joints, and another was named") {
+  const TempDir dir;
+  writeFile(dir.file("m.obj"), kTetrahedron);
+  std::string joints = bone("Hips", "null", "[0, 0.6, 0]") + "," + bone("Spine", "\"Hips\"", "[0, 1, 0]") +
+                       "," + bone("Head", "\"Spine\"", "[0, 1.4, 0]");
+  for (const std::string side : {"L", "R"}) {
+    const std::string x = side == "L" ? "0." : "-0.", of_side = "." + side;
+    joints += "," + bone("UpperArm" + of_side, "\"Spine\"", "[" + x + "1, 1.2, 0]") + "," +
+              bone("LowerArm" + of_side, "\"UpperArm" + of_side + "\"", "[" + x + "2, 1.1, 0]") + "," +
+              bone("Hand" + of_side, "\"LowerArm" + of_side + "\"", "[" + x + "3, 1.0, 0]") + "," +
+              bone("UpperLeg" + of_side, "\"Hips\"", "[" + x + "1, 0.5, 0]") + "," +
+              bone("LowerLeg" + of_side, "\"UpperLeg" + of_side + "\"", "[" + x + "1, 0.3, 0]") + "," +
+              bone("Foot" + of_side, "\"LowerLeg" + of_side + "\"", "[" + x + "1, 0.1, 0]");
+  }
+  writeFile(dir.file("rig.json"), rig(joints));
+  REQUIRE(animate(dir, "bind m.obj --skeleton rig.json -o golem.glb").exit_code == 0);
+  const auto write = [&](const std::string& body_plan, const std::string& tracks) {
+    writeFile(dir.file("clips/slash.clip.json"),
+              R"({"format": "skel-clip", "version": 1, "name": "slash", )" + body_plan + R"("tracks": [)" +
+                  tracks + "]}");
+  };
+  const std::string body = R"({"joint": "body", "angles_deg": [[0, 0, 0, 0], [1, 0, 20, 0]]})",
+                    arm = R"({"joint": "right_shoulder", "angles_deg": [[0, 0, 0, 0], [1, -90, 0, 0]]})";
+  const std::string film = "render golem.glb --fps 4 --size 16 -o film.gif --clip ";
+  for (const std::string body_plan : {"", "\"template\": \"biped\", "}) {
+    write(body_plan, body + "," + arm);
+    for (const std::string call : {"clips/slash.clip.json", "slash --clips-dir clips"})
+      expect(animate(dir, film + call), 0,
+             "golem.glb: note: the clip \"slash\" plays without \"body\", which this character lacks\n");
+    CHECK(animate(dir, "retarget clips/slash.clip.json --to golem.glb -o a.glb")
+              .out.find("plays without \"body\"") != std::string::npos);
+    CHECK(readGlb(dir.file("a.glb")).clips[0].tracks[0].joint == "UpperArm.R");
+    write(body_plan, body);
+    expect(animate(dir, film + "clips/slash.clip.json"), 2,
+           "clips/slash.clip.json: moves \"body\", which this character lacks");
+    expect(animate(dir, film + "slash --clips-dir clips"), 1,
+           "the clip \"slash\" moves \"body\", which this character lacks");
+  }
+}
+
 TEST_CASE("a person's motion moved an animal without a word") {
   const TempDir dir;
   REQUIRE(animate(dir, "bind '" + kElk + "' --skeleton '" + kBones + "' -o elk.glb").exit_code == 0);

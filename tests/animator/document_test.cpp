@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "libskel/animation/clip_file.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/export/formats.h"
@@ -405,6 +406,21 @@ TEST_CASE("a clip of --clips-dir that eases is edited by its own keys, as one th
   CHECK(again.unsavedClips().empty());
   REQUIRE(again.openModel(figureFile(dir, "third.glb")));
   isEdited();
+}
+
+TEST_CASE("a copy of a clip file kept the window from opening") {
+  const TempDir dir;
+  for (const char* file : {"reach.clip.json", "reach (copy).clip.json"})
+    writeFile(dir.file(std::string("mine/") + file),
+              R"({"format": "skel-clip", "version": 1, "name": "reach", "template": "biped",
+                 "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [1, 40, 0, 0]]}]})");
+  writeFile(dir.file("mine/broken.clip.json"), "{");
+  ClipSource library;
+  library.clips_dir = dir.file("mine");
+  const AnimationDocument document({.path = figureFile(dir)}, library);
+  CHECK(hasClip(document.clips(), "reach"));
+  CHECK_THAT(document.message(), Contains("left out: " + dir.file("mine/broken.clip.json")) &&
+                                     Contains("is the second clip \"reach\""));
 }
 
 TEST_CASE("a pose is taken as a motion of one key") {

@@ -314,6 +314,36 @@ TEST_CASE("a sheet that is refused leaves no folder, nor takes away one that was
   CHECK(std::filesystem::exists(dir.file("new/deep/S.json")));
 }
 
+TEST_CASE("a sheet of skel that was named for a drawing was rigged, as one of its sprites") {
+  const TempDir dir;
+  const std::string sheet = dir.file("Anna.png");
+  const std::string film = sheet + " --clip idle --sheet " + dir.file("x.png");
+  for (const char* atlas : {"array", "hash", "aseprite"}) {
+    REQUIRE(
+        render(figureFile(dir) + " --clip nod --size 24 --atlas " + atlas + " --sheet " + sheet).exit_code ==
+        0);
+    const ToolRun run = render(film);
+    CHECK(run.exit_code == 2);
+    CHECK_THAT(run.err, Contains(sheet + ": is a sprite sheet of skel (Anna.json beside it); "));
+  }
+  // Somebody's own drawing and list, of that name.
+  writeFile(sheet, readFile(kDrawing));
+  for (const std::string list : {"{", "[]", R"({"meta": {"app": "other", "image": "Anna.png"}})",
+                                 R"({"meta": {"app": "skel-animate", "image": "Berta.png"}})"}) {
+    writeFile(dir.file("Anna.json"), list);
+    CHECK(render(film + " --frames 1 --size 24").exit_code == 0);
+  }
+}
+
+TEST_CASE("a sheet of one animation said \"1 animations\"") {
+  const TempDir dir;
+  const auto said = [&](const std::string& frames) {
+    return render(figureFile(dir) + " --clip nod --size 24 --sheet " + dir.file("s.png") + frames).out;
+  };
+  CHECK_THAT(said(" --frames 1"), Contains(": 1 frame of 24x24, 1 animation, "));
+  CHECK_THAT(said(" --frames 2 --directions 4"), Contains(": 8 frames of 24x24, 4 animations, "));
+}
+
 TEST_CASE("sheets of several drawings go to a folder, and what makes no sense is one line") {
   const TempDir dir;
   const std::string model = figureFile(dir), sheets = dir.file("sheets/");

@@ -389,8 +389,9 @@ TEST_CASE("layers that were painted in place are taken up, said in one line, and
   }
   SECTION("of a photo that was taken again it is left out and kept") {
     takeAgain(dir, "clown");
-    CHECK_THAT(infer(dir, call).err,
-               Contains("boy.layers.png (now boy.old.layers.png), as the picture has changed\n"));
+    const ToolRun run = infer(dir, call);
+    CHECK_THAT(run.err, Contains("boy.layers.png (now boy.old.layers.png), as the picture has changed\n"));
+    CHECK(run.err.find(kEarlier) == run.err.npos);
     CHECK(readFile(dir.file("out/boy.old.layers.png")) == painted);
   }
   SECTION("limbs of skel-label come first") {
@@ -399,6 +400,65 @@ TEST_CASE("layers that were painted in place are taken up, said in one line, and
         infer(dir, call).err,
         Contains(kTakenUp + std::string("limbs (boy.limbs.png; not out/boy.layers.png, which differs)")));
     CHECK(readFile(dir.file("out/boy.old.layers.png")) == painted);
+  }
+}
+
+// Repaints what the layers have as the left leg for the trunk; returns how many pixels that were.
+int paintOverLeftLeg(const std::string& path) {
+  Image picture = readImage(path);
+  int changed = 0;
+  for (Eigen::Index p = 0; p < picture.rgba.rows(); ++p)
+    if (picture.rgba(p, 0) == 40 && picture.rgba(p, 1) == 170 && picture.rgba(p, 2) == 80) {
+      picture.rgba.row(p) << 150, 150, 150, 255;
+      ++changed;
+    }
+  writeFile(path, encodePng(picture));
+  return changed;
+}
+
+TEST_CASE(
+    "limbs that were painted for the picture before were dropped without a word, and taken up for the new "
+    "one "
+    "later") {
+  const TempDir dir;
+  drawBoy(dir);
+  const std::string all = "boy.png --formats json,layers", path = dir.file("out/boy.layers.png");
+  REQUIRE(infer(dir, all).exit_code == 0);
+  REQUIRE(paintOverLeftLeg(path) > 100);
+  const std::string painted = readFile(path);
+  takeAgain(dir, "clown");
+  const ToolRun film = runTool("cd '" + dir.path() +
+                               "' && skel-animate render boy.png --clip wave --duration 0.1 --fps 10 --size "
+                               "64x64 -o film.gif");
+  CHECK(film.exit_code == 0);
+  CHECK_THAT(film.err, Contains(kEarlier + std::string("boy.layers.png\n")));
+  CHECK_THAT(infer(dir, "boy.png --formats json -o elsewhere").err,
+             Contains(kEarlier + std::string("boy.layers.png\n")));
+  CHECK(readFile(path) == painted);
+  for (const std::string options : {"", " --force", " --layers off", " --figure 1"}) {
+    CAPTURE(options);
+    CHECK_THAT(infer(dir, "boy.png --formats json" + options).err,
+               Contains("boy.layers.png (now boy.old.layers.png), as the picture has changed\n"));
+    CHECK(readFile(dir.file("out/boy.old.layers.png")) == painted);
+    CHECK(infer(dir, all).err.find("limbs") == std::string::npos);
+    fs::remove(dir.file("out/boy.old.layers.png"));
+    drawBoy(dir);
+    REQUIRE(infer(dir, all + " --force").exit_code == 0);
+    writeFile(path, painted);
+    takeAgain(dir, "clown");
+  }
+}
+
+TEST_CASE(
+    "a silhouette of skel's own, older than its skeleton file, was taken for one that a person painted") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png --formats json,silhouette").exit_code == 0);
+  takeAgain(dir, "clown");
+  for (int time = 0; time < 2; ++time) {
+    const ToolRun run = infer(dir, "boy.png --formats json");
+    CHECK(run.exit_code == 0);
+    CHECK(run.err.find("silhouette") == run.err.npos);
   }
 }
 

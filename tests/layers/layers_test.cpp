@@ -621,6 +621,17 @@ TEST_CASE("a thing is of the limb that most of its border lies against, also whe
   CHECK((again.part == read.part).all());
 }
 
+TEST_CASE("pixels that skel itself had found apart from a limb were told as painted") {
+  LayerMap layers;
+  layers.limb = Plane8::Zero(10, 20);
+  layers.limb.block(0, 0, 10, 8) = 2;
+  layers.limb.block(2, 12, 3, 3) = 2;
+  const Plane8 found = layers.limb;
+  layers.limb.block(8, 18, 2, 2) = 2;
+  CHECK(loosePixels(layers, 2) == 13);
+  CHECK(loosePixels(layers, 2, found) == 4);
+}
+
 TEST_CASE("what is hidden takes the colours around it") {
   Image image(60, 40);
   for (int y = 0; y < 40; ++y)
