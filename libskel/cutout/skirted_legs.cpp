@@ -4,12 +4,14 @@
 #include <array>
 
 #include "libskel/cutout/limb_plane.h"
+#include "libskel/mesh/outline.h"
 
 namespace skel {
 namespace {
 
-constexpr double kBelowHip = 0.5;  // of the thigh
-constexpr double kAcross = 0.18;   // of a bone: standard deviation along it
+constexpr double kBelowHip = 0.5;                    // of the thigh
+constexpr double kAcross = 0.18;                     // of a bone: standard deviation along it
+constexpr double kSmooth = 0.012, kSmoothLeg = 0.5;  // of the figure's long side, of the leg's width
 
 bool isPartOfLeg(std::uint8_t part) {
   return part == std::uint8_t(Part::kRightLeg) || part == std::uint8_t(Part::kLeftLeg);
@@ -50,6 +52,35 @@ LegBorder borderOf(const DrawnFigure& figure, std::size_t limb) {
   return border;
 }
 
+// Gives each pixel of a leg and of the skirt to which of the two has more about it: nets leave teeth and
+// dashes along hems. `limbs`: not 0 on limbs.
+void smoothHem(const DrawnFigure& figure, std::uint8_t leg, double reach_px, Plane8& limbs) {
+  const Plane8 &part = figure.layers.part, &mask = figure.silhouette.mask;
+  const auto reach = int(std::lround(reach_px));
+  const auto rows = int(mask.rows()), columns = int(mask.cols());
+  // How many more pixels are the leg's than the skirt's, of all above and left of a corner.
+  Eigen::ArrayXXi more = Eigen::ArrayXXi::Zero(rows + 1, columns + 1);
+  const auto isSkirt = [&](int y, int x) {
+    return mask(y, x) != 0 && limbs(y, x) == 0 && part(y, x) == std::uint8_t(Part::kSkirt);
+  };
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x)
+      more(y + 1, x + 1) = more(y, x + 1) + more(y + 1, x) - more(y, x) +
+                           (limbs(y, x) == leg ? 1
+                            : isSkirt(y, x)    ? -1
+                                               : 0);
+  Plane8 smooth = limbs;
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
+      if (limbs(y, x) != leg && !isSkirt(y, x)) continue;
+      const int y0 = std::max(0, y - reach), y1 = std::min(rows, y + reach + 1);
+      const int x0 = std::max(0, x - reach), x1 = std::min(columns, x + reach + 1);
+      const int here = more(y1, x1) - more(y0, x1) - more(y1, x0) + more(y0, x0);
+      if (here != 0) smooth(y, x) = here > 0 ? leg : std::uint8_t(0);
+    }
+  limbs = std::move(smooth);
+}
+
 }  // namespace
 
 LayerMap withSkirtedLegs(const DrawnFigure& figure) {
@@ -65,6 +96,13 @@ LayerMap withSkirtedLegs(const DrawnFigure& figure) {
     if (!borderOf(figure, limb).isHem()) return layers;
     limbs = (own != 0).select(Plane8::Constant(mask.rows(), mask.cols(), std::uint8_t(number)), limbs);
     legs.push_back(number);
+  }
+  const PixelBox box = figureBox(mask);
+  for (const int leg : legs) {
+    const double width =
+        double((limbs == std::uint8_t(leg)).count()) / limbBones(figure, std::size_t(leg)).length();
+    smoothHem(figure, std::uint8_t(leg),
+              std::min(kSmooth * std::max(box.width(), box.height()), kSmoothLeg * width), limbs);
   }
   layers.limb = std::move(limbs);
   for (const int leg : legs)

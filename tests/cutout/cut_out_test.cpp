@@ -350,4 +350,14 @@ TEST_CASE("legs that come out from under a skirt swing behind its hem, which sta
     }
   CHECK(legs_above == 1);
   CHECK(legs_below == 1);
+  // A net's teeth along the hem are smoothed.
+  relabel(drawing, Part::kSkirt,
+          [&](const Eigen::Vector2d& p) { return p.y() > hem && p.y() <= hem + 5 && int(p.x()) % 8 < 2; });
+  const CutOutSheet trunk = cutOutOf(drawing).sheets.front();
+  REQUIRE(trunk.layer == 0);
+  for (int x = int(knee.x()) - 8; x < int(knee.x()) + 8; ++x) {
+    CAPTURE(x);
+    CHECK(shows(trunk, {x, hem - 3}));
+    CHECK_FALSE(shows(trunk, {x, hem + 4}));
+  }
 }
