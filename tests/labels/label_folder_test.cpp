@@ -92,7 +92,14 @@ TEST_CASE("sets that cannot be trained on are refused") {
 
   labels.labels[2] = JointClass::kHead;
   put(dir, "a", labels);
-  CHECK(complaint(dir) == ": no candidate is labelled \"hand\"; each of the four classes is needed");
+  CHECK_THROWS_WITH(
+      ensureEveryClass("set", readLabelledSet(dir.path())),
+      "set: no candidate is labelled \"hand\"; each of the four classes is needed to train");
+
+  labels.candidates.clear();
+  labels.labels.clear();
+  put(dir, "a", labels);
+  CHECK(complaint(dir) == ": no candidate has a class");
 
   put(dir, "a", fourClasses("a.png"));
   LabelFile smaller = fourClasses("b.png");
