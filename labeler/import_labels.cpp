@@ -80,17 +80,32 @@ void countJoints(const LabelFile& labels, const SkeletonTemplate& body_plan, Imp
   }
 }
 
+// What skeleton files round to: they come back from one program to the next as far from where they were.
+constexpr double kRounding_px = 0.01;
+
+bool isSamePlace(const std::optional<Eigen::Vector2d>& a, const std::optional<Eigen::Vector2d>& b) {
+  if (!a || !b) return !a && !b;
+  return (*a - *b).cwiseAbs().maxCoeff() < 1.5 * kRounding_px;
+}
+
 // Whether the label file has other joints than the annotation, or they are somebody else's: placed by a
-// person, or found. A label file that cannot be read is not compared.
-bool jointsDiffer(const std::string& label_path, const AnnotatedDrawing& drawing) {
+// person, or found. Those that follow from others do not count. A label file that cannot be read is not
+// compared.
+bool jointsDiffer(const std::string& label_path, const AnnotatedDrawing& drawing,
+                  const SkeletonTemplate& body_plan) {
   const auto contains = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   try {
     const LabelFile labels = readLabelFile(label_path);
     const auto same = [&](const auto& joint) {
-      return std::find(labels.joints.begin(), labels.joints.end(), joint) != labels.joints.end() &&
-             contains(labels.recognized, joint.first) == contains(drawing.recognized, joint.first);
+      const auto ours = std::find_if(labels.joints.begin(), labels.joints.end(),
+                                     [&](const auto& other) { return other.first == joint.first; });
+      const bool found = contains(drawing.recognized, joint.first);
+      if (ours == labels.joints.end() || found != contains(labels.recognized, joint.first)) return false;
+      const int j = body_plan.find(joint.first);
+      const bool follows = found && j >= 0 && body_plan.joints[static_cast<size_t>(j)].derived;
+      return follows || isSamePlace(ours->second, joint.second);
     };
     return !std::all_of(drawing.joints.begin(), drawing.joints.end(), same);
   } catch (const InputError&) {
@@ -134,7 +149,7 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
   const std::string image_path = destination(drawing.image, dir, options);
   const std::string label_path = labelFileFor(image_path);
   if (!options.force && fs::exists(label_path)) {
-    if (jointsDiffer(label_path, drawing)) counts.differing.push_back(label_path);
+    if (jointsDiffer(label_path, drawing, body_plan)) counts.differing.push_back(label_path);
     return false;
   }
 

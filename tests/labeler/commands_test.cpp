@@ -77,9 +77,10 @@ TEST_CASE("wrong arguments are refused with one line") {
       {"good --weights nowhere.json", 2,
        "skel-label: nowhere.json: cannot be read: No such file or directory\n"},
       {"good --template nowhere.json", 2, "nowhere.json"},
-      {"candidates nowhere", 2, "skel-label: nowhere: is not a folder\n"},
+      {"candidates nowhere", 2, "skel-label: nowhere: does not exist\n"},
       {"candidates empty", 2, "skel-label: empty: holds no picture (.png, .jpg, .webp, .bmp, .tif, .gif)\n"},
-      {"import nowhere", 2, "skel-label: nowhere: is not a folder\n"},
+      {"import nowhere", 2, "skel-label: nowhere: does not exist\n"},
+      {"import nowhere.coco.json", 2, "skel-label: nowhere.coco.json: does not exist\n"},
       {"import empty", 2, "skel-label: empty: holds nothing to import"},
       {"check empty", 2, "skel-label: empty: holds no label files (*.labels.json)"},
       {"stats empty", 2, "skel-label: empty: holds no label files (*.labels.json)"},
@@ -306,6 +307,30 @@ TEST_CASE(
         "takes the latter, and drops joints set by hand\n");
   CHECK(label(dir, "import . --force").err == "");
   CHECK(headOf(dir.file("cap_boy.labels.json")) == 310);
+}
+
+TEST_CASE("import: joints that follow from others, and roundings, were told as other joints") {
+  const TempDir dir;
+  fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
+  writeSkeleton(dir, "cap_boy", 300);
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  const std::string path = dir.file("cap_boy.labels.json");
+  const LabelFile made = readLabelFile(path);
+  const auto noteWith = [&](const std::string& joint, double by) {
+    LabelFile moved = made;
+    for (auto& [name, place] : moved.joints)
+      if (name == joint) *place += Eigen::Vector2d(by, by);
+    writeLabelFile(path, moved);
+    return label(dir, "import .").err;
+  };
+  CHECK(noteWith("left_hand", 0.01) == "");
+  CHECK(noteWith("pelvis", -5) == "");
+  CHECK(contains(noteWith("left_hand", 1), "with other joints"));
+
+  LabelFile placed = made;
+  std::erase(placed.recognized, "pelvis");
+  writeLabelFile(path, placed);
+  CHECK(contains(label(dir, "import .").err, "with other joints"));
 }
 
 TEST_CASE("import: our own export put old joints back, and a second one stopped every import") {

@@ -82,7 +82,7 @@ TEST_CASE("a folder of label files becomes one set, sorted by name") {
 TEST_CASE("sets that cannot be trained on are refused") {
   const TempDir dir;
   CHECK(complaint(dir) == ": holds no label files (*.labels.json)");
-  CHECK_THROWS_WITH(readLabelledSet(dir.file("none")), dir.file("none") + ": is not a folder");
+  CHECK_THROWS_WITH(readLabelledSet(dir.file("none")), dir.file("none") + ": does not exist");
 
   LabelFile labels = fourClasses("a.png");
   labels.labels[2].reset();
