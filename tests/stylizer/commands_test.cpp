@@ -161,6 +161,56 @@ TEST_CASE("key frames and the distances of all frames") {
     CHECK(fs::exists(dir.file("keys") + "/" + name));
 }
 
+TEST_CASE("key frames of two films were mixed in one folder") {
+  const TempDir dir;
+  const auto rectangles = [&](const std::string& name, const std::vector<int>& widths) {
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      Image image = blankImage(200, 100);
+      image.rgba.setZero();
+      for (int y = 20; y < 80; ++y)
+        for (int x = 20; x < 20 + widths[i]; ++x) image.pixel(x, y)[3] = 255;
+      writeFile(dir.file(name + "/" + std::to_string(i) + ".png"), encodePng(image));
+    }
+  };
+  rectangles("one", {20, 80, 22, 24, 26, 28});
+  rectangles("other", {20, 22, 24, 90, 26, 28});
+  const std::string keys = dir.file("keys");
+  const auto names = [&] {
+    std::vector<std::string> found;
+    for (const std::string& file : filesBelow(keys)) found.push_back(fs::path(file).filename().string());
+    return found;
+  };
+  using Names = std::vector<std::string>;
+  done("keyframes " + dir.file("one") + " --matrix -o " + keys);
+  const Names of_one = {"distances.json", "distances.png", "key-0001.png", "key-0002.png",
+                        "key-0003.png",   "key-0006.png",  "keyframes.json"};
+  REQUIRE(names() == of_one);
+
+  // Nothing is touched where something is not of the earlier run.
+  const auto refuses = [&](const std::string& name, const std::string& bytes, const std::string& line) {
+    const std::string file = keys + "/" + name, before = fs::exists(file) ? readFile(file) : "";
+    writeFile(file, bytes);
+    const Names there = names();
+    const ToolRun run = style("keyframes " + dir.file("other") + " -o " + keys);
+    CHECK(run.exit_code == 4);
+    CHECK_THAT(run.err, Contains(name + ": " + line));
+    CHECK(names() == there);
+    CHECK(readFile(file) == bytes);
+    before.empty() ? void(fs::remove(file)) : writeFile(file, before);
+  };
+  refuses("key-0009.png", readFile(keys + "/key-0001.png"), "belongs to another film; remove it");
+  refuses("key-0009.png", "mine", "is not one of skel's pictures");
+  refuses("keyframes.json", R"({"format": "mine"})", "is not one of skel-style's; move it away");
+  refuses("distances.json", "[]", "is not one of skel-style's; move it away");
+
+  writeFile(keys + "/notes.txt", "mine");
+  done("keyframes " + dir.file("other") + " -o " + keys);
+  CHECK(names() == Names{"key-0001.png", "key-0004.png", "key-0005.png", "key-0006.png", "keyframes.json",
+                         "notes.txt"});
+  done("keyframes " + dir.file("other") + " --threshold 1 -o " + keys);
+  CHECK(names() == Names{"key-0001.png", "key-0006.png", "keyframes.json", "notes.txt"});
+}
+
 TEST_CASE("one frame, frames that are all the same, and frames without a figure") {
   const TempDir dir;
   fs::create_directory(dir.file("one"));
