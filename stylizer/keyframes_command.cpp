@@ -171,6 +171,12 @@ ExitCode runKeyframes(const KeyframesOptions& options) {
   }
   std::printf("%s: %d of %d frames are key frames\n", printable(options.output).c_str(), int(keys.size()),
               info.frames);
+  const double most = largest > 0 ? successive.maxCoeff() / largest : 0;
+  if (info.frames > 2 && keys.size() == 2 && most > 0)
+    std::fprintf(stderr,
+                 "%s: note: no frame but the first and the last: successive ones differ by at most %.2f of the "
+                 "largest distance; give a --threshold below that\n",
+                 printable(options.output).c_str(), most);
   return ExitCode::kDone;
 }
 

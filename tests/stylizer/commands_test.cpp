@@ -154,7 +154,7 @@ TEST_CASE("what lies in the work folder is taken for the film that it was made o
 TEST_CASE("key frames and the distances of all frames") {
   const TempDir dir;
   const std::string walk = film(dir, "walk");
-  CHECK_THAT(done("keyframes " + walk + " --fps 10 --matrix -o " + dir.file("keys")).out,
+  CHECK_THAT(done("keyframes " + walk + " --fps 10 --matrix --threshold 0.2 -o " + dir.file("keys")).out,
              Contains("of 8 frames"));
   for (const char* name :
        {"keyframes.json", "distances.json", "distances.png", "key-0001.png", "key-0008.png"})
@@ -207,7 +207,10 @@ TEST_CASE("key frames of two films were mixed in one folder") {
   done("keyframes " + dir.file("other") + " -o " + keys);
   CHECK(names() == Names{"key-0001.png", "key-0004.png", "key-0005.png", "key-0006.png", "keyframes.json",
                          "notes.txt"});
-  done("keyframes " + dir.file("other") + " --threshold 1 -o " + keys);
+  const ToolRun few = style("keyframes " + dir.file("other") + " --threshold 1 -o " + keys);
+  CHECK(few.exit_code == 0);
+  CHECK(few.err == keys + ": note: no frame but the first and the last: successive ones differ by at most 1.00 of "
+                          "the largest distance; give a --threshold below that\n");
   CHECK(names() == Names{"key-0001.png", "key-0006.png", "keyframes.json", "notes.txt"});
 }
 
@@ -411,6 +414,9 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
   writeFile(dir.file("bad.motion.json"), "{\"format\": \"skel-motion\", \"version\": 9}");
   fs::create_directory(dir.file("empty"));
   const std::string out = " -o " + dir.file("x.gif");
+  const TempDir frames;
+  fs::copy(kDrawing, frames.file("1.png"));
+  const std::string films = " --content " + frames.path() + " --style " + frames.path();
   const struct {
     std::string arguments;
     int exit_code;
@@ -427,15 +433,15 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
       {"fit " + dir.file("empty"), 2, "empty: is no database"},
       {"database list " + dir.file("empty"), 2, "empty: is no database: it has no index.json"},
       {"database check " + dir.file("empty"), 2, "empty: is no database: it has no index.json"},
-      {"make --character " + dir.file("none.glb") + " --content a --style b" + out, 2,
+      {"make --character " + dir.file("none.glb") + films + out, 2,
        "none.glb: cannot be read"},
-      {"make --character " SKEL_SOURCE_DIR "/datasets/animals/cloud_sheep.png --content a --style b" + out, 2,
+      {"make --character " SKEL_SOURCE_DIR "/datasets/animals/cloud_sheep.png" + films + out, 2,
        "cloud_sheep.png: is a quadruped's figure, and these motions are a person's"},
-      {"make --character " + kDrawing + " --content a --style b --order head" + out, 1,
+      {"make --character " + kDrawing + films + " --order head" + out, 1,
        "--order names each part once"},
-      {"make --character " + kDrawing + " --content a --style b --background '#12'" + out, 1,
+      {"make --character " + kDrawing + films + " --background '#12'" + out, 1,
        "a colour is written #rrggbb"},
-      {"make --character " + kDrawing + " --content a --style b --background " + dir.file("none.png") + out,
+      {"make --character " + kDrawing + films + " --background " + dir.file("none.png") + out,
        2, "none.png: cannot be read"},
       {"render --motion " + dir.file("bad.motion.json") + " --to-clip " + dir.file("clip"), 2,
        "version: is 9"},
@@ -443,10 +449,13 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
       {"render --motion m.motion.json" + out, 1, "needs --character"},
       {"render --character " + kDrawing + " --motion " + dir.file("bad.motion.json") + out, 2,
        "version: is 9"},
-      {"make --character " + dir.file("none.png") + " --content a --style b" + out, 2,
+      {"make --character " + dir.file("none.png") + films + out, 2,
        "none.png: cannot be read"},
       {"make --character " + kDrawing + " --content a.mp4 --style b" + out, 2, "a.mp4: does not exist"},
-      {"make --character " + kDrawing + " --content a.mp4 --style b -o " + dir.file("x.avi"), 1,
+      {"make --character " + kDrawing + " --content " + frames.path() + " --style b.mp4" + out, 2,
+       "b.mp4: does not exist"},
+      {"make --character " + kDrawing + " --content " + frames.path() + out, 1, "--style is required"},
+      {"make --character " + kDrawing + films + " -o " + dir.file("x.avi"), 1,
        "films are written as"},
       {"database list " + dir.file("none"), 2, "is no folder"},
       {"database add " + dir.file("empty"), 1, "name the motion files"},
@@ -460,6 +469,21 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
     CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
   }
   CHECK(filesBelow(dir.path()).size() == 1);
+}
+
+TEST_CASE("make with a wrong style worked through the content first, and left its work folder") {
+  const TempDir dir;
+  fs::create_directory(dir.file("film"));
+  fs::copy(kDrawing, dir.file("film/1.png"));
+  writeFile(dir.file("bad.motion.json"), "{}");
+  for (const char* wrong : {"none.mp4", "none.motion.json", "bad.motion.json"}) {
+    const ToolRun run = style("make --character " + kDrawing + " --content " + dir.file("film") +
+                              " --style " + dir.file(wrong) + " -o " + dir.file("out.gif"));
+    CHECK(run.exit_code == 2);
+    CHECK(run.out == "");
+    CHECK_THAT(run.err, Contains(wrong));
+  }
+  CHECK_FALSE(fs::exists(dir.file("out.gif.work")));
 }
 
 TEST_CASE("a folder in place of the motion file is told from a motion, as with every output") {
