@@ -14,6 +14,7 @@
 #include "libskel/image/write_image.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/labels/label_folder.h"
 
 namespace skel {
 namespace {
@@ -198,6 +199,32 @@ void forEach(const List& list, const char* title, const OnError& on_error, const
   }
 }
 
+// Joints that were placed in the window, of drawings of which nobody has labelled a candidate.
+void labelByPlacedJoints(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error,
+                         ImportCounts& counts) {
+  for (const std::string& path : findLabelFiles(dir)) {
+    try {
+      const LookAtOutputs look;
+      const LabelFile before = readLabelFile(path);
+      const auto hasNone = [](const LabelFile& file) {
+        return std::all_of(file.labels.begin(), file.labels.end(), [](const auto& label) { return !label; });
+      };
+      if (!before.hasPlacedJoint() || !hasNone(before) || !otherPlanOf(before.joints, body_plan).empty())
+        continue;
+      ensureUnchanged(path, before);
+      std::optional<std::string> mask;
+      if (before.mask) mask = besideLabelFile(path, before.mask->file);
+      const LabelFile labels = labelImage(besideLabelFile(path, before.image.file), mask, before.joints,
+                                          body_plan, {}, before.recognized);
+      if (hasNone(labels)) continue;
+      writeLabelFile(path, labels);
+      ++counts.labelled;
+    } catch (const InputError& error) {
+      countFailure(error, counts, on_error);
+    }
+  }
+}
+
 }  // namespace
 
 ImportCounts importLabels(const std::string& path, const SkeletonTemplate& body_plan,
@@ -210,7 +237,8 @@ ImportCounts importLabels(const std::string& path, const SkeletonTemplate& body_
   const std::vector<AnnotatedDrawing> drawings =
       is_file ? readCoco(path, body_plan, on_input_error)
               : findAnnotatedDrawings(path, body_plan, on_input_error, &counts.passed_over);
-  if (drawings.empty() && counts.failed == 0 && counts.passed_over.empty())
+  if (!is_file && options.output.empty()) labelByPlacedJoints(path, body_plan, on_error, counts);
+  if (drawings.empty() && counts.failed == 0 && counts.passed_over.empty() && counts.labelled == 0)
     throw InputError(path,
                      "holds nothing to import (char_cfg.yaml, joints.json, <stem>.joints.json, a COCO file "
                      "with keypoints, "

@@ -264,14 +264,14 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
       std::none_of(labels.labels.begin(), labels.labels.end(), [](const auto& l) { return l.has_value(); }));
   fs::remove(dir.file("box_robot.labels.json"));
   CHECK(contains(label(dir, "stats .").out,
-                 "finished          0    0.0 %\nwith joints       1\n  placed          1\n"));
+                 "classes finished      0    0.0 %\nwith joints           1\n  placed              1\n"));
   const ToolRun evaluated = runTool("cd '" + dir.path() + "' && skel-train evaluate .");
   CHECK(evaluated.exit_code == 2);
   CHECK(contains(evaluated.err, "cap_boy.labels.json: candidates[0].label: is null"));
 
   write("cap_boy", plan, 1, true, true);
   CHECK(contains(label(dir, "import found --force").out, "15 joints placed, 13 found\n"));
-  CHECK(contains(label(dir, "stats .").out, "finished          1   50.0 %"));
+  CHECK(contains(label(dir, "stats .").out, "classes finished      1   50.0 %"));
   CHECK(label(dir, "import found --template quadruped").out ==
         "1 label files made, 0 kept as they were, 0 failed\n0 joints placed, 16 found\nwritten into .\n");
 
@@ -333,6 +333,36 @@ TEST_CASE("import: joints that follow from others, and roundings, were told as o
   CHECK(contains(label(dir, "import .").err, "with other joints"));
 }
 
+TEST_CASE("import: joints that were placed in the window gave no classes without it") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  fs::remove(dir.file("cap_boy.joints.json"));
+  const std::string path = dir.file("cap_boy.labels.json");
+  const LabelFile labelled = readLabelFile(path);
+  LabelFile open = labelled;
+  open.labels.assign(open.labels.size(), std::nullopt);
+  writeLabelFile(path, open);
+  const ToolRun run = label(dir, "import .");
+  CHECK(run.exit_code == 0);
+  CHECK(run.err == "");
+  CHECK(run.out == "0 label files made, 0 kept as they were, 0 failed\n"
+                   "classes by placed joints in 1 label files that had none\n");
+  CHECK(readLabelFile(path).labels == labelled.labels);
+
+  // Whose candidates somebody has begun to label is that person's; where no joint is placed nothing is known.
+  LabelFile begun = open;
+  begun.labels[0] = JointClass::kHead;
+  LabelFile found = open;
+  for (const auto& [name, place] : found.joints)
+    if (place) found.recognized.push_back(name);
+  for (const LabelFile& other : {begun, found}) {
+    writeLabelFile(path, other);
+    CHECK(label(dir, "import .").exit_code == 2);
+    CHECK(readLabelFile(path).labels == other.labels);
+  }
+}
+
 TEST_CASE("import: our own export put old joints back, and a second one stopped every import") {
   const TempDir dir;
   fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
@@ -391,7 +421,7 @@ TEST_CASE("import: a joint that is missing is said, and candidates that may belo
   CHECK(open < static_cast<long>(labels.labels.size()) / 2);
   CHECK(run.err == "skel-label: note: ./cap_boy.labels.json: no place for left_elbow: " +
                        std::to_string(open) + " candidates have no class\n");
-  CHECK(contains(label(dir, "stats .").out, "finished          1   50.0 %"));
+  CHECK(contains(label(dir, "stats .").out, "classes finished      1   50.0 %"));
 
   // COCO says so by a visibility of 0.
   REQUIRE(label(dir, "export . --coco -o round/coco.json").exit_code == 0);
@@ -533,9 +563,9 @@ TEST_CASE("stats and the table count the same candidates") {
   writeLabelFile(dir.file("cap_boy.labels.json"), labels);
   const std::string stats = label(dir, "stats .").out;
   const std::string count = std::to_string(labels.candidates.size());
-  CHECK(contains(stats, "drawings          1\n"));
-  CHECK(contains(stats, "finished          0    0.0 %"));
-  CHECK(contains(stats, "candidates   " + std::string(6 - count.size(), ' ') + count + "\n"));
+  CHECK(contains(stats, "drawings              1\n"));
+  CHECK(contains(stats, "classes finished      0    0.0 %"));
+  CHECK(contains(stats, "candidates       " + std::string(6 - count.size(), ' ') + count + "\n"));
 
   CHECK(label(dir, "export . --csv").out == "out/labels.csv\n");
   const std::string csv = readFile(dir.file("out/labels.csv"));
