@@ -58,6 +58,7 @@ NamedMotion motionOf(const MotionSource& source) {
   leaveTrace(file, source.film_hash);
   std::printf("%s: %d frames%s\n", printable(file).c_str(), int(found.motion.frames.size()),
               source.made_anew ? ", made anew: what was there was of another film, or by other options" : "");
+  sayOtherPlan(found, source.find.film.path);
   // As the next run will see it.
   return {file, readMotionFile(file, plan)};
 }

@@ -486,6 +486,22 @@ TEST_CASE("make with a wrong style worked through the content first, and left it
   CHECK_FALSE(fs::exists(dir.file("out.gif.work")));
 }
 
+TEST_CASE("a film of an animal was taken for a person's without a word") {
+  const TempDir dir;
+  fs::create_directory(dir.file("sheep"));
+  for (const char* frame : {"1", "2", "3"})
+    fs::copy(SKEL_SOURCE_DIR "/datasets/animals/cloud_sheep.png", dir.file(std::string("sheep/") + frame + ".png"));
+  const std::string note =
+      dir.file("sheep") + ": note: shows a quadruped's figure, and these motions are a person's";
+  const ToolRun found = style("keypoints " + dir.file("sheep") + " -o " + dir.file("s.motion.json"));
+  CHECK(found.exit_code == 0);
+  CHECK(found.err.starts_with(note));
+  const ToolRun made = style("make --character " + kDrawing + " --content " + dir.file("sheep") + " --style " +
+                             film(dir, "walk") + " --size 64 -o " + dir.file("out.gif"));
+  CHECK(made.exit_code == 0);
+  CHECK(made.err.starts_with(note));
+}
+
 TEST_CASE("a folder in place of the motion file is told from a motion, as with every output") {
   const TempDir dir;
   const std::string walk = film(dir, "walk");
