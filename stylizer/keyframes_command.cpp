@@ -39,6 +39,11 @@ double meanArea(const std::vector<FrameOutline>& outlines, const std::vector<int
   return std::max(1., sum / double(keys.size()));
 }
 
+[[noreturn]] void refuseForeign(const fs::path& path) {
+  throw OutputError(path.string(),
+                    "is not one of skel-style's; move it away, or name another folder with -o");
+}
+
 // Whether the file is there, of that format. Throws OutputError where it is somebody else's.
 std::optional<JsonDocument> earlier(const fs::path& path, const char* format) {
   if (!fs::exists(path)) return std::nullopt;
@@ -48,21 +53,25 @@ std::optional<JsonDocument> earlier(const fs::path& path, const char* format) {
     if (document.root().at("format").asString() == format) return document;
   } catch (const InputError&) {
   }
-  throw OutputError(path.string(),
-                    "is not one of skel-style's; move it away, or name another folder with -o");
+  refuseForeign(path);
 }
 
 // What an earlier run has written into a folder, which a new one replaces as a whole. Throws OutputError:
 // pictures or files of those names that none has written.
 class EarlierKeys {
  public:
-  explicit EarlierKeys(const fs::path& dir) : dir_(dir), pictures_(checkFrames(dir.string(), "key-")) {
+  EarlierKeys(const fs::path& dir, bool with_matrix)
+      : dir_(dir), pictures_(checkFrames(dir.string(), "key-")) {
     std::set<std::string> known;
     if (const auto keyframes = earlier(dir / "keyframes.json", kKeyframesFormat))
       for (const JsonValue& key : keyframes->root().at("keys").items())
         known.insert(key.at("picture").asString());
     refuseOtherFrames(dir.string(), pictures_, known);
-    if (earlier(dir / "distances.json", kDistancesFormat)) matrix_ = {"distances.json", "distances.png"};
+    const fs::path picture = dir / "distances.png";
+    if (earlier(dir / "distances.json", kDistancesFormat))
+      matrix_ = {"distances.json", "distances.png"};
+    else if (with_matrix && fs::exists(picture))
+      refuseForeign(picture);
   }
 
   void removeAllBut(const std::set<std::string>& pictures, bool with_matrix) const {
@@ -85,7 +94,7 @@ ExitCode runKeyframes(const KeyframesOptions& options) {
     throw UsageError(options.output + " holds the frames; name another folder with -o");
   const NewFolders folders(options.output + "/");
   ensureWritableFolder(options.output);
-  const EarlierKeys earlier_keys(options.output);
+  const EarlierKeys earlier_keys(options.output, options.matrix);
   for (const char* name : {"keyframes.json", "distances.json", "distances.png"})
     noteOutput((fs::path(options.output) / name).string());
   Image background;
@@ -173,10 +182,11 @@ ExitCode runKeyframes(const KeyframesOptions& options) {
               info.frames);
   const double most = largest > 0 ? successive.maxCoeff() / largest : 0;
   if (info.frames > 2 && keys.size() == 2 && most > 0)
-    std::fprintf(stderr,
-                 "%s: note: no frame but the first and the last: successive ones differ by at most %.2f of the "
-                 "largest distance; give a --threshold below that\n",
-                 printable(options.output).c_str(), most);
+    std::fprintf(
+        stderr,
+        "%s: note: no frame but the first and the last: successive ones differ by at most %.2f of the "
+        "largest distance; give a --threshold below that\n",
+        printable(options.output).c_str(), most);
   return ExitCode::kDone;
 }
 

@@ -16,15 +16,16 @@ namespace fs = std::filesystem;
 
 // --content or --style, looked at before any work.
 struct MotionSource {
-  KeypointOptions find;              // of a film: its key points, into the work folder
-  std::string film_hash;             // empty: a motion file was given
-  bool made_anew = false;            // what the work folder holds is of another film
-  std::optional<NamedMotion> motion; // the file given, or the one in the work folder if it is of this film
+  KeypointOptions find;               // of a film: its key points, into the work folder
+  std::string film_hash;              // empty: a motion file was given
+  bool made_anew = false;             // what the work folder holds is of another film
+  std::optional<NamedMotion> motion;  // the file given, or the one in the work folder if it is of this film
 };
 
 MotionSource lookAt(const std::string& path, const std::string& name, const MakeOptions& options) {
   const SkeletonTemplate plan = loadTemplate("biped");
-  if (path.ends_with(kMotionFileEnding)) return {{}, "", false, NamedMotion{path, readMotionFile(path, plan)}};
+  if (path.ends_with(kMotionFileEnding))
+    return {{}, "", false, NamedMotion{path, readMotionFile(path, plan)}};
   const std::string file = (fs::path(options.work) / (name + kMotionFileEnding)).string();
   MotionSource source;
   source.find.film = options.film;

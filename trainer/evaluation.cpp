@@ -17,9 +17,7 @@ std::string line(const char* format, Numbers... numbers) {
   return text;
 }
 
-int sumOf(const std::array<int, kJointClassCount>& row) {
-  return std::accumulate(row.begin(), row.end(), 0);
-}
+int sumOf(const std::array<int, kJointClassCount>& row) { return std::accumulate(row.begin(), row.end(), 0); }
 
 double share(int part, int whole) { return whole > 0 ? static_cast<double>(part) / whole : 0; }
 
@@ -105,7 +103,8 @@ std::string describeEvaluation(const Evaluation& evaluation) {
   std::vector<std::string> absent;
   for (std::size_t c = 0; c < kJointClassNames.size(); ++c)
     if (sumOf(evaluation.confusion[c]) == 0) absent.emplace_back(kJointClassNames[c]);
-  if (!absent.empty()) text += "no candidate is of class " + joined(absent) + ": not in the balanced accuracy\n";
+  if (!absent.empty())
+    text += "no candidate is of class " + joined(absent) + ": not in the balanced accuracy\n";
   return text;
 }
 

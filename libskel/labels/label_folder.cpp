@@ -47,9 +47,10 @@ LabelledCharacter characterOf(const std::string& name, const LabelFile& labels) 
 void checkAllLabelled(const std::string& path, const LabelFile& labels) {
   const auto open = std::find(labels.labels.begin(), labels.labels.end(), std::nullopt);
   if (open != labels.labels.end())
-    throw InputError(path, "candidates[" + std::to_string(open - labels.labels.begin()) +
-                               "].label: is null; label every candidate (skel-label import does it by placed joints "
-                               "where none is labelled)");
+    throw InputError(
+        path, "candidates[" + std::to_string(open - labels.labels.begin()) +
+                  "].label: is null; label every candidate (skel-label import does it by placed joints "
+                  "where none is labelled)");
 }
 
 struct JointedImage {

@@ -346,8 +346,9 @@ TEST_CASE("import: joints that were placed in the window gave no classes without
   const ToolRun run = label(dir, "import .");
   CHECK(run.exit_code == 0);
   CHECK(run.err == "");
-  CHECK(run.out == "0 label files made, 0 kept as they were, 0 failed\n"
-                   "classes by placed joints in 1 label files that had none\n");
+  CHECK(run.out ==
+        "0 label files made, 0 kept as they were, 0 failed\n"
+        "classes by placed joints in 1 label files that had none\n");
   CHECK(readLabelFile(path).labels == labelled.labels);
 
   // Whose candidates somebody has begun to label is that person's; where no joint is placed nothing is known.

@@ -87,15 +87,15 @@ TEST_CASE("sets that cannot be trained on are refused") {
   LabelFile labels = fourClasses("a.png");
   labels.labels[2].reset();
   put(dir, "a", labels);
-  CHECK(complaint(dir) == "/a.labels.json: candidates[2].label: is null; label every candidate (skel-label import "
-                          "does it by placed joints where none is labelled)");
+  CHECK(complaint(dir) ==
+        "/a.labels.json: candidates[2].label: is null; label every candidate (skel-label import "
+        "does it by placed joints where none is labelled)");
   CHECK(checkLabelFolder(dir.path()).empty());  // still in the making
 
   labels.labels[2] = JointClass::kHead;
   put(dir, "a", labels);
-  CHECK_THROWS_WITH(
-      ensureEveryClass("set", readLabelledSet(dir.path())),
-      "set: no candidate is labelled \"hand\"; each of the four classes is needed to train");
+  CHECK_THROWS_WITH(ensureEveryClass("set", readLabelledSet(dir.path())),
+                    "set: no candidate is labelled \"hand\"; each of the four classes is needed to train");
 
   labels.candidates.clear();
   labels.labels.clear();

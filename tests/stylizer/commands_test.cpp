@@ -182,16 +182,17 @@ TEST_CASE("key frames of two films were mixed in one folder") {
   };
   using Names = std::vector<std::string>;
   done("keyframes " + dir.file("one") + " --matrix -o " + keys);
-  const Names of_one = {"distances.json", "distances.png", "key-0001.png", "key-0002.png",
+  const Names of_one = {"distances.json", "distances.png", "key-0001.png",  "key-0002.png",
                         "key-0003.png",   "key-0006.png",  "keyframes.json"};
   REQUIRE(names() == of_one);
 
   // Nothing is touched where something is not of the earlier run.
-  const auto refuses = [&](const std::string& name, const std::string& bytes, const std::string& line) {
+  const auto refuses = [&](const std::string& name, const std::string& bytes, const std::string& line,
+                           const std::string& options = "") {
     const std::string file = keys + "/" + name, before = fs::exists(file) ? readFile(file) : "";
     writeFile(file, bytes);
     const Names there = names();
-    const ToolRun run = style("keyframes " + dir.file("other") + " -o " + keys);
+    const ToolRun run = style("keyframes " + dir.file("other") + options + " -o " + keys);
     CHECK(run.exit_code == 4);
     CHECK_THAT(run.err, Contains(name + ": " + line));
     CHECK(names() == there);
@@ -205,12 +206,15 @@ TEST_CASE("key frames of two films were mixed in one folder") {
 
   writeFile(keys + "/notes.txt", "mine");
   done("keyframes " + dir.file("other") + " -o " + keys);
-  CHECK(names() == Names{"key-0001.png", "key-0004.png", "key-0005.png", "key-0006.png", "keyframes.json",
-                         "notes.txt"});
+  CHECK(names() ==
+        Names{"key-0001.png", "key-0004.png", "key-0005.png", "key-0006.png", "keyframes.json", "notes.txt"});
+  refuses("distances.png", "mine", "is not one of skel-style's; move it away", " --matrix");
   const ToolRun few = style("keyframes " + dir.file("other") + " --threshold 1 -o " + keys);
   CHECK(few.exit_code == 0);
-  CHECK(few.err == keys + ": note: no frame but the first and the last: successive ones differ by at most 1.00 of "
-                          "the largest distance; give a --threshold below that\n");
+  CHECK(few.err ==
+        keys +
+            ": note: no frame but the first and the last: successive ones differ by at most 1.00 of "
+            "the largest distance; give a --threshold below that\n");
   CHECK(names() == Names{"key-0001.png", "key-0006.png", "keyframes.json", "notes.txt"});
 }
 
@@ -433,30 +437,26 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
       {"fit " + dir.file("empty"), 2, "empty: is no database"},
       {"database list " + dir.file("empty"), 2, "empty: is no database: it has no index.json"},
       {"database check " + dir.file("empty"), 2, "empty: is no database: it has no index.json"},
-      {"make --character " + dir.file("none.glb") + films + out, 2,
-       "none.glb: cannot be read"},
+      {"make --character " + dir.file("none.glb") + films + out, 2, "none.glb: cannot be read"},
       {"make --character " SKEL_SOURCE_DIR "/datasets/animals/cloud_sheep.png" + films + out, 2,
        "cloud_sheep.png: is a quadruped's figure, and these motions are a person's"},
-      {"make --character " + kDrawing + films + " --order head" + out, 1,
-       "--order names each part once"},
+      {"make --character " + kDrawing + films + " --order head" + out, 1, "--order names each part once"},
       {"make --character " + kDrawing + films + " --background '#12'" + out, 1,
        "a colour is written #rrggbb"},
-      {"make --character " + kDrawing + films + " --background " + dir.file("none.png") + out,
-       2, "none.png: cannot be read"},
+      {"make --character " + kDrawing + films + " --background " + dir.file("none.png") + out, 2,
+       "none.png: cannot be read"},
       {"render --motion " + dir.file("bad.motion.json") + " --to-clip " + dir.file("clip"), 2,
        "version: is 9"},
       {"render --motion m.motion.json", 1, "name a film by -o"},
       {"render --motion m.motion.json" + out, 1, "needs --character"},
       {"render --character " + kDrawing + " --motion " + dir.file("bad.motion.json") + out, 2,
        "version: is 9"},
-      {"make --character " + dir.file("none.png") + films + out, 2,
-       "none.png: cannot be read"},
+      {"make --character " + dir.file("none.png") + films + out, 2, "none.png: cannot be read"},
       {"make --character " + kDrawing + " --content a.mp4 --style b" + out, 2, "a.mp4: does not exist"},
       {"make --character " + kDrawing + " --content " + frames.path() + " --style b.mp4" + out, 2,
        "b.mp4: does not exist"},
       {"make --character " + kDrawing + " --content " + frames.path() + out, 1, "--style is required"},
-      {"make --character " + kDrawing + films + " -o " + dir.file("x.avi"), 1,
-       "films are written as"},
+      {"make --character " + kDrawing + films + " -o " + dir.file("x.avi"), 1, "films are written as"},
       {"database list " + dir.file("none"), 2, "is no folder"},
       {"database add " + dir.file("empty"), 1, "name the motion files"},
       {"fit " + dir.file("bad.motion.json") + " -k 0", 1, "--components"},
@@ -490,14 +490,15 @@ TEST_CASE("a film of an animal was taken for a person's without a word") {
   const TempDir dir;
   fs::create_directory(dir.file("sheep"));
   for (const char* frame : {"1", "2", "3"})
-    fs::copy(SKEL_SOURCE_DIR "/datasets/animals/cloud_sheep.png", dir.file(std::string("sheep/") + frame + ".png"));
+    fs::copy(SKEL_SOURCE_DIR "/datasets/animals/cloud_sheep.png",
+             dir.file(std::string("sheep/") + frame + ".png"));
   const std::string note =
       dir.file("sheep") + ": note: shows a quadruped's figure, and these motions are a person's";
   const ToolRun found = style("keypoints " + dir.file("sheep") + " -o " + dir.file("s.motion.json"));
   CHECK(found.exit_code == 0);
   CHECK(found.err.starts_with(note));
-  const ToolRun made = style("make --character " + kDrawing + " --content " + dir.file("sheep") + " --style " +
-                             film(dir, "walk") + " --size 64 -o " + dir.file("out.gif"));
+  const ToolRun made = style("make --character " + kDrawing + " --content " + dir.file("sheep") +
+                             " --style " + film(dir, "walk") + " --size 64 -o " + dir.file("out.gif"));
   CHECK(made.exit_code == 0);
   CHECK(made.err.starts_with(note));
 }
