@@ -149,6 +149,9 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
                 const ImportCounts counts =
                     importLabels(options.dir, loadTemplate(options.body_plan), options.import, complaints());
                 const ExitCode code = report(counts);
+                if (counts.labelled > 0)
+                  print("classes by placed joints in " + std::to_string(counts.labelled) +
+                        " label files that had none\n");
                 notePassedOver(counts.passed_over);
                 noteDiffering(counts.differing);
                 noteLacking(counts);

@@ -14,6 +14,7 @@
 #include "libskel/image/write_image.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/labels/label_folder.h"
 
 namespace skel {
 namespace {
@@ -80,17 +81,32 @@ void countJoints(const LabelFile& labels, const SkeletonTemplate& body_plan, Imp
   }
 }
 
+// What skeleton files round to: they come back from one program to the next as far from where they were.
+constexpr double kRounding_px = 0.01;
+
+bool isSamePlace(const std::optional<Eigen::Vector2d>& a, const std::optional<Eigen::Vector2d>& b) {
+  if (!a || !b) return !a && !b;
+  return (*a - *b).cwiseAbs().maxCoeff() < 1.5 * kRounding_px;
+}
+
 // Whether the label file has other joints than the annotation, or they are somebody else's: placed by a
-// person, or found. A label file that cannot be read is not compared.
-bool jointsDiffer(const std::string& label_path, const AnnotatedDrawing& drawing) {
+// person, or found. Those that follow from others do not count. A label file that cannot be read is not
+// compared.
+bool jointsDiffer(const std::string& label_path, const AnnotatedDrawing& drawing,
+                  const SkeletonTemplate& body_plan) {
   const auto contains = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   try {
     const LabelFile labels = readLabelFile(label_path);
     const auto same = [&](const auto& joint) {
-      return std::find(labels.joints.begin(), labels.joints.end(), joint) != labels.joints.end() &&
-             contains(labels.recognized, joint.first) == contains(drawing.recognized, joint.first);
+      const auto ours = std::find_if(labels.joints.begin(), labels.joints.end(),
+                                     [&](const auto& other) { return other.first == joint.first; });
+      const bool found = contains(drawing.recognized, joint.first);
+      if (ours == labels.joints.end() || found != contains(labels.recognized, joint.first)) return false;
+      const int j = body_plan.find(joint.first);
+      const bool follows = found && j >= 0 && body_plan.joints[static_cast<size_t>(j)].derived;
+      return follows || isSamePlace(ours->second, joint.second);
     };
     return !std::all_of(drawing.joints.begin(), drawing.joints.end(), same);
   } catch (const InputError&) {
@@ -134,7 +150,7 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
   const std::string image_path = destination(drawing.image, dir, options);
   const std::string label_path = labelFileFor(image_path);
   if (!options.force && fs::exists(label_path)) {
-    if (jointsDiffer(label_path, drawing)) counts.differing.push_back(label_path);
+    if (jointsDiffer(label_path, drawing, body_plan)) counts.differing.push_back(label_path);
     return false;
   }
 
@@ -183,6 +199,32 @@ void forEach(const List& list, const char* title, const OnError& on_error, const
   }
 }
 
+// Joints that were placed in the window, of drawings of which nobody has labelled a candidate.
+void labelByPlacedJoints(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error,
+                         ImportCounts& counts) {
+  for (const std::string& path : findLabelFiles(dir)) {
+    try {
+      const LookAtOutputs look;
+      const LabelFile before = readLabelFile(path);
+      const auto hasNone = [](const LabelFile& file) {
+        return std::all_of(file.labels.begin(), file.labels.end(), [](const auto& label) { return !label; });
+      };
+      if (!before.hasPlacedJoint() || !hasNone(before) || !otherPlanOf(before.joints, body_plan).empty())
+        continue;
+      ensureUnchanged(path, before);
+      std::optional<std::string> mask;
+      if (before.mask) mask = besideLabelFile(path, before.mask->file);
+      const LabelFile labels = labelImage(besideLabelFile(path, before.image.file), mask, before.joints,
+                                          body_plan, {}, before.recognized);
+      if (hasNone(labels)) continue;
+      writeLabelFile(path, labels);
+      ++counts.labelled;
+    } catch (const InputError& error) {
+      countFailure(error, counts, on_error);
+    }
+  }
+}
+
 }  // namespace
 
 ImportCounts importLabels(const std::string& path, const SkeletonTemplate& body_plan,
@@ -195,7 +237,8 @@ ImportCounts importLabels(const std::string& path, const SkeletonTemplate& body_
   const std::vector<AnnotatedDrawing> drawings =
       is_file ? readCoco(path, body_plan, on_input_error)
               : findAnnotatedDrawings(path, body_plan, on_input_error, &counts.passed_over);
-  if (drawings.empty() && counts.failed == 0 && counts.passed_over.empty())
+  if (!is_file && options.output.empty()) labelByPlacedJoints(path, body_plan, on_error, counts);
+  if (drawings.empty() && counts.failed == 0 && counts.passed_over.empty() && counts.labelled == 0)
     throw InputError(path,
                      "holds nothing to import (char_cfg.yaml, joints.json, <stem>.joints.json, a COCO file "
                      "with keypoints, "

@@ -25,20 +25,22 @@ struct ImportCounts {
   std::vector<std::string> differing;  // of those kept: whose joints are not those of the annotation
   int failed = 0;
   int joints_placed = 0, joints_found = 0;  // in those made: by a person, by the program
-  int classes_kept = 0;                     // in those made: of a label file before, set by hand
-  std::vector<std::string> lacking;         // of those made: without a place for some joint
-  std::set<std::string> missing_joints;     // of these
-  std::size_t without_class = 0;            // candidates of these
-  std::set<std::string> passed_over;        // files that we have exported, beside what they were made of
-  std::set<std::string> folders;            // that those made lie in
-  ExitCode exit_code = ExitCode::kDone;     // of the first failure
+  int labelled = 0;      // label files without any class whose candidates got theirs by their placed joints
+  int classes_kept = 0;  // in those made: of a label file before, set by hand
+  std::vector<std::string> lacking;      // of those made: without a place for some joint
+  std::set<std::string> missing_joints;  // of these
+  std::size_t without_class = 0;         // candidates of these
+  std::set<std::string> passed_over;     // files that we have exported, beside what they were made of
+  std::set<std::string> folders;         // that those made lie in
+  ExitCode exit_code = ExitCode::kDone;  // of the first failure
 };
 
 // Is told the error of every drawing that could not be used; the others are still processed.
 using OnError = std::function<void(const Error&)>;
 
-// `path`: a folder (see findAnnotatedDrawings() for what is read), or a COCO file. Throws InputError where
-// there is nothing to import.
+// `path`: a folder (see findAnnotatedDrawings() for what is read), or a COCO file. Candidates of label files
+// in the folder of which a person has placed joints, and that have no class at all, get theirs by them.
+// Throws InputError where there is nothing to import.
 ImportCounts importLabels(const std::string& path, const SkeletonTemplate& body_plan,
                           const ImportOptions& options, const OnError& on_error);
 

@@ -179,7 +179,7 @@ std::string labelStats(const std::string& dir) {
   std::string text;
   const auto line = [&](const char* name, int count, const std::string& note = {}) {
     char row[128];
-    std::snprintf(row, sizeof row, "%-12s %6d%s\n", name, count, note.c_str());
+    std::snprintf(row, sizeof row, "%-16s %6d%s\n", name, count, note.c_str());
     text += row;
   };
   const auto share = [](int part, int whole) {
@@ -188,7 +188,7 @@ std::string labelStats(const std::string& dir) {
     return std::string(note);
   };
   line("drawings", static_cast<int>(files.size()));
-  line("finished", done, share(done, static_cast<int>(files.size())));
+  line("classes finished", done, share(done, static_cast<int>(files.size())));
   line("with joints", with_joints);
   line("  placed", with_placed);
   line("with mask", masks);

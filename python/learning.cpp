@@ -97,6 +97,7 @@ Trained train(const LabelledSet& set, Whole folds, Whole epochs, Whole restarts,
   checkRange("generated", double(generated), 0, 1e5);
   checkRange("seed", double(seed), 0, 2e9);
   checkRange("threads", double(threads), 0, 1024);
+  ensureEveryClass("characters", set);
   if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0)
     throw UsageError("progress: must be callable, or None");
   const auto count = static_cast<int>(set.characters.size());
@@ -216,7 +217,7 @@ void bindLearning(py::module_& module) {
   py::class_<Evaluation>(module, "Evaluation", "How well a net tells the classes apart.")
       .def_property_readonly("accuracy", &Evaluation::accuracy, "0 to 1.")
       .def_property_readonly("balanced_accuracy", &Evaluation::balancedAccuracy,
-                             "0 to 1: the mean over the classes.")
+                             "0 to 1: the mean over the classes that candidates have.")
       .def_property_readonly("confusion", &confusionOf,
                              "(4, 4) int32: candidates by their class (row) and the net's (column).")
       .def_property_readonly(

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/progress.h"
-#include "libskel/pipeline/rig_character.h"
+#include "libskel/core/text.h"
+#include "libskel/pipeline/rig_drawing.h"
 #include "libskel/video/frame_file.h"
 #include "libskel/video/outline_distance.h"
 
@@ -33,22 +35,29 @@ Eigen::Vector3d colorAt(const Image& image, const Plane8& figure, const Eigen::V
   return count > 0 ? Eigen::Vector3d(sum / count) : Eigen::Vector3d::Constant(0.5);
 }
 
+constexpr std::size_t kAskedFrames = 5;  // for the body plan of their figure
+
 struct Sighting {
   bool found = false;
+  std::string plan;  // of the figure, where it was asked
   Skeleton skeleton;
   Eigen::VectorXd colors;
   double long_side_px = 0;
   FrameOutline outline;
 };
 
+RigInput inputOf(const FilmFrame& frame, FigureMethod method) {
+  RigInput input;
+  input.image = frame.video.image;
+  if (method == FigureMethod::kStill) input.mask = frame.figure;
+  return input;
+}
+
 Sighting look(const FilmFrame& frame, FigureMethod method, const RigOptions& rig) {
   Sighting sighting;
   sighting.outline = outlineOf(frame.figure);
   if (sighting.outline.points.empty()) return sighting;
-  RigInput input;
-  input.image = frame.video.image;
-  if (method == FigureMethod::kStill) input.mask = frame.figure;
-  const RiggedDrawing drawing = rigCharacter(std::move(input), rig);
+  const RiggedDrawing drawing = rigCharacter(inputOf(frame, method), rig);
   if (!drawing.found()) return sighting;
   sighting.found = true;
   sighting.skeleton = drawing.recognition.skeleton;
@@ -67,6 +76,16 @@ Sighting look(const FilmFrame& frame, FigureMethod method, const RigOptions& rig
     sighting.colors.segment<3>(3 * Eigen::Index(j)) =
         colorAt(drawing.image, drawing.silhouette.mask, looked_at[j], 0.02 * sighting.long_side_px);
   return sighting;
+}
+
+std::string otherPlanOfMost(const std::vector<Sighting>& sightings) {
+  std::map<std::string, int> votes;
+  int asked = 0;
+  for (const Sighting& sighting : sightings)
+    if (!sighting.plan.empty()) ++asked, ++votes[sighting.plan];
+  for (const auto& [plan, count] : votes)
+    if (plan != "biped" && 2 * count > asked) return plan;
+  return "";
 }
 
 // Frames beside each other; those without a figure stay where the last one was, and count nothing.
@@ -115,6 +134,14 @@ std::string filmName(const std::string& path) {
   return name.empty() ? fs::path(path).parent_path().filename().string() : name;
 }
 
+void sayOtherPlan(const Keypoints& found, const std::string& film) {
+  if (found.other_plan.empty()) return;
+  std::fprintf(stderr,
+               "%s: note: shows a %s's figure, and these motions are a person's: look at its joints "
+               "(skel-style inspect)\n",
+               printable(film).c_str(), found.other_plan.c_str());
+}
+
 Keypoints findKeypoints(const KeypointOptions& options) {
   const SkeletonTemplate plan = loadTemplate("biped");
   Image background;
@@ -123,6 +150,11 @@ Keypoints findKeypoints(const KeypointOptions& options) {
   rig.body_plan = plan;
   rig.upright = true;
   rig.last = LastStage::kJoints;
+
+  RigOptions any_plan = rigOptionsWithoutClips("auto");
+  any_plan.upright = rig.upright;
+  any_plan.last = rig.last;
+  const std::size_t every = std::max<std::size_t>(1, std::size_t(info.frames) / kAskedFrames);
 
   Keypoints result;
   result.motion.frame_rate = std::clamp(info.frame_rate, kMinFrameRate, kMaxFrameRate);
@@ -150,6 +182,8 @@ Keypoints findKeypoints(const KeypointOptions& options) {
       out.image_height = frame.video.image.height;
       out.time_s = frame.video.time_s;
       sightings[i] = look(frame, info.method, rig);
+      if (sightings[i].found && i % every == 0)
+        sightings[i].plan = rigCharacter(inputOf(frame, info.method), any_plan).body_plan.name;
       bar.advance();
     });
   }
@@ -157,6 +191,8 @@ Keypoints findKeypoints(const KeypointOptions& options) {
       int(std::count_if(sightings.begin(), sightings.end(), [](const Sighting& s) { return !s.found; }));
   if (result.without_figure == info.frames)
     throw InputError(options.film.path, "shows no figure in any frame");
+
+  result.other_plan = otherPlanOfMost(sightings);
 
   std::vector<FrameOutline> outlines;
   for (Sighting& s : sightings) outlines.push_back(std::move(s.outline));

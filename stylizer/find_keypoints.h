@@ -29,7 +29,11 @@ struct Keypoints {
   double unevenness = 0;
   int arms_swapped = 0, legs_swapped = 0;  // frames whose limbs got the names of the other side
   bool loop = false;
+  std::string other_plan;  // whose figure most frames that were asked show, where it is no biped's
 };
+
+// On stderr, where the film shows another body plan's figure.
+void sayOtherPlan(const Keypoints& found, const std::string& film);
 
 // Recognition of each frame (rigCharacter()), one path through all of them (track_joints.h), key frames by
 // the outlines. The frames of a film are written as pictures to `<stem>.frames/`. Throws InputError: no

@@ -27,6 +27,7 @@ ExitCode runKeypoints(const KeypointsCommandOptions& given) {
   if (found.without_figure > 0) std::printf(", %d without a figure", found.without_figure);
   std::printf("\n  limbs renamed in %d frames (arms) and %d (legs); unevenness %.4f as seen, %.4f smoothed\n",
               found.arms_swapped, found.legs_swapped, found.unevenness_seen, found.unevenness);
+  sayOtherPlan(found, options.film.path);
   return ExitCode::kDone;
 }
 

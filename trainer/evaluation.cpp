@@ -2,8 +2,10 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "libskel/core/json_names.h"
+#include "libskel/core/text.h"
 
 namespace skel {
 namespace {
@@ -14,6 +16,8 @@ std::string line(const char* format, Numbers... numbers) {
   std::snprintf(text, sizeof text, format, numbers...);
   return text;
 }
+
+int sumOf(const std::array<int, kJointClassCount>& row) { return std::accumulate(row.begin(), row.end(), 0); }
 
 double share(int part, int whole) { return whole > 0 ? static_cast<double>(part) / whole : 0; }
 
@@ -35,8 +39,7 @@ double Evaluation::balancedAccuracy() const {
   double sum = 0;
   int classes = 0;
   for (std::size_t c = 0; c < confusion.size(); ++c) {
-    int count = 0;
-    for (const int cell : confusion[c]) count += cell;
+    const int count = sumOf(confusion[c]);
     if (count == 0) continue;
     sum += share(confusion[c][c], count);
     ++classes;
@@ -97,6 +100,11 @@ std::string describeEvaluation(const Evaluation& evaluation) {
     for (const int cell : evaluation.confusion[c]) text += line("%8d", cell);
     text += "\n";
   }
+  std::vector<std::string> absent;
+  for (std::size_t c = 0; c < kJointClassNames.size(); ++c)
+    if (sumOf(evaluation.confusion[c]) == 0) absent.emplace_back(kJointClassNames[c]);
+  if (!absent.empty())
+    text += "no candidate is of class " + joined(absent) + ": not in the balanced accuracy\n";
   return text;
 }
 

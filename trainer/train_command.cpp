@@ -215,6 +215,7 @@ ExitCode runTrain(const TrainOptions& given) {
   if (options.folds == 1) throw UsageError("--folds 1: must be 0 or at least 2");
 
   const LabelledSet set = readSet(options.dir, options.candidates);
+  ensureEveryClass(options.dir, set);
   const Characters characters = pointersTo(set.characters);
   checkCounts(options, characters.size());
   ensureWritableNet(options.output, "skel-weights");

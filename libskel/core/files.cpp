@@ -184,6 +184,7 @@ std::vector<std::string> filesBelow(const std::string& dir) {
   std::error_code failure;
   const fs::file_type type = fs::status(dir, failure).type();
   if (type == fs::file_type::none) throw InputError(dir, "cannot be read: " + failure.message());
+  if (type == fs::file_type::not_found) throw InputError(dir, "does not exist");
   if (type != fs::file_type::directory) throw InputError(dir, "is not a folder");
   std::vector<std::string> files;
   addFilesBelow(dir, files);

@@ -47,8 +47,10 @@ LabelledCharacter characterOf(const std::string& name, const LabelFile& labels) 
 void checkAllLabelled(const std::string& path, const LabelFile& labels) {
   const auto open = std::find(labels.labels.begin(), labels.labels.end(), std::nullopt);
   if (open != labels.labels.end())
-    throw InputError(path, "candidates[" + std::to_string(open - labels.labels.begin()) +
-                               "].label: is null; label every candidate");
+    throw InputError(
+        path, "candidates[" + std::to_string(open - labels.labels.begin()) +
+                  "].label: is null; label every candidate (skel-label import does it by placed joints "
+                  "where none is labelled)");
 }
 
 struct JointedImage {
@@ -84,12 +86,8 @@ std::vector<JointedImage> findJointedImages(const std::string& dir) {
   return images;
 }
 
-void checkClasses(const std::string& dir, const LabelledSet& set) {
-  const auto counts = set.classCounts();
-  for (std::size_t c = 0; c < counts.size(); ++c)
-    if (counts[c] == 0)
-      throw InputError(dir, "no candidate is labelled \"" + std::string(kJointClassNames[c]) +
-                                "\"; each of the four classes is needed");
+void ensureSamples(const std::string& dir, const LabelledSet& set) {
+  if (set.sampleCount() == 0) throw InputError(dir, "no candidate has a class");
 }
 
 }  // namespace
@@ -105,6 +103,14 @@ std::array<int, kJointClassCount> LabelledSet::classCounts() const {
   for (const LabelledCharacter& character : characters)
     for (const JointClass label : character.labels) ++counts[static_cast<std::size_t>(label)];
   return counts;
+}
+
+void ensureEveryClass(const std::string& name, const LabelledSet& set) {
+  const auto counts = set.classCounts();
+  for (std::size_t c = 0; c < counts.size(); ++c)
+    if (counts[c] == 0)
+      throw InputError(name, "no candidate is labelled \"" + std::string(kJointClassNames[c]) +
+                                 "\"; each of the four classes is needed to train");
 }
 
 std::vector<std::string> findLabelFiles(const std::string& dir) {
@@ -156,7 +162,7 @@ LabelledSet readLabelledSet(const std::string& dir) {
   }
   if (set.characters.empty())
     throw InputError(dir, "holds no label files (*" + std::string(kLabelFileEnding) + ")");
-  checkClasses(dir, set);
+  ensureSamples(dir, set);
   set.sha256 = sha256(hashed);
   return set;
 }
@@ -176,7 +182,7 @@ LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions&
     throw InputError(dir,
                      "holds no pictures with joints (*.joints.json, or *.labels.json of which a person "
                      "has placed a joint)");
-  checkClasses(dir, set);
+  ensureSamples(dir, set);
   set.sha256 = sha256(hashed);
   return set;
 }

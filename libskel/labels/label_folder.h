@@ -25,6 +25,9 @@ struct LabelledSet {
   std::array<int, kJointClassCount> classCounts() const;
 };
 
+// What a net is to learn needs all four classes; what it is measured by does not. Throws InputError(name).
+void ensureEveryClass(const std::string& name, const LabelledSet& set);
+
 // Label files below `dir`, at any depth, sorted by path. Throws InputError: no such folder, one that
 // cannot be read.
 std::vector<std::string> findLabelFiles(const std::string& dir);
@@ -34,7 +37,7 @@ std::vector<std::string> findLabelFiles(const std::string& dir);
 std::vector<std::string> checkLabelFolder(const std::string& dir);
 
 // Throws InputError that names file, JSON path and reason: whatever checkLabelFolder() finds, no label files
-// at all, a candidate without label, a class that no candidate has.
+// at all, a candidate without label, no candidates.
 LabelledSet readLabelledSet(const std::string& dir);
 
 // The same with candidates of any method, labelled from the joints: of annotated pictures (see

@@ -44,19 +44,31 @@ std::string encodeFrame(const Image& frame) {
   return png.insert(kMarkAt, kMark);
 }
 
-void checkFrames(const std::string& dir, const std::string& prefix) {
+std::vector<std::string> checkFrames(const std::string& dir, const std::string& prefix) {
   std::error_code failure;
-  std::vector<fs::path> frames;
+  std::vector<std::string> names;
   for (fs::directory_iterator entry(dir, failure); !failure && entry != fs::directory_iterator();
-       entry.increment(failure))
-    if (isFrame(entry->path().filename().string(), prefix)) frames.push_back(entry->path());
-  std::sort(frames.begin(), frames.end());
-  for (const fs::path& frame : frames) {
+       entry.increment(failure)) {
+    std::string name = entry->path().filename().string();
+    if (isFrame(name, prefix)) names.push_back(std::move(name));
+  }
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names) {
+    const fs::path frame = fs::path(dir) / name;
     noteOutput(frame.string());
     if (!isOurs(frame))
       throw OutputError(frame.string(),
                         "is not one of skel's pictures; move it away, or name another folder with -o");
   }
+  return names;
+}
+
+void refuseOtherFrames(const std::string& dir, const std::vector<std::string>& there,
+                       const std::set<std::string>& known) {
+  for (const std::string& name : there)
+    if (!known.contains(name))
+      throw OutputError((fs::path(dir) / name).string(),
+                        "belongs to another film; remove it, or name another folder with -o");
 }
 
 }  // namespace skel

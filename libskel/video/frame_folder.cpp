@@ -24,11 +24,11 @@ class FrameFolder : public VideoWriter {
  public:
   FrameFolder(std::string dir, const VideoOptions& options) : dir_(std::move(dir)), options_(options) {
     ensureWritableFolder(dir_);
-    checkFrames(dir_, kPrefix);
-    // What is left of a longer film would be taken for the end of this one.
-    const std::string next = dir_ / frameName(options.frames + 1);
-    if (options.frames > 0 && fs::exists(next))
-      throw OutputError(next, "belongs to a longer film; remove it, or name another folder with -o");
+    const std::vector<std::string> there = checkFrames(dir_, kPrefix);
+    if (options.frames == 0) return;
+    std::set<std::string> ours;
+    for (int number = 1; number <= options.frames; ++number) ours.insert(frameName(number));
+    refuseOtherFrames(dir_, there, ours);
   }
 
   void add(const Image& frame) override {

@@ -33,7 +33,7 @@ class VideoWriter {
 //   none, or a slash at the end: a folder of frame-0001.png …
 // The same frames give the same bytes. Throws UsageError (another ending, a size or a rate that the format
 // does not have), UnavailableError (a library or an encoder that is not there), OutputError (the folder
-// cannot be written to, or holds frames of a longer film).
+// cannot be written to, or holds frames of another film).
 std::unique_ptr<VideoWriter> openVideo(const std::string& path, const VideoOptions& options);
 
 // What openVideo() refuses of any film, before there is one: sides beyond 1 to 16383 px, rates beyond 0.1 to

@@ -51,7 +51,7 @@ TEST_CASE("list names the clips there are, and those of a character with its joi
   CHECK(one.out.find("  cheer ") != std::string::npos);
   CHECK(one.out.find("graze") == std::string::npos);
   CHECK(one.out.find("          left_hand\n") != std::string::npos);
-  checkFails("list --clips-dir " + dir.file("none"), 2, dir.file("none") + ": is not a folder");
+  checkFails("list --clips-dir " + dir.file("none"), 2, dir.file("none") + ": does not exist");
 }
 
 TEST_CASE("a drawing in place of a model was called no GLB file, and not what to do") {

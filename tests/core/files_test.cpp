@@ -98,7 +98,7 @@ TEST_CASE("files below a folder: sorted, at any depth, with links that lead nowh
                                                            dir.file("dangling"), dir.file("loop")});
   CHECK_THROWS_WITH(readFile(dir.file("loop")),
                     dir.file("loop") + ": cannot be read: Too many levels of symbolic links");
-  CHECK_THROWS_WITH(filesBelow(dir.file("nowhere")), dir.file("nowhere") + ": is not a folder");
+  CHECK_THROWS_WITH(filesBelow(dir.file("nowhere")), dir.file("nowhere") + ": does not exist");
   CHECK_THROWS_WITH(filesBelow(dir.file("a")), dir.file("a") + ": is not a folder");
 }
 

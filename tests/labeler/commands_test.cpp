@@ -77,9 +77,10 @@ TEST_CASE("wrong arguments are refused with one line") {
       {"good --weights nowhere.json", 2,
        "skel-label: nowhere.json: cannot be read: No such file or directory\n"},
       {"good --template nowhere.json", 2, "nowhere.json"},
-      {"candidates nowhere", 2, "skel-label: nowhere: is not a folder\n"},
+      {"candidates nowhere", 2, "skel-label: nowhere: does not exist\n"},
       {"candidates empty", 2, "skel-label: empty: holds no picture (.png, .jpg, .webp, .bmp, .tif, .gif)\n"},
-      {"import nowhere", 2, "skel-label: nowhere: is not a folder\n"},
+      {"import nowhere", 2, "skel-label: nowhere: does not exist\n"},
+      {"import nowhere.coco.json", 2, "skel-label: nowhere.coco.json: does not exist\n"},
       {"import empty", 2, "skel-label: empty: holds nothing to import"},
       {"check empty", 2, "skel-label: empty: holds no label files (*.labels.json)"},
       {"stats empty", 2, "skel-label: empty: holds no label files (*.labels.json)"},
@@ -263,14 +264,14 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
       std::none_of(labels.labels.begin(), labels.labels.end(), [](const auto& l) { return l.has_value(); }));
   fs::remove(dir.file("box_robot.labels.json"));
   CHECK(contains(label(dir, "stats .").out,
-                 "finished          0    0.0 %\nwith joints       1\n  placed          1\n"));
+                 "classes finished      0    0.0 %\nwith joints           1\n  placed              1\n"));
   const ToolRun evaluated = runTool("cd '" + dir.path() + "' && skel-train evaluate .");
   CHECK(evaluated.exit_code == 2);
   CHECK(contains(evaluated.err, "cap_boy.labels.json: candidates[0].label: is null"));
 
   write("cap_boy", plan, 1, true, true);
   CHECK(contains(label(dir, "import found --force").out, "15 joints placed, 13 found\n"));
-  CHECK(contains(label(dir, "stats .").out, "finished          1   50.0 %"));
+  CHECK(contains(label(dir, "stats .").out, "classes finished      1   50.0 %"));
   CHECK(label(dir, "import found --template quadruped").out ==
         "1 label files made, 0 kept as they were, 0 failed\n0 joints placed, 16 found\nwritten into .\n");
 
@@ -306,6 +307,61 @@ TEST_CASE(
         "takes the latter, and drops joints set by hand\n");
   CHECK(label(dir, "import . --force").err == "");
   CHECK(headOf(dir.file("cap_boy.labels.json")) == 310);
+}
+
+TEST_CASE("import: joints that follow from others, and roundings, were told as other joints") {
+  const TempDir dir;
+  fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
+  writeSkeleton(dir, "cap_boy", 300);
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  const std::string path = dir.file("cap_boy.labels.json");
+  const LabelFile made = readLabelFile(path);
+  const auto noteWith = [&](const std::string& joint, double by) {
+    LabelFile moved = made;
+    for (auto& [name, place] : moved.joints)
+      if (name == joint) *place += Eigen::Vector2d(by, by);
+    writeLabelFile(path, moved);
+    return label(dir, "import .").err;
+  };
+  CHECK(noteWith("left_hand", 0.01) == "");
+  CHECK(noteWith("pelvis", -5) == "");
+  CHECK(contains(noteWith("left_hand", 1), "with other joints"));
+
+  LabelFile placed = made;
+  std::erase(placed.recognized, "pelvis");
+  writeLabelFile(path, placed);
+  CHECK(contains(label(dir, "import .").err, "with other joints"));
+}
+
+TEST_CASE("import: joints that were placed in the window gave no classes without it") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  fs::remove(dir.file("cap_boy.joints.json"));
+  const std::string path = dir.file("cap_boy.labels.json");
+  const LabelFile labelled = readLabelFile(path);
+  LabelFile open = labelled;
+  open.labels.assign(open.labels.size(), std::nullopt);
+  writeLabelFile(path, open);
+  const ToolRun run = label(dir, "import .");
+  CHECK(run.exit_code == 0);
+  CHECK(run.err == "");
+  CHECK(run.out ==
+        "0 label files made, 0 kept as they were, 0 failed\n"
+        "classes by placed joints in 1 label files that had none\n");
+  CHECK(readLabelFile(path).labels == labelled.labels);
+
+  // Whose candidates somebody has begun to label is that person's; where no joint is placed nothing is known.
+  LabelFile begun = open;
+  begun.labels[0] = JointClass::kHead;
+  LabelFile found = open;
+  for (const auto& [name, place] : found.joints)
+    if (place) found.recognized.push_back(name);
+  for (const LabelFile& other : {begun, found}) {
+    writeLabelFile(path, other);
+    CHECK(label(dir, "import .").exit_code == 2);
+    CHECK(readLabelFile(path).labels == other.labels);
+  }
 }
 
 TEST_CASE("import: our own export put old joints back, and a second one stopped every import") {
@@ -366,7 +422,7 @@ TEST_CASE("import: a joint that is missing is said, and candidates that may belo
   CHECK(open < static_cast<long>(labels.labels.size()) / 2);
   CHECK(run.err == "skel-label: note: ./cap_boy.labels.json: no place for left_elbow: " +
                        std::to_string(open) + " candidates have no class\n");
-  CHECK(contains(label(dir, "stats .").out, "finished          1   50.0 %"));
+  CHECK(contains(label(dir, "stats .").out, "classes finished      1   50.0 %"));
 
   // COCO says so by a visibility of 0.
   REQUIRE(label(dir, "export . --coco -o round/coco.json").exit_code == 0);
@@ -508,9 +564,9 @@ TEST_CASE("stats and the table count the same candidates") {
   writeLabelFile(dir.file("cap_boy.labels.json"), labels);
   const std::string stats = label(dir, "stats .").out;
   const std::string count = std::to_string(labels.candidates.size());
-  CHECK(contains(stats, "drawings          1\n"));
-  CHECK(contains(stats, "finished          0    0.0 %"));
-  CHECK(contains(stats, "candidates   " + std::string(6 - count.size(), ' ') + count + "\n"));
+  CHECK(contains(stats, "drawings              1\n"));
+  CHECK(contains(stats, "classes finished      0    0.0 %"));
+  CHECK(contains(stats, "candidates       " + std::string(6 - count.size(), ' ') + count + "\n"));
 
   CHECK(label(dir, "export . --csv").out == "out/labels.csv\n");
   const std::string csv = readFile(dir.file("out/labels.csv"));

@@ -82,17 +82,25 @@ TEST_CASE("a folder of label files becomes one set, sorted by name") {
 TEST_CASE("sets that cannot be trained on are refused") {
   const TempDir dir;
   CHECK(complaint(dir) == ": holds no label files (*.labels.json)");
-  CHECK_THROWS_WITH(readLabelledSet(dir.file("none")), dir.file("none") + ": is not a folder");
+  CHECK_THROWS_WITH(readLabelledSet(dir.file("none")), dir.file("none") + ": does not exist");
 
   LabelFile labels = fourClasses("a.png");
   labels.labels[2].reset();
   put(dir, "a", labels);
-  CHECK(complaint(dir) == "/a.labels.json: candidates[2].label: is null; label every candidate");
+  CHECK(complaint(dir) ==
+        "/a.labels.json: candidates[2].label: is null; label every candidate (skel-label import "
+        "does it by placed joints where none is labelled)");
   CHECK(checkLabelFolder(dir.path()).empty());  // still in the making
 
   labels.labels[2] = JointClass::kHead;
   put(dir, "a", labels);
-  CHECK(complaint(dir) == ": no candidate is labelled \"hand\"; each of the four classes is needed");
+  CHECK_THROWS_WITH(ensureEveryClass("set", readLabelledSet(dir.path())),
+                    "set: no candidate is labelled \"hand\"; each of the four classes is needed to train");
+
+  labels.candidates.clear();
+  labels.labels.clear();
+  put(dir, "a", labels);
+  CHECK(complaint(dir) == ": no candidate has a class");
 
   put(dir, "a", fourClasses("a.png"));
   LabelFile smaller = fourClasses("b.png");

@@ -154,11 +154,68 @@ TEST_CASE("what lies in the work folder is taken for the film that it was made o
 TEST_CASE("key frames and the distances of all frames") {
   const TempDir dir;
   const std::string walk = film(dir, "walk");
-  CHECK_THAT(done("keyframes " + walk + " --fps 10 --matrix -o " + dir.file("keys")).out,
+  CHECK_THAT(done("keyframes " + walk + " --fps 10 --matrix --threshold 0.2 -o " + dir.file("keys")).out,
              Contains("of 8 frames"));
   for (const char* name :
        {"keyframes.json", "distances.json", "distances.png", "key-0001.png", "key-0008.png"})
     CHECK(fs::exists(dir.file("keys") + "/" + name));
+}
+
+TEST_CASE("key frames of two films were mixed in one folder") {
+  const TempDir dir;
+  const auto rectangles = [&](const std::string& name, const std::vector<int>& widths) {
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      Image image = blankImage(200, 100);
+      image.rgba.setZero();
+      for (int y = 20; y < 80; ++y)
+        for (int x = 20; x < 20 + widths[i]; ++x) image.pixel(x, y)[3] = 255;
+      writeFile(dir.file(name + "/" + std::to_string(i) + ".png"), encodePng(image));
+    }
+  };
+  rectangles("one", {20, 80, 22, 24, 26, 28});
+  rectangles("other", {20, 22, 24, 90, 26, 28});
+  const std::string keys = dir.file("keys");
+  const auto names = [&] {
+    std::vector<std::string> found;
+    for (const std::string& file : filesBelow(keys)) found.push_back(fs::path(file).filename().string());
+    return found;
+  };
+  using Names = std::vector<std::string>;
+  done("keyframes " + dir.file("one") + " --matrix -o " + keys);
+  const Names of_one = {"distances.json", "distances.png", "key-0001.png",  "key-0002.png",
+                        "key-0003.png",   "key-0006.png",  "keyframes.json"};
+  REQUIRE(names() == of_one);
+
+  // Nothing is touched where something is not of the earlier run.
+  const auto refuses = [&](const std::string& name, const std::string& bytes, const std::string& line,
+                           const std::string& options = "") {
+    const std::string file = keys + "/" + name, before = fs::exists(file) ? readFile(file) : "";
+    writeFile(file, bytes);
+    const Names there = names();
+    const ToolRun run = style("keyframes " + dir.file("other") + options + " -o " + keys);
+    CHECK(run.exit_code == 4);
+    CHECK_THAT(run.err, Contains(name + ": " + line));
+    CHECK(names() == there);
+    CHECK(readFile(file) == bytes);
+    before.empty() ? void(fs::remove(file)) : writeFile(file, before);
+  };
+  refuses("key-0009.png", readFile(keys + "/key-0001.png"), "belongs to another film; remove it");
+  refuses("key-0009.png", "mine", "is not one of skel's pictures");
+  refuses("keyframes.json", R"({"format": "mine"})", "is not one of skel-style's; move it away");
+  refuses("distances.json", "[]", "is not one of skel-style's; move it away");
+
+  writeFile(keys + "/notes.txt", "mine");
+  done("keyframes " + dir.file("other") + " -o " + keys);
+  CHECK(names() ==
+        Names{"key-0001.png", "key-0004.png", "key-0005.png", "key-0006.png", "keyframes.json", "notes.txt"});
+  refuses("distances.png", "mine", "is not one of skel-style's; move it away", " --matrix");
+  const ToolRun few = style("keyframes " + dir.file("other") + " --threshold 1 -o " + keys);
+  CHECK(few.exit_code == 0);
+  CHECK(few.err ==
+        keys +
+            ": note: no frame but the first and the last: successive ones differ by at most 1.00 of "
+            "the largest distance; give a --threshold below that\n");
+  CHECK(names() == Names{"key-0001.png", "key-0006.png", "keyframes.json", "notes.txt"});
 }
 
 TEST_CASE("one frame, frames that are all the same, and frames without a figure") {
@@ -361,6 +418,9 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
   writeFile(dir.file("bad.motion.json"), "{\"format\": \"skel-motion\", \"version\": 9}");
   fs::create_directory(dir.file("empty"));
   const std::string out = " -o " + dir.file("x.gif");
+  const TempDir frames;
+  fs::copy(kDrawing, frames.file("1.png"));
+  const std::string films = " --content " + frames.path() + " --style " + frames.path();
   const struct {
     std::string arguments;
     int exit_code;
@@ -377,27 +437,26 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
       {"fit " + dir.file("empty"), 2, "empty: is no database"},
       {"database list " + dir.file("empty"), 2, "empty: is no database: it has no index.json"},
       {"database check " + dir.file("empty"), 2, "empty: is no database: it has no index.json"},
-      {"make --character " + dir.file("none.glb") + " --content a --style b" + out, 2,
-       "none.glb: cannot be read"},
-      {"make --character " SKEL_SOURCE_DIR "/datasets/animals/cloud_sheep.png --content a --style b" + out, 2,
+      {"make --character " + dir.file("none.glb") + films + out, 2, "none.glb: cannot be read"},
+      {"make --character " SKEL_SOURCE_DIR "/datasets/animals/cloud_sheep.png" + films + out, 2,
        "cloud_sheep.png: is a quadruped's figure, and these motions are a person's"},
-      {"make --character " + kDrawing + " --content a --style b --order head" + out, 1,
-       "--order names each part once"},
-      {"make --character " + kDrawing + " --content a --style b --background '#12'" + out, 1,
+      {"make --character " + kDrawing + films + " --order head" + out, 1, "--order names each part once"},
+      {"make --character " + kDrawing + films + " --background '#12'" + out, 1,
        "a colour is written #rrggbb"},
-      {"make --character " + kDrawing + " --content a --style b --background " + dir.file("none.png") + out,
-       2, "none.png: cannot be read"},
+      {"make --character " + kDrawing + films + " --background " + dir.file("none.png") + out, 2,
+       "none.png: cannot be read"},
       {"render --motion " + dir.file("bad.motion.json") + " --to-clip " + dir.file("clip"), 2,
        "version: is 9"},
       {"render --motion m.motion.json", 1, "name a film by -o"},
       {"render --motion m.motion.json" + out, 1, "needs --character"},
       {"render --character " + kDrawing + " --motion " + dir.file("bad.motion.json") + out, 2,
        "version: is 9"},
-      {"make --character " + dir.file("none.png") + " --content a --style b" + out, 2,
-       "none.png: cannot be read"},
+      {"make --character " + dir.file("none.png") + films + out, 2, "none.png: cannot be read"},
       {"make --character " + kDrawing + " --content a.mp4 --style b" + out, 2, "a.mp4: does not exist"},
-      {"make --character " + kDrawing + " --content a.mp4 --style b -o " + dir.file("x.avi"), 1,
-       "films are written as"},
+      {"make --character " + kDrawing + " --content " + frames.path() + " --style b.mp4" + out, 2,
+       "b.mp4: does not exist"},
+      {"make --character " + kDrawing + " --content " + frames.path() + out, 1, "--style is required"},
+      {"make --character " + kDrawing + films + " -o " + dir.file("x.avi"), 1, "films are written as"},
       {"database list " + dir.file("none"), 2, "is no folder"},
       {"database add " + dir.file("empty"), 1, "name the motion files"},
       {"fit " + dir.file("bad.motion.json") + " -k 0", 1, "--components"},
@@ -410,6 +469,38 @@ TEST_CASE("what cannot be done is said in one line, and nothing is written") {
     CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
   }
   CHECK(filesBelow(dir.path()).size() == 1);
+}
+
+TEST_CASE("make with a wrong style worked through the content first, and left its work folder") {
+  const TempDir dir;
+  fs::create_directory(dir.file("film"));
+  fs::copy(kDrawing, dir.file("film/1.png"));
+  writeFile(dir.file("bad.motion.json"), "{}");
+  for (const char* wrong : {"none.mp4", "none.motion.json", "bad.motion.json"}) {
+    const ToolRun run = style("make --character " + kDrawing + " --content " + dir.file("film") +
+                              " --style " + dir.file(wrong) + " -o " + dir.file("out.gif"));
+    CHECK(run.exit_code == 2);
+    CHECK(run.out == "");
+    CHECK_THAT(run.err, Contains(wrong));
+  }
+  CHECK_FALSE(fs::exists(dir.file("out.gif.work")));
+}
+
+TEST_CASE("a film of an animal was taken for a person's without a word") {
+  const TempDir dir;
+  fs::create_directory(dir.file("sheep"));
+  for (const char* frame : {"1", "2", "3"})
+    fs::copy(SKEL_SOURCE_DIR "/datasets/animals/cloud_sheep.png",
+             dir.file(std::string("sheep/") + frame + ".png"));
+  const std::string note =
+      dir.file("sheep") + ": note: shows a quadruped's figure, and these motions are a person's";
+  const ToolRun found = style("keypoints " + dir.file("sheep") + " -o " + dir.file("s.motion.json"));
+  CHECK(found.exit_code == 0);
+  CHECK(found.err.starts_with(note));
+  const ToolRun made = style("make --character " + kDrawing + " --content " + dir.file("sheep") +
+                             " --style " + film(dir, "walk") + " --size 64 -o " + dir.file("out.gif"));
+  CHECK(made.exit_code == 0);
+  CHECK(made.err.starts_with(note));
 }
 
 TEST_CASE("a folder in place of the motion file is told from a motion, as with every output") {

@@ -1,9 +1,12 @@
 // skel-train as a user runs it.
+#include <algorithm>
+
 #include "libskel/classifier/weights_file.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/labels/label_folder.h"
 #include "tests/support/benchmark_samples.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
@@ -98,6 +101,33 @@ TEST_CASE("every way of training works from the command line") {
     CHECK(done.exit_code == 0);
     CHECK(readWeights(dir.file("w.json")).mlp.sizes().front() == 3);
   }
+}
+
+TEST_CASE("measuring failed on drawings without a candidate of one class") {
+  const TempDir dir;
+  fill(dir);
+  for (const std::string& path : findLabelFiles(dir.path())) {
+    LabelFile file = readLabelFile(path);
+    std::replace(file.labels.begin(), file.labels.end(), std::optional(JointClass::kHand),
+                 std::optional(JointClass::kLeg));
+    writeLabelFile(path, file);
+  }
+  const ToolRun measured = run("evaluate " + dir.path() + " --json " + dir.file("e.json"));
+  CHECK(measured.err == "");
+  CHECK(measured.exit_code == 0);
+  CHECK(measured.out.ends_with("\nno candidate is of class hand: not in the balanced accuracy\n"));
+  const JsonDocument document = JsonDocument::readFile(dir.file("e.json"));
+  const auto rows = document.root().at("confusion").items();
+  double share = 0;
+  for (const std::size_t c : {0, 1, 3}) {
+    double sum = 0;
+    for (const JsonValue& cell : rows[c].items()) sum += cell.asNumber(0, 600);
+    share += rows[c].items()[c].asNumber(0, 600) / sum / 3;
+  }
+  CHECK(document.root().at("balanced_accuracy").asNumber(0, 1) == Approx(share));
+  for (const JsonValue& cell : rows[2].items()) CHECK(cell.asNumber(0, 600) == 0);
+
+  CHECK(run(dir.path() + " -o " + dir.file("w.json")).exit_code == 2);
 }
 
 TEST_CASE("characters whose names are not UTF-8 are trained on and reported") {

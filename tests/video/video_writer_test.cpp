@@ -105,7 +105,7 @@ TEST_CASE("a folder of frames holds the frames") {
   VideoOptions shorter = options;
   shorter.frames = 2;
   CHECK_THROWS_WITH(openVideo(dir.file("frames"), shorter),
-                    Catch::Matchers::Contains("frame-0003.png: belongs to a longer film; remove it"));
+                    Catch::Matchers::Contains("frame-0003.png: belongs to another film; remove it"));
 }
 
 #ifdef SKEL_VIDEO_MP4
