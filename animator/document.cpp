@@ -569,7 +569,10 @@ bool AnimationDocument::saveClip(const std::string& path) {
     const std::string name = clipNameIn(path);
     const bool follows = given_names_.contains(clip()->name) && !name.empty() && name != clip()->name;
     ClipKeys named = keys();
-    if (follows && !hasOtherClip(name)) named.clip.name = name;
+    if (follows && !hasOtherClip(name)) {
+      named.clip.name = name;
+      given_names_.insert(name);  // saved under a second name it is a second clip
+    }
     ClipKeys written = named;
     written.clip.rest_pose = restPoseHash(skeleton());
     save(path, kClipFileEnding, formatClipKeys(written));

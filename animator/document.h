@@ -175,7 +175,7 @@ class AnimationDocument {
   std::string message_;
   std::vector<Clip> saved_;            // as files hold them
   std::optional<Pose> saved_pose_;     // the same of the last one
-  std::set<std::string> given_names_;  // by newClip()
+  std::set<std::string> given_names_;  // by newClip(), or by saveClip() after the file
 };
 
 }  // namespace skel

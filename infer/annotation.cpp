@@ -113,16 +113,21 @@ void readAnnotation(const std::string& path, MeasuredDrawing& drawing) {
 }  // namespace
 
 std::vector<std::string> findDrawings(const std::string& root) {
-  std::set<std::string> ids;
+  std::set<std::string> folders, ids;
   const std::vector<std::string> files = filesBelow(root);
   for (const fs::path file : files) {
-    if (file.filename() == "image.png") ids.insert(file.lexically_relative(root).parent_path().string());
+    if (file.filename() == "image.png") folders.insert(file.lexically_relative(root).parent_path().string());
     if (file.string().ends_with(kJointsEnding)) ids.insert(idOf(file, root, kJointsEnding));
   }
   for (const fs::path file : files)
     if (file.string().ends_with(kLabelFileEnding) && file.filename() != "image.labels.json" &&
         holdsPlacedJoint(file.string()))
       ids.insert(idOf(file, root, kLabelFileEnding));
+  for (const std::string& folder : folders)
+    if (!ids.insert(folder).second)
+      throw InputError(root + "/" + folder,
+                       "is one drawing as a folder with an image.png and another as a file beside it; rename "
+                       "one of them");
   if (ids.empty())
     throw InputError(root,
                      "holds no folder with an image.png, no <name>.joints.json and no <name>.labels.json of "

@@ -56,7 +56,8 @@ void bindRecognitionOptions(CLI::App& app, InferOptions& options) {
       ->check(numberIn(0.01, 1.0))
       ->always_capture_default(false);
   app.add_flag("--upright", options.upright, "The figure is not turned: try no other orientations");
-  app.add_option("--recognizer", options.recognizer, "How joints are found")
+  app.add_option("--recognizer", options.recognizer,
+                 "How joints are found; with paper the figure's holes are filled, also a given mask's")
       ->check(namesOf(kRecognizerNames));
   app.add_option("--candidates", options.candidates, "Which points may be joints")
       ->check(namesOf(kCandidateNames));

@@ -46,6 +46,7 @@ std::string whyNotTakenUp(const MendedFiles& files, const InferOptions& options,
   if (!isOfThis(result, file)) return "the picture has changed";
   if (options.layers != "auto") return "--layers asks for others";
   if (!options.model_file.empty()) return "--model is a body of its own";
+  if (files.limbs.empty()) return "the picture has changed";
   return fs::path(files.limbs).filename().string() + " comes first";
 }
 

@@ -150,7 +150,7 @@ std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std:
                                         templateOf(clip, *other) + ", after " +
                                         files[std::size_t(other - own.begin())] +
                                         "; change \"name\" in one of them, or remove it");
-      if (isNeeded(clip.name, names)) throw second;
+      if (!names.empty() && isNeeded(clip.name, names)) throw second;
       if (left_out) left_out->push_back(second.what());
       continue;
     }

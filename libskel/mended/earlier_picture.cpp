@@ -6,6 +6,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
 #include "libskel/image/read_image.h"
@@ -77,12 +78,14 @@ void leaveOutEarlier(MendedFiles& files, const MendRequest& request,
   files.limbs_before = changed && !files.limbs.empty() && files.limbs != request.limbs;
 }
 
-void leaveOutOtherSizes(MendedFiles& files, const Image& image) {
-  if (files.mask_before && !hasSize(readMask(files.mask), image)) {
+void leaveOutOtherSizes(MendedFiles& files, const MendRequest& request, const Image& image) {
+  if (!files.has_result) return;
+  const LookAtOutputs look;  // painted results stay as they are
+  if (!files.mask.empty() && files.mask != request.mask && !hasSize(readMask(files.mask), image)) {
     leaveOut(files.mask, files);
     files.mask_before = false;
   }
-  if (files.limbs_before && !hasSize(readImage(files.limbs), image)) {
+  if (!files.limbs.empty() && files.limbs != request.limbs && !hasSize(readImage(files.limbs), image)) {
     leaveOut(files.limbs, files);
     files.limbs_before = false;
   }

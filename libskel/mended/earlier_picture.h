@@ -24,8 +24,9 @@ std::string earlierThatFits(const std::vector<MendPlace>& places, const MendRequ
 void leaveOutEarlier(MendedFiles& files, const MendRequest& request,
                      const std::optional<SkeletonSource>& result);
 
-// The same of a mask and of limbs that may have been there before the picture changed and have another size.
-void leaveOutOtherSizes(MendedFiles& files, const Image& image);
+// The same of a mask and of limbs that nobody has named and that have another size than the picture, where an
+// earlier run has left a result. Elsewhere whoever reads them says so.
+void leaveOutOtherSizes(MendedFiles& files, const MendRequest& request, const Image& image);
 
 // One sentence of each file that is taken up although it may show the picture before.
 std::vector<const char*> warningsOfEarlier(const MendedFiles& files);

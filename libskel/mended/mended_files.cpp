@@ -167,7 +167,9 @@ MendedFiles mendedFiles(const MendRequest& request) {
         request.finds_limbs && request.limbs.empty() && arePaintedLayers(layers, place, request.figure))
       offerResult(painted_layers, layers, place, sameBytes, files);
   }
-  leaveOutEarlier(files, request, resultAmong(places));
+  const std::optional<SkeletonSource> result = resultAmong(places);
+  files.has_result = result.has_value();
+  leaveOutEarlier(files, request, result);
   if (!painted.empty()) {
     files.painted_silhouette = files.mask.empty();
     offer(files.mask, painted, sameBytes, files);

@@ -49,6 +49,7 @@ struct MendedFiles {
 
   // A photo that was taken again has the name of the one before.
   std::optional<SkeletonSource> earlier_result;  // what was found in that one
+  bool has_result = false;                       // of this one or of that
   std::vector<std::string> earlier;              // files made for that one: not among those above
   std::string fits_again;                        // a skeleton that was kept and is of this picture
   bool mask_before = false;                      // the mask was there before the picture changed

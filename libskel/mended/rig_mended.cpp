@@ -132,7 +132,7 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
   mended = mendedFiles(request);
   if (mended.earlier_result)
     mended = mendedFiles(knowingRecolored(request, *mended.earlier_result, input.image, rig.silhouette));
-  leaveOutOtherSizes(mended, input.image);
+  leaveOutOtherSizes(mended, request, input.image);
   PlacedJoints& placed = result.placed;
   placed = placedJoints(mended, request, rig, input.image);
   if (placed.skeleton) {

@@ -304,13 +304,15 @@ TEST_CASE(
       dir.file("nod.clip.json") + ": is the second clip \"nod\" for the template \"biped\", after " +
       dir.file("nod (copy).clip.json") + "; change \"name\" in one of them, or remove it";
   std::vector<std::string> left_out;
-  for (const std::vector<std::string>& needed : {std::vector<std::string>(), {"walk", "nod"}})
-    CHECK_THROWS_WITH(clipsWithFolder(dir.path(), needed, &left_out), problem);
+  CHECK_THROWS_WITH(clipsWithFolder(dir.path(), {"walk", "nod"}, &left_out), problem);
   CHECK(left_out.empty());
-  const std::vector<Clip> library = clipsWithFolder(dir.path(), {"walk"}, &left_out);
-  CHECK(left_out == std::vector<std::string>{problem});
-  CHECK(clipNamed(clipsFor(library, loadTemplate("biped")), "nod").duration_s() == 9);
-  CHECK(library.size() == builtinClips().size() + 1);
+  for (const std::vector<std::string>& needed : {std::vector<std::string>(), {"walk"}}) {
+    left_out.clear();
+    const std::vector<Clip> library = clipsWithFolder(dir.path(), needed, &left_out);
+    CHECK(left_out == std::vector<std::string>{problem});
+    CHECK(clipNamed(clipsFor(library, loadTemplate("biped")), "nod").duration_s() == 9);
+    CHECK(library.size() == builtinClips().size() + 1);
+  }
 }
 
 TEST_CASE("keys that ease come and go as they stand for who edits them") {

@@ -529,18 +529,23 @@ TEST_CASE("a clip is called as its file, unless somebody has named it, and names
   CHECK(readClipFile(dir.file("bow.clip.json")).name == "bow");
   CHECK(document.unsavedClips().empty());
   REQUIRE(document.saveClip(dir.file("other.clip.json")));
-  CHECK(readClipFile(dir.file("other.clip.json")).name == "bow");
+  // It kept its name, so that the folder held two clips of one name.
+  CHECK(readClipFile(dir.file("other.clip.json")).name == "other");
+  CHECK(document.clip()->name == "other");
+  document.undo();
+  CHECK(document.clip()->name == "bow");
   document.undo();
   CHECK(document.clip()->name == "my-clip");
+  document.redo();
   document.redo();
 
   make();
   REQUIRE(document.saveClip(dir.file("walk.clip.json")));  // skel's own is called so
   CHECK(document.clip()->name == "my-clip");
   CHECK_THAT(document.message(), Contains("still called \"my-clip\", as there is another \"walk\""));
-  document.renameClip("bow");
+  document.renameClip("other");
   CHECK(document.clip()->name == "my-clip");
-  CHECK_THAT(document.message(), Contains("there is a clip \"bow\" already"));
+  CHECK_THAT(document.message(), Contains("there is a clip \"other\" already"));
   document.renameClip("");
   CHECK(document.clip()->name == "my-clip");
   document.renameClip("deep bow");

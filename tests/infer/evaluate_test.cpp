@@ -72,6 +72,22 @@ TEST_CASE("evaluate refuses a joint that lies in no picture: its error was no nu
   CHECK(run.err.find("cap_boy.joints.json: joints.head: lies in no picture") != std::string::npos);
 }
 
+TEST_CASE("of a folder and a file of one name evaluate measured one without a word") {
+  const skel::TempDir dir;
+  std::filesystem::create_directories(dir.file("set/boy"));
+  for (const char* end : {"png", "joints.json"}) {
+    const std::string from = std::string(SKEL_DATASETS "/characters/cap_boy.") + end;
+    std::filesystem::copy_file(from, dir.file(std::string("set/boy.") + end));
+    std::filesystem::copy_file(
+        from, dir.file(std::string("set/boy/") + (end == std::string("png") ? "image.png" : end)));
+  }
+  const auto run = skel::runTool("skel-infer evaluate '" + dir.file("set") + "'");
+  CHECK(run.exit_code == 2);
+  CHECK(
+      run.err.find("set/boy: is one drawing as a folder with an image.png and another as a file beside it") !=
+      std::string::npos);
+}
+
 TEST_CASE("evaluate measures by the joints of label files that a person has placed, by no others") {
   const skel::TempDir dir;
   const std::string set = dir.file("set");

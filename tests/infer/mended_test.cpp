@@ -223,7 +223,9 @@ TEST_CASE("a mask that was there before the photo was taken again is taken up an
   SECTION("of another size it is left out, and so are limbs") {
     writeFile(dir.file("boy.png"), encodePng(capsuleImage({.size = 500})));
     fs::copy(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("boy.limbs.png"));
-    CHECK_THAT(infer(dir, "boy.png").err, Contains(kEarlier + std::string("boy.mask.png, boy.limbs.png\n")));
+    for (int run = 1; run <= 2; ++run)  // the second one failed
+      CHECK_THAT(infer(dir, "boy.png").err,
+                 Contains(kEarlier + std::string("boy.mask.png, boy.limbs.png\n")));
   }
 }
 

@@ -171,7 +171,7 @@ TEST_CASE("an own walk without a template takes the place of the built-in one, a
   CHECK(countOf(two, "clip: walk") == 1);
   CHECK(countOf(two, "clip: wave") == 1);
   writeFile(dir.file("clips/again.clip.json"), clipFile("walk", R"(, "template": "biped")"));
-  refused(dir, "skel-infer cat.png --clips-dir clips", 2,
+  refused(dir, "skel-infer cat.png --clips-dir clips --clips walk", 2,
           "is the second clip \"walk\" for the template \"biped\"");
 }
 
