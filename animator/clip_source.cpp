@@ -1,6 +1,7 @@
 #include "animator/clip_source.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <filesystem>
 
 #include "animator/pose_file.h"
@@ -59,6 +60,14 @@ void bindClipSource(CLI::App& app, ClipSource& source) {
 
 std::vector<Clip> clipLibrary(const ClipSource& source, std::vector<std::string>* left_out) {
   return clipsWithFolder(source.clips_dir, source.names, left_out);
+}
+
+std::vector<Clip> toldClipLibrary(const ClipSource& source) {
+  std::vector<std::string> left_out;
+  std::vector<Clip> library = clipLibrary(source, &left_out);
+  for (const std::string& problem : left_out)
+    std::fprintf(stderr, "skel-animate: note: left out: %s\n", printable(problem).c_str());
+  return library;
 }
 
 std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharacter& character) {

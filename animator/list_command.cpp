@@ -32,10 +32,7 @@ void bindListOptions(CLI::App& app, ListOptions& options) {
 }
 
 ExitCode runList(const ListOptions& options) {
-  std::vector<std::string> left_out;
-  const std::vector<Clip> library = clipLibrary(options.clips, &left_out);
-  for (const std::string& problem : left_out)
-    std::fprintf(stderr, "skel-animate: note: left out: %s\n", printable(problem).c_str());
+  const std::vector<Clip> library = toldClipLibrary(options.clips);
   if (options.file.empty()) {
     std::string body_plan;
     for (const Clip& clip : library) {

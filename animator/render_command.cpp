@@ -210,10 +210,7 @@ ExitCode runRender(const RenderCommandOptions& asked) {
         "gives them hard edges)");
   if (std::find(options.clips.begin(), options.clips.end(), kAllClips) == options.clips.end())
     options.library.names = options.clips;
-  std::vector<std::string> no_clips;
-  clipLibrary(options.library, &no_clips);
-  for (const std::string& problem : no_clips)
-    std::fprintf(stderr, "skel-animate: note: left out: %s\n", printable(problem).c_str());
+  toldClipLibrary(options.library);
   checkFiles(options);
   const NewFolders folders(options.sheet.output.empty() ? options.output : options.sheet.output);
   const CharacterRenderer renderer =
