@@ -91,7 +91,8 @@ std::string stemInTree(const std::string& drawing) {
   fs::path below;
   for (const fs::path& part : fs::path(drawing).lexically_normal().relative_path())
     if (part != ".." && part != "." && !part.empty()) below /= part;
-  below.replace_extension();
+  // "...png" has no name before its ending that could be one.
+  if (below.stem() != "..") below.replace_extension();
   if (below.empty()) throw InputError(drawing, "is a folder, not a file");
   return below.string();
 }

@@ -55,9 +55,9 @@ void writeCharacter(const TempDir& dir, double swing) {
   done(dir, "skel-infer a.png -o . --formats glb --clips wave --force");
 }
 
-// A net that has made two steps of three.
-void trainTwoSteps(const TempDir& dir, const std::string& seed) {
-  done(dir, "rm -f state && " + kTrain + "--steps 2 --seed " + seed);
+// A net that has made some steps of three.
+void trainSteps(const TempDir& dir, int steps) {
+  done(dir, "rm -f state && " + kTrain + "--steps " + std::to_string(steps));
 }
 
 void writeMotion(const TempDir& dir, const std::string& place) {
@@ -117,8 +117,8 @@ const std::vector<Job>& jobs() {
        "--size 48 --rate 4 --duration 0.5 --force",
        [](const TempDir& dir) { writeFigure(dir.file("a.png")), writeMotion(dir, "61.25"); },
        [](const TempDir& dir) { writeFigure(dir.file("a.png"), 12), writeMotion(dir, "60.75"); }, true},
-      {"skel-train joints", kTrain + "--steps 3", [](const TempDir& dir) { trainTwoSteps(dir, "1"); },
-       [](const TempDir& dir) { trainTwoSteps(dir, "2"); }, true},
+      {"skel-train joints", kTrain + "--steps 3", [](const TempDir& dir) { trainSteps(dir, 1); },
+       [](const TempDir& dir) { trainSteps(dir, 2); }, true},
   };
   return all;
 }

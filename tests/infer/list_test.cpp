@@ -342,6 +342,7 @@ TEST_CASE("results stay below their folder, whatever the path of the drawing") {
   CHECK(stemInTree("../../x/./y.png") == "x/y");
   CHECK(stemInTree("a/../../b.png") == "b");
   CHECK(stemInTree("a//b") == "a/b");
+  CHECK(stemInTree("a/...png") == "a/...png");
   for (const char* nothing : {"/", "..", "../..", "."}) CHECK_THROWS_AS(stemInTree(nothing), InputError);
 }
 
