@@ -127,7 +127,7 @@ RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& char
                             const ClipSource& source) {
   return retargetMotion(readBvh(path), path, character.skeleton,
                         measureFigure(character.mesh, character.weights, character.skeleton),
-                        intoPicture(source, ClipFrame::kBody));
+                        {intoPicture(source, ClipFrame::kBody), source.flat});
 }
 
 namespace {

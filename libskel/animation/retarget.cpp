@@ -65,17 +65,31 @@ struct Retargeter {
   std::vector<Vector3d> bones;                             // of pointed joints, canonical
   std::vector<Vector3d> ahead, behind;  // what is added for each unit that it points at the viewer, or away
 
+  // How each joint turns from its parent, and from the canonical figure.
+  struct Motion {
+    std::vector<Quaterniond> locals, globals;
+  };
+  Motion motionOf(const Pose& canonical) const {
+    const std::size_t count = skeleton.joints.size();
+    Motion motion{std::vector<Quaterniond>(count), std::vector<Quaterniond>(count)};
+    for (std::size_t j = 0; j < count; ++j) {
+      const int parent = skeleton.joints[j].parent;
+      Quaterniond& local = motion.locals[j] = canonical.rotations[j].cast<double>();
+      if (share_of_motion[j] < 1) local = Quaterniond::Identity().slerp(share_of_motion[j], local);
+      if (figure_from_clip.w() != 1) local = figure_from_clip * local * figure_from_clip.conjugate();
+      motion.globals[j] = parent < 0 ? local : motion.globals[parent] * local;
+    }
+    return motion;
+  }
+
   // Rotations to the model frame.
   std::vector<Quaterniond> globals(const Pose& canonical, double share) const {
     const std::size_t count = skeleton.joints.size();
-    std::vector<Quaterniond> motion(count), result(count);
+    const auto [locals, motion] = motionOf(canonical);
+    std::vector<Quaterniond> result(count);
     std::vector<double> swung(count, 0);
     for (std::size_t j = 0; j < count; ++j) {
       const int parent = skeleton.joints[j].parent;
-      Quaterniond local = canonical.rotations[j].cast<double>();
-      if (share_of_motion[j] < 1) local = Quaterniond::Identity().slerp(share_of_motion[j], local);
-      if (figure_from_clip.w() != 1) local = figure_from_clip * local * figure_from_clip.conjugate();
-      motion[j] = parent < 0 ? local : motion[parent] * local;
       const double up = raised[j].isZero() ? 1 : smoothStep(-0.2, 0.6, (motion[j] * raised[j]).y());
       swung[j] = up * swing[j] + (parent < 0 ? 0 : swung[parent]);
       if (pointed[j]) {
@@ -84,7 +98,7 @@ struct Retargeter {
         const Vector3d seen = bone + share * bone.z() * (bone.z() > 0 ? ahead : behind)[j];
         result[j] = shortestTurn(bone, seen) * turn * turns[j].share(share).conjugate();
       } else
-        result[j] = parent < 0 ? local : result[parent] * local;
+        result[j] = parent < 0 ? locals[j] : result[parent] * locals[j];
     }
     return result;
   }
@@ -220,13 +234,50 @@ bool comesTowardsViewer(const FigureShape& shape, const Clip& clip, const Retarg
   return clip.frame == ClipFrame::kBody && shape.looks != 0 && shape.yaw_rad == 0 && !options.aslant;
 }
 
+using ClipMoments =
+    std::vector<std::pair<Pose, double>>;  // with the share of the drawn pose that is taken back
+
+// Whether bones, all arms' or all legs', rather move towards the viewer than in the picture: 0…1. As H. J.
+// Smith et al., "A method for animating children's drawings of the human figure" (2023), look at each group
+// of limbs from the front or from the side.
+double shareAside(const Retargeter& retargeter, const ClipMoments& moments,
+                  const std::vector<std::size_t>& joints) {
+  constexpr std::size_t kEnough = 100;
+  constexpr double kFront = 0.4, kSide = 0.6;  // shares of what moves towards the viewer
+  double towards = 0, all = 0;
+  for (std::size_t k = 0; k < moments.size(); k += 1 + moments.size() / kEnough) {
+    const std::vector<Quaterniond> turns = retargeter.motionOf(moments[k].first).globals;
+    for (const std::size_t j : joints) {
+      const Vector3d bone = turns[j] * retargeter.bones[j];
+      towards += bone.z() * bone.z();
+      all += bone.z() * bone.z() + bone.x() * bone.x();
+    }
+  }
+  return all > 0 ? smoothStep(kFront, kSide, towards / all) : 1;
+}
+
+// Arms, and legs, that move in the picture stay as they are; the figure goes where its legs take it.
+void sparePictured(const ClipMoments& moments, Retargeter& retargeter) {
+  for (const auto& [upper, middle] : {std::pair("shoulder", "elbow"), std::pair("hip", "knee")}) {
+    std::vector<std::size_t> joints;
+    for (const std::string side : {"left_", "right_"})
+      for (const char* name : {upper, middle})
+        if (const int joint = retargeter.skeleton.find(side + name); joint >= 0)
+          joints.push_back(std::size_t(joint));
+    const double share = shareAside(retargeter, moments, joints);
+    if (upper == std::string("hip")) joints.push_back(0);
+    for (const std::size_t j : joints) retargeter.ahead[j] *= share;
+  }
+}
+
 void turnIntoPicture(const FigureShape& shape, const Clip& clip, const RetargetOptions& options,
-                     Retargeter& retargeter) {
+                     const ClipMoments& moments, Retargeter& retargeter) {
   const Skeleton& skeleton = retargeter.skeleton;
   const bool turns = skeleton.find("left_front_foot") < 0 && options.into_picture > 0;
   const bool aslant = turns && !comesTowardsViewer(shape, clip, options);
   const Vector3d way = aslant ? wayAslant(shape, options.into_picture) : Vector3d::Zero();
   retargeter.ahead.assign(skeleton.joints.size(), way);
+  if (aslant && options.aslant) sparePictured(moments, retargeter);
   retargeter.behind = retargeter.ahead;
   if (!turns || aslant) return;
   // Which way, and how far: by eye on eight of the unseen drawings.
@@ -433,8 +484,8 @@ struct Clearing {
   int turned, begin, end;
   double from, to;
 };
-double clearingSwing(Retargeter retargeter, const std::vector<std::pair<Pose, double>>& moments,
-                     const Clearing& part, double head_half_width_m) {
+double clearingSwing(Retargeter retargeter, const ClipMoments& moments, const Clearing& part,
+                     double head_half_width_m) {
   const Skeleton& skeleton = retargeter.skeleton;
   const int head = skeleton.find("head"), top = skeleton.find("head_top");
   if (head < 0 || top < 0) return 0;
@@ -465,7 +516,7 @@ double clearingSwing(Retargeter retargeter, const std::vector<std::pair<Pose, do
 }
 
 // Raised arms go past the head: first the elbow, then the forearm with the hand's tip.
-void swingClearOfHead(Retargeter& retargeter, const std::vector<std::pair<Pose, double>>& moments,
+void swingClearOfHead(Retargeter& retargeter, const ClipMoments& moments,
                       const std::vector<Vector3d>& canonical, double head_half_width_m) {
   const Skeleton& skeleton = retargeter.skeleton;
   for (const std::string side : {"left_", "right_"}) {
@@ -632,7 +683,6 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
                         canonical,
                         {},
                         {}};
-  turnIntoPicture(shape, clip, options, retargeter);
   for (std::size_t j = 0; j < count; ++j) retargeter.pointed[j] = !canonical[j].isZero();
   // Seen from the side, limbs swing where they could else stay away.
   if (clip.frame == ClipFrame::kBody)
@@ -646,13 +696,14 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
   // Feet are planted contact by contact.
   checkMoments(clip, most_keys * std::max(1., double(clip.contacts.size()) / 16), count);
   const int keys = int(most_keys);
-  std::vector<std::pair<Pose, double>> moments;
+  ClipMoments moments;
   std::vector<ModelPose> poses(keys);
   const ClipSampler sampler(clip, skeleton);
   for (int k = 0; k < keys; ++k) {
     poses[k].time_s = keys == 1 ? 0 : duration * float(k) / float(keys - 1);
     moments.emplace_back(sampler.at(poses[k].time_s), canonicalShare(clip, poses[k].time_s));
   }
+  turnIntoPicture(shape, clip, options, moments, retargeter);
   if (options.clear_of_head) swingClearOfHead(retargeter, moments, canonical, shape.head_half_width_m);
 
   const bool points = std::count(retargeter.pointed.begin(), retargeter.pointed.end(), true) > 0;

@@ -55,7 +55,8 @@ struct RetargetOptions {
   // difference on 9), .4 was the best of 14 and the worst of 1, 0 the best of 1 and the worst of 12.
   double into_picture = .4;
   // What a body does by itself (ClipFrame::kBody) comes towards the viewer, each limb turned to its own side;
-  // with this, all limbs turn to the side that the figure rather looks to, as if they were seen aslant.
+  // with this, limbs turn to the side that the figure rather looks to, as if they were seen aslant, but for
+  // arms, or legs, that rather move in the picture than towards the viewer.
   bool aslant = false;
   bool thin_keys = true;                            // where `rate_hz` is more than shows
   std::optional<FigureShape> shape = std::nullopt;  // nothing: shapeOfBones()

@@ -57,9 +57,9 @@ struct Source {
   const BvhMotion& motion;
   std::vector<float> times_s;
   std::vector<SourcePose> poses;
-  JointRoles roles;                             // as the first moment tells them
-  Vector3d up = Vector3d::UnitY();              // the axis along which it stands on the whole
-  Quaterniond first = Quaterniond::Identity();  // how it stands at the first moment
+  JointRoles roles;                      // as the first moment tells them
+  Vector3d up = Vector3d::UnitY();       // the axis along which it stands on the whole
+  std::vector<Quaterniond> stands = {};  // where it stands to be as drawn, one a moment
 
   Vector3d at(const SourcePose& pose, std::string_view role) const {
     return pose.positions[std::size_t(roles.joint(role))];
@@ -92,7 +92,26 @@ Quaterniond standingFrame(Vector3d up, Vector3d left) {
   return Quaterniond(frame);
 }
 
-Source readSource(const BvhMotion& motion, const std::string& file) {
+// The mean way from the right to the left of hips and shoulders.
+Vector3d leftOf(const Source& source, const SourcePose& pose) {
+  return ((source.at(pose, "left_hip") - source.at(pose, "right_hip")).normalized() +
+          (source.at(pose, "left_shoulder") - source.at(pose, "right_shoulder")).normalized()) /
+         2;
+}
+
+// How it stands at each moment; where it lies on its side, as it did before.
+std::vector<Quaterniond> headings(const Source& source) {
+  constexpr double kLies = 0.3;
+  std::vector<Quaterniond> result;
+  for (const SourcePose& pose : source.poses) {
+    const Vector3d left = leftOf(source, pose);
+    const bool lies = (left - left.dot(source.up) * source.up).norm() < kLies;
+    result.push_back(lies && !result.empty() ? result.back() : standingFrame(source.up, left));
+  }
+  return result;
+}
+
+Source readSource(const BvhMotion& motion, const std::string& file, bool keeps_facing) {
   Source source{motion, {}, {}, {}};
   std::vector<const JointTrack*> tracks(motion.skeleton.joints.size(), nullptr);
   for (const JointTrack& track : motion.clip.tracks) {
@@ -116,9 +135,9 @@ Source readSource(const BvhMotion& motion, const std::string& file) {
   for (const SourcePose& pose : source.poses)
     standing += source.shoulders(pose) - (source.at(pose, "left_foot") + source.at(pose, "right_foot")) / 2;
   source.up = nearestAxis(standing);
-  source.first = standingFrame(
-      source.up, (source.at(start, "left_hip") - source.at(start, "right_hip")).normalized() +
-                     (source.at(start, "left_shoulder") - source.at(start, "right_shoulder")).normalized());
+  source.stands = keeps_facing ? headings(source)
+                               : std::vector<Quaterniond>(source.poses.size(),
+                                                          standingFrame(source.up, leftOf(source, start)));
   return source;
 }
 
@@ -234,7 +253,7 @@ std::vector<Quaterniond> turnsOfEnd(const Source& source, std::string_view role,
   if (!source.has(role)) return carriers;
   std::vector<Quaterniond> locals;
   for (std::size_t f = 0; f < carriers.size(); ++f)
-    locals.push_back(carriers[f].conjugate() * source.first.conjugate() *
+    locals.push_back(carriers[f].conjugate() * source.stands[f].conjugate() *
                      source.poses[f].globals[std::size_t(source.roles.joint(role))]);
   const Quaterniond rest = mean(locals).conjugate();
   std::vector<Quaterniond> turns;
@@ -248,8 +267,9 @@ std::vector<Quaterniond> turnsOfEnd(const Source& source, std::string_view role,
 RoleTurns roleTurns(const Source& source) {
   RoleTurns turns;
   const auto of = [&](std::string_view role) -> std::vector<Quaterniond>& { return turns[roleIndex(role)]; };
-  const Quaterniond to_ours = source.first.conjugate();
-  for (const SourcePose& pose : source.poses) {
+  for (std::size_t f = 0; f < source.poses.size(); ++f) {
+    const SourcePose& pose = source.poses[f];
+    const Quaterniond to_ours = source.stands[f].conjugate();
     const Vector3d trunk = source.trunk(pose);
     of("pelvis").push_back(to_ours *
                            standingFrame(trunk, source.at(pose, "left_hip") - source.at(pose, "right_hip")));
@@ -273,6 +293,7 @@ RoleTurns roleTurns(const Source& source) {
       const bool ends = source.has(limb.end);
       for (std::size_t f = 0; f < source.poses.size(); ++f) {
         const SourcePose& pose = source.poses[f];
+        const Quaterniond to_ours = source.stands[f].conjugate();
         const Quaterniond trunk = of(limb.trunk)[f];
         const Vector3d upper =
             (to_ours * (source.at(pose, limb.middle) - source.at(pose, limb.upper))).normalized();
@@ -513,11 +534,11 @@ bool isFinite(const Clip& clip) {
 }  // namespace
 
 RetargetedMotion retargetMotion(const BvhMotion& given, const std::string& file, const Skeleton& target,
-                                const FigureShape& shape, double into_picture) {
+                                const FigureShape& shape, const MotionOptions& asked) {
   std::optional<BvhMotion> turned;
   if (hasAllNames(given.skeleton, target)) turned = turnedBy(turnOfAxes(given.skeleton, target), given);
   const BvhMotion& motion = turned ? *turned : given;
-  const Source source = readSource(motion, file);
+  const Source source = readSource(motion, file, asked.keeps_facing);
   const Mapping mapping = mapJoints(source, file, target);
   RetargetedMotion result;
   result.match = matchOf(mapping, source, target);
@@ -539,7 +560,7 @@ RetargetedMotion retargetMotion(const BvhMotion& given, const std::string& file,
   const double length = legLength(source.poses[0].positions, legsOf(source.roles)),
                our_length = legLength(restPositions(target), legsOf(findJointRoles(target)));
   const double scale = length > 1e-9 && our_length > 0 ? our_length / length : 1;
-  const Quaterniond to_ours = mapping.same_names ? Quaterniond::Identity() : source.first.conjugate();
+  const Quaterniond to_ours = mapping.same_names ? Quaterniond::Identity() : source.stands[0].conjugate();
   const std::size_t root = mapping.theirs[0] >= 0 ? std::size_t(mapping.theirs[0]) : 0;
   clip.root_times_s = source.times_s;
   for (const SourcePose& pose : source.poses) {
@@ -554,7 +575,7 @@ RetargetedMotion retargetMotion(const BvhMotion& given, const std::string& file,
   RetargetOptions options;
   options.clear_of_head = false;
   options.shape = shape;
-  options.into_picture = mapping.same_names ? 0 : into_picture;
+  options.into_picture = mapping.same_names ? 0 : asked.into_picture;
   options.aslant = true;
   options.thin_keys = false;
   result.clip = retargetToRest(clip, target, options);

@@ -21,6 +21,13 @@ struct RetargetedMotion {
   JointMatch match;
 };
 
+struct MotionOptions {
+  double into_picture = RetargetOptions().into_picture;
+  // Who turns around, as a drawing that has one side cannot, goes on looking where the figure was drawn to
+  // look, and moves as before.
+  bool keeps_facing = false;
+};
+
 // Where their bones point in the world decides, the trunk and the ground included; their rest pose says
 // nothing, nor which axis is up, nor how a bone is turned about itself. The figure starts where it stands,
 // looking where it was drawn to look; ways are scaled by the length of the legs, and its feet come as near to
@@ -29,7 +36,6 @@ struct RetargetedMotion {
 // as it is, and if not, its turns are taken as they are. Else joints are matched by findJointRoles(). Throws
 // InputError (of `file`) if that finds no arms and legs on either side.
 RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file, const Skeleton& target,
-                                const FigureShape& shape,
-                                double into_picture = RetargetOptions().into_picture);
+                                const FigureShape& shape, const MotionOptions& options = {});
 
 }  // namespace skel

@@ -33,21 +33,32 @@ std::vector<int> boneEnds(const Skeleton& skeleton, const SkeletonTemplate& body
   return ends;
 }
 
+double smoothStep(double x) {
+  const double t = std::clamp(x, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
 double angleBetween(const Vector2d& a, const Vector2d& b) {
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
 }
 
 constexpr double kDegree = std::numbers::pi / 180;
-// Between the bones of a limb, 0 straight: up to the first it bends as it is told, and never much above both.
-constexpr double kBend_rad = 75 * kDegree, kFold_rad = 35 * kDegree;
+// Between the bones of a limb, 0 straight: up to the first it bends as it is told, and above the third it is
+// on its way through folded to the other side; between them never much above the first two.
+constexpr double kBend_rad = 75 * kDegree, kFold_rad = 35 * kDegree, kThrough_rad = 140 * kDegree;
 
 double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
 
 // A knee or an elbow that bends no farther than a flat limb may that is drawn as bent as `drawn_rad`: folded,
-// its second half hides the first or is hidden by it.
-double bent(double angle_rad, double drawn_rad) {
-  const double free = std::max(kBend_rad, std::abs(drawn_rad)), over = std::abs(angle_rad) - free;
-  return over <= 0 ? angle_rad : std::copysign(free + kFold_rad * std::tanh(over / kFold_rad), angle_rad);
+// its second half hides the first or is hidden by it. An elbow that goes on through folded does so quickly.
+double bent(double angle_rad, double drawn_rad, bool is_elbow) {
+  const double sharp = std::abs(angle_rad);
+  const double free = std::max(kBend_rad, std::abs(drawn_rad)), over = sharp - free;
+  if (over <= 0) return angle_rad;
+  const double held = free + kFold_rad * std::tanh(over / kFold_rad);
+  const double through =
+      is_elbow ? smoothStep((sharp - kThrough_rad) / (std::numbers::pi - kThrough_rad)) : 0;
+  return std::copysign(held + through * (sharp - held), angle_rad);
 }
 
 // How far the figure must be moved for its lowest foot to be as low as in space, and for those that are down
@@ -91,10 +102,11 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
   const std::vector<int> ends = boneEnds(skeleton, body_plan);
   const std::vector<Eigen::Vector3f> posed = posedJoints(skeleton, posed_from_rest);
 
-  std::vector<bool> middle(count, false);  // of a limb
+  enum class Bend { kNone, kKnee, kElbow };
+  std::vector<Bend> bends(count, Bend::kNone);
   for (const TemplateLimb& limb : body_plan.limbs)
     if (const int j = skeleton.find(body_plan.joints[std::size_t(limb.joints[1])].name); j >= 0)
-      middle[std::size_t(j)] = true;
+      bends[std::size_t(j)] = isLeg(body_plan, limb) ? Bend::kKnee : Bend::kElbow;
 
   FlatPose pose;
   std::vector<Vector3d> bones(count);
@@ -109,12 +121,11 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
     const double carried = joint.parent < 0 ? 0 : pose.turn_rad[parent];
     const Vector2d before = bones[j].head<2>(), after = turned.head<2>();
     const double shown = std::min(before.norm(), after.norm());
-    const double t = std::clamp((shown - kStump) / (kSeen - kStump), 0.0, 1.0);
     const double own = angleBetween(before, after);
-    double turn = t * t * (3 - 2 * t) * wrapped(own - carried);
-    if (middle[j] && joint.parent >= 0) {
+    double turn = smoothStep((shown - kStump) / (kSeen - kStump)) * wrapped(own - carried);
+    if (bends[j] != Bend::kNone && joint.parent >= 0) {
       const double drawn = angleBetween(bones[parent].head<2>(), before);
-      turn = bent(wrapped(drawn + turn), drawn) - drawn;
+      turn = bent(wrapped(drawn + turn), drawn, bends[j] == Bend::kElbow) - drawn;
     }
     pose.turn_rad.push_back(carried + turn);
     pose.rest.push_back(joint.position.head<2>());

@@ -217,6 +217,27 @@ TEST_CASE("rest poses never count: a motion whose bones rest along x curled figu
   }
 }
 
+TEST_CASE("who turns around goes on facing the viewer where that is asked for") {
+  const std::string path = kMotions + "cmu.bvh";
+  const BvhMotion straight = readBvh(path);
+  BvhMotion turning = straight;
+  for (JointTrack& track : turning.clip.tracks)
+    if (track.joint == turning.skeleton.joints[0].name)
+      for (std::size_t f = 0; f < track.rotations.size(); ++f)
+        track.rotations[f] =
+            Eigen::Quaternionf(Eigen::AngleAxisf(0.2f * float(f), Vector3f::UnitY())) * track.rotations[f];
+  const Skeleton target = figureSkeleton();
+  const auto end = [&](const BvhMotion& motion, bool keeps_facing) {
+    const Clip clip =
+        retargetMotion(motion, path, target, shapeOfBones(target), {.keeps_facing = keeps_facing}).clip;
+    return samplePose(clip, target, motion.clip.duration_s());
+  };
+  const Pose expected = end(straight, true), facing = end(turning, true), turned = end(turning, false);
+  for (std::size_t j = 0; j < target.joints.size(); ++j)
+    CHECK(facing.rotations[j].angularDistance(expected.rotations[j]) < 2e-3f);
+  CHECK(turned.rotations[0].angularDistance(expected.rotations[0]) > 0.5f);
+}
+
 TEST_CASE("a joint at its parent's place is no hip: the jumping jack turned its hips about") {
   std::string text = readFile(kMotions + "cmu.bvh");
   for (const auto& [from, to] : {std::pair("LeftUpLeg", "LeftHip"),

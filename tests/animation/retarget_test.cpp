@@ -355,6 +355,40 @@ TEST_CASE("limbs that point at the viewer turn into the picture aslant, as far a
   CHECK(model.isApprox(ahead));
 }
 
+TEST_CASE("arms that move in the picture stay where they are while legs turn aside") {
+  const Skeleton skeleton = figureSkeleton();
+  Clip clip = clipNamed(builtinClips(), "walk");
+  for (JointTrack& track : clip.tracks)
+    for (Eigen::Quaternionf& rotation : track.rotations)
+      if (track.joint.ends_with("shoulder")) {
+        const float out = track.joint.starts_with("left") ? 1.f : -1.f;
+        rotation = Eigen::Quaternionf(Eigen::AngleAxisf(out * 1.2f, Vector3f::UnitZ())) *
+                   Eigen::Quaternionf(Eigen::AngleAxisf(0.3f, Vector3f::UnitX()));
+      } else if (track.joint.ends_with("elbow")) {
+        rotation.setIdentity();
+      }
+  RetargetOptions options;
+  options.shape = withFeet(skeleton);
+  options.shape->looks = 1;
+  options.aslant = true;
+  const auto moved = [&](const char* from, const char* to) {
+    double most = 0;
+    options.into_picture = 0;
+    const Clip in_space = retargetToRest(clip, skeleton, options);
+    options.into_picture = 1;
+    const Clip aside = retargetToRest(clip, skeleton, options);
+    for (float t : {0.2f, 0.4f, 0.6f, 0.8f}) {
+      const auto a = positions(in_space, skeleton, t * clip.duration_s()),
+                 b = positions(aside, skeleton, t * clip.duration_s());
+      most = std::max(most, double((bone(a, skeleton, from, to) - bone(b, skeleton, from, to)).norm()));
+    }
+    return most;
+  };
+  CHECK(moved("left_shoulder", "left_elbow") < 0.01);
+  CHECK(moved("right_shoulder", "right_elbow") < 0.01);
+  CHECK(moved("left_hip", "left_knee") > 0.1);
+}
+
 namespace {
 
 // Where the feet are while the figure walks, seen from the front.

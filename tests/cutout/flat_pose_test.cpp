@@ -81,6 +81,23 @@ TEST_CASE(
   CHECK(most > 80);
 }
 
+TEST_CASE("an elbow that goes through folded does not jump to the other side") {
+  RiggedDrawing drawing = rigged("characters/cap_boy.png", "biped");
+  Skeleton& skeleton = drawing.character.skeleton;
+  for (Joint& joint : skeleton.joints) joint.position.z() = 0;
+  const std::size_t elbow = std::size_t(skeleton.index("left_elbow"));
+  std::vector<Eigen::Quaternionf> turns(skeleton.joints.size(), Eigen::Quaternionf::Identity());
+  double before = 0, most = 0;
+  for (int step = 0; step <= 72; ++step) {
+    const double angle_rad = step * M_PI / 36;
+    turns[elbow] = Eigen::Quaternionf(Eigen::AngleAxisf(float(angle_rad), Eigen::Vector3f::UnitZ()));
+    const double now = flatPose(skeleton, drawing.body_plan, posedFromRest(skeleton, turns)).turn_rad[elbow];
+    if (step > 0) most = std::max(most, std::abs(std::remainder(now - before, 2 * M_PI)));
+    before = now;
+  }
+  CHECK(most < 30 * M_PI / 180);
+}
+
 TEST_CASE("the lowest foot is on the screen where it is in space") {
   const RiggedDrawing drawing = rigged("characters/cap_boy.png", "biped");
   const RiggedCharacter& character = drawing.character;
