@@ -35,8 +35,8 @@ std::string keepAs(const std::string& path, const std::string& start, const std:
 bool isOfThis(const std::optional<SkeletonSource>& result, const SkeletonFile& file) {
   if (!result || result->number != file.figure.number) return false;
   return result->image_sha256.empty() || result->image_sha256 == file.image_sha256 ||
-         (result->outline_sha256 == file.figure.sha256 && result->image_width == file.image_width &&
-          result->image_height == file.image_height);
+         (!file.foundOutline().empty() && result->found_outline_sha256 == file.foundOutline() &&
+          result->image_width == file.image_width && result->image_height == file.image_height);
 }
 
 std::string whyNotTakenUp(const MendedFiles& files, const InferOptions& options,

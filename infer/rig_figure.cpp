@@ -107,7 +107,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   file.image_sha256 = image_sha256;
   file.image_width = drawing.image.width;
   file.image_height = drawing.image.height;
-  file.figure = {figure, mended.outline_sha256, drawing.recognition.turned_deg};
+  file.figure = {figure, mended.outline_sha256, drawing.recognition.turned_deg, mended.found_outline_sha256};
   file.skeleton = drawing.recognition.skeleton;
   file.confidence = drawing.recognition.confidence;
   file.missing = drawing.recognition.missing;

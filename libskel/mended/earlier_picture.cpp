@@ -61,13 +61,21 @@ std::string earlierThatFits(const std::vector<MendPlace>& places, const MendRequ
 
 void leaveOutEarlier(MendedFiles& files, const MendRequest& request,
                      const std::optional<SkeletonSource>& result) {
-  const bool changed = result && !result->image_sha256.empty() && !request.isOfPicture(result->image_sha256);
+  const bool knows_picture = result && !result->image_sha256.empty();
+  const bool changed = knows_picture && !request.isOfPicture(result->image_sha256);
 
   const bool found_labels = files.labels != request.skeleton, found_mask = files.mask != request.mask;
   const std::string mask_sha256 = found_mask ? sha256(readFile(files.mask)) : "";
   const std::optional<LabelFile> labels = labelsIn(found_labels ? files.labels : "");
   const bool are_of_mask = labels && found_mask && labels->mask && labels->mask->sha256 == mask_sha256;
-  if (labels && !request.isOfPicture(labels->image.sha256) && (labels->mask || labels->hasPlacedJoint())) {
+  // Made for this picture in other colours: the run before has taken them up.
+  const auto tookUpLabels = [&] {
+    if (!knows_picture || changed) return false;
+    if (!labels->hasPlacedJoint()) return are_of_mask && result->mask && result->mask->sha256 == mask_sha256;
+    return result->labels && result->labels->sha256 == sha256(readFile(files.labels));
+  };
+  if (labels && !request.isOfPicture(labels->image.sha256) && (labels->mask || labels->hasPlacedJoint()) &&
+      !tookUpLabels()) {
     leaveOut(files.labels, files);
     if (are_of_mask) leaveOut(files.mask, files);
   }
