@@ -90,8 +90,9 @@ std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, 
   std::erase(files.earlier, path);
   const auto name = [](const std::string& one) { return fs::path(one).filename().string(); };
   const std::string shared = "painted by hand, not taken up and kept",
-                    what = name(path) + " (now " + name(keepAs(path, start + ".old", ".layers.png")) +
-                           "), as " + whyNotTakenUp(files, options, result, file);
+                    what = name(path) + " (now " +
+                           name(keepAs(path, start + kEarlierLayersStart, kEarlierLayersEnd)) + "), as " +
+                           whyNotTakenUp(files, options, result, file);
   return Note{shared + ": " + what, shared, what};
 }
 

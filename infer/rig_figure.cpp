@@ -148,7 +148,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
     result.left_out = note->what;
   }
   if (kept_layers) result.notes.push_back(*kept_layers);
-  if (const auto note = fitsAgainNote(mended.files)) result.notes.push_back(*note);
+  for (const auto& note : {fitsAgainNote(mended.files), keptLayersNote(mended.files, request)})
+    if (note) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
     result.advice = adviceOn(drawing, file, result.mend_file);
     result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front());

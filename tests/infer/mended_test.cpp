@@ -778,6 +778,29 @@ TEST_CASE("what lies in out/ and belongs to another drawing of that name is not 
   }
 }
 
+TEST_CASE("when the picture from before is back, no line named the limbs that were painted for it") {
+  const TempDir dir;
+  drawBoy(dir);
+  const std::string call = "boy.png --formats glb,json,layers";
+  REQUIRE(infer(dir, call).exit_code == 0);
+  const std::string painted = paintOverLeg(dir);
+  constexpr const char* kPainted =
+      "limbs painted for a picture of this name before, and not taken up by themselves: "
+      "out/boy.old.layers.png (boy.limbs.png is taken up: copy them to that name if that picture was this "
+      "one)\n";
+  takeAgain(dir, "clown");
+  CHECK(infer(dir, call).err.find("not taken up by themselves") == std::string::npos);
+  CHECK(infer(dir, call).err.find("not taken up by themselves") == std::string::npos);
+  drawBoy(dir);
+  CHECK(infer(dir, call + " --force -o other").err.find("not taken up by themselves") == std::string::npos);
+  CHECK_THAT(infer(dir, call).err, Contains(kPainted));
+  REQUIRE(readFile(dir.file("out/boy.old.layers.png")) == painted);
+  fs::copy(dir.file("out/boy.old.layers.png"), dir.file("boy.limbs.png"));
+  const ToolRun run = infer(dir, call);
+  CHECK_THAT(run.err, Contains("limbs (boy.limbs.png)"));
+  CHECK(run.err.find("not taken up by themselves") == std::string::npos);
+}
+
 TEST_CASE("when the picture from before is back, a line names the skeleton that was mended for it") {
   const TempDir dir;
   drawBoy(dir);
