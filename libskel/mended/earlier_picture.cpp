@@ -157,10 +157,10 @@ std::optional<Note> fitsAgainNote(const MendedFiles& files) {
 
 std::optional<Note> keptLayersNote(const MendedFiles& files, const MendRequest& request) {
   if (files.kept_layers.empty()) return std::nullopt;
-  const std::string shared =
-                        "limbs painted for a picture of this name before, and not taken up by themselves",
-                    what = joined(files.kept_layers) + " (" + limbsFile(request) +
-                           " is taken up: copy them to that name if that picture was this one)";
+  const std::string shared = "limbs painted for a picture of this name before, not taken up by themselves",
+                    what = joined(files.kept_layers) + " (if " +
+                           (files.kept_layers.size() == 1 ? "it" : "one") +
+                           " is of this picture, copy it to " + shellWord(limbsFile(request)) + ")";
   return Note{shared + ": " + what, shared, what};
 }
 

@@ -785,9 +785,8 @@ TEST_CASE("when the picture from before is back, no line named the limbs that we
   REQUIRE(infer(dir, call).exit_code == 0);
   const std::string painted = paintOverLeg(dir);
   constexpr const char* kPainted =
-      "limbs painted for a picture of this name before, and not taken up by themselves: "
-      "out/boy.old.layers.png (boy.limbs.png is taken up: copy them to that name if that picture was this "
-      "one)\n";
+      "limbs painted for a picture of this name before, not taken up by themselves: out/boy.old.layers.png "
+      "(if it is of this picture, copy it to boy.limbs.png)\n";
   takeAgain(dir, "clown");
   CHECK(infer(dir, call).err.find("not taken up by themselves") == std::string::npos);
   CHECK(infer(dir, call).err.find("not taken up by themselves") == std::string::npos);

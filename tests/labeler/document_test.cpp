@@ -1258,6 +1258,23 @@ TEST_CASE("a skeleton of a photo taken again is found anew by Shift R and then s
   CHECK(readSkeletonFile(path, plan).image_sha256 == file.image_sha256);
 }
 
+TEST_CASE("a joint moved in the skeleton of a photo taken again made it that of a figure in other colours") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path(), false);
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const std::string picture = dir.file("cap_boy.png"), path = dir.file("cap_boy.skeleton.json");
+  SkeletonFile file = skeletonOfCapBoy(plan);
+  file.image_sha256 = sha256(readFile(picture));
+  file.figure.sha256 = outlineHash(extractSilhouette(readImage(picture)));
+  writeFile(path, formatSkeletonFile(file));
+  fs::copy(kCharacters + "clown.png", picture, fs::copy_options::overwrite_existing);
+  Document document(path, documentOptions());
+  document.moveJoint(plan.find("head"), {300, 100});
+  CHECK(readSkeletonFile(path, plan).figure.sha256 == file.figure.sha256);
+  document.acceptJoints();
+  CHECK(readSkeletonFile(path, plan).figure.sha256 == outlineHash(extractSilhouette(readImage(picture))));
+}
+
 TEST_CASE("folders without pictures and pictures that share a label file are refused") {
   const TempDir dir;
   CHECK_THROWS_AS(Document(dir.path(), documentOptions()), InputError);
