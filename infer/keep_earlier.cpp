@@ -35,8 +35,8 @@ std::string keepAs(const std::string& path, const std::string& start, const std:
 bool isOfThis(const std::optional<SkeletonSource>& result, const SkeletonFile& file) {
   if (!result || result->number != file.figure.number) return false;
   return result->image_sha256.empty() || result->image_sha256 == file.image_sha256 ||
-         (result->outline_sha256 == file.figure.sha256 && result->image_width == file.image_width &&
-          result->image_height == file.image_height);
+         (!file.foundOutline().empty() && result->found_outline_sha256 == file.foundOutline() &&
+          result->image_width == file.image_width && result->image_height == file.image_height);
 }
 
 std::string whyNotTakenUp(const MendedFiles& files, const InferOptions& options,
@@ -90,8 +90,9 @@ std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, 
   std::erase(files.earlier, path);
   const auto name = [](const std::string& one) { return fs::path(one).filename().string(); };
   const std::string shared = "painted by hand, not taken up and kept",
-                    what = name(path) + " (now " + name(keepAs(path, start + ".old", ".layers.png")) +
-                           "), as " + whyNotTakenUp(files, options, result, file);
+                    what = name(path) + " (now " +
+                           name(keepAs(path, start + kEarlierLayersStart, kEarlierLayersEnd)) + "), as " +
+                           whyNotTakenUp(files, options, result, file);
   return Note{shared + ": " + what, shared, what};
 }
 

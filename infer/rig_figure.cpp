@@ -107,7 +107,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   file.image_sha256 = image_sha256;
   file.image_width = drawing.image.width;
   file.image_height = drawing.image.height;
-  file.figure = {figure, mended.outline_sha256, drawing.recognition.turned_deg};
+  file.figure = {figure, mended.outline_sha256, drawing.recognition.turned_deg, mended.found_outline_sha256};
   file.skeleton = drawing.recognition.skeleton;
   file.confidence = drawing.recognition.confidence;
   file.missing = drawing.recognition.missing;
@@ -148,7 +148,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
     result.left_out = note->what;
   }
   if (kept_layers) result.notes.push_back(*kept_layers);
-  if (const auto note = fitsAgainNote(mended.files)) result.notes.push_back(*note);
+  for (const auto& note : {fitsAgainNote(mended.files), keptLayersNote(mended.files, request)})
+    if (note) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
     result.advice = adviceOn(drawing, file, result.mend_file);
     result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front());

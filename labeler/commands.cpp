@@ -30,6 +30,14 @@ ExitCode report(const ImportCounts& counts) {
   return counts.exit_code;
 }
 
+void noteEarlier(const std::vector<std::string>& kept) {
+  if (kept.empty()) return;
+  std::fprintf(stderr,
+               "skel-label: note: %s: kept, but the picture has changed since it was labelled; --force makes "
+               "the labels anew, and drops joints set by hand\n",
+               firstAndMore(kept).c_str());
+}
+
 void noteDiffering(const std::vector<std::string>& kept) {
   if (kept.empty()) return;
   std::fprintf(stderr,
@@ -153,6 +161,7 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
                   print("classes by placed joints in " + std::to_string(counts.labelled) +
                         " label files that had none\n");
                 notePassedOver(counts.passed_over);
+                noteEarlier(counts.earlier);
                 noteDiffering(counts.differing);
                 noteLacking(counts);
                 if (counts.made > 0)

@@ -102,6 +102,7 @@ void Document::load(int item) {
   current_ = item;
   image_ = {};
   image_sha256_.clear();
+  found_outline_.reset();
   accepts_earlier_ = false;
   labels_ = {};
   masks_ = {mutableItem().files, given_masks_.contains(mutableItem().files.mask)};
@@ -571,11 +572,26 @@ void Document::save() {
   }
 }
 
+std::string Document::foundOutline() {
+  const std::string& known = skeleton_->foundOutline();
+  if (isOfEarlierPicture()) return known;
+  if (!state_.mask) return figure_->silhouette.found() ? outlineHash(figure_->silhouette) : "";
+  if (image_sha256_ == skeleton_->imageSha256() && !known.empty()) return known;
+  if (!found_outline_) {
+    SilhouetteOptions options;
+    options.figure = figureNumber();
+    const Silhouette found = extractSilhouette(image_, options);
+    found_outline_ = found.found() ? outlineHash(found) : "";
+  }
+  return *found_outline_;
+}
+
 void Document::writeFiles() {
   painted_layers_.write(state_.layers, figure_->silhouette.mask);
   const bool same_mask = state_.mask == masks_.opened();
   if (skeleton_)
-    skeleton_->write({state_, figure_->silhouette, same_mask, state_.mask ? masks_.path(*state_.mask) : "",
+    skeleton_->write({state_, figure_->silhouette, foundOutline(), same_mask,
+                      state_.mask ? masks_.path(*state_.mask) : "",
                       rigged_ ? &rigged_->recognition.skeleton : nullptr});
   if (motion_) motion_->write(current_, state_.joints);
   if (editsJointsAlone()) {

@@ -182,6 +182,8 @@ class Document {
   bool travel(const Step& step, const DrawingState& target);
   void save();
   void writeFiles();
+  // SkeletonFile::foundOutline() of the picture that the state was made for.
+  std::string foundOutline();
   int figureNumber() const { return skeleton_ ? skeleton_->figureNumber() : 1; }
   bool editsJointsAlone() const { return skeleton_ || motion_; }
   void forgetRig();  // mask or joints have changed
@@ -201,6 +203,7 @@ class Document {
   // Of the current drawing.
   Image image_;
   std::string image_sha256_;
+  std::optional<std::string> found_outline_;  // of the picture's own outline, once it was asked for
   bool accepts_earlier_ = false;  // has been told that this takes up what was made for an earlier picture
   LabelDocument labels_;
   MaskDocument masks_;

@@ -90,27 +90,34 @@ bool isSamePlace(const std::optional<Eigen::Vector2d>& a, const std::optional<Ei
 }
 
 // Whether the label file has other joints than the annotation, or they are somebody else's: placed by a
-// person, or found. Those that follow from others do not count. A label file that cannot be read is not
-// compared.
-bool jointsDiffer(const std::string& label_path, const AnnotatedDrawing& drawing,
+// person, or found. Those that follow from others do not count.
+bool jointsDiffer(const LabelFile& labels, const AnnotatedDrawing& drawing,
                   const SkeletonTemplate& body_plan) {
   const auto contains = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
+  const auto same = [&](const auto& joint) {
+    const auto ours = std::find_if(labels.joints.begin(), labels.joints.end(),
+                                   [&](const auto& other) { return other.first == joint.first; });
+    const bool found = contains(drawing.recognized, joint.first);
+    if (ours == labels.joints.end() || found != contains(labels.recognized, joint.first)) return false;
+    const int j = body_plan.find(joint.first);
+    const bool follows = found && j >= 0 && body_plan.joints[static_cast<size_t>(j)].derived;
+    return follows || isSamePlace(ours->second, joint.second);
+  };
+  return !std::all_of(drawing.joints.begin(), drawing.joints.end(), same);
+}
+
+// A label file that cannot be read is not compared.
+void compareKept(const std::string& label_path, const AnnotatedDrawing& drawing,
+                 const SkeletonTemplate& body_plan, ImportCounts& counts) {
   try {
     const LabelFile labels = readLabelFile(label_path);
-    const auto same = [&](const auto& joint) {
-      const auto ours = std::find_if(labels.joints.begin(), labels.joints.end(),
-                                     [&](const auto& other) { return other.first == joint.first; });
-      const bool found = contains(drawing.recognized, joint.first);
-      if (ours == labels.joints.end() || found != contains(labels.recognized, joint.first)) return false;
-      const int j = body_plan.find(joint.first);
-      const bool follows = found && j >= 0 && body_plan.joints[static_cast<size_t>(j)].derived;
-      return follows || isSamePlace(ours->second, joint.second);
-    };
-    return !std::all_of(drawing.joints.begin(), drawing.joints.end(), same);
+    if (labels.image.sha256 != sha256(readFile(drawing.image)))
+      counts.earlier.push_back(label_path);
+    else if (jointsDiffer(labels, drawing, body_plan))
+      counts.differing.push_back(label_path);
   } catch (const InputError&) {
-    return false;
   }
 }
 
@@ -150,7 +157,7 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
   const std::string image_path = destination(drawing.image, dir, options);
   const std::string label_path = labelFileFor(image_path);
   if (!options.force && fs::exists(label_path)) {
-    if (jointsDiffer(label_path, drawing, body_plan)) counts.differing.push_back(label_path);
+    compareKept(label_path, drawing, body_plan, counts);
     return false;
   }
 
@@ -237,6 +244,11 @@ ImportCounts importLabels(const std::string& path, const SkeletonTemplate& body_
   const std::vector<AnnotatedDrawing> drawings =
       is_file ? readCoco(path, body_plan, on_input_error)
               : findAnnotatedDrawings(path, body_plan, on_input_error, &counts.passed_over);
+  const std::string dir = is_file ? fs::path(path).parent_path().string() : path;
+  const auto make = [&](const AnnotatedDrawing& drawing) {
+    return importDrawing(drawing, dir, body_plan, options, counts);
+  };
+  forEach(drawings, "import", on_error, make, counts);
   if (!is_file && options.output.empty()) labelByPlacedJoints(path, body_plan, on_error, counts);
   if (drawings.empty() && counts.failed == 0 && counts.passed_over.empty() && counts.labelled == 0)
     throw InputError(path,
@@ -244,11 +256,6 @@ ImportCounts importLabels(const std::string& path, const SkeletonTemplate& body_
                      "with keypoints, "
                      "or a skeleton file of the template " +
                          body_plan.name + ")");
-  const std::string dir = is_file ? fs::path(path).parent_path().string() : path;
-  const auto make = [&](const AnnotatedDrawing& drawing) {
-    return importDrawing(drawing, dir, body_plan, options, counts);
-  };
-  forEach(drawings, "import", on_error, make, counts);
   return counts;
 }
 

@@ -35,11 +35,12 @@ void SkeletonDocument::write(const Content& content) const {
         if (lifted.name == joint.name && lifted.image == joint.image) joint.position = lifted.position;
   }
   if (!file.image_sha256.empty()) file.image_sha256 = content.state.image_sha256;
+  const MaskVersion* mask = content.state.mask.get();
   if (content.silhouette.found()) {
     file.figure.number = std::min(figureNumber(), content.silhouette.figure_count);
-    file.figure.sha256 = outlineHash(content.silhouette);
+    file.figure.sha256 = mask ? outlineHash(content.silhouette) : content.found_outline;
+    file.figure.found_sha256 = mask ? content.found_outline : "";
   }
-  const MaskVersion* mask = content.state.mask.get();
   if (!mask)
     file.mask.reset();
   else if (file.mask && content.same_mask)

@@ -23,6 +23,7 @@ class SkeletonDocument {
   const std::string& imageSha256() const {
     return file_.image_sha256;
   }  // that it was found in; "": not known
+  const std::string& foundOutline() const { return file_.foundOutline(); }
   const std::optional<SkeletonFile::Mask>& mask() const { return file_.mask; }
   std::string maskPath() const;  // of mask()
   // Throws InputError if the file does not mean this picture.
@@ -32,9 +33,10 @@ class SkeletonDocument {
   struct Content {
     const DrawingState& state;
     const Silhouette& silhouette;
-    bool same_mask;          // as when the drawing was opened
-    std::string mask_path;   // of the state's mask, if it has one
-    const Skeleton* lifted;  // null, or joints that were found anew, with their positions in the model
+    std::string found_outline;  // SkeletonFile::foundOutline() of the picture of the state
+    bool same_mask;             // as when the drawing was opened
+    std::string mask_path;      // of the state's mask, if it has one
+    const Skeleton* lifted;     // null, or joints that were found anew, with their positions in the model
   };
   // Throws OutputError.
   void write(const Content& content) const;

@@ -38,36 +38,67 @@ bool hasSize(const Image& limbs, const Image& image) {
   return limbs.width == image.width && limbs.height == image.height;
 }
 
+std::vector<std::string> numbered(const std::string& start, const std::string& end) {
+  std::vector<std::string> paths;
+  for (int number = 1;; ++number) {
+    const std::string path = numberedName(start, end, number);
+    if (std::error_code unknown; !fs::is_regular_file(path, unknown)) return paths;
+    paths.push_back(path);
+  }
+}
+
+const std::string& resultsOf(const MendPlace& place) {
+  return place.results.empty() ? place.made : place.results;
+}
+
+// That is taken up.
+std::string limbsFile(const MendRequest& request) {
+  const std::string number = request.figure > 1 ? "-" + std::to_string(request.figure) : "";
+  return fs::path(request.source).replace_extension().string() + number + ".limbs.png";
+}
+
 std::string lastThatFits(const std::string& results, const MendRequest& request) {
   std::string fitting;
-  for (int number = 1;; ++number) {
-    const std::string path = numberedName(results + kEarlierSkeletonStart, kEarlierSkeletonEnd, number);
-    if (std::error_code unknown; !fs::is_regular_file(path, unknown)) return fitting;
+  for (const std::string& path : numbered(results + kEarlierSkeletonStart, kEarlierSkeletonEnd)) {
     const std::optional<SkeletonSource> source = sourceOfSkeleton(path);
     if (source && source->number == request.figure && request.isOfPicture(source->image_sha256))
       fitting = path;
   }
+  return fitting;
 }
 
 }  // namespace
 
 std::string earlierThatFits(const std::vector<MendPlace>& places, const MendRequest& request) {
   for (const MendPlace& place : places)
-    if (const std::string path = lastThatFits(place.results.empty() ? place.made : place.results, request);
-        !path.empty())
-      return path;
+    if (const std::string path = lastThatFits(resultsOf(place), request); !path.empty()) return path;
   return "";
+}
+
+std::vector<std::string> earlierLayers(const std::vector<MendPlace>& places) {
+  for (const MendPlace& place : places)
+    if (auto paths = numbered(resultsOf(place) + kEarlierLayersStart, kEarlierLayersEnd); !paths.empty())
+      return paths;
+  return {};
 }
 
 void leaveOutEarlier(MendedFiles& files, const MendRequest& request,
                      const std::optional<SkeletonSource>& result) {
-  const bool changed = result && !result->image_sha256.empty() && !request.isOfPicture(result->image_sha256);
+  const bool knows_picture = result && !result->image_sha256.empty();
+  const bool changed = knows_picture && !request.isOfPicture(result->image_sha256);
 
   const bool found_labels = files.labels != request.skeleton, found_mask = files.mask != request.mask;
   const std::string mask_sha256 = found_mask ? sha256(readFile(files.mask)) : "";
   const std::optional<LabelFile> labels = labelsIn(found_labels ? files.labels : "");
   const bool are_of_mask = labels && found_mask && labels->mask && labels->mask->sha256 == mask_sha256;
-  if (labels && !request.isOfPicture(labels->image.sha256) && (labels->mask || labels->hasPlacedJoint())) {
+  // Made for this picture in other colours: the run before has taken them up.
+  const auto tookUpLabels = [&] {
+    if (!knows_picture || changed) return false;
+    if (!labels->hasPlacedJoint()) return are_of_mask && result->mask && result->mask->sha256 == mask_sha256;
+    return result->labels && result->labels->sha256 == sha256(readFile(files.labels));
+  };
+  if (labels && !request.isOfPicture(labels->image.sha256) && (labels->mask || labels->hasPlacedJoint()) &&
+      !tookUpLabels()) {
     leaveOut(files.labels, files);
     if (are_of_mask) leaveOut(files.mask, files);
   }
@@ -122,6 +153,15 @@ std::optional<Note> fitsAgainNote(const MendedFiles& files) {
   const std::string what = fileName(files.fits_again) + " fits this picture: --skeleton ";
   const std::string shared = "mended for this very picture before it changed, and not taken up by itself";
   return Note{shared + ": " + what + shellWord(files.fits_again), shared, what + shellWord(files.fits_again)};
+}
+
+std::optional<Note> keptLayersNote(const MendedFiles& files, const MendRequest& request) {
+  if (files.kept_layers.empty()) return std::nullopt;
+  const std::string shared = "limbs painted for a picture of this name before, not taken up by themselves",
+                    what = joined(files.kept_layers) + " (if " +
+                           (files.kept_layers.size() == 1 ? "it" : "one") +
+                           " is of this picture, copy it to " + shellWord(limbsFile(request)) + ")";
+  return Note{shared + ": " + what, shared, what};
 }
 
 }  // namespace skel

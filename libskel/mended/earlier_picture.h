@@ -15,8 +15,14 @@ namespace skel {
 // What a skeleton that was made for an earlier picture is called from then on (numberedName()).
 inline constexpr const char *kEarlierSkeletonStart = ".skeleton.old", *kEarlierSkeletonEnd = ".json";
 
+// The same of painted layers.
+inline constexpr const char *kEarlierLayersStart = ".old", *kEarlierLayersEnd = ".layers.png";
+
 // The last one among those of the first of the places that has one of this very picture and figure; or "".
 std::string earlierThatFits(const std::vector<MendPlace>& places, const MendRequest& request);
+
+// Those of the first of the places that has any. Nothing tells of which picture they are.
+std::vector<std::string> earlierLayers(const std::vector<MendPlace>& places);
 
 // Moves labels, and the mask that they speak of, that nobody named and that were made for another picture
 // than the request's from their place in `files` to `earlier`, and notes what may have been. `result`: what
@@ -40,7 +46,9 @@ struct KeptFile {
 // Which files were left out; nothing where none was.
 std::optional<Note> earlierNote(const MendedFiles& files, const std::vector<KeptFile>& kept = {});
 
-// What to do to go back to a picture that was there before; nothing where there is no skeleton of it.
+// What to do to go back to a picture that was there before; nothing where there is no skeleton of it, or no
+// layers that may be.
 std::optional<Note> fitsAgainNote(const MendedFiles& files);
+std::optional<Note> keptLayersNote(const MendedFiles& files, const MendRequest& request);
 
 }  // namespace skel

@@ -179,6 +179,8 @@ MendedFiles mendedFiles(const MendRequest& request) {
     offer(files.limbs, painted_layers, sameBytes, files);
   }
   if (no_skeleton && files.skeleton.empty()) files.fits_again = earlierThatFits(places, request);
+  if (request.finds_limbs && files.limbs.empty() && (files.earlier_result || !files.fits_again.empty()))
+    files.kept_layers = earlierLayers(places);
   return files;
 }
 

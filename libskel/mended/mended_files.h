@@ -52,6 +52,7 @@ struct MendedFiles {
   bool has_result = false;                       // of this one or of that
   std::vector<std::string> earlier;              // files made for that one: not among those above
   std::string fits_again;                        // a skeleton that was kept and is of this picture
+  std::vector<std::string> kept_layers;          // painted limbs that were kept: one may be of this picture
   bool mask_before = false;                      // the mask was there before the picture changed
   bool limbs_before = false;                     // the limbs may have been
 };

@@ -43,15 +43,18 @@ SkeletonFile::Mask useMask(const MendRequest& request, const MendedFiles& mended
   return {path, sha256(readFile(path))};
 }
 
+// Of the outline that the picture alone gives, "": none.
+std::string foundOutline(FigureFinder& figures, const Image& image, int figure) {
+  const Silhouette silhouette = figures.take(image, figure);
+  return silhouette.found() ? outlineHash(silhouette) : "";
+}
+
 // The request as it is where an earlier picture of this size shows the very same figure in other colours.
 MendRequest knowingRecolored(MendRequest request, const SkeletonSource& earlier, const Image& image,
-                             SilhouetteOptions options) {
-  if (earlier.number != request.figure || earlier.outline_sha256.empty() || earlier.mask ||
-      earlier.image_width != image.width || earlier.image_height != image.height)
-    return request;
-  options.figure = std::max(request.figure, 1);
-  const Silhouette silhouette = extractSilhouette(image, options);
-  if (silhouette.found() && outlineHash(silhouette) == earlier.outline_sha256)
+                             FigureFinder& figures) {
+  if (earlier.number == request.figure && !earlier.found_outline_sha256.empty() &&
+      earlier.image_width == image.width && earlier.image_height == image.height &&
+      earlier.found_outline_sha256 == foundOutline(figures, image, request.figure))
     request.recolored_sha256 = earlier.image_sha256;
   return request;
 }
@@ -127,11 +130,18 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
     input.turned_deg = given->figure.turned_deg;
   }
   input.file = request.source;
+  SilhouetteOptions silhouette = rig.silhouette;
+  silhouette.figure = std::max(request.figure, 1);
+  silhouette.all = request.is_one_of_all;
+  FigureFinder own_figures(silhouette);
+  FigureFinder& figures = input.figures ? *input.figures : own_figures;
   MendedRig result;
   MendedFiles& mended = result.files;
   mended = mendedFiles(request);
-  if (mended.earlier_result)
-    mended = mendedFiles(knowingRecolored(request, *mended.earlier_result, input.image, rig.silhouette));
+  if (mended.earlier_result) {
+    input.figures = &figures;  // looked at once
+    mended = mendedFiles(knowingRecolored(request, *mended.earlier_result, input.image, figures));
+  }
   leaveOutOtherSizes(mended, request, input.image);
   PlacedJoints& placed = result.placed;
   placed = placedJoints(mended, request, rig, input.image);
@@ -143,6 +153,8 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
   }
   result.mask = useMask(request, mended, given, input);
   const std::string& mask = result.mask.file;
+  if (!mask.empty() && !request.results.empty())
+    result.found_outline_sha256 = foundOutline(figures, input.image, silhouette.figure);
   if (!mended.limbs.empty()) {
     std::optional<LookAtOutputs> look;
     if (mended.painted_layers) look.emplace();
@@ -151,8 +163,7 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
   if (!mended.back.empty()) input.back = {readImage(mended.back), mended.back};
 
   RigOptions figure_rig = forBodyPlan(rig, placed.body_plan);
-  figure_rig.silhouette.figure = std::max(request.figure, 1);
-  figure_rig.silhouette.all = request.is_one_of_all;
+  figure_rig.silhouette = silhouette;
   if (given || !placed.joints.empty()) figure_rig.last = std::max(figure_rig.last, LastStage::kJoints);
   result.last = figure_rig.last;
   RiggedDrawing& drawing = result.drawing;

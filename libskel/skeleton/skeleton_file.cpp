@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSkeletonVersion = 4;         // 3: without `found`
+constexpr int kSkeletonVersion = 5;         // 3: without `found`, 4: without `found_sha256`
 constexpr std::size_t kMostWarnings = 100;  // all are shown, each once; skel gives a handful
 constexpr int kLongestImageSide_px = 1'000'000;
 constexpr double kUnmoved_px = 0.005;  // files keep hundredths of a pixel
@@ -59,11 +59,12 @@ SkeletonFile::Mask sourceAt(const JsonValue& given) {
 }
 
 SkeletonFile::Figure figureAt(const JsonValue& value) {
-  value.allowOnly({"number", "sha256", "turned"});
+  value.allowOnly({"number", "sha256", "turned", "found_sha256"});
   SkeletonFile::Figure figure;
   figure.number = value.at("number").asInt(1, 9999);
   figure.sha256 = value.at("sha256").asString();
   figure.turned_deg = value.at("turned").asInt(0, 359);
+  if (const auto hash = value.find("found_sha256")) figure.found_sha256 = hash->asString();
   return figure;
 }
 
@@ -131,6 +132,8 @@ std::string formatSkeletonFile(const SkeletonFile& file) {
   if (!file.image_sha256.empty()) root["image"]["sha256"] = file.image_sha256;
   root["figure"] = {
       {"number", file.figure.number}, {"sha256", file.figure.sha256}, {"turned", file.figure.turned_deg}};
+  if (file.mask && !file.figure.found_sha256.empty())
+    root["figure"]["found_sha256"] = file.figure.found_sha256;
   root["template"] = file.skeleton.template_name;
   root["confidence"] = rounded(file.confidence, 1000);
   root["missing"] = file.missing;
@@ -225,12 +228,14 @@ std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path) {
     source.image_width = image.at("width").asInt(1, kLongestImageSide_px);
     source.image_height = image.at("height").asInt(1, kLongestImageSide_px);
     if (const auto hash = image.find("sha256")) source.image_sha256 = hash->asString();
+    if (const JsonValue mask = root.at("mask"); !mask.isNull()) source.mask = sourceAt(mask);
+    if (const auto labels = root.find("labels")) source.labels = sourceAt(*labels);
     if (const auto json = root.find("figure")) {
       const SkeletonFile::Figure figure = figureAt(*json);
       source.outline_sha256 = figure.sha256;
+      source.found_outline_sha256 = source.mask ? figure.found_sha256 : figure.sha256;
       source.number = figure.number;
     }
-    if (const JsonValue mask = root.at("mask"); !mask.isNull()) source.mask = sourceAt(mask);
     return source;
   } catch (const InputError&) {
     return std::nullopt;

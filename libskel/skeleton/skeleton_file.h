@@ -23,6 +23,8 @@ struct SkeletonFile {
     int number = 1;      // 1 is the largest
     std::string sha256;  // of its outline (outlineHash()); empty: not known
     int turned_deg = 0;  // how far it is turned clockwise against upright, 0 to 359
+    // Where a mask was used, of the outline that the picture alone gives; empty: not known.
+    std::string found_sha256 = {};
   };
 
   std::string image_file;    // a path relative to the skeleton file
@@ -35,6 +37,9 @@ struct SkeletonFile {
   std::vector<std::string> warnings;
   std::optional<Mask> mask;      // given or mended by hand
   std::optional<Labels> labels;  // whose joints, placed by a person, are among these
+
+  // Of the outline that the picture alone gives; empty: not known.
+  const std::string& foundOutline() const { return mask ? figure.found_sha256 : figure.sha256; }
 };
 
 inline constexpr const char* kSkeletonFileEnding = ".skeleton.json";
@@ -58,9 +63,11 @@ std::string templateOfSkeleton(std::string_view text, const std::string& path);
 struct SkeletonSource {
   std::string image_file;  // a path relative to the skeleton file
   std::string image_sha256, outline_sha256;
+  std::string found_outline_sha256;       // SkeletonFile::foundOutline()
   int image_width = 0, image_height = 0;  // px
   int number = 1;                         // of the figure
   std::optional<SkeletonFile::Mask> mask;
+  std::optional<SkeletonFile::Labels> labels;
 };
 
 // Of the skeleton file at `path`. Nothing where there is none, or none that can be read.

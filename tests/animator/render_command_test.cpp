@@ -161,6 +161,30 @@ TEST_CASE("what a person has mended of a drawing is taken up in films, as skel-i
   }
 }
 
+TEST_CASE("films of a sprite in other colours lost its joints where its silhouette was painted by hand") {
+  const TempDir dir;
+  Image sprite = readImage(kDrawing);
+  Plane8 mask = extractSilhouette(sprite).mask;
+  for (Eigen::Index p = 0; p < mask.size(); ++p) sprite.rgba(p, 3) = mask.data()[p];
+  writeFile(dir.file("boy.png"), encodePng(sprite));
+  mask.bottomRows(mask.rows() / 4).rightCols(mask.cols() / 2) = 0;
+  writeFile(dir.file("boy.mask.png"), encodePng(mask));
+  const std::string in_folder = "cd '" + dir.path() + "' && ";
+  REQUIRE(runTool(in_folder + "skel-infer boy.png --formats json").exit_code == 0);
+  const std::string path = dir.file("out/boy.skeleton.json");
+  std::string text = readFile(path);
+  const std::size_t start = text.find("\"image\":[", text.find("\"name\":\"left_hand\"")) + 9;
+  writeFile(path, text.replace(start, text.find(',', start) - start, "420.5"));
+  sprite.rgba.col(0).swap(sprite.rgba.col(2));
+  writeFile(dir.file("boy.png"), encodePng(sprite));
+  const ToolRun run = runTool(in_folder +
+                              "skel-animate render boy.png --look solid --clip wave --duration 0.1 --fps 10 "
+                              "--size 64x64 -o film.gif");
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err, Contains("1 joint (out/boy.skeleton.json), mask (boy.mask.png)\n"));
+  CHECK(run.err.find("earlier picture") == std::string::npos);
+}
+
 TEST_CASE("films take up what is mended in out/ beside the drawing, and say what counts where two differ") {
   const TempDir dir;
   writeFile(dir.file("in/boy.png"), readFile(kDrawing));

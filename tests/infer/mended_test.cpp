@@ -67,6 +67,55 @@ void takeAgain(const TempDir& dir, const std::string& character) {
   writeFile(dir.file("boy.png"), readFile(SKEL_DATASETS "/characters/" + character + ".png"));
 }
 
+// The boy cut out of his paper.
+void drawSprite(const TempDir& dir) {
+  Image boy = readImage(kDrawing);
+  const Plane8 mask = extractSilhouette(boy).mask;
+  for (int y = 0; y < boy.height; ++y)
+    for (int x = 0; x < boy.width; ++x) boy.pixel(x, y)[3] = mask(y, x);
+  writeFile(dir.file("boy.png"), encodePng(boy));
+}
+
+// Three times are none.
+void recolor(const TempDir& dir) {
+  Image sprite = readImage(dir.file("boy.png"));
+  for (Eigen::Index p = 0; p < sprite.rgba.rows(); ++p) {
+    const auto red = sprite.rgba(p, 0);
+    sprite.rgba(p, 0) = sprite.rgba(p, 1);
+    sprite.rgba(p, 1) = sprite.rgba(p, 2);
+    sprite.rgba(p, 2) = red;
+  }
+  writeFile(dir.file("boy.png"), encodePng(sprite));
+}
+
+void cutOffFeet(const TempDir& dir) {
+  Image sprite = readImage(dir.file("boy.png"));
+  for (int y = sprite.height * 9 / 10; y < sprite.height; ++y)
+    for (int x = 0; x < sprite.width / 2; ++x) sprite.pixel(x, y)[3] = 0;
+  writeFile(dir.file("boy.png"), encodePng(sprite));
+}
+
+// The left leg, of which no limb is left; returns the file.
+std::string paintOverLeg(const TempDir& dir) {
+  Image layers = readImage(dir.file("out/boy.layers.png"));
+  for (Eigen::Index p = 0; p < layers.rgba.rows(); ++p)
+    if (layers.rgba(p, 0) == 40 && layers.rgba(p, 1) == 170) layers.rgba.row(p) << 150, 150, 150, 255;
+  const std::string painted = encodePng(layers);
+  writeFile(dir.file("out/boy.layers.png"), painted);
+  return painted;
+}
+
+// The figure's silhouette with a hat that the picture does not have.
+std::string paintedMask(const TempDir& dir) {
+  Plane8 mask = extractSilhouette(readImage(dir.file("boy.png"))).mask;
+  int top = 0;
+  while ((mask.row(top) == 0).all()) ++top;
+  int x = 0;
+  while (mask(top, x) == 0) ++x;
+  mask.block(top - 12, x - 10, 20, 20) = 255;
+  return encodePng(mask);
+}
+
 constexpr const char* kEarlier = "mended for an earlier picture of this name, not taken up for this one: ";
 constexpr const char* kTakenUp = "made by hand and taken up (--force leaves it out): ";
 
@@ -117,22 +166,12 @@ TEST_CASE(
 TEST_CASE(
     "a sprite in other colours lost its mended joints and painted limbs, though its outline was the same") {
   const TempDir dir;
-  Image boy = readImage(kDrawing);
-  const Plane8 mask = extractSilhouette(boy).mask;
-  for (int y = 0; y < boy.height; ++y)
-    for (int x = 0; x < boy.width; ++x) boy.pixel(x, y)[3] = mask(y, x);
-  writeFile(dir.file("boy.png"), encodePng(boy));
+  drawSprite(dir);
   const std::string call = "boy.png --formats glb,json,layers";
   REQUIRE(infer(dir, call).exit_code == 0);
   moveInFile(dir, "left_hand", "420.5");
-  Image layers = readImage(dir.file("out/boy.layers.png"));
-  for (Eigen::Index p = 0; p < layers.rgba.rows(); ++p)
-    if (layers.rgba(p, 0) == 40 && layers.rgba(p, 1) == 170) layers.rgba.row(p) << 150, 150, 150, 255;
-  const std::string painted = encodePng(layers), mended = readFile(dir.file(kSkeleton));
-  writeFile(dir.file("out/boy.layers.png"), painted);
-  for (int y = 0; y < boy.height; ++y)
-    for (int x = 0; x < boy.width; ++x) std::swap(boy.pixel(x, y)[0], boy.pixel(x, y)[2]);
-  writeFile(dir.file("boy.png"), encodePng(boy));
+  const std::string painted = paintOverLeg(dir), mended = readFile(dir.file(kSkeleton));
+  recolor(dir);
   SECTION("now they stay") {
     for (int time = 0; time < 2; ++time) {
       const ToolRun run = infer(dir, call);
@@ -145,10 +184,7 @@ TEST_CASE(
     }
   }
   SECTION("of another outline they are kept, and the line says how to take the joints up") {
-    for (int y = 0; y < boy.height; ++y)
-      for (int x = 0; x < boy.width / 2; ++x)
-        if (y > boy.height * 9 / 10) boy.pixel(x, y)[3] = 0;
-    writeFile(dir.file("boy.png"), encodePng(boy));
+    cutOffFeet(dir);
     const ToolRun run = infer(dir, call);
     CHECK_THAT(run.err,
                Contains(kEarlier + std::string("boy.skeleton.json (now boy.skeleton.old.json; --skeleton "
@@ -156,6 +192,74 @@ TEST_CASE(
     CHECK_THAT(run.err, Contains("boy.layers.png (now boy.old.layers.png), as the picture has changed\n"));
     CHECK(readFile(dir.file("out/boy.skeleton.old.json")) == mended);
   }
+}
+
+TEST_CASE("a sprite in other colours lost what was mended of it where its silhouette was painted by hand") {
+  const TempDir dir;
+  drawSprite(dir);
+  const std::string mask = paintedMask(dir);
+  const bool in_place = GENERATE(true, false);  // or given
+  const std::string painted = in_place ? "out/boy.silhouette.png" : "hat.png";
+  const std::string call =
+      std::string("boy.png --formats glb,json,silhouette,layers") + (in_place ? "" : " --mask hat.png");
+  REQUIRE(infer(dir, "boy.png --formats json,silhouette").exit_code == 0);
+  writeFile(dir.file(painted), mask);
+  REQUIRE(infer(dir, call).exit_code == 0);
+  moveInFile(dir, "left_hand", "420.5");
+  const std::string layers = paintOverLeg(dir), mended = readFile(dir.file(kSkeleton));
+  const std::string taken_up = kTakenUp + std::string("1 joint (out/boy.skeleton.json), ") +
+                               (in_place ? "silhouette (" + painted + "), " : "") +
+                               "limbs (out/boy.layers.png)\n";
+  SECTION("now they stay, in its first colours again, too") {
+    for (int time = 1; time <= 3; ++time) {
+      recolor(dir);
+      for (int run = 1; run <= 2; ++run) {
+        const ToolRun again = infer(dir, call);
+        CHECK(again.exit_code == 0);
+        CHECK_THAT(again.err, Contains(taken_up));
+        CHECK(again.err.find("look at") == std::string::npos);
+        CHECK(again.err.find("kept") == std::string::npos);
+        CHECK(placeIn(dir, "left_hand").front() == 420.5);
+        CHECK(readFile(dir.file("out/boy.layers.png")) == layers);
+      }
+    }
+  }
+  SECTION("of another outline they are kept") {
+    recolor(dir);
+    cutOffFeet(dir);
+    const ToolRun run = infer(dir, call);
+    CHECK_THAT(run.err, Contains("boy.skeleton.json (now boy.skeleton.old.json; "));
+    CHECK_THAT(run.err, Contains("boy.layers.png (now boy.old.layers.png), as the picture has changed\n"));
+    CHECK(readFile(dir.file("out/boy.skeleton.old.json")) == mended);
+    CHECK(readFile(dir.file("out/boy.old.layers.png")) == layers);
+    if (in_place) CHECK(readFile(dir.file("out/boy.old.silhouette.png")) == mask);
+  }
+}
+
+TEST_CASE(
+    "labels of a sprite in other colours, and their mask, counted once and were put aside by the next run") {
+  const TempDir dir;
+  drawSprite(dir);
+  writeFile(dir.file("boy.mask.png"), paintedMask(dir));
+  const bool of_joints = GENERATE(true, false);  // or of the mask alone
+  placeInLabels(dir, {420, 300}, "boy.mask.png");
+  if (!of_joints) {
+    LabelFile labels = readLabelFile(dir.file("boy.labels.json"));
+    labels.recognized = {"left_hand", "right_hand"};
+    writeLabelFile(dir.file("boy.labels.json"), labels);
+  }
+  for (int time = 0; time <= 3; ++time) {
+    for (int run = 1; run <= 2; ++run) {
+      const ToolRun again = infer(dir, "boy.png --formats json");
+      CHECK(again.exit_code == 0);
+      CHECK_THAT(again.err, Contains("mask (boy.mask.png)\n"));
+      CHECK(again.err.find("earlier picture") == std::string::npos);
+      CHECK((again.err.find("1 joint") != std::string::npos) == of_joints);
+    }
+    recolor(dir);
+  }
+  cutOffFeet(dir);
+  CHECK_THAT(infer(dir, "boy.png --formats json").err, Contains("boy.labels.json, boy.mask.png"));
 }
 
 TEST_CASE("a mended skeleton keeps its name where the new photo writes none or is no picture") {
@@ -672,6 +776,28 @@ TEST_CASE("what lies in out/ and belongs to another drawing of that name is not 
     CHECK_THAT(infer(dir, "b/boy.png -o new").err, Contains(kEarlier + std::string("boy.skeleton.json\n")));
     CHECK(contentOf(dir, "b") == before);
   }
+}
+
+TEST_CASE("when the picture from before is back, no line named the limbs that were painted for it") {
+  const TempDir dir;
+  drawBoy(dir);
+  const std::string call = "boy.png --formats glb,json,layers";
+  REQUIRE(infer(dir, call).exit_code == 0);
+  const std::string painted = paintOverLeg(dir);
+  constexpr const char* kPainted =
+      "limbs painted for a picture of this name before, not taken up by themselves: out/boy.old.layers.png "
+      "(if it is of this picture, copy it to boy.limbs.png)\n";
+  takeAgain(dir, "clown");
+  CHECK(infer(dir, call).err.find("not taken up by themselves") == std::string::npos);
+  CHECK(infer(dir, call).err.find("not taken up by themselves") == std::string::npos);
+  drawBoy(dir);
+  CHECK(infer(dir, call + " --force -o other").err.find("not taken up by themselves") == std::string::npos);
+  CHECK_THAT(infer(dir, call).err, Contains(kPainted));
+  REQUIRE(readFile(dir.file("out/boy.old.layers.png")) == painted);
+  fs::copy(dir.file("out/boy.old.layers.png"), dir.file("boy.limbs.png"));
+  const ToolRun run = infer(dir, call);
+  CHECK_THAT(run.err, Contains("limbs (boy.limbs.png)"));
+  CHECK(run.err.find("not taken up by themselves") == std::string::npos);
 }
 
 TEST_CASE("when the picture from before is back, a line names the skeleton that was mended for it") {

@@ -309,6 +309,33 @@ TEST_CASE(
   CHECK(headOf(dir.file("cap_boy.labels.json")) == 310);
 }
 
+TEST_CASE("import: of a picture that has changed other joints were told, and --force counted a failure") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  const std::string path = dir.file("cap_boy.labels.json");
+  LabelFile labels = readLabelFile(path);
+  SECTION("with classes") {}
+  SECTION("with placed joints alone") {
+    labels.labels.assign(labels.labels.size(), std::nullopt);
+    writeLabelFile(path, labels);
+  }
+  fs::remove(dir.file("cap_boy.mask.png"));
+  fs::copy(kCharacters + "clown.png", dir.file("cap_boy.png"), fs::copy_options::overwrite_existing);
+  ToolRun run = label(dir, "import .");
+  CHECK(contains(run.out, "0 label files made, 1 kept as they were"));
+  CHECK(
+      contains(run.err,
+               "cap_boy.labels.json: kept, but the picture has changed since it was labelled; --force makes "
+               "the labels anew, and drops joints set by hand\n"));
+  CHECK(readLabelFile(path).image.sha256 == labels.image.sha256);
+  run = label(dir, "import . --force");
+  CHECK(run.exit_code == 0);
+  CHECK(run.err == "");
+  CHECK(contains(run.out, "1 label files made, 0 kept as they were, 0 failed\n"));
+  CHECK(readLabelFile(path).image.sha256 == sha256(readFile(dir.file("cap_boy.png"))));
+}
+
 TEST_CASE("import: joints that follow from others, and roundings, were told as other joints") {
   const TempDir dir;
   fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));

@@ -756,6 +756,52 @@ TEST_CASE("a skeleton file is edited with the mask that it was made with") {
   CHECK(contains(Document(path, documentOptions()).item().problem, "half.png: cannot be read"));
 }
 
+TEST_CASE("a skeleton file lost the outline that its picture alone gives where the mask is painted") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path(), false);
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const std::string picture = dir.file("cap_boy.png"), path = dir.file("cap_boy.skeleton.json");
+  const auto found = [&] { return outlineHash(extractSilhouette(readImage(picture))); };
+  const auto saved = [&] { return readSkeletonFile(path, plan); };
+  const std::string first = found();
+  SkeletonFile file = skeletonOfCapBoy(plan);
+  file.image_sha256 = sha256(readFile(picture));
+  file.figure.sha256 = first;
+  writeFile(path, formatSkeletonFile(file));
+  {
+    Document document(path, documentOptions());
+    document.paintMask({300, 60}, {300, 20}, 12, true);
+    CHECK(saved().figure.sha256 != first);
+    CHECK(saved().foundOutline() == first);
+    document.undo();
+    CHECK(saved().figure.sha256 == first);
+    document.redo();
+  }
+  SECTION("a file from before version 5 gets it") {
+    file = saved();
+    file.figure.found_sha256.clear();
+    writeFile(path, formatSkeletonFile(file));
+    Document(path, documentOptions()).moveJoint(plan.find("head"), {300, 100});
+    CHECK(saved().foundOutline() == first);
+  }
+  SECTION("of a picture taken again it is that of the picture before, until all is right for the new one") {
+    fs::copy(kCharacters + "clown.png", picture, fs::copy_options::overwrite_existing);
+    REQUIRE(found() != first);
+    Document document(path, documentOptions());
+    document.paintMask({300, 60}, {300, 20}, 14, true);
+    CHECK(saved().foundOutline() == first);
+    document.forgetMask();
+    CHECK(saved().foundOutline() == first);
+    CHECK_FALSE(saved().mask);
+    document.undo();
+    document.acceptJoints();
+    document.acceptJoints();
+    REQUIRE_FALSE(document.isOfEarlierPicture());
+    CHECK(saved().mask);
+    CHECK(saved().foundOutline() == found());
+  }
+}
+
 TEST_CASE("a mask that lay there before is not removed when the figure is found in the picture again") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());
@@ -1210,6 +1256,23 @@ TEST_CASE("a skeleton of a photo taken again is found anew by Shift R and then s
   document.undo();
   CHECK(hasEditedJoint(path));
   CHECK(readSkeletonFile(path, plan).image_sha256 == file.image_sha256);
+}
+
+TEST_CASE("a joint moved in the skeleton of a photo taken again made it that of a figure in other colours") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path(), false);
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const std::string picture = dir.file("cap_boy.png"), path = dir.file("cap_boy.skeleton.json");
+  SkeletonFile file = skeletonOfCapBoy(plan);
+  file.image_sha256 = sha256(readFile(picture));
+  file.figure.sha256 = outlineHash(extractSilhouette(readImage(picture)));
+  writeFile(path, formatSkeletonFile(file));
+  fs::copy(kCharacters + "clown.png", picture, fs::copy_options::overwrite_existing);
+  Document document(path, documentOptions());
+  document.moveJoint(plan.find("head"), {300, 100});
+  CHECK(readSkeletonFile(path, plan).figure.sha256 == file.figure.sha256);
+  document.acceptJoints();
+  CHECK(readSkeletonFile(path, plan).figure.sha256 == outlineHash(extractSilhouette(readImage(picture))));
 }
 
 TEST_CASE("folders without pictures and pictures that share a label file are refused") {

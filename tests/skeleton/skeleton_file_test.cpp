@@ -20,6 +20,8 @@ SkeletonFile example() {
   file.missing = {"left_hand"};
   file.warnings = {"two \"figures\""};
   file.mask = SkeletonFile::Mask{"cat.mask.png", std::string(64, 'a')};
+  file.figure.sha256 = std::string(64, 'b');
+  file.figure.found_sha256 = std::string(64, 'c');
   return file;
 }
 
@@ -50,6 +52,22 @@ TEST_CASE("a skeleton file comes back as it was written") {
   CHECK(back.skeleton.joints.size() == 17);
   CHECK(back.skeleton.joints[3].image.isApprox(file.skeleton.joints[3].image, 1e-4));
   CHECK(back.mask->file == "cat.mask.png");
+  CHECK(back.figure.found_sha256 == file.figure.found_sha256);
+}
+
+TEST_CASE("the outline that a picture alone gives is that of the figure unless a mask was used") {
+  const TempDir dir;
+  SkeletonFile file = example();
+  const auto found = [&] {
+    writeFile(dir.file("s.json"), formatSkeletonFile(file));
+    CHECK(readSkeletonFile(dir.file("s.json"), loadTemplate("biped")).foundOutline() == file.foundOutline());
+    return sourceOfSkeleton(dir.file("s.json"))->found_outline_sha256;
+  };
+  CHECK(found() == file.figure.found_sha256);
+  file.figure.found_sha256.clear();  // as before version 5
+  CHECK(found() == "");
+  file.mask.reset();
+  CHECK(found() == file.figure.sha256);
 }
 
 TEST_CASE("a skeleton of a drawing whose name is not UTF-8") {
