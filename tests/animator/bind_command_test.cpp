@@ -191,22 +191,22 @@ TEST_CASE("a clip of one's own did not play on a model without one of its joints
               R"({"format": "skel-clip", "version": 1, "name": "slash", )" + body_plan + R"("tracks": [)" +
                   tracks + "]}");
   };
-  const std::string body = R"({"joint": "body", "angles_deg": [[0, 0, 0, 0], [1, 0, 20, 0]]})",
+  const std::string neck = R"({"joint": "neck", "angles_deg": [[0, 0, 0, 0], [1, 0, 20, 0]]})",
                     arm = R"({"joint": "right_shoulder", "angles_deg": [[0, 0, 0, 0], [1, -90, 0, 0]]})";
   const std::string film = "render golem.glb --fps 4 --size 16 -o film.gif --clip ";
   for (const std::string body_plan : {"", "\"template\": \"biped\", "}) {
-    write(body_plan, body + "," + arm);
+    write(body_plan, neck + "," + arm);
     for (const std::string call : {"clips/slash.clip.json", "slash --clips-dir clips"})
       expect(animate(dir, film + call), 0,
-             "golem.glb: note: the clip \"slash\" plays without \"body\", which this character lacks\n");
+             "golem.glb: note: the clip \"slash\" plays without \"neck\", which this character lacks\n");
     CHECK(animate(dir, "retarget clips/slash.clip.json --to golem.glb -o a.glb")
-              .out.find("plays without \"body\"") != std::string::npos);
+              .out.find("plays without \"neck\"") != std::string::npos);
     CHECK(readGlb(dir.file("a.glb")).clips[0].tracks[0].joint == "UpperArm.R");
-    write(body_plan, body);
+    write(body_plan, neck);
     expect(animate(dir, film + "clips/slash.clip.json"), 2,
-           "clips/slash.clip.json: moves \"body\", which this character lacks");
+           "clips/slash.clip.json: moves \"neck\", which this character lacks");
     expect(animate(dir, film + "slash --clips-dir clips"), 1,
-           "the clip \"slash\" moves \"body\", which this character lacks");
+           "the clip \"slash\" moves \"neck\", which this character lacks");
   }
 }
 
