@@ -108,11 +108,14 @@ AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, c
       if (options.files.size() == 1) throw here;
       unknown = here;
       if (options.clips.size() == 1) break;
-      if (isKnown(name, options.library))
-        std::fprintf(stderr, "%s: note: there is no clip \"%s\" for this body plan: left out\n",
-                     printable(path).c_str(), printable(name).c_str());
-      else
+      if (isKnown(name, options.library)) {
+        const std::string meant = meantClip(name, clipsFor(clipLibrary(options.library), file.character));
+        std::fprintf(stderr, "%s: note: there is no clip \"%s\" for this body plan%s: left out\n",
+                     printable(path).c_str(), printable(name).c_str(),
+                     meant.empty() ? "" : (", but \"" + printable(meant) + '"').c_str());
+      } else {
         leaveOut(here);
+      }
     } catch (const InputError& error) {  // of the clip; it may be made for others
       if (options.files.size() == 1 || options.clips.size() == 1) throw;
       leaveOut(InputError(path, error.what()));
