@@ -165,7 +165,10 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path) {
   options.library.flat = flat;
   if (flat && !drawn)
     throw UsageError(path + " is no drawing (.png, .jpg, ...), which alone can move as it was drawn");
-  CharacterFile file = drawn ? CharacterFile{drawn->drawing.character, {}, {}} : loadCharacter(source);
+  std::string note;
+  CharacterFile file =
+      drawn ? CharacterFile{drawn->drawing.character, {}, {}} : loadCharacter(source, options.library, &note);
+  if (!note.empty()) std::fprintf(stderr, "%s\n", note.c_str());
   if (drawn && !flat) file.clips = drawn->drawing.clips;
   file.name = stemOf(path);
   const auto [clips, left_out_code] = askedClips(options, file, path);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "libskel/core/files.h"
 #include "libskel/image/write_image.h"
@@ -143,6 +144,21 @@ TEST_CASE("a skeleton in other units than the model was bound with none of its b
   expect(bone_from("[0, 7, 7]", "[0, 8, 7]"), 2, "the model's 2; move one of them to the other\n");
   CHECK_FALSE(fs::exists(dir.file("m.glb")));
   CHECK(bone_from("[0, 0.2, 0]", "[0, 1, 0]").exit_code == 0);
+}
+
+TEST_CASE("a skeleton most of which lies beside the model was bound without a word") {
+  const TempDir dir;
+  nlohmann::json moved = nlohmann::json::parse(readFile(kBones));
+  for (auto& joint : moved["joints"])
+    for (const char* end : {"head", "tail"}) joint[end][0] = joint[end][0].get<double>() + .5;
+  writeFile(dir.file("moved.rig.json"), moved.dump());
+  const std::string bind = "bind '" + kElk + "' --skeleton moved.rig.json";
+  const ToolRun run = animate(dir, bind + " -o elk.glb");
+  expect(run, 0, "moved.rig.json: note: only ");
+  CHECK(run.err.find("% of its bones lie in the model: is it this model's") != std::string::npos);
+  expect(animate(dir, "render '" + kElk +
+                          "' --skeleton moved.rig.json --up z --clip walk --fps 1 --size 16 -o a.gif"),
+         0, "moved.rig.json: note: only ");
 }
 
 TEST_CASE("of a skeleton whose arms and legs are two bones each nobody said why no clip fits it") {
