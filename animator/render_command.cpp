@@ -45,7 +45,7 @@ void noteUnfitting(const RenderCommandOptions& options, const RiggedCharacter& c
   const std::vector<Clip> library = clipLibrary(options.library), fitting = clipsFor(library, character);
   for (const Clip& clip : library)
     if (isOwn(clip) && std::find(fitting.begin(), fitting.end(), clip) == fitting.end()) {
-      const std::string fault = faultOf(clip, character.skeleton);
+      const std::string fault = whyUnfit(clip, character);
       std::fprintf(stderr, "%s: note: left out: the clip \"%s\" %s\n", printable(path).c_str(),
                    printable(clip.name).c_str(),
                    fault.empty() ? "does not fit its joints" : printable(fault).c_str());
