@@ -339,7 +339,8 @@ class AnimationWindow {
         &AnimationDocument::saveModel, std::move(then));
   }
   void askPose() {
-    ask({"Load a pose", "Load", "pose", suggestion(kPoseFileEnding), FileUse::kOpen, endsWith({".json"})},
+    ask({"Load a pose", "Load", "pose", suggestion(kPoseFileEnding), FileUse::kOpen, endsWith({".json"}),
+         kPoseFileEnding},
         &AnimationDocument::loadPose);
   }
   void askSavePose(std::function<void()> then = {}) {
@@ -353,7 +354,8 @@ class AnimationWindow {
                           "clip",
                           suggestion(kClipFileEnding),
                           FileUse::kOpen,
-                          endsWith({".json", ".bvh"})};
+                          endsWith({".json", ".bvh"}),
+                          kClipFileEnding};
     question.answer = [this](const std::string& path) {
       const auto load = [this, path] { return document_.loadClip(path); };
       if (const std::string below = document_.unsavedBelow(path); !below.empty()) {
@@ -372,7 +374,7 @@ class AnimationWindow {
   }
   void askSkeleton() {
     ask({"Load a skeleton; the weights are computed anew", "Load", "skeleton", suggestion(".rig.json"),
-         FileUse::kOpen, endsWith({".json"})},
+         FileUse::kOpen, endsWith({".json"}), ".rig.json"},
         &AnimationDocument::loadSkeleton);
   }
   void askSaveSkeleton() {
@@ -381,7 +383,8 @@ class AnimationWindow {
         &AnimationDocument::saveSkeleton);
   }
   void askWeights() {
-    ask({"Load weights", "Load", "weights", suggestion(".weights.json"), FileUse::kOpen, endsWith({".json"})},
+    ask({"Load weights", "Load", "weights", suggestion(".weights.json"), FileUse::kOpen, endsWith({".json"}),
+         ".weights.json"},
         &AnimationDocument::loadWeights);
   }
   void askSaveWeights() {
@@ -774,6 +777,7 @@ class AnimationWindow {
     if (ImGui::BeginCombo("background", kBackgrounds[film_background_].label)) {
       for (std::size_t i = 0; i < std::size(kBackgrounds); ++i)
         if (ImGui::Selectable(kBackgrounds[i].label, i == film_background_)) film_background_ = i;
+      listKeys(film_background_, std::size(kBackgrounds));
       ImGui::EndCombo();
     }
     if (!kBackgrounds[film_background_].name) {

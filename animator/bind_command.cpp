@@ -22,10 +22,16 @@ void checkEnding(const std::string& path, const std::string& ending) {
     throw UsageError(path + ": must end in " + ending);
 }
 
-// Reads the model, computes its weights and says so.
-CharacterFile boundModel(const RigSource& source, const SkinRequest& skin) {
+RigModel toldRigModel(const RigSource& source) {
   RigModel model = readRigModel(source);
   if (!model.note.empty()) std::printf("%s\n", model.note.c_str());
+  if (!model.warning.empty()) std::fprintf(stderr, "%s\n", model.warning.c_str());
+  return model;
+}
+
+// Reads the model, computes its weights and says so.
+CharacterFile boundModel(const RigSource& source, const SkinRequest& skin) {
+  RigModel model = toldRigModel(source);
   RiggedCharacter& character = model.file.character;
   const auto start = std::chrono::steady_clock::now();
   character.weights = weightsFor(character, source.model, skin);
@@ -58,9 +64,7 @@ ExitCode runBind(const BindOptions& options) {
   if (options.weights.empty()) {
     file = boundModel(options.source, options.skin);
   } else {
-    RigModel model = readRigModel(options.source);
-    if (!model.note.empty()) std::printf("%s\n", model.note.c_str());
-    file = std::move(model.file);
+    file = toldRigModel(options.source).file;
     file.character.weights = readWeights(options.weights, file.character);
   }
   if (const std::string note = namingNote(file.character.skeleton, options.joints); !note.empty())

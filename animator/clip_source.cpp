@@ -33,6 +33,27 @@ FigureShape measureByRoles(const RiggedCharacter& character, const RoleFigure& f
   return measureFigure(mesh, weights, figure.skeleton);
 }
 
+// By their own names, though the skeleton has not all joints of the clip's template.
+bool fitsByNames(Clip clip, const Skeleton& skeleton) {
+  clip.template_name.clear();
+  return fits(clip, skeleton);
+}
+
+// What is wrong with a clip that calls some joints as the character does and some as we do; "": nothing.
+std::string mixedNames(const Clip& clip, const Skeleton& skeleton, const RoleFigure& figure) {
+  const JointLookup theirs(skeleton), ours(figure.skeleton);
+  std::string own, other;
+  for (const JointTrack& track : clip.tracks) {
+    const bool is_own = theirs.find(track.joint) >= 0, is_ours = ours.find(track.joint) >= 0;
+    if (is_own && !is_ours) own = track.joint;
+    if (is_ours && !is_own) other = track.joint;
+  }
+  if (own.empty() || other.empty()) return "";
+  return "calls some joints as this character does (\"" + own + "\") and some as skel does (\"" + other +
+         "\", here \"" + skeleton.joints[std::size_t(figure.theirs[std::size_t(ours.find(other))])].name +
+         "\"); call all by one kind of names";
+}
+
 double intoPicture(const ClipSource& source, ClipFrame frame) {
   return source.flat && !source.into_picture_given && frame == ClipFrame::kBody ? 1 : source.into_picture;
 }
@@ -74,13 +95,18 @@ std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharact
   std::vector<Clip> fitting = clipsFor(library, character.skeleton);
   if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton))
     for (const Clip& clip : library)
-      if (!fits(clip, character.skeleton) && fits(clip, *figure)) fitting.push_back(clip);
+      if (!fits(clip, character.skeleton) &&
+          (fits(clip, *figure) || (isFor(clip, *figure) && fitsByNames(clip, character.skeleton))))
+        fitting.push_back(clip);
   return fitting;
 }
 
 std::string whyUnfit(const Clip& clip, const RiggedCharacter& character) {
   if (std::string fault = faultOf(clip, character.skeleton); !fault.empty()) return fault;
   const std::optional<RoleFigure> figure = roleFigure(character.skeleton);
+  if (std::string fault = figure ? mixedNames(clip, character.skeleton, *figure) : std::string();
+      !fault.empty())
+    return fault;
   const bool by_parts = figure && isFor(clip, *figure);
   const JointLookup joints(character.skeleton);
   const auto lacks = [&](const std::string& joint) {

@@ -590,7 +590,7 @@ bool AnimationDocument::saveClip(const std::string& path) {
 
 bool AnimationDocument::loadSkeleton(const std::string& path) {
   return attempt([&] {
-    Skeleton skeleton = readSkeletonFor(character().mesh, path, "auto", nullptr);
+    Skeleton skeleton = readSkeletonFor(character().mesh, path, "auto", nullptr, nullptr);
     RiggedCharacter changed = character();
     changed.weights = computeSkinWeights(changed.mesh, skeleton, SkinMethod::kGeodesic);
     changed.skeleton = std::move(skeleton);

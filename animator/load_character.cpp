@@ -116,7 +116,9 @@ CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& cli
     throw InputError(source.path,
                      "is neither a rigged character (.glb) nor a drawing (.png, .jpg, ...); a model needs "
                      "--skeleton FILE");
-  CharacterFile file = readRigModel({source.path, source.skeleton, source.up}).file;
+  RigModel model = readRigModel({source.path, source.skeleton, source.up});
+  if (note) *note = model.warning;
+  CharacterFile file = std::move(model.file);
   RiggedCharacter& character = file.character;
   SkinOptions skin;
   skin.file = source.path;

@@ -45,7 +45,7 @@ void noteUnfitting(const RenderCommandOptions& options, const RiggedCharacter& c
   const std::vector<Clip> library = clipLibrary(options.library), fitting = clipsFor(library, character);
   for (const Clip& clip : library)
     if (isOwn(clip) && std::find(fitting.begin(), fitting.end(), clip) == fitting.end()) {
-      const std::string fault = faultOf(clip, character.skeleton);
+      const std::string fault = whyUnfit(clip, character);
       std::fprintf(stderr, "%s: note: left out: the clip \"%s\" %s\n", printable(path).c_str(),
                    printable(clip.name).c_str(),
                    fault.empty() ? "does not fit its joints" : printable(fault).c_str());
@@ -108,11 +108,14 @@ AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, c
       if (options.files.size() == 1) throw here;
       unknown = here;
       if (options.clips.size() == 1) break;
-      if (isKnown(name, options.library))
-        std::fprintf(stderr, "%s: note: there is no clip \"%s\" for this body plan: left out\n",
-                     printable(path).c_str(), printable(name).c_str());
-      else
+      if (isKnown(name, options.library)) {
+        const std::string meant = meantClip(name, clipsFor(clipLibrary(options.library), file.character));
+        std::fprintf(stderr, "%s: note: there is no clip \"%s\" for this body plan%s: left out\n",
+                     printable(path).c_str(), printable(name).c_str(),
+                     meant.empty() ? "" : (", but \"" + printable(meant) + '"').c_str());
+      } else {
         leaveOut(here);
+      }
     } catch (const InputError& error) {  // of the clip; it may be made for others
       if (options.files.size() == 1 || options.clips.size() == 1) throw;
       leaveOut(InputError(path, error.what()));
@@ -162,7 +165,10 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path) {
   options.library.flat = flat;
   if (flat && !drawn)
     throw UsageError(path + " is no drawing (.png, .jpg, ...), which alone can move as it was drawn");
-  CharacterFile file = drawn ? CharacterFile{drawn->drawing.character, {}, {}} : loadCharacter(source);
+  std::string note;
+  CharacterFile file =
+      drawn ? CharacterFile{drawn->drawing.character, {}, {}} : loadCharacter(source, options.library, &note);
+  if (!note.empty()) std::fprintf(stderr, "%s\n", note.c_str());
   if (drawn && !flat) file.clips = drawn->drawing.clips;
   file.name = stemOf(path);
   const auto [clips, left_out_code] = askedClips(options, file, path);

@@ -77,11 +77,14 @@ void bindRetargetOptions(CLI::App& app, RetargetCommandOptions& options) {
   bindClipSource(app, options.clips);
 }
 
-ExitCode runRetarget(const RetargetCommandOptions& options) {
+ExitCode runRetarget(const RetargetCommandOptions& asked) {
+  RetargetCommandOptions options = asked;
   const std::string path = options.output.empty() ? "out/" + stemOf(options.motion) + ".glb" : options.output;
   if (!path.ends_with(".glb") && !path.ends_with(".bvh") && !path.ends_with(kClipFileEnding))
     throw UsageError(path + ": must end in .glb, .clip.json or .bvh");
   noteOutput(path);
+  options.clips.names = {options.motion};
+  toldClipLibrary(options.clips);
   CharacterFile file = loadModel(options.target);
   Clip clip = motionFor(options, file);
   if (!options.name.empty()) clip.name = printable(options.name);

@@ -20,6 +20,8 @@
 namespace skel {
 namespace {
 
+constexpr double kMostOutside = .5;  // of the bones, that lie in the model
+
 std::string percent(double share) {
   return std::to_string(static_cast<int>(std::lround(100 * share))) + " %";
 }
@@ -95,13 +97,19 @@ void bindRigSource(CLI::App& app, RigSource& source) {
 std::string stemOf(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
 Skeleton readSkeletonFor(const TriangleMesh& mesh, const std::string& path, const std::string& up,
-                         std::string* note) {
+                         std::string* note, std::string* warning) {
+  const auto warn = [&](double inside) {
+    if (warning && inside < kMostOutside)
+      *warning = printable(path) + ": note: only " + percent(inside) +
+                 " of its bones lie in the model: is it this model's, at its place and in its units?";
+  };
   if (isSkelFile(path)) {
     const std::string text = readFile(path);
     Skeleton skeleton = parseSkeletonFile(text, path, loadTemplate(templateOfSkeleton(text, path))).skeleton;
     const double inside = shareInside(skeleton, mesh);
     if (inside == 0) checkOverlap(skeleton, mesh, path);
     if (note) *note = printable(path) + ": " + percent(inside) + " of its bones lie in the model";
+    warn(inside);
     return skeleton;
   }
   std::string unused;
@@ -114,6 +122,7 @@ Skeleton readSkeletonFor(const TriangleMesh& mesh, const std::string& path, cons
     *note = printable(path) + ": " + (z_up ? "z" : "y") + " is up" + (up == "auto" ? "" : " (--up)") + "; " +
             percent(z_up ? z : y) + " of its bones lie in the model, " + percent(z_up ? y : z) + " with " +
             (z_up ? "y" : "z") + " up" + (unused.empty() ? "" : "\n" + printable(unused));
+  warn(z_up ? z : y);
   return z_up ? turned : as_is;
 }
 
@@ -132,7 +141,7 @@ RigModel readRigModel(const RigSource& source) {
   }
   checkSize(result.file.character.mesh, source.model);
   result.file.character.skeleton =
-      readSkeletonFor(result.file.character.mesh, source.skeleton, source.up, &result.note);
+      readSkeletonFor(result.file.character.mesh, source.skeleton, source.up, &result.note, &result.warning);
   return result;
 }
 

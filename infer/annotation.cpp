@@ -93,21 +93,12 @@ MeasuredDrawing fromLabels(const std::string& path) {
   ensureUnchanged(path, labels);
   const std::string image = besideLabelFile(path, labels.image.file);
   MeasuredDrawing drawing;
+  drawing.joints_file = path;
   drawing.image = readImage(image);
   if (labels.mask) drawing.mask = silhouetteOf(image, besideLabelFile(path, labels.mask->file)).mask;
   for (const auto& [name, place] : labels.joints)
     if (labels.isPlaced(name)) drawing.joints.emplace(name, place);
   return drawing;
-}
-
-void readAnnotation(const std::string& path, MeasuredDrawing& drawing) {
-  const JsonDocument document = JsonDocument::readFile(path);
-  if (const auto view = document.root().find("view")) drawing.side_view = view->asString() == "side";
-  const JsonValue joints = document.root().at("joints");
-  for (const std::string& name : joints.keys()) drawing.joints.emplace(name, jointPlaceAt(joints.at(name)));
-  // Some sets say torso where we say body.
-  if (const auto torso = drawing.joints.find("torso"); torso != drawing.joints.end() && torso->second)
-    if (auto& body = drawing.joints["body"]; !body) body = torso->second;
 }
 
 }  // namespace
@@ -132,7 +123,16 @@ std::vector<std::string> findDrawings(const std::string& root) {
     throw InputError(root,
                      "holds no folder with an image.png, no <name>.joints.json and no <name>.labels.json of "
                      "which a person has placed a joint");
+  if (const std::string name = nameOfDrawing(root, ""); ids.contains("") && ids.contains(name))
+    throw InputError(root, "is one drawing as a folder with an image.png and " + name +
+                               " in it another of that name; rename one of them");
   return {ids.begin(), ids.end()};
+}
+
+std::string nameOfDrawing(const std::string& root, const std::string& id) {
+  if (!id.empty()) return id;
+  const fs::path folder = fs::weakly_canonical(root);
+  return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
 }
 
 MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& id) {
@@ -163,19 +163,19 @@ MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& 
   if (!annotated && !labels) return drawing;
   if (drawing.mask && (*drawing.mask == 0).all())
     throw InputError(mask, "is blank: errors are relative to the figure's size");
-  if (annotated) readAnnotation(annotation, drawing);
-  if (labels) {
-    NamedJoints joints(drawing.joints.begin(), drawing.joints.end());
-    if (!overrule(joints, *labels).empty()) drawing.overruled = label_file;
-    for (const auto& [name, place] : joints) drawing.joints[name] = place;
+  drawing.joints_file = annotated ? annotation : label_file;
+  NamedJoints joints;
+  if (annotated) {
+    joints = readJointsFile(annotation);
+    drawing.side_view = readView(annotation) == "side";
   }
+  if (labels && !overrule(joints, *labels).empty()) drawing.overruled = label_file;
+  drawing.joints.insert(joints.begin(), joints.end());
   return drawing;
 }
 
 std::string otherPlanOf(const MeasuredDrawing& drawing, const SkeletonTemplate& body_plan) {
-  NamedJoints joints(drawing.joints.begin(), drawing.joints.end());
-  std::erase_if(joints, [](const auto& joint) { return joint.first == "torso"; });
-  return otherPlanOf(joints, body_plan);
+  return otherPlanOf(NamedJoints(drawing.joints.begin(), drawing.joints.end()), body_plan);
 }
 
 void turnClockwise(MeasuredDrawing& drawing, int quarters) {

@@ -17,18 +17,21 @@ namespace skel {
 // <name>.joints.json and <name>.mask.png; what a person has placed in <name>.labels.json (image.labels.json)
 // counts before those.
 struct MeasuredDrawing {
-  std::string id;  // folder or name relative to the set's
+  std::string id;  // folder or name relative to the set's; "": the set is the folder of one drawing
   Image image;
   std::optional<Plane8> mask;  // none: the silhouette is not measured
   bool side_view = false;
   std::map<std::string, std::optional<Eigen::Vector2d>>
-      joints;             // image px; empty: not annotated; null: not visible
-  std::string overruled;  // the label file that places joints elsewhere than the joints file; "": none
+      joints;               // image px; empty: not annotated; null: not visible
+  std::string joints_file;  // which names them; a label file where there is no other
+  std::string overruled;    // the label file that places joints elsewhere than the joints file; "": none
 };
 
 // All below `root`, sorted. Throws InputError if there are none.
 std::vector<std::string> findDrawings(const std::string& root);
 MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& id);
+// What a drawing is called: its id, or the name of the set's folder.
+std::string nameOfDrawing(const std::string& root, const std::string& id);
 // The body plan whose joints these are, if it is not that one but another that skel brings along; else "".
 std::string otherPlanOf(const MeasuredDrawing& drawing, const SkeletonTemplate& body_plan);
 // A quarter turn clockwise, `quarters` times.

@@ -30,7 +30,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Row {
-  std::string id;
+  std::string name;
   bool annotated = false, counts = true, found = false;
   Score score;
   std::string reason;       // why nothing was found
@@ -43,16 +43,17 @@ struct Row {
 Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const std::string& id) {
   MeasuredDrawing truth = readMeasuredDrawing(options.dir, id);
   Row row;
-  row.id = id;
+  row.name = nameOfDrawing(options.dir, id);
   row.annotated = !truth.joints.empty();
   row.overruled = truth.overruled;
   row.counts = !options.opaque || (row.annotated && !isTransparent(truth.image));
   if (row.counts) row.other_plan = otherPlanOf(truth, rig.body_plan);
   if (!row.counts || !row.other_plan.empty()) return row;
+  ensureJointsOf(rig.body_plan, {truth.joints.begin(), truth.joints.end()}, truth.joints_file);
   turnClockwise(truth, options.turn_deg / 90);
   RigInput input;
   input.image = truth.image;
-  input.file = id;
+  input.file = row.name;
   if (options.given_mask) input.mask = truth.mask;  // without one it has to be found
   row.lacks_mask = options.given_mask && !truth.mask;
   const RiggedDrawing drawing = rigCharacter(std::move(input), rig);
@@ -66,7 +67,7 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
   if (!options.overlays.empty() && row.found) {
     Image picture = drawing.image;
     drawSkeleton(picture, drawing.character.skeleton);
-    std::string name = id;
+    std::string name = row.name;
     std::replace(name.begin(), name.end(), '/', '-');
     writeFile(options.overlays + "/" + name + ".png", encodePng(picture));
   }
@@ -163,20 +164,24 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     std::fprintf(stderr, "skel-infer: %s\n", row.failure->what());
     if (code == ExitCode::kDone) code = row.failure->exitCode();
   }
+  if (std::none_of(all.begin(), all.end(), [](const Row& row) { return row.counts; }))
+    throw InputError(options.dir,
+                     "holds no annotated drawing whose silhouette has to be found (--opaque): nothing to "
+                     "measure");
   std::vector<std::string> overruled;
   for (const Row& row : all)
     if (!row.overruled.empty()) overruled.push_back(row.overruled);
   if (!overruled.empty()) std::fprintf(stderr, "skel-infer: note: %s\n", overruledNote(overruled).c_str());
   std::vector<std::string> without_mask;
   for (const Row& row : all)
-    if (row.lacks_mask) without_mask.push_back(row.id);
+    if (row.lacks_mask) without_mask.push_back(row.name);
   if (!without_mask.empty())
     std::fprintf(stderr,
                  "skel-infer: note: %s: no mask to hand over (--given-mask), so the figure was found\n",
                  firstAndMore(without_mask).c_str());
   std::map<std::string, std::vector<std::string>> of_other_plans;
   for (const Row& row : all)
-    if (!row.other_plan.empty()) of_other_plans[row.other_plan].push_back(row.id);
+    if (!row.other_plan.empty()) of_other_plans[row.other_plan].push_back(row.name);
   for (const auto& [plan, drawings] : of_other_plans) {
     const InputError error(options.dir, std::to_string(drawings.size()) + " of " +
                                             std::to_string(all.size()) + " drawings (" + drawings.front() +
@@ -194,11 +199,11 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
   std::printf("%-34s  PCK.05 PCK.10  error usable limbs inside   IoU  worst joint\n", "character");
   for (const Row& row : rows) {
     const Score& s = row.score;
-    std::printf("%-34s  %6.2f %6.2f %6.3f %6.0f %s %s %s  %s\n", printable(row.id).c_str(), s.pck05, s.pck10,
-                s.error, s.usable, shown(s.limbs, 2, 5).c_str(), shown(s.inside, 2, 6).c_str(),
+    std::printf("%-34s  %6.2f %6.2f %6.3f %6.0f %s %s %s  %s\n", printable(row.name).c_str(), s.pck05,
+                s.pck10, s.error, s.usable, shown(s.limbs, 2, 5).c_str(), shown(s.inside, 2, 6).c_str(),
                 shown(s.iou, 2, 5).c_str(),
                 row.found ? s.worst_joint.c_str() : ("no skeleton: " + row.reason).c_str());
-    json["characters"][jsonFromFileName(row.id)] = {
+    json["characters"][jsonFromFileName(row.name)] = {
         {"pck05", s.pck05},         {"pck10", s.pck10},
         {"error", s.error},         {"usable", s.usable},
         {"limbs", jsonOf(s.limbs)}, {"inside", jsonOf(s.inside)},
@@ -207,7 +212,7 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
   }
   for (const Row& row : hard)
     std::printf(
-        "hard case %s: %s\n", printable(row.id).c_str(),
+        "hard case %s: %s\n", printable(row.name).c_str(),
         row.found ? ("confidence " + std::to_string(row.score.confidence)).c_str() : row.reason.c_str());
   if (!rows.empty()) {
     const auto of = [](double Score::*field) { return [field](const Row& row) { return row.score.*field; }; };

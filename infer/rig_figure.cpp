@@ -37,8 +37,11 @@ Verdict verdictOf(LastStage last, const RiggedDrawing& drawing, const SkeletonFi
 std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, const RiggedDrawing& drawing) {
   std::vector<Note> notes;
   for (const std::string& name : options.clips)
-    if (name != "none" && rig.last == LastStage::kClips && !hasClip(drawing.clips, name))
-      notes.push_back({"there is no clip \"" + name + "\" for a " + drawing.body_plan.name + ": left out"});
+    if (name != "none" && rig.last == LastStage::kClips && !hasClip(drawing.clips, name)) {
+      const std::string meant = meantClip(name, clipsFor(builtinClips(), drawing.body_plan));
+      notes.push_back({"there is no clip \"" + name + "\" for a " + drawing.body_plan.name +
+                       (meant.empty() ? "" : ", but \"" + meant + "\"") + ": left out"});
+    }
   if (std::string note = namingNote(drawing.character.skeleton, options.joints);
       rig.last >= LastStage::kModel && !note.empty())
     notes.push_back({std::move(note)});

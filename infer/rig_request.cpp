@@ -55,6 +55,15 @@ std::string faultFor(const Clip& clip, const RigOptions& rig) {
   return faultOf(clip, rig.body_plan);
 }
 
+// Of a clip without a fault that does not fit.
+std::string whyNotFor(const Clip& clip, const SkeletonTemplate& body_plan) {
+  for (const JointTrack& track : clip.tracks)
+    if (body_plan.find(track.joint) < 0)
+      return "moves \"" + track.joint + "\", which the template \"" + body_plan.name + "\" lacks";
+  return "does not fit the template \"" + body_plan.name + '"' +
+         (clip.template_name.empty() ? "" : ": it is made for \"" + clip.template_name + '"');
+}
+
 // Says which of the user's own clips can be no figure's.
 void noteFaults(const std::vector<Clip>& library, const RigOptions& rig) {
   for (const Clip& clip : library)
@@ -75,6 +84,9 @@ void keepClips(const std::vector<std::string>& names, const std::vector<Clip>& l
       if (const std::string fault = clip.name == name && isOwn(clip) ? faultFor(clip, rig) : std::string();
           !fault.empty())
         throw UsageError("the clip \"" + name + "\" " + fault);
+    if (!rig.otherwise && !find(all, name))
+      if (const Clip* clip = find(library, name); clip && isOwn(*clip))
+        throw UsageError("the clip \"" + name + "\" " + whyNotFor(*clip, rig.body_plan));
     clipNamed(all, name);
   }
   rig.clips = named(rig.clips, names);

@@ -65,10 +65,7 @@ AnnotatedDrawing readCharCfg(const fs::path& path, const SkeletonTemplate& body_
 AnnotatedDrawing readJoints(const AnnotatedImage& annotated, const SkeletonTemplate& body_plan) {
   AnnotatedDrawing drawing{
       annotated.joints, annotated.image, annotated.mask, {}, readJointsFile(annotated.joints), {}};
-  for (const auto& [name, place] : drawing.joints)
-    if (body_plan.find(name) < 0)
-      throw InputError(annotated.joints,
-                       "joints." + name + ": is no joint of the template " + body_plan.name);
+  ensureJointsOf(body_plan, drawing.joints, annotated.joints);
   return drawing;
 }
 

@@ -11,6 +11,8 @@
 #include "libskel/core/json.h"
 #include "libskel/core/json_names.h"
 #include "libskel/core/sha256.h"
+#include "libskel/core/tool_command.h"
+#include "libskel/video/video_reader.h"
 
 namespace skel {
 namespace {
@@ -37,6 +39,23 @@ std::string formatIndex(const std::vector<DatabaseEntry>& entries) {
 bool isDatabase(const std::string& dir) {
   std::error_code unknown;
   return fs::status(indexOf(dir), unknown).type() != fs::file_type::not_found;
+}
+
+bool isFilm(const std::string& path) {
+  try {
+    readVideo(path);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+[[noreturn]] void failOfFilm(const std::string& path) {
+  fs::path motion = fs::path(path).lexically_normal();
+  if (!motion.has_filename()) motion = motion.parent_path();  // a folder's, by its name with a slash
+  motion.replace_extension(kMotionFileEnding);
+  throw InputError(path, "is a film, no motion; `" + toolCommand("skel-style") + " keypoints " +
+                             shellWord(path) + " -o " + shellWord(motion.string()) + "` makes one of it");
 }
 
 int keysOf(const MotionFile& motion) {
@@ -72,7 +91,7 @@ std::vector<DatabaseEntry> readDatabase(const std::string& dir) {
 DatabaseEntry addToDatabase(const std::string& dir, const std::string& path, const std::string& action,
                             bool force) {
   const SkeletonTemplate plan = loadTemplate("biped");
-  MotionFile motion = readMotionFile(path, plan);
+  MotionFile motion = readMotion(path);
   if (!action.empty()) motion.action = action;
   if (motion.action.empty())
     throw InputError(path, "has no action class; name it by --action walk, run, jump ...");
@@ -128,13 +147,20 @@ std::vector<std::string> checkDatabase(const std::string& dir) {
   return problems;
 }
 
+MotionFile readMotion(const std::string& path) {
+  try {
+    return readMotionFile(path, loadTemplate("biped"));
+  } catch (const InputError&) {
+    if (isFilm(path)) failOfFilm(path);
+    throw;
+  }
+}
+
 std::vector<NamedMotion> readMotions(const std::string& path) {
+  if (!fs::is_directory(path)) return {{path, readMotion(path)}};
+  if (!isDatabase(path) && isFilm(path)) failOfFilm(path);
   const SkeletonTemplate plan = loadTemplate("biped");
   std::vector<NamedMotion> motions;
-  if (!fs::is_directory(path)) {
-    motions.push_back({path, readMotionFile(path, plan)});
-    return motions;
-  }
   for (const DatabaseEntry& e : readDatabase(path)) {
     const std::string file = (fs::path(path) / e.file).string();
     motions.push_back({file, readMotionFile(file, plan)});

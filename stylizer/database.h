@@ -31,6 +31,9 @@ DatabaseEntry addToDatabase(const std::string& dir, const std::string& motion, c
 // in no index. Empty: nothing.
 std::vector<std::string> checkDatabase(const std::string& dir);
 
+// Throws InputError, of a film with what makes a motion of it.
+MotionFile readMotion(const std::string& file);
+
 // A motion file alone, or all of a database.
 struct NamedMotion {
   std::string path;

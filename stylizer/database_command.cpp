@@ -12,7 +12,7 @@ ExitCode runDatabase(const DatabaseOptions& options) {
     if (options.motions.empty()) throw UsageError("database add: name the motion files to add");
     for (const std::string& motion : options.motions) {
       const SkeletonTemplate plan = loadTemplate("biped");
-      posesOf(readMotionFile(motion, plan), plan, motion);  // says what no command could use
+      posesOf(readMotion(motion), plan, motion);  // says what no command could use
       const DatabaseEntry entry = addToDatabase(options.folder, motion, options.action, options.force);
       std::printf("%s: %s, %d frames, %d key frames\n", printable(entry.file).c_str(),
                   printable(entry.action).c_str(), entry.frames, entry.keys);

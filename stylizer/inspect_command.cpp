@@ -145,7 +145,7 @@ Image heatPicture(const Eigen::MatrixXd& values, int width, int height) {
 
 ExitCode runInspect(const InspectOptions& options) {
   const SkeletonTemplate plan = loadTemplate("biped");
-  const MotionFile motion = readMotionFile(options.motion, plan);
+  const MotionFile motion = readMotion(options.motion);
   const PoseMatrix poses = posesOf(motion, plan, options.motion);
   // Of a long motion, as many frames as make a style, and as many as the map has pixels.
   const int side = 3 * kCell_px;

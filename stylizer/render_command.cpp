@@ -84,7 +84,7 @@ ExitCode runRender(const RenderOptions2D& options) {
   if (!options.output.empty() && options.character.empty())
     throw UsageError("render: a film needs --character DRAWING");
   const SkeletonTemplate plan = loadTemplate("biped");
-  const MotionFile motion = readMotionFile(options.motion, plan);
+  const MotionFile motion = readMotion(options.motion);
   const PoseMatrix poses = posesOf(motion, plan, options.motion);
   const bool loops = options.loop == "auto" ? isLoop(poses) : options.loop == "yes";
   // What is refused is refused before the film is made.

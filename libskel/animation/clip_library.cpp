@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "embedded/builtin_clip_files.h"
 #include "libskel/animation/clip_file.h"
@@ -196,13 +197,23 @@ std::vector<Clip> clipsFor(const std::vector<Clip>& library, const SkeletonTempl
   return fittingClips(library, body_plan);
 }
 
+std::string meantClip(std::string_view name, const std::vector<Clip>& fitting) {
+  constexpr std::pair<std::string_view, std::string_view> kSameGaits[] = {{"run", "gallop"},
+                                                                          {"gallop", "run"}};
+  for (const auto& [one, other] : kSameGaits)
+    if (name == one && hasClip(fitting, std::string(other))) return std::string(other);
+  std::vector<std::string> names;
+  for (const Clip& clip : fitting) names.push_back(clip.name);
+  return nearestWord(name, names);
+}
+
 const Clip& clipNamed(const std::vector<Clip>& fitting, std::string_view name) {
   std::vector<std::string> names;
   for (const Clip& clip : fitting) {
     if (clip.name == name) return clip;
     if (std::find(names.begin(), names.end(), clip.name) == names.end()) names.push_back(clip.name);
   }
-  const std::string meant = nearestWord(name, names);
+  const std::string meant = meantClip(name, fitting);
   throw UsageError("there is no clip \"" + std::string(name) + "\" for this body plan" +
                    (meant.empty() ? "" : "; did you mean \"" + meant + "\"?") +
                    (names.empty() ? "" : (meant.empty() ? "; there are: " : " There are: ") + joined(names)));

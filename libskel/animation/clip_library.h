@@ -41,6 +41,10 @@ std::string faultOf(const Clip& clip, const SkeletonTemplate& body_plan);
 std::vector<Clip> clipsFor(const std::vector<Clip>& library, const Skeleton& skeleton);
 std::vector<Clip> clipsFor(const std::vector<Clip>& library, const SkeletonTemplate& body_plan);
 
+// Which of `fitting` somebody meant by a name that none of them has: the nearest one, or the same gait of
+// another body plan; "": none.
+std::string meantClip(std::string_view name, const std::vector<Clip>& fitting);
+
 // The one of this name among `fitting`. Throws UsageError that lists the names there are.
 const Clip& clipNamed(const std::vector<Clip>& fitting, std::string_view name);
 

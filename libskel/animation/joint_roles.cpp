@@ -258,6 +258,8 @@ bool hasWord(const std::string& base, std::initializer_list<std::string_view> wo
                      [&](std::string_view word) { return base.find(word) != std::string::npos; });
 }
 
+bool isCalledNeck(const PlainName& name) { return name.base.starts_with("neck"); }
+
 // Where the four legs end: left front, right front, left hind, right hind; -1: not found.
 using FourFeet = std::array<int, 4>;
 bool complete(const FourFeet& feet) { return std::count(feet.begin(), feet.end(), -1) == 0; }
@@ -379,10 +381,16 @@ JointRoles findJointRoles(const Skeleton& skeleton, const std::vector<Vector3d>&
   const int chest = tree.commonAncestor(limbs.left_arm[0], limbs.right_arm[0]);
   set("pelvis", pelvis);
   if (pelvis < 0 || chest < 0 || chest == pelvis || !tree.isAbove(pelvis, chest)) return roles;
-  set("neck", chest);  // what carries the arms
+  const int head = headOf(tree, chest, limbs);
+  set("head", head);
   const std::vector<int> spine = tree.path(pelvis, chest);
-  if (spine.size() > 2) set("body", spine[spine.size() / 2]);
-  set("head", headOf(tree, chest, limbs));
+  if (spine.size() > 2 || isCalledNeck(plainName(skeleton.joints[std::size_t(chest)].name))) {
+    set("neck", chest);  // what carries the arms
+    if (spine.size() > 2) set("body", spine[spine.size() / 2]);
+  } else {  // the only joint of a spine
+    set("body", chest);
+    if (const std::vector<int> way = tree.path(chest, head); way.size() > 2) set("neck", way[1]);
+  }
   return roles;
 }
 
@@ -471,8 +479,9 @@ QuadrupedRoles findQuadrupedRoles(const Skeleton& skeleton) {
     const std::vector<int> way = tree.path(chest, head);
     // What carries the head alone, if there is such a joint: the legs do not nod.
     const int neck = way.size() > 2 ? way[1] : chest;
-    if (neck == body) body = -1;
-    found.push_back({"neck", neck});
+    // The only joint of a spine is no neck, though it carries the head.
+    if (neck == body && isCalledNeck(names[std::size_t(neck)])) body = -1;
+    if (neck != body) found.push_back({"neck", neck});
     found.push_back({"head", head});
   }
   if (body >= 0) found.push_back({"body", body});

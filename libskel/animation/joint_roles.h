@@ -29,7 +29,8 @@ struct JointRoles {
 // By the names of the usual families (CMU, Mixamo with and without its prefix, Rokoko, Blender's and
 // Rigify's, VRM, AnimatedDrawings, ours) and, failing that, by the shape of the tree: legs are the two most
 // equal branches of the lowest fork, arms those of the next. `tips`: where the bones of leaves end, from the
-// joint, one a joint or empty. Roles that are not found are -1; without both legs or both arms, all are.
+// joint, one a joint or empty. The only joint of a spine is the body, unless it is called neck. Roles that
+// are not found are -1; without both legs or both arms, all are.
 JointRoles findJointRoles(const Skeleton& skeleton, const std::vector<Eigen::Vector3d>& tips = {});
 
 // Why there are no roles in a skeleton that has none, a clause: which joints of arms and legs it lacks.

@@ -44,8 +44,9 @@ std::optional<RoleFigure> roleFigure(const Skeleton& theirs) {
     const JointRoles roles = findJointRoles(theirs);
     for (std::size_t role = 0; role < kJointRoles.size(); ++role)
       if (roles.joints[role] >= 0) parts.push_back({std::string(kJointRoles[role]), roles.joints[role]});
-    if (roles.joint("left_hip") < 0 || roles.joint("neck") < 0) return std::nullopt;
-    const Vector3d up = theirs.joints[std::size_t(roles.joint("neck"))].position -
+    const int chest = roles.joint("neck") >= 0 ? roles.joint("neck") : roles.joint("body");
+    if (roles.joint("left_hip") < 0 || chest < 0) return std::nullopt;
+    const Vector3d up = theirs.joints[std::size_t(chest)].position -
                         theirs.joints[std::size_t(roles.joint("pelvis"))].position;
     if (!(up.y() > 0.7 * up.norm())) return std::nullopt;
     figure.skeleton.template_name = "biped";

@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double kFarEnd = .2;     // the share of its length that tells where the middle of the end is
 constexpr double kShortest = .05;  // of its parent's bone
+constexpr double kUsual = .4;      // the same: as long as most hands are
 
 std::optional<Vector3d> boneEnd(const Skeleton& skeleton, int index, const TriangleMesh& mesh,
                                 const MovedVertices& by_joint) {
@@ -28,7 +29,12 @@ std::optional<Vector3d> boneEnd(const Skeleton& skeleton, int index, const Trian
     length = std::max(length, moved.back().dot(direction));
   }
   const double before = (joint.position - skeleton.joints[std::size_t(joint.parent)].position).norm();
-  if (length <= kShortest * before) return std::nullopt;
+  if (length <= kShortest * before) {
+    if (!by_joint.any[std::size_t(index)]) return std::nullopt;
+    Vector3d tip = joint.position + kUsual * before * direction;
+    tip.y() = std::max(tip.y(), std::min(joint.position.y(), by_joint.ground_m));
+    return tip;
+  }
   Eigen::AlignedBox3d end;
   for (const Vector3d& from_joint : moved)
     if (from_joint.dot(direction) >= (1 - kFarEnd) * length) end.extend(from_joint);

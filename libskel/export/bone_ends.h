@@ -13,9 +13,9 @@ namespace skel {
 std::string boneEndName(const std::string& joint);
 
 // `skeleton`, and behind its joints one more for each without children: at its tail, if it has one, else in
-// the middle of the far end of what it moves (toes, fingertips, a snout). Those that move nothing more than
-// any other joint does (a hand that the drawing hides, a foot that is one with its leg) get none, nor do
-// those whose end's name is taken.
+// the middle of the far end of what it moves (toes, fingertips, a snout), or, where that is moved more by
+// others (a foot that is one with its leg), as far on as hands mostly reach. Those that move nothing
+// (a hand that the drawing hides) get none, nor do those whose end's name is taken.
 Skeleton withBoneEnds(const Skeleton& skeleton, const TriangleMesh& mesh, const SkinWeights& skin);
 
 }  // namespace skel

@@ -59,7 +59,8 @@ std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir) {
 NamedJoints readJointsFile(const std::string& path) {
   const JsonDocument document = JsonDocument::readFile(path);
   const JsonValue root = document.root();
-  root.allowOnly({"joints", "image_size", "annotation", "derived_from", "view", "style"});
+  root.allowOnly({"joints", "view", "style", "image_size", "annotation", "derived_from", "difficulty",
+                  "extras", "circumstances"});
   const JsonValue list = root.at("joints");
   NamedJoints joints;
   for (const std::string& name : list.keys()) {
@@ -76,6 +77,12 @@ NamedJoints readJointsFile(const std::string& path) {
   }
   if (joints.empty()) list.fail("is empty");
   return joints;
+}
+
+void ensureJointsOf(const SkeletonTemplate& body_plan, const NamedJoints& joints, const std::string& file) {
+  for (const auto& [name, place] : joints)
+    if (body_plan.find(name) < 0)
+      throw InputError(file, "joints." + name + ": is no joint of the template " + body_plan.name);
 }
 
 std::optional<LabelFile> placedLabelsBeside(const std::string& image) {

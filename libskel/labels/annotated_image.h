@@ -29,6 +29,9 @@ std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir);
 // Throws InputError that names file, JSON path and reason.
 NamedJoints readJointsFile(const std::string& path);
 
+// Throws InputError: a joint of `file` that is none of the plan's.
+void ensureJointsOf(const SkeletonTemplate& body_plan, const NamedJoints& joints, const std::string& file);
+
 // One of its places, px; null: none. Throws InputError where it lies in no picture.
 std::optional<Eigen::Vector2d> jointPlaceAt(const JsonValue& place);
 

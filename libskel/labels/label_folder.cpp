@@ -56,6 +56,7 @@ void checkAllLabelled(const std::string& path, const LabelFile& labels) {
 struct JointedImage {
   std::string image;  // path
   std::optional<std::string> mask;
+  std::string joints_file;
   NamedJoints joints;
   std::vector<std::string> recognized;
 };
@@ -64,7 +65,8 @@ struct JointedImage {
 std::vector<JointedImage> findJointedImages(const std::string& dir) {
   std::map<std::string, JointedImage> by_image;
   for (const AnnotatedImage& annotated : findAnnotatedImages(dir))
-    by_image[annotated.image] = {annotated.image, annotated.mask, readJointsFile(annotated.joints), {}};
+    by_image[annotated.image] = {
+        annotated.image, annotated.mask, annotated.joints, readJointsFile(annotated.joints), {}};
   for (const std::string& path : findLabelFiles(dir)) {
     const LabelFile labels = readLabelFile(path);
     if (!labels.hasPlacedJoint()) continue;
@@ -75,6 +77,7 @@ std::vector<JointedImage> findJointedImages(const std::string& dir) {
     if (labels.mask) drawing.mask = besideLabelFile(path, labels.mask->file);
     if (is_new) {
       drawing.image = image;
+      drawing.joints_file = path;
       drawing.joints = labels.joints;
       drawing.recognized = labels.recognized;
     } else {
@@ -172,6 +175,7 @@ LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions&
   LabelledSet set;
   std::string hashed;
   for (const JointedImage& drawing : findJointedImages(dir)) {
+    ensureJointsOf(body_plan, drawing.joints, drawing.joints_file);
     const LabelFile labels =
         labelImage(drawing.image, drawing.mask, drawing.joints, body_plan, options, drawing.recognized);
     const std::string name = nameBelow(dir, drawing.image);

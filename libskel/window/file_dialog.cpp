@@ -84,7 +84,9 @@ std::string FileDialog::path() const {
   const std::string name = name_.data();
   if (name.empty()) return listing_.folder;
   const std::string typed = pathIn(listing_.folder, name);
-  return question_.ending.empty() || isFolder(typed) ? typed : withEnding(typed, question_.ending);
+  std::error_code unknown;
+  const bool as_typed = saves() ? isFolder(typed) : fs::exists(typed, unknown);
+  return question_.ending.empty() || as_typed ? typed : withEnding(typed, question_.ending);
 }
 
 void FileDialog::answer(bool sees_replace) {
@@ -106,7 +108,8 @@ void FileDialog::answer(bool sees_replace) {
   }
   asked_.clear();
   problem_ = question_.answer(path);
-  if (!problem_.empty()) return;
+  types_on_ = !problem_.empty();
+  if (types_on_) return;
   places_[question_.kind] = folderAround(fs::absolute(path).parent_path().string());
   open_ = false;
   ImGui::CloseCurrentPopup();
@@ -183,9 +186,11 @@ void FileDialog::draw() {
     // Small windows keep the buttons in view.
     bool done = drawNames(std::clamp(size.y - 420, 90.f, kListHeight));
     ImGui::SetNextItemWidth(kWidth);
-    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    if (std::exchange(types_on_, false) || ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     done |= ImGui::InputText("##name", name_.data(), name_.size(),
                              ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    // Keys belong to a list of the options that is open, also in the frame in which it closes.
+    const bool list_open = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId);
     if (question_.options) question_.options();
     const bool over = replaces();
     const std::string said =
@@ -200,9 +205,10 @@ void FileDialog::draw() {
     const std::string button = (over ? "Replace" : question_.button) + "###answer";
     const bool pressed = ImGui::Button(button.c_str(), {120, kButtonHeight});
     done |= pressed;
-    done |= !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(key::kEnter, false);
+    done |= !list_open && !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(key::kEnter, false);
     ImGui::SameLine();
-    const bool cancelled = ImGui::Button("Cancel", {120, kButtonHeight}) || ImGui::IsKeyPressed(key::kEscape);
+    const bool cancelled =
+        ImGui::Button("Cancel", {120, kButtonHeight}) || (!list_open && ImGui::IsKeyPressed(key::kEscape));
     if (question_.shows) {
       ImGui::SameLine(kWidth + ImGui::GetWindowContentRegionMin().x - 110);
       if (ImGui::Checkbox("all files", &shows_all_)) enter(listing_.folder);

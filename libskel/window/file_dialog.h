@@ -25,7 +25,8 @@ struct FileQuestion {
   FileUse use = FileUse::kOpen;
   // Which names are shown, unless all are asked for; empty: all.
   std::function<bool(const std::string& name)> shows = {};
-  // What a typed name gets that has none of skel's own (withEnding()); empty: names are left as typed.
+  // What a typed name gets that has none of skel's own (withEnding()), to open where there is no such file;
+  // empty: names are left as typed.
   std::string ending = {};
   // What is done with the answer; "" if it was done, else why not.
   std::function<std::string(const std::string& path)> answer = {};
@@ -63,7 +64,7 @@ class FileDialog {
   std::array<char, 4096> name_{};
   std::string problem_;
   std::string asked_;  // the path whose file may be replaced if the same answer comes once more
-  bool open_ = false, opens_ = false, shows_all_ = false, scrolls_up_ = false;
+  bool open_ = false, opens_ = false, types_on_ = false, shows_all_ = false, scrolls_up_ = false;
 };
 
 }  // namespace skel

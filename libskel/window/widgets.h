@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <cstddef>
+
 #include "libskel/window/keys.h"
 
 namespace skel {
@@ -22,6 +24,13 @@ void enabledButton(const char* label, const ImVec2& size, bool enabled, const Ac
   if (ImGui::Button(label, size)) action();
   ImGui::EndDisabled();
   tip(hint);
+}
+
+// Of the list that is open: the arrows choose, Return and Escape close it.
+inline void listKeys(std::size_t& chosen, std::size_t count) {
+  if (pressed(key::kUp, true) && chosen > 0) --chosen;
+  if (pressed(key::kDown, true) && chosen + 1 < count) ++chosen;
+  if (pressed(key::kEnter) || pressed(key::kEscape)) ImGui::CloseCurrentPopup();
 }
 
 // A line of the help.

@@ -273,6 +273,13 @@ TEST_CASE("an unknown clip lists each clip once, and the one that was probably m
       "walk, gallop, graze, nod, wag");
 }
 
+TEST_CASE("who asks an animal for \"run\" was not told of its gallop") {
+  const std::vector<Clip> animals = clipsFor(builtinClips(), loadTemplate("quadruped"));
+  CHECK(meantClip("run", animals) == "gallop");
+  CHECK(meantClip("dance", animals).empty());
+  CHECK(meantClip("gallop", clipsFor(builtinClips(), loadTemplate("biped"))) == "run");
+}
+
 TEST_CASE("a folder of clips adds to those that come with skel and takes their place") {
   const TempDir dir;
   const auto write = [&](const std::string& name, const std::string& text) {

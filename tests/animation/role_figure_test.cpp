@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/joint_roles.h"
@@ -154,6 +155,30 @@ TEST_CASE("an animal without a tail walks, but wags none") {
   CHECK_FALSE(fits(quadrupedClip("wag"), docked));
 }
 
+TEST_CASE("an animal's only joint of the spine is its body, and not its neck as well") {
+  Skeleton animal;
+  const auto add = [&](const std::string& name, const std::string& parent, const Eigen::Vector3d& at) {
+    animal.joints.push_back({name, animal.find(parent), {}, at});
+  };
+  add("Hips", "", {0, 1, 0});
+  add("Spine", "Hips", {-1, 1, 0});
+  add("Head", "Spine", {-1.3, 1.5, 0});
+  for (const auto& [side, z] : {std::pair(std::string("L_"), .2), {std::string("R_"), -.2}})
+    for (const auto& [leg, carrier, x] :
+         {std::tuple(std::string("front"), "Spine", -1.), {std::string("hind"), "Hips", 0.}}) {
+      add(side + leg + "_upper", carrier, {x, .9, z});
+      add(side + leg + "_lower", side + leg + "_upper", {x, .5, z});
+      add(side + leg + "_paw", side + leg + "_lower", {x, 0, z});
+    }
+  auto parts = partsOf(animal, animal);
+  CHECK(parts["body"] == "Spine");
+  CHECK_FALSE(parts.contains("neck"));
+  animal.joints[1].name = "Neck";
+  parts = partsOf(animal, animal);
+  CHECK(parts["neck"] == "Neck");
+  CHECK_FALSE(parts.contains("body"));
+}
+
 TEST_CASE("a human skeleton with usual names walks as a biped, whichever way it looks") {
   Skeleton human = figureSkeleton();
   const std::map<std::string, std::string> names = {{"pelvis", "Hips"},
@@ -196,6 +221,33 @@ TEST_CASE("a human skeleton with usual names walks as a biped, whichever way it 
     high = high.cwiseMax(at);
   }
   CHECK(high.z() - low.z() > 3 * (high.x() - low.x()));
+}
+
+TEST_CASE("the only joint of a spine was taken for the neck, so that clips moved no body") {
+  const auto parts = [](const Skeleton& skeleton) {
+    const JointRoles roles = findJointRoles(skeleton);
+    std::map<std::string, std::string> found;
+    for (const char* role : {"pelvis", "body", "neck", "head"})
+      if (const int joint = roles.joint(role); joint >= 0)
+        found[role] = skeleton.joints[std::size_t(joint)].name;
+    return found;
+  };
+  using Parts = std::map<std::string, std::string>;
+  Skeleton human = figureSkeleton();
+  const int spine = human.index("body"), neck = human.index("neck");
+  human.joints[std::size_t(spine)].name = "Spine";
+  CHECK(parts(human) == Parts{{"pelvis", "pelvis"}, {"body", "Spine"}, {"neck", "neck"}, {"head", "head"}});
+  for (const char* side : {"left_shoulder", "right_shoulder"})
+    human.joints[std::size_t(human.index(side))].parent = spine;
+  CHECK(parts(human) == Parts{{"pelvis", "pelvis"}, {"body", "Spine"}, {"neck", "neck"}, {"head", "head"}});
+  human.joints[std::size_t(human.index("head"))].parent = spine;
+  CHECK(parts(human) == Parts{{"pelvis", "pelvis"}, {"body", "Spine"}, {"head", "head"}});
+  REQUIRE(roleFigure(human));
+  for (const Clip& clip : clipsFor(builtinClips(), loadTemplate("biped")))
+    CHECK(fits(clip, *roleFigure(human)));
+  human.joints[std::size_t(neck)].name = "Chest";
+  human.joints[std::size_t(spine)].name = "Neck1";
+  CHECK(parts(human) == Parts{{"pelvis", "pelvis"}, {"neck", "Neck1"}, {"head", "head"}});
 }
 
 TEST_CASE("thousands of ends on one long way of long names are looked at in steps of joints") {

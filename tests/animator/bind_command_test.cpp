@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "libskel/core/files.h"
 #include "libskel/image/write_image.h"
@@ -145,6 +146,21 @@ TEST_CASE("a skeleton in other units than the model was bound with none of its b
   CHECK(bone_from("[0, 0.2, 0]", "[0, 1, 0]").exit_code == 0);
 }
 
+TEST_CASE("a skeleton most of which lies beside the model was bound without a word") {
+  const TempDir dir;
+  nlohmann::json moved = nlohmann::json::parse(readFile(kBones));
+  for (auto& joint : moved["joints"])
+    for (const char* end : {"head", "tail"}) joint[end][0] = joint[end][0].get<double>() + .5;
+  writeFile(dir.file("moved.rig.json"), moved.dump());
+  const std::string bind = "bind '" + kElk + "' --skeleton moved.rig.json";
+  const ToolRun run = animate(dir, bind + " -o elk.glb");
+  expect(run, 0, "moved.rig.json: note: only ");
+  CHECK(run.err.find("% of its bones lie in the model: is it this model's") != std::string::npos);
+  expect(animate(dir, "render '" + kElk +
+                          "' --skeleton moved.rig.json --up z --clip walk --fps 1 --size 16 -o a.gif"),
+         0, "moved.rig.json: note: only ");
+}
+
 TEST_CASE("of a skeleton whose arms and legs are two bones each nobody said why no clip fits it") {
   const TempDir dir;
   writeFile(dir.file("m.obj"), kTetrahedron);
@@ -191,22 +207,22 @@ TEST_CASE("a clip of one's own did not play on a model without one of its joints
               R"({"format": "skel-clip", "version": 1, "name": "slash", )" + body_plan + R"("tracks": [)" +
                   tracks + "]}");
   };
-  const std::string body = R"({"joint": "body", "angles_deg": [[0, 0, 0, 0], [1, 0, 20, 0]]})",
+  const std::string neck = R"({"joint": "neck", "angles_deg": [[0, 0, 0, 0], [1, 0, 20, 0]]})",
                     arm = R"({"joint": "right_shoulder", "angles_deg": [[0, 0, 0, 0], [1, -90, 0, 0]]})";
   const std::string film = "render golem.glb --fps 4 --size 16 -o film.gif --clip ";
   for (const std::string body_plan : {"", "\"template\": \"biped\", "}) {
-    write(body_plan, body + "," + arm);
+    write(body_plan, neck + "," + arm);
     for (const std::string call : {"clips/slash.clip.json", "slash --clips-dir clips"})
       expect(animate(dir, film + call), 0,
-             "golem.glb: note: the clip \"slash\" plays without \"body\", which this character lacks\n");
+             "golem.glb: note: the clip \"slash\" plays without \"neck\", which this character lacks\n");
     CHECK(animate(dir, "retarget clips/slash.clip.json --to golem.glb -o a.glb")
-              .out.find("plays without \"body\"") != std::string::npos);
+              .out.find("plays without \"neck\"") != std::string::npos);
     CHECK(readGlb(dir.file("a.glb")).clips[0].tracks[0].joint == "UpperArm.R");
-    write(body_plan, body);
+    write(body_plan, neck);
     expect(animate(dir, film + "clips/slash.clip.json"), 2,
-           "clips/slash.clip.json: moves \"body\", which this character lacks");
+           "clips/slash.clip.json: moves \"neck\", which this character lacks");
     expect(animate(dir, film + "slash --clips-dir clips"), 1,
-           "the clip \"slash\" moves \"body\", which this character lacks");
+           "the clip \"slash\" moves \"neck\", which this character lacks");
   }
 }
 

@@ -1,6 +1,8 @@
 // list and retarget, as a user runs them.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <sstream>
 
 #include "animator/rig_text.h"
@@ -16,6 +18,7 @@
 #include "tests/support/run_tool.h"
 
 using namespace skel;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -93,6 +96,57 @@ TEST_CASE("a clip file goes by its path where it goes by its folder, whatever th
     "tracks": [{"joint": "tail", "angles_deg": [[0, 0, 0, 0], [1, 40, 0, 0]]}]})");
   checkFails("render " + model + " --clips " + clip + " -o " + dir.file("film.gif"), 2,
              clip + ": moves \"tail\", which this character lacks");
+}
+
+TEST_CASE("retarget said nothing of the clip files that it leaves out of a folder") {
+  const TempDir dir;
+  const std::string model = figureFile(dir);
+  const auto clip = [&](const std::string& file, const std::string& text) {
+    writeFile(dir.file("clips/" + file + ".clip.json"), text);
+  };
+  clip("nod", R"({"format": "skel-clip", "version": 1, "name": "nod", "template": "biped",
+    "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [1, 9, 0, 0]]}]})");
+  clip("broken", "{");
+  const ToolRun run = runTool("skel-animate retarget nod --clips-dir '" + dir.file("clips") + "' --to '" +
+                              model + "' -o '" + dir.file("nods.glb") + "'");
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err, Contains("skel-animate: note: left out: " + dir.file("clips/broken.clip.json") + ": "));
+  CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+}
+
+TEST_CASE(
+    "a clip that mixes a character's own names of joints with ours was said to lack a joint that is there") {
+  const TempDir dir;
+  const std::string model = dir.file("half.glb");
+  RiggedCharacter half = figure();
+  half.skeleton.template_name.clear();
+  for (const auto& [ours, own] : std::map<std::string, std::string>{
+           {"left_shoulder", "LeftArm"}, {"left_elbow", "LeftForeArm"}, {"left_hand", "LeftHand"}})
+    half.skeleton.joints[std::size_t(half.skeleton.index(ours))].name = own;
+  writeFile(model, encodeGlb(half, {}));
+  const auto retarget = [&](const std::string& name, const std::string& joints) {
+    std::string tracks;
+    for (const std::string& joint : {joints.substr(0, joints.find(' ')), joints.substr(joints.find(' ') + 1)})
+      tracks += (tracks.empty() ? "" : ", ") + ("{\"joint\": \"" + joint) +
+                "\", \"angles_deg\": [[0, 0, 0, 0], [1, 0, 0, 9]]}";
+    writeFile(dir.file("clips/" + name + ".clip.json"),
+              R"({"format": "skel-clip", "version": 1, "template": "biped", "name": ")" + name +
+                  "\", \"tracks\": [" + tracks + "]}");
+    std::vector<ToolRun> runs;  // by path, by name
+    for (const std::string& clip : {"'" + dir.file("clips/" + name + ".clip.json") + "'",
+                                    name + " --clips-dir '" + dir.file("clips") + "'"})
+      runs.push_back(
+          runTool("skel-animate retarget " + clip + " --to '" + model + "' -o '" + dir.file("o.glb") + "'"));
+    return runs;
+  };
+  for (const ToolRun& run : retarget("mixed", "LeftArm left_elbow")) {
+    CHECK(run.exit_code != 0);
+    CHECK_THAT(run.err,
+               Contains("calls some joints as this character does (\"LeftArm\") and some as skel does "
+                        "(\"left_elbow\", here \"LeftForeArm\"); call all by one kind of names\n"));
+  }
+  // All of these are the character's own names, though its template would call one of them otherwise.
+  for (const ToolRun& run : retarget("own", "LeftArm right_elbow")) CHECK(run.exit_code == 0);
 }
 
 TEST_CASE("retarget writes a character, a clip or a BVH, and says what it matched") {

@@ -239,8 +239,8 @@ TEST_CASE(
   const ToolRun run = render(std::string(SKEL_SOURCE_DIR) + "/datasets/animals/box_dog.png " + kDrawing +
                              " --clip run --fps 4 --size 64x64 --format gif -o " + dir.file("films/"));
   CHECK(run.exit_code == 1);
-  CHECK_THAT(run.err,
-             Contains("box_dog.png: there is no clip \"run\" for this body plan; there are: idle, walk"));
+  CHECK_THAT(run.err, Contains("box_dog.png: there is no clip \"run\" for this body plan; did you mean "
+                               "\"gallop\"? There are: idle, walk"));
   CHECK(filesBelow(dir.file("films")) == std::vector<std::string>{dir.file("films/cap_boy-run.gif")});
 }
 
@@ -251,7 +251,9 @@ TEST_CASE(
   const std::string rest = " --fps 4 --size 32x32 --format gif -o " + dir.file("films/");
   const ToolRun run = render(dog + kDrawing + " --clips 'idle, run'" + rest);
   CHECK(run.exit_code == 0);
-  CHECK_THAT(run.err, Contains("box_dog.png: note: there is no clip \"run\" for this body plan: left out\n"));
+  CHECK_THAT(
+      run.err,
+      Contains("box_dog.png: note: there is no clip \"run\" for this body plan, but \"gallop\": left out\n"));
   CHECK(filesBelow(dir.file("films")).size() == 3);
   // A name that nobody has is wrong.
   const ToolRun wrong = render(dog + kDrawing + " --clips idle,rnu" + rest);

@@ -519,6 +519,33 @@ TEST_CASE("a bone ends in the middle of its far end, straight ahead where that i
   CHECK(ends.joints[ends.index("tip_end")].position.y() >= .5);
 }
 
+TEST_CASE("a foot that moves nothing more than others do had no end, and was drawn as long as its shin") {
+  RiggedCharacter character = figure();
+  const int foot = int(character.skeleton.index("left_foot")),
+            knee = int(character.skeleton.index("left_knee"));
+  SkinWeights& weights = character.weights;
+  for (Eigen::Index v = 0; v < weights.joints.rows(); ++v) {
+    if (weights.joints(v, 0) != foot) continue;
+    weights.joints.row(v).setZero();
+    weights.weights.row(v).setZero();
+    weights.joints(v, 0) = std::uint16_t(knee);
+    weights.joints(v, 1) = std::uint16_t(foot);
+    weights.weights(v, 0) = .6f;
+    weights.weights(v, 1) = .4f;
+  }
+  const auto lengthOf = [&](const char* side) {
+    const Skeleton ends = withBoneEnds(character.skeleton, character.mesh, weights);
+    const auto at = [&](const char* joint) {
+      return ends.joints[ends.index(side + std::string(joint))].position;
+    };
+    return (at("foot_end") - at("foot")).norm() / (at("foot") - at("knee")).norm();
+  };
+  CHECK(lengthOf("left_") == Approx(.4));
+  // One that moves nothing at all has none.
+  weights.joints = (weights.joints.array() == foot).select(std::uint16_t(knee), weights.joints.array());
+  CHECK(withBoneEnds(character.skeleton, character.mesh, weights).find("left_foot_end") < 0);
+}
+
 TEST_CASE("a bone with a tail ends there, and a taken name is left alone") {
   RiggedCharacter character = figure();
   Joint& hand = character.skeleton.joints[character.skeleton.index("left_hand")];

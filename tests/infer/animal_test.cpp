@@ -50,7 +50,7 @@ TEST_CASE("the body plan is the one that the figure fits, unless one is named") 
   CHECK(contains(run.out, "  quadruped\n"));
   CHECK(contains(run.out, "  biped\n"));
   CHECK(contains(run.err, "note: there is no clip \"wave\" for a quadruped: left out: "));
-  CHECK(contains(run.err, "note: there is no clip \"gallop\" for a biped: left out: "));
+  CHECK(contains(run.err, "note: there is no clip \"gallop\" for a biped, but \"run\": left out: "));
   CHECK(readSkeletonFile(dir.file("walking_dog.skeleton.json"), loadTemplate("quadruped")).confidence > .8);
 
   // What was found is gone on from, whatever the plan.

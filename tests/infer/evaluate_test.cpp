@@ -88,6 +88,63 @@ TEST_CASE("of a folder and a file of one name evaluate measured one without a wo
       std::string::npos);
 }
 
+TEST_CASE("a drawing that lies right in the measured folder had no name") {
+  const skel::TempDir dir;
+  const std::string set = dir.file("boy");
+  std::filesystem::create_directories(set);
+  for (const std::string end : {"png", "mask.png", "joints.json"})
+    std::filesystem::copy_file(SKEL_DATASETS "/characters/cap_boy." + end,
+                               set + "/" + (end == "png" ? "image.png" : end));
+  for (const std::string& named : {set, set + "/", set + "/."}) {
+    const auto run = skel::runTool("skel-infer evaluate '" + named + "' --given-mask --overlays '" +
+                                   dir.file("overlays") + "' --json '" + dir.file("figures.json") + "'");
+    CAPTURE(named, run.err);
+    REQUIRE(run.exit_code == 0);
+    CHECK(run.out.find("\nboy  ") != std::string::npos);
+    CHECK(std::filesystem::remove(dir.file("overlays/boy.png")));
+    const skel::JsonDocument figures = skel::JsonDocument::readFile(dir.file("figures.json"));
+    CHECK(figures.root().at("characters").keys() == std::vector<std::string>{"boy"});
+  }
+  std::filesystem::create_directories(set + "/boy");
+  std::filesystem::copy_file(set + "/image.png", set + "/boy/image.png");
+  const auto run = skel::runTool("skel-infer evaluate '" + set + "'");
+  CHECK(run.exit_code == 2);
+  CHECK(run.err.find("and boy in it another of that name") != std::string::npos);
+}
+
+TEST_CASE("evaluate --opaque said nothing where it leaves nothing to measure") {
+  const skel::TempDir dir;
+  for (const char* end : {".png", ".joints.json"})
+    std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/cap_boy") + end,
+                               dir.file(std::string("cap_boy") + end));
+  const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "' --opaque");
+  CHECK(run.exit_code == 2);
+  CHECK(run.out.empty());
+  CHECK(run.err == "skel-infer: " + dir.path() +
+                       ": holds no annotated drawing whose silhouette has to be found (--opaque): nothing to "
+                       "measure\n");
+}
+
+TEST_CASE("evaluate passed over joints and members of a joints file that it does not know") {
+  const skel::TempDir dir;
+  std::filesystem::copy_file(SKEL_DATASETS "/characters/cap_boy.png", dir.file("boy.png"));
+  std::filesystem::copy_file(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("boy.mask.png"));
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {R"({"joints": {"head": [301, 198], "left_hant": [1, 2]}})",
+       "boy.joints.json: joints.left_hant: is no joint of the template biped\n"},
+      {R"({"joints": {"head": [301, 198]}, "veiw": "side"})",
+       "boy.joints.json: has the unknown key \"veiw\""}};
+  for (const auto& [text, reason] : files) {
+    skel::writeFile(dir.file("boy.joints.json"), text);
+    for (const std::string tool : {"skel-infer", "skel-train"}) {
+      const auto run = skel::runTool(tool + " evaluate '" + dir.path() + "'");
+      CAPTURE(tool, run.err);
+      CHECK(run.exit_code == 2);
+      CHECK(run.err.find(reason) != std::string::npos);
+    }
+  }
+}
+
 TEST_CASE("evaluate measures by the joints of label files that a person has placed, by no others") {
   const skel::TempDir dir;
   const std::string set = dir.file("set");

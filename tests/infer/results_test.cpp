@@ -165,6 +165,23 @@ TEST_CASE("a format without clips says nothing of clips that were asked for") {
   CHECK_FALSE(contains(infer(dir, asked + " --formats json").err, "there is no clip"));
 }
 
+TEST_CASE("a clip of one's own that an own template cannot do was said not to be there") {
+  const TempDir dir;
+  std::string plan = readFile(SKEL_SOURCE_DIR "/libskel/skeleton/templates/biped.json");
+  for (const auto& [ours, own] :
+       {std::pair<std::string, std::string>("\"biped\"", "\"mine\""), {"\"left_elbow\"", "\"LeftForeArm\""}})
+    for (std::size_t at = 0; (at = plan.find(ours, at)) != std::string::npos; at += own.size())
+      plan.replace(at, ours.size(), own);
+  writeFile(dir.file("mine.json"), plan);
+  writeFile(dir.file("clips/bend.clip.json"),
+            R"({"format": "skel-clip", "version": 1, "name": "bend", "tracks": [
+      {"joint": "right_elbow", "angles_deg": [[0, 0, 0, 0], [1, 0, 0, 90]]},
+      {"joint": "left_elbow", "angles_deg": [[0, 0, 0, 0], [1, 0, 0, 90]]}]})");
+  const ToolRun run = infer(dir, kDrawing + " --template mine.json --clips bend --clips-dir clips");
+  CHECK(run.exit_code == 1);
+  CHECK(run.err == "skel-infer: the clip \"bend\" moves \"left_elbow\", which the template \"mine\" lacks\n");
+}
+
 TEST_CASE("a clip of one's own with a misspelt joint is named with the joint, asked for or not") {
   const TempDir dir;
   writeFile(dir.file("clips/flop.clip.json"),

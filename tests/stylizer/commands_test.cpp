@@ -486,6 +486,28 @@ TEST_CASE("make with a wrong style worked through the content first, and left it
   CHECK_FALSE(fs::exists(dir.file("out.gif.work")));
 }
 
+TEST_CASE("a film in place of a motion was said to be no JSON") {
+  const TempDir dir;
+  const std::string frames = film(dir, "idle"), gif = dir.file("idle.gif");
+  REQUIRE(runTool("skel-animate render " + kDrawing + " --clip idle --fps 2 --size 64 -o " + gif).exit_code ==
+          0);
+  const auto told = [&](const std::string& arguments, const std::string& path) {
+    const ToolRun run = style(arguments + " -o " + dir.file("out.json"));
+    CAPTURE(arguments);
+    CHECK(run.exit_code == 2);
+    CHECK_THAT(run.err, Contains("skel-style: " + path + ": is a film, no motion; `skel-style keypoints " +
+                                 path + " -o " + dir.file("idle") + ".motion.json` makes one of it\n"));
+  };
+  for (const std::string& path : {gif, frames}) {
+    told("transfer --content " + path + " --style " + path, path);
+    told("fit " + path, path);
+  }
+  told("render --motion " + gif + " --character " + kDrawing, gif);
+  writeFile(dir.file("a.motion.json"), "{");
+  CHECK_THAT(style("fit " + dir.file("a.motion.json") + " -o " + dir.file("out.json")).err,
+             Contains("is not JSON"));
+}
+
 TEST_CASE("a film of an animal was taken for a person's without a word") {
   const TempDir dir;
   fs::create_directory(dir.file("sheep"));
