@@ -26,7 +26,9 @@ constexpr float kTorn = 0.011f;        // of all triangles, that a limb may stre
 constexpr std::size_t kFew = 60;       // triangles that may ride rigidly without being seen
 constexpr double kSpare =
     0.9;  // of the bound: between the moments that are looked at it may be a little more
-constexpr float kSame = 0.05f;  // weights that differ by less, in sum, stretch nothing
+constexpr float kSame = 0.05f;     // weights that differ by less, in sum, stretch nothing but slivers
+constexpr float kSliver = 0.001f;  // and not even those
+constexpr int kSliverRounds = 20;  // of evening them out
 
 // Numbers at each moment, a row for each of some quantities; the last moment is repeated, so that rows are
 // whole lanes.
@@ -96,15 +98,16 @@ class Stretched {
       for (int k = 0; k < 3; ++k) triangles_[std::size_t(next[std::size_t(mesh.triangles(t, k))]++)] = int(t);
   }
 
-  // Those at the `changed` vertices that any moment stretches too far, ascending.
-  std::vector<int> among(const std::vector<int>& changed, const JointWeights& weights) {
+  // Those at the `changed` vertices that any moment stretches too far, ascending; of those whose weights
+  // differ by `same` at least.
+  std::vector<int> among(const std::vector<int>& changed, const JointWeights& weights, float same = kSame) {
     std::vector<char> is_near(rest_.size(), 0);
     for (const int v : changed)
       for (int i = first_[std::size_t(v)]; i < first_[std::size_t(v) + 1]; ++i)
         is_near[std::size_t(triangles_[std::size_t(i)])] = 1;
     std::vector<int> near;
     for (int t = 0; t < int(is_near.size()); ++t)
-      if (is_near[std::size_t(t)] && !isRigid(t, weights)) near.push_back(t);
+      if (is_near[std::size_t(t)] && !isRigid(t, weights, same)) near.push_back(t);
     std::vector<char> corner(std::size_t(mesh_.vertices.rows()), 0);
     for (const int t : near)
       for (int k = 0; k < 3; ++k)
@@ -115,10 +118,10 @@ class Stretched {
   }
 
  private:
-  bool isRigid(int t, const JointWeights& weights) const {
+  bool isRigid(int t, const JointWeights& weights, float same) const {
     const auto a = weights.row(mesh_.triangles(t, 0)), b = weights.row(mesh_.triangles(t, 1)),
                c = weights.row(mesh_.triangles(t, 2));
-    return (a - b).cwiseAbs().sum() < kSame && (a - c).cwiseAbs().sum() < kSame;
+    return (a - b).cwiseAbs().sum() < same && (a - c).cwiseAbs().sum() < same;
   }
 
   void pose(int v, const JointWeights& weights) {
@@ -327,6 +330,13 @@ StretchBound boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton,
     found = stretched.among(all, rows);
     best = found.size();
     stalled = 0;
+  }
+  found = stretched.among(all, rows, kSliver);
+  for (int round = 0; round < kSliverRounds && !found.empty() && found.size() < kFew; ++round) {
+    const std::vector<int> moving = around(mesh, edges, found, 0);
+    for (const int t : found) evenOut(mesh, t, rows);
+    for (const int v : moving) changed[std::size_t(v)] = 1;
+    found = stretched.among(moving, rows, kSliver);
   }
   for (int v = 0; v < vertices; ++v)
     if (changed[std::size_t(v)]) packRow(rows, v, weights);
