@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "animator/rig_source.h"
-#include "animator/sprite_atlas.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/cli/number.h"
 #include "libskel/core/error.h"
@@ -16,6 +15,7 @@
 #include "libskel/core/foreign_files.h"
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
+#include "libskel/image/sprite_sheet_file.h"
 #include "libskel/mended/earlier_picture.h"
 #include "libskel/mended/rig_mended.h"
 #include "libskel/pipeline/rig_drawing.h"

@@ -16,6 +16,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/new_folders.h"
 #include "libskel/core/text.h"
+#include "libskel/image/named_drawings.h"
 #include "libskel/pipeline/drawing_notes.h"
 
 namespace skel {
@@ -188,21 +189,26 @@ bool isClipAmongFiles(const RenderCommandOptions& options, const std::string& na
   return !fs::exists(name, not_there) && isKnown(name, options.library);
 }
 
-void checkFiles(const RenderCommandOptions& options) {
-  for (const std::string& path : options.files) {
+// Folders become the drawings in them, and what was made of drawings is left out.
+void findDrawings(RenderCommandOptions& options) {
+  for (const std::string& path : options.files)
     if (isClipAmongFiles(options, path)) {
       std::string clips;
       for (const std::string& clip : options.clips) clips += clip + ",";
       throw UsageError("there is no file \"" + path + "\"; several clips have commas in between: --clips " +
                        clips + path);
     }
-    if (std::error_code not_there; fs::is_directory(path, not_there))
-      throw UsageError(path +
-                       " is a folder; name the drawings in it: " + (fs::path(path) / "*.png").string());
+  NamedDrawings named = drawingsOf(options.files);
+  for (const std::string& note : notesOf(named))
+    std::fprintf(stderr, "skel-animate: note: %s\n", printable(note).c_str());
+  options.files = std::move(named.drawings);
+}
+
+void checkFiles(const RenderCommandOptions& options) {
+  for (const std::string& path : options.files)
     if (options.files.size() > 1 && !options.source.skeleton.empty() && isDrawing({.path = path}))
       throw UsageError("--skeleton FILE is of one drawing, " + std::to_string(options.files.size()) +
                        " characters are named; give them one at a time");
-  }
   checkNames(options.files);
 }
 
@@ -217,6 +223,7 @@ ExitCode runRender(const RenderCommandOptions& asked) {
   if (std::find(options.clips.begin(), options.clips.end(), kAllClips) == options.clips.end())
     options.library.names = options.clips;
   toldClipLibrary(options.library);
+  findDrawings(options);
   checkFiles(options);
   const NewFolders folders(options.sheet.output.empty() ? options.output : options.sheet.output);
   const CharacterRenderer renderer =

@@ -7,12 +7,11 @@
 #include "libskel/core/input_guard.h"
 #include "libskel/core/json.h"
 #include "libskel/core/json_names.h"
+#include "libskel/image/sprite_sheet_file.h"
 
 namespace skel {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr const char* kAtlasApp = "skel-animate";
 
 using Json = nlohmann::ordered_json;
 
@@ -65,22 +64,6 @@ std::string formatAtlas(const std::vector<Sprite>& sprites, const std::vector<Sp
                         {"slices", Json::array({slice})},
                         {"skel", {{"pxPerM", cell.px_per_m}, {"pitchDeg", cell.pitch_deg}}}}}};
   return atlas.dump(1) + "\n";
-}
-
-std::string atlasBeside(const std::string& picture) {
-  const fs::path atlas = fs::path(picture).replace_extension(".json");
-  if (std::error_code unknown; !fs::is_regular_file(atlas, unknown)) return "";
-  try {
-    const LookAtOutputs look;
-    const JsonDocument document = JsonDocument::readFile(atlas.string());
-    const JsonValue meta = document.root().at("meta");
-    const bool is_of_it =
-        meta.at("app").asString() == kAtlasApp &&
-        meta.at("image").asString() == jsonFromFileName(fs::path(picture).filename().string());
-    return is_of_it ? atlas.string() : "";
-  } catch (const InputError&) {
-    return "";
-  }
 }
 
 SpriteCell readSpriteCell(const std::string& path) {

@@ -20,9 +20,6 @@ std::string formatAtlas(const std::vector<Sprite>& sprites, const std::vector<Sp
                         const SpriteCell& cell, const SpriteSheet& sheet, AtlasForm form,
                         const std::string& picture);
 
-// The atlas beside a picture that is its sheet; "": the picture is none.
-std::string atlasBeside(const std::string& picture);
-
 // What the sprites of an atlas share. Throws InputError: not of skel, or without a scale, as skel wrote them
 // before.
 SpriteCell readSpriteCell(const std::string& path);

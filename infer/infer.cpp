@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "infer/drawing_list.h"
-#include "infer/drawings.h"
 #include "infer/infer_options.h"
 #include "infer/keep_results.h"
 #include "infer/rig_figure.h"
@@ -21,6 +20,7 @@
 #include "libskel/core/progress.h"
 #include "libskel/core/temporary_file.h"
 #include "libskel/core/text.h"
+#include "libskel/image/named_drawings.h"
 #include "libskel/image/result_picture.h"
 
 namespace skel {
@@ -47,27 +47,6 @@ std::vector<RigJob> jobsOf(const InferOptions& options) {
                           : "rename one or run them with different -o"));
   }
   return jobs;
-}
-
-// Of results that were named with the drawings: once, whatever their number.
-void sayLeftOut(const std::vector<std::string>& results) {
-  if (results.empty()) return;
-  std::fprintf(stderr, "skel-infer: note: no drawings but what was made of some, left out: %s\n",
-               printable(joined(results)).c_str());
-}
-
-// A PDF is no picture, but somebody may wait for its pages.
-void sayPassedOver(const std::vector<std::string>& files) {
-  for (const std::string& file : files)
-    std::fprintf(stderr, "skel-infer: note: %s %s; passed over\n", printable(file).c_str(),
-                 printable(howToConvert(file)).c_str());
-}
-
-void sayNotLookedInto(const std::vector<std::string>& folders) {
-  if (folders.empty()) return;
-  std::fprintf(stderr, "skel-infer: note: %zu %s in there with drawings, not looked into; name %s, too: %s\n",
-               folders.size(), folders.size() == 1 ? "folder" : "folders",
-               folders.size() == 1 ? "it" : "them", printable(joined(folders)).c_str());
 }
 
 // Of a run over many drawings that is stopped by Ctrl+C.
@@ -129,9 +108,8 @@ ExitCode rigNamed(const InferOptions& options, const NamedDrawings& named) {
   }
   refuseMissing(all);
   if (!options.quiet) {
-    sayLeftOut(named.results);
-    sayPassedOver(named.documents);
-    sayNotLookedInto(named.folders);
+    for (const std::string& note : notesOf(named))
+      std::fprintf(stderr, "skel-infer: note: %s\n", printable(note).c_str());
     noteUnusedWeights(options);
   }
   ensureFolders(options);

@@ -335,6 +335,40 @@ TEST_CASE("a sheet of skel that was named for a drawing was rigged, as one of it
   }
 }
 
+TEST_CASE("masks, limbs and backs beside drawings, and sheets of them, were given sheets of their own") {
+  const TempDir dir;
+  const std::string made = " --clip idle --frames 1 --size 24 --same-scale --sheet ";
+  for (const char* name : {"boy.png", "cat.png"}) writeFile(dir.file(name), readFile(kDrawing));
+  REQUIRE(render(dir.file("boy.png") + " " + dir.file("cat.png") + made + dir.file("alone/")).exit_code == 0);
+  const auto sheets = [&](const std::string& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(dir.file(folder)))
+      names.insert(entry.path().filename());
+    return names;
+  };
+  REQUIRE(sheets("alone").size() == 4);
+  std::string limbs;
+  for (const char* ending : {".limbs.png", ".mask.png", ".back.png"}) {
+    limbs += " " + dir.file(std::string("cat") + ending);
+    writeFile(dir.file(std::string("cat") + ending), readFile(kDrawing));
+  }
+  REQUIRE(render(dir.file("boy.png") + made + dir.file("boy-sheet.png")).exit_code == 0);
+  const std::string sheet = dir.file("boy-sheet.png");
+  SECTION("named") {
+    const ToolRun run = render(dir.file("boy.png") + " " + dir.file("cat.png") + limbs + " " + sheet +
+                               " --force" + made + dir.file("named/"));
+    CHECK(run.exit_code == 0);
+    CHECK_THAT(run.err, Contains("skel-animate: note: no drawings but what was made of some, left out: "));
+    CHECK_THAT(run.err, Contains("boy-sheet.png\n"));
+    CHECK(sheets("named") == sheets("alone"));
+    CHECK(readFile(dir.file("named/boy.png")) == readFile(dir.file("alone/boy.png")));
+  }
+  SECTION("by their folder") {
+    CHECK(render(dir.path() + " --force" + made + dir.file("folder/")).exit_code == 0);
+    CHECK(sheets("folder") == sheets("alone"));
+  }
+}
+
 TEST_CASE("a sheet of one animation said \"1 animations\"") {
   const TempDir dir;
   const auto said = [&](const std::string& frames) {
@@ -376,8 +410,6 @@ TEST_CASE("sheets of several drawings go to a folder, and what makes no sense is
       {model + " --clip nod --look flat --sheet " + dir.file("s.png"), "--look flat is a look of films"},
       {model + " --clips idle walk --sheet " + dir.file("s.png"),
        "there is no file \"walk\"; several clips have commas in between: --clips idle,walk\n"},
-      {dir.path() + " --clip idle --sheet " + dir.file("s.png"),
-       dir.path() + " is a folder; name the drawings in it: " + dir.path() + "/*.png\n"},
   };
   for (const auto& one : cases) {
     CAPTURE(one.arguments);

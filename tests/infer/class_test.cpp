@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "infer/drawings.h"
+#include "libskel/image/named_drawings.h"
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/image/write_image.h"

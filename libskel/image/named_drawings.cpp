@@ -1,4 +1,4 @@
-#include "infer/drawings.h"
+#include "libskel/image/named_drawings.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -8,7 +8,9 @@
 #include "libskel/core/error.h"
 #include "libskel/core/foreign_files.h"
 #include "libskel/core/natural_order.h"
+#include "libskel/core/text.h"
 #include "libskel/image/result_picture.h"
+#include "libskel/image/sprite_sheet_file.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -27,7 +29,7 @@ bool isDocument(const fs::path& file) {
 bool isDrawing(const fs::directory_entry& entry) {
   std::error_code unknown;
   return isDrawingName(entry.path().filename().string()) && !entry.is_directory(unknown) &&
-         !entry.is_other(unknown) && !isTexture(entry.path());
+         !entry.is_other(unknown) && !isTexture(entry.path()) && atlasBeside(entry.path().string()).empty();
 }
 
 // Not of a hidden folder, nor of one that skel-infer has made of a drawing.
@@ -86,18 +88,34 @@ NamedDrawings drawingsOf(const std::vector<std::string>& named) {
   for (const std::string& picture : pictures) without_endings.insert(fs::path(picture).replace_extension());
   const auto isResult = [&](const std::string& picture) {
     if (pictures.size() < 2 || from_folders.contains(picture)) return false;
-    for (const std::string_view ending : kResultPictureEndings) {
-      if (!picture.ends_with(ending)) continue;
+    const auto isMadeOfOne = [&](std::string_view ending) {
+      if (!picture.ends_with(ending)) return false;
       const std::string drawing = picture.substr(0, picture.size() - ending.size());
       return without_endings.contains(drawing) || fs::exists(drawing + ".skeleton.json");
-    }
-    return false;
+    };
+    return isMadeOfOne(".back.png") ||
+           std::any_of(kResultPictureEndings.begin(), kResultPictureEndings.end(), isMadeOfOne) ||
+           !atlasBeside(picture).empty();
   };
   for (std::string& picture : pictures)
     (isResult(picture) ? found.results : found.drawings).push_back(std::move(picture));
   if (found.drawings.empty() && !pictures.empty())
     throw UsageError("none of the images is a drawing; name one of them alone to rig it all the same");
   return found;
+}
+
+std::vector<std::string> notesOf(const NamedDrawings& named) {
+  std::vector<std::string> notes;
+  if (!named.results.empty())
+    notes.push_back("no drawings but what was made of some, left out: " + joined(named.results));
+  // A PDF is no picture, but somebody may wait for its pages.
+  for (const std::string& file : named.documents)
+    notes.push_back(file + " " + howToConvert(file) + "; passed over");
+  if (const std::size_t count = named.folders.size(); count > 0)
+    notes.push_back(std::to_string(count) + (count == 1 ? " folder" : " folders") +
+                    " in there with drawings, not looked into; name " + (count == 1 ? "it" : "them") +
+                    ", too: " + joined(named.folders));
+  return notes;
 }
 
 }  // namespace skel
