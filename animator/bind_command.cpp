@@ -36,6 +36,15 @@ CharacterFile boundModel(const RigSource& source, const SkinRequest& skin) {
   const auto start = std::chrono::steady_clock::now();
   character.weights = weightsFor(character, source.model, skin);
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  const Eigen::Vector3f size =
+      (character.mesh.vertices.colwise().maxCoeff() - character.mesh.vertices.colwise().minCoeff())
+          .transpose();
+  constexpr float kLargest_m = 30, kSmallest_m = 0.03f;
+  if (const float longest_m = size.maxCoeff(); longest_m > kLargest_m || longest_m < kSmallest_m)
+    std::fprintf(stderr,
+                 "%s: note: it is %.3g m long: numbers are metres here; if they are other units, scale model "
+                 "and skeleton\n",
+                 printable(source.model).c_str(), double(longest_m));
   std::printf("%d vertices bound to %d bones by %s in %.1f ms\n",
               static_cast<int>(character.mesh.vertices.rows()),
               static_cast<int>(skeletonBones(character.skeleton).size()), skin.method.c_str(), took.count());

@@ -146,6 +146,18 @@ TEST_CASE("a skeleton in other units than the model was bound with none of its b
   CHECK(bone_from("[0, 0.2, 0]", "[0, 1, 0]").exit_code == 0);
 }
 
+TEST_CASE("a model in centimetres was bound as a giant without a word") {
+  const TempDir dir;
+  writeFile(dir.file("rig.json"),
+            rig("{\"name\": \"a\", \"head\": [0, 0.2, 0], \"tail\": [0, 1, 0], \"parent\": null}"));
+  writeFile(dir.file("m.obj"), kTetrahedron);
+  CHECK(animate(dir, "bind m.obj -o m.glb --skeleton rig.json").err == "");
+  writeFile(dir.file("giant.obj"),
+            std::string(kTetrahedron) + "v 0 190 0\nv 1 190 0\nv 0 190 1\nf -1 -2 -3\n");
+  expect(animate(dir, "bind giant.obj -o m.glb --skeleton rig.json"), 0,
+         "giant.obj: note: it is 190 m long: numbers are metres here");
+}
+
 TEST_CASE("a skeleton most of which lies beside the model was bound without a word") {
   const TempDir dir;
   nlohmann::json moved = nlohmann::json::parse(readFile(kBones));
