@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "libskel/image/named_drawings.h"
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
+#include "libskel/image/named_drawings.h"
 #include "libskel/image/write_image.h"
 #include "tests/infer/run_infer.h"
 #include "tests/support/catch.h"
