@@ -56,11 +56,6 @@ bool isEmpty(const JointTrack& track) {
   return track.times_s.empty() && track.translation_times_s.empty() && track.scale_times_s.empty();
 }
 
-// A document of its kind is edited in place; nothing else that was read is written over.
-void save(const std::string& path, std::string_view ending, std::string_view bytes) {
-  path.ends_with(ending) ? replaceFile(path, bytes) : writeFile(path, bytes);
-}
-
 bool moves(const Clip& clip) { return !clip.tracks.empty() || !clip.root_times_s.empty(); }
 
 // The name of a clip's file without its folder and ending.
@@ -144,6 +139,9 @@ AnimationDocument::AnimationDocument(const CharacterSource& source, const ClipSo
   state_.pose = restPose(skeleton());
   takeEaseOfLibrary();
   addSaved(clips());
+  on_disk_.note(source.path);
+  if (!library.clips_dir.empty())
+    for (const std::string& file : filesBelow(library.clips_dir)) on_disk_.note(file);
 }
 
 const Clip* AnimationDocument::clip() const {
@@ -492,6 +490,7 @@ bool AnimationDocument::openModel(const std::string& path) {
     const StepScope step(*this);
     playing = false;
     source_ = source;
+    on_disk_.note(path);
     name_ = file.name;
     bones_ = file.bones;
     state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
@@ -504,6 +503,14 @@ bool AnimationDocument::openModel(const std::string& path) {
     addSaved(clips());
     return note.empty() ? "opened " + path : note;
   });
+}
+
+void AnimationDocument::save(const std::string& path, std::string_view ending, std::string_view bytes) {
+  if (on_disk_.hasChanged(path))
+    throw OutputError(
+        path, "was changed elsewhere since it was read or saved here; load it, or save under another name");
+  path.ends_with(ending) ? replaceFile(path, bytes) : writeFile(path, bytes);
+  on_disk_.note(path);
 }
 
 bool AnimationDocument::saveModel(const std::string& path) {
@@ -523,6 +530,7 @@ bool AnimationDocument::saveModel(const std::string& path) {
 bool AnimationDocument::loadPose(const std::string& path) {
   return attempt([&] {
     Pose pose = parsePose(readFile(path), path, skeleton());
+    on_disk_.note(path);
     const StepScope step(*this);
     playing = false;
     saved_pose_ = pose;
@@ -544,6 +552,7 @@ bool AnimationDocument::loadClip(const std::string& path) {
     Clip clip = loadClipFor(path, character(), library_);
     const std::optional<ClipKeys> eased = easedKeysOf(path, skeleton());
     if (eased) clip = withEvenKeys(*eased);
+    on_disk_.note(path);
     addSaved({clip});
     const StepScope step(*this);
     keepEase(clip.name, eased.value_or(ClipKeys()));
@@ -591,6 +600,7 @@ bool AnimationDocument::saveClip(const std::string& path) {
 bool AnimationDocument::loadSkeleton(const std::string& path) {
   return attempt([&] {
     Skeleton skeleton = readSkeletonFor(character().mesh, path, "auto", nullptr, nullptr);
+    on_disk_.note(path);
     RiggedCharacter changed = character();
     changed.weights = computeSkinWeights(changed.mesh, skeleton, SkinMethod::kGeodesic);
     changed.skeleton = std::move(skeleton);
@@ -620,6 +630,7 @@ bool AnimationDocument::loadWeights(const std::string& path) {
   return attempt([&] {
     RiggedCharacter changed = character();
     changed.weights = readWeights(path, changed);
+    on_disk_.note(path);
     const StepScope step(*this);
     state_.character = std::make_shared<const RiggedCharacter>(std::move(changed));
     return "loaded " + path;

@@ -15,6 +15,7 @@
 #include "animator/load_character.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/sample_pose.h"
+#include "libskel/core/files_left.h"
 #include "libskel/core/undo_history.h"
 #include "libskel/export/write_character.h"
 #include "libskel/scene/scene.h"
@@ -160,6 +161,9 @@ class AnimationDocument {
   void takeEaseOfLibrary();  // of those of its clips that are there
   bool hasOtherClip(const std::string& name) const;
   double snapped(double time_s) const;
+  // A document of its kind is edited in place; nothing else that was read is written over, nor what another
+  // program has made of it since. Throws OutputError.
+  void save(const std::string& path, std::string_view ending, std::string_view bytes);
   void addSaved(const std::vector<Clip>& clips);
   bool travel(AnimationState& step);
 
@@ -173,6 +177,7 @@ class AnimationDocument {
   AnimationState before_;
   UndoHistory<AnimationState> history_{200};
   std::string message_;
+  FilesLeft on_disk_;
   std::vector<Clip> saved_;            // as files hold them
   std::optional<Pose> saved_pose_;     // the same of the last one
   std::set<std::string> given_names_;  // by newClip(), or by saveClip() after the file

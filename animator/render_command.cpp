@@ -14,6 +14,7 @@
 #include "libskel/animation/joint_roles.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/new_folders.h"
 #include "libskel/core/text.h"
 #include "libskel/image/named_drawings.h"
@@ -234,6 +235,8 @@ ExitCode runRender(const RenderCommandOptions& asked) {
     ExitCode here = ExitCode::kDone;
     try {
       here = work();
+    } catch (const OverwriteError&) {
+      throw;
     } catch (...) {
       const Error error = caughtError(path);
       complain(error);

@@ -7,6 +7,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/json.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
@@ -78,6 +79,13 @@ std::string idOf(const fs::path& file, const std::string& root, std::string_view
   return name.substr(0, name.size() - ending.size());
 }
 
+bool isOwnFolder(const std::string& root, const std::string& id) { return fs::is_directory(root + "/" + id); }
+
+// What its picture, joints and mask are called but for their endings.
+std::string stemOf(const std::string& root, const std::string& id) {
+  return root + "/" + id + (isOwnFolder(root, id) ? "/" : ".");
+}
+
 // Whoever reads it says what is wrong with it.
 bool holdsPlacedJoint(const std::string& label_file) {
   try {
@@ -135,14 +143,30 @@ std::string nameOfDrawing(const std::string& root, const std::string& id) {
   return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
 }
 
+void noteMeasuredFiles(const std::string& root, const std::string& id) {
+  const std::string stem = stemOf(root, id);
+  const std::string labels =
+      isOwnFolder(root, id) ? labelFileFor(stem + "image.png") : root + "/" + id + kLabelFileEnding;
+  for (const char* name : {"joints.json", "mask.png"}) noteInput(stem + name);
+  noteInput(isOwnFolder(root, id) ? stem + "image.png" : stem + "png");
+  noteInput(labels);
+  if (!fs::exists(labels)) return;
+  try {
+    const LabelFile file = readLabelFile(labels);
+    noteInput(besideLabelFile(labels, file.image.file));
+    if (file.mask) noteInput(besideLabelFile(labels, file.mask->file));
+  } catch (const InputError&) {  // told where the drawing is read
+  }
+}
+
 MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& id) {
-  const bool own_folder = fs::is_directory(root + "/" + id);
+  const bool own_folder = isOwnFolder(root, id);
   if (!own_folder && !fs::exists(root + "/" + id + std::string(kJointsEnding))) {
     MeasuredDrawing drawing = fromLabels(root + "/" + id + kLabelFileEnding);
     drawing.id = id;
     return drawing;
   }
-  const std::string stem = root + "/" + id + (own_folder ? "/" : ".");
+  const std::string stem = stemOf(root, id);
   const std::string image = own_folder ? stem + "image.png" : stem + "png";
   const std::string annotation = stem + "joints.json", label_file = labelFileFor(image);
   std::string mask = stem + "mask.png";

@@ -29,6 +29,8 @@ struct MeasuredDrawing {
 
 // All below `root`, sorted. Throws InputError if there are none.
 std::vector<std::string> findDrawings(const std::string& root);
+// Notes all files that readMeasuredDrawing() may read (input_guard.h).
+void noteMeasuredFiles(const std::string& root, const std::string& id);
 MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& id);
 // What a drawing is called: its id, or the name of the set's folder.
 std::string nameOfDrawing(const std::string& root, const std::string& id);

@@ -14,6 +14,7 @@
 #include "libskel/cli/outputs.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/json_names.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
@@ -33,12 +34,26 @@ struct Row {
   std::string name;
   bool annotated = false, counts = true, found = false;
   Score score;
-  std::string reason;       // why nothing was found
-  std::string other_plan;   // whose joints it has; "": those of the one that is measured
-  std::string overruled;    // see MeasuredDrawing
-  bool lacks_mask = false;  // which --given-mask would hand over
+  std::string reason;                // why nothing was found
+  std::string other_plan;            // whose joints it has; "": those of the one that is measured
+  std::string overruled;             // see MeasuredDrawing
+  std::vector<std::string> outside;  // joints
+  bool lacks_mask = false;           // which --given-mask would hand over
   std::optional<Error> failure;
 };
+
+std::string overlayFile(const EvaluateOptions& options, std::string name) {
+  std::replace(name.begin(), name.end(), '/', '-');
+  return options.overlays + "/" + name + ".png";
+}
+
+// Joints that are annotated outside of the picture: no skeleton can have them.
+std::vector<std::string> outside(const MeasuredDrawing& truth) {
+  std::vector<std::string> names;
+  for (const auto& [name, place] : truth.joints)
+    if (place && !isInPicture(*place, truth.image)) names.push_back(name);
+  return names;
+}
 
 Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const std::string& id) {
   MeasuredDrawing truth = readMeasuredDrawing(options.dir, id);
@@ -50,6 +65,7 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
   if (row.counts) row.other_plan = otherPlanOf(truth, rig.body_plan);
   if (!row.counts || !row.other_plan.empty()) return row;
   ensureJointsOf(rig.body_plan, {truth.joints.begin(), truth.joints.end()}, truth.joints_file);
+  row.outside = outside(truth);
   turnClockwise(truth, options.turn_deg / 90);
   RigInput input;
   input.image = truth.image;
@@ -67,9 +83,7 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
   if (!options.overlays.empty() && row.found) {
     Image picture = drawing.image;
     drawSkeleton(picture, drawing.character.skeleton);
-    std::string name = row.name;
-    std::replace(name.begin(), name.end(), '/', '-');
-    writeFile(options.overlays + "/" + name + ".png", encodePng(picture));
+    writeFile(overlayFile(options, row.name), encodePng(picture));
   }
   return row;
 }
@@ -118,11 +132,12 @@ std::string interval(const std::vector<Row>& rows, const std::function<double(co
 void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
   app.option_defaults()->always_capture_default();
   options.infer.body_plan = "biped";
-  app.add_option(
-         "DIR", options.dir,
-         "Folders of image.png, joints.json and mask.png, files <name>.png, <name>.joints.json and\n"
-         "<name>.mask.png, or <name>.labels.json with joints that a person has placed, at any depth;\n"
-         "without a mask the silhouette is not measured")
+  app.add_option("DIR", options.dir,
+                 "Folder of drawings at any depth: folders of image.png, joints.json and mask.png, files "
+                 "<name>.png,\n"
+                 "<name>.joints.json and <name>.mask.png, or <name>.labels.json with joints that a person "
+                 "has placed;\n"
+                 "without a mask the silhouette is not measured")
       ->required();
   app.add_option("--json", options.json_file, "Write the figures to this file, too")
       ->always_capture_default(false)
@@ -145,12 +160,17 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
   noteUnusedWeights(options.infer);
   if (!options.overlays.empty()) ensureWritableFolder(options.overlays);
   const std::vector<std::string> ids = findDrawings(options.dir);
+  for (const std::string& id : ids) noteMeasuredFiles(options.dir, id);
+  if (!options.overlays.empty())
+    for (const std::string& id : ids) noteNamedOutput(overlayFile(options, nameOfDrawing(options.dir, id)));
   std::vector<Row> all(ids.size());
   {
     ProgressBar progress("evaluating", ids.size());
     parallelFor(ids.size(), options.infer.jobs, [&](std::size_t i) {
       try {
         all[i] = evaluateDrawing(options, rig, ids[i]);
+      } catch (const OverwriteError&) {
+        throw;
       } catch (...) {
         all[i].failure = caughtError(options.dir + "/" + ids[i]);
       }
@@ -179,6 +199,13 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     std::fprintf(stderr,
                  "skel-infer: note: %s: no mask to hand over (--given-mask), so the figure was found\n",
                  firstAndMore(without_mask).c_str());
+  std::vector<std::string> outside;
+  for (const Row& row : all)
+    if (!row.outside.empty()) outside.push_back(row.name + " (" + joined(row.outside) + ")");
+  if (!outside.empty())
+    std::fprintf(stderr,
+                 "skel-infer: note: joints that lie outside of the picture, measured as they are: %s\n",
+                 printable(firstAndMore(outside)).c_str());
   std::map<std::string, std::vector<std::string>> of_other_plans;
   for (const Row& row : all)
     if (!row.other_plan.empty()) of_other_plans[row.other_plan].push_back(row.name);

@@ -73,6 +73,15 @@ std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& 
   return all;
 }
 
+std::string keepContradicted(const MendedRig& mended, const InferOptions& options,
+                             const std::string& skeleton_path) {
+  if (mended.placed.contradicted.empty() || !mended.placed.labels_count || !writes(options, "json") ||
+      mended.files.skeleton != skeleton_path)
+    return "";
+  const std::size_t stem = skeleton_path.size() - std::string_view(kSkeletonFileEnding).size();
+  return keepAs(skeleton_path, skeleton_path.substr(0, stem) + kEarlierSkeletonStart, kEarlierSkeletonEnd);
+}
+
 std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, MendedFiles& files,
                                       const InferOptions& options, const std::string& stem,
                                       const SkeletonFile& file) {

@@ -1,4 +1,5 @@
-// A photo that was taken again under its name: what a person had mended of the one before is kept.
+// What a person has mended and a run does not take up is kept: of a photo that was taken again under its
+// name, and joints that were placed elsewhere later.
 #pragma once
 
 #include <optional>
@@ -7,6 +8,7 @@
 
 #include "infer/infer_options.h"
 #include "libskel/mended/earlier_picture.h"
+#include "libskel/mended/rig_mended.h"
 
 namespace skel {
 
@@ -22,5 +24,10 @@ std::vector<KeptFile> keepEarlier(const MendedFiles& files, const InferOptions& 
 std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, MendedFiles& files,
                                       const InferOptions& options, const std::string& stem,
                                       const SkeletonFile& file);
+
+// The same for a skeleton that this run writes over and whose joints lose against those of labels that were
+// placed later. Returns what it is called now; "": nothing was kept.
+std::string keepContradicted(const MendedRig& mended, const InferOptions& options,
+                             const std::string& skeleton_path);
 
 }  // namespace skel

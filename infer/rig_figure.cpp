@@ -125,6 +125,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   if (mended.files.painted_layers) painted.push_back(mended.files.limbs);
   const std::optional<Note> kept_layers = keepPaintedLayers(painted, mended.files, options, stem, file);
   const std::vector<KeptFile> kept = keepEarlier(mended.files, options, skeleton_path, drawing.image);
+  const std::string contradicted = keepContradicted(mended, options, skeleton_path);
   FigureResult result;
   result.outputs = writeOutputs(options, stem, drawing, file, painted);
   if (!options.trace_dir.empty()) {
@@ -146,6 +147,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   result.reasons = file.warnings;
   result.notes = notesOf(options, rig, drawing);
   if (const auto note = mendedNote(mended.files, request, mended.placed)) result.notes.push_back(*note);
+  if (const auto note = contradictionNote(mended.files, mended.placed, contradicted))
+    result.notes.push_back(*note);
   if (const auto note = earlierNote(mended.files, kept)) {
     result.notes.push_back(*note);
     result.left_out = note->what;

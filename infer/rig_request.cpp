@@ -147,6 +147,11 @@ RigOptions rigOptions(const InferOptions& options) {
 }
 
 void noteUnusedWeights(const InferOptions& options) {
+  if (!options.joint_net_file.empty() && options.recognizer == "paper")
+    std::fprintf(
+        stderr,
+        "skel-infer: note: the recognizer \"paper\" has no use for a net of joints; --joint-net needs "
+        "--recognizer tree\n");
   const auto& formats = options.formats;
   if (options.weights_file.empty() || options.recognizer == "paper" ||
       std::find(formats.begin(), formats.end(), "features") != formats.end())

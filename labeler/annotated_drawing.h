@@ -21,8 +21,9 @@ struct AnnotatedDrawing {
   std::optional<std::string> mask;     // path
   std::vector<Polygon> mask_polygons;  // instead of a file, image px; empty: none
   NamedJoints joints;
-  std::vector<std::string> recognized;  // those of `joints` that no person has placed
-  bool is_export = false;               // of our own label files: formatCoco()
+  std::vector<std::string> recognized;    // those of `joints` that no person has placed
+  bool is_export = false;                 // of our own label files: formatCoco()
+  int image_width = 0, image_height = 0;  // px, of the picture that it is for; 0: it does not say
 };
 
 using OnInputError = std::function<void(const InputError&)>;

@@ -124,6 +124,13 @@ bool isExport(const JsonValue& root) {
   return contributor && contributor->isString() && contributor->asString() == kContributor;
 }
 
+// px; 0: it is not told.
+int sideOf(const JsonValue& image, const char* side) {
+  constexpr int kLongest_px = 1'000'000;
+  const std::optional<JsonValue> length = image.find(side);
+  return length ? length->asInt(0, kLongest_px) : 0;
+}
+
 double boxArea(const JsonValue& annotation) {
   const std::optional<JsonValue> box = annotation.find("bbox");
   if (!box) return 0;
@@ -147,7 +154,11 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTe
         for (const JsonValue& name : names->items()) list.push_back(name.asString());
       }
 
-  std::map<double, std::string> file_of;                    // by image
+  struct Picture {
+    std::string file;  // "": it is missing
+    int width, height;
+  };
+  std::map<double, Picture> picture_of;                     // by image
   std::unordered_map<std::string, std::string> file_named;  // looked for once, however often it is named
   for (const JsonValue& image : root.at("images").items()) {
     const JsonValue name = image.at("file_name");
@@ -161,21 +172,24 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTe
         on_error(InputError(path, name.path() + ": there is no " + missing));
       }
     }
-    file_of[image.at("id").asNumber()] = named->second;
+    picture_of[image.at("id").asNumber()] = {named->second, sideOf(image, "width"), sideOf(image, "height")};
   }
 
   std::map<std::string, std::pair<double, AnnotatedDrawing>> largest;  // by picture
   for (const JsonValue& annotation : root.at("annotations").items()) {
     if (!annotation.find("keypoints")) continue;
     const JsonValue image_id = annotation.at("image_id");
-    const auto file = file_of.find(image_id.asNumber());
-    if (file == file_of.end()) image_id.fail("is no image of this file");
-    if (file->second.empty()) continue;  // it is missing
+    const auto found = picture_of.find(image_id.asNumber());
+    if (found == picture_of.end()) image_id.fail("is no image of this file");
+    const Picture& picture = found->second;
+    if (picture.file.empty()) continue;
     const auto category = annotation.find("category_id");
     const auto names = category ? names_of.find(category->asNumber()) : names_of.end();
     AnnotatedDrawing drawing;
     drawing.source = path;
-    drawing.image = file->second;
+    drawing.image = picture.file;
+    drawing.image_width = picture.width;
+    drawing.image_height = picture.height;
     const Points points = keypoints(annotation, names == names_of.end() ? kPersonKeypoints : names->second);
     drawing.joints = underOurNames(points, body_plan);
     takeFound(annotation, points, body_plan, drawing);
@@ -183,7 +197,7 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTe
     if (annotation.find("skel_outline_found")) drawing.mask_polygons.clear();
     drawing.is_export = is_export;
     const double area = boxArea(annotation);
-    const auto [other, is_new] = largest.try_emplace(file->second, area, drawing);
+    const auto [other, is_new] = largest.try_emplace(picture.file, area, drawing);
     if (!is_new && area > other->second.first) other->second = {area, std::move(drawing)};
   }
   std::vector<AnnotatedDrawing> drawings;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 #include <utility>
 
 #include "labeler/mask_brush.h"
@@ -92,14 +93,13 @@ Document::Document(const std::string& path, DocumentOptions options)
 bool Document::go(int item) {
   if (open_step_) endStep();
   if (item < 0 || item >= static_cast<int>(items_.size())) return false;
-  if (!save_problem_.empty()) save();
+  if (!save_problem_.empty() && takeOutsideChange()) save();
   if (!save_problem_.empty()) return false;
   if (item != current_) load(item);
   return true;
 }
 
-void Document::load(int item) {
-  current_ = item;
+void Document::clear() {
   image_ = {};
   image_sha256_.clear();
   found_outline_.reset();
@@ -113,6 +113,11 @@ void Document::load(int item) {
   rig_ = RigDocument();
   forgetRig();
   message_.clear();
+}
+
+void Document::load(int item) {
+  current_ = item;
+  clear();
   try {
     loadDrawing();
     mutableItem().problem = figure_->silhouette.found() ? "" : figure_->silhouette.reason;
@@ -126,6 +131,7 @@ void Document::load(int item) {
     state_.labels.clear();
     state_.joints.assign(options_.body_plan.joints.size(), std::nullopt);
     figure_ = std::make_shared<Figure>();
+    saved_ = state_;
   }
   if (message_.empty()) message_ = mutableItem().problem;
 }
@@ -135,12 +141,101 @@ void Document::loadDrawing() {
   const std::string bytes = readFile(files.image);
   image_ = decodeImage(bytes, files.image);
   finishSave(files.labels);
+  if (!fileChangedElsewhere().empty()) {
+    outdated_ = true;
+    if (skeleton_) skeleton_ = SkeletonDocument(path_, options_.body_plan);
+    if (motion_) motion_ = MotionDocument(path_, options_.body_plan);
+    if (motion_ && motion_->drawings().size() != items_.size())
+      throw InputError(path_, "has other frames than before; open it again");
+  }
+  noteFiles();
   if (skeleton_) skeleton_->checkSize(image_, files.image);
   if (motion_) motion_->checkSize(current_, image_, files.image);
 
   state_.image_sha256 = image_sha256_ = sha256(bytes);
   labels_ = LabelDocument(files);
   takeMended();
+  saved_ = state_;
+}
+
+std::vector<std::string> Document::ownFiles() const {
+  std::vector<std::string> files = {item().files.labels, item().files.mask, painted_layers_.path()};
+  if (editsJointsAlone()) files.push_back(path_);
+  return files;
+}
+
+void Document::noteFiles() {
+  for (const std::string& file : ownFiles()) on_disk_.note(file);
+}
+
+std::string Document::fileChangedElsewhere() const {
+  for (const std::string& file : ownFiles())
+    if (on_disk_.hasChanged(file)) return file;
+  return "";
+}
+
+bool Document::takeOutsideChange() {
+  try {
+    if (!fileChangedElsewhere().empty()) readAnew();
+    return true;
+  } catch (...) {
+    save_problem_ = caughtError(item().files.image).what();
+    return false;
+  }
+}
+
+void Document::readAnew() {
+  const std::string file = fs::path(fileChangedElsewhere()).filename().string();
+  const DrawingState mine = state_, base = saved_;
+  const std::shared_ptr<const Figure> my_figure = figure_;
+  const std::string said = message_;
+  auto before =
+      std::tuple(image_, image_sha256_, labels_, masks_, painted_layers_, skeleton_, motion_, on_disk_);
+  try {
+    clear();
+    loadDrawing();
+  } catch (...) {
+    std::tie(image_, image_sha256_, labels_, masks_, painted_layers_, skeleton_, motion_, on_disk_) =
+        std::move(before);
+    state_ = mine;
+    figure_ = my_figure;
+    message_ = said;
+    throw;
+  }
+  message_ = said + (said.empty() ? "" : "; ") + file + " was changed elsewhere and is read anew" +
+             merge(mine, base, my_figure);
+  count();
+}
+
+const char* Document::merge(const DrawingState& mine, const DrawingState& base,
+                            const std::shared_ptr<const Figure>& my_figure) {
+  const char* lost = "";
+  for (size_t j = 0; j < mine.joints.size(); ++j) {
+    if (mine.joints[j] == base.joints[j]) continue;
+    const auto isPlaced = [](const auto& joint) { return joint && joint->origin == JointOrigin::kEdited; };
+    const bool placed_elsewhere = isPlaced(state_.joints[j]) && state_.joints[j] != base.joints[j];
+    if (isPlaced(mine.joints[j]) || !placed_elsewhere) state_.joints[j] = mine.joints[j];
+  }
+  deriveMidpoints(state_.joints, options_.body_plan);
+  if (!sameFile(mine.mask.get(), base.mask.get())) {
+    state_.mask = mine.mask;
+    state_.labels = mine.labels;
+    figure_ = my_figure;
+  } else if (mine.labels != base.labels) {
+    const bool same = samePlaces(my_figure->candidates.maxima, figure_->candidates.maxima);
+    for (size_t i = 0; same && i < mine.labels.size(); ++i)
+      if (mine.labels[i] != base.labels[i]) state_.labels[i] = mine.labels[i];
+    if (!same) lost = ": it has other candidates now, label them again";
+  }
+  if (mine.layers != base.layers) state_.layers = mine.layers;
+  if (mine.image_sha256 != base.image_sha256) state_.image_sha256 = mine.image_sha256;
+  return lost;
+}
+
+bool Document::dropOutdatedSteps() {
+  if (!std::exchange(outdated_, false)) return false;
+  history_ = UndoHistory<Step>(kMostSteps);
+  return true;
 }
 
 void Document::takeMended() {
@@ -195,7 +290,7 @@ void Document::beginStep() {
 
 void Document::endStep() {
   if (!open_step_) return;
-  const DrawingState before = std::move(open_step_->before);
+  DrawingState before = std::move(open_step_->before);
   open_step_.reset();
   if (state_.mask && state_.mask->png.empty()) state_.mask = sealed(*state_.mask);
   if (state_ == before) {
@@ -204,9 +299,12 @@ void Document::endStep() {
   }
   if (isOfEarlierPicture() && before.image_sha256 == state_.image_sha256)
     message_ += "; but the picture has changed since: Shift R, or Enter (J) if all is right for this one";
+  dropOutdatedSteps();
+  const bool readable = takeOutsideChange();
+  if (dropOutdatedSteps()) before = saved_;
   history_.push({current_, before, state_});
   count();
-  save();
+  if (readable) save();
 }
 
 void Document::label(const std::vector<int>& candidates, std::optional<JointClass> label) {
@@ -372,7 +470,7 @@ void Document::acceptMask() {
   }
   message_ = "the figure: right as it is";
   if (state_.mask) {  // that lay there before: with a label file of this picture, it has been looked at
-    save();
+    if (takeOutsideChange()) save();
     return;
   }
   const StepScope scope(*this);
@@ -517,24 +615,34 @@ void Document::takeModel() {
 
 bool Document::undo() {
   if (open_step_) endStep();
-  return history_.undo([&](const Step& step) {
+  if (!takeOutsideChange() || dropOutdatedSteps()) return false;
+  const bool is_undone = history_.undo([&](const Step& step) {
     if (!travel(step, step.before)) return false;
     message_ = "undone";
     return true;
   });
+  dropOutdatedSteps();
+  return is_undone;
 }
 
 bool Document::redo() {
   if (open_step_) endStep();
-  return history_.redo([&](const Step& step) {
+  if (!takeOutsideChange() || dropOutdatedSteps()) return false;
+  const bool is_redone = history_.redo([&](const Step& step) {
     if (!travel(step, step.after)) return false;
     message_ = "done again";
     return true;
   });
+  dropOutdatedSteps();
+  return is_redone;
 }
 
 bool Document::travel(const Step& step, const DrawingState& target) {
   if (!go(step.item)) return false;
+  if (outdated_) {
+    message_ = "this drawing was changed elsewhere: steps from before cannot be undone";
+    return false;
+  }
   const bool same_mask = sameFile(state_.mask.get(), target.mask.get());
   const bool same_joints = state_.joints == target.joints;
   const bool same_layers = state_.layers == target.layers;
@@ -566,10 +674,12 @@ void Document::count() {
 void Document::save() {
   try {
     writeFiles();
+    saved_ = state_;
     save_problem_.clear();
   } catch (...) {
     save_problem_ = caughtError(item().files.image).what();
   }
+  noteFiles();
 }
 
 std::string Document::foundOutline() {

@@ -20,6 +20,7 @@
 #include "labeler/placed_joints.h"
 #include "labeler/skeleton_document.h"
 #include "libskel/classifier/mlp.h"
+#include "libskel/core/files_left.h"
 #include "libskel/core/undo_history.h"
 #include "libskel/pipeline/rig_document.h"
 
@@ -167,7 +168,22 @@ class Document {
 
   Item& mutableItem() { return items_[static_cast<size_t>(current_)]; }
   void load(int item);
+  void clear();
   void loadDrawing();
+  // Files that are read when the drawing is loaded and written after a step.
+  std::vector<std::string> ownFiles() const;
+  void noteFiles();
+  // The first of them that is not as this window has left it; "": none.
+  std::string fileChangedElsewhere() const;
+  // Loads the drawing anew where that is so, and does on it what has been done since the last save. False,
+  // with nothing changed but saveProblem(), where it cannot be read.
+  bool takeOutsideChange();
+  void readAnew();
+  // What `mine` has changed of `base`, done to the state. Returns what cannot be, to be said.
+  const char* merge(const DrawingState& mine, const DrawingState& base,
+                    const std::shared_ptr<const Figure>& my_figure);
+  // Steps from before a change elsewhere would undo that, too. Whether there was one.
+  bool dropOutdatedSteps();
   // Says why where it does not.
   void takeModel();
   // Takes what the label file and the skeleton file say, and says what is odd about it.
@@ -208,7 +224,9 @@ class Document {
   LabelDocument labels_;
   MaskDocument masks_;
   LayerDocument painted_layers_;
-  DrawingState state_;
+  DrawingState state_, saved_;  // the latter as it is on the disk
+  FilesLeft on_disk_;
+  bool outdated_ = false;  // see dropOutdatedSteps()
   std::shared_ptr<const Figure> figure_;
   RigDocument rig_;
   std::shared_ptr<const RiggedDrawing> rigged_;

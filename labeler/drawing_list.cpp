@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
@@ -41,10 +42,11 @@ std::vector<DrawingFiles> findDrawings(const std::string& dir) {
   if (drawings.empty()) throw InputError(dir, "holds no picture (" + std::string(kPictureEndings) + ")");
   std::sort(drawings.begin(), drawings.end(),
             [](const DrawingFiles& a, const DrawingFiles& b) { return comesBefore(a.name, b.name); });
-  for (size_t i = 1; i < drawings.size(); ++i)
-    if (drawings[i].labels == drawings[i - 1].labels)
-      throw InputError(drawings[i].image,
-                       "would share its label file with " + drawings[i - 1].image + "; rename one of them");
+  std::map<std::string, std::string> image_of;  // by label file
+  for (const DrawingFiles& drawing : drawings)
+    if (const auto [other, is_new] = image_of.emplace(drawing.labels, drawing.image); !is_new)
+      throw InputError(drawing.image,
+                       "would share its label file with " + other->second + "; rename one of them");
   return drawings;
 }
 

@@ -15,6 +15,7 @@
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/labels/label_folder.h"
+#include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
 namespace {
@@ -51,9 +52,22 @@ void copyFile(const std::string& from, const std::string& to, const ImportOption
 
 void checkJoints(const AnnotatedDrawing& drawing, const Image& image) {
   for (const auto& [name, place] : drawing.joints)
-    if (place && (place->x() < -0.5 || place->y() < -0.5 || place->x() > image.width - 0.5 ||
-                  place->y() > image.height - 0.5))
+    if (place && !isInPicture(*place, image))
       throw InputError(drawing.source, "joint " + name + " lies outside " + drawing.image);
+}
+
+// Somebody may have scaled it, or put a border around it.
+void checkSize(const AnnotatedDrawing& drawing, const Image& image) {
+  if (drawing.image_width == 0 ||
+      (drawing.image_width == image.width && drawing.image_height == image.height))
+    return;
+  const auto size = [](int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  throw InputError(drawing.image, "is " + size(image.width, image.height) + " px, " +
+                                      fs::path(drawing.source).filename().string() + " says " +
+                                      size(drawing.image_width, drawing.image_height) +
+                                      ": its joints and outline are of another picture");
 }
 
 void countMissing(const std::string& label_path, const LabelFile& labels, const SkeletonTemplate& body_plan,
@@ -81,12 +95,8 @@ void countJoints(const LabelFile& labels, const SkeletonTemplate& body_plan, Imp
   }
 }
 
-// What skeleton files round to: they come back from one program to the next as far from where they were.
-constexpr double kRounding_px = 0.01;
-
-bool isSamePlace(const std::optional<Eigen::Vector2d>& a, const std::optional<Eigen::Vector2d>& b) {
-  if (!a || !b) return !a && !b;
-  return (*a - *b).cwiseAbs().maxCoeff() < 1.5 * kRounding_px;
+bool areSame(const std::optional<Eigen::Vector2d>& a, const std::optional<Eigen::Vector2d>& b) {
+  return a && b ? isSamePlace(*a, *b) : !a && !b;
 }
 
 // Whether the label file has other joints than the annotation, or they are somebody else's: placed by a
@@ -103,7 +113,7 @@ bool jointsDiffer(const LabelFile& labels, const AnnotatedDrawing& drawing,
     if (ours == labels.joints.end() || found != contains(labels.recognized, joint.first)) return false;
     const int j = body_plan.find(joint.first);
     const bool follows = found && j >= 0 && body_plan.joints[static_cast<size_t>(j)].derived;
-    return follows || isSamePlace(ours->second, joint.second);
+    return follows || areSame(ours->second, joint.second);
   };
   return !std::all_of(drawing.joints.begin(), drawing.joints.end(), same);
 }
@@ -162,6 +172,7 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
   }
 
   const Image image = readImage(drawing.image);
+  checkSize(drawing, image);
   checkJoints(drawing, image);
   if (drawing.mask) readMaskOf(image, *drawing.mask);  // before anything is copied
   copyFile(drawing.image, image_path, options);
@@ -198,6 +209,8 @@ void forEach(const List& list, const char* title, const OnError& on_error, const
   for (const auto& entry : list) {
     try {
       make(entry) ? ++counts.made : ++counts.kept;
+    } catch (const OverwriteError&) {
+      throw;
     } catch (...) {
       bar.clear();
       countFailure(caughtError(entry.image), counts, on_error);

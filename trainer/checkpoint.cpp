@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 
@@ -52,9 +53,11 @@ void goOnFrom(const std::string& checkpoint, MadeBy& made_by, ConvNetTrainer& tr
     const LookAtOutputs look;
     restore(checkpoint, made_by, trainer);
     if (trainer.done())
-      throw InputError(checkpoint,
-                       "has made all steps of its training, whose net was written then: name another, or "
-                       "remove it to start anew");
+      std::fprintf(
+          stderr,
+          "skel-train: note: %s: has made all steps of its training; its net is written as it was made "
+          "(more --steps go on, without the file it starts anew)\n",
+          printable(checkpoint).c_str());
     sayThatItGoesOn(checkpoint, trainer);
   }
   ensureWritableFile(checkpoint);

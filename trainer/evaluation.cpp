@@ -76,6 +76,7 @@ Evaluation evaluateOn(const Mlp& mlp, const Characters& characters,
 std::string formatEvaluation(const Evaluation& evaluation) {
   nlohmann::ordered_json json;
   json["accuracy"] = evaluation.accuracy();
+  if (!evaluation.measured_on.empty()) json["measured_on"] = evaluation.measured_on;
   json["balanced_accuracy"] = evaluation.balancedAccuracy();
   json["samples"] = evaluation.samples();
   json["classes"] = kJointClassNames;
@@ -85,6 +86,11 @@ std::string formatEvaluation(const Evaluation& evaluation) {
     json["characters"].push_back({{"name", jsonFromFileName(character.name)},
                                   {"samples", character.samples},
                                   {"accuracy", share(character.right, character.samples)}});
+  if (const std::optional<Draws>& draws = evaluation.draws)
+    json["draws"] = {{"count", draws->count},
+                     {"characters", draws->characters},
+                     {"accuracy", draws->accuracy},
+                     {"deviation", draws->deviation}};
   return json.dump(2) + "\n";
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,18 @@ struct CharacterScore {
   int right = 0, samples = 0;
 };
 
+// Nets that were trained on so many random draws of so many characters each, on all others.
+struct Draws {
+  int count = 0, characters = 0;
+  double accuracy = 0, deviation = 0;  // mean, standard deviation
+};
+
 struct Evaluation {
   // Samples by their true class (row) and the class of largest probability (column).
   std::array<std::array<int, kJointClassCount>, kJointClassCount> confusion{};
   std::vector<CharacterScore> characters;
+  std::string measured_on;  // with respect to training; "": it is not told
+  std::optional<Draws> draws;
 
   int samples() const;
   double accuracy() const;
@@ -32,7 +41,8 @@ struct Evaluation {
 Evaluation evaluateOn(const Mlp& mlp, const Characters& characters,
                       const std::function<void()>& on_character = {});
 
-// Keys accuracy, balanced_accuracy, samples, classes, confusion, characters.
+// Keys accuracy, measured_on, where it is told, balanced_accuracy, samples, classes, confusion, characters,
+// draws, where there were some.
 std::string formatEvaluation(const Evaluation& evaluation);
 // Accuracy and confusion matrix as lines for a terminal.
 std::string describeEvaluation(const Evaluation& evaluation);

@@ -277,6 +277,7 @@ class Training {
     reportLeftOut("before", net_);
     ProgressBar bar("training", static_cast<std::size_t>(schedule_.steps));
     bar.advance(static_cast<std::size_t>(trainer_.steps()));
+    if (trainer_.done()) write();
     std::int64_t round = -1;
     double loss = 0;
     int counted = 0;
@@ -425,7 +426,8 @@ class Training {
     return net;
   }
 
-  void report(ProgressBar& bar, double loss) {
+  // The net and the checkpoint.
+  Report write() {
     JointNet net = result();
     const Report r = validate(net, joints_, set_, validation_, options_.threads);
     std::ostringstream provenance;
@@ -438,6 +440,11 @@ class Training {
     net.provenance = provenance.str();
     writeFile(options_.output, formatJointNet(net));
     keepCheckpoint(options_.checkpoint, made_by_, trainer_);
+    return r;
+  }
+
+  void report(ProgressBar& bar, double loss) {
+    const Report r = write();
     bar.clear();
     std::printf("step %lld  loss %.4f  validation: loss %.4f  within 10 %% %.4f  5 %% %.4f  whole %.4f\n",
                 static_cast<long long>(trainer_.steps()), loss, r.loss, r.within_10, r.within_5,

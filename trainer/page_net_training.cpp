@@ -179,6 +179,21 @@ ExitCode runPageTraining(const PageTrainingOptions& options) {
   std::vector<Page> pages(static_cast<std::size_t>(options.batch));
   ProgressBar bar("training", static_cast<std::size_t>(options.steps));
   bar.advance(static_cast<std::size_t>(trainer.steps()));
+  // The net and the checkpoint.
+  const auto write = [&] {
+    net.parameters = trainer.averaged();
+    quantize(net);
+    const PageReport r = validate(net, validation, options.threads);
+    std::ostringstream provenance;
+    provenance << "skel-train pages: seed " << options.seed << ", step " << trainer.steps() << " of "
+               << stepsOf(made_by) << ", batch " << options.batch << ", " << page_options.drawings.size()
+               << " drawings for " << page_options.drawn_share << " of the figures, validation IoU " << r.iou;
+    net.provenance = provenance.str();
+    writeFile(options.output, formatPageNet(net));
+    keepCheckpoint(options.checkpoint, made_by, trainer);
+    return r;
+  };
+  if (trainer.done()) write();
   double loss = 0;
   int counted = 0;
   while (!trainer.done()) {
@@ -195,16 +210,7 @@ ExitCode runPageTraining(const PageTrainingOptions& options) {
     ++counted;
     bar.advance();
     if (trainer.steps() % options.report_every != 0 && !trainer.done()) continue;
-    net.parameters = trainer.averaged();
-    quantize(net);
-    const PageReport r = validate(net, validation, options.threads);
-    std::ostringstream provenance;
-    provenance << "skel-train pages: seed " << options.seed << ", step " << trainer.steps() << " of "
-               << stepsOf(made_by) << ", batch " << options.batch << ", " << page_options.drawings.size()
-               << " drawings for " << page_options.drawn_share << " of the figures, validation IoU " << r.iou;
-    net.provenance = provenance.str();
-    writeFile(options.output, formatPageNet(net));
-    keepCheckpoint(options.checkpoint, made_by, trainer);
+    const PageReport r = write();
     bar.clear();
     std::printf("step %lld  loss %.4f  validation: loss %.4f  IoU %.4f  of at least .9 %.3f\n",
                 static_cast<long long>(trainer.steps()), loss / counted, r.loss, r.iou, r.good);

@@ -357,6 +357,22 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
   std::vector<Lesson> lessons(static_cast<std::size_t>(options.batch));
   ProgressBar bar("training", static_cast<std::size_t>(options.steps));
   bar.advance(static_cast<std::size_t>(trainer.steps()));
+  // The net and the checkpoint.
+  const auto write = [&] {
+    net.parameters = trainer.averaged();
+    quantize(net);
+    const PartReport r = validate(net, validation, options.threads);
+    std::ostringstream provenance;
+    provenance << "skel-train parts: seed " << options.seed << ", step " << trainer.steps() << " of "
+               << stepsOf(made_by) << ", batch " << options.batch << ", " << drawings.size()
+               << " drawings for " << options.drawn_share << " of the figures, IoU of limbs on "
+               << validation.size() << " others " << r.limbs;
+    net.provenance = provenance.str();
+    writeFile(options.output, formatPartNet(net));
+    keepCheckpoint(options.checkpoint, made_by, trainer);
+    return r;
+  };
+  if (trainer.done()) write();
   double loss = 0;
   int counted = 0;
   while (!trainer.done()) {
@@ -374,17 +390,7 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
     ++counted;
     bar.advance();
     if (trainer.steps() % options.report_every != 0 && !trainer.done()) continue;
-    net.parameters = trainer.averaged();
-    quantize(net);
-    const PartReport r = validate(net, validation, options.threads);
-    std::ostringstream provenance;
-    provenance << "skel-train parts: seed " << options.seed << ", step " << trainer.steps() << " of "
-               << stepsOf(made_by) << ", batch " << options.batch << ", " << drawings.size()
-               << " drawings for " << options.drawn_share << " of the figures, IoU of limbs on "
-               << validation.size() << " others " << r.limbs;
-    net.provenance = provenance.str();
-    writeFile(options.output, formatPartNet(net));
-    keepCheckpoint(options.checkpoint, made_by, trainer);
+    const PartReport r = write();
     bar.clear();
     std::printf("step %lld  loss %.4f  validation: loss %.4f  limbs %.4f  before %.3f of %d  parts",
                 static_cast<long long>(trainer.steps()), loss / counted, r.loss, r.limbs,

@@ -67,7 +67,8 @@ LabelledSet readSet(const std::string& dir, CandidateMethod method) {
   return method == CandidateMethod::kMaxima ? readLabelledSet(dir) : labelAnnotatedImages(dir, {method});
 }
 
-// The options that decide over the weights and are not at their defaults, as on the command line.
+// The options that decide over the weights, or over what their accuracy is measured on, and are not at their
+// defaults, as on the command line.
 std::string spell(const TrainOptions& options) {
   const TrainOptions preset;
   std::string text;
@@ -91,6 +92,10 @@ std::string spell(const TrainOptions& options) {
   if (options.no_mirror) add("--no-mirror");
   if (ours.samples.warps != theirs.samples.warps) add("--warps " + std::to_string(ours.samples.warps));
   if (ours.samples.warp != theirs.samples.warp) add("--warp " + trim(ours.samples.warp));
+  if (options.leave_one_out)
+    add("--leave-one-out");
+  else if (options.folds != preset.folds)
+    add("--folds " + std::to_string(options.folds));
   if (options.generated != preset.generated) add("--generated " + std::to_string(options.generated));
   if (options.candidates == CandidateMethod::kStrict) add("--candidates strict");
   if (options.candidates == CandidateMethod::kDiscs) add("--candidates discs");
@@ -106,14 +111,13 @@ auto withProgress(const std::string& title, std::size_t trainings, const Trainin
   return work([&bar](double loss) { bar.advance(1, "loss " + trim(loss)); });
 }
 
-void printDraws(const std::vector<Evaluation>& draws, int drawn) {
+Draws summaryOf(const std::vector<Evaluation>& draws, int drawn) {
   double mean = 0, square = 0;
   for (const Evaluation& draw : draws) {
     mean += draw.accuracy() / static_cast<double>(draws.size());
     square += draw.accuracy() * draw.accuracy() / static_cast<double>(draws.size());
   }
-  std::printf("%d draws of %d characters: accuracy %.3f +- %.3f on the others\n",
-              static_cast<int>(draws.size()), drawn, mean, std::sqrt(std::max(0., square - mean * mean)));
+  return {static_cast<int>(draws.size()), drawn, mean, std::sqrt(std::max(0., square - mean * mean))};
 }
 
 void checkCounts(const TrainOptions& options, std::size_t characters) {
@@ -235,19 +239,24 @@ ExitCode runTrain(const TrainOptions& given) {
                               [&](const TrainingProgress& progress) {
                                 return crossValidate(characters, generated, folds, training, progress);
                               });
+    evaluation.measured_on = "characters left out of training";
     std::printf("on characters left out of training (%d folds):\n", folds);
   } else {
     evaluation = evaluateOn(result.mlp, characters);
+    evaluation.measured_on = "the training set itself";
     std::printf("on the training set itself:\n");
   }
   std::printf("%s", describeEvaluation(evaluation).c_str());
-  if (options.draws > 0)
-    printDraws(withProgress("draws", static_cast<std::size_t>(options.draws), training,
-                            [&](const TrainingProgress& progress) {
-                              return drawAndTest(characters, generated, options.draws, options.drawn,
-                                                 training, progress);
-                            }),
-               options.drawn);
+  if (options.draws > 0) {
+    evaluation.draws = summaryOf(withProgress("draws", static_cast<std::size_t>(options.draws), training,
+                                              [&](const TrainingProgress& progress) {
+                                                return drawAndTest(characters, generated, options.draws,
+                                                                   options.drawn, training, progress);
+                                              }),
+                                 options.drawn);
+    std::printf("%d draws of %d characters: accuracy %.3f +- %.3f on the others\n", evaluation.draws->count,
+                evaluation.draws->characters, evaluation.draws->accuracy, evaluation.draws->deviation);
+  }
 
   WeightsFile weights;
   weights.mlp = result.mlp;

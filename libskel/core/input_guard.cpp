@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "libskel/core/check.h"
-#include "libskel/core/error.h"
 
 namespace skel {
 namespace {
@@ -46,8 +45,8 @@ bool identify(const std::string& path, Identity& identity) {
 }
 
 [[noreturn]] void refuse(const std::string& output, const std::string& input) {
-  throw UsageError(output + " would be written over, but it is an input" +
-                   (input == output ? "" : " (" + input + ")") + "; name another output");
+  throw OverwriteError(output + " would be written over, but it is an input" +
+                       (input == output ? "" : " (" + input + ")") + "; name another output");
 }
 
 }  // namespace
@@ -62,8 +61,8 @@ void noteInput(const std::string& path) {
   const std::lock_guard lock(all.mutex);
   Identity file;
   if (!all.on || looks > 0 || !identify(path, file) || all.own.contains(file)) return;
-  if (const auto output = all.outputs.find(file); output != all.outputs.end()) refuse(output->second, path);
   if (all.inputs.emplace(file, path).second && for_now.on) for_now.inputs.insert(file);
+  if (const auto output = all.outputs.find(file); output != all.outputs.end()) refuse(output->second, path);
 }
 
 void noteOutput(const std::string& path) {

@@ -14,21 +14,29 @@
 #include <cstddef>
 #include <string>
 
+#include "libskel/core/error.h"
+
 namespace skel {
+
+// An output is an input. The whole command line is wrong then, not one of several drawings: whoever goes on
+// after the failure of one lets this pass.
+struct OverwriteError : UsageError {
+  using UsageError::UsageError;
+};
 
 // From now on, for the whole process. Tools call it (libskel/cli/tool.h); a program that uses the library
 // may.
 void guardInputs();
 
 // `path` is read. Does nothing where there is no such file, or where this program has written it. Throws
-// UsageError if noteOutput() has been told of it.
+// OverwriteError if noteOutput() has been told of it; it is an input for all that.
 void noteInput(const std::string& path);
 
-// `path` is going to be written. Throws UsageError if it is an input.
+// `path` is going to be written. Throws OverwriteError if it is an input.
 void noteOutput(const std::string& path);
 
-// The same, and refuses two outputs that are one file, also one that is not there yet. Throws OutputError
-// where there cannot be one: a link to itself, a name that is too long.
+// The same, and refuses two outputs that are one file, also one that is not there yet (UsageError). Throws
+// OutputError where there cannot be one: a link to itself, a name that is too long.
 void noteNamedOutput(const std::string& path);
 
 // `path` stands on the command line: if it is a pipe, it may be opened.

@@ -35,6 +35,12 @@ void ensureJointsOf(const SkeletonTemplate& body_plan, const NamedJoints& joints
 // One of its places, px; null: none. Throws InputError where it lies in no picture.
 std::optional<Eigen::Vector2d> jointPlaceAt(const JsonValue& place);
 
+// Whether it lies on one of the picture's pixels.
+inline bool isInPicture(const Eigen::Vector2d& place_px, const Image& image) {
+  return place_px.minCoeff() >= -0.5 && place_px.x() <= image.width - 0.5 &&
+         place_px.y() <= image.height - 0.5;
+}
+
 // The label file beside a picture, `<stem>.labels.json`, if a person has placed a joint in it: that is a
 // later word than a joints file beside it. Throws InputError: it cannot be read.
 std::optional<LabelFile> placedLabelsBeside(const std::string& image);

@@ -122,6 +122,11 @@ PlacedJoints jointsOfLabels(const std::string& path, bool named, const std::stri
   return placed;
 }
 
+bool isWrittenLater(const std::string& path, const std::string& other_path) {
+  std::error_code unknown;
+  return fs::last_write_time(path, unknown) > fs::last_write_time(other_path, unknown);
+}
+
 bool knowsAll(const SkeletonTemplate& body_plan, const PlacedJoints& placed) {
   return std::all_of(placed.joints.begin(), placed.joints.end(),
                      [&](const auto& joint) { return body_plan.find(joint.first) >= 0; });
@@ -216,12 +221,20 @@ PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, 
   const PlacedJoints labelled =
       jointsOfLabels(files.labels, files.labels == request.skeleton, request.source, request.image_sha256);
   if (labelled.joints.empty()) return placed;
-  placed.skeleton.reset();
-  placed.has_of_labels = true;
+  placed.labels_count = !files.skeleton.empty() && !isWrittenLater(files.skeleton, files.labels);
   for (const auto& joint : labelled.joints) {
-    std::erase_if(placed.joints, [&](const auto& other) { return other.first == joint.first; });
-    placed.joints.push_back(joint);
+    const auto there = std::find_if(placed.joints.begin(), placed.joints.end(),
+                                    [&](const auto& other) { return other.first == joint.first; });
+    const bool is_new = there == placed.joints.end();
+    const bool contradicts = !is_new && !isSamePlace(there->second, joint.second);
+    if (contradicts) placed.contradicted.push_back(joint.first);
+    if (is_new)
+      placed.joints.push_back(joint);
+    else if (!contradicts || placed.labels_count)
+      there->second = joint.second;
+    placed.has_of_labels |= is_new || (contradicts && placed.labels_count);
   }
+  if (placed.has_of_labels) placed.skeleton.reset();
   placed.labels = SkeletonFile::Labels{files.labels, labels_sha256};
   if (placed.body_plan.empty() && !knowsAll(rig.body_plan, placed)) {
     if (!rig.otherwise || !knowsAll(rig.otherwise->body_plan, placed))
@@ -241,6 +254,17 @@ RigOptions forBodyPlan(const RigOptions& rig, const std::string& body_plan) {
   }
   one.otherwise.reset();
   return one;
+}
+
+std::optional<Note> contradictionNote(const MendedFiles& files, const PlacedJoints& placed,
+                                      const std::string& kept) {
+  if (placed.contradicted.empty()) return std::nullopt;
+  std::string loses = files.skeleton, counts = files.labels;
+  if (!placed.labels_count) std::swap(loses, counts);
+  const std::string shared = "joints that two files place elsewhere, by hand: the one written later counts",
+                    what = counts + ", not " + loses + (kept.empty() ? "" : " (now " + kept + ")") + ": " +
+                           joined(placed.contradicted);
+  return Note{shared + ": " + what, shared, what};
 }
 
 std::optional<Note> mendedNote(const MendedFiles& files, const MendRequest& request,

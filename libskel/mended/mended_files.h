@@ -72,20 +72,27 @@ struct PlacedJoints {
   std::string body_plan;                                        // that they belong to; "": either
   std::optional<SkeletonFile::Labels> labels;                   // where some of them are from; path as given
   bool has_of_labels = false;                                   // of a label file, newer than the skeleton
-  std::string outline_sha256;                                   // of the figure when they were mended; or ""
+  std::vector<std::string> contradicted;  // joints that the skeleton and the label file place elsewhere
+  bool labels_count = false;              // for those; else the skeleton does
+  std::string outline_sha256;             // of the figure when they were mended; or ""
   // The result that they are in, which stands as it is: a person has seen all of it. Nothing where labels
   // have changed since.
   std::optional<SkeletonFile> skeleton;
 };
 
-// Of skeleton and labels. Where both place a joint, the labels count if they have changed since the skeleton
-// was made with them. Throws InputError: made for another figure; labels that were named and hold no joints,
-// or are of another picture.
+// Of skeleton and labels. Where both place a joint, each elsewhere, the file that was written later counts;
+// always the skeleton, if it was made with those very labels. Throws InputError: made for another figure;
+// labels that were named and hold no joints, or are of another picture.
 PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, const RigOptions& rig,
                           const Image& image);
 
 // The options for the body plan of that name alone; as they are for "".
 RigOptions forBodyPlan(const RigOptions& rig, const std::string& body_plan);
+
+// Which of two files counts, where they contradict each other; nothing where they do not. `kept`: what the
+// skeleton is called now; "": it stays.
+std::optional<Note> contradictionNote(const MendedFiles& files, const PlacedJoints& placed,
+                                      const std::string& kept = "");
 
 // Which of them were taken up though nobody named them; nothing where none was.
 std::optional<Note> mendedNote(const MendedFiles& files, const MendRequest& request,

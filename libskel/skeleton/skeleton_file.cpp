@@ -264,6 +264,10 @@ bool hasEditedJoint(const std::string& path) {
   return !movedIn(places).empty();
 }
 
+bool isSamePlace(const Eigen::Vector2d& place, const Eigen::Vector2d& other) {
+  return (place - other).cwiseAbs().maxCoeff() < 3 * kUnmoved_px;
+}
+
 bool haveSameJoints(const std::string& path, const std::string& other_path) {
   const auto near = [](double a, double b) { return std::abs(a - b) < 2 * kUnmoved_px; };
   const auto places = placesIn(path), others = placesIn(other_path);

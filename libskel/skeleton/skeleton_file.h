@@ -77,6 +77,9 @@ std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path);
 // file.
 bool hasEditedJoint(const std::string& path);
 
+// Whether two files mean one place of a joint, px: skeleton files keep its hundredths.
+bool isSamePlace(const Eigen::Vector2d& place, const Eigen::Vector2d& other);
+
 // Whether two skeleton files have the same joints at the same places, to the hundredth of a pixel that files
 // keep. Throws InputError: no JSON.
 bool haveSameJoints(const std::string& path, const std::string& other_path);

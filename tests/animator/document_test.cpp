@@ -325,6 +325,25 @@ TEST_CASE("a clip comes back from its file with the keys that were set, for the 
   CHECK(on_other.anglesOf(head).y() == Approx(0.8).margin(0.01));
 }
 
+TEST_CASE("a clip was saved over what a script had made of its file since it was loaded") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const std::string path = dir.file("mine.clip.json");
+  document.newClip("mine", 1);
+  document.turnJoint(document.skeleton().index("left_shoulder"), 2, 0.75);
+  document.setKey();
+  REQUIRE(document.saveClip(path));
+  REQUIRE(document.saveClip(path));
+  const std::string theirs = readFile(path) + "\n";
+  writeFile(path, theirs);
+  CHECK_FALSE(document.saveClip(path));
+  CHECK_THAT(document.message(), Contains("mine.clip.json: was changed elsewhere since"));
+  CHECK(readFile(path) == theirs);
+  CHECK(document.saveClip(dir.file("other.clip.json")));
+  REQUIRE(document.loadClip(path));
+  CHECK(document.saveClip(path));
+}
+
 TEST_CASE("a clip that eases comes back with its keys and its ease, and plays as others play its file") {
   const TempDir dir;
   const std::string path = dir.file("bow.clip.json");

@@ -66,6 +66,17 @@ TEST_CASE("what was read is not written over, by whatever name") {
   }
 }
 
+TEST_CASE("an output that was read was written over by whoever went on after the refusal to read it") {
+  const TempDir dir;
+  writeFile(dir.file("a"), "before");
+  CHECK(refusal([&] {
+          noteNamedOutput(dir.file("a"));
+          CHECK_THROWS_AS(readFile(dir.file("a")), OverwriteError);
+          writeFile(dir.file("a"), "after");
+        }) != "");
+  CHECK(readFile(dir.file("a")) == "before");
+}
+
 TEST_CASE("a document is edited in place, and what was looked at only is replaced") {
   const TempDir dir;
   const std::string path = dir.file("x");

@@ -177,6 +177,10 @@ TEST_CASE("weights that decide nothing are said to") {
   CHECK(says(""));
   CHECK_FALSE(says(" --recognizer paper"));
   CHECK_FALSE(says(" --formats features"));
+  const std::string net = "a.png --formats json --joint-net " SKEL_SOURCE_DIR "/weights/joint_net.bin";
+  const std::string unused = "--joint-net needs --recognizer tree\n";
+  CHECK(infer(dir, net + " --recognizer paper").err.find(unused) != std::string::npos);
+  CHECK(infer(dir, net).err.find(unused) == std::string::npos);
 }
 
 TEST_CASE("a folder that cannot be written to is an output error") {

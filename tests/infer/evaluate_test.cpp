@@ -212,6 +212,46 @@ TEST_CASE("evaluate goes on after a drawing that cannot be read, and says so") {
   CHECK(run.out.find("mean over 1 characters") != std::string::npos);
 }
 
+TEST_CASE(
+    "evaluate wrote its figures over the joints, the mask or the picture of a drawing that it measures") {
+  const skel::TempDir dir;
+  for (const std::string name : {"cap_boy", "knight"})
+    for (const char* end : {".png", ".mask.png", ".joints.json"})
+      std::filesystem::copy_file(SKEL_DATASETS "/characters/" + name + end, dir.file(name + end));
+  std::filesystem::create_directory(dir.file("f"));
+  std::filesystem::copy_file(dir.file("knight.png"), dir.file("f/image.png"));
+  skel::writeFile(dir.file("f-image.png"), "");
+  std::filesystem::rename(dir.file("knight.png"), dir.file("sole.png"));
+  std::filesystem::rename(dir.file("knight.joints.json"), dir.file("sole.joints.json"));
+  std::filesystem::rename(dir.file("knight.mask.png"), dir.file("sole.mask.png"));
+  for (const char* output : {"sole.joints.json", "sole.mask.png", "sole.png", "cap_boy.joints.json",
+                             "f/image.png", "--overlays"}) {
+    const bool pictures = output == std::string("--overlays");
+    const std::string kept = dir.file(pictures ? "sole.png" : output), before = skel::readFile(kept);
+    const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "' " +
+                                   (pictures ? "--overlays '" + dir.path() : "--json '" + kept) + "'");
+    CAPTURE(output, run.out, run.err);
+    CHECK(run.exit_code == 1);
+    CHECK(run.out.empty());
+    CHECK(run.err.find("would be written over, but it is an input") != std::string::npos);
+    CHECK(skel::readFile(kept) == before);
+  }
+}
+
+TEST_CASE("evaluate measured joints that lie outside of the picture without a word") {
+  const skel::TempDir dir;
+  for (const char* end : {".png", ".mask.png"})
+    std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/cap_boy") + end,
+                               dir.file(std::string("cap_boy") + end));
+  skel::writeFile(dir.file("cap_boy.joints.json"),
+                  R"({"joints": {"head": [100, 60], "left_hand": [9000, 50]}})");
+  const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "'");
+  CAPTURE(run.out, run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(run.err.find("outside of the picture, measured as they are: cap_boy (left_hand)") !=
+        std::string::npos);
+}
+
 TEST_CASE("evaluate leaves out a picture that has changed since its joints were placed, and says so") {
   const skel::TempDir dir;
   for (const char* name : {"cap_boy", "ninja"})

@@ -633,6 +633,44 @@ TEST_CASE("joints placed in skel-label's folder mode are taken up, and changed b
   }
 }
 
+TEST_CASE(
+    "a joint that was moved in the skeleton file lost against labels that had been imported from it before") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png -o . --formats json").exit_code == 0);
+  const std::string skeleton = "boy.skeleton.json";
+  moveInFile(dir, "left_hand", "430", skeleton);
+  const auto right = placeIn(dir, "right_hand", skeleton);
+  const double y = placeIn(dir, "left_hand", skeleton)[1];
+  placeInLabels(dir, {430, y});
+  SECTION("the skeleton is the later one") {
+    moveInFile(dir, "left_hand", "440", skeleton);
+    const ToolRun run = infer(dir, "boy.png -o . --formats json");
+    CHECK_THAT(run.err,
+               Contains("joints that two files place elsewhere, by hand: the one written later counts: "
+                        "./boy.skeleton.json, not ./boy.labels.json: left_hand\n"));
+    CHECK(placeIn(dir, "left_hand", skeleton)[0] == 440);
+    const std::string once = readFile(dir.file(skeleton));
+    CHECK(infer(dir, "boy.png -o . --formats json").err.find("two files") == std::string::npos);
+    CHECK(readFile(dir.file(skeleton)) == once);
+  }
+  SECTION("the labels are the later ones") {
+    moveInFile(dir, "left_hand", "440", skeleton);
+    moveInFile(dir, "right_foot", "250", skeleton);
+    const std::string before = readFile(dir.file(skeleton));
+    placeInLabels(dir, {435, y});
+    CHECK_THAT(
+        infer(dir, "boy.png -o . --formats json").err,
+        Contains("boy.labels.json, not ./boy.skeleton.json (now ./boy.skeleton.old.json): left_hand\n"));
+    CHECK(placeIn(dir, "left_hand", skeleton)[0] == Approx(435));
+    CHECK(placeIn(dir, "right_foot", skeleton)[0] == 250);
+    CHECK(readFile(dir.file("boy.skeleton.old.json")) == before);
+    CHECK(infer(dir, "boy.png -o . --formats json").err.find("two files") == std::string::npos);
+    CHECK(placeIn(dir, "left_hand", skeleton)[0] == Approx(435));
+    CHECK_FALSE(fs::exists(dir.file("boy.skeleton.old-2.json")));
+  }
+}
+
 TEST_CASE("a mask, painted limbs and a back beside the drawing are taken up") {
   const TempDir dir;
   drawBoy(dir);

@@ -7,6 +7,7 @@
 #include "labeler/make_motion.h"
 #include "libskel/core/files.h"
 #include "libskel/core/sha256.h"
+#include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
@@ -470,6 +471,29 @@ TEST_CASE("import: one picture of a COCO file that was missing kept all others f
   CHECK(run.exit_code == 2);
   CHECK(contains(run.out, "1 label files made, 0 kept as they were, 1 failed\n"));
   CHECK(run.err == "skel-label: round/coco.json: images[0].file_name: there is no round/box_robot.png\n");
+  CHECK(fs::exists(dir.file("round/cap_boy.labels.json")));
+}
+
+TEST_CASE("import: joints and outline of a COCO file were taken for a picture of another size") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.file("in"));
+  copyCharacter("box_robot", dir.file("in"));
+  REQUIRE(label(dir, "import in").exit_code == 0);
+  REQUIRE(label(dir, "export in --coco -o round/coco.json").exit_code == 0);
+  fs::copy(dir.file("in/cap_boy.png"), dir.file("round/cap_boy.png"));
+  Image bordered(640, 640);
+  bordered.rgba.setConstant(255);
+  const Image robot = readImage(dir.file("in/box_robot.png"));
+  for (int y = 0; y < robot.height; ++y)
+    std::copy_n(robot.pixel(0, y), 4 * robot.width, bordered.pixel(20, y + 20));
+  writeFile(dir.file("round/box_robot.png"), encodePng(bordered));
+  const ToolRun run = label(dir, "import round");
+  CHECK(run.exit_code == 2);
+  CHECK(
+      run.err ==
+      "skel-label: round/box_robot.png: is 640x640 px, coco.json says 600x600: its joints and outline are of "
+      "another picture\n");
+  CHECK_FALSE(fs::exists(dir.file("round/box_robot.labels.json")));
   CHECK(fs::exists(dir.file("round/cap_boy.labels.json")));
 }
 

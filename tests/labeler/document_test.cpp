@@ -656,6 +656,113 @@ TEST_CASE("a layer map that cannot be read is not written over") {
   CHECK(readFile(dir.file("cap_boy.limbs.png")) == before);
 }
 
+TEST_CASE("a step in the window overwrote what a script had written into the label file meanwhile") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path(), false);
+  Document document(dir.path(), documentOptions());
+  const int head = document.bodyPlan().find("head"), left_hand = document.bodyPlan().find("left_hand");
+  const std::string path = dir.file("cap_boy.labels.json");
+  document.moveJoint(head, {300, 150});
+  document.label({0}, JointClass::kLeg);
+  LabelFile theirs = readLabelFile(path);
+  const auto placeOf = [&](const char* name) {
+    for (const auto& [joint, place] : readLabelFile(path).joints)
+      if (joint == name && place) return place->x();
+    return -1.0;
+  };
+  std::erase_if(theirs.joints, [](const auto& joint) { return joint.first == "left_hand"; });
+  std::erase(theirs.recognized, "left_hand");
+  theirs.joints.emplace_back("left_hand", Eigen::Vector2d(430, 300));
+  theirs.labels[1] = JointClass::kHand;
+  writeLabelFile(path, theirs);
+  SECTION("steps are made on what it wrote, and undone without it") {
+    document.moveJoint(head, {310, 150});
+    CHECK(document.message() ==
+          "head placed by hand; cap_boy.labels.json was changed elsewhere and is read anew");
+    CHECK(placeOf("head") == 310);
+    CHECK(placeOf("left_hand") == 430);
+    document.label({2}, JointClass::kBody);
+    CHECK(readLabelFile(path).labels[0] == JointClass::kLeg);
+    CHECK(readLabelFile(path).labels[1] == JointClass::kHand);
+    CHECK(document.undo());
+    CHECK(document.undo());
+    CHECK(placeOf("head") == 300);
+    CHECK(placeOf("left_hand") == 430);
+    CHECK_FALSE(document.undo());
+    CHECK(document.saveProblem().empty());
+  }
+  SECTION("undoing leaves it alone") {
+    CHECK_FALSE(document.undo());
+    CHECK(document.state().joints[static_cast<size_t>(left_hand)]->image.x() == 430);
+    CHECK(placeOf("left_hand") == 430);
+  }
+  SECTION("what cannot be read is not written over") {
+    writeFile(path, "half a fi");
+    document.moveJoint(head, {310, 150});
+    CHECK(readFile(path) == "half a fi");
+    CHECK(document.saveProblem().find("cap_boy.labels.json") != std::string::npos);
+    writeLabelFile(path, theirs);
+    document.moveJoint(head, {320, 150});
+    CHECK(document.saveProblem().empty());
+    CHECK(placeOf("head") == 320);
+    CHECK(placeOf("left_hand") == 430);
+  }
+}
+
+TEST_CASE("a step in the window overwrote what a script had written into the skeleton file meanwhile") {
+  const TempDir dir;
+  fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
+  SkeletonFile file;
+  file.image_file = "cap_boy.png";
+  file.image_width = file.image_height = 600;
+  file.skeleton = presetSkeleton(loadTemplate("biped"), {150, 50}, {450, 550});
+  const std::string path = dir.file("cap_boy.skeleton.json");
+  writeFile(path, formatSkeletonFile(file));
+  Document document(path, documentOptions());
+  Joint& hand = file.skeleton.joints[static_cast<size_t>(file.skeleton.index("left_hand"))];
+  hand.origin = JointOrigin::kEdited;
+  hand.image = {400, 300};
+  writeFile(path, formatSkeletonFile(file));
+  document.moveJoint(document.bodyPlan().find("head"), {310, 150});
+  const Skeleton saved = readSkeletonFile(path, loadTemplate("biped")).skeleton;
+  CHECK(saved.joints[static_cast<size_t>(saved.index("head"))].image.x() == 310);
+  CHECK(saved.joints[static_cast<size_t>(saved.index("left_hand"))].image.x() == 400);
+}
+
+TEST_CASE("a step in the window overwrote what a script had written into the motion file meanwhile") {
+  const TempDir dir;
+  const std::string path = motionOfTwo(dir);
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const auto head = static_cast<size_t>(plan.find("head"));
+  Document document(path, documentOptions());
+  REQUIRE(document.go(0));
+  MotionFile theirs = readMotionFile(path, plan);
+  theirs.frames[1].joints[head] = PlacedJoint{{200, 100}, 1, JointOrigin::kEdited};
+  writeFile(path, formatMotionFile(theirs, plan));
+  document.moveJoint(int(head), {310, 150});
+  const MotionFile saved = readMotionFile(path, plan);
+  CHECK(saved.frames[0].joints[head]->image.x() == 310);
+  REQUIRE(saved.frames[1].joints[head]);
+  CHECK(saved.frames[1].joints[head]->image.x() == 200);
+}
+
+TEST_CASE("a mask that was painted elsewhere meanwhile was overwritten by a step in the window") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path(), false);
+  Document document(dir.path(), documentOptions());
+  document.acceptMask();
+  document.moveJoint(document.bodyPlan().find("head"), {300, 150});
+  const std::string mask = dir.file("cap_boy.mask.png");
+  Plane8 theirs = readMask(mask);
+  theirs.topLeftCorner(40, 40) = 255;
+  theirs.block(0, 0, 300, 4) = 255;
+  writeFile(mask, encodePng(theirs));
+  const std::string written = readFile(mask);
+  document.moveJoint(document.bodyPlan().find("head"), {310, 150});
+  CHECK(readFile(mask) == written);
+  CHECK(readLabelFile(dir.file("cap_boy.labels.json")).mask->sha256 == sha256(written));
+}
+
 TEST_CASE("a skeleton file: joints are edited in it, and no label file comes up") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());
@@ -1288,6 +1395,11 @@ TEST_CASE("folders without pictures and pictures that share a label file are ref
   fs::remove_all(dir.file("locked"));
   copyCharacter("cap_boy", dir.path());
   fs::copy(dir.file("cap_boy.png"), dir.file("cap_boy.jpg"));
+  CHECK_THROWS_WITH(Document(dir.path(), documentOptions()),
+                    dir.file("cap_boy.png") + ": would share its label file with " + dir.file("cap_boy.jpg") +
+                        "; rename one of them");
+  // Also where another one comes between them.
+  fs::copy(dir.file("cap_boy.png"), dir.file("cap_boy.left.png"));
   CHECK_THROWS_WITH(Document(dir.path(), documentOptions()),
                     dir.file("cap_boy.png") + ": would share its label file with " + dir.file("cap_boy.jpg") +
                         "; rename one of them");

@@ -76,7 +76,11 @@ void refusesOthers(const std::string& command, const std::string& base, const st
   }
   CHECK(optionsOf(command) == known);
   // Where it goes and how fast is free, and it may go on by more steps.
-  CHECK(runTool(line({"--threads", "1"})).err.find("has made all steps") != std::string::npos);
+  std::filesystem::remove(dir.file("net.bin"));
+  const auto done = runTool(line({"--threads", "1"}));
+  CHECK(done.exit_code == 0);
+  CHECK(done.err.find("has made all steps") != std::string::npos);
+  CHECK(readFile(dir.file("net.bin")) == net);
   const auto more = runTool(line({"--steps", "2"}) + " --report-every 7 --threads 1");
   CAPTURE(more.err);
   CHECK(more.exit_code == 0);

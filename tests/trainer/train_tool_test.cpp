@@ -103,6 +103,28 @@ TEST_CASE("every way of training works from the command line") {
   }
 }
 
+TEST_CASE("an accuracy on the training set could not be told from one on others, nor that of draws be read") {
+  const TempDir dir;
+  fill(dir);
+  const auto figures = [&](const std::string& options) {
+    REQUIRE(run(dir.path() + " -o " + dir.file("w.json") + " --epochs 30 --restarts 1 --generated 5 --json " +
+                dir.file("e.json") + " " + options)
+                .exit_code == 0);
+    return JsonDocument::readFile(dir.file("e.json"));
+  };
+  const auto madeBy = [&] { return readWeights(dir.file("w.json")).provenance.options; };
+  CHECK(figures("--folds 0").root().at("measured_on").asString() == "the training set itself");
+  CHECK(madeBy().find(" --folds 0") != std::string::npos);
+  CHECK_FALSE(figures("--leave-one-out").root().find("draws"));
+  CHECK(madeBy().find(" --leave-one-out") != std::string::npos);
+  const JsonDocument drawn = figures("--folds 3 --draws 2 --drawn 4");
+  CHECK(drawn.root().at("measured_on").asString() == "characters left out of training");
+  CHECK(drawn.root().at("draws").at("count").asInt(2, 2) == 2);
+  CHECK(drawn.root().at("draws").at("characters").asInt(4, 4) == 4);
+  CHECK(drawn.root().at("draws").at("accuracy").asNumber(0.1, 1) > 0);
+  CHECK(drawn.root().at("draws").at("deviation").asNumber(0, 1) >= 0);
+}
+
 TEST_CASE("measuring failed on drawings without a candidate of one class") {
   const TempDir dir;
   fill(dir);

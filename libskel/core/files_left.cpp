@@ -1,0 +1,39 @@
+#include "libskel/core/files_left.h"
+
+#include <filesystem>
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
+#include "libskel/core/sha256.h"
+
+namespace skel {
+namespace fs = std::filesystem;
+namespace {
+
+std::string hashOf(const std::string& path) {
+  if (std::error_code unknown; !fs::is_regular_file(path, unknown)) return "";
+  try {
+    const LookAtOutputs look;
+    return sha256(readFile(path));
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
+// However it is spelled.
+std::string placeOf(const std::string& path) {
+  std::error_code unknown;
+  return fs::weakly_canonical(fs::absolute(path), unknown).string();
+}
+
+}  // namespace
+
+void FilesLeft::note(const std::string& path) { sha256_[placeOf(path)] = hashOf(path); }
+
+bool FilesLeft::hasChanged(const std::string& path) const {
+  const auto left = sha256_.find(placeOf(path));
+  return left != sha256_.end() && left->second != hashOf(path);
+}
+
+}  // namespace skel
