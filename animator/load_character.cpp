@@ -93,8 +93,9 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
   input.image = decodeImage(bytes, source.path);
   MendedRig rig = rigMended(request, options, std::move(input), given);
   DrawnCharacter result{std::move(rig.drawing), std::move(rig.warnings), {}};
-  for (const auto& note : {mendedNote(rig.files, request, rig.placed), earlierNote(rig.files),
-                           fitsAgainNote(rig.files), keptLayersNote(rig.files, request)})
+  for (const auto& note :
+       {mendedNote(rig.files, request, rig.placed), otherPlanNote(rig.files, options), earlierNote(rig.files),
+        fitsAgainNote(rig.files), keptLayersNote(rig.files, request)})
     if (note) result.mended.push_back(*note);
   return result;
 }

@@ -146,6 +146,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   result.reasons = file.warnings;
   result.notes = notesOf(options, rig, drawing);
   if (const auto note = mendedNote(mended.files, request, mended.placed)) result.notes.push_back(*note);
+  if (const auto note = otherPlanNote(mended.files, rig)) result.notes.push_back(*note);
   if (const auto note = earlierNote(mended.files, kept)) {
     result.notes.push_back(*note);
     result.left_out = note->what;

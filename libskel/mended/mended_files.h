@@ -47,6 +47,9 @@ struct MendedFiles {
   };
   std::vector<PassedOver> passed_over;
 
+  std::vector<std::string> other_plan;  // of another body plan than is asked for: not among those above
+  std::string other_plan_name;          // "": none that skel brings along
+
   // A photo that was taken again has the name of the one before.
   std::optional<SkeletonSource> earlier_result;  // what was found in that one
   bool has_result = false;                       // of this one or of that
@@ -78,9 +81,16 @@ struct PlacedJoints {
   std::optional<SkeletonFile> skeleton;
 };
 
+// Moves a skeleton and labels that nobody named, and whose joints are of none of the options' body plans,
+// from their place in `files` to `other_plan`. Throws InputError: the skeleton lies where the run writes.
+void leaveOutOtherPlans(MendedFiles& files, const MendRequest& request, const RigOptions& rig);
+
+// How they are taken up; nothing where none were left out.
+std::optional<Note> otherPlanNote(const MendedFiles& files, const RigOptions& rig);
+
 // Of skeleton and labels. Where both place a joint, the labels count if they have changed since the skeleton
-// was made with them. Throws InputError: made for another figure; labels that were named and hold no joints,
-// or are of another picture.
+// was made with them, alone if they are of another body plan. Throws InputError: made for another figure;
+// labels that were named and hold no joints, or are of another picture or body plan.
 PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, const RigOptions& rig,
                           const Image& image);
 
