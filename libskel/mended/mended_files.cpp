@@ -152,7 +152,7 @@ MendedFiles mendedFiles(const MendRequest& request) {
   files.back = request.back;
   if (!request.takes_up) return files;
 
-  const bool first = request.figure == 1 && !request.is_one_of_all;
+  const bool first = request.figure == 1;
   const bool annotated = fs::exists(fs::path(request.source).replace_extension(".joints.json"));
   const bool no_skeleton = request.skeleton.empty(), no_mask = request.mask.empty();
   const std::string number = request.figure > 1 ? "-" + std::to_string(request.figure) : "";
@@ -243,6 +243,26 @@ PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, 
   }
   placed.labels = SkeletonFile::Labels{files.labels, labels_sha256};
   return placed;
+}
+
+void leaveOutOtherFigures(MendedFiles& files, const MendRequest& request, const Image& image,
+                          FigureFinder& figures) {
+  if (!request.is_one_of_all || files.mask.empty() || files.mask == request.mask) return;
+  const LookAtOutputs look;
+  const Plane8 mask = readMask(files.mask);
+  const Silhouette first = figures.take(image, 1);
+  if (!first.found() || mask.rows() != first.mask.rows() || mask.cols() != first.mask.cols() ||
+      (mask >= 128 && first.mask != 0).any())
+    return;
+  files.painted_silhouette = false;
+  files.other_figure.push_back(std::exchange(files.mask, ""));
+  if (!files.labels.empty()) files.other_figure.push_back(std::exchange(files.labels, ""));
+}
+
+std::optional<Note> otherFigureNote(const MendedFiles& files) {
+  if (files.other_figure.empty()) return std::nullopt;
+  const std::string shared = "made for another figure than the largest, not taken up with --figure all";
+  return Note{shared + ": " + joined(files.other_figure), shared, joined(files.other_figure)};
 }
 
 void leaveOutOtherPlans(MendedFiles& files, const MendRequest& request, const RigOptions& rig) {

@@ -47,8 +47,9 @@ struct MendedFiles {
   };
   std::vector<PassedOver> passed_over;
 
-  std::vector<std::string> other_plan;  // of another body plan than is asked for: not among those above
-  std::string other_plan_name;          // "": none that skel brings along
+  std::vector<std::string> other_figure;  // made for another one than the largest, where all are rigged
+  std::vector<std::string> other_plan;    // of another body plan than is asked for: not among those above
+  std::string other_plan_name;            // "": none that skel brings along
 
   // A photo that was taken again has the name of the one before.
   std::optional<SkeletonSource> earlier_result;  // what was found in that one
@@ -63,7 +64,7 @@ struct MendedFiles {
 // Those that are named, and what a person has left in the folders of mend_places.h, of each kind the first:
 // an edited skeleton, a silhouette that is not outlined as its skeleton file says, or was that file's mask
 // already, layers with other pixels than they were written with (sealed_png.h); <source's stem>.mask.png,
-// .labels.json, .limbs.png and .back.png (mask and labels of one figure alone), elsewhere than beside the
+// .labels.json, .limbs.png and .back.png (mask and labels of the first figure), elsewhere than beside the
 // drawing where they, or the result there, name its picture. Beside a drawing with <stem>.joints.json nothing
 // is looked for: that is annotated, not mended. What was made for another picture than the request's is left
 // out (earlier_picture.h).
@@ -80,6 +81,12 @@ struct PlacedJoints {
   // have changed since.
   std::optional<SkeletonFile> skeleton;
 };
+
+// Where all figures of the drawing are rigged, moves a mask that nobody named and that has no pixel of the
+// largest figure, and labels with it, from their place in `files` to `other_figure`. `figures`: of the image.
+void leaveOutOtherFigures(MendedFiles& files, const MendRequest& request, const Image& image,
+                          FigureFinder& figures);
+std::optional<Note> otherFigureNote(const MendedFiles& files);
 
 // Moves a skeleton and labels that nobody named, and whose joints are of none of the options' body plans,
 // from their place in `files` to `other_plan`. Throws InputError: the skeleton lies where the run writes.
