@@ -106,8 +106,13 @@ struct Films {
       frames(*writer, [&] { bar.advance(); });
       writer->finish();
     }
-    std::printf("%s: %d frames of %dx%d, %.2f s of \"%s\"\n", printable(path).c_str(), clip_video.frames,
-                film.width, film.height, clip_video.frames / film.frame_rate, printable(clip.name).c_str());
+    // Who has not asked for pictures may have wanted a film.
+    const char* hint = !fs::is_directory(path)  ? ""
+                       : options.format.empty() ? ", as PNG files (a film: -o NAME.mp4)"
+                                                : ", as PNG files";
+    std::printf("%s: %d frames of %dx%d, %.2f s of \"%s\"%s\n", printable(path).c_str(), clip_video.frames,
+                film.width, film.height, clip_video.frames / film.frame_rate, printable(clip.name).c_str(),
+                hint);
   }
 
   void writeFlat(const FlatFigure& figure, const Clip& clip, const Camera& camera,

@@ -100,8 +100,10 @@ std::string verdictChip(const Card& card) {
 
 std::string cardHtml(const Card& card, std::size_t number) {
   std::string html = "<article id=\"d" + std::to_string(number) +
-                     (card.figure ? "\"><h2>" : "\" class=\"none\"><h2>") + card.name + "</h2>" +
-                     verdictChip(card);
+                     (!card.figure  ? "\" class=\"none\"><h2>"
+                      : card.fine() ? "\"><h2>"
+                                    : "\" class=\"doubt\"><h2>") +
+                     card.name + "</h2>" + verdictChip(card);
   const auto drawn = [&](const std::string& picture) {
     return "<img class=\"drawing\" alt=\"" + card.name + ", as drawn\" src=\"" + picture + "\">";
   };
@@ -163,9 +165,11 @@ std::string reportPage(const std::vector<DrawingResult>& drawings) {
   }
   const std::string title = counted(cards.size(), "drawing", "drawings");
   std::string heading = title;
-  if (shown < cards.size())
+  const bool choose = fine > 0 && fine < shown;  // the good ones, among the pictures
+  if (shown < cards.size() || choose)
     heading = "<span class=\"all\">" + title + "</span><span class=\"shown\">" +
               counted(shown, "drawing", "drawings") + "</span>";
+  if (choose) heading += "<span class=\"good\">" + counted(fine, "drawing", "drawings") + "</span>";
   std::string summary = std::to_string(fine) + " fine";
   if (look > 0) summary += ", " + std::to_string(look) + " to look at";
   if (retake > 0) summary += ", " + std::to_string(retake) + " to take again";
@@ -178,9 +182,10 @@ std::string reportPage(const std::vector<DrawingResult>& drawings) {
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +
       title + ", moving</title>\n<style>\n" + std::string(embedded::report_css) +
       "</style></head>\n<body>\n<input type=\"checkbox\" id=\"still\"><input type=\"checkbox\" "
-      "id=\"pictures\">\n<header><h1>" +
-      heading + "</h1><p>" + summary +
-      "</p><label for=\"still\">stand still</label><label for=\"pictures\">pictures alone</label></header>\n";
+      "id=\"pictures\">" +
+      (choose ? "<input type=\"checkbox\" id=\"good\">" : "") + "\n<header><h1>" + heading + "</h1><p>" +
+      summary + "</p><label for=\"still\">stand still</label><label for=\"pictures\">pictures alone</label>" +
+      (choose ? "<label for=\"good\">only the good ones</label>" : "") + "</header>\n";
   html += listHtml("again", "Photos to take again", again) +
           listHtml("look", "Drawings to look at", look_at) +
           listHtml("look", "Files without a figure", not_used) +

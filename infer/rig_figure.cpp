@@ -67,6 +67,7 @@ struct OpenDrawing {
   Image image;
   std::string image_sha256;
   FigureFinder figures;
+  std::optional<Plane8> painted;  // the first figure, where all are rigged and it was mended
 };
 
 // Rigs one figure, writes its files and adds what became of it. Returns how many figures there are in the
@@ -149,6 +150,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   if (const auto note = mendedNote(mended.files, request, mended.placed)) result.notes.push_back(*note);
   if (const auto note = contradictionNote(mended.files, mended.placed, contradicted))
     result.notes.push_back(*note);
+  if (const auto note = otherFigureNote(mended.files)) result.notes.push_back(*note);
+  if (const auto note = otherPlanNote(mended.files, rig)) result.notes.push_back(*note);
   if (const auto note = earlierNote(mended.files, kept)) {
     result.notes.push_back(*note);
     result.left_out = note->what;
@@ -162,7 +165,17 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   }
   result.times = drawing.times;
   results.push_back(std::move(result));
-  return drawing.silhouette.figure_count;
+  const bool found_mask = !mask.empty() && options.mask_file.empty();
+  if (options.figure != "all" || figure > 1 || !found_mask) return drawing.silhouette.figure_count;
+  open->painted = drawing.silhouette.mask;
+  return std::max(1, open->figures.take(open->image, 1).figure_count);
+}
+
+// Whether a figure of the picture is a piece of the one that a person has painted.
+bool isOfPainted(OpenDrawing& open, int figure) {
+  if (!open.painted) return false;
+  const Silhouette found = open.figures.take(open.image, figure);
+  return found.found() && 2 * (found.mask != 0 && *open.painted != 0).count() > (found.mask != 0).count();
 }
 
 // For a report. "": it cannot be read a second time, as a pipe's.
@@ -250,7 +263,7 @@ DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, con
     for (int figure = 2; left > 1; ++figure) {
       progress.advance();
       --left;
-      rigFigure(options, rig, job, figure, open, result.figures);
+      if (!isOfPainted(*open, figure)) rigFigure(options, rig, job, figure, open, result.figures);
     }
   } catch (const NoFigureError&) {
     takeError(result);

@@ -62,15 +62,19 @@ AnnotatedDrawing readCharCfg(const fs::path& path, const SkeletonTemplate& body_
   return drawing;
 }
 
-AnnotatedDrawing readJoints(const AnnotatedImage& annotated, const SkeletonTemplate& body_plan) {
+AnnotatedDrawing readJoints(const AnnotatedImage& annotated, const BodyPlans& plans) {
   AnnotatedDrawing drawing{
       annotated.joints, annotated.image, annotated.mask, {}, readJointsFile(annotated.joints), {}};
-  ensureJointsOf(body_plan, drawing.joints, annotated.joints);
+  ensureJointsOf(planOf(drawing.joints, plans), drawing.joints, annotated.joints);
   return drawing;
 }
 
-bool isSkeletonOf(const std::string& path, const SkeletonTemplate& body_plan) {
-  return path.ends_with(kSkeletonFileEnding) && templateOfSkeleton(readFile(path), path) == body_plan.name;
+// Null: it is no skeleton file, or of none of the plans.
+const SkeletonTemplate* planOfSkeletonFile(const std::string& path, const BodyPlans& plans) {
+  if (!path.ends_with(kSkeletonFileEnding)) return nullptr;
+  const std::string name = templateOfSkeleton(readFile(path), path);
+  const SkeletonTemplate& plan = planNamed(name, plans);
+  return plan.name == name ? &plan : nullptr;
 }
 
 // Nothing where it is of another figure than the first: label files are of that one. `dir`: that is read.
@@ -111,7 +115,12 @@ bool isCoco(const std::string& path) {
   return root.isObject() && root.find("annotations") && root.find("images");
 }
 
-std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir, const SkeletonTemplate& body_plan,
+const SkeletonTemplate& planOf(const NamedJoints& joints, const BodyPlans& plans) {
+  const SkeletonTemplate* plan = planWith(jointNames(joints), plans);
+  return plan ? *plan : plans.front();
+}
+
+std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir, const BodyPlans& plans,
                                                     const OnInputError& on_error,
                                                     std::set<std::string>* passed_over) {
   std::vector<AnnotatedDrawing> drawings, exports;
@@ -126,13 +135,13 @@ std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir, cons
   std::set<std::string> annotated;  // pictures, also those whose annotation is wrong
   for (const AnnotatedImage& files : findAnnotatedImages(dir)) {
     annotated.insert(fs::path(files.image).lexically_normal().string());
-    attempt([&] { drawings.push_back(readJoints(files, body_plan)); });
+    attempt([&] { drawings.push_back(readJoints(files, plans)); });
   }
   for (const fs::path file : filesBelow(dir)) {
     if (file.filename() == "char_cfg.yaml")
-      attempt([&] { drawings.push_back(readCharCfg(file, body_plan)); });
+      attempt([&] { drawings.push_back(readCharCfg(file, plans.front())); });
     if (isCoco(file.string()))
-      for (AnnotatedDrawing& drawing : readCoco(file.string(), body_plan, on_error))
+      for (AnnotatedDrawing& drawing : readCoco(file.string(), plans, on_error))
         (drawing.is_export ? exports : drawings).push_back(std::move(drawing));
   }
   for (const AnnotatedDrawing& drawing : drawings)
@@ -140,8 +149,9 @@ std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir, cons
   std::set<std::string> with_skeleton;
   for (const std::string& file : filesBelow(dir))
     attempt([&] {
-      if (!isSkeletonOf(file, body_plan)) return;
-      auto drawing = readSkeleton(file, dir, body_plan);
+      const SkeletonTemplate* body_plan = planOfSkeletonFile(file, plans);
+      if (!body_plan) return;
+      auto drawing = readSkeleton(file, dir, *body_plan);
       if (!drawing || annotated.contains(drawing->image)) return;
       with_skeleton.insert(drawing->image);
       drawings.push_back(std::move(*drawing));

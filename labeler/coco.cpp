@@ -140,7 +140,7 @@ double boxArea(const JsonValue& annotation) {
 
 }  // namespace
 
-std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTemplate& body_plan,
+std::vector<AnnotatedDrawing> readCoco(const std::string& path, const BodyPlans& plans,
                                        const OnInputError& on_error) {
   const JsonDocument document = JsonDocument::readFile(path);
   const JsonValue root = document.root();
@@ -190,7 +190,10 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTe
     drawing.image = picture.file;
     drawing.image_width = picture.width;
     drawing.image_height = picture.height;
-    const Points points = keypoints(annotation, names == names_of.end() ? kPersonKeypoints : names->second);
+    const std::vector<std::string>& joint_names = names == names_of.end() ? kPersonKeypoints : names->second;
+    const SkeletonTemplate* named_plan = planWith(joint_names, plans);
+    const SkeletonTemplate& body_plan = named_plan ? *named_plan : plans.front();
+    const Points points = keypoints(annotation, joint_names);
     drawing.joints = underOurNames(points, body_plan);
     takeFound(annotation, points, body_plan, drawing);
     drawing.mask_polygons = polygons(annotation);
@@ -205,16 +208,18 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const SkeletonTe
   return drawings;
 }
 
-std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonTemplate& body_plan) {
+std::string formatCoco(const std::vector<CocoPicture>& pictures, const BodyPlans& plans) {
   using Json = nlohmann::ordered_json;
-  Json names = Json::array(), bones = Json::array();
-  for (size_t j = 0; j < body_plan.joints.size(); ++j) {
-    names.push_back(body_plan.joints[j].name);
-    if (body_plan.joints[j].parent >= 0) bones.push_back({body_plan.joints[j].parent + 1, j + 1});
-  }
+  std::vector<const SkeletonTemplate*> used;  // of categories
+  const auto categoryOf = [&](const SkeletonTemplate& plan) {
+    const auto known = std::find(used.begin(), used.end(), &plan);
+    if (known == used.end()) used.push_back(&plan);
+    return std::find(used.begin(), used.end(), &plan) - used.begin() + 1;
+  };
   Json images = Json::array(), annotations = Json::array();
   for (size_t i = 0; i < pictures.size(); ++i) {
     const CocoPicture& picture = pictures[i];
+    const SkeletonTemplate& body_plan = planOf(picture.joints, plans);
     images.push_back({{"id", i + 1},
                       {"file_name", jsonFromFileName(picture.file_name)},
                       {"width", picture.width},
@@ -249,7 +254,7 @@ std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonT
     const auto area = (maskFromPolygons(picture.mask_polygons, picture.width, picture.height) != 0).count();
     annotations.push_back({{"id", i + 1},
                            {"image_id", i + 1},
-                           {"category_id", 1},
+                           {"category_id", categoryOf(body_plan)},
                            {"iscrowd", 0},
                            {"num_keypoints", known},
                            {"keypoints", std::move(points)},
@@ -259,11 +264,20 @@ std::string formatCoco(const std::vector<CocoPicture>& pictures, const SkeletonT
     if (!recognized.empty()) annotations.back()["skel_found"] = std::move(recognized);
     if (picture.outline_found) annotations.back()["skel_outline_found"] = true;
   }
-  const Json category = {{"id", 1}, {"name", body_plan.name}, {"keypoints", names}, {"skeleton", bones}};
+  Json categories = Json::array();
+  for (const SkeletonTemplate* plan : used) {
+    Json names = Json::array(), bones = Json::array();
+    for (size_t j = 0; j < plan->joints.size(); ++j) {
+      names.push_back(plan->joints[j].name);
+      if (plan->joints[j].parent >= 0) bones.push_back({plan->joints[j].parent + 1, j + 1});
+    }
+    categories.push_back(
+        {{"id", categoryOf(*plan)}, {"name", plan->name}, {"keypoints", names}, {"skeleton", bones}});
+  }
   return Json{{"info", {{"contributor", kContributor}}},
               {"images", images},
               {"annotations", annotations},
-              {"categories", Json::array({category})}}
+              {"categories", categories}}
              .dump(1) +
          "\n";
 }

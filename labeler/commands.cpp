@@ -83,14 +83,14 @@ ExitCode openWindow(const LabelerOptions& options) {
   if (options.path.empty())
     throw UsageError("name a folder of pictures, a picture, a skeleton file or a motion file (see --help)");
   return runLabelingWindow(options.path,
-                           {mlpOf(options), loadTemplate(options.body_plan), recognizerOf(options)});
+                           {mlpOf(options), bodyPlans(options.body_plan), recognizerOf(options)});
 }
 
 ExitCode motion(const LabelerOptions& options) {
   const MotionCounts counts =
       makeMotion(options.dir,
                  {options.output, options.frame_rate, options.force, mlpOf(options),
-                  loadTemplate(options.body_plan), recognizerOf(options)},
+                  bodyPlans(options.body_plan), recognizerOf(options)},
                  [](const Error& error) { std::fprintf(stderr, "%s\n", error.what()); });
   print(printable(counts.output) + ": " + std::to_string(counts.frames) + " frames, " +
         std::to_string(counts.without_figure) + " without a figure\n");
@@ -98,7 +98,7 @@ ExitCode motion(const LabelerOptions& options) {
 }
 
 ExitCode check(const LabelerOptions& options) {
-  const std::vector<std::string> lines = checkLabels(options.dir, loadTemplate(options.body_plan));
+  const std::vector<std::string> lines = checkLabels(options.dir, bodyPlans(options.body_plan));
   for (const std::string& line : lines) std::fprintf(stderr, "skel-label: %s\n", messageLine(line).c_str());
   if (lines.empty()) print("no inconsistencies\n");
   return lines.empty() ? ExitCode::kDone : ExitCode::kInput;
@@ -115,8 +115,8 @@ ExitCode exportLabels(const LabelerOptions& options) {
     complaints()(error);
     if (code == ExitCode::kDone) code = error.exitCode();
   };
-  const std::string text = options.coco ? labelsAsCoco(options.dir, loadTemplate(options.body_plan), on_error)
-                                        : labelsAsCsv(options.dir, loadTemplate(options.body_plan), on_error);
+  const std::string text = options.coco ? labelsAsCoco(options.dir, bodyPlans(options.body_plan), on_error)
+                                        : labelsAsCsv(options.dir, bodyPlans(options.body_plan), on_error);
   if (text.empty()) return code;
   writeFile(output, text);
   print(printable(output) + "\n");
@@ -130,7 +130,10 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
   app.add_option("path", options.path,
                  "Folder of pictures (any depth), picture, skeleton file or motion file to open in a window");
   app.add_option("--weights", options.weights, "Weights that suggest labels (default: those built in)");
-  app.add_option("--template", options.body_plan, "Body plan: a name or a file")->capture_default_str();
+  app.add_option(
+         "--template", options.body_plan,
+         "Body plan: a name, a file, or auto: biped or quadruped, as each drawing's files or the nets say")
+      ->capture_default_str();
   app.add_option("--recognizer", options.recognizer, "How joints are found")
       ->check(CLI::IsMember({"paper", "tree"}))
       ->capture_default_str();
@@ -147,7 +150,7 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
     return sub;
   };
   command("candidates", "Make an empty label file for every picture that has none",
-          [&] { return report(makeLabelFiles(options.dir, loadTemplate(options.body_plan), complaints())); });
+          [&] { return report(makeLabelFiles(options.dir, complaints())); });
   CLI::App* import =
       command("import",
               "Make label files from annotations: char_cfg.yaml, joints.json, "
@@ -155,7 +158,7 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
               "from skeletons that skel-infer has found",
               [&] {
                 const ImportCounts counts =
-                    importLabels(options.dir, loadTemplate(options.body_plan), options.import, complaints());
+                    importLabels(options.dir, bodyPlans(options.body_plan), options.import, complaints());
                 const ExitCode code = report(counts);
                 if (counts.labelled > 0)
                   print("classes by placed joints in " + std::to_string(counts.labelled) +

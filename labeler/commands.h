@@ -16,7 +16,7 @@ namespace skel {
 struct LabelerOptions {
   std::string path;  // of the window: a folder, a picture, a skeleton file or a motion file
   std::string weights;
-  std::string body_plan = "biped";
+  std::string body_plan = "auto";
   std::string recognizer = "tree";
   std::string dir;  // of the other commands
   ImportOptions import;

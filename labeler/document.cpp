@@ -27,6 +27,13 @@ std::string counted(size_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
+// The one that it plays.
+std::vector<Clip> clipsOfPreview(const SkeletonTemplate& body_plan) {
+  for (const Clip& clip : clipsFor(builtinClips(), body_plan))
+    if (clip.name == "wave" || clip.name == "wag") return {clip};
+  return {};
+}
+
 }  // namespace
 
 // Makes an action a step of its own unless one is open.
@@ -54,10 +61,10 @@ Document::Document(const std::string& path, DocumentOptions options)
   if (fs::is_directory(path)) {
     list(findDrawings(path));
   } else if (path.ends_with(kSkeletonFileEnding)) {
-    skeleton_.emplace(path, options_.body_plan);
+    skeleton_.emplace(path, options_.body_plans);
     list({skeleton_->drawing()});
   } else if (path.ends_with(kMotionFileEnding)) {
-    motion_.emplace(path, options_.body_plan);
+    motion_.emplace(path, options_.body_plans);
     list(motion_->drawings());
     for (size_t i = 0; i < items_.size(); ++i) {
       const PlacedJoints& joints = motion_->joints(static_cast<int>(i));
@@ -73,7 +80,7 @@ Document::Document(const std::string& path, DocumentOptions options)
     try {
       const LabelFile labels = readLabelFile(item.files.labels);
       item.classes = {static_cast<int>(labels.candidates.size()), countLabels(labels.labels)};
-      item.joints = jointsOf(labels, options_.body_plan);
+      item.joints = jointsOf(labels, options_.body_plans);
       item.has_shape = labels.mask || fs::exists(layersFile(item.files, 1));
     } catch (const InputError& error) {
       item.problem = error.what();
@@ -109,7 +116,8 @@ void Document::clear() {
   painted_layers_ = LayerDocument(layersFile(mutableItem().files, figureNumber()));
   figure_ = std::make_shared<Figure>();
   state_ = {};
-  state_.joints.resize(options_.body_plan.joints.size());
+  setBodyPlan(options_.body_plans.front().name);
+  plan_is_said_ = false;
   rig_ = RigDocument();
   forgetRig();
   message_.clear();
@@ -129,7 +137,7 @@ void Document::load(int item) {
     state_.mask = nullptr;
     state_.layers = nullptr;
     state_.labels.clear();
-    state_.joints.assign(options_.body_plan.joints.size(), std::nullopt);
+    setBodyPlan(state_.body_plan);
     figure_ = std::make_shared<Figure>();
     saved_ = state_;
   }
@@ -143,8 +151,8 @@ void Document::loadDrawing() {
   finishSave(files.labels);
   if (!fileChangedElsewhere().empty()) {
     outdated_ = true;
-    if (skeleton_) skeleton_ = SkeletonDocument(path_, options_.body_plan);
-    if (motion_) motion_ = MotionDocument(path_, options_.body_plan);
+    if (skeleton_) skeleton_ = SkeletonDocument(path_, options_.body_plans);
+    if (motion_) motion_ = MotionDocument(path_, options_.body_plans);
     if (motion_ && motion_->drawings().size() != items_.size())
       throw InputError(path_, "has other frames than before; open it again");
   }
@@ -210,13 +218,21 @@ void Document::readAnew() {
 const char* Document::merge(const DrawingState& mine, const DrawingState& base,
                             const std::shared_ptr<const Figure>& my_figure) {
   const char* lost = "";
-  for (size_t j = 0; j < mine.joints.size(); ++j) {
-    if (mine.joints[j] == base.joints[j]) continue;
-    const auto isPlaced = [](const auto& joint) { return joint && joint->origin == JointOrigin::kEdited; };
-    const bool placed_elsewhere = isPlaced(state_.joints[j]) && state_.joints[j] != base.joints[j];
-    if (isPlaced(mine.joints[j]) || !placed_elsewhere) state_.joints[j] = mine.joints[j];
+  if (mine.body_plan != base.body_plan) {
+    state_.body_plan = mine.body_plan;
+    state_.joints = mine.joints;
+    plan_is_said_ = true;
+  } else if (mine.body_plan != state_.body_plan) {
+    if (mine.joints != base.joints) lost = ": it has another body plan now, place its joints again";
+  } else {
+    for (size_t j = 0; j < mine.joints.size(); ++j) {
+      if (mine.joints[j] == base.joints[j]) continue;
+      const auto isPlaced = [](const auto& joint) { return joint && joint->origin == JointOrigin::kEdited; };
+      const bool placed_elsewhere = isPlaced(state_.joints[j]) && state_.joints[j] != base.joints[j];
+      if (isPlaced(mine.joints[j]) || !placed_elsewhere) state_.joints[j] = mine.joints[j];
+    }
   }
-  deriveMidpoints(state_.joints, options_.body_plan);
+  deriveMidpoints(state_.joints, bodyPlan());
   if (!sameFile(mine.mask.get(), base.mask.get())) {
     state_.mask = mine.mask;
     state_.labels = mine.labels;
@@ -238,9 +254,35 @@ bool Document::dropOutdatedSteps() {
   return true;
 }
 
+const SkeletonTemplate* Document::otherPlan() const {
+  if (editsJointsAlone()) return nullptr;
+  for (const SkeletonTemplate& plan : options_.body_plans)
+    if (plan.name != bodyPlan().name) return &plan;
+  return nullptr;
+}
+
+void Document::setBodyPlan(const std::string& name) {
+  state_.body_plan = name;
+  state_.joints.assign(bodyPlan().joints.size(), std::nullopt);
+}
+
+std::string Document::planOfFiles() const {
+  if (skeleton_) return skeleton_->bodyPlan();
+  if (motion_) return motion_->bodyPlan();
+  if (const std::optional<LabelFile>& labels = labels_.opened(); labels && !labels->joints.empty()) {
+    const SkeletonTemplate* plan = planOf(*labels, options_.body_plans);
+    return plan ? plan->name : "";
+  }
+  const std::string beside = planOfSkeletonBeside(item().files, image_sha256_);
+  return planNamed(beside, options_.body_plans).name == beside ? beside : "";
+}
+
 void Document::takeMended() {
   const DrawingFiles& files = item().files;
   const std::optional<LabelFile>& labels = labels_.opened();
+  const std::string plan = planOfFiles();
+  plan_is_said_ = !plan.empty();
+  if (plan_is_said_) setBodyPlan(plan);
   const std::string made_for = skeleton_ ? skeleton_->imageSha256() : labels ? labels->image.sha256 : "";
   const bool changed = !motion_ && !made_for.empty() && made_for != image_sha256_;
   if (changed && !skeleton_ &&
@@ -264,11 +306,11 @@ void Document::takeMended() {
   }
   state_.mask = masks_.opened();
   figure_ = figureOf(image_, state_.mask.get(), figureNumber(), options_.mlp);
-  message_ = labels_.take(*figure_, options_.body_plan, message_, state_);
-  if (skeleton_) takeJoints(skeleton_->skeleton(), options_.body_plan, state_.joints);
+  message_ = labels_.take(*figure_, options_.body_plans, message_, state_);
+  if (skeleton_) takeJoints(skeleton_->skeleton(), bodyPlan(), state_.joints);
   if (motion_) state_.joints = motion_->joints(current_);
   if (!motion_ && figure_->silhouette.found())
-    state_.layers = painted_layers_.read(figure_->silhouette, options_.body_plan);
+    state_.layers = painted_layers_.read(figure_->silhouette, bodyPlan());
   if (!changed) return;
   // Joints that nobody has placed are found anew.
   if (!skeleton_ && !labels->hasPlacedJoint())
@@ -328,9 +370,8 @@ void Document::acceptSuggestions() {
 
 void Document::labelFromJoints() {
   const StepScope scope(*this);
-  const auto labels =
-      skel::labelFromJoints(figure_->candidates, figure_->silhouette.grid,
-                            namedJoints(state_.joints, options_.body_plan), options_.body_plan);
+  const auto labels = skel::labelFromJoints(figure_->candidates, figure_->silhouette.grid,
+                                            namedJoints(state_.joints, bodyPlan()), bodyPlan());
   size_t changed = 0;
   for (size_t i = 0; i < labels.size(); ++i) {
     if (!labels[i] || labels[i] == state_.labels[i]) continue;
@@ -350,9 +391,9 @@ void Document::moveJoint(int joint, const Eigen::Vector2d& image_px) {
   const Eigen::Vector2d low(0, 0), high(image_.width - 1, image_.height - 1);
   const Eigen::Vector2d place = (image_px.cwiseMax(low).cwiseMin(high) * 100).array().round() / 100;
   state_.joints.at(static_cast<size_t>(joint)) = PlacedJoint{place, 1, JointOrigin::kEdited};
-  deriveMidpoints(state_.joints, options_.body_plan);
+  deriveMidpoints(state_.joints, bodyPlan());
   forgetRig();
-  message_ = options_.body_plan.joints[static_cast<size_t>(joint)].name + " placed by hand";
+  message_ = bodyPlan().joints[static_cast<size_t>(joint)].name + " placed by hand";
   std::replace(message_.begin(), message_.end(), '_', ' ');
 }
 
@@ -367,7 +408,7 @@ bool Document::acceptJoints() {
   size_t accepted = 0;
   for (size_t j = 0; j < state_.joints.size(); ++j) {
     auto& joint = state_.joints[j];
-    if (!joint || options_.body_plan.joints[j].derived) continue;
+    if (!joint || bodyPlan().joints[j].derived) continue;
     ++accepted;
     joint = PlacedJoint{joint->image, 1, JointOrigin::kEdited};
   }
@@ -382,6 +423,7 @@ void Document::rigAnew() {
   const bool earlier = isOfEarlierPicture();
   const std::string what = earlierParts("joints");
   if (earlier && !forgetEarlier()) return;
+  if (!editsJointsAlone()) plan_is_said_ = false;
   if (!skeleton_)
     std::fill(state_.joints.begin(), state_.joints.end(), std::nullopt);
   else if (earlier)
@@ -393,6 +435,18 @@ void Document::rigAnew() {
     message_ = what + " were those of the picture before: found anew, Ctrl Z brings them back; " + message_;
   else if (skeleton_)
     message_ += "; joints placed by hand stay, as a skeleton file needs all its joints";
+}
+
+void Document::takeOtherPlan() {
+  const SkeletonTemplate* other = otherPlan();
+  if (!other || image_.empty() || !figure_->silhouette.found()) return;
+  const StepScope scope(*this);
+  setBodyPlan(other->name);
+  plan_is_said_ = true;
+  state_.layers = nullptr;
+  forgetRig();
+  takeModel();
+  message_ = "taken for a " + other->name + ": " + message_;
 }
 
 std::string Document::earlierParts(const std::string& also) const {
@@ -496,7 +550,7 @@ void Document::paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d&
   const StepScope scope(*this);
   // One that lies there although no figure was found when the drawing was opened.
   if (!state_.layers && !painted_layers_.saved())
-    state_.layers = painted_layers_.read(figure_->silhouette, options_.body_plan);
+    state_.layers = painted_layers_.read(figure_->silhouette, bodyPlan());
   findLimbs();
   const Plane8& mask = figure_->silhouette.mask;
   auto map = layers() ? std::make_shared<LayerMap>(*layers()) : std::make_shared<LayerMap>();
@@ -505,8 +559,8 @@ void Document::paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d&
   if (!paintPart(*map, stroke, mask, brush)) return;
   state_.layers = std::move(map);
   rigged_.reset();
-  message_ = brush.limb == 0 ? "that is the " + brushName(brush, options_.body_plan)
-                             : brushName(brush, options_.body_plan) + ": before the body";
+  message_ = brush.limb == 0 ? "that is the " + brushName(brush, bodyPlan())
+                             : brushName(brush, bodyPlan()) + ": before the body";
 }
 
 void Document::forgetLayers() {
@@ -518,14 +572,16 @@ void Document::forgetLayers() {
 }
 
 void Document::findLimbs() {
-  if (layers() || image_.empty() || motion_ || !figure_->silhouette.found()) return;
+  if (image_.empty() || motion_ || !figure_->silhouette.found()) return;
+  if (letsNetsChoose()) findJoints();  // whose limbs they are
+  if (layers()) return;
   auto found = std::make_shared<LayerMap>();
   try {
     RigInput input = rigInput();
     if (std::all_of(state_.joints.begin(), state_.joints.end(),
                     [](const auto& j) { return j.has_value(); })) {
-      input.skeleton = presetSkeleton(options_.body_plan, {0, 0}, {1, 1});
-      placeJoints(state_.joints, options_.body_plan, *input.skeleton);
+      input.skeleton = presetSkeleton(bodyPlan(), {0, 0}, {1, 1});
+      placeJoints(state_.joints, bodyPlan(), *input.skeleton);
     }
     rig_.setInput(std::move(input));
     rig_.setOptions(rigOptions());
@@ -576,20 +632,29 @@ RigInput Document::rigInput() const {
 RigOptions Document::rigOptions() const {
   RigOptions options;
   options.mlp = options_.mlp;
-  options.body_plan = options_.body_plan;
+  options.body_plan = bodyPlan();
   options.recognizer = options_.recognizer;
   options.silhouette.figure = std::min(figureNumber(), std::max(1, figure_->silhouette.figure_count));
-  // The one clip that the preview plays.
-  for (const Clip& clip : clipsFor(builtinClips(), options_.body_plan))
-    if (clip.name == "wave" || clip.name == "wag") options.clips = {clip};
+  options.clips = clipsOfPreview(bodyPlan());
+  if (letsNetsChoose()) {
+    options.body_plan = options_.body_plans[0];
+    options.clips = clipsOfPreview(options.body_plan);
+    options.otherwise = {options_.body_plans[1], clipsOfPreview(options_.body_plans[1])};
+  }
   return options;
+}
+
+bool Document::letsNetsChoose() const {
+  return options_.body_plans.size() > 1 && !plan_is_said_ &&
+         std::none_of(state_.joints.begin(), state_.joints.end(),
+                      [](const auto& joint) { return joint && joint->origin == JointOrigin::kEdited; });
 }
 
 void Document::takeModel() {
   RigInput input = rigInput();
   for (size_t j = 0; j < state_.joints.size(); ++j)
     if (state_.joints[j] && state_.joints[j]->origin == JointOrigin::kEdited)
-      input.placed.emplace_back(options_.body_plan.joints[j].name, state_.joints[j]->image);
+      input.placed.emplace_back(bodyPlan().joints[j].name, state_.joints[j]->image);
   try {
     rig_.setInput(std::move(input));
     rig_.setOptions(rigOptions());
@@ -603,7 +668,8 @@ void Document::takeModel() {
     message_ = caughtError(item().files.image).what();
     return;
   }
-  takeJoints(rigged_->recognition.skeleton, options_.body_plan, state_.joints);
+  if (rigged_->body_plan.name != state_.body_plan) setBodyPlan(rigged_->body_plan.name);
+  takeJoints(rigged_->recognition.skeleton, bodyPlan(), state_.joints);
   if (!state_.layers) found_layers_ = std::make_shared<LayerMap>(rigged_->layers);
   const std::vector<std::string>& missing = rigged_->recognition.missing;
   message_ = "rigged";
@@ -662,7 +728,7 @@ void Document::count() {
   if (editsJointsAlone())
     item.joints = {static_cast<int>(state_.joints.size()), countFound(state_.joints)};
   else
-    item.joints = progressOf(state_.joints, options_.body_plan);
+    item.joints = progressOf(state_.joints, bodyPlan());
   if (isOfEarlierPicture()) item.joints.done = 0;
   item.classes = {static_cast<int>(state_.labels.size()), countLabels(state_.labels)};
   // A mask that was given is nobody's work here.
@@ -709,7 +775,7 @@ void Document::writeFiles() {
     const bool labelled = countLabels(state_.labels) > 0 || !same_mask;
     if (!figure_->silhouette.found() || (!labelled && !fs::is_regular_file(item().files.labels))) return;
   }
-  labels_.write(state_, *figure_, image_, options_.body_plan, masks_);
+  labels_.write(state_, *figure_, image_, bodyPlan(), masks_);
 }
 
 }  // namespace skel

@@ -23,6 +23,7 @@
 #include "libskel/core/files_left.h"
 #include "libskel/core/undo_history.h"
 #include "libskel/pipeline/rig_document.h"
+#include "libskel/skeleton/body_plans.h"
 
 namespace skel {
 
@@ -47,7 +48,7 @@ struct Item {
 
 struct DocumentOptions {
   Mlp mlp;  // suggests labels
-  SkeletonTemplate body_plan;
+  BodyPlans body_plans;
   Recognizer recognizer = Recognizer::kTree;
 };
 
@@ -61,7 +62,10 @@ class Document {
   const std::vector<Item>& items() const { return items_; }
   int current() const { return current_; }
   const Item& item() const { return items_[static_cast<size_t>(current_)]; }
-  const SkeletonTemplate& bodyPlan() const { return options_.body_plan; }
+  // Of the current drawing: what its files say, or a person, else the nets.
+  const SkeletonTemplate& bodyPlan() const { return planNamed(state_.body_plan, options_.body_plans); }
+  // That takeOtherPlan() takes; null: there is none.
+  const SkeletonTemplate* otherPlan() const;
   // Joints are what this is about: they are kept in a file of their own.
   bool editsSkeleton() const { return skeleton_.has_value(); }
   bool editsMotion() const { return motion_.has_value(); }
@@ -101,6 +105,8 @@ class Document {
   bool acceptJoints();
   // Forgets all joints and rigs: one step. Of an earlier picture mask, limbs and labels are forgotten, too.
   void rigAnew();
+  // Finds the joints anew by the other body plan: one step. Painted limbs are forgotten.
+  void takeOtherPlan();
   // Of a motion: all joints as in the frame before, for frames in which none are found.
   void takeJointsOfFrameBefore();
   // Adds to the figure, or erases from it, along a line with a round brush. Labels stay where the figure
@@ -186,6 +192,9 @@ class Document {
   bool dropOutdatedSteps();
   // Says why where it does not.
   void takeModel();
+  void setBodyPlan(const std::string& name);  // with no joints
+  // Of the files of a drawing, if they say it; "" where they do not, or say one that is not asked for.
+  std::string planOfFiles() const;
   // Takes what the label file and the skeleton file say, and says what is odd about it.
   void takeMended();
   // "joints, mask (M), limbs (G)": `also`, and what else of an earlier picture is there.
@@ -205,6 +214,7 @@ class Document {
   void forgetRig();  // mask or joints have changed
   RigInput rigInput() const;
   RigOptions rigOptions() const;
+  bool letsNetsChoose() const;  // the body plan
   void count();
 
   DocumentOptions options_;
@@ -232,6 +242,7 @@ class Document {
   std::shared_ptr<const RiggedDrawing> rigged_;
   std::shared_ptr<const LayerMap> found_layers_;  // in the picture, for the mask and joints that are there
   bool looked_for_joints_ = false;                // in the picture, with the mask that is there
+  bool plan_is_said_ = false;                     // by a file or a person
 
   std::optional<OpenStep> open_step_;
   UndoHistory<Step> history_;

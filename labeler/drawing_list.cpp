@@ -10,6 +10,7 @@
 #include "libskel/core/natural_order.h"
 #include "libskel/image/result_picture.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -48,6 +49,12 @@ std::vector<DrawingFiles> findDrawings(const std::string& dir) {
       throw InputError(drawing.image,
                        "would share its label file with " + other->second + "; rename one of them");
   return drawings;
+}
+
+std::string planOfSkeletonBeside(const DrawingFiles& files, const std::string& image_sha256) {
+  const std::string path = fs::path(files.image).replace_extension().string() + kSkeletonFileEnding;
+  const std::optional<SkeletonSource> source = sourceOfSkeleton(path);
+  return source && source->image_sha256 == image_sha256 ? templateOfSkeleton(readFile(path), path) : "";
 }
 
 std::string besideFile(const std::string& file, const std::string& name) {

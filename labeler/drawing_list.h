@@ -28,6 +28,9 @@ std::string layersFile(const DrawingFiles& files, int figure);
 // A mask that lies beside the drawing: <stem>.mask.png, or mask.png beside image.png and texture.png.
 std::optional<std::string> givenMask(const DrawingFiles& files);
 
+// The body plan of <stem>.skeleton.json beside the drawing, if that was found in this picture; else "".
+std::string planOfSkeletonBeside(const DrawingFiles& files, const std::string& image_sha256);
+
 // The path of what a file names beside itself.
 std::string besideFile(const std::string& file, const std::string& name);
 // A file that says where joints are in a picture of that size must mean this picture; throws InputError, with

@@ -38,8 +38,8 @@ bool DrawingState::operator==(const DrawingState& other) const {
   const bool same_layers =
       layers == other.layers || (layers && other.layers && samePixels(layers->limb, other.layers->limb) &&
                                  samePixels(layers->part, other.layers->part));
-  return image_sha256 == other.image_sha256 && same_mask && same_layers && labels == other.labels &&
-         joints == other.joints;
+  return image_sha256 == other.image_sha256 && body_plan == other.body_plan && same_mask && same_layers &&
+         labels == other.labels && joints == other.joints;
 }
 
 }  // namespace skel

@@ -32,9 +32,10 @@ struct DrawingState {
   // SHA-256 of the picture that the rest was made for: a photo that was taken again has the name of the one
   // before.
   std::string image_sha256;
+  std::string body_plan;                           // of the joints, by its name
   std::shared_ptr<const MaskVersion> mask;         // null: the figure is found in the picture
   std::vector<std::optional<JointClass>> labels;   // one a candidate (CandidateSet::maxima)
-  std::vector<std::optional<PlacedJoint>> joints;  // one a joint of the template
+  std::vector<std::optional<PlacedJoint>> joints;  // one a joint of the body plan
   std::shared_ptr<const LayerMap> layers;          // painted by hand; null: found in the picture
 
   bool operator==(const DrawingState&) const;

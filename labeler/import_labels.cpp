@@ -5,6 +5,7 @@
 
 #include "labeler/annotated_drawing.h"
 #include "labeler/drawing_list.h"
+#include "labeler/placed_joints.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
@@ -68,6 +69,12 @@ void checkSize(const AnnotatedDrawing& drawing, const Image& image) {
                                       fs::path(drawing.source).filename().string() + " says " +
                                       size(drawing.image_width, drawing.image_height) +
                                       ": its joints and outline are of another picture");
+}
+
+std::string namesOf(const BodyPlans& plans) {
+  std::string names;
+  for (const SkeletonTemplate& plan : plans) names += (names.empty() ? "" : " or ") + plan.name;
+  return names;
 }
 
 void countMissing(const std::string& label_path, const LabelFile& labels, const SkeletonTemplate& body_plan,
@@ -162,8 +169,9 @@ int keepClasses(LabelFile& labels, const LabelFile& before, const LabelFile& by_
 }
 
 // Whether a label file was made.
-bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, const SkeletonTemplate& body_plan,
+bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, const BodyPlans& plans,
                    const ImportOptions& options, ImportCounts& counts) {
+  const SkeletonTemplate& body_plan = planOf(drawing.joints, plans);
   const std::string image_path = destination(drawing.image, dir, options);
   const std::string label_path = labelFileFor(image_path);
   if (!options.force && fs::exists(label_path)) {
@@ -187,7 +195,8 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
   LabelFile labels = labelImage(image_path, mask, drawing.joints, body_plan, {}, drawing.recognized);
   if (const std::optional<LabelFile> before = labelsBefore(label_path, image_path))
     counts.classes_kept += keepClasses(
-        labels, *before, labelImage(image_path, mask, before->joints, body_plan, {}, before->recognized));
+        labels, *before,
+        labelImage(image_path, mask, before->joints, planOf(before->joints, plans), {}, before->recognized));
   writeLabelFile(label_path, labels);
   countJoints(labels, body_plan, counts);
   countMissing(label_path, labels, body_plan, counts);
@@ -220,7 +229,7 @@ void forEach(const List& list, const char* title, const OnError& on_error, const
 }
 
 // Joints that were placed in the window, of drawings of which nobody has labelled a candidate.
-void labelByPlacedJoints(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error,
+void labelByPlacedJoints(const std::string& dir, const BodyPlans& plans, const OnError& on_error,
                          ImportCounts& counts) {
   for (const std::string& path : findLabelFiles(dir)) {
     try {
@@ -229,13 +238,13 @@ void labelByPlacedJoints(const std::string& dir, const SkeletonTemplate& body_pl
       const auto hasNone = [](const LabelFile& file) {
         return std::all_of(file.labels.begin(), file.labels.end(), [](const auto& label) { return !label; });
       };
-      if (!before.hasPlacedJoint() || !hasNone(before) || !otherPlanOf(before.joints, body_plan).empty())
-        continue;
+      const SkeletonTemplate* body_plan = planOf(before, plans);
+      if (!before.hasPlacedJoint() || !hasNone(before) || !body_plan) continue;
       ensureUnchanged(path, before);
       std::optional<std::string> mask;
       if (before.mask) mask = besideLabelFile(path, before.mask->file);
       const LabelFile labels = labelImage(besideLabelFile(path, before.image.file), mask, before.joints,
-                                          body_plan, {}, before.recognized);
+                                          *body_plan, {}, before.recognized);
       if (hasNone(labels)) continue;
       writeLabelFile(path, labels);
       ++counts.labelled;
@@ -247,37 +256,36 @@ void labelByPlacedJoints(const std::string& dir, const SkeletonTemplate& body_pl
 
 }  // namespace
 
-ImportCounts importLabels(const std::string& path, const SkeletonTemplate& body_plan,
-                          const ImportOptions& options, const OnError& on_error) {
+ImportCounts importLabels(const std::string& path, const BodyPlans& plans, const ImportOptions& options,
+                          const OnError& on_error) {
   ImportCounts counts;
   const OnInputError on_input_error = [&](const InputError& error) { countFailure(error, counts, on_error); };
   const bool is_file = fs::is_regular_file(path);
   if (is_file && !isCoco(path))
     throw InputError(path, "is no COCO file; of other annotations name the folder");
   const std::vector<AnnotatedDrawing> drawings =
-      is_file ? readCoco(path, body_plan, on_input_error)
-              : findAnnotatedDrawings(path, body_plan, on_input_error, &counts.passed_over);
+      is_file ? readCoco(path, plans, on_input_error)
+              : findAnnotatedDrawings(path, plans, on_input_error, &counts.passed_over);
   const std::string dir = is_file ? fs::path(path).parent_path().string() : path;
   const auto make = [&](const AnnotatedDrawing& drawing) {
-    return importDrawing(drawing, dir, body_plan, options, counts);
+    return importDrawing(drawing, dir, plans, options, counts);
   };
   forEach(drawings, "import", on_error, make, counts);
-  if (!is_file && options.output.empty()) labelByPlacedJoints(path, body_plan, on_error, counts);
+  if (!is_file && options.output.empty()) labelByPlacedJoints(path, plans, on_error, counts);
   if (drawings.empty() && counts.failed == 0 && counts.passed_over.empty() && counts.labelled == 0)
     throw InputError(path,
                      "holds nothing to import (char_cfg.yaml, joints.json, <stem>.joints.json, a COCO file "
                      "with keypoints, "
                      "or a skeleton file of the template " +
-                         body_plan.name + ")");
+                         namesOf(plans) + ")");
   return counts;
 }
 
-ImportCounts makeLabelFiles(const std::string& dir, const SkeletonTemplate& body_plan,
-                            const OnError& on_error) {
+ImportCounts makeLabelFiles(const std::string& dir, const OnError& on_error) {
   ImportCounts counts;
   const auto make = [&](const DrawingFiles& files) {
     if (fs::exists(files.labels)) return false;
-    writeLabelFile(files.labels, labelImage(files.image, givenMask(files), {}, body_plan));
+    writeLabelFile(files.labels, labelImage(files.image, givenMask(files), {}, loadTemplate("biped")));
     return true;
   };
   forEach(findDrawings(dir), "candidates", on_error, make, counts);

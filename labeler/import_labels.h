@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libskel/core/error.h"
-#include "libskel/skeleton/template.h"
+#include "libskel/skeleton/body_plans.h"
 
 namespace skel {
 
@@ -42,11 +42,10 @@ using OnError = std::function<void(const Error&)>;
 // `path`: a folder (see findAnnotatedDrawings() for what is read), or a COCO file. Candidates of label files
 // in the folder of which a person has placed joints, and that have no class at all, get theirs by them.
 // Throws InputError where there is nothing to import.
-ImportCounts importLabels(const std::string& path, const SkeletonTemplate& body_plan,
-                          const ImportOptions& options, const OnError& on_error);
+ImportCounts importLabels(const std::string& path, const BodyPlans& plans, const ImportOptions& options,
+                          const OnError& on_error);
 
 // A label file without labels for every drawing below `dir` that has none.
-ImportCounts makeLabelFiles(const std::string& dir, const SkeletonTemplate& body_plan,
-                            const OnError& on_error);
+ImportCounts makeLabelFiles(const std::string& dir, const OnError& on_error);
 
 }  // namespace skel

@@ -4,18 +4,31 @@
 
 #include "labeler/placed_joints.h"
 #include "labeler/save_drawing.h"
+#include "libskel/labels/annotated_image.h"
 
 namespace skel {
+namespace {
+
+std::string leftOut(const LabelFile& labels, const BodyPlans& plans) {
+  const std::string theirs = otherPlanWith(jointNames(labels.joints), plans);
+  return "the label file has a " + theirs + "'s joints, not a " + plans.front().name +
+         "'s: not shown, and the next step replaces them; --template " + theirs + ", or auto, shows them";
+}
+
+}  // namespace
 
 LabelDocument::LabelDocument(DrawingFiles files) : files_(std::move(files)) {
   if (std::filesystem::is_regular_file(files_.labels)) opened_ = readLabelFile(files_.labels);
 }
 
-std::string LabelDocument::take(const Figure& figure, const SkeletonTemplate& body_plan, std::string said,
+std::string LabelDocument::take(const Figure& figure, const BodyPlans& plans, std::string said,
                                 DrawingState& state) const {
   state.labels.resize(figure.centers_px.size());
   if (!opened_) return said;
-  takeJoints(*opened_, body_plan, state.joints);
+  if (const SkeletonTemplate* plan = planOf(*opened_, plans))
+    takeJoints(*opened_, *plan, state.joints);
+  else if (opened_->hasPlacedJoint())
+    said = leftOut(*opened_, plans) + (said.empty() ? "" : "; ") + said;
   if (samePlaces(opened_->candidates, figure.candidates.maxima)) {
     state.labels = opened_->labels;
   } else if (figure.silhouette.found()) {

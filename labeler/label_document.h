@@ -19,9 +19,8 @@ class LabelDocument {
 
   const std::optional<LabelFile>& opened() const { return opened_; }
   // Of the file that was opened, the labels of this figure's candidates and the joints. Says what is odd
-  // about them, or nothing; `said`: what has been said before.
-  std::string take(const Figure& figure, const SkeletonTemplate& body_plan, std::string said,
-                   DrawingState& state) const;
+  // about them, or nothing; joints of other body plans are left out. `said`: what has been said before.
+  std::string take(const Figure& figure, const BodyPlans& plans, std::string said, DrawingState& state) const;
   // Throws OutputError.
   void write(const DrawingState& state, const Figure& figure, const Image& image,
              const SkeletonTemplate& body_plan, MaskDocument& masks) const;

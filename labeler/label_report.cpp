@@ -8,6 +8,7 @@
 #include <map>
 
 #include "labeler/annotated_drawing.h"
+#include "labeler/placed_joints.h"
 #include "labeler/save_drawing.h"
 #include "libskel/classifier/features.h"
 #include "libskel/core/error.h"
@@ -108,8 +109,7 @@ void finishSaves(const std::vector<std::string>& files) {
 // Calls `use(path, labels, figure)` for each label file that has nothing wrong; `on_error` is told of the
 // others, of those of another body plan in one line.
 template <class Use>
-void forEachSound(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error,
-                  const Use& use) {
+void forEachSound(const std::string& dir, const BodyPlans& plans, const OnError& on_error, const Use& use) {
   const std::vector<std::string> files = labelFiles(dir);
   finishSaves(files);
   std::map<std::string, std::vector<std::string>> of_other_plans;
@@ -118,12 +118,12 @@ void forEachSound(const std::string& dir, const SkeletonTemplate& body_plan, con
       std::vector<std::string> lines = findProblems(path);
       if (lines.empty()) {
         const LabelFile labels = readLabelFile(path);
-        const std::string plan = otherPlanOf(labels.joints, body_plan);
-        if (!plan.empty()) {
-          of_other_plans[plan].push_back(nameBelow(dir, path));
+        const SkeletonTemplate* plan = planOf(labels, plans);
+        if (!plan) {
+          of_other_plans[otherPlanWith(jointNames(labels.joints), plans)].push_back(nameBelow(dir, path));
           continue;
         }
-        checkJointNames(path, labels, body_plan, lines);
+        checkJointNames(path, labels, *plan, lines);
         const Silhouette figure = labelledFigure(path, labels);
         checkFigure(path, labels, figure, lines);
         if (lines.empty()) use(path, labels, figure);
@@ -136,13 +136,13 @@ void forEachSound(const std::string& dir, const SkeletonTemplate& body_plan, con
   for (const auto& [plan, names] : of_other_plans)
     on_error(InputError(dir, std::to_string(names.size()) + " of " + std::to_string(files.size()) +
                                  " drawings (" + names.front() + (names.size() > 1 ? ", ..." : "") +
-                                 ") have joints of a " + plan + ", not of a " + body_plan.name +
+                                 ") have joints of a " + plan + ", not of a " + plans.front().name +
                                  ": not exported; --template " + plan + " exports them"));
 }
 
 }  // namespace
 
-std::vector<std::string> checkLabels(const std::string& dir, const SkeletonTemplate& body_plan) {
+std::vector<std::string> checkLabels(const std::string& dir, const BodyPlans& plans) {
   const std::vector<std::string> files = labelFiles(dir);
   finishSaves(files);
   std::vector<std::string> lines = checkLabelFolder(dir);
@@ -150,7 +150,7 @@ std::vector<std::string> checkLabels(const std::string& dir, const SkeletonTempl
     if (!findProblems(path).empty()) continue;
     try {
       const LabelFile labels = readLabelFile(path);
-      checkJointNames(path, labels, body_plan, lines);
+      checkJointNames(path, labels, planOf(labels.joints, plans), lines);
       checkJointsFile(path, labels, lines);
       checkFigure(path, labels, labelledFigure(path, labels), lines);
     } catch (const InputError& error) {
@@ -199,10 +199,10 @@ std::string labelStats(const std::string& dir) {
   return text;
 }
 
-std::string labelsAsCsv(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error) {
+std::string labelsAsCsv(const std::string& dir, const BodyPlans& plans, const OnError& on_error) {
   std::string text;
   forEachSound(
-      dir, body_plan, on_error, [&](const std::string& path, const LabelFile& labels, const Silhouette&) {
+      dir, plans, on_error, [&](const std::string& path, const LabelFile& labels, const Silhouette&) {
         CandidateSet candidates;
         candidates.maxima = labels.candidates;
         const Features rows = features(candidates);
@@ -219,15 +219,15 @@ std::string labelsAsCsv(const std::string& dir, const SkeletonTemplate& body_pla
   return text.empty() ? text : "file,candidate,x,y,radius,feature_x,feature_y,feature_radius,label\n" + text;
 }
 
-std::string labelsAsCoco(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error) {
+std::string labelsAsCoco(const std::string& dir, const BodyPlans& plans, const OnError& on_error) {
   std::vector<CocoPicture> pictures;
-  forEachSound(dir, body_plan, on_error,
+  forEachSound(dir, plans, on_error,
                [&](const std::string& path, const LabelFile& labels, const Silhouette& figure) {
                  pictures.push_back({nameBelow(dir, besideLabelFile(path, labels.image.file)),
                                      labels.image_width, labels.image_height, labels.joints,
                                      labels.recognized, figure.outline, !labels.mask});
                });
-  return pictures.empty() ? "" : formatCoco(pictures, body_plan);
+  return pictures.empty() ? "" : formatCoco(pictures, plans);
 }
 
 }  // namespace skel

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "labeler/import_labels.h"
-#include "libskel/skeleton/template.h"
+#include "libskel/skeleton/body_plans.h"
 
 namespace skel {
 
 // One line each, with file and JSON path: all that checkLabelFolder() finds, candidates that are not those of
 // picture and mask, joints that the template does not have. Throws InputError: no label files.
-std::vector<std::string> checkLabels(const std::string& dir, const SkeletonTemplate& body_plan);
+std::vector<std::string> checkLabels(const std::string& dir, const BodyPlans& plans);
 
 // Counts of drawings, candidates and labels, of every class, of joints and masks, as text. Throws InputError.
 std::string labelStats(const std::string& dir);
@@ -20,10 +20,10 @@ std::string labelStats(const std::string& dir);
 // none). Drawings whose picture or mask has changed, or of which checkLabels() has another complaint than a
 // joints file beside them, and those of another body plan, are left out: `on_error` is told. "": none is
 // left. Throws InputError: no label files.
-std::string labelsAsCsv(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error);
+std::string labelsAsCsv(const std::string& dir, const BodyPlans& plans, const OnError& on_error);
 
 // One annotation a drawing: placed joints as keypoints, found ones beside them, the outline as polygons.
 // Pictures by their path below `dir`. Left out as above.
-std::string labelsAsCoco(const std::string& dir, const SkeletonTemplate& body_plan, const OnError& on_error);
+std::string labelsAsCoco(const std::string& dir, const BodyPlans& plans, const OnError& on_error);
 
 }  // namespace skel

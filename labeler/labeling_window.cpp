@@ -41,6 +41,7 @@ constexpr KeyHelp kHelp[] = {
     {"Enter  Space", "all joints are right: the next unfinished drawing; in mask: the figure is right"},
     {"R  Shift R",
      "rig and show the model; forget all joints first, of an earlier photo all that was mended"},
+    {"P", "person or animal: joints anew by the other body plan"},
     {"C", "of a motion: joints as in the frame before"},
     {"M  X", "mend the mask: left button adds, right button erases; X swaps them"},
     {"G", "paint limbs before the body (1 to 4), hair, skirt, cape, thing (5 to 8); 0 is the body"},
@@ -168,6 +169,7 @@ class LabelingWindow {
     if (pressed(key::kA)) acceptAll();
     if (pressed(key::kD)) labelFromJoints();
     if (pressed(key::kR)) rig(io.KeyShift);
+    if (pressed(key::kP)) takeOtherPlan();
     if (pressed(key::kC)) takeJointsOfFrameBefore();
     if (pressed(key::kX)) canvas_.mask_adds = !canvas_.mask_adds;
     if (pressed(key::kLeftBracket, true)) canvas_.growBrush(1 / 1.2);
@@ -186,6 +188,12 @@ class LabelingWindow {
   void labelFromJoints() { canvas_.cancel(), document_.labelFromJoints(); }
 
   void takeJointsOfFrameBefore() { canvas_.cancel(), document_.takeJointsOfFrameBefore(); }
+
+  void takeOtherPlan() {
+    canvas_.cancel();
+    document_.takeOtherPlan();
+    preview_.play();
+  }
 
   void rig(bool forget) {
     canvas_.cancel();
@@ -402,12 +410,25 @@ class LabelingWindow {
       ImGui::TextUnformatted("Finding the joints ...");
     else
       progressBar(joints, document_.countedJoints());
+    if (document_.otherPlan() && joints.parts > 0) drawBodyPlans(width);
     enabledButton(
         "All right, next", {width, kButtonHeight}, joints.parts > 0, [&] { acceptJoints(); }, "Enter");
     if (document_.editsMotion())
       enabledButton(
           "As in the frame before", {width, kButtonHeight}, document_.current() > 0,
           [&] { takeJointsOfFrameBefore(); }, "C");
+  }
+
+  void drawBodyPlans(float width) {
+    const float half = (width - 8) / 2;
+    const auto button = [&](const char* label, const char* body_plan) {
+      const bool in_use = document_.bodyPlan().name == body_plan;
+      if (colorButton(label, {half, kButtonHeight}, {44, 92, 180}, in_use) && !in_use) takeOtherPlan();
+      tip("Finds the joints anew  (key P)");
+    };
+    button("Person", "biped");
+    ImGui::SameLine();
+    button("Animal", "quadruped");
   }
 
   void drawMask(float width) {

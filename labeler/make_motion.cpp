@@ -18,27 +18,61 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Joints stay open, and `reason` says why, where there is no figure.
-MotionFrame frameOf(const DrawingFiles& files, const MotionOptions& options, std::string& reason) {
+RigOptions rigOptionsOf(const MotionOptions& options, const SkeletonTemplate& body_plan) {
+  RigOptions rig;
+  rig.mlp = options.mlp;
+  rig.body_plan = body_plan;
+  rig.recognizer = options.recognizer;
+  rig.last = LastStage::kJoints;
+  return rig;
+}
+
+RigInput inputOf(const DrawingFiles& files) {
   RigInput input;
   input.image = readImage(files.image);
   input.file = files.image;
   if (const auto mask = givenMask(files)) input.mask = readMaskOf(input.image, *mask);
-  RigOptions rig;
-  rig.mlp = options.mlp;
-  rig.body_plan = options.body_plan;
-  rig.recognizer = options.recognizer;
-  rig.last = LastStage::kJoints;
+  return input;
+}
+
+// That of most of some frames, as the nets see them.
+const SkeletonTemplate& planOfMost(const std::vector<DrawingFiles>& drawings, const MotionOptions& options) {
+  constexpr std::size_t kAskedFrames = 7;
+  const BodyPlans& plans = options.body_plans;
+  if (plans.size() == 1) return plans.front();
+  RigOptions rig = rigOptionsOf(options, plans[0]);
+  rig.otherwise = {plans[1], {}};
+  int others = 0, asked = 0;
+  const std::size_t every = std::max<std::size_t>(1, drawings.size() / kAskedFrames);
+  for (std::size_t i = 0; i < drawings.size(); i += every) {
+    const RiggedDrawing rigged =
+        throwingErrors(drawings[i].image, [&] { return rigCharacter(inputOf(drawings[i]), rig); });
+    if (!rigged.found()) continue;
+    ++asked;
+    others += rigged.body_plan.name == plans[1].name;
+  }
+  return plans[2 * others > asked ? 1 : 0];
+}
+
+const SkeletonTemplate& planInFile(const std::string& path, const BodyPlans& plans) {
+  const LookAtOutputs look;
+  return fs::is_regular_file(path) ? planNamed(templateOfMotion(path), plans) : plans.front();
+}
+
+// Joints stay open, and `reason` says why, where there is no figure.
+MotionFrame frameOf(const DrawingFiles& files, const MotionOptions& options,
+                    const SkeletonTemplate& body_plan, std::string& reason) {
+  RigInput input = inputOf(files);
   MotionFrame frame;
   frame.image_file = pathSeenFrom(options.output, files.image);
   frame.image_width = input.image.width;
   frame.image_height = input.image.height;
-  frame.joints.resize(options.body_plan.joints.size());
-  const RiggedDrawing rigged = rigCharacter(std::move(input), rig);
+  frame.joints.resize(body_plan.joints.size());
+  const RiggedDrawing rigged = rigCharacter(std::move(input), rigOptionsOf(options, body_plan));
   reason = rigged.silhouette.reason;
   if (!rigged.found()) return frame;
   for (const Joint& joint : rigged.recognition.skeleton.joints)
-    frame.joints[static_cast<size_t>(options.body_plan.find(joint.name))] =
+    frame.joints[static_cast<size_t>(body_plan.find(joint.name))] =
         PlacedJoint{joint.image, joint.confidence, joint.origin};
   return frame;
 }
@@ -55,7 +89,8 @@ MotionCounts makeMotion(const std::string& dir, const MotionOptions& given, cons
   const std::vector<DrawingFiles> drawings = findDrawings(dir);
   noteOutput(options.output);
   for (const DrawingFiles& drawing : drawings) noteInput(drawing.image);
-  if (!options.force) requireNoEdits(options.output, options.body_plan);
+  if (!options.force) requireNoEdits(options.output, planInFile(options.output, options.body_plans));
+  const SkeletonTemplate& body_plan = planOfMost(drawings, options);
 
   MotionFile motion;
   motion.frame_rate = options.frame_rate;
@@ -64,7 +99,7 @@ MotionCounts makeMotion(const std::string& dir, const MotionOptions& given, cons
   ProgressBar bar("motion", drawings.size());
   parallelFor(drawings.size(), 0, [&](std::size_t i) {
     try {
-      motion.frames[i] = frameOf(drawings[i], options, reasons[i]);
+      motion.frames[i] = frameOf(drawings[i], options, body_plan, reasons[i]);
     } catch (...) {
       throw caughtError(drawings[i].image);
     }
@@ -79,7 +114,7 @@ MotionCounts makeMotion(const std::string& dir, const MotionOptions& given, cons
     on_note(InputError(drawings[i].image, reasons[i]));
   }
   if (counts.without_figure == counts.frames) throw InputError(dir, "shows no figure in any frame");
-  writeFile(options.output, formatMotionFile(motion, options.body_plan));
+  writeFile(options.output, formatMotionFile(motion, body_plan));
   return counts;
 }
 

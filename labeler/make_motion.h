@@ -6,7 +6,7 @@
 #include "labeler/import_labels.h"
 #include "libskel/classifier/mlp.h"
 #include "libskel/pipeline/rig_character.h"
-#include "libskel/skeleton/template.h"
+#include "libskel/skeleton/body_plans.h"
 
 namespace skel {
 
@@ -15,7 +15,7 @@ struct MotionOptions {
   double frame_rate = 12;  // of the frames, 1/s
   bool force = false;      // also over joints that were placed by hand
   Mlp mlp;
-  SkeletonTemplate body_plan;
+  BodyPlans body_plans;  // of most frames
   Recognizer recognizer = Recognizer::kTree;
 };
 

@@ -5,8 +5,10 @@
 
 namespace skel {
 
-MotionDocument::MotionDocument(std::string path, SkeletonTemplate body_plan)
-    : path_(std::move(path)), body_plan_(std::move(body_plan)), file_(readMotionFile(path_, body_plan_)) {
+MotionDocument::MotionDocument(std::string path, const BodyPlans& plans)
+    : path_(std::move(path)),
+      body_plan_(planNamed(templateOfMotion(path_), plans)),
+      file_(readMotionFile(path_, body_plan_)) {
   for (const MotionFrame& frame : file_.frames)
     if (frame.image_file.empty())
       throw InputError(path_, "has frames without a picture; it was computed, mend what it was made from");

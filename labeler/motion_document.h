@@ -6,14 +6,16 @@
 
 #include "labeler/drawing_list.h"
 #include "labeler/placed_joints.h"
+#include "libskel/skeleton/body_plans.h"
 
 namespace skel {
 
 class MotionDocument {
  public:
   // Throws InputError, also where frames have no picture.
-  MotionDocument(std::string path, SkeletonTemplate body_plan);
+  MotionDocument(std::string path, const BodyPlans& plans);
 
+  const std::string& bodyPlan() const { return body_plan_.name; }
   std::vector<DrawingFiles> drawings() const;  // one a frame
   const PlacedJoints& joints(int frame) const { return file_.frames[static_cast<size_t>(frame)].joints; }
   // Throws InputError if the frame does not mean this picture.

@@ -3,8 +3,15 @@
 #include <algorithm>
 
 #include "labeler/figure.h"
+#include "libskel/labels/annotated_image.h"
 
 namespace skel {
+
+const SkeletonTemplate* planOf(const LabelFile& labels, const BodyPlans& plans) {
+  const std::vector<std::string> names = jointNames(labels.joints);
+  if (const SkeletonTemplate* plan = planWith(names, plans)) return plan;
+  return otherPlanWith(names, plans).empty() ? &plans.front() : nullptr;
+}
 
 NamedJoints namedJoints(const PlacedJoints& joints, const SkeletonTemplate& body_plan) {
   NamedJoints named;
@@ -73,11 +80,13 @@ Progress progressOf(const PlacedJoints& joints, const SkeletonTemplate& body_pla
   return progress;
 }
 
-Progress jointsOf(const LabelFile& labels, const SkeletonTemplate& body_plan) {
+Progress jointsOf(const LabelFile& labels, const BodyPlans& plans) {
   Progress progress;
+  const SkeletonTemplate* plan = planOf(labels, plans);
+  if (!plan) return progress;
   for (const auto& [name, place] : labels.joints) {
-    const int j = body_plan.find(name);
-    if (j < 0 || !place || body_plan.joints[static_cast<size_t>(j)].derived) continue;
+    const int j = plan->find(name);
+    if (j < 0 || !place || plan->joints[static_cast<size_t>(j)].derived) continue;
     ++progress.parts;
     progress.done += labels.isPlaced(name);
   }

@@ -8,12 +8,15 @@
 
 #include "labeler/drawing_list.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/skeleton/body_plans.h"
 #include "libskel/skeleton/motion_file.h"
-#include "libskel/skeleton/template.h"
 
 namespace skel {
 
 using PlacedJoints = std::vector<std::optional<PlacedJoint>>;
+
+// Whose joints a label file has; null: those of another body plan, which do not count.
+const SkeletonTemplate* planOf(const LabelFile& labels, const BodyPlans& plans);
 
 // As label files name them; none if none is known.
 NamedJoints namedJoints(const PlacedJoints& joints, const SkeletonTemplate& body_plan);
@@ -31,7 +34,7 @@ int countFound(const PlacedJoints& joints);
 // Joints that do not follow from others, and those of them that were placed by hand.
 Progress progressOf(const PlacedJoints& joints, const SkeletonTemplate& body_plan);
 // The same of what a label file says.
-Progress jointsOf(const LabelFile& labels, const SkeletonTemplate& body_plan);
+Progress jointsOf(const LabelFile& labels, const BodyPlans& plans);
 
 // The nearest within `radius_px`; -1 if there is none.
 int jointAt(const PlacedJoints& joints, const Eigen::Vector2d& image_px, double radius_px);

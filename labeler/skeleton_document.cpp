@@ -7,8 +7,10 @@
 
 namespace skel {
 
-SkeletonDocument::SkeletonDocument(std::string path, SkeletonTemplate body_plan)
-    : path_(std::move(path)), body_plan_(std::move(body_plan)), file_(readSkeletonFile(path_, body_plan_)) {}
+SkeletonDocument::SkeletonDocument(std::string path, const BodyPlans& plans)
+    : path_(std::move(path)),
+      body_plan_(planNamed(templateOfSkeleton(readFile(path_), path_), plans)),
+      file_(readSkeletonFile(path_, body_plan_)) {}
 
 DrawingFiles SkeletonDocument::drawing() const {
   return drawingFiles(besideFile(path_, file_.image_file),

@@ -7,6 +7,7 @@
 #include "labeler/drawing_state.h"
 #include "labeler/placed_joints.h"
 #include "libskel/silhouette/silhouette.h"
+#include "libskel/skeleton/body_plans.h"
 #include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
@@ -14,9 +15,10 @@ namespace skel {
 class SkeletonDocument {
  public:
   // Throws InputError.
-  SkeletonDocument(std::string path, SkeletonTemplate body_plan);
+  SkeletonDocument(std::string path, const BodyPlans& plans);
 
   const std::string& path() const { return path_; }
+  const std::string& bodyPlan() const { return body_plan_.name; }
   DrawingFiles drawing() const;
   int figureNumber() const { return file_.figure.number; }
   const Skeleton& skeleton() const { return file_.skeleton; }

@@ -121,6 +121,12 @@ std::optional<std::string> jointsFileBeside(const std::string& image) {
   return fs::is_regular_file(named) ? std::optional(named) : std::nullopt;
 }
 
+std::vector<std::string> jointNames(const NamedJoints& joints) {
+  std::vector<std::string> names;
+  for (const auto& joint : joints) names.push_back(joint.first);
+  return names;
+}
+
 std::string otherPlanOf(const NamedJoints& joints, const SkeletonTemplate& body_plan) {
   const auto hasAll = [&](const SkeletonTemplate& plan) {
     return std::all_of(joints.begin(), joints.end(),

@@ -55,6 +55,8 @@ std::string overruledNote(const std::vector<std::string>& label_files);
 // The joints file beside a picture, if there is one.
 std::optional<std::string> jointsFileBeside(const std::string& image);
 
+std::vector<std::string> jointNames(const NamedJoints& joints);
+
 // The body plan whose joints these are, if it is not that one but another that skel brings along; else "".
 std::string otherPlanOf(const NamedJoints& joints, const SkeletonTemplate& body_plan);
 

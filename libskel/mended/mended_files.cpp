@@ -12,11 +12,13 @@
 #include "libskel/core/tool_command.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/sealed_png.h"
+#include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/mended/earlier_picture.h"
 #include "libskel/mended/mend_places.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/silhouette/outline.h"
+#include "libskel/skeleton/body_plans.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -105,9 +107,26 @@ bool arePaintedLayers(const std::string& path, const MendPlace& place, int figur
   return !isAsSealed(readFile(path));
 }
 
+BodyPlans plansOf(const RigOptions& rig) {
+  BodyPlans plans = {rig.body_plan};
+  if (rig.otherwise) plans.push_back(rig.otherwise->body_plan);
+  return plans;
+}
+
+// "": either. Joints that nobody has placed tell it as well.
+std::string planOfLabels(const LabelFile& labels, const std::string& path, const RigOptions& rig) {
+  const std::vector<std::string> names = jointNames(labels.joints);
+  const BodyPlans plans = plansOf(rig);
+  const SkeletonTemplate* plan = planWith(names, plans);
+  if (!plan)
+    throw InputError(path, "has joints that are none of the template \"" + rig.body_plan.name +
+                               "\"; name theirs by --template");
+  return plan == &plans.back() || !planWith(names, {plans.back()}) ? plan->name : "";
+}
+
 // Those that a person has placed; of a file that was named also those that were found for it.
 PlacedJoints jointsOfLabels(const std::string& path, bool named, const std::string& source,
-                            const std::string& image_sha256) {
+                            const std::string& image_sha256, const RigOptions& rig) {
   const LabelFile file = readLabelFile(path);
   PlacedJoints placed;
   for (const auto& [name, place] : file.joints)
@@ -119,17 +138,13 @@ PlacedJoints jointsOfLabels(const std::string& path, bool named, const std::stri
   if (named && file.image.sha256 != image_sha256)
     throw InputError(path, "was made for another picture than " + source + "; place the joints anew (" +
                                toolCommand("skel-label") + " " + shellWord(source) + ")");
+  if (!placed.joints.empty()) placed.body_plan = planOfLabels(file, path, rig);
   return placed;
 }
 
 bool isWrittenLater(const std::string& path, const std::string& other_path) {
   std::error_code unknown;
   return fs::last_write_time(path, unknown) > fs::last_write_time(other_path, unknown);
-}
-
-bool knowsAll(const SkeletonTemplate& body_plan, const PlacedJoints& placed) {
-  return std::all_of(placed.joints.begin(), placed.joints.end(),
-                     [&](const auto& joint) { return body_plan.find(joint.first) >= 0; });
 }
 
 }  // namespace
@@ -142,7 +157,7 @@ MendedFiles mendedFiles(const MendRequest& request) {
   files.back = request.back;
   if (!request.takes_up) return files;
 
-  const bool first = request.figure == 1 && !request.is_one_of_all;
+  const bool first = request.figure == 1;
   const bool annotated = fs::exists(fs::path(request.source).replace_extension(".joints.json"));
   const bool no_skeleton = request.skeleton.empty(), no_mask = request.mask.empty();
   const std::string number = request.figure > 1 ? "-" + std::to_string(request.figure) : "";
@@ -218,10 +233,20 @@ PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, 
     placed.labels->file = files.labels;
     return placed;
   }
-  const PlacedJoints labelled =
-      jointsOfLabels(files.labels, files.labels == request.skeleton, request.source, request.image_sha256);
+  const PlacedJoints labelled = jointsOfLabels(files.labels, files.labels == request.skeleton, request.source,
+                                               request.image_sha256, rig);
   if (labelled.joints.empty()) return placed;
   placed.labels_count = !files.skeleton.empty() && !isWrittenLater(files.skeleton, files.labels);
+  if (!labelled.body_plan.empty() && labelled.body_plan != placed.body_plan) {
+    if (!files.skeleton.empty() && !placed.labels_count) {
+      for (const auto& joint : labelled.joints) placed.contradicted.push_back(joint.first);
+      placed.labels = SkeletonFile::Labels{files.labels, labels_sha256};
+      return placed;
+    }
+    for (const auto& joint : placed.joints) placed.contradicted.push_back(joint.first);
+    placed.joints.clear();
+    placed.body_plan = labelled.body_plan;
+  }
   for (const auto& joint : labelled.joints) {
     const auto there = std::find_if(placed.joints.begin(), placed.joints.end(),
                                     [&](const auto& other) { return other.first == joint.first; });
@@ -236,13 +261,61 @@ PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, 
   }
   if (placed.has_of_labels) placed.skeleton.reset();
   placed.labels = SkeletonFile::Labels{files.labels, labels_sha256};
-  if (placed.body_plan.empty() && !knowsAll(rig.body_plan, placed)) {
-    if (!rig.otherwise || !knowsAll(rig.otherwise->body_plan, placed))
-      throw InputError(files.labels, "has joints that are none of the template \"" + rig.body_plan.name +
-                                         "\"; name theirs by --template");
-    placed.body_plan = rig.otherwise->body_plan.name;
-  }
   return placed;
+}
+
+void leaveOutOtherFigures(MendedFiles& files, const MendRequest& request, const Image& image,
+                          FigureFinder& figures) {
+  if (!request.is_one_of_all || files.mask.empty() || files.mask == request.mask) return;
+  const LookAtOutputs look;
+  const Plane8 mask = readMask(files.mask);
+  const Silhouette first = figures.take(image, 1);
+  if (!first.found() || mask.rows() != first.mask.rows() || mask.cols() != first.mask.cols() ||
+      (mask >= 128 && first.mask != 0).any())
+    return;
+  files.painted_silhouette = false;
+  files.other_figure.push_back(std::exchange(files.mask, ""));
+  if (!files.labels.empty()) files.other_figure.push_back(std::exchange(files.labels, ""));
+}
+
+std::optional<Note> otherFigureNote(const MendedFiles& files) {
+  if (files.other_figure.empty()) return std::nullopt;
+  const std::string shared = "made for another figure than the largest, not taken up with --figure all";
+  return Note{shared + ": " + joined(files.other_figure), shared, joined(files.other_figure)};
+}
+
+void leaveOutOtherPlans(MendedFiles& files, const MendRequest& request, const RigOptions& rig) {
+  const BodyPlans plans = plansOf(rig);
+  if (!files.skeleton.empty()) {
+    const LookAtOutputs look;
+    const std::string plan = templateOfSkeleton(readFile(files.skeleton), files.skeleton);
+    const bool is_asked_for = planNamed(plan, plans).name == plan;
+    if (!is_asked_for && files.skeleton == request.results + kSkeletonFileEnding)
+      throw InputError(files.skeleton, "holds joints of a " + plan + " that were moved by hand, a " +
+                                           rig.body_plan.name + "'s are asked for; give --template " + plan +
+                                           ", name another folder by -o, or lose them by --force");
+    if (!is_asked_for) {
+      files.other_plan.push_back(std::exchange(files.skeleton, ""));
+      files.other_plan_name = plan;
+    }
+  }
+  if (files.labels.empty() || files.labels == request.skeleton) return;
+  const LabelFile labels = readLabelFile(files.labels);
+  const std::vector<std::string> names = jointNames(labels.joints);
+  if (!labels.hasPlacedJoint() || planWith(names, plans)) return;
+  files.other_plan_name = otherPlanWith(names, plans);
+  files.other_plan.push_back(std::exchange(files.labels, ""));
+}
+
+std::optional<Note> otherPlanNote(const MendedFiles& files, const RigOptions& rig) {
+  if (files.other_plan.empty()) return std::nullopt;
+  const std::string& theirs = files.other_plan_name;
+  const std::string shared =
+      theirs.empty() ? "joints placed by hand of another body plan than \"" + rig.body_plan.name +
+                           "\" are left out (name theirs by --template)"
+                     : "joints placed by hand are a " + theirs + "'s, a " + rig.body_plan.name +
+                           "'s are asked for: left out (--template " + theirs + ", or auto, takes them up)";
+  return Note{shared + ": " + joined(files.other_plan), shared, joined(files.other_plan)};
 }
 
 RigOptions forBodyPlan(const RigOptions& rig, const std::string& body_plan) {

@@ -47,6 +47,10 @@ struct MendedFiles {
   };
   std::vector<PassedOver> passed_over;
 
+  std::vector<std::string> other_figure;  // made for another one than the largest, where all are rigged
+  std::vector<std::string> other_plan;    // of another body plan than is asked for: not among those above
+  std::string other_plan_name;            // "": none that skel brings along
+
   // A photo that was taken again has the name of the one before.
   std::optional<SkeletonSource> earlier_result;  // what was found in that one
   bool has_result = false;                       // of this one or of that
@@ -60,7 +64,7 @@ struct MendedFiles {
 // Those that are named, and what a person has left in the folders of mend_places.h, of each kind the first:
 // an edited skeleton, a silhouette that is not outlined as its skeleton file says, or was that file's mask
 // already, layers with other pixels than they were written with (sealed_png.h); <source's stem>.mask.png,
-// .labels.json, .limbs.png and .back.png (mask and labels of one figure alone), elsewhere than beside the
+// .labels.json, .limbs.png and .back.png (mask and labels of the first figure), elsewhere than beside the
 // drawing where they, or the result there, name its picture. Beside a drawing with <stem>.joints.json nothing
 // is looked for: that is annotated, not mended. What was made for another picture than the request's is left
 // out (earlier_picture.h).
@@ -80,9 +84,23 @@ struct PlacedJoints {
   std::optional<SkeletonFile> skeleton;
 };
 
-// Of skeleton and labels. Where both place a joint, each elsewhere, the file that was written later counts;
-// always the skeleton, if it was made with those very labels. Throws InputError: made for another figure;
-// labels that were named and hold no joints, or are of another picture.
+// Where all figures of the drawing are rigged, moves a mask that nobody named and that has no pixel of the
+// largest figure, and labels with it, from their place in `files` to `other_figure`. `figures`: of the image.
+void leaveOutOtherFigures(MendedFiles& files, const MendRequest& request, const Image& image,
+                          FigureFinder& figures);
+std::optional<Note> otherFigureNote(const MendedFiles& files);
+
+// Moves a skeleton and labels that nobody named, and whose joints are of none of the options' body plans,
+// from their place in `files` to `other_plan`. Throws InputError: the skeleton lies where the run writes.
+void leaveOutOtherPlans(MendedFiles& files, const MendRequest& request, const RigOptions& rig);
+
+// How they are taken up; nothing where none were left out.
+std::optional<Note> otherPlanNote(const MendedFiles& files, const RigOptions& rig);
+
+// Of skeleton and labels. Where both place a joint, each elsewhere, or are of different body plans, the file
+// that was written later counts; always the skeleton, if it was made with those very labels. Throws
+// InputError: made for another figure; labels that were named and hold no joints, or are of another picture
+// or body plan.
 PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, const RigOptions& rig,
                           const Image& image);
 

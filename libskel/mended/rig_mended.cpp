@@ -143,6 +143,8 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
     mended = mendedFiles(knowingRecolored(request, *mended.earlier_result, input.image, figures));
   }
   leaveOutOtherSizes(mended, request, input.image);
+  leaveOutOtherFigures(mended, request, input.image, figures);
+  leaveOutOtherPlans(mended, request, rig);
   PlacedJoints& placed = result.placed;
   placed = placedJoints(mended, request, rig, input.image);
   if (placed.skeleton) {

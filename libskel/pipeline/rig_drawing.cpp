@@ -8,15 +8,16 @@
 #include "libskel/core/files.h"
 #include "libskel/image/check_image.h"
 #include "libskel/image/read_image.h"
+#include "libskel/skeleton/body_plans.h"
 #include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
 
 RigOptions rigOptionsWithoutClips(const std::string& body_plan) {
   RigOptions options;
-  const bool any = body_plan == "auto";
-  options.body_plan = loadTemplate(any ? "biped" : body_plan);
-  if (any) options.otherwise = {loadTemplate("quadruped"), {}};
+  const BodyPlans plans = bodyPlans(body_plan);
+  options.body_plan = plans.front();
+  if (plans.size() > 1) options.otherwise = {plans[1], {}};
   return options;
 }
 

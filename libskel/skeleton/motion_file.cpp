@@ -119,6 +119,12 @@ MotionFile readMotionFile(const std::string& path, const SkeletonTemplate& body_
   return motion;
 }
 
+std::string templateOfMotion(const std::string& path) {
+  const JsonDocument document = JsonDocument::readFile(path);
+  document.root().checkFormat(kFormat, kVersion);
+  return document.root().at("template").asString();
+}
+
 void requireNoEdits(const std::string& path, const SkeletonTemplate& body_plan) {
   if (!std::filesystem::exists(path)) return;
   if (std::filesystem::is_directory(path)) throw OutputError(path, "is a folder; name a file by -o");

@@ -47,6 +47,9 @@ std::string formatMotionFile(const MotionFile& motion, const SkeletonTemplate& b
 // twice the same joint, one outside its image, times that do not increase, no frame at all.
 MotionFile readMotionFile(const std::string& path, const SkeletonTemplate& body_plan);
 
+// The name of the template that a motion file belongs to. Throws InputError: no motion file.
+std::string templateOfMotion(const std::string& path);
+
 // Before a motion file is written anew: throws InputError if there is one at `path` that holds joints which a
 // person has placed.
 void requireNoEdits(const std::string& path, const SkeletonTemplate& body_plan);

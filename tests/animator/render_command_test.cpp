@@ -31,7 +31,10 @@ TEST_CASE("a drawing becomes a film in one command, the same one every time") {
     CHECK(run.err == "");
     REQUIRE(run.exit_code == 0);
     CHECK_THAT(run.out, Contains("cap_boy.png: biped, confidence 0.9"));
-    CHECK_THAT(run.out, Contains("6 frames of 96x128, 0.50 s of \"dance\""));
+    CHECK_THAT(run.out,
+               Contains("6 frames of 96x128, 0.50 s of \"dance\"" +
+                        std::string(name == std::string("frames/") ? ", as PNG files (a film: -o NAME.mp4)\n"
+                                                                   : "\n")));
   }
   CHECK(readFile(dir.file("a.gif")) == readFile(dir.file("b.gif")));
   CHECK(filesBelow(dir.file("frames")).size() == 6);

@@ -71,7 +71,7 @@ std::string readJoints(const std::string& path) {
   const TempDir dir;
   writeFile(dir.file("a.joints.json"), readFile(path));
   writeFile(dir.file("a.png"), "");
-  const auto drawings = findAnnotatedDrawings(dir.path(), loadTemplate("biped"));
+  const auto drawings = findAnnotatedDrawings(dir.path(), {loadTemplate("biped")});
   REQUIRE(drawings.size() == 1);
   CHECK(drawings[0].joints.size() == 14);
   return "";
@@ -101,7 +101,7 @@ const std::map<std::string, Reader>& readers() {
          const TempDir dir;
          writeFile(dir.file("coco.json"), readFile(path));
          writeFile(dir.file("a.png"), "");
-         const std::vector<AnnotatedDrawing> drawings = readCoco(dir.file("coco.json"), biped);
+         const std::vector<AnnotatedDrawing> drawings = readCoco(dir.file("coco.json"), {biped});
          REQUIRE(drawings.size() == 1);
          CHECK(drawings[0].joints.size() == 3);
          CHECK(drawings[0].recognized == std::vector<std::string>{"right_hand"});

@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   mayRefuse([&] {
     std::vector<CocoPicture> pictures;
     for (const AnnotatedDrawing& drawing :
-         readCoco(fileOf(textOf(data, size), "fuzz.coco.json"), body_plan)) {
+         readCoco(fileOf(textOf(data, size), "fuzz.coco.json"), {body_plan})) {
       const std::string name = drawing.image.substr(drawing.image.rfind('/') + 1);
       require(name == "a.png" || name == "b.png", "only pictures of its folder are named");
       const Plane8 mask = maskFromPolygons(drawing.mask_polygons, 32, 24);
@@ -19,7 +19,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       pictures.push_back({name, 32, 24, drawing.joints, drawing.recognized, drawing.mask_polygons});
     }
     const std::vector<AnnotatedDrawing> again =
-        readCoco(fileOf(formatCoco(pictures, body_plan), "again.coco.json"), body_plan);
+        readCoco(fileOf(formatCoco(pictures, {body_plan}), "again.coco.json"), {body_plan});
     require(again.size() == pictures.size(), "what is written is read again");
   });
   return 0;

@@ -7,8 +7,10 @@
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
+#include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/silhouette/silhouette.h"
+#include "libskel/skeleton/skeleton_file.h"
 #include "libskel/skeleton/template.h"
 #include "tests/infer/run_infer.h"
 #include "tests/support/catch.h"
@@ -855,4 +857,37 @@ TEST_CASE("when the picture from before is back, a line names the skeleton that 
   CHECK(back.exit_code == 0);
   CHECK(placeIn(dir, "left_hand")[0] == 420.5);
   CHECK(infer(dir, "boy.png").err.find("fits this picture") == std::string::npos);
+}
+
+TEST_CASE("labels of another body plan than the nets see ended the run with an error that named no file") {
+  const TempDir dir;
+  const std::string horse = SKEL_SOURCE_DIR "/datasets/unseen/animals/an3_kid_stick_horse.png";
+  writeFile(dir.file("Noah.png"), readFile(horse));
+  LabelFile labels = labelImage(dir.file("Noah.png"), std::nullopt, {}, loadTemplate("biped"));
+  const Image image = readImage(horse);
+  labels.joints = {{"left_hand", Eigen::Vector2d(image.width / 2, image.height / 2)},
+                   {"right_hand", std::nullopt}};
+  writeLabelFile(dir.file("Noah.labels.json"), labels);
+  ToolRun run = infer(dir, "Noah.png --formats json");
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.err, "taken up (--force leaves it out): 1 joint (Noah.labels.json)"));
+  CHECK(readSkeletonFile(dir.file("out/Noah.skeleton.json"), loadTemplate("biped")).labels);
+
+  run = infer(dir, "Noah.png --formats json -o other --template quadruped");
+  CHECK(run.exit_code == 0);
+  CHECK(contains(
+      run.err,
+      "joints placed by hand are a biped's, a quadruped's are asked for: left out (--template biped, "
+      "or auto, takes them up): out/Noah.skeleton.json, Noah.labels.json"));
+  CHECK_FALSE(hasEditedJoint(dir.file("other/Noah.skeleton.json")));
+  run = infer(dir, "Noah.png --formats json --template quadruped");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(
+      run.err,
+      "out/Noah.skeleton.json: holds joints of a biped that were moved by hand, a quadruped's are asked "
+      "for; give --template biped, name another folder by -o, or lose them by --force"));
+  run = infer(dir, "Noah.png --formats json -o third --template quadruped --skeleton Noah.labels.json");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.err,
+                 "Noah.labels.json: has joints that are none of the template \"quadruped\"; name theirs"));
 }

@@ -76,10 +76,15 @@ TEST_CASE("the report lists on top what to look at, one line a child, and says a
   const std::string again = html.substr(retake, html.find("</section>", retake) - retake);
   CHECK(countIn(again, "<li>") == 1);
   REQUIRE(countIn(run.err, "retake class/Two.png: ") == 2);
-  for (const char* reason :
-       {"There are 2 figures in the picture; the largest was taken.", "No whole figure could be made out"})
+  for (const char* reason : {"There are 2 figures in the picture; the largest was taken. --figure 2 takes "
+                             "the next, --figure all each.",
+                             "No whole figure could be made out"})
     CHECK_THAT(again, Contains(reason));
   CHECK_THAT(html, Contains("<p class=\"note\">made by hand and taken up"));
+  // Who shows pictures alone may leave out those to look at.
+  CHECK_THAT(html, Contains("<label for=\"good\">only the good ones</label>"));
+  CHECK(countIn(html, "<article id=\"d") ==
+        countIn(html, "class=\"doubt\">") + countIn(html, "class=\"chip fine\""));
 }
 
 TEST_CASE("a blank sheet had neither picture nor advice, and files to convert were photos to take again") {

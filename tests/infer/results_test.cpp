@@ -3,6 +3,7 @@
 
 #include "libskel/core/files.h"
 #include "libskel/core/sha256.h"
+#include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "tests/infer/run_infer.h"
 #include "tests/support/catch.h"
@@ -84,6 +85,46 @@ TEST_CASE("notes of --figure all say which figure") {
   CHECK(contains(run.out, "page.png, figure 1: out/page-1.glb"));
   CHECK(contains(run.out, "page.png, figure 2: out/page-2.glb"));
   CHECK_FALSE(contains(run.err, "page.png: note"));
+}
+
+TEST_CASE("a mask, and joints, that were mended of the largest figure were dropped by --figure all") {
+  const TempDir dir;
+  CapsuleFigure small;
+  small.size = 300;
+  writeFile(dir.file("page.png"), page({CapsuleFigure(), small}));
+  REQUIRE(infer(dir, "page.png -o found --figure all --formats json,silhouette").exit_code == 0);
+  Plane8 mask = readMask(dir.file("found/page-1.silhouette.png"));
+  const auto topOf = [](const Plane8& figure) {
+    int row = 0;
+    while ((figure.row(row) == 0).all()) ++row;
+    return row;
+  };
+  const int top = topOf(mask);
+  mask.middleRows(top, 8).setZero();
+  writeFile(dir.file("page.mask.png"), encodePng(mask));
+  ToolRun run = infer(dir, "page.png -o mended --figure all --formats json,silhouette");
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.err,
+                 "figure 1: note: made by hand and taken up (--force leaves it out): mask (page.mask.png)"));
+  CHECK(topOf(readMask(dir.file("mended/page-1.silhouette.png"))) == top + 8);
+  CHECK(readFile(dir.file("mended/page-2.silhouette.png")) ==
+        readFile(dir.file("found/page-2.silhouette.png")));
+
+  // One that joins both leaves nothing beside it.
+  const Plane8 other = readMask(dir.file("found/page-2.silhouette.png"));
+  Plane8 both = mask.max(other);
+  both.middleRows(both.rows() / 2, 12).setConstant(255);
+  writeFile(dir.file("page.mask.png"), encodePng(both));
+  CHECK(infer(dir, "page.png -o joined --figure all --formats json").exit_code == 0);
+  CHECK_FALSE(fs::exists(dir.file("joined/page-2.skeleton.json")));
+
+  writeFile(dir.file("page.mask.png"), encodePng(other));
+  run = infer(dir, "page.png -o other --figure all --formats json,silhouette");
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.err,
+                 "made for another figure than the largest, not taken up with --figure all: page.mask.png"));
+  CHECK(readFile(dir.file("other/page-1.silhouette.png")) ==
+        readFile(dir.file("found/page-1.silhouette.png")));
 }
 
 TEST_CASE("who takes all figures is not told that the largest is taken") {

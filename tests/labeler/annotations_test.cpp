@@ -114,7 +114,7 @@ TEST_CASE("all layouts are found at any depth") {
   fs::copy(kCharacters + "box_robot.mask.png", dir.file("meta/mask.png"));
   writeFile(dir.file("meta/char_cfg.yaml"), charCfg());
 
-  const auto drawings = findAnnotatedDrawings(dir.path(), plan);
+  const auto drawings = findAnnotatedDrawings(dir.path(), {plan});
   REQUIRE(drawings.size() == 3);
   CHECK(drawings[0].image == dir.file("deep/er/single/image.png"));
   CHECK(drawings[0].mask == dir.file("deep/er/single/mask.png"));
@@ -129,7 +129,7 @@ TEST_CASE("all layouts are found at any depth") {
   CHECK(place(drawings[1].joints, "body") == Eigen::Vector2d(300, 340));
 
   fs::remove(dir.file("meta/mask.png"));
-  CHECK_THROWS_WITH(findAnnotatedDrawings(dir.path(), plan),
+  CHECK_THROWS_WITH(findAnnotatedDrawings(dir.path(), {plan}),
                     dir.file("meta/char_cfg.yaml") + ": needs mask.png beside it");
 }
 
@@ -147,7 +147,7 @@ TEST_CASE("char_cfg.yaml of skel-infer: what the program had found came back as 
     for (const ExportedFile& file : exportCharCfg({character, {}, {}, &drawing, &mask, mask_is_given}))
       writeFile(dir.file("hero" + file.suffix), file.bytes);
   };
-  const auto read = [&] { return findAnnotatedDrawings(dir.path(), plan).at(0); };
+  const auto read = [&] { return findAnnotatedDrawings(dir.path(), {plan}).at(0); };
   const auto is_placed = [](const AnnotatedDrawing& read, const std::string& name) {
     place(read.joints, name);
     return std::find(read.recognized.begin(), read.recognized.end(), name) == read.recognized.end();
@@ -178,7 +178,7 @@ TEST_CASE("a folder of annotations that may not be read is named") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.file("a/locked"));
   const LockedFolder locked(dir, "a/locked");
-  CHECK_THROWS_WITH(findAnnotatedDrawings(dir.path(), loadTemplate("biped")),
+  CHECK_THROWS_WITH(findAnnotatedDrawings(dir.path(), {loadTemplate("biped")}),
                     dir.file("a/locked") + ": cannot be read: Permission denied");
 }
 
@@ -198,7 +198,7 @@ TEST_CASE("COCO: people's keypoints under our names") {
   };
   write(R"({"id": 1, "image_id": 7, "keypoints": [)" + keypoints +
         R"(], "bbox": [0, 0, 9, 9], "segmentation": [[10, 10, 30, 10, 30, 30, 10, 30]]})");
-  const auto drawings = findAnnotatedDrawings(dir.path(), plan);
+  const auto drawings = findAnnotatedDrawings(dir.path(), {plan});
   REQUIRE(drawings.size() == 1);
   CHECK(place(drawings[0].joints, "head") == Eigen::Vector2d(300, 100));
   CHECK(place(drawings[0].joints, "left_hand") == Eigen::Vector2d(290, 180));
@@ -206,15 +206,15 @@ TEST_CASE("COCO: people's keypoints under our names") {
   CHECK((maskFromPolygons(drawings[0].mask_polygons, 600, 600) != 0).count() == 20 * 20);
 
   write(R"({"image_id": 8, "keypoints": []})");
-  CHECK_THROWS_WITH(readCoco(dir.file("people.json"), plan),
+  CHECK_THROWS_WITH(readCoco(dir.file("people.json"), {plan}),
                     dir.file("people.json") + ": annotations[0].image_id: is no image of this file");
   write(R"({"image_id": 7, "keypoints": [1, 2, 2]})");
   CHECK_THROWS_WITH(
-      readCoco(dir.file("people.json"), plan),
+      readCoco(dir.file("people.json"), {plan}),
       dir.file("people.json") + ": annotations[0].keypoints: expected 17 times x, y, visibility");
   write(R"({"image_id": 7, "keypoints": [)" + keypoints + R"(], "segmentation": {"counts": "abc"}})");
   CHECK_THROWS_WITH(
-      readCoco(dir.file("people.json"), plan),
+      readCoco(dir.file("people.json"), {plan}),
       dir.file("people.json") + ": annotations[0].segmentation: run lengths are not read: give polygons");
 }
 
@@ -229,8 +229,8 @@ TEST_CASE("COCO that we write is COCO that we read: joints, and the mask to the 
   const Silhouette silhouette = silhouetteFromMask(mask);
   const NamedJoints joints = {{"head", Eigen::Vector2d(12.25, 30)}, {"left_hand", std::nullopt}};
   writeFile(dir.file("coco.json"),
-            formatCoco({{"cap_boy.png", 600, 600, joints, {}, silhouette.outline}}, plan));
-  const auto drawings = readCoco(dir.file("coco.json"), plan);
+            formatCoco({{"cap_boy.png", 600, 600, joints, {}, silhouette.outline}}, {plan}));
+  const auto drawings = readCoco(dir.file("coco.json"), {plan});
   REQUIRE(drawings.size() == 1);
   REQUIRE(drawings[0].joints.size() == 1);
   CHECK(place(drawings[0].joints, "head") == Eigen::Vector2d(12.25, 30));
@@ -246,7 +246,7 @@ TEST_CASE("COCO: joints that the program has found are no keypoints, and come ba
   writeFile(dir.file("boy.png"), encodePng(Image(60, 60)));
   const NamedJoints joints = {{"head", Eigen::Vector2d(12.25, 30)}, {"left_hand", Eigen::Vector2d(40, 20)}};
   const std::string path = dir.file("coco.json");
-  writeFile(path, formatCoco({{"boy.png", 60, 60, joints, {"left_hand"}, {}}}, plan));
+  writeFile(path, formatCoco({{"boy.png", 60, 60, joints, {"left_hand"}, {}}}, {plan}));
   const JsonDocument document = JsonDocument::readFile(path);
   const JsonValue annotation = document.root().at("annotations").items()[0];
   CHECK(annotation.at("num_keypoints").asNumber() == 1);
@@ -258,7 +258,7 @@ TEST_CASE("COCO: joints that the program has found are no keypoints, and come ba
   CHECK(at("head") == std::vector<double>{12.25, 30, 2});
   CHECK(at("left_hand") == std::vector<double>{0, 0, 0});
 
-  const auto drawings = readCoco(path, plan);
+  const auto drawings = readCoco(path, {plan});
   REQUIRE(drawings.size() == 1);
   CHECK(place(drawings[0].joints, "head") == Eigen::Vector2d(12.25, 30));
   CHECK(place(drawings[0].joints, "left_hand") == Eigen::Vector2d(40, 20));
@@ -267,7 +267,7 @@ TEST_CASE("COCO: joints that the program has found are no keypoints, and come ba
   std::string text = readFile(path);
   text.replace(text.find("\"left_hand\": ["), 11, "\"head\"");
   writeFile(path, text);
-  CHECK_THROWS_WITH(readCoco(path, plan),
+  CHECK_THROWS_WITH(readCoco(path, {plan}),
                     path + ": annotations[0].skel_found.head: is among the keypoints, too");
 }
 
@@ -300,7 +300,7 @@ TEST_CASE("COCO: places of huge numbers, which became pixels without bounds, are
         R"("annotations": [{"image_id": 1, "category_id": 1, "keypoints": [)" +
             x + R"(, 1, 2], "segmentation": )" + segmentation + "}]}");
     try {
-      readCoco(dir.file("coco.json"), loadTemplate("biped"));
+      readCoco(dir.file("coco.json"), {loadTemplate("biped")});
     } catch (const InputError& error) {
       return error.problem();
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "labeler/annotated_drawing.h"
 #include "labeler/drawing_list.h"
 #include "labeler/make_motion.h"
 #include "libskel/core/files.h"
@@ -250,7 +251,7 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
   write("runner", loadTemplate("quadruped"), 1, false);  // of another body plan
   write("box_robot", plan, 1, true);
   fs::copy(kCharacters + "box_robot.joints.json", dir.file("box_robot.joints.json"));  // says more
-  CHECK(label(dir, "import .").out ==
+  CHECK(label(dir, "import . --template biped").out ==
         "2 label files made, 0 kept as they were, 0 failed\n15 joints placed, 13 found\nwritten into .\n");
   CHECK(label(dir, "check .").exit_code == 0);
   CHECK_FALSE(fs::exists(dir.file("runner.labels.json")));
@@ -271,10 +272,10 @@ TEST_CASE("import: skeletons that skel-infer has found, of which what a person h
   CHECK(contains(evaluated.err, "cap_boy.labels.json: candidates[0].label: is null"));
 
   write("cap_boy", plan, 1, true, true);
-  CHECK(contains(label(dir, "import found --force").out, "15 joints placed, 13 found\n"));
+  CHECK(contains(label(dir, "import found --force --template biped").out, "15 joints placed, 13 found\n"));
   CHECK(contains(label(dir, "stats .").out, "classes finished      1   50.0 %"));
-  CHECK(label(dir, "import found --template quadruped").out ==
-        "1 label files made, 0 kept as they were, 0 failed\n0 joints placed, 16 found\nwritten into .\n");
+  CHECK(label(dir, "import found").out ==
+        "1 label files made, 2 kept as they were, 0 failed\n0 joints placed, 16 found\nwritten into .\n");
 
   fs::copy_file(kCharacters + "runner.png", dir.file("cap_boy.png"), fs::copy_options::overwrite_existing);
   const ToolRun run = label(dir, "import found --force");
@@ -659,7 +660,7 @@ TEST_CASE("export leaves out what check complains about and drawings of another 
   writeLabelFile(path, bad);
   for (const std::string format : {"csv", "coco"}) {
     INFO(format);
-    const ToolRun run = label(dir, "export . -o out --" + format);
+    const ToolRun run = label(dir, "export . -o out --template biped --" + format);
     CHECK(run.exit_code == 2);
     CHECK(run.err ==
           "skel-label: .: 1 of 1 drawings (cap_boy.labels.json) have joints of a quadruped, not of a biped: "
@@ -668,6 +669,24 @@ TEST_CASE("export leaves out what check complains about and drawings of another 
     CHECK(label(dir, "export . -o out --template quadruped --" + format).exit_code == 0);
   }
   CHECK(contains(readFile(dir.file("out")), "\"name\": \"quadruped\""));
+}
+
+TEST_CASE("people and animals of one folder are checked, exported and imported each by its body plan") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  fs::copy(kCharacters + "runner.png", dir.file("dog.png"));
+  LabelFile labels = labelImage(dir.file("dog.png"), std::nullopt, {}, loadTemplate("biped"));
+  labels.joints = {{"tail", Eigen::Vector2d(300, 300)}, {"head", Eigen::Vector2d(300, 200)}};
+  writeLabelFile(dir.file("dog.labels.json"), labels);
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  CHECK(label(dir, "check .").out == "no inconsistencies\n");
+  REQUIRE(label(dir, "export . -o both.json --coco").exit_code == 0);
+  const BodyPlans plans = bodyPlans("auto");
+  const auto drawings = readCoco(dir.file("both.json"), plans);
+  REQUIRE(drawings.size() == 2);
+  CHECK(planOf(drawings[0].joints, plans).name == "biped");
+  CHECK(drawings[1].joints.size() == 2);
+  CHECK(planOf(drawings[1].joints, plans).name == "quadruped");
 }
 
 TEST_CASE("motion: the joints of every frame, in the order of their numbers") {

@@ -926,7 +926,7 @@ TEST_CASE("a template that the recogniser does not know is said, not thrown") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());
   DocumentOptions options = documentOptions();
-  for (TemplateJoint& joint : options.body_plan.joints)
+  for (TemplateJoint& joint : options.body_plans[0].joints)
     if (joint.name == "head") joint.name = "beak";
   Document document(dir.path(), std::move(options));
   document.rig();
@@ -1403,4 +1403,100 @@ TEST_CASE("folders without pictures and pictures that share a label file are ref
   CHECK_THROWS_WITH(Document(dir.path(), documentOptions()),
                     dir.file("cap_boy.png") + ": would share its label file with " + dir.file("cap_boy.jpg") +
                         "; rename one of them");
+}
+
+namespace {
+
+const std::string kHorse = SKEL_SOURCE_DIR "/datasets/unseen/animals/an3_kid_stick_horse.png";
+
+DocumentOptions anyPlan() { return {defaultMlp(), bodyPlans("auto")}; }
+
+}  // namespace
+
+TEST_CASE("an animal among the drawings of a class got a person's skeleton") {
+  const TempDir dir;
+  fs::copy(kHorse, dir.file("Noah.png"));
+  fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
+  {
+    Document document(dir.path(), anyPlan());
+    REQUIRE(document.item().files.name == "cap_boy.png");
+    document.findJoints();
+    CHECK(document.bodyPlan().name == "biped");
+    document.acceptJoints();
+    REQUIRE(document.go(1));
+    document.findJoints();
+    CHECK(document.bodyPlan().name == "quadruped");
+    CHECK(document.state().joints.size() == document.bodyPlan().joints.size());
+    document.acceptJoints();
+    CHECK(document.items()[1].joints.isWhole());
+    REQUIRE(document.undo());
+    REQUIRE(document.redo());
+  }
+  CHECK(readLabelFile(dir.file("Noah.labels.json")).isPlaced("left_hind_foot"));
+  Document again(dir.path(), anyPlan());
+  CHECK(again.items()[0].joints.isWhole());
+  CHECK(again.items()[1].joints.isWhole());
+  REQUIRE(again.go(1));
+  CHECK(again.bodyPlan().name == "quadruped");
+  CHECK(runTool("skel-label check '" + dir.path() + "'").out == "no inconsistencies\n");
+  const ToolRun run = runTool("cd '" + dir.path() + "' && skel-infer . -o . --formats json");
+  CHECK(run.exit_code == 0);
+  CHECK(readSkeletonFile(dir.file("Noah.skeleton.json"), loadTemplate("quadruped")).labels);
+}
+
+TEST_CASE("who was taken for a person is made an animal in the window, and undo makes it a person again") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.path(), anyPlan());
+  document.findJoints();
+  document.acceptJoints();
+  const std::string person = readFile(dir.file("cap_boy.labels.json"));
+  REQUIRE(document.otherPlan());
+  document.takeOtherPlan();
+  CHECK(document.bodyPlan().name == "quadruped");
+  CHECK(contains(document.message(), "taken for a quadruped: "));
+  CHECK(document.item().joints.done == 0);
+  const std::string animal = readFile(dir.file("cap_boy.labels.json"));
+  CHECK(contains(animal, "left_hind_foot"));
+  REQUIRE(document.undo());
+  CHECK(document.bodyPlan().name == "biped");
+  CHECK(document.item().joints.isWhole());
+  CHECK(readFile(dir.file("cap_boy.labels.json")) == person);
+  REQUIRE(document.redo());
+  CHECK(readFile(dir.file("cap_boy.labels.json")) == animal);
+  document.rig();
+  CHECK(document.bodyPlan().name == "quadruped");  // as a person has said
+  CHECK_FALSE(Document(dir.path(), documentOptions()).otherPlan());
+}
+
+TEST_CASE("joints of another body plan than is asked for counted as placed") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  {
+    Document document(dir.path(), anyPlan());
+    document.findJoints();
+    document.acceptJoints();
+  }
+  Document document(dir.file("cap_boy.png"), {defaultMlp(), bodyPlans("quadruped")});
+  CHECK(document.items()[0].joints.parts == 0);
+  CHECK(contains(
+      document.message(),
+      "the label file has a biped's joints, not a quadruped's: not shown, and the next step replaces "
+      "them; --template biped, or auto, shows them"));
+  CHECK(document.wantsJoints());
+}
+
+TEST_CASE("a skeleton file and a motion open by their own body plan") {
+  const TempDir dir;
+  fs::create_directories(dir.file("frames"));
+  fs::copy(kHorse, dir.file("frames/1.png"));
+  const ToolRun run = runTool("cd '" + dir.path() +
+                              "' && skel-label motion frames && skel-infer frames/1.png --formats json");
+  REQUIRE(run.exit_code == 0);
+  CHECK(Document(dir.file("out/frames.motion.json"), anyPlan()).bodyPlan().name == "quadruped");
+  Document skeleton(dir.file("out/1.skeleton.json"), anyPlan());
+  CHECK(skeleton.bodyPlan().name == "quadruped");
+  CHECK_FALSE(skeleton.otherPlan());
+  skeleton.moveJoint(skeleton.bodyPlan().find("tail"), {100, 100});
+  CHECK(hasEditedJoint(dir.file("out/1.skeleton.json")));
 }

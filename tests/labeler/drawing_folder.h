@@ -20,7 +20,7 @@ inline void copyCharacter(const std::string& name, const std::string& folder, bo
       std::filesystem::copy(kCharacters + name + ending, folder + "/" + name + ending);
 }
 
-inline DocumentOptions documentOptions() { return {defaultMlp(), loadTemplate("biped")}; }
+inline DocumentOptions documentOptions() { return {defaultMlp(), bodyPlans("biped")}; }
 
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;

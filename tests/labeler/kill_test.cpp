@@ -82,7 +82,7 @@ TEST_CASE("a process that is killed again and again while it saves loses at most
     CHECK(saved <= reported + 1);
     step = saved + 1;
   }
-  CHECK(checkLabels(dir.path(), loadTemplate("biped")).empty());
+  CHECK(checkLabels(dir.path(), {loadTemplate("biped")}).empty());
 }
 
 TEST_CASE("a process that is killed while it edits a motion loses at most the step in hand") {

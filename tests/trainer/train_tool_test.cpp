@@ -61,7 +61,7 @@ TEST_CASE("skel-train writes weights, report and figures, the same bytes for eve
 
   const WeightsFile weights = readWeights(dir.file("a.json"));
   CHECK(weights.mlp.sizes() == std::vector<int>{3, 4, 4, 2});
-  CHECK(weights.provenance.options == "--epochs 80 --restarts 2 --generated 0");
+  CHECK(weights.provenance.options == "--epochs 80 --restarts 2 --folds 3 --generated 0");
   CHECK(weights.provenance.samples == 600);
   CHECK(weights.provenance.characters == 6);
   CHECK(readWeights(dir.file("c.json")).provenance.seed == 9);

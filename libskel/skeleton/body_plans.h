@@ -1,0 +1,26 @@
+// The body plans among which a drawing's is found.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libskel/skeleton/template.h"
+
+namespace skel {
+
+using BodyPlans = std::vector<SkeletonTemplate>;  // at least one
+
+// That of loadTemplate(), or of "auto" biped and quadruped.
+BodyPlans bodyPlans(const std::string& name_or_path);
+
+// The one that is called so; the first if none is.
+const SkeletonTemplate& planNamed(std::string_view name, const BodyPlans& plans);
+
+// The first that has all joints of these names; null: none has.
+const SkeletonTemplate* planWith(const std::vector<std::string>& joints, const BodyPlans& plans);
+
+// Of joints that none of the plans has: the plan that skel brings along and whose they are, else "".
+std::string otherPlanWith(const std::vector<std::string>& joints, const BodyPlans& plans);
+
+}  // namespace skel
