@@ -72,7 +72,7 @@ LabelledSet setOf(const py::object& characters) {
 }
 
 // As skel-train would be told.
-std::string spelled(const TrainingOptions& options, int generated) {
+std::string spelled(const TrainingOptions& options, int folds, int generated) {
   const TrainingOptions preset;
   std::string text;
   const auto add = [&](const std::string& name, double value, double other) {
@@ -84,6 +84,7 @@ std::string spelled(const TrainingOptions& options, int generated) {
   add("restarts", options.restarts, preset.restarts);
   add("validation", options.validation, preset.validation);
   add("patience", options.patience, preset.patience);
+  add("folds", folds, 10);
   add("generated", generated, 1000);
   return text;
 }
@@ -126,7 +127,7 @@ Trained train(const LabelledSet& set, Whole folds, Whole epochs, Whole restarts,
                                               ? trained.evaluation->accuracy()
                                               : evaluateOn(trained.training.mlp, characters).accuracy();
                   trained.net = {trained.training.mlp,
-                                 {set.sha256, spelled(options, int(generated)), options.seed,
+                                 {set.sha256, spelled(options, int(folds), int(generated)), options.seed,
                                   trained.training.epochs, set.sampleCount(), count, accuracy}};
                 });
   return trained;
