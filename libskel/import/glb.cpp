@@ -13,6 +13,7 @@
 #include "libskel/import/glb_container.h"
 #include "libskel/import/read_character.h"
 #include "libskel/mesh/split_seams.h"
+#include "libskel/skeleton/hanging.h"
 #include "libskel/skeleton/rig_file.h"
 #include "libskel/skeleton/template.h"
 
@@ -130,10 +131,12 @@ bool isBoneEnd(const JsonValue& node) {
 }
 
 std::string templateOf(const Skeleton& skeleton) {
+  const auto hanging = std::count_if(skeleton.joints.begin(), skeleton.joints.end(), hangs);
   for (const std::string& name : builtinTemplates()) {
     const SkeletonTemplate body_plan = loadTemplate(name);
-    if (body_plan.joints.size() != skeleton.joints.size()) continue;
+    if (body_plan.joints.size() + std::size_t(hanging) != skeleton.joints.size()) continue;
     const bool same = std::all_of(skeleton.joints.begin(), skeleton.joints.end(), [&](const Joint& joint) {
+      if (hangs(joint)) return true;
       const int index = body_plan.find(joint.name);
       if (index < 0) return false;
       const int parent = body_plan.joints[index].parent;

@@ -1,6 +1,7 @@
 #include "libskel/skeleton/hanging.h"
 
 #include <string_view>
+#include <vector>
 
 namespace skel {
 namespace {
@@ -23,7 +24,14 @@ int carrierOf(const Skeleton& skeleton, int joint) {
 
 Skeleton withoutHanging(const Skeleton& skeleton) {
   Skeleton result = skeleton;
-  std::erase_if(result.joints, hangs);
+  result.joints.clear();
+  std::vector<int> place;  // in the result, of each joint that stays
+  for (const Joint& joint : skeleton.joints) {
+    place.push_back(static_cast<int>(result.joints.size()));
+    if (hangs(joint)) continue;
+    result.joints.push_back(joint);
+    if (joint.parent >= 0) result.joints.back().parent = place[static_cast<std::size_t>(joint.parent)];
+  }
   return result;
 }
 

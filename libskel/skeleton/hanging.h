@@ -15,7 +15,7 @@ bool hangs(const Joint& joint);
 // The joint that it hangs on, through all of its chain; `joint` itself if it does not hang.
 int carrierOf(const Skeleton& skeleton, int joint);
 
-// Those of the body plan alone. Joints that hang stand after all others that stay.
+// Those of the body plan alone. No joint that stays hangs on one that does not.
 Skeleton withoutHanging(const Skeleton& skeleton);
 
 }  // namespace skel

@@ -1,6 +1,7 @@
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/import/read_character.h"
+#include "libskel/skeleton/hanging.h"
 #include "tests/support/catch.h"
 #include "tests/support/figure.h"
 
@@ -158,4 +159,16 @@ TEST_CASE("a file says which of its clips loop, a gallop among them") {
   REQUIRE(mark != std::string::npos);
   bytes.replace(mark, 11, "\"loop\":1111");
   CHECK_FALSE(decodeGlb(bytes, "a.glb").clips[0].loops);
+}
+
+TEST_CASE("a character with a cape that hangs was read back as of no body plan") {
+  RiggedCharacter character = figure();
+  Joint joint = character.skeleton.joints[std::size_t(character.skeleton.index("neck"))];
+  joint.name = hangingJointName("cape", 1);
+  joint.parent = character.skeleton.index("neck");
+  joint.position.y() -= .1;
+  character.skeleton.joints.push_back(joint);
+  CHECK(decodeGlb(encodeGlb(character, {}), "a.glb").character.skeleton.template_name == "biped");
+  character.skeleton.joints.back().name = "cape";
+  CHECK(decodeGlb(encodeGlb(character, {}), "a.glb").character.skeleton.template_name.empty());
 }

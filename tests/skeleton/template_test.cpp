@@ -4,6 +4,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/skeleton/hanging.h"
 #include "tests/support/catch.h"
 
 using namespace skel;
@@ -113,4 +114,25 @@ TEST_CASE("a template with a value that makes no sense is refused") {
       "t: limbs[0].joints[1]: names no joint of this template: \"right_elbo\"");
   CHECK_THROWS_WITH(parseTemplate(changed("[\"left_hip\", \"right_hip\"]", "[\"left_hip\", \"hip\"]"), "t"),
                     "t: joints[0].derived.from[1]: names no joint of this template: \"hip\"");
+}
+
+TEST_CASE(
+    "joints that stay lost their parents where one that hangs stood before them, as Blender writes it") {
+  Skeleton skeleton;
+  for (const auto& [name, parent] : std::initializer_list<std::pair<const char*, int>>{{"pelvis", -1},
+                                                                                       {"neck", 0},
+                                                                                       {"hanging_cape_1", 1},
+                                                                                       {"hanging_cape_2", 2},
+                                                                                       {"head", 1},
+                                                                                       {"head_top", 4}}) {
+    Joint joint;
+    joint.name = name;
+    joint.parent = parent;
+    skeleton.joints.push_back(joint);
+  }
+  const Skeleton body = withoutHanging(skeleton);
+  REQUIRE(body.joints.size() == 4);
+  for (const auto& [joint, parent] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"neck", "pelvis"}, {"head", "neck"}, {"head_top", "head"}})
+    CHECK(body.joints[std::size_t(body.index(joint))].parent == body.index(parent));
 }

@@ -7,6 +7,7 @@
 #include "libskel/export/write_character.h"
 #include "libskel/image/write_image.h"
 #include "libskel/mesh/outline.h"
+#include "libskel/skeleton/hanging.h"
 #include "libskel/style/wear_motion.h"
 #include "stylizer/find_keypoints.h"
 #include "stylizer/puppet_film.h"
@@ -110,6 +111,33 @@ TEST_CASE("a rigged character performs like its drawing") {
 
   writeFile(dir.file("vrm.glb"), encodeGlb(file.character, {}, {.naming = JointNaming::kVrm}));
   CHECK_THROWS_WITH(readPerformer(dir.file("vrm.glb")), Contains("has other joints than skel's biped"));
+}
+
+TEST_CASE("a rigged character with a cape that hangs was refused for other joints than the biped's") {
+  const TempDir dir;
+  RiggedCharacter character = loadCharacter({.path = drawing("cap_boy")}).character;
+  std::vector<Joint>& joints = character.skeleton.joints;
+  int carrier = character.skeleton.index("neck");
+  for (int link : {1, 2}) {
+    Joint joint = joints[std::size_t(carrier)];
+    joint.name = hangingJointName("cape", link);
+    joint.parent = carrier;
+    joint.position -= Eigen::Vector3d(0, .1, .1);
+    carrier = int(joints.size());
+    joints.push_back(joint);
+  }
+  // Half of what the trunk carries.
+  const int trunk = character.skeleton.index("pelvis");
+  for (Eigen::Index v = 0; v < character.weights.joints.rows(); v += 2)
+    for (Eigen::Index k = 0; k < character.weights.joints.cols(); ++k)
+      if (character.weights.joints(v, k) == trunk) character.weights.joints(v, k) = std::uint16_t(carrier);
+  writeFile(dir.file("caped.glb"), encodeGlb(character, {}));
+  const Performer performer = readPerformer(dir.file("caped.glb"));
+  for (const Joint& joint : performer.skeleton.joints) CHECK_FALSE(hangs(joint));
+  const Puppet puppet = makePuppet(performer);
+  double torn = 1;
+  posedSheets(puppet, puppet.rest.col(0), &torn);
+  CHECK(torn == 0);
 }
 
 TEST_CASE("key points of filmed characters lie within 10 % in 85 % of cases") {
