@@ -367,10 +367,17 @@ class AnimationWindow {
     dialog_.ask(std::move(question));
   }
   void askSaveClip(std::function<void()> then = {}) {
-    ask({"Save the clip", "Save", "clip",
-         "out/" + (document_.clip() ? safeFileName(document_.clip()->name) : "clip") + kClipFileEnding,
-         FileUse::kSave, endsWith({kClipFileEnding}), kClipFileEnding},
-        &AnimationDocument::saveClip, std::move(then));
+    const std::string file = document_.fileOfClip();
+    FileQuestion question{
+        "Save the clip",
+        "Save",
+        "clip",
+        "out/" + (document_.clip() ? safeFileName(document_.clip()->name) : "clip") + kClipFileEnding,
+        FileUse::kSave,
+        endsWith({kClipFileEnding}),
+        kClipFileEnding};
+    if (!file.empty()) question.suggestion = file, question.begins_there = true;
+    ask(std::move(question), &AnimationDocument::saveClip, std::move(then));
   }
   void askSkeleton() {
     ask({"Load a skeleton; the weights are computed anew", "Load", "skeleton", suggestion(".rig.json"),
@@ -568,9 +575,8 @@ class AnimationWindow {
       ImGui::SameLine();
       auto length = float(duration);
       ImGui::SetNextItemWidth(84);
-      if (ImGui::DragFloat("##length", &length, 0.02f, 0.1f, 60, "%.2f s"))
-        document_.setDuration(double(length));
-      groupStep();
+      const bool changed = ImGui::DragFloat("##length", &length, 0.02f, 0.1f, 60, "%.2f s");
+      inOneStep(changed, [&] { document_.setDuration(double(length)); });
       tip("How long the clip is; never shorter than its last key");
     } else {
       ImGui::TextDisabled("no clip");
@@ -595,9 +601,10 @@ class AnimationWindow {
     ImGui::EndChild();
   }
 
-  // A drag of the widget before makes one step.
-  void groupStep() {
+  // What the widget before changes while it has the focus, dragged or typed, makes one step.
+  void inOneStep(bool changed, const std::function<void()>& change) {
     if (ImGui::IsItemActivated()) document_.beginStep(), ++open_steps_;
+    if (changed) change();
     if (ImGui::IsItemDeactivated() && open_steps_ > 0) document_.endStep(), --open_steps_;
   }
 
@@ -710,7 +717,6 @@ class AnimationWindow {
       angles_deg_ = document_.anglesOf(joint) * 180 / std::numbers::pi;
     angles_joint_ = joint;
     angles_held_ = false;
-    bool changed = false;
     constexpr const char* kNames[] = {"x", "y", "z"};
     const ImVec4 colors[] = {{0.87f, 0.24f, 0.24f, 1}, {0.16f, 0.60f, 0.28f, 1}, {0.17f, 0.41f, 0.87f, 1}};
     for (int axis = 0; axis < 3; ++axis) {
@@ -722,17 +728,16 @@ class AnimationWindow {
       ImGui::SameLine(24);
       ImGui::SetNextItemWidth(width - 24);
       ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(8, 5));
-      if (ImGui::DragFloat("##angle", &degrees, 0.5f, -360, 360, "%.1f\xc2\xb0")) {
-        angles_deg_[axis] = double(degrees);
-        changed = true;
-      }
+      const bool changed = ImGui::DragFloat("##angle", &degrees, 0.5f, -360, 360, "%.1f\xc2\xb0");
       ImGui::PopStyleVar();
-      groupStep();
+      inOneStep(changed, [&] {
+        angles_deg_[axis] = double(degrees);
+        document_.setAngles(joint, angles_deg_ * std::numbers::pi / 180);
+      });
       angles_held_ |= ImGui::IsItemActive();
       tip("Drag, or click to type");
       ImGui::PopID();
     }
-    if (changed) document_.setAngles(joint, angles_deg_ * std::numbers::pi / 180);
     enabledButton(
         "Reset", {half, kButtonHeight}, true, [&] { document_.resetJoint(joint); }, "R");
     ImGui::SameLine();

@@ -183,6 +183,11 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
     RetargetedMotion motion = loadBvhFor(path, character, source);
     if (const std::string clause = otherBodyPlan(motion, path, character); notes && !clause.empty())
       notes->of_character.push_back(clause);
+    if (notes && motion.match.by_shape)
+      notes->of_character.push_back(
+          "the joints of " + path +
+          " are matched by the shape of the tree, which may be wrong, as their names "
+          "tell too little (skel-animate retarget says what was matched)");
     return std::move(motion.clip);
   }
   if (ending == ".glb" || ending == ".GLB")

@@ -232,8 +232,25 @@ void AnimationDocument::chooseClip(int clip) {
   message_ = clip < 0 ? "no clip: the character rests" : "clip \"" + clips()[std::size_t(clip)].name + "\"";
 }
 
+std::string AnimationDocument::whyIdle(int joint) const {
+  if (joint < 0 || carriesSkin(skeleton(), character().weights, joint)) return "";
+  return '"' + skeleton().joints[std::size_t(joint)].name +
+         "\" moves nothing of this figure: no skin follows it";
+}
+
+void AnimationDocument::sayIfIdle(int joint) {
+  if (std::string why = whyIdle(joint); !why.empty()) message_ = std::move(why);
+}
+
+void AnimationDocument::choose(int joint) {
+  if (message_ == whyIdle(chosen_)) message_.clear();
+  chosen_ = joint;
+  sayIfIdle(joint);
+}
+
 void AnimationDocument::turnJoint(int joint, int axis, double angle_rad) {
   const StepScope step(*this);
+  sayIfIdle(joint);
   playing = false;
   Eigen::Quaternionf& turn = state_.pose.rotations[std::size_t(joint)];
   turn = (turn * Eigen::AngleAxisf(float(angle_rad), Eigen::Vector3f::Unit(axis))).normalized();
@@ -249,6 +266,7 @@ Eigen::Vector3d AnimationDocument::anglesOf(int joint) const {
 
 void AnimationDocument::setAngles(int joint, const Eigen::Vector3d& angles_rad) {
   const StepScope step(*this);
+  sayIfIdle(joint);
   playing = false;
   state_.pose.rotations[std::size_t(joint)] = rotationOfAngles(angles_rad.cast<float>());
 }
@@ -427,11 +445,14 @@ void AnimationDocument::addSaved(const std::vector<Clip>& clips) {
   saved_.insert(saved_.end(), clips.begin(), clips.end());
 }
 
+bool AnimationDocument::isSaved(const Clip& clip) const {
+  return std::find(saved_.begin(), saved_.end(), clip) != saved_.end();
+}
+
 std::vector<std::string> AnimationDocument::unsavedClips() const {
   std::vector<std::string> names;
   for (const Clip& clip : clips())
-    if (moves(clip) && std::find(saved_.begin(), saved_.end(), clip) == saved_.end())
-      names.push_back(clip.name);
+    if (moves(clip) && !isSaved(clip)) names.push_back(clip.name);
   return names;
 }
 
@@ -554,6 +575,7 @@ bool AnimationDocument::loadClip(const std::string& path) {
     if (eased) clip = withEvenKeys(*eased);
     on_disk_.note(path);
     addSaved({clip});
+    files_[clip.name] = path;
     const StepScope step(*this);
     keepEase(clip.name, eased.value_or(ClipKeys()));
     playing = false;
@@ -572,6 +594,27 @@ bool AnimationDocument::loadClip(const std::string& path) {
   });
 }
 
+std::string AnimationDocument::fileOfClip() const {
+  if (!clip()) return "";
+  const auto known = files_.find(clip()->name);
+  std::vector<std::string> paths;
+  if (known != files_.end())
+    paths = {known->second};
+  else if (!library_.clips_dir.empty())
+    paths = filesBelow(library_.clips_dir);
+  for (const std::string& path : paths) {
+    if (!path.ends_with(kClipFileEnding)) continue;
+    try {
+      const Clip held = readClipFile(path);
+      if (held.name != clip()->name || held.rest_pose != restPoseHash(skeleton())) continue;
+      // The character may have a clip of this name itself.
+      if (known != files_.end() || isSaved(loadClipFor(path, character(), library_))) return path;
+    } catch (const InputError&) {
+    }
+  }
+  return "";
+}
+
 bool AnimationDocument::saveClip(const std::string& path) {
   return attempt([&] {
     if (!clip()) throw UsageError("there is no clip to save: choose one, or make a new one");
@@ -586,6 +629,7 @@ bool AnimationDocument::saveClip(const std::string& path) {
     written.clip.rest_pose = restPoseHash(skeleton());
     save(path, kClipFileEnding, formatClipKeys(written));
     addSaved({withEvenKeys(named)});
+    files_[named.clip.name] = path;
     if (named.clip.name != clip()->name) {
       const StepScope step(*this);
       replaceKeys(named);

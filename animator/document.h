@@ -90,7 +90,7 @@ class AnimationDocument {
 
   // The joint that keys and numbers speak of; -1: none.
   int chosen() const { return chosen_; }
-  void choose(int joint) { chosen_ = joint; }
+  void choose(int joint);
   // The nearest within `radius_px`; -1 if there is none.
   int jointAt(const Eigen::Vector2d& px, const Projection& projection, double radius_px) const;
 
@@ -129,6 +129,8 @@ class AnimationDocument {
   bool loadPose(const std::string& path);
   bool savePose(const std::string& path);
   bool loadClip(const std::string& path);
+  // The clip file that the clip was loaded from, or saved to, for this very rest pose; "": there is none.
+  std::string fileOfClip() const;
   // As it is for this character, which it is read back for key by key, with its ease. A clip that newClip()
   // has named gets the file's name, if that is free; that is a step.
   bool saveClip(const std::string& path);
@@ -152,6 +154,8 @@ class AnimationDocument {
   template <class Action>
   bool attempt(const Action& action);
   void takePoseFromClip();
+  std::string whyIdle(int joint) const;  // why turning it moves nothing; "": it does
+  void sayIfIdle(int joint);
   // The clip, which there is, as it is edited; eased(): null if it does not ease.
   const ClipKeys* eased() const;
   ClipKeys keys() const;
@@ -165,6 +169,7 @@ class AnimationDocument {
   // program has made of it since. Throws OutputError.
   void save(const std::string& path, std::string_view ending, std::string_view bytes);
   void addSaved(const std::vector<Clip>& clips);
+  bool isSaved(const Clip& clip) const;
   bool travel(AnimationState& step);
 
   CharacterSource source_;
@@ -177,10 +182,11 @@ class AnimationDocument {
   AnimationState before_;
   UndoHistory<AnimationState> history_{200};
   std::string message_;
+  std::vector<Clip> saved_;                   // as files hold them
+  std::map<std::string, std::string> files_;  // of clips that loadClip() and saveClip() know, by their names
+  std::optional<Pose> saved_pose_;            // the same of the last one
+  std::set<std::string> given_names_;         // by newClip(), or by saveClip() after the file
   FilesLeft on_disk_;
-  std::vector<Clip> saved_;            // as files hold them
-  std::optional<Pose> saved_pose_;     // the same of the last one
-  std::set<std::string> given_names_;  // by newClip(), or by saveClip() after the file
 };
 
 }  // namespace skel

@@ -3,12 +3,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "animator/load_character.h"
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_file.h"
+#include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/cli/outputs.h"
+#include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/text.h"
 #include "libskel/export/formats.h"
@@ -22,7 +25,9 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 void report(const JointMatch& match) {
-  std::printf("matched %s:\n", match.by_shape ? "by the shape of the tree" : "by name");
+  std::printf("matched %s:\n", match.by_shape
+                                   ? "by the shape of the tree, which may be wrong, as names tell too little"
+                                   : "by name");
   for (const auto& [ours, theirs] : match.joints)
     std::printf("  %-16s %s\n", printable(ours).c_str(), printable(theirs).c_str());
   std::printf("not matched, of the character: %s\n", listed(match.ours_left).c_str());
@@ -43,12 +48,45 @@ Clip motionFor(const RetargetCommandOptions& options, const CharacterFile& file)
   return std::move(result.clip);
 }
 
+// Of a clip file that eases, what stands in it.
+std::optional<ClipKeys> easedInFile(const RetargetCommandOptions& options) {
+  const bool is_path = options.motion.ends_with(".json");
+  std::vector<std::string> paths;
+  if (is_path)
+    paths = {options.motion};
+  else if (!options.clips.clips_dir.empty())
+    paths = filesBelow(options.clips.clips_dir);
+  for (const std::string& path : paths) {
+    if (!is_path && !path.ends_with(kClipFileEnding)) continue;
+    try {
+      ClipKeys keys = parseClipKeys(readFile(path), path);
+      if (keys.ease != KeyEase::kNone && (is_path || keys.clip.name == options.motion)) return keys;
+    } catch (const InputError&) {  // another kind of motion, or left out
+    }
+  }
+  return std::nullopt;
+}
+
+// The keys to write for `clip`, as they are edited: eased as in the file if it is for this very rest pose.
+ClipKeys keysOf(const Clip& clip, const RetargetCommandOptions& options, const CharacterFile& file) {
+  std::optional<ClipKeys> keys = easedInFile(options);
+  if (!keys || hasClip(file.clips, options.motion)) return {clip};
+  if (keys->clip.rest_pose == restPoseHash(file.character.skeleton)) {
+    keys->clip.rest_pose.clear();
+    if (withEvenKeys(*keys) == clip) return *keys;
+  }
+  std::printf("%s: note: its ease is written as even keys, as it is not for the rest pose of %s\n",
+              printable(options.motion).c_str(), printable(options.target).c_str());
+  return {clip};
+}
+
 // What the output's name asks for.
-std::string encoded(const std::string& path, CharacterFile file, const Clip& clip) {
+std::string encoded(const std::string& path, CharacterFile file, const ClipKeys& keys) {
+  const Clip& clip = keys.clip;
   if (path.ends_with(kClipFileEnding)) {
-    Clip written = clip;
-    written.rest_pose = restPoseHash(file.character.skeleton);
-    return formatClip(written);
+    ClipKeys written = keys;
+    written.clip.rest_pose = restPoseHash(file.character.skeleton);
+    return formatClipKeys(written);
   }
   if (path.ends_with(".bvh")) {
     const std::vector<Clip> clips = {clip};
@@ -86,9 +124,10 @@ ExitCode runRetarget(const RetargetCommandOptions& asked) {
   options.clips.names = {options.motion};
   toldClipLibrary(options.clips);
   CharacterFile file = loadModel(options.target);
-  Clip clip = motionFor(options, file);
-  if (!options.name.empty()) clip.name = printable(options.name);
-  writeFile(path, encoded(path, std::move(file), clip));
+  const Clip clip = motionFor(options, file);
+  ClipKeys keys = path.ends_with(kClipFileEnding) ? keysOf(clip, options, file) : ClipKeys{clip};
+  if (!options.name.empty()) keys.clip.name = printable(options.name);
+  writeFile(path, encoded(path, std::move(file), keys));
   std::printf("wrote %s\n", printable(path).c_str());
   return ExitCode::kDone;
 }

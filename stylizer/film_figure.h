@@ -10,9 +10,10 @@
 namespace skel {
 
 struct FilmSource {
-  std::string path;             // a film, or a folder of pictures
-  double frame_rate = 12;       // of a folder, 1/s
-  std::string figure = "auto";  // auto, alpha, still, silhouette
+  std::string path;               // a film, or a folder of pictures
+  double frame_rate = 12;         // of a folder, 1/s
+  bool frame_rate_given = false;  // by the user
+  std::string figure = "auto";    // auto, alpha, still, silhouette
   ForegroundOptions foreground;
 };
 enum class FigureMethod {

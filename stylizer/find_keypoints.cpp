@@ -142,6 +142,12 @@ void sayOtherPlan(const Keypoints& found, const std::string& film) {
                printable(film).c_str(), found.other_plan.c_str());
 }
 
+void sayAssumedRate(const FilmSource& film) {
+  if (film.frame_rate_given || !fs::is_directory(film.path)) return;
+  std::fprintf(stderr, "%s: note: %g frames a second assumed; --fps says another\n",
+               printable(film.path).c_str(), film.frame_rate);
+}
+
 Keypoints findKeypoints(const KeypointOptions& options) {
   const SkeletonTemplate plan = loadTemplate("biped");
   Image background;

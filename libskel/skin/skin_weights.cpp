@@ -214,4 +214,16 @@ SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleto
                                           : layerWeights(mesh, skeleton, bones, way, options, joint_layers));
 }
 
+bool carriesSkin(const Skeleton& skeleton, const SkinWeights& skin, int joint) {
+  std::vector<bool> carried;  // by the joint
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const int parent = skeleton.joints[j].parent;
+    carried.push_back(int(j) == joint || (parent >= 0 && carried[std::size_t(parent)]));
+  }
+  for (Eigen::Index v = 0; v < skin.joints.rows(); ++v)
+    for (Eigen::Index k = 0; k < skin.joints.cols(); ++k)
+      if (skin.weights(v, k) > 0 && carried[skin.joints(v, k)]) return true;
+  return false;
+}
+
 }  // namespace skel

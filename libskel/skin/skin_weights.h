@@ -64,4 +64,7 @@ void checkBindable(const TriangleMesh& mesh, std::size_t joints, const std::stri
 SkinWeights computeSkinWeights(const TriangleMesh& mesh, const Skeleton& skeleton, SkinMethod method,
                                const SkinOptions& options = {}, const std::vector<int>& joint_layers = {});
 
+// Whether any vertex follows the joint, or one that it carries.
+bool carriesSkin(const Skeleton& skeleton, const SkinWeights& skin, int joint);
+
 }  // namespace skel

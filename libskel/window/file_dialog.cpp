@@ -52,7 +52,7 @@ void FileDialog::ask(FileQuestion question) {
   question_ = std::move(question);
   const fs::path suggestion = question_.suggestion;
   std::string name = isFolder(question_.suggestion) ? "" : suggestion.filename().string();
-  if (const auto place = places_.find(question_.kind); place != places_.end()) {
+  if (const auto place = places_.find(question_.kind); place != places_.end() && !question_.begins_there) {
     enter(place->second);
     if (!saves()) name.clear();
   } else {

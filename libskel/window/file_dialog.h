@@ -32,6 +32,7 @@ struct FileQuestion {
   std::function<std::string(const std::string& path)> answer = {};
   // More to choose, between names and buttons.
   std::function<void()> options = {};
+  bool begins_there = false;  // at the suggestion, whatever was asked before
 };
 
 class FileDialog {

@@ -427,6 +427,75 @@ TEST_CASE("a clip of --clips-dir that eases is edited by its own keys, as one th
   isEdited();
 }
 
+TEST_CASE("a clip of --clips-dir was saved elsewhere than in the file that it came from") {
+  const TempDir dir;
+  const std::string path = dir.file("mine/hello.clip.json");
+  const auto write = [&](const std::string& file, const std::string& made_for) {
+    writeFile(file,
+              R"({"format": "skel-clip", "version": 1, "name": "hello", )" + made_for +
+                  R"(, "tracks": [{"joint": "head", "rotations": [[0, 0, 0, 0, 1], [1, 0, 0, 0.6, 0.8]]}]})");
+  };
+  const std::string own = "\"rest_pose\": \"" + restPoseHash(figure().skeleton) + '"';
+  write(path, own);
+  ClipSource library;
+  library.clips_dir = dir.file("mine");
+  const auto fileAfterChange = [&](AnimationDocument& document) {
+    document.chooseClip(clipIndex(document, "hello"));
+    document.turnJoint(document.skeleton().index("neck"), 0, 0.3);
+    document.setKey();
+    return document.fileOfClip();
+  };
+  AnimationDocument document({.path = figureFile(dir)}, library);
+  CHECK(document.fileOfClip().empty());
+  document.chooseClip(clipIndex(document, "walk"));
+  CHECK(document.fileOfClip().empty());
+  CHECK(fileAfterChange(document) == path);
+  REQUIRE(document.saveClip(dir.file("out/hello.clip.json")));
+  CHECK(document.fileOfClip() == dir.file("out/hello.clip.json"));
+  document.newClip("mine", 1);
+  CHECK(document.fileOfClip().empty());
+  REQUIRE(document.loadClip(path));
+  CHECK(document.fileOfClip() == path);
+
+  // A file for the canonical pose would not be so any more.
+  write(path, R"("template": "biped")");
+  AnimationDocument fitted({.path = figureFile(dir)}, library);
+  CHECK(fileAfterChange(fitted).empty());
+}
+
+TEST_CASE("a joint that no skin follows was turned and keyed as if it moved something") {
+  const TempDir dir;
+  RiggedCharacter character = figure();
+  const Skeleton& skeleton = character.skeleton;
+  for (Eigen::Index v = 0; v < character.weights.joints.rows(); ++v)
+    for (Eigen::Index k = 0; k < character.weights.joints.cols(); ++k)
+      if (skeleton.joints[character.weights.joints(v, k)].name.starts_with("left_"))
+        character.weights.joints(v, k) = 0;
+  writeFile(dir.file("armless.glb"), encodeGlb(character, {nodClip()}));
+  AnimationDocument document({.path = dir.file("armless.glb")});
+  const int elbow = document.skeleton().index("left_elbow");
+  const std::string note = "\"left_elbow\" moves nothing of this figure: no skin follows it";
+  document.choose(elbow);
+  CHECK(document.message() == note);
+  document.choose(document.skeleton().index("right_elbow"));
+  CHECK(document.message().empty());
+  document.choose(elbow);
+  document.chooseClip(0);
+  document.setKey();
+  document.turnJoint(elbow, 0, 0.5);
+  CHECK(document.message() == note);
+  document.say("");
+  document.setAngles(elbow, {0.1, 0, 0});
+  CHECK(document.message() == note);
+  document.say("");
+  for (const char* joint : {"right_elbow", "pelvis", "head"}) {
+    document.choose(document.skeleton().index(joint));
+    document.turnJoint(document.chosen(), 0, 0.5);
+  }
+  document.choose(-1);
+  CHECK(document.message().empty());
+}
+
 TEST_CASE("a copy of a clip file kept the window from opening") {
   const TempDir dir;
   for (const char* file : {"reach.clip.json", "reach (copy).clip.json"})

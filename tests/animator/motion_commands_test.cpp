@@ -189,6 +189,54 @@ TEST_CASE("retarget writes a character, a clip or a BVH, and says what it matche
   CHECK(cut.err.find("skel-animate: " + dir.file("cut.bvh") + ": line ") == 0);
 }
 
+TEST_CASE("retarget gave even keys for three that ease, to the same character, without a word") {
+  const TempDir dir;
+  const std::string glb = figureFile(dir), hello = dir.file("mine/hello.clip.json"),
+                    back = dir.file("back.clip.json");
+  const auto write = [&](const std::string& made_for) {
+    writeFile(hello, R"({"format": "skel-clip", "version": 1, "ease": "flow", "name": "hello", )" + made_for +
+                         R"(, "tracks": [{"joint": "right_shoulder",
+                         "rotations": [[0, 0, 0, 0, 1], [1, 0, 0, -0.6, 0.8], [2, 0, 0, 0, 1]]}]})");
+  };
+  const auto keysBack = [&](const std::string& motion, const std::string& said) {
+    const ToolRun run = runTool(kTool + " retarget " + motion + " --to " + glb + " -o " + back);
+    CAPTURE(motion, run.err);
+    CHECK(run.exit_code == 0);
+    CHECK(run.out == said + "wrote " + back + "\n");
+    return parseClipKeys(readFile(back), back);
+  };
+  write("\"rest_pose\": \"" + restPoseHash(figure().skeleton) + '"');
+  const ClipKeys given = parseClipKeys(readFile(hello), hello);
+  CHECK(keysBack(hello, "") == given);
+  CHECK(keysBack("hello --clips-dir " + dir.file("mine"), "") == given);
+  const ClipKeys named = keysBack(hello + " --name other", "");
+  CHECK(named.clip.name == "other");
+  CHECK(named.ease == KeyEase::kFlow);
+
+  // Fitted to the character it has other keys.
+  write(R"("template": "biped")");
+  const std::string note =
+      ": note: its ease is written as even keys, as it is not for the rest pose of " + glb + "\n";
+  CHECK(keysBack(hello, hello + note).clip.tracks[0].times_s.size() > 3);
+  CHECK(keysBack("hello --clips-dir " + dir.file("mine"), "hello" + note).ease == KeyEase::kNone);
+}
+
+TEST_CASE("a motion whose joints are matched by the shape of their tree was played without a word") {
+  const TempDir dir;
+  const std::string glb = figureFile(dir), may_be_wrong = "by the shape of the tree, which may be wrong";
+  const auto render = [&](const std::string& motion) {
+    const ToolRun run = runTool(kTool + " render " + glb + " --clip " + kMotions + motion +
+                                " --fps 1 --size 32 -o " + dir.file("a.gif"));
+    CHECK(run.exit_code == 0);
+    return run.err;
+  };
+  CHECK_THAT(render("nameless.bvh"), Contains("nameless.bvh are matched " + may_be_wrong));
+  CHECK_THAT(render("cmu.bvh"), !Contains(may_be_wrong));
+  CHECK_THAT(
+      runTool(kTool + " retarget " + kMotions + "nameless.bvh --to " + glb + " -o " + dir.file("b.glb")).out,
+      Contains("matched " + may_be_wrong));
+}
+
 TEST_CASE("a BVH of ours comes back as it was") {
   const TempDir dir;
   const RiggedCharacter character = figure();

@@ -645,6 +645,19 @@ TEST_CASE("sheets side by side follow their neighbours") {
   CHECK(weights.joints((kSheets - 1) * kSide * kSide, 0) == 1);
 }
 
+TEST_CASE("a joint carries skin if a vertex follows it, or one below it") {
+  Skeleton skeleton;
+  for (int parent : {-1, 0, 1, 0}) skeleton.joints.push_back({"joint", parent, {}, {}});
+  SkinWeights skin;
+  skin.joints.setZero(2, 4);
+  skin.weights.setZero(2, 4);
+  skin.joints.row(0) << 0, 2, 3, 0;
+  skin.weights.row(0) << .5f, .5f, 0, 0;
+  skin.weights(1, 0) = 1;
+  for (const int joint : {0, 1, 2}) CHECK(carriesSkin(skeleton, skin, joint));
+  CHECK_FALSE(carriesSkin(skeleton, skin, 3));
+}
+
 // Each of them looked at all vertices at its height.
 TEST_CASE("a part that no way reaches takes the weights beside it, however many lie at one height") {
   constexpr int kLength = 100'000;

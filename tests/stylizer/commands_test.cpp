@@ -151,6 +151,18 @@ TEST_CASE("what lies in the work folder is taken for the film that it was made o
   CHECK_THAT(done(make(dir.file("other/walk"))).out, Contains("content.motion.json: " + taken));
 }
 
+TEST_CASE("frames in a folder were taken for 12 a second without a word") {
+  const TempDir dir;
+  const std::string idle = film(dir, "idle");
+  const auto said = [&](const std::string& options) {
+    const ToolRun run = style("keypoints " + idle + options + " -o " + dir.file("a.motion.json"));
+    CHECK(run.exit_code == 0);
+    return run.err;
+  };
+  CHECK(said("") == idle + ": note: 12 frames a second assumed; --fps says another\n");
+  CHECK(said(" --fps 12") == "");
+}
+
 TEST_CASE("key frames and the distances of all frames") {
   const TempDir dir;
   const std::string walk = film(dir, "walk");
@@ -229,8 +241,9 @@ TEST_CASE("one frame, frames that are all the same, and frames without a figure"
   CHECK_THAT(done("keyframes " + dir.file("same") + " --matrix -o " + dir.file("k3")).out,
              Contains("2 of 3 frames"));
   const std::string one = dir.file("one.motion.json"), same = dir.file("same.motion.json");
-  done("keypoints " + dir.file("one") + " -o " + one);
-  CHECK_THAT(done("keypoints " + dir.file("same") + " -o " + same).out, Contains("unevenness 0.0000"));
+  done("keypoints " + dir.file("one") + " --fps 12 -o " + one);
+  CHECK_THAT(done("keypoints " + dir.file("same") + " --fps 12 -o " + same).out,
+             Contains("unevenness 0.0000"));
   done("transfer --content " + same + " --style " + one + " -o " + dir.file("t.motion.json"));
   CHECK_THAT(done("render --character " + kDrawing + " --motion " + one + " -o " + dir.file("o.gif")).out,
              Contains("1 frames") && Contains("at most 0.0 % of the drawing torn"));
