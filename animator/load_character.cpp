@@ -55,6 +55,8 @@ void bindCharacterOptions(CLI::App& app, CharacterSource& source) {
   app.add_option("--figure", source.figure, "Which figure of a drawing: 1 is the largest")
       ->check(numberIn(1, 9999))
       ->capture_default_str();
+  app.add_flag("--upright", source.upright,
+               "The figure of a drawing is not turned: try no other orientations");
   app.add_option("--skeleton", source.skeleton,
                  "The skeleton of a model (see skel-animate bind), or of a drawing: its .skeleton.json or "
                  ".labels.json, mended")
@@ -81,6 +83,7 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
   if (options.otherwise) options.otherwise->clips = clipsFor(library, options.otherwise->body_plan);
   options.into_picture = clips.into_picture;
   options.silhouette.alpha = source.alpha;
+  options.upright = source.upright;
   const std::optional<SkeletonFile> given = givenSkeleton(source.skeleton, options);
   const std::string bytes = readFile(source.path);
   MendRequest request;

@@ -25,11 +25,12 @@ struct CharacterSource {
   // Of a model (.obj): see readRigModel(). Of a drawing: a .skeleton.json or .labels.json of it.
   std::string skeleton = {};
   std::string up = "auto";
-  bool force = false;  // leave out what was mended by hand
+  bool upright = false;  // the figure of a drawing is not turned: try no other orientations
+  bool force = false;    // leave out what was mended by hand
 };
 // FILE, and the options of the next one.
 void bindCharacterSource(CLI::App& app, CharacterSource& source);
-// --template, --alpha, --figure, --skeleton, --up, --force.
+// --template, --alpha, --figure, --upright, --skeleton, --up, --force.
 void bindCharacterOptions(CLI::App& app, CharacterSource& source);
 
 // By the ending of the source's name.

@@ -226,6 +226,21 @@ TEST_CASE("a film of a drawing says what skel-infer says of it, once for all fil
   CHECK(run.err.find("looks like a quadruped") == run.err.rfind("looks like a quadruped"));
 }
 
+TEST_CASE("a film's advice for a figure that is turned named an option that render did not have") {
+  const TempDir dir;
+  const std::string film = "'" SKEL_SOURCE_DIR
+                           "/datasets/unseen/characters/in4_cartwheel_kid.png' --clip idle --fps 1 "
+                           "--size 24 -o '" +
+                           dir.file("film.gif") + "'";
+  const ToolRun turned = render(film);
+  REQUIRE(turned.exit_code == 0);
+  REQUIRE_THAT(turned.err, Contains("is turned by "));
+  REQUIRE_THAT(turned.err, Contains("use --upright"));
+  const ToolRun upright = render(film + " --upright");
+  CHECK(upright.exit_code == 0);
+  CHECK_THAT(upright.err, !Contains("is turned by "));
+}
+
 TEST_CASE("of several drawings, one that cannot be rigged keeps no other from its film") {
   const TempDir dir;
   writeFile(dir.file("text.png"), "no picture");
