@@ -225,13 +225,18 @@ Clip loadClipFor(const std::string& path, const RiggedCharacter& character, cons
   }
 }
 
-std::optional<ClipKeys> easedKeysOf(const std::string& path, const Skeleton& skeleton) {
+std::optional<ClipKeys> easedKeysIn(const std::string& path) {
   if (isBvh(path)) return std::nullopt;
   const std::string text = readFile(path);
   if (isKeyframeClip(text) || isPoseFile(text)) return std::nullopt;
   ClipKeys keys = parseClipKeys(text, path);
-  if (keys.ease == KeyEase::kNone || keys.clip.rest_pose != restPoseHash(skeleton)) return std::nullopt;
-  keys.clip.rest_pose.clear();
+  return keys.ease == KeyEase::kNone ? std::nullopt : std::optional(std::move(keys));
+}
+
+std::optional<ClipKeys> easedKeysOf(const std::string& path, const Skeleton& skeleton) {
+  std::optional<ClipKeys> keys = easedKeysIn(path);
+  if (!keys || keys->clip.rest_pose != restPoseHash(skeleton)) return std::nullopt;
+  keys->clip.rest_pose.clear();
   return keys;
 }
 

@@ -63,8 +63,9 @@ struct ClipNotes {
 // InputError.
 Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source = {},
                  ClipNotes* notes = nullptr);
-// Of a clip file that is for this very rest pose (Clip::rest_pose) and whose keys ease, these keys; else
-// nothing. Throws InputError.
+// Of a clip file whose keys ease, these keys; else nothing. Throws InputError.
+std::optional<ClipKeys> easedKeysIn(const std::string& path);
+// The same of one that is for this very rest pose (Clip::rest_pose).
 std::optional<ClipKeys> easedKeysOf(const std::string& path, const Skeleton& skeleton);
 // The same of all clip files of the folder; what is no clip file is refused where all are needed.
 std::vector<ClipKeys> easedKeysOf(const ClipSource& source, const Skeleton& skeleton);

@@ -58,8 +58,7 @@ CLI::Option* bindSheetOptions(CLI::App& app, CLI::Option* film, SheetOptions& op
 void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
   app.add_option("file", options.files,
                  "Rigged characters (.glb), drawings, which are rigged first, folders of drawings, or models "
-                 "(.obj) with "
-                 "--skeleton")
+                 "(.obj) with --skeleton")
       ->required()
       ->type_name("FILE");
   bindCharacterOptions(app, options.source);

@@ -59,9 +59,9 @@ std::optional<ClipKeys> easedInFile(const RetargetCommandOptions& options) {
   for (const std::string& path : paths) {
     if (!is_path && !path.ends_with(kClipFileEnding)) continue;
     try {
-      ClipKeys keys = parseClipKeys(readFile(path), path);
-      if (keys.ease != KeyEase::kNone && (is_path || keys.clip.name == options.motion)) return keys;
-    } catch (const InputError&) {  // another kind of motion, or left out
+      std::optional<ClipKeys> keys = easedKeysIn(path);
+      if (keys && (is_path || keys->clip.name == options.motion)) return keys;
+    } catch (const InputError&) {  // left out
     }
   }
   return std::nullopt;

@@ -86,6 +86,10 @@ std::string stemOf(const std::string& root, const std::string& id) {
   return root + "/" + id + (isOwnFolder(root, id) ? "/" : ".");
 }
 
+std::string imageOf(const std::string& root, const std::string& id) {
+  return stemOf(root, id) + (isOwnFolder(root, id) ? "image.png" : "png");
+}
+
 // Whoever reads it says what is wrong with it.
 bool holdsPlacedJoint(const std::string& label_file) {
   try {
@@ -144,11 +148,9 @@ std::string nameOfDrawing(const std::string& root, const std::string& id) {
 }
 
 void noteMeasuredFiles(const std::string& root, const std::string& id) {
-  const std::string stem = stemOf(root, id);
-  const std::string labels =
-      isOwnFolder(root, id) ? labelFileFor(stem + "image.png") : root + "/" + id + kLabelFileEnding;
-  for (const char* name : {"joints.json", "mask.png"}) noteInput(stem + name);
-  noteInput(isOwnFolder(root, id) ? stem + "image.png" : stem + "png");
+  const std::string image = imageOf(root, id), labels = labelFileFor(image);
+  for (const char* name : {"joints.json", "mask.png"}) noteInput(stemOf(root, id) + name);
+  noteInput(image);
   noteInput(labels);
   if (!fs::exists(labels)) return;
   try {
@@ -167,7 +169,7 @@ MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& 
     return drawing;
   }
   const std::string stem = stemOf(root, id);
-  const std::string image = own_folder ? stem + "image.png" : stem + "png";
+  const std::string image = imageOf(root, id);
   const std::string annotation = stem + "joints.json", label_file = labelFileFor(image);
   std::string mask = stem + "mask.png";
   const std::optional<LabelFile> labels = placedLabelsBeside(image);

@@ -71,10 +71,8 @@ AnnotatedDrawing readJoints(const AnnotatedImage& annotated, const BodyPlans& pl
 
 // Null: it is no skeleton file, or of none of the plans.
 const SkeletonTemplate* planOfSkeletonFile(const std::string& path, const BodyPlans& plans) {
-  if (!path.ends_with(kSkeletonFileEnding)) return nullptr;
-  const std::string name = templateOfSkeleton(readFile(path), path);
-  const SkeletonTemplate& plan = planNamed(name, plans);
-  return plan.name == name ? &plan : nullptr;
+  return path.ends_with(kSkeletonFileEnding) ? findPlan(templateOfSkeleton(readFile(path), path), plans)
+                                             : nullptr;
 }
 
 // Nothing where it is of another figure than the first: label files are of that one. `dir`: that is read.

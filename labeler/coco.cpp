@@ -212,9 +212,9 @@ std::string formatCoco(const std::vector<CocoPicture>& pictures, const BodyPlans
   using Json = nlohmann::ordered_json;
   std::vector<const SkeletonTemplate*> used;  // of categories
   const auto categoryOf = [&](const SkeletonTemplate& plan) {
-    const auto known = std::find(used.begin(), used.end(), &plan);
-    if (known == used.end()) used.push_back(&plan);
-    return std::find(used.begin(), used.end(), &plan) - used.begin() + 1;
+    const auto index = std::size_t(std::find(used.begin(), used.end(), &plan) - used.begin());
+    if (index == used.size()) used.push_back(&plan);
+    return index + 1;
   };
   Json images = Json::array(), annotations = Json::array();
   for (size_t i = 0; i < pictures.size(); ++i) {

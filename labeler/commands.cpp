@@ -30,20 +30,10 @@ ExitCode report(const ImportCounts& counts) {
   return counts.exit_code;
 }
 
-void noteEarlier(const std::vector<std::string>& kept) {
+void noteKept(const std::vector<std::string>& kept, const char* how) {
   if (kept.empty()) return;
-  std::fprintf(stderr,
-               "skel-label: note: %s: kept, but the picture has changed since it was labelled; --force makes "
-               "the labels anew, and drops joints set by hand\n",
-               firstAndMore(kept).c_str());
-}
-
-void noteDiffering(const std::vector<std::string>& kept) {
-  if (kept.empty()) return;
-  std::fprintf(stderr,
-               "skel-label: note: %s: kept, with other joints than what is to be imported; --force takes the "
-               "latter, and drops joints set by hand\n",
-               firstAndMore(kept).c_str());
+  std::fprintf(stderr, "skel-label: note: %s: kept, %s, and drops joints set by hand\n",
+               firstAndMore(kept).c_str(), how);
 }
 
 void notePassedOver(const std::set<std::string>& exports) {
@@ -151,31 +141,32 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
   };
   command("candidates", "Make an empty label file for every picture that has none",
           [&] { return report(makeLabelFiles(options.dir, complaints())); });
-  CLI::App* import =
-      command("import",
-              "Make label files from annotations: char_cfg.yaml, joints.json, "
-              "<stem>.joints.json, COCO keypoints, and "
-              "from skeletons that skel-infer has found",
-              [&] {
-                const ImportCounts counts =
-                    importLabels(options.dir, bodyPlans(options.body_plan), options.import, complaints());
-                const ExitCode code = report(counts);
-                if (counts.labelled > 0)
-                  print("classes by placed joints in " + std::to_string(counts.labelled) +
-                        " label files that had none\n");
-                notePassedOver(counts.passed_over);
-                noteEarlier(counts.earlier);
-                noteDiffering(counts.differing);
-                noteLacking(counts);
-                if (counts.made > 0)
-                  print(std::to_string(counts.joints_placed) + " joints placed, " +
-                        std::to_string(counts.joints_found) + " found" +
-                        (counts.classes_kept > 0
-                             ? "; classes set by hand and kept: " + std::to_string(counts.classes_kept)
-                             : "") +
-                        "\nwritten into " + namesOf(counts.folders) + "\n");
-                return code;
-              });
+  CLI::App* import = command(
+      "import",
+      "Make label files from annotations: char_cfg.yaml, joints.json, "
+      "<stem>.joints.json, COCO keypoints, and "
+      "from skeletons that skel-infer has found",
+      [&] {
+        const ImportCounts counts =
+            importLabels(options.dir, bodyPlans(options.body_plan), options.import, complaints());
+        const ExitCode code = report(counts);
+        if (counts.labelled > 0)
+          print("classes by placed joints in " + std::to_string(counts.labelled) +
+                " label files that had none\n");
+        notePassedOver(counts.passed_over);
+        noteKept(counts.earlier,
+                 "but the picture has changed since it was labelled; --force makes the labels anew");
+        noteKept(counts.differing, "with other joints than what is to be imported; --force takes the latter");
+        noteLacking(counts);
+        if (counts.made > 0)
+          print(std::to_string(counts.joints_placed) + " joints placed, " +
+                std::to_string(counts.joints_found) + " found" +
+                (counts.classes_kept > 0
+                     ? "; classes set by hand and kept: " + std::to_string(counts.classes_kept)
+                     : "") +
+                "\nwritten into " + namesOf(counts.folders) + "\n");
+        return code;
+      });
   import->add_option("-o,--output", options.import.output,
                      "Copy pictures and masks here, with their label files");
   import->add_flag("--force", options.import.force,

@@ -184,7 +184,7 @@ std::string Document::fileChangedElsewhere() const {
 
 bool Document::takeOutsideChange() {
   try {
-    if (!fileChangedElsewhere().empty()) readAnew();
+    if (const std::string file = fileChangedElsewhere(); !file.empty()) readAnew(file);
     return true;
   } catch (...) {
     save_problem_ = caughtError(item().files.image).what();
@@ -192,8 +192,7 @@ bool Document::takeOutsideChange() {
   }
 }
 
-void Document::readAnew() {
-  const std::string file = fs::path(fileChangedElsewhere()).filename().string();
+void Document::readAnew(const std::string& changed) {
   const DrawingState mine = state_, base = saved_;
   const std::shared_ptr<const Figure> my_figure = figure_;
   const std::string said = message_;
@@ -210,8 +209,8 @@ void Document::readAnew() {
     message_ = said;
     throw;
   }
-  message_ = said + (said.empty() ? "" : "; ") + file + " was changed elsewhere and is read anew" +
-             merge(mine, base, my_figure);
+  message_ = said + (said.empty() ? "" : "; ") + fs::path(changed).filename().string() +
+             " was changed elsewhere and is read anew" + merge(mine, base, my_figure);
   count();
 }
 
@@ -274,7 +273,7 @@ std::string Document::planOfFiles() const {
     return plan ? plan->name : "";
   }
   const std::string beside = planOfSkeletonBeside(item().files, image_sha256_);
-  return planNamed(beside, options_.body_plans).name == beside ? beside : "";
+  return findPlan(beside, options_.body_plans) ? beside : "";
 }
 
 void Document::takeMended() {
@@ -679,28 +678,33 @@ void Document::takeModel() {
   std::replace(message_.begin(), message_.end(), '_', ' ');
 }
 
-bool Document::undo() {
+template <class Travel>
+bool Document::throughHistory(const Travel& travel) {
   if (open_step_) endStep();
   if (!takeOutsideChange() || dropOutdatedSteps()) return false;
-  const bool is_undone = history_.undo([&](const Step& step) {
-    if (!travel(step, step.before)) return false;
-    message_ = "undone";
-    return true;
-  });
+  const bool done = travel();
   dropOutdatedSteps();
-  return is_undone;
+  return done;
+}
+
+bool Document::undo() {
+  return throughHistory([&] {
+    return history_.undo([&](const Step& step) {
+      if (!travel(step, step.before)) return false;
+      message_ = "undone";
+      return true;
+    });
+  });
 }
 
 bool Document::redo() {
-  if (open_step_) endStep();
-  if (!takeOutsideChange() || dropOutdatedSteps()) return false;
-  const bool is_redone = history_.redo([&](const Step& step) {
-    if (!travel(step, step.after)) return false;
-    message_ = "done again";
-    return true;
+  return throughHistory([&] {
+    return history_.redo([&](const Step& step) {
+      if (!travel(step, step.after)) return false;
+      message_ = "done again";
+      return true;
+    });
   });
-  dropOutdatedSteps();
-  return is_redone;
 }
 
 bool Document::travel(const Step& step, const DrawingState& target) {

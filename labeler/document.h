@@ -184,7 +184,7 @@ class Document {
   // Loads the drawing anew where that is so, and does on it what has been done since the last save. False,
   // with nothing changed but saveProblem(), where it cannot be read.
   bool takeOutsideChange();
-  void readAnew();
+  void readAnew(const std::string& changed);
   // What `mine` has changed of `base`, done to the state. Returns what cannot be, to be said.
   const char* merge(const DrawingState& mine, const DrawingState& base,
                     const std::shared_ptr<const Figure>& my_figure);
@@ -205,6 +205,8 @@ class Document {
   // Takes a mask and lets the candidates follow; false, with nothing changed, if it shows no figure.
   bool replaceMask(std::shared_ptr<const MaskVersion> mask);
   bool travel(const Step& step, const DrawingState& target);
+  template <class Travel>
+  bool throughHistory(const Travel& travel);
   void save();
   void writeFiles();
   // SkeletonFile::foundOutline() of the picture that the state was made for.

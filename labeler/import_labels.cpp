@@ -283,9 +283,10 @@ ImportCounts importLabels(const std::string& path, const BodyPlans& plans, const
 
 ImportCounts makeLabelFiles(const std::string& dir, const OnError& on_error) {
   ImportCounts counts;
+  const SkeletonTemplate body_plan = loadTemplate("biped");
   const auto make = [&](const DrawingFiles& files) {
     if (fs::exists(files.labels)) return false;
-    writeLabelFile(files.labels, labelImage(files.image, givenMask(files), {}, loadTemplate("biped")));
+    writeLabelFile(files.labels, labelImage(files.image, givenMask(files), {}, body_plan));
     return true;
   };
   forEach(findDrawings(dir), "candidates", on_error, make, counts);

@@ -17,6 +17,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
 #include "libskel/core/sha256.h"
+#include "libskel/core/smooth_step.h"
 #include "libskel/skeleton/check_skeleton.h"
 #include "libskel/skeleton/hanging.h"
 #include "libskel/skeleton/joint_lookup.h"
@@ -40,17 +41,13 @@ constexpr double kShortSquat = 0.6;  // so much less deep squat legs that are on
 
 Quaterniond aboutZ(double angle_rad) { return Quaterniond(Eigen::AngleAxisd(angle_rad, Vector3d::UnitZ())); }
 
-double smoothStep(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
+double smoothStep(double from, double to, double x) { return skel::smoothStep((x - from) / (to - from)); }
 
 // How much of the drawn pose is taken back at `time_s`: 0 at the ends of a clip that starts from rest,
 // else 1.
 double canonicalShare(const Clip& clip, double time_s) {
   if (clip.lead_s <= 0) return 1;
-  const double t = std::clamp(std::min(time_s, clip.duration_s() - time_s) / clip.lead_s, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
+  return skel::smoothStep(std::min(time_s, clip.duration_s() - time_s) / clip.lead_s);
 }
 
 // One moment of the clip on the drawn skeleton.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libskel/core/check.h"
+#include "libskel/core/smooth_step.h"
 
 namespace skel {
 namespace {
@@ -33,18 +34,13 @@ std::vector<int> boneEnds(const Skeleton& skeleton, const SkeletonTemplate& body
   return ends;
 }
 
-double smoothStep(double x) {
-  const double t = std::clamp(x, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
 double angleBetween(const Vector2d& a, const Vector2d& b) {
   return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
 }
 
 constexpr double kDegree = std::numbers::pi / 180;
-// Between the bones of a limb, 0 straight: up to the first it bends as it is told, and above the third it is
-// on its way through folded to the other side; between them never much above the first two.
+// Between the bones of a limb, 0 straight: up to the first it bends as it is told, and never much above the
+// first two, but for an elbow that is beyond the third, on its way through folded to the other side.
 constexpr double kBend_rad = 75 * kDegree, kFold_rad = 35 * kDegree, kThrough_rad = 140 * kDegree;
 
 double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }

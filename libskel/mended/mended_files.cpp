@@ -289,7 +289,7 @@ void leaveOutOtherPlans(MendedFiles& files, const MendRequest& request, const Ri
   if (!files.skeleton.empty()) {
     const LookAtOutputs look;
     const std::string plan = templateOfSkeleton(readFile(files.skeleton), files.skeleton);
-    const bool is_asked_for = planNamed(plan, plans).name == plan;
+    const bool is_asked_for = findPlan(plan, plans) != nullptr;
     if (!is_asked_for && files.skeleton == request.results + kSkeletonFileEnding)
       throw InputError(files.skeleton, "holds joints of a " + plan + " that were moved by hand, a " +
                                            rig.body_plan.name + "'s are asked for; give --template " + plan +

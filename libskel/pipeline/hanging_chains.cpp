@@ -1,4 +1,5 @@
 #include "libskel/pipeline/hanging_chains.h"
+#include "libskel/core/smooth_step.h"
 
 #include <algorithm>
 #include <functional>
@@ -6,7 +7,6 @@
 #include <queue>
 #include <utility>
 
-#include "libskel/pipeline/smooth_step.h"
 #include "libskel/skeleton/hanging.h"
 #include "libskel/skin/bones.h"
 

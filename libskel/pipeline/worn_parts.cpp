@@ -1,4 +1,5 @@
 #include "libskel/pipeline/worn_parts.h"
+#include "libskel/core/smooth_step.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +12,6 @@
 #include <vector>
 
 #include "libskel/pipeline/hanging_chains.h"
-#include "libskel/pipeline/smooth_step.h"
 #include "libskel/skin/bones.h"
 #include "libskel/skin/edges.h"
 #include "libskel/skin/falloff.h"

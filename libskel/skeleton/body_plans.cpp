@@ -9,10 +9,15 @@ BodyPlans bodyPlans(const std::string& name_or_path) {
   return {loadTemplate("biped"), loadTemplate("quadruped")};
 }
 
-const SkeletonTemplate& planNamed(std::string_view name, const BodyPlans& plans) {
+const SkeletonTemplate* findPlan(std::string_view name, const BodyPlans& plans) {
   for (const SkeletonTemplate& plan : plans)
-    if (plan.name == name) return plan;
-  return plans.front();
+    if (plan.name == name) return &plan;
+  return nullptr;
+}
+
+const SkeletonTemplate& planNamed(std::string_view name, const BodyPlans& plans) {
+  const SkeletonTemplate* plan = findPlan(name, plans);
+  return plan ? *plan : plans.front();
 }
 
 const SkeletonTemplate* planWith(const std::vector<std::string>& joints, const BodyPlans& plans) {

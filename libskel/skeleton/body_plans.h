@@ -14,7 +14,9 @@ using BodyPlans = std::vector<SkeletonTemplate>;  // at least one
 // That of loadTemplate(), or of "auto" biped and quadruped.
 BodyPlans bodyPlans(const std::string& name_or_path);
 
-// The one that is called so; the first if none is.
+// The one that is called so; null: none is.
+const SkeletonTemplate* findPlan(std::string_view name, const BodyPlans& plans);
+// The same; the first if none is.
 const SkeletonTemplate& planNamed(std::string_view name, const BodyPlans& plans);
 
 // The first that has all joints of these names; null: none has.

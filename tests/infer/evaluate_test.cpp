@@ -23,6 +23,13 @@ std::string summary(const std::string& text) {
   return line;
 }
 
+// With its joints, without its mask.
+void copyCapBoy(const skel::TempDir& dir) {
+  for (const char* end : {".png", ".joints.json"})
+    std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/cap_boy") + end,
+                               dir.file(std::string("cap_boy") + end));
+}
+
 }  // namespace
 
 TEST_CASE("evaluate gives the figures of the scorer in Python") {
@@ -114,9 +121,7 @@ TEST_CASE("a drawing that lies right in the measured folder had no name") {
 
 TEST_CASE("evaluate --opaque said nothing where it leaves nothing to measure") {
   const skel::TempDir dir;
-  for (const char* end : {".png", ".joints.json"})
-    std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/cap_boy") + end,
-                               dir.file(std::string("cap_boy") + end));
+  copyCapBoy(dir);
   const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "' --opaque");
   CHECK(run.exit_code == 2);
   CHECK(run.out.empty());
@@ -179,9 +184,7 @@ TEST_CASE("evaluate measures by the joints of label files that a person has plac
 
 TEST_CASE("evaluate measures joints without a mask, and what there is nothing to measure by is no figure") {
   const skel::TempDir dir;
-  for (const char* end : {".png", ".joints.json"})
-    std::filesystem::copy_file(std::string(SKEL_DATASETS "/characters/cap_boy") + end,
-                               dir.file(std::string("cap_boy") + end));
+  copyCapBoy(dir);
   const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "' --given-mask --json '" +
                                  dir.file("figures.json") + "'");
   CAPTURE(run.out, run.err);

@@ -44,13 +44,18 @@ CapsuleFigure thinStickMan() {
   return figure;
 }
 
+// page.png, of two figures.
+void writePage(const TempDir& dir) {
+  CapsuleFigure small;
+  small.size = 300;
+  writeFile(dir.file("page.png"), page({CapsuleFigure(), small}));
+}
+
 }  // namespace
 
 TEST_CASE("after --figure all, --skeleton page-2: the second skeleton stays on the second figure") {
   const TempDir dir;
-  CapsuleFigure small;
-  small.size = 300;
-  writeFile(dir.file("page.png"), page({CapsuleFigure(), small}));
+  writePage(dir);
   REQUIRE(infer(dir, "page.png -o one --figure all").exit_code == 0);
   const ToolRun again = infer(dir, "page.png -o two --skeleton one/page-2.skeleton.json");
   CAPTURE(again.err);
@@ -78,9 +83,7 @@ TEST_CASE("after --figure all, --skeleton page-2: the second skeleton stays on t
 
 TEST_CASE("notes of --figure all say which figure") {
   const TempDir dir;
-  CapsuleFigure small;
-  small.size = 300;
-  writeFile(dir.file("page.png"), page({CapsuleFigure(), small}));
+  writePage(dir);
   const ToolRun run = infer(dir, "page.png --figure all");
   CHECK(contains(run.out, "page.png, figure 1: out/page-1.glb"));
   CHECK(contains(run.out, "page.png, figure 2: out/page-2.glb"));
@@ -89,9 +92,7 @@ TEST_CASE("notes of --figure all say which figure") {
 
 TEST_CASE("a mask, and joints, that were mended of the largest figure were dropped by --figure all") {
   const TempDir dir;
-  CapsuleFigure small;
-  small.size = 300;
-  writeFile(dir.file("page.png"), page({CapsuleFigure(), small}));
+  writePage(dir);
   REQUIRE(infer(dir, "page.png -o found --figure all --formats json,silhouette").exit_code == 0);
   Plane8 mask = readMask(dir.file("found/page-1.silhouette.png"));
   const auto topOf = [](const Plane8& figure) {
@@ -129,9 +130,7 @@ TEST_CASE("a mask, and joints, that were mended of the largest figure were dropp
 
 TEST_CASE("who takes all figures is not told that the largest is taken") {
   const TempDir dir;
-  CapsuleFigure small;
-  small.size = 300;
-  writeFile(dir.file("page.png"), page({CapsuleFigure(), small}));
+  writePage(dir);
   CHECK(contains(infer(dir, "page.png --formats json").err, "the largest is taken"));
   CHECK_FALSE(contains(infer(dir, "page.png --formats json --figure all").err, "the largest is taken"));
 }

@@ -54,6 +54,15 @@ double headOf(const std::string& label_file) {
   return -1;
 }
 
+// Two drawings to round/coco.json, beside the picture of one of them, cap_boy.
+void exportTwo(const TempDir& dir) {
+  copyCharacter("cap_boy", dir.file("in"));
+  copyCharacter("box_robot", dir.file("in"));
+  REQUIRE(label(dir, "import in").exit_code == 0);
+  REQUIRE(label(dir, "export in --coco -o round/coco.json").exit_code == 0);
+  fs::copy(dir.file("in/cap_boy.png"), dir.file("round/cap_boy.png"));
+}
+
 }  // namespace
 
 TEST_CASE("wrong arguments are refused with one line") {
@@ -463,11 +472,7 @@ TEST_CASE("import: a joint that is missing is said, and candidates that may belo
 
 TEST_CASE("import: one picture of a COCO file that was missing kept all others from being imported") {
   const TempDir dir;
-  copyCharacter("cap_boy", dir.file("in"));
-  copyCharacter("box_robot", dir.file("in"));
-  REQUIRE(label(dir, "import in").exit_code == 0);
-  REQUIRE(label(dir, "export in --coco -o round/coco.json").exit_code == 0);
-  fs::copy(dir.file("in/cap_boy.png"), dir.file("round/cap_boy.png"));
+  exportTwo(dir);
   const ToolRun run = label(dir, "import round");
   CHECK(run.exit_code == 2);
   CHECK(contains(run.out, "1 label files made, 0 kept as they were, 1 failed\n"));
@@ -477,11 +482,7 @@ TEST_CASE("import: one picture of a COCO file that was missing kept all others f
 
 TEST_CASE("import: joints and outline of a COCO file were taken for a picture of another size") {
   const TempDir dir;
-  copyCharacter("cap_boy", dir.file("in"));
-  copyCharacter("box_robot", dir.file("in"));
-  REQUIRE(label(dir, "import in").exit_code == 0);
-  REQUIRE(label(dir, "export in --coco -o round/coco.json").exit_code == 0);
-  fs::copy(dir.file("in/cap_boy.png"), dir.file("round/cap_boy.png"));
+  exportTwo(dir);
   Image bordered(640, 640);
   bordered.rgba.setConstant(255);
   const Image robot = readImage(dir.file("in/box_robot.png"));

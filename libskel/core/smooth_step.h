@@ -5,8 +5,9 @@
 namespace skel {
 
 // From 0 at t = 0 to 1 at t = 1, level at both, and beyond them.
-inline float smoothStep(float t) {
-  t = std::clamp(t, 0.f, 1.f);
+template <class Number>
+Number smoothStep(Number t) {
+  t = std::clamp(t, Number(0), Number(1));
   return t * t * (3 - 2 * t);
 }
 
