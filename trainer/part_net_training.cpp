@@ -18,6 +18,7 @@
 #include "libskel/silhouette/working_colors.h"
 #include "trainer/checkpoint.h"
 #include "trainer/conv_net_trainer.h"
+#include "trainer/held_things.h"
 #include "trainer/part_loss.h"
 #include "trainer/part_samples.h"
 #include "trainer/posed_parts.h"
@@ -71,6 +72,7 @@ MadeBy madePartsBy(const PartTrainingOptions& options) {
   made_by.add("--shapes", contentOfFiles(shapes));
   made_by.add("--drawn", options.drawn_share);
   made_by.add("--posed", options.posed_share);
+  made_by.add("--things", options.thing_share);
   made_by.add("--animals", options.animal_share);
   return made_by;
 }
@@ -84,8 +86,13 @@ struct Lesson {
 Lesson lesson(Rng& rng, const PartTrainingOptions& options, const std::vector<PartSample>& drawings) {
   Lesson out;
   if (!drawings.empty() && rng.chance(options.drawn_share)) {
-    const PartSample& drawn = drawings[rng.below(static_cast<std::uint32_t>(drawings.size()))];
-    out.sample = warpedPartSample(rng, rng.chance(options.posed_share) ? posedPartSample(rng, drawn) : drawn);
+    const auto some = [&]() -> const PartSample& {
+      return drawings[rng.below(static_cast<std::uint32_t>(drawings.size()))];
+    };
+    PartSample drawn = some();
+    if (rng.chance(options.posed_share)) drawn = posedPartSample(rng, drawn);
+    if (rng.chance(options.thing_share)) drawn = withThings(rng, drawn, some());
+    out.sample = warpedPartSample(rng, drawn);
   } else {
     out.sample = generatedPartSample(rng, rng.chance(options.animal_share) ? "quadruped" : "biped");
   }
@@ -305,6 +312,9 @@ void bindPartTrainingOptions(CLI::App& command, PartTrainingOptions& options) {
       ->check(numberIn(0., 1.))
       ->capture_default_str();
   command.add_option("--posed", options.posed_share, "Share of these whose limbs are turned")
+      ->check(numberIn(0., 1.))
+      ->capture_default_str();
+  command.add_option("--things", options.thing_share, "Share of these that are given things to hold or carry")
       ->check(numberIn(0., 1.))
       ->capture_default_str();
   command.add_option("--animals", options.animal_share, "Share of generated figures that go on four feet")

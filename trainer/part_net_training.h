@@ -26,6 +26,7 @@ struct PartTrainingOptions {
   std::vector<std::string> held_out;  // the same, which only measure
   double drawn_share = .7;            // of samples that come from drawings
   double posed_share = .5;            // of these whose limbs are turned
+  double thing_share = .3;            // of these, posed or not, that are given things to hold or carry
   double animal_share = .2;           // of the others that go on four feet
   int threads = 0;                    // 0: one a core. The result does not depend on it.
   int report_every = 500;             // steps

@@ -207,6 +207,19 @@ std::optional<PartSample> readPartSample(const JointedDrawing& drawing, const st
   return sample;
 }
 
+PartSample withMargin(const PartSample& sample, int margin) {
+  PartSample out = sample;
+  const auto pad = [&](const cv::Mat& from, cv::Mat& to, const cv::Scalar& value) {
+    cv::copyMakeBorder(from, to, margin, margin, margin, margin, cv::BORDER_CONSTANT, value);
+  };
+  pad(sample.rgb, out.rgb, cv::Scalar::all(255));
+  pad(sample.mask, out.mask, cv::Scalar(0));
+  pad(sample.part, out.part, cv::Scalar(kNoPart));
+  pad(sample.order, out.order, cv::Scalar(0));
+  out.skeleton = moved(sample.skeleton, [&](const Vec& p) { return Vec(p + Vec(margin, margin)); });
+  return out;
+}
+
 PartSample smallPartSample(const PartSample& whole) {
   PartSample sample = cropped(whole);
   const cv::Size size = sample.mask.size();

@@ -44,6 +44,8 @@ std::optional<PartSample> readPartSample(const JointedDrawing& drawing, const st
 // The figure's box, its long side at most kPartSourceSize.
 inline constexpr int kPartSourceSize = 224;
 PartSample smallPartSample(const PartSample& sample);
+// With so many px of white around it.
+PartSample withMargin(const PartSample& sample, int margin);
 
 // A figure of the generator, its long side kPartNetSize.
 PartSample generatedPartSample(Rng& rng, const std::string& body_plan);

@@ -17,19 +17,6 @@ Vec turned(const Vec& p, const Vec& centre, double angle) {
   return centre + Eigen::Rotation2Dd(angle) * (p - centre);
 }
 
-PartSample withMargin(const PartSample& sample, int margin) {
-  PartSample out = sample;
-  const auto pad = [&](const cv::Mat& from, cv::Mat& to, const cv::Scalar& value) {
-    cv::copyMakeBorder(from, to, margin, margin, margin, margin, cv::BORDER_CONSTANT, value);
-  };
-  pad(sample.rgb, out.rgb, cv::Scalar::all(255));
-  pad(sample.mask, out.mask, cv::Scalar(0));
-  pad(sample.part, out.part, cv::Scalar(kNoPart));
-  pad(sample.order, out.order, cv::Scalar(0));
-  out.skeleton = moved(sample.skeleton, [&](const Vec& p) { return Vec(p + Vec(margin, margin)); });
-  return out;
-}
-
 // Of each pixel the limb that it moves with, or -1: its own part, or a thing held at its end.
 cv::Mat_<int> carriers(const PartSample& sample, double reach) {
   cv::Mat_<int> carrier(sample.part.size(), -1);
