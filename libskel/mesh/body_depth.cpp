@@ -32,4 +32,19 @@ DepthThere depthAt(const std::vector<DepthBone>& bones, const Eigen::Vector2d& p
           forward / weights};
 }
 
+double asideAt(const std::vector<DepthBone>& bones, const Eigen::Vector2d& p) {
+  double weights = 0, aside = 0;
+  for (const DepthBone& bone : bones) {
+    if (bone.trunk) continue;
+    const Eigen::Vector2d along = bone.to - bone.from;
+    const double share =
+        std::clamp((p - bone.from).dot(along) / std::max(along.squaredNorm(), 1e-9), 0., 1.);
+    const double away = (p - bone.from - share * along).norm() / bone.radius_px;
+    const double weight = 1 / (std::pow(away, 4) + 0.02);
+    weights += weight;
+    aside += weight * (bone.from_aside_px + share * (bone.to_aside_px - bone.from_aside_px));
+  }
+  return weights > 0 ? aside / weights : 0;
+}
+
 }  // namespace skel

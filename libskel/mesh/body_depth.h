@@ -18,6 +18,9 @@ struct DepthBone {
   // How far the rim lies before the middle of the body, as a share of its half depth: what faces the viewer
   // shows its own colours to him and those of its back to who looks from the side.
   double forward = 0;
+  bool trunk = false;  // of the spine, or where a limb hangs on the trunk
+  // How far its ends lie before the drawing's plane: legs of who is drawn from the side.
+  double from_aside_px = 0, to_aside_px = 0;
 };
 
 // A foot that stands, drawn from the front: it becomes a shoe with a flat sole.
@@ -40,5 +43,8 @@ struct DepthThere {
   double forward = 0;
 };
 DepthThere depthAt(const std::vector<DepthBone>& bones, const Eigen::Vector2d& p);
+
+// How far before the drawing's plane the middle of the body lies at one point, px, by all bones but the trunk's.
+double asideAt(const std::vector<DepthBone>& bones, const Eigen::Vector2d& p);
 
 }  // namespace skel

@@ -28,6 +28,8 @@ constexpr double kCheek = 0.3;     // share of a row below that a cheek takes of
 constexpr double kDrawnRim = 0.2;  // behind the rim, where an outline may stay
 constexpr double kHang = 0.25;     // at the middle of a row, what lies so much higher at the rim
 constexpr int kMixedRows = 2;      // rows to both sides whose colours are mixed
+constexpr double kLeastBand = 0.16;  // a lower one goes to its neighbour
+constexpr int kSamples = 2;          // a px and direction
 constexpr int kOneColor = 48;      // channels of one colour differ by less
 constexpr double kMostly = 0.5;    // of the rows, of their ends above the middle
 
@@ -102,6 +104,7 @@ class Head {
     }
     close();
     dress();
+    divide();
   }
 
   // Of the back at a place in the head's frame; nothing where it stays.
@@ -114,14 +117,12 @@ class Head {
     if (isInk(now) && std::min(x + left->rim, right->rim - x) < kDrawnRim) return std::nullopt;
     const double share = (x + left->rim) / (left->rim + right->rim);
     // Hair and brims hang around a ball, lowest in the middle.
-    const double hang = kHang * 4 * share * (1 - share);
-    Vector3f sum = Vector3f::Zero();
-    for (int d = -kMixedRows; d <= kMixedRows; ++d) {
-      const int from = std::clamp(i + d - int(std::lround(hang * kRowsPerRadius)), 0, int(rows_.size()) - 1);
-      const auto& row = rows_[std::size_t(from)];
-      sum += mixed(row[0] ? *row[0] : *left, row[1] ? *row[1] : *right, share);
-    }
-    return Vector3f(sum / (2 * kMixedRows + 1));
+    const double row = (kTop - t - kHang * 4 * share * (1 - share)) * kRowsPerRadius;
+    const auto [a, a_is_face] = seenFrom(0, row, share);
+    const auto [b, b_is_face] = seenFrom(1, row, 1 - share);
+    if (alike(a, b)) return Vector3f(a + float(share) * (b - a));
+    const double seam = a_is_face == b_is_face ? .5 : a_is_face ? kCheek : 1 - kCheek;
+    return share < seam ? a : b;
   }
 
   Vector2d frame(const Vector2d& p) const {
@@ -131,14 +132,6 @@ class Head {
 
  private:
   static double height(int row) { return kTop - double(row) / kRowsPerRadius; }
-
-  static Vector3f mixed(const Side& left, const Side& right, double share) {
-    if (left.face == right.face) return left.color + float(share) * (right.color - left.color);
-    constexpr double kEdge = 0.04;
-    const double edge = left.face ? kCheek : 1 - kCheek;
-    const double t = std::clamp((share - edge) / kEdge / 2 + .5, 0., 1.);
-    return left.color + float(t) * (right.color - left.color);
-  }
 
   bool inside(double x, double t) const {
     const Eigen::Vector2i p = pixel(x, t);
@@ -214,11 +207,141 @@ class Head {
     }
   }
 
+  // Rows of one colour at one side.
+  struct Stripe {
+    int begin = 0, end = 0, color = 0;  // index of a palette
+    bool matched = false;               // goes across the head
+    double middle = 0;                  // the row that its beginning has come to in the middle of the head
+    int rows() const { return end - begin; }
+  };
+
+  // Stripes of both sides, and which of them meet: areas on the back of the head have edges as those in front
+  // have.
+  void divide() {
+    std::vector<Vector3f> palette;
+    std::array<std::vector<int>, 2> color;
+    for (const std::size_t k : {0, 1})
+      for (const auto& row : rows_) {
+        if (!row[k]) return rows_.clear();
+        const auto like = std::find_if(palette.begin(), palette.end(),
+                                       [&](const Vector3f& c) { return alike(c, row[k]->color); });
+        color[k].push_back(int(like - palette.begin()));
+        if (like == palette.end()) palette.push_back(row[k]->color);
+      }
+    for (const std::size_t k : {0, 1}) {
+      stripes_[k] = stripesOf(color[k]);
+      for (const Stripe& stripe : stripes_[k]) {
+        std::vector<int> own;
+        for (int i = stripe.begin; i < stripe.end; ++i)
+          if (color[k][std::size_t(i)] == stripe.color) own.push_back(i);
+        for (int i = stripe.begin; i < stripe.end; ++i) {
+          if (color[k][std::size_t(i)] == stripe.color) continue;
+          const int nearest = *std::min_element(
+              own.begin(), own.end(), [i](int a, int b) { return std::abs(a - i) < std::abs(b - i); });
+          const double rim = rows_[std::size_t(i)][k]->rim;
+          rows_[std::size_t(i)][k] = rows_[std::size_t(nearest)][k];
+          rows_[std::size_t(i)][k]->rim = rim;
+        }
+      }
+    }
+    match();
+    meet();
+  }
+
+  // Low ones go to the higher of their neighbours.
+  static std::vector<Stripe> stripesOf(std::vector<int> color) {
+    while (true) {
+      std::vector<Stripe> stripes;
+      for (int i = 0; i < int(color.size()); ++i) {
+        if (stripes.empty() || stripes.back().color != color[std::size_t(i)])
+          stripes.push_back({i, i, color[std::size_t(i)]});
+        stripes.back().end = i + 1;
+      }
+      const auto low =
+          std::min_element(stripes.begin(), stripes.end(),
+                           [](const Stripe& a, const Stripe& b) { return a.rows() < b.rows(); });
+      if (stripes.size() == 1 || low->rows() >= kLeastBand * kRowsPerRadius) return stripes;
+      const bool below = low == stripes.begin() ||
+                         (low + 1 != stripes.end() && (low + 1)->rows() > (low - 1)->rows());
+      std::fill(color.begin() + low->begin, color.begin() + low->end, (below ? low + 1 : low - 1)->color);
+    }
+  }
+
+  // In order from the top, those of one colour that lie about as high, as many rows as possible.
+  void match() {
+    auto& [left, right] = stripes_;
+    const std::size_t m = left.size(), n = right.size();
+    const auto worth = [&](std::size_t i, std::size_t j) {
+      if (left[i].color != right[j].color) return 0;
+      constexpr double kNear = .7;
+      const double apart = std::abs(left[i].begin + left[i].end - right[j].begin - right[j].end) / 2.;
+      const int overlap = std::min(left[i].end, right[j].end) - std::max(left[i].begin, right[j].begin);
+      return overlap > 0 || apart < kNear * kRowsPerRadius ? std::min(left[i].rows(), right[j].rows()) : 0;
+    };
+    std::vector<std::vector<int>> best(m + 1, std::vector<int>(n + 1, 0));
+    for (std::size_t i = m; i-- > 0;)
+      for (std::size_t j = n; j-- > 0;) {
+        best[i][j] = std::max(best[i + 1][j], best[i][j + 1]);
+        if (const int w = worth(i, j); w > 0) best[i][j] = std::max(best[i][j], w + best[i + 1][j + 1]);
+      }
+    for (std::size_t i = 0, j = 0; i < m && j < n;)
+      if (const int w = worth(i, j); w > 0 && best[i][j] == w + best[i + 1][j + 1])
+        left[i++].matched = right[j++].matched = true;
+      else
+        ++(best[i][j] == best[i + 1][j] ? i : j);
+  }
+
+  // Between two stripes that go across, and above the first and below the last, the edges of both sides meet
+  // in one point.
+  void meet() {
+    std::array<std::size_t, 2> from{};
+    const double rows = double(rows_.size());
+    while (from[0] < stripes_[0].size() || from[1] < stripes_[1].size()) {
+      std::array<std::size_t, 2> to = from;  // up to the next one that goes across, it included
+      double sum = 0;
+      int sides = 0;
+      bool last = true;
+      for (const std::size_t k : {0, 1}) {
+        while (to[k] < stripes_[k].size() && !stripes_[k][to[k]].matched) ++to[k];
+        last = to[k] == stripes_[k].size();
+        if (!last) ++to[k];
+        double begins = 0;
+        int count = 0;
+        for (std::size_t i = std::max<std::size_t>(from[k], 1); i < to[k]; ++i)
+          begins += stripes_[k][i].begin, ++count;
+        if (count > 0) sum += begins / count, ++sides;
+      }
+      const double middle = sides == 2 ? sum / 2 : from[0] == 0 && from[1] == 0 ? 0 : last ? rows : sum;
+      for (const std::size_t k : {0, 1})
+        for (std::size_t i = from[k]; i < to[k]; ++i) stripes_[k][i].middle = middle;
+      from = to;
+    }
+  }
+
+  struct Seen {
+    Vector3f color;
+    bool face = false;
+  };
+  // What a side has at a row, `share` of the way across.
+  Seen seenFrom(std::size_t k, double row, double share) const {
+    const double t = std::min(1., 2 * share);
+    std::size_t at = 0;
+    for (std::size_t i = 1; i < stripes_[k].size(); ++i)
+      if (const Stripe& s = stripes_[k][i]; s.begin + t * (s.middle - s.begin) <= row) at = i;
+    const Stripe& stripe = stripes_[k][at];
+    const auto clamped = [&](double i) { return std::size_t(std::clamp(int(std::lround(i)), stripe.begin, stripe.end - 1)); };
+    Seen out{Vector3f::Zero(), rows_[clamped(row)][k]->face};
+    for (int d = -kMixedRows; d <= kMixedRows; ++d) out.color += rows_[clamped(row + d)][k]->color;
+    out.color /= 2 * kMixedRows + 1;
+    return out;
+  }
+
   const Image& front_;
   const Plane8& figure_;
   const HeadDisc& disc_;
   Vector2d right_;
   std::vector<std::array<std::optional<Side>, 2>> rows_;
+  std::array<std::vector<Stripe>, 2> stripes_;  // from the top, without gaps
 };
 
 }  // namespace
@@ -234,11 +357,16 @@ void paintBackOfHead(const Image& front, const Plane8& figure, const HeadDisc& d
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) {
       if (figure(y, x) == 0) continue;
-      const Vector2d at = head.frame({double(x), double(y)});
       std::uint8_t* p = back.pixel(x, y);
-      const auto color = head.colorBehind(at.x(), at.y(), {float(p[0]), float(p[1]), float(p[2])});
-      if (!color) continue;
-      for (int c = 0; c < 3; ++c) p[c] = std::uint8_t(std::lround(std::clamp((*color)[c], 0.f, 255.f)));
+      const Vector3f now{float(p[0]), float(p[1]), float(p[2])};
+      Vector3f sum = Vector3f::Zero();
+      for (int i = 0; i < kSamples * kSamples; ++i) {
+        const Vector2d at = head.frame({x + (i % kSamples + .5) / kSamples - .5,
+                                        y + (double(i / kSamples) + .5) / kSamples - .5});
+        sum += head.colorBehind(at.x(), at.y(), now).value_or(now);
+      }
+      const Vector3f color = sum / (kSamples * kSamples);
+      for (int c = 0; c < 3; ++c) p[c] = std::uint8_t(std::lround(std::clamp(color[c], 0.f, 255.f)));
     }
 }
 

@@ -164,7 +164,7 @@ struct Sheet {
   OutlineBand outline_band;
   std::vector<Eigen::Vector2d> place;  // of all vertices, image px: where they stand
   Heights z;
-  Eigen::VectorXd middle;      // px before the drawing, of all vertices
+  Eigen::VectorXd middle;      // px before the drawing's plane, of all vertices
   std::vector<double> lip;     // and of the rim's before that
   std::vector<double> offset;  // px, of all vertices
   DrawingTexture front;
@@ -369,7 +369,18 @@ Eigen::VectorXd heightsBehind(const PlanarMesh& mesh, const std::vector<DepthThe
   return z;
 }
 
-// How thick it is, and where its points stand. `long_px`: the figure's long side.
+// How far legs that are seen from the side lie before the drawing's plane. `limb`: the piece's, 0: all.
+Eigen::VectorXd asideOf(const BodyDepth& body, int limb, double range_px, const PlanarMesh& mesh) {
+  std::vector<DepthBone> bones;
+  for (const DepthBone& bone : body.bones)
+    if (limb == 0 || bone.layer == 0 || bone.layer == limb) bones.push_back(bone);
+  Eigen::VectorXd aside(static_cast<Eigen::Index>(mesh.vertices.size()));
+  for (Eigen::Index v = 0; v < aside.size(); ++v)
+    aside[v] = asideAt(bones, mesh.vertices[static_cast<std::size_t>(v)]);
+  return localMean(mesh, aside, range_px);
+}
+
+// How thick it is, and where its points stand; sheet.middle must be known. `long_px`: the figure's long side.
 void giveDepth(const BodyDepth& body, bool own_back, double long_px, Sheet& sheet) {
   constexpr double kAround = 0.07;       // of the figure's long side: how far the depth of a part reaches
   constexpr double kMiddleOfMean = 1.3;  // half depth in the middle of a tube or a ball by its mean, about
@@ -388,11 +399,10 @@ void giveDepth(const BodyDepth& body, bool own_back, double long_px, Sheet& shee
   sheet.z.back = behind == band ? sheet.z.front : heights(behind);
   sheet.lip = lipOf(sheet.planar, band, behind);
   sheet.place = sheet.planar.vertices;
-  sheet.middle = Eigen::VectorXd::Zero(sheet.size());
   if (own_back) {
     Eigen::VectorXd forward(sheet.inner());
     for (int v = 0; v < sheet.inner(); ++v) forward[v] = depths[v].forward;
-    sheet.middle = kMiddleOfMean * localMean(sheet.planar, forward.cwiseProduct(plain), range_px);
+    sheet.middle += kMiddleOfMean * localMean(sheet.planar, forward.cwiseProduct(plain), range_px);
     sheet.z.front.array() *= 1 - forward.array();
     sheet.z.back.array() *= 1 + forward.array();
   }
@@ -483,9 +493,13 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
     sheets[i].back =
         backTexture(front, sheets[i].box, of_piece, whole_px, pieces.empty() ? nullptr : &around);
   }
-  for (std::size_t i = 0; i < sheets.size(); ++i)
-    giveDepth(depthOf(options.body, pieces, i), !same_back && !options.back_picture,
-              std::max(box.width(), box.height()), sheets[i]);
+  constexpr double kAsideRange = 0.03;
+  const double long_px = std::max(box.width(), box.height());
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    sheets[i].middle = asideOf(options.body, pieces.empty() ? 0 : pieces[i].layer, kAsideRange * long_px,
+                               sheets[i].planar);
+    giveDepth(depthOf(options.body, pieces, i), !same_back && !options.back_picture, long_px, sheets[i]);
+  }
   layPieces(sheets, pieces, box);
 
   Eigen::Vector2d low = upright(sheets.front().planar.vertices.front()), high = low;

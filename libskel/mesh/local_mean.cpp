@@ -14,10 +14,10 @@ constexpr int kMostSteps = 200;
 
 }  // namespace
 
-Eigen::VectorXd localMean(const PlanarMesh& mesh, const Eigen::VectorXd& inner, double range_px) {
+Eigen::VectorXd localMean(const PlanarMesh& mesh, const Eigen::VectorXd& values, double range_px) {
   const auto size = static_cast<Eigen::Index>(mesh.vertices.size());
   Eigen::VectorXd mean = Eigen::VectorXd::Zero(size), area = mean;
-  mean.head(mesh.inner_count) = inner;
+  mean.head(values.size()) = values;
   std::vector<double> areas;
   areas.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) {

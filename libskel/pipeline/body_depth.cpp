@@ -27,11 +27,13 @@ constexpr Build kAnimalTrunkBuild{2, 1.05}, kAnimalHeadBuild{2.2, 1.2};  // draw
 constexpr double kForward = 0.5;     // DepthBone::forward of who faces the viewer; by eye, of .5 and .7
 constexpr double kLimbRadius = 0.4;  // at most, as a share of a bone's length: where it lies on the body
 constexpr double kNeckReach = 0.45;  // of the head's radius
+constexpr double kAside = 0.4;       // of legs seen from the side, from the middle: share of the trunk's half depth
 
 class DepthFinder {
  public:
-  DepthFinder(const Skeleton& skeleton, const SkeletonTemplate& body_plan, const Silhouette& silhouette)
-      : skeleton_(skeleton), body_plan_(body_plan), silhouette_(silhouette) {}
+  DepthFinder(const Skeleton& skeleton, const SkeletonTemplate& body_plan, const Silhouette& silhouette,
+              const std::vector<int>& far)
+      : skeleton_(skeleton), body_plan_(body_plan), silhouette_(silhouette), far_(far) {}
 
   BodyDepth operator()() {
     const auto pelvis = at("pelvis"), body = at("body"), neck = at("neck"), head = at("head"),
@@ -42,10 +44,12 @@ class DepthFinder {
                         (*head - *body).norm() < kInOne * neck_px;
     const double front = frontal(skeleton_, body_plan_);
     forward_ = kForward * front;
+    aside_ = kAside * (1 - front);
     const Build trunk = in_one ? kBallBuild : trunkBuild(front);
     const double trunk_px = in_one ? neck_px : body_px;
     addBone(*pelvis, *body, trunk_px, trunk);
     addBone(*body, *neck, trunk_px, trunk);
+    for (DepthBone& bone : depth_.bones) bone.trunk = true;
     const Vector2d up = top ? Vector2d(*top - *head) : Vector2d(*head - *neck);
     addBone(*head, *head + 0.5 * up.normalized() * std::min(up.norm(), head_px), in_one ? neck_px : head_px,
             body_plan_.from_side ? kAnimalHeadBuild
@@ -99,19 +103,38 @@ class DepthFinder {
     if (!root || !middle || !end) return;
     // Where it hangs on the trunk it is as deep as that.
     addBone(*root, *root, trunk_px / 2, {trunk.source, 2 * trunk.most});
+    depth_.bones.back().trunk = true;
     const auto tube = [&](const Vector2d& a, const Vector2d& b) {
       return std::min(radius((a + b) / 2), kLimbRadius * (a - b).norm());
     };
+    const double aside_px = legSide(layer) * aside_ * trunk.most * trunk_px;
     addBone(*root + 0.3 * (*middle - *root), *middle, tube(*root, *middle), kLimbBuild, layer);
+    depth_.bones.back().to_aside_px = aside_px;
     const double lower_px = tube(*middle, *end);
     const bool stands = limb.limb_class == JointClass::kLeg && !body_plan_.from_side;
     addBone(*middle, *end + 0.3 * (*end - *middle), lower_px, kLimbBuild, layer);
+    depth_.bones.back().from_aside_px = depth_.bones.back().to_aside_px = aside_px;
     if (stands) depth_.feet.push_back({*middle, *end, lower_px, layer});
+  }
+
+  // 1: the nearer one of two legs, -1: the farther one; of who is unknown, the first is the nearer. 0: an arm.
+  int legSide(int limb) const {
+    const auto is_far = [&](int k) { return std::find(far_.begin(), far_.end(), k + 1) != far_.end(); };
+    for (const auto& [a, b] : body_plan_.limbPairs()) {
+      if (limb != a + 1 && limb != b + 1) continue;
+      if (!body_plan_.from_side && body_plan_.limbs[static_cast<std::size_t>(a)].limb_class != JointClass::kLeg)
+        return 0;
+      const int farther = is_far(a) && !is_far(b) ? a : b;
+      return limb == farther + 1 ? -1 : 1;
+    }
+    return 0;
   }
 
   const Skeleton& skeleton_;
   const SkeletonTemplate& body_plan_;
   const Silhouette& silhouette_;
+  const std::vector<int>& far_;
+  double aside_ = 0;    // share of the trunk's half depth
   double forward_ = 0;  // DepthBone::forward
   BodyDepth depth_;
 };
@@ -119,8 +142,8 @@ class DepthFinder {
 }  // namespace
 
 BodyDepth bodyDepth(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
-                    const Silhouette& silhouette) {
-  return DepthFinder(skeleton, body_plan, silhouette)();
+                    const Silhouette& silhouette, const std::vector<int>& far) {
+  return DepthFinder(skeleton, body_plan, silhouette, far)();
 }
 
 }  // namespace skel
