@@ -59,7 +59,9 @@ Thing drawnThing(Rng& rng, const PartSample& colours) {
       if (rng.chance(.5))
         ellipse({middle, 8 + high}, {wide, high}, someColour(rng, colours));
       else
-        polygon({{middle, 4}, {middle + wide, 4 + 2 * high}, {middle - (rng.chance(.5) ? wide : 0), 4 + 2 * high}},
+        polygon({{middle, 4},
+                 {middle + wide, 4 + 2 * high},
+                 {middle - (rng.chance(.5) ? wide : 0), 4 + 2 * high}},
                 someColour(rng, colours));
     }
     thing.grip = Vec(middle, rng.uniform(40, low));
@@ -92,7 +94,8 @@ Thing takenThing(Rng& rng, const PartSample& other, bool whole) {
   cv::Mat on = other.mask;
   if (!whole) {
     cv::Mat labels, stats, centres;
-    const int count = cv::connectedComponentsWithStats(other.part == int(Part::kThing), labels, stats, centres);
+    const int count =
+        cv::connectedComponentsWithStats(other.part == int(Part::kThing), labels, stats, centres);
     int largest = 0;
     for (int i = 1; i < count; ++i)
       if (largest == 0 || stats.at<int>(i, cv::CC_STAT_AREA) > stats.at<int>(largest, cv::CC_STAT_AREA))
@@ -122,7 +125,8 @@ Thing takenThing(Rng& rng, const PartSample& other, bool whole) {
 // Ranks of order from 1 on without gaps, 0 where there is no figure; the highest.
 int closeRanks(PartSample& sample) {
   std::map<int, int> ranks;
-  for (auto p = sample.order.begin<std::uint16_t>(); p != sample.order.end<std::uint16_t>(); ++p) ranks[*p] = 0;
+  for (auto p = sample.order.begin<std::uint16_t>(); p != sample.order.end<std::uint16_t>(); ++p)
+    ranks[*p] = 0;
   int next = 1;
   for (auto& [order, rank] : ranks) rank = next++;
   for (int y = 0; y < sample.order.rows; ++y)
@@ -181,9 +185,9 @@ PartSample withThings(Rng& rng, const PartSample& sample, const PartSample& othe
            Vec(rng.normal(0, .12), rng.normal(0, .05)) * std::max(sample.mask.rows, sample.mask.cols);
     const int before = limbsBefore(out)[std::size_t(arm)];
     const double choice = rng.uniform();
-    const Place place = in_hand ? (choice < .35                    ? Place::kBefore
+    const Place place = in_hand ? (choice < .35                  ? Place::kBefore
                                    : choice < .75 && before != 0 ? Place::kInHand
-                                                                   : Place::kBehind)
+                                                                 : Place::kBehind)
                                 : (choice < .3 ? Place::kBefore : Place::kBehind);
     lay(rng, thing, at, arm, place, out);
   }

@@ -314,7 +314,8 @@ void bindPartTrainingOptions(CLI::App& command, PartTrainingOptions& options) {
   command.add_option("--posed", options.posed_share, "Share of these whose limbs are turned")
       ->check(numberIn(0., 1.))
       ->capture_default_str();
-  command.add_option("--things", options.thing_share, "Share of these that are given things to hold or carry")
+  command
+      .add_option("--things", options.thing_share, "Share of these that are given things to hold or carry")
       ->check(numberIn(0., 1.))
       ->capture_default_str();
   command.add_option("--animals", options.animal_share, "Share of generated figures that go on four feet")

@@ -37,8 +37,7 @@ double asideAt(const std::vector<DepthBone>& bones, const Eigen::Vector2d& p) {
   for (const DepthBone& bone : bones) {
     if (bone.trunk) continue;
     const Eigen::Vector2d along = bone.to - bone.from;
-    const double share =
-        std::clamp((p - bone.from).dot(along) / std::max(along.squaredNorm(), 1e-9), 0., 1.);
+    const double share = std::clamp((p - bone.from).dot(along) / std::max(along.squaredNorm(), 1e-9), 0., 1.);
     const double away = (p - bone.from - share * along).norm() / bone.radius_px;
     const double weight = 1 / (std::pow(away, 4) + 0.02);
     weights += weight;

@@ -44,7 +44,8 @@ struct DepthThere {
 };
 DepthThere depthAt(const std::vector<DepthBone>& bones, const Eigen::Vector2d& p);
 
-// How far before the drawing's plane the middle of the body lies at one point, px, by all bones but the trunk's.
+// How far before the drawing's plane the middle of the body lies at one point, px, by all bones but the
+// trunk's.
 double asideAt(const std::vector<DepthBone>& bones, const Eigen::Vector2d& p);
 
 }  // namespace skel

@@ -17,21 +17,21 @@ using Eigen::Vector3f;
 // Lengths are in radii of the head's disc; rows go from its top down.
 constexpr int kRowsPerRadius = 32;
 constexpr double kTop = 1.5, kBottom = -1.05;
-constexpr double kAside = 1.45;    // sideways, to the rim
-constexpr double kSkip = 0.05;     // behind the rim, where paper shines through
-constexpr double kBand = 0.3;      // behind the rim, whose colour counts
-constexpr double kEven = 0.25;     // rows as near as this have one colour
-constexpr double kPlain = 0.25;    // least share of it that is not ink, where ink is but the outline
-constexpr double kFace = 0.6;      // the disc whose commonest colour is the face's
-constexpr double kNape = -0.45;    // down to where hair reaches
-constexpr double kCheek = 0.3;     // share of a row below that a cheek takes of it
-constexpr double kDrawnRim = 0.2;  // behind the rim, where an outline may stay
-constexpr double kHang = 0.25;     // at the middle of a row, what lies so much higher at the rim
-constexpr int kMixedRows = 2;      // rows to both sides whose colours are mixed
+constexpr double kAside = 1.45;      // sideways, to the rim
+constexpr double kSkip = 0.05;       // behind the rim, where paper shines through
+constexpr double kBand = 0.3;        // behind the rim, whose colour counts
+constexpr double kEven = 0.25;       // rows as near as this have one colour
+constexpr double kPlain = 0.25;      // least share of it that is not ink, where ink is but the outline
+constexpr double kFace = 0.6;        // the disc whose commonest colour is the face's
+constexpr double kNape = -0.45;      // down to where hair reaches
+constexpr double kCheek = 0.3;       // share of a row below that a cheek takes of it
+constexpr double kDrawnRim = 0.2;    // behind the rim, where an outline may stay
+constexpr double kHang = 0.25;       // at the middle of a row, what lies so much higher at the rim
+constexpr int kMixedRows = 2;        // rows to both sides whose colours are mixed
 constexpr double kLeastBand = 0.16;  // a lower one goes to its neighbour
 constexpr int kSamples = 2;          // a px and direction
-constexpr int kOneColor = 48;      // channels of one colour differ by less
-constexpr double kMostly = 0.5;    // of the rows, of their ends above the middle
+constexpr int kOneColor = 48;        // channels of one colour differ by less
+constexpr double kMostly = 0.5;      // of the rows, of their ends above the middle
 
 bool alike(const Vector3f& a, const Vector3f& b) { return (a - b).cwiseAbs().maxCoeff() < kOneColor; }
 
@@ -257,12 +257,11 @@ class Head {
           stripes.push_back({i, i, color[std::size_t(i)]});
         stripes.back().end = i + 1;
       }
-      const auto low =
-          std::min_element(stripes.begin(), stripes.end(),
-                           [](const Stripe& a, const Stripe& b) { return a.rows() < b.rows(); });
+      const auto low = std::min_element(stripes.begin(), stripes.end(),
+                                        [](const Stripe& a, const Stripe& b) { return a.rows() < b.rows(); });
       if (stripes.size() == 1 || low->rows() >= kLeastBand * kRowsPerRadius) return stripes;
-      const bool below = low == stripes.begin() ||
-                         (low + 1 != stripes.end() && (low + 1)->rows() > (low - 1)->rows());
+      const bool below =
+          low == stripes.begin() || (low + 1 != stripes.end() && (low + 1)->rows() > (low - 1)->rows());
       std::fill(color.begin() + low->begin, color.begin() + low->end, (below ? low + 1 : low - 1)->color);
     }
   }
@@ -329,7 +328,9 @@ class Head {
     for (std::size_t i = 1; i < stripes_[k].size(); ++i)
       if (const Stripe& s = stripes_[k][i]; s.begin + t * (s.middle - s.begin) <= row) at = i;
     const Stripe& stripe = stripes_[k][at];
-    const auto clamped = [&](double i) { return std::size_t(std::clamp(int(std::lround(i)), stripe.begin, stripe.end - 1)); };
+    const auto clamped = [&](double i) {
+      return std::size_t(std::clamp(int(std::lround(i)), stripe.begin, stripe.end - 1));
+    };
     Seen out{Vector3f::Zero(), rows_[clamped(row)][k]->face};
     for (int d = -kMixedRows; d <= kMixedRows; ++d) out.color += rows_[clamped(row + d)][k]->color;
     out.color /= 2 * kMixedRows + 1;
@@ -361,8 +362,8 @@ void paintBackOfHead(const Image& front, const Plane8& figure, const HeadDisc& d
       const Vector3f now{float(p[0]), float(p[1]), float(p[2])};
       Vector3f sum = Vector3f::Zero();
       for (int i = 0; i < kSamples * kSamples; ++i) {
-        const Vector2d at = head.frame({x + (i % kSamples + .5) / kSamples - .5,
-                                        y + (double(i / kSamples) + .5) / kSamples - .5});
+        const Vector2d at = head.frame(
+            {x + (i % kSamples + .5) / kSamples - .5, y + (double(i / kSamples) + .5) / kSamples - .5});
         sum += head.colorBehind(at.x(), at.y(), now).value_or(now);
       }
       const Vector3f color = sum / (kSamples * kSamples);

@@ -496,8 +496,8 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
   constexpr double kAsideRange = 0.03;
   const double long_px = std::max(box.width(), box.height());
   for (std::size_t i = 0; i < sheets.size(); ++i) {
-    sheets[i].middle = asideOf(options.body, pieces.empty() ? 0 : pieces[i].layer, kAsideRange * long_px,
-                               sheets[i].planar);
+    sheets[i].middle =
+        asideOf(options.body, pieces.empty() ? 0 : pieces[i].layer, kAsideRange * long_px, sheets[i].planar);
     giveDepth(depthOf(options.body, pieces, i), !same_back && !options.back_picture, long_px, sheets[i]);
   }
   layPieces(sheets, pieces, box);

@@ -27,7 +27,8 @@ constexpr Build kAnimalTrunkBuild{2, 1.05}, kAnimalHeadBuild{2.2, 1.2};  // draw
 constexpr double kForward = 0.5;     // DepthBone::forward of who faces the viewer; by eye, of .5 and .7
 constexpr double kLimbRadius = 0.4;  // at most, as a share of a bone's length: where it lies on the body
 constexpr double kNeckReach = 0.45;  // of the head's radius
-constexpr double kAside = 0.4;       // of legs seen from the side, from the middle: share of the trunk's half depth
+constexpr double kAside =
+    0.4;  // of legs seen from the side, from the middle: share of the trunk's half depth
 
 class DepthFinder {
  public:
@@ -117,12 +118,14 @@ class DepthFinder {
     if (stands) depth_.feet.push_back({*middle, *end, lower_px, layer});
   }
 
-  // 1: the nearer one of two legs, -1: the farther one; of who is unknown, the first is the nearer. 0: an arm.
+  // 1: the nearer one of two legs, -1: the farther one; of who is unknown, the first is the nearer. 0: an
+  // arm.
   int legSide(int limb) const {
     const auto is_far = [&](int k) { return std::find(far_.begin(), far_.end(), k + 1) != far_.end(); };
     for (const auto& [a, b] : body_plan_.limbPairs()) {
       if (limb != a + 1 && limb != b + 1) continue;
-      if (!body_plan_.from_side && body_plan_.limbs[static_cast<std::size_t>(a)].limb_class != JointClass::kLeg)
+      if (!body_plan_.from_side &&
+          body_plan_.limbs[static_cast<std::size_t>(a)].limb_class != JointClass::kLeg)
         return 0;
       const int farther = is_far(a) && !is_far(b) ? a : b;
       return limb == farther + 1 ? -1 : 1;
@@ -141,8 +144,8 @@ class DepthFinder {
 
 }  // namespace
 
-BodyDepth bodyDepth(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
-                    const Silhouette& silhouette, const std::vector<int>& far) {
+BodyDepth bodyDepth(const Skeleton& skeleton, const SkeletonTemplate& body_plan, const Silhouette& silhouette,
+                    const std::vector<int>& far) {
   return DepthFinder(skeleton, body_plan, silhouette, far)();
 }
 

@@ -8,9 +8,9 @@
 namespace skel {
 
 // `skeleton`: the template's joints, image px; of a limb that it lacks nothing is said, without the trunk's
-// or the head's joints nothing at all. `far`: the limbs, numbered from 1, that are known to be the farther ones
-// of their pairs.
-BodyDepth bodyDepth(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
-                    const Silhouette& silhouette, const std::vector<int>& far = {});
+// or the head's joints nothing at all. `far`: the limbs, numbered from 1, that are known to be the farther
+// ones of their pairs.
+BodyDepth bodyDepth(const Skeleton& skeleton, const SkeletonTemplate& body_plan, const Silhouette& silhouette,
+                    const std::vector<int>& far = {});
 
 }  // namespace skel

@@ -182,8 +182,8 @@ InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawin
   else
     inflate.length_m = drawing.body_plan.length_m;
   inflate.turned_rad = drawing.recognition.turned_deg * std::numbers::pi / 180;
-  inflate.body = bodyDepth(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette,
-                           drawing.layers.far);
+  inflate.body =
+      bodyDepth(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, drawing.layers.far);
   inflate.head =
       headDisc(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, inflate.turned_rad);
   if (input.back) {

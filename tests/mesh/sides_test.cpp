@@ -134,6 +134,33 @@ TEST_CASE("a cap covers the back of the head down to the ears, without its badge
     }
 }
 
+TEST_CASE("a cap that sits askew on hair ends on the back of the head in one sharp edge, from side to side") {
+  Image image(200, 200);
+  image.rgba.setConstant(255);
+  const Eigen::Vector2d middle(100, 100);
+  const auto cap = [](int x, int y) { return y < 70 + x / 4; };
+  paintDisc(image, middle, 80, {200, 120, 80});
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x)
+      if (image.pixel(x, y)[0] == 200 && cap(x, y)) image.pixel(x, y)[0] = 30;
+  paintDisc(image, {100, 115}, 55, {240, 220, 200});
+  // A feather that the rim crosses for a few rows is no part of it.
+  for (int y = 52; y < 58; ++y)
+    for (int x = 20; x < 60; ++x)
+      if (image.pixel(x, y)[0] == 30) image.pixel(x, y)[0] = 130;
+  const Image back = backColors(image, notWhite(image), HeadDisc{middle, 80});
+  int mixed = 0, wrong = 0;
+  for (int x = 40; x < 160; ++x)
+    for (int y = 40; y < 160; ++y) {
+      const int red = back.pixel(x, y)[0];
+      mixed += red > 45 && red < 185;
+      const int edge = 70 + x / 4 + 15;  // it hangs a little in the middle
+      wrong += std::abs(y - edge) > 25 && (red < 120) != (y < edge);
+    }
+  CHECK(mixed < 3 * 120);
+  CHECK(wrong == 0);
+}
+
 TEST_CASE("many lines inside of the figure are no hatching of its back") {
   Image image(200, 200);
   image.rgba.setConstant(255);

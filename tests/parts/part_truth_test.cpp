@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/support/catch.h"
+#include "trainer/held_things.h"
 #include "trainer/part_samples.h"
 #include "trainer/posed_parts.h"
 
@@ -84,6 +85,35 @@ TEST_CASE(
   }
   CHECK(bare == 0);
   CHECK(turned > 12 * 4 * 3 / 2);
+}
+
+TEST_CASE("things that are given to a figure are things, cover what lies behind them, and leave its joints") {
+  const auto truth = partTruth(Painting().shapes, Painting().skeleton);
+  REQUIRE(truth.has_value());
+  PartSample bare;
+  bare.rgb = cv::Mat(320, 320, CV_8UC3, cv::Scalar::all(200));
+  bare.part = truth->part, bare.order = truth->order, bare.mask = truth->part != kNoPart;
+  bare.skeleton = Painting().skeleton;
+  int held = 0;
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    CAPTURE(seed);
+    Rng rng(seed, 1), again(seed, 1);
+    const PartSample given = withThings(rng, bare, bare), twin = withThings(again, bare, bare);
+    CHECK(cv::norm(given.part, twin.part, cv::NORM_INF) == 0);
+    CHECK(cv::norm(given.rgb, twin.rgb, cv::NORM_INF) == 0);
+    CHECK(cv::countNonZero((given.part == kNoPart) != (given.mask == 0)) == 0);
+    CHECK(cv::countNonZero(given.part == int(Part::kThing)) > 0);
+    // Its skeleton is the bare one's, moved and scaled.
+    const auto& bones = given.skeleton.limbs[0];
+    const double unit =
+        (bones[1] - bones[0]).norm() / (bare.skeleton.limbs[0][1] - bare.skeleton.limbs[0][0]).norm();
+    CHECK((given.skeleton.head - given.skeleton.body).norm() ==
+          Approx(unit * (bare.skeleton.head - bare.skeleton.body).norm()).epsilon(0.02));
+    const cv::Point hand(int(bones[2].x()), int(bones[2].y()));
+    held += given.part.at<std::uint8_t>(hand) == int(Part::kThing);
+  }
+  CHECK(held > 0);
+  CHECK(cv::countNonZero(bare.part == int(Part::kThing)) == 0);  // what was given is a copy
 }
 
 TEST_CASE("a shape over both legs and what is between them is a skirt, no leg") {

@@ -80,6 +80,33 @@ TEST_CASE("the rim lies forward on who faces the viewer, in the middle on who is
     CHECK(bone.forward == 0);
 }
 
+TEST_CASE(
+    "legs of who is drawn from the side stand apart, the farther one behind, of who faces the viewer not") {
+  const CapsuleFigure figure;
+  const Silhouette silhouette = silhouetteFromMask(capsuleMask(figure));
+  Skeleton skeleton = capsuleSkeleton(figure);
+  const SkeletonTemplate biped = loadTemplate("biped");
+  const auto depthOfFoot = [&](const std::string& side, const std::vector<int>& far) {
+    InflateOptions options;
+    options.body = bodyDepth(skeleton, biped, silhouette, far);
+    const Model model{skeleton, inflate(capsuleImage(figure), silhouette, options)};
+    CHECK(checkMesh(model.mesh).problem == "");
+    const Eigen::Vector2d foot = model.at(side + "_foot"), knee = model.at(side + "_knee");
+    const Extent shin = slice(model.mesh, (foot.y() + knee.y()) / 2, 2, (foot.x() + knee.x()) / 2, 0.08);
+    return (shin.low + shin.high) / 2;
+  };
+  CHECK(depthOfFoot("left", {}) == Approx(depthOfFoot("right", {})).margin(0.004));
+  skeleton.joints[skeleton.index("left_shoulder")].image =
+      skeleton.joints[skeleton.index("right_shoulder")].image;
+  const auto limb = [&](const std::string& root) {
+    for (std::size_t k = 0; k < biped.limbs.size(); ++k)
+      if (biped.joints[std::size_t(biped.limbs[k].joints[0])].name == root) return int(k) + 1;
+    return 0;
+  };
+  CHECK(depthOfFoot("left", {limb("left_hip")}) < depthOfFoot("right", {limb("left_hip")}) - 0.02f);
+  CHECK(depthOfFoot("left", {limb("right_hip")}) > depthOfFoot("right", {limb("right_hip")}) + 0.02f);
+}
+
 TEST_CASE("head and trunk in one are as deep as a ball, down to the legs") {
   CapsuleFigure figure;
   figure.trunk_radius = 95;
