@@ -14,7 +14,7 @@
 namespace skel {
 
 struct AverageNetsOptions {
-  std::vector<std::string> nets;  // files of joint nets
+  std::vector<std::string> nets;  // files of joint nets, or of part nets
   std::string output = "out/joint_net.bin";
 };
 

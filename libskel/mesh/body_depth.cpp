@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kFlesh = 1.4;  // radii around a bone; what lies further off is cloth, hair or a brim
 constexpr double kThinning = 1.5;
+constexpr double kAsideReach = 2.5;  // radii around a leg; what lies further off, as a tail may, stays
 
 }  // namespace
 
@@ -41,7 +42,8 @@ double asideAt(const std::vector<DepthBone>& bones, const Eigen::Vector2d& p) {
     const double away = (p - bone.from - share * along).norm() / bone.radius_px;
     const double weight = 1 / (std::pow(away, 4) + 0.02);
     weights += weight;
-    aside += weight * (bone.from_aside_px + share * (bone.to_aside_px - bone.from_aside_px));
+    const double near = std::clamp((kAsideReach - away) / (kAsideReach - 1), 0., 1.);
+    aside += weight * near * (bone.from_aside_px + share * (bone.to_aside_px - bone.from_aside_px));
   }
   return weights > 0 ? aside / weights : 0;
 }

@@ -369,14 +369,11 @@ Eigen::VectorXd heightsBehind(const PlanarMesh& mesh, const std::vector<DepthThe
   return z;
 }
 
-// How far legs that are seen from the side lie before the drawing's plane. `limb`: the piece's, 0: all.
-Eigen::VectorXd asideOf(const BodyDepth& body, int limb, double range_px, const PlanarMesh& mesh) {
-  std::vector<DepthBone> bones;
-  for (const DepthBone& bone : body.bones)
-    if (limb == 0 || bone.layer == 0 || bone.layer == limb) bones.push_back(bone);
+// How far legs that are seen from the side lie before the drawing's plane.
+Eigen::VectorXd asideOf(const BodyDepth& body, double range_px, const PlanarMesh& mesh) {
   Eigen::VectorXd aside(static_cast<Eigen::Index>(mesh.vertices.size()));
   for (Eigen::Index v = 0; v < aside.size(); ++v)
-    aside[v] = asideAt(bones, mesh.vertices[static_cast<std::size_t>(v)]);
+    aside[v] = asideAt(body.bones, mesh.vertices[static_cast<std::size_t>(v)]);
   return localMean(mesh, aside, range_px);
 }
 
@@ -496,9 +493,9 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
   constexpr double kAsideRange = 0.03;
   const double long_px = std::max(box.width(), box.height());
   for (std::size_t i = 0; i < sheets.size(); ++i) {
-    sheets[i].middle =
-        asideOf(options.body, pieces.empty() ? 0 : pieces[i].layer, kAsideRange * long_px, sheets[i].planar);
-    giveDepth(depthOf(options.body, pieces, i), !same_back && !options.back_picture, long_px, sheets[i]);
+    const BodyDepth body = depthOf(options.body, pieces, i);
+    sheets[i].middle = asideOf(body, kAsideRange * long_px, sheets[i].planar);
+    giveDepth(body, !same_back && !options.back_picture, long_px, sheets[i]);
   }
   layPieces(sheets, pieces, box);
 

@@ -33,8 +33,8 @@ constexpr double kAside =
 class DepthFinder {
  public:
   DepthFinder(const Skeleton& skeleton, const SkeletonTemplate& body_plan, const Silhouette& silhouette,
-              const std::vector<int>& far)
-      : skeleton_(skeleton), body_plan_(body_plan), silhouette_(silhouette), far_(far) {}
+              const std::vector<int>& far, const std::vector<int>& cut)
+      : skeleton_(skeleton), body_plan_(body_plan), silhouette_(silhouette), far_(far), cut_(cut) {}
 
   BodyDepth operator()() {
     const auto pelvis = at("pelvis"), body = at("body"), neck = at("neck"), head = at("head"),
@@ -118,16 +118,19 @@ class DepthFinder {
     if (stands) depth_.feet.push_back({*middle, *end, lower_px, layer});
   }
 
-  // 1: the nearer one of two legs, -1: the farther one; of who is unknown, the first is the nearer. 0: an
-  // arm.
+  // 1: the nearer one of two legs, -1: the farther one; where that is unknown, the first is the nearer. 0: an
+  // arm, or a leg of a pair that is cut.
   int legSide(int limb) const {
-    const auto is_far = [&](int k) { return std::find(far_.begin(), far_.end(), k + 1) != far_.end(); };
+    const auto holds = [](const std::vector<int>& limbs, int k) {
+      return std::find(limbs.begin(), limbs.end(), k + 1) != limbs.end();
+    };
     for (const auto& [a, b] : body_plan_.limbPairs()) {
       if (limb != a + 1 && limb != b + 1) continue;
       if (!body_plan_.from_side &&
           body_plan_.limbs[static_cast<std::size_t>(a)].limb_class != JointClass::kLeg)
         return 0;
-      const int farther = is_far(a) && !is_far(b) ? a : b;
+      if (holds(cut_, a) || holds(cut_, b)) return 0;
+      const int farther = holds(far_, a) && !holds(far_, b) ? a : b;
       return limb == farther + 1 ? -1 : 1;
     }
     return 0;
@@ -136,7 +139,7 @@ class DepthFinder {
   const Skeleton& skeleton_;
   const SkeletonTemplate& body_plan_;
   const Silhouette& silhouette_;
-  const std::vector<int>& far_;
+  const std::vector<int>&far_, &cut_;
   double aside_ = 0;    // share of the trunk's half depth
   double forward_ = 0;  // DepthBone::forward
   BodyDepth depth_;
@@ -145,8 +148,8 @@ class DepthFinder {
 }  // namespace
 
 BodyDepth bodyDepth(const Skeleton& skeleton, const SkeletonTemplate& body_plan, const Silhouette& silhouette,
-                    const std::vector<int>& far) {
-  return DepthFinder(skeleton, body_plan, silhouette, far)();
+                    const std::vector<int>& far, const std::vector<int>& cut) {
+  return DepthFinder(skeleton, body_plan, silhouette, far, cut)();
 }
 
 }  // namespace skel

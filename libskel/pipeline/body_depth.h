@@ -8,9 +8,10 @@
 namespace skel {
 
 // `skeleton`: the template's joints, image px; of a limb that it lacks nothing is said, without the trunk's
-// or the head's joints nothing at all. `far`: the limbs, numbered from 1, that are known to be the farther
-// ones of their pairs.
+// or the head's joints nothing at all. Limbs are numbered from 1; `far`: those that are known to be the
+// farther ones of their pairs; `cut`: those that are pieces of their own, which are laid over one another and
+// stand apart by that.
 BodyDepth bodyDepth(const Skeleton& skeleton, const SkeletonTemplate& body_plan, const Silhouette& silhouette,
-                    const std::vector<int>& far = {});
+                    const std::vector<int>& far = {}, const std::vector<int>& cut = {});
 
 }  // namespace skel

@@ -173,8 +173,8 @@ std::optional<HeadDisc> headDisc(const Skeleton& skeleton, const SkeletonTemplat
                   Eigen::Rotation2Dd(turned_rad) * Eigen::Vector2d(0, -1)};
 }
 
-InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawing,
-                              const RigOptions& options) {
+InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawing, const RigOptions& options,
+                              const std::vector<FigurePiece>& pieces) {
   InflateOptions inflate = options.inflate;
   inflate.back = options.back.value_or(drawing.body_plan.from_side ? Back::kSame : Back::kPlain);
   if (options.height_m > 0)
@@ -182,8 +182,10 @@ InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawin
   else
     inflate.length_m = drawing.body_plan.length_m;
   inflate.turned_rad = drawing.recognition.turned_deg * std::numbers::pi / 180;
+  std::vector<int> cut;
+  for (const FigurePiece& piece : pieces) cut.push_back(piece.layer);
   inflate.body =
-      bodyDepth(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, drawing.layers.far);
+      bodyDepth(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, drawing.layers.far, cut);
   inflate.head =
       headDisc(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, inflate.turned_rad);
   if (input.back) {
@@ -360,7 +362,7 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
                  stage.of(RigPart::kLayerOptions), stage.of(RigPart::kLayers)});
   const auto makeMesh = [&] {
     if (!input.model)
-      return inflate(drawing.colors(), silhouette, inflateOptions(input, drawing, options), pieces);
+      return inflate(drawing.colors(), silhouette, inflateOptions(input, drawing, options, pieces), pieces);
     if (!own_view) input.model->model_from_image = bindByBoundingBox(silhouette.mask, *input.model);
     return std::move(*input.model);
   };
