@@ -108,7 +108,9 @@ class DepthFinder {
     const auto tube = [&](const Vector2d& a, const Vector2d& b) {
       return std::min(radius((a + b) / 2), kLimbRadius * (a - b).norm());
     };
-    const double aside_px = legSide(layer) * aside_ * trunk.most * trunk_px;
+    // Legs that stand: one that is stretched out, or short, is moved less.
+    const double drop = std::max(0., (*end - *root).normalized().y()), length = (*end - *root).norm();
+    const double aside_px = legSide(layer) * aside_ * drop * std::min(trunk.most * trunk_px, length);
     addBone(*root + 0.3 * (*middle - *root), *middle, tube(*root, *middle), kLimbBuild, layer);
     depth_.bones.back().to_aside_px = aside_px;
     const double lower_px = tube(*middle, *end);
