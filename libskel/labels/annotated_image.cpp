@@ -9,6 +9,7 @@
 #include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
+#include "libskel/image/check_image.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/label_from_joints.h"
 
@@ -154,9 +155,8 @@ std::string readView(const std::string& joints_file) {
 Plane8 readMaskOf(const Image& image, const std::string& mask) {
   Plane8 pixels = readMask(mask);
   if (pixels.cols() != image.width || pixels.rows() != image.height)
-    throw InputError(mask, "has " + std::to_string(pixels.cols()) + "x" + std::to_string(pixels.rows()) +
-                               " px, its drawing has " + std::to_string(image.width) + "x" +
-                               std::to_string(image.height) + "; give both the same size or remove the mask");
+    throw InputError(mask, "has " + sizeInPx(pixels.cols(), pixels.rows()) + " px, its drawing has " +
+                               sizeInPx(image.width, image.height) + "; give both the same size or remove the mask");
   return pixels;
 }
 

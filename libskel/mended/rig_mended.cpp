@@ -8,6 +8,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/core/sha256.h"
+#include "libskel/image/check_image.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/mended/earlier_picture.h"
@@ -19,8 +20,6 @@
 namespace skel {
 namespace fs = std::filesystem;
 namespace {
-
-std::string sizeText(long width, long height) { return std::to_string(width) + "x" + std::to_string(height); }
 
 // Reads the mask that is used and returns its path and hash, "": none. A skeleton that was handed in brings
 // its own.
@@ -38,8 +37,8 @@ SkeletonFile::Mask useMask(const MendRequest& request, const MendedFiles& mended
   if (path.empty()) return {};
   input.mask = readMask(path);
   if (input.mask->cols() != input.image.width || input.mask->rows() != input.image.height)
-    throw InputError(path, "is a mask of " + sizeText(input.mask->cols(), input.mask->rows()) +
-                               " px, the image has " + sizeText(input.image.width, input.image.height));
+    throw InputError(path, "is a mask of " + sizeInPx(input.mask->cols(), input.mask->rows()) +
+                               " px, the image has " + sizeInPx(input.image.width, input.image.height));
   return {path, sha256(readFile(path))};
 }
 
@@ -123,9 +122,9 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
   if (given) {
     if (given->image_width != input.image.width || given->image_height != input.image.height)
       throw InputError(request.skeleton, "belongs to an image of " +
-                                             sizeText(given->image_width, given->image_height) + " px, " +
+                                             sizeInPx(given->image_width, given->image_height) + " px, " +
                                              request.source + " has " +
-                                             sizeText(input.image.width, input.image.height));
+                                             sizeInPx(input.image.width, input.image.height));
     input.skeleton = given->skeleton;
     input.turned_deg = given->figure.turned_deg;
   }

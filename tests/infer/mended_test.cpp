@@ -331,7 +331,9 @@ TEST_CASE("a mask that was there before the photo was taken again is taken up an
     fs::copy(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("boy.limbs.png"));
     for (int run = 1; run <= 2; ++run)  // the second one failed
       CHECK_THAT(infer(dir, "boy.png").err,
-                 Contains(kEarlier + std::string("boy.mask.png, boy.limbs.png\n")));
+                 Contains("note: of another size than the picture, not taken up: boy.mask.png (of 600x600 px, "
+                          "the picture has 500x500), boy.limbs.png (of 600x600 px, the picture has "
+                          "500x500)\n"));
   }
 }
 
@@ -506,6 +508,18 @@ TEST_CASE("layers that were painted in place are taken up, said in one line, and
     CHECK_THAT(run.err, Contains("boy.layers.png (now boy.old.layers.png), as the picture has changed\n"));
     CHECK(run.err.find(kEarlier) == run.err.npos);
     CHECK(readFile(dir.file("out/boy.old.layers.png")) == painted);
+  }
+  SECTION("of another size they were said to be of an earlier picture") {
+    const std::string shrunk = encodePng(capsuleImage({.size = 300}));
+    writeFile(path, shrunk);
+    CHECK_THAT(infer(dir, "boy.png --formats json").err,
+               Contains("of another size than the picture, not taken up: boy.layers.png (of 300x300 px, the "
+                        "picture has 600x600)\n"));
+    CHECK(readFile(path) == shrunk);
+    CHECK_THAT(infer(dir, call).err,
+               Contains("painted by hand, not taken up and kept: boy.layers.png (now boy.old.layers.png), as "
+                        "it is of 300x300 px, the picture has 600x600\n"));
+    CHECK(readFile(dir.file("out/boy.old.layers.png")) == shrunk);
   }
   SECTION("limbs of skel-label come first") {
     writeFile(dir.file("boy.limbs.png"), found);
