@@ -19,8 +19,8 @@ namespace skel {
 namespace fs = std::filesystem;
 namespace {
 
-// Of all that a person has mended, and of where it lies, which notes name; but of a skeleton that is an output
-// of this run, which is known by the output's hash. "": there is nothing.
+// Of all that a person has mended, and of where it lies, which notes name; but of a skeleton that is an
+// output of this run, which is known by the output's hash. "": there is nothing.
 std::string mendedHash(const InferOptions& options, const RigJob& job, const std::string& image_sha256) {
   const LookAtOutputs look;  // a silhouette that was painted in place is one of them
   std::string all;

@@ -317,8 +317,8 @@ void CanvasView::drawPicture(ImDrawList* list) {
 
 // Light within dark: it shows on every ground.
 void CanvasView::drawMaskEdge(ImDrawList* list) {
-  constexpr float kStep_px = 1.5f;             // screen; closer corners make no other line
-  constexpr std::size_t kMostAtOnce = 4096;    // corners: what ImGui draws at once has 65536 vertices at most
+  constexpr float kStep_px = 1.5f;           // screen; closer corners make no other line
+  constexpr std::size_t kMostAtOnce = 4096;  // corners: what ImGui draws at once has 65536 vertices at most
   for (const Polygon& polygon : document_.figure().silhouette.outline) {
     std::vector<ImVec2> points;
     for (const Eigen::Vector2d& corner : polygon) {
@@ -327,7 +327,8 @@ void CanvasView::drawMaskEdge(ImDrawList* list) {
         points.push_back(p);
     }
     points.push_back(points.front());
-    for (const auto& [color, width] : {std::pair(IM_COL32(0, 0, 0, 255), 4.f), std::pair(IM_COL32_WHITE, 1.8f)})
+    for (const auto& [color, width] :
+         {std::pair(IM_COL32(0, 0, 0, 255), 4.f), std::pair(IM_COL32_WHITE, 1.8f)})
       for (std::size_t i = 0; i + 1 < points.size(); i += kMostAtOnce)
         list->AddPolyline(&points[i], static_cast<int>(std::min(kMostAtOnce + 1, points.size() - i)), color,
                           ImDrawFlags_None, width);

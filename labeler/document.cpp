@@ -91,8 +91,8 @@ Document::Document(const std::string& path, DocumentOptions options)
       item.problem = error.what();
     }
   }
-  const bool labelled = std::any_of(items_.begin(), items_.end(),
-                                    [](const Item& item) { return item.classes.done > 0; });
+  const bool labelled =
+      std::any_of(items_.begin(), items_.end(), [](const Item& item) { return item.classes.done > 0; });
   const bool joints = editsJointsAlone() || placed_joints || !labelled;
   subject_ = joints ? Subject::kJoints : Subject::kClasses;
   const auto unfinished = std::find_if(items_.begin(), items_.end(),

@@ -330,10 +330,11 @@ TEST_CASE("a mask that was there before the photo was taken again is taken up an
     writeFile(dir.file("boy.png"), encodePng(capsuleImage({.size = 500})));
     fs::copy(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("boy.limbs.png"));
     for (int run = 1; run <= 2; ++run)  // the second one failed
-      CHECK_THAT(infer(dir, "boy.png").err,
-                 Contains("note: of another size than the picture, not taken up: boy.mask.png (of 600x600 px, "
-                          "the picture has 500x500), boy.limbs.png (of 600x600 px, the picture has "
-                          "500x500)\n"));
+      CHECK_THAT(
+          infer(dir, "boy.png").err,
+          Contains("note: of another size than the picture, not taken up: boy.mask.png (of 600x600 px, "
+                   "the picture has 500x500), boy.limbs.png (of 600x600 px, the picture has "
+                   "500x500)\n"));
   }
 }
 
