@@ -69,16 +69,29 @@ void checkJoints(const Skeleton& skeleton, const std::string& file, int figure, 
 constexpr const char* kOutlineChanged =
     "the figure is not outlined as it was when the joints were found: look at them";
 
-// Of limbs that were painted in pieces.
+// The limb on the other side if no pixel is painted as that; "": there is none, or it is painted.
+std::string unpaintedMirror(const RiggedDrawing& drawing, int limb) {
+  for (const auto& [one, other] : drawing.body_plan.limbPairs())
+    for (const auto& [painted, mirror] : {std::pair(one + 1, other + 1), std::pair(other + 1, one + 1)})
+      if (painted == limb && !(drawing.layers.limb == mirror).any())
+        return limbName(drawing.body_plan, mirror);
+  return "";
+}
+
+// Of limbs that were painted in pieces, maybe both arms in one colour.
 std::vector<std::string> looseLimbs(const RiggedDrawing& drawing) {
   constexpr double kSpecks = .02;  // of the limb: less is the brush's
+  constexpr double kAnother = .25;
   std::vector<std::string> warnings;
   for (int limb = 1; limb <= int(drawing.body_plan.limbs.size()); ++limb) {
     const int loose = loosePixels(drawing.layers, limb, drawing.found_limbs);
-    if (loose == 0 || loose < kSpecks * double((drawing.layers.limb == limb).count())) continue;
+    const auto all = double((drawing.layers.limb == limb).count());
+    if (loose == 0 || loose < kSpecks * all) continue;
+    const std::string mirror = loose > kAnother * all ? unpaintedMirror(drawing, limb) : "";
     warnings.push_back(std::to_string(loose) + " px painted as the " + limbName(drawing.body_plan, limb) +
-                       " are not joined to the rest of it and stay with the body: look at them (skel-label "
-                       "FILE, key G)");
+                       " are not joined to the rest of it and stay with the body" +
+                       (mirror.empty() ? "" : ", and none are painted as the " + mirror) +
+                       ": look at them (skel-label FILE, key G)");
   }
   return warnings;
 }

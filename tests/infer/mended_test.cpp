@@ -617,6 +617,21 @@ TEST_CASE("a patch of a limb that was painted apart from the rest of it was drop
                       "body: look at them (skel-label boy.png, key G)"));
 }
 
+TEST_CASE("of both arms painted in one colour none was said to be missing") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png --formats layers").exit_code == 0);
+  Image limbs = readImage(dir.file("out/boy.layers.png"));
+  for (Eigen::Index p = 0; p < limbs.rgba.rows(); ++p) {
+    if (limbs.rgba(p, 3) > 0) limbs.rgba(p, 3) = 255;
+    if (limbs.rgba(p, 0) == 230 && limbs.rgba(p, 1) == 60) limbs.rgba.row(p) << 50, 110, 230, 255;
+  }
+  writeFile(dir.file("boy.limbs.png"), encodePng(limbs));
+  CHECK_THAT(infer(dir, "boy.png --formats glb").err,
+             Contains(" px painted as the left arm are not joined to the rest of it and stay with the body, "
+                      "and none are painted as the right arm: look at them (skel-label boy.png, key G)"));
+}
+
 TEST_CASE("what skel wrote and nobody touched is not taken for mended") {
   const TempDir dir;
   drawBoy(dir);
