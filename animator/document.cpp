@@ -141,7 +141,8 @@ AnimationDocument::AnimationDocument(const CharacterSource& source, const ClipSo
   addSaved(clips());
   on_disk_.note(source.path);
   if (!library.clips_dir.empty())
-    for (const std::string& file : filesBelow(library.clips_dir)) on_disk_.note(file);
+    for (const std::string& file : filesBelow(library.clips_dir))
+      file.ends_with(kClipFileEnding) ? on_disk_.note(file) : on_disk_.noteUnread(file);
 }
 
 const Clip* AnimationDocument::clip() const {

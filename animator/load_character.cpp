@@ -98,8 +98,8 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
   DrawnCharacter result{std::move(rig.drawing), std::move(rig.warnings), {}};
   for (const auto& note :
        {mendedNote(rig.files, request, rig.placed), contradictionNote(rig.files, rig.placed),
-        otherPlanNote(rig.files, options), earlierNote(rig.files), fitsAgainNote(rig.files),
-        keptLayersNote(rig.files, request)})
+        otherPlanNote(rig.files, options), earlierNote(rig.files), otherSizeNote(rig.files),
+        fitsAgainNote(rig.files), keptLayersNote(rig.files, request)})
     if (note) result.mended.push_back(*note);
   return result;
 }

@@ -12,6 +12,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/skeleton/body_plans.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -201,7 +202,11 @@ MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& 
 }
 
 std::string otherPlanOf(const MeasuredDrawing& drawing, const SkeletonTemplate& body_plan) {
-  return otherPlanOf(NamedJoints(drawing.joints.begin(), drawing.joints.end()), body_plan);
+  std::vector<std::string> visible;
+  for (const auto& [name, place] : drawing.joints)
+    if (place) visible.push_back(name);
+  const std::string other = otherPlanWith(visible, {body_plan});
+  return other == body_plan.name ? "" : other;
 }
 
 void turnClockwise(MeasuredDrawing& drawing, int quarters) {

@@ -23,6 +23,7 @@
 #include "libskel/draw/draw_skeleton.h"
 #include "libskel/image/write_image.h"
 #include "libskel/labels/annotated_image.h"
+#include "libskel/labels/coco_of_others.h"
 #include "libskel/recognition/calibration.h"
 
 namespace skel {
@@ -159,6 +160,7 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
   rig.last = LastStage::kJoints;
   noteUnusedWeights(options.infer);
   if (!options.overlays.empty()) ensureWritableFolder(options.overlays);
+  keepCocoOfOthers(options.json_file, "name another file by --json");
   const std::vector<std::string> ids = findDrawings(options.dir);
   for (const std::string& id : ids) noteMeasuredFiles(options.dir, id);
   if (!options.overlays.empty())
@@ -223,7 +225,11 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     if (row.counts && !row.failure && row.other_plan.empty()) (row.annotated ? rows : hard).push_back(row);
   Json json;
   json["characters"] = Json::object();
-  std::printf("%-34s  PCK.05 PCK.10  error usable limbs inside   IoU  worst joint\n", "character");
+  if (rows.empty() && !hard.empty())
+    std::fprintf(stderr, "skel-infer: note: no joints are annotated in %s, so none are measured\n",
+                 printable(options.dir).c_str());
+  if (!rows.empty())
+    std::printf("%-34s  PCK.05 PCK.10  error usable limbs inside   IoU  worst joint\n", "character");
   for (const Row& row : rows) {
     const Score& s = row.score;
     std::printf("%-34s  %6.2f %6.2f %6.3f %6.0f %s %s %s  %s\n", printable(row.name).c_str(), s.pck05,

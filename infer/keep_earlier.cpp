@@ -39,8 +39,10 @@ bool isOfThis(const std::optional<SkeletonSource>& result, const SkeletonFile& f
           result->image_width == file.image_width && result->image_height == file.image_height);
 }
 
-std::string whyNotTakenUp(const MendedFiles& files, const InferOptions& options,
+std::string whyNotTakenUp(const std::string& path, const MendedFiles& files, const InferOptions& options,
                           const std::optional<SkeletonSource>& result, const SkeletonFile& file) {
+  if (const auto size = files.other_size.find(path); size != files.other_size.end())
+    return "it is " + size->second;
   if (!result) return "no skeleton file beside it says that it is of this figure";
   if (result->number != file.figure.number) return "it is of figure " + std::to_string(result->number);
   if (!isOfThis(result, file)) return "the picture has changed";
@@ -101,7 +103,7 @@ std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, 
   const std::string shared = "painted by hand, not taken up and kept",
                     what = name(path) + " (now " +
                            name(keepAs(path, start + kEarlierLayersStart, kEarlierLayersEnd)) + "), as " +
-                           whyNotTakenUp(files, options, result, file);
+                           whyNotTakenUp(path, files, options, result, file);
   return Note{shared + ": " + what, shared, what};
 }
 

@@ -19,8 +19,8 @@ namespace skel {
 namespace fs = std::filesystem;
 namespace {
 
-// Of all that a person has mended, but of a skeleton that is an output of this run, which is known by the
-// output's hash. "": there is nothing.
+// Of all that a person has mended, and of where it lies, which notes name; but of a skeleton that is an
+// output of this run, which is known by the output's hash. "": there is nothing.
 std::string mendedHash(const InferOptions& options, const RigJob& job, const std::string& image_sha256) {
   const LookAtOutputs look;  // a silhouette that was painted in place is one of them
   std::string all;
@@ -30,7 +30,9 @@ std::string mendedHash(const InferOptions& options, const RigJob& job, const std
     const MendedFiles files = mendedFiles(request);
     const bool is_output = writes(options, "json") && files.skeleton == request.results + kSkeletonFileEnding;
     const auto add = [&](const char* what, const std::string& file) {
-      if (!file.empty()) all += std::to_string(figure) + what + sha256(readFile(file)) + "\n";
+      if (!file.empty())
+        all += std::to_string(figure) + what + sha256(readFile(file)) + " " +
+               fs::path(file).lexically_normal().string() + "\n";
     };
     if (!is_output) add(" skeleton ", files.skeleton);
     add(" labels ", files.labels), add(" mask ", files.mask);
@@ -112,6 +114,7 @@ DrawingResult rigAndKeep(const InferOptions& options, const RigOptions& rig, Ori
   readOnce(options, job, origin);
   if (options.resume && earlier && earlier->origin == origin && areThere(earlier->figures)) {
     DrawingResult kept = *earlier;
+    if (!kept.problem.empty()) kept.error = job.source + ": " + kept.problem;
     kept.source = job.source;
     kept.kept = true;
     for (FigureResult& figure : kept.figures) figure.mend_file = fileToMend(options, job, figure.number);

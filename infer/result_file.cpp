@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "skel-result";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;  // 1: without `nothing_found`
 
 const std::map<Verdict, std::string> kVerdictNames = {
     {Verdict::kFine, "fine"}, {Verdict::kLookAt, "look at"}, {Verdict::kRetake, "retake"}};
@@ -27,6 +27,14 @@ const char* statusOf(const DrawingResult& drawing) {
 
 std::string pathFrom(const std::string& beside, const std::string& path) {
   return jsonFromFileName(beside.empty() ? path : pathSeenFrom(beside, path));
+}
+
+// What an error says that begins with the name of its drawing.
+constexpr const char* kAfterName = ": ";
+std::string errorFrom(const std::string& beside, const DrawingResult& drawing) {
+  const std::string start = drawing.source + kAfterName;
+  if (!drawing.error.starts_with(start)) return drawing.error;
+  return pathFrom(beside, drawing.source) + kAfterName + drawing.error.substr(start.size());
 }
 
 Json figureJson(const FigureResult& figure, const std::string& beside) {
@@ -100,7 +108,8 @@ std::string formatResult(const DrawingResult& drawing, const std::string& beside
   json["status"] = statusOf(drawing);
   json["kept"] = drawing.kept;
   json["code"] = int(drawing.code);
-  json["error"] = drawing.error;
+  json["error"] = errorFrom(beside, drawing);
+  json["nothing_found"] = drawing.nothing_found;
   json["figures"] = std::move(figures);
   json["sha256"] = {{"image", drawing.origin.image},
                     {"mended", drawing.origin.mended},
@@ -114,14 +123,19 @@ DrawingResult parseResult(const std::string& text, const std::string& path) {
   const JsonDocument document = JsonDocument::parse(text, path);
   const JsonValue root = document.root();
   root.checkFormat(kFormat, kVersion);
-  root.allowOnly(
-      {"format", "version", "source", "status", "kept", "code", "error", "figures", "sha256", "skel"});
+  root.allowOnly({"format", "version", "source", "status", "kept", "code", "error", "nothing_found",
+                  "figures", "sha256", "skel"});
   const fs::path folder = fs::path(path).parent_path();
   DrawingResult drawing;
   drawing.source = (folder / root.at("source").asFileName()).lexically_normal().string();
   drawing.kept = root.at("kept").asBool();
   drawing.code = ExitCode(root.at("code").asInt(0, 4));
   drawing.error = root.at("error").asString();
+  if (const std::string start = root.at("source").asString() + kAfterName; drawing.error.starts_with(start)) {
+    drawing.problem = drawing.error.substr(start.size());
+    drawing.error = drawing.source + kAfterName + drawing.problem;
+  }
+  if (const auto nothing = root.find("nothing_found")) drawing.nothing_found = nothing->asBool();
   for (const JsonValue& figure : root.at("figures").items())
     drawing.figures.push_back(figureOf(figure, folder));
   const JsonValue hashes = root.at("sha256");

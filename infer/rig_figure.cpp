@@ -152,9 +152,10 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
     result.notes.push_back(*note);
   if (const auto note = otherFigureNote(mended.files)) result.notes.push_back(*note);
   if (const auto note = otherPlanNote(mended.files, rig)) result.notes.push_back(*note);
-  if (const auto note = earlierNote(mended.files, kept)) {
+  for (const auto& note : {earlierNote(mended.files, kept), otherSizeNote(mended.files, kept)}) {
+    if (!note) continue;
     result.notes.push_back(*note);
-    result.left_out = note->what;
+    result.left_out += (result.left_out.empty() ? "" : ", ") + note->what;
   }
   if (kept_layers) result.notes.push_back(*kept_layers);
   for (const auto& note : {fitsAgainNote(mended.files), keptLayersNote(mended.files, request)})

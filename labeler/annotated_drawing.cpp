@@ -14,6 +14,7 @@
 #include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
 #include "libskel/labels/annotated_image.h"
+#include "libskel/labels/coco_of_others.h"
 #include "libskel/skeleton/motion_file.h"
 #include "libskel/skeleton/skeleton_file.h"
 
@@ -109,8 +110,7 @@ bool isCoco(const std::string& path) {
   for (const char* ending : {kLabelFileEnding, kSkeletonFileEnding, ".joints.json", kMotionFileEnding})
     if (name.ends_with(ending)) return false;
   const JsonDocument document = JsonDocument::readFile(path);
-  const JsonValue root = document.root();
-  return root.isObject() && root.find("annotations") && root.find("images");
+  return isCoco(document.root());
 }
 
 const SkeletonTemplate& planOf(const NamedJoints& joints, const BodyPlans& plans) {

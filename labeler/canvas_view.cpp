@@ -305,12 +305,33 @@ void CanvasView::drawPicture(ImDrawList* list) {
       (tool == Tool::kJoints && document_.isOfEarlierPicture() && document_.state().mask)) {
     updateMaskTexture();
     list->AddImage(mask_tint_.id(), low, high);
+    drawMaskEdge(list);
   } else if (tool == Tool::kLimbs && document_.figure().silhouette.found()) {
     updateLimbTexture();
     list->AddImage(limb_tint_.id(), low, high);
   } else {
     // Steps back behind the discs.
     list->AddRectFilled(low, high, IM_COL32(255, 255, 255, 70));
+  }
+}
+
+// Light within dark: it shows on every ground.
+void CanvasView::drawMaskEdge(ImDrawList* list) {
+  constexpr float kStep_px = 1.5f;           // screen; closer corners make no other line
+  constexpr std::size_t kMostAtOnce = 4096;  // corners: what ImGui draws at once has 65536 vertices at most
+  for (const Polygon& polygon : document_.figure().silhouette.outline) {
+    std::vector<ImVec2> points;
+    for (const Eigen::Vector2d& corner : polygon) {
+      const ImVec2 p = screenFromImage(corner);
+      if (points.empty() || std::hypot(p.x - points.back().x, p.y - points.back().y) > kStep_px)
+        points.push_back(p);
+    }
+    points.push_back(points.front());
+    for (const auto& [color, width] :
+         {std::pair(IM_COL32(0, 0, 0, 255), 4.f), std::pair(IM_COL32_WHITE, 1.8f)})
+      for (std::size_t i = 0; i + 1 < points.size(); i += kMostAtOnce)
+        list->AddPolyline(&points[i], static_cast<int>(std::min(kMostAtOnce + 1, points.size() - i)), color,
+                          ImDrawFlags_None, width);
   }
 }
 

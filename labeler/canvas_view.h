@@ -58,6 +58,7 @@ class CanvasView {
   template <class Value, class Paint>
   void strokeWith(bool hovered, Value left, Value right, Value& value, const Paint& paint);
   void drawPicture(ImDrawList* list);
+  void drawMaskEdge(ImDrawList* list);
   void drawCandidates(ImDrawList* list);
   void drawSkeleton(ImDrawList* list);
   void drawCursor(ImDrawList* list, bool hovered);

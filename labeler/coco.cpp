@@ -14,6 +14,7 @@
 #include "libskel/core/file_names.h"
 #include "libskel/core/json.h"
 #include "libskel/core/json_names.h"
+#include "libskel/labels/coco_of_others.h"
 
 namespace skel {
 namespace {
@@ -114,16 +115,6 @@ std::vector<Polygon> polygons(const JsonValue& annotation) {
   return result;
 }
 
-// COCO has a place for who made a file.
-constexpr const char* kContributor = "skel-label export";
-
-bool isExport(const JsonValue& root) {
-  const std::optional<JsonValue> info = root.find("info");
-  if (!info || !info->isObject()) return false;
-  const std::optional<JsonValue> contributor = info->find("contributor");
-  return contributor && contributor->isString() && contributor->asString() == kContributor;
-}
-
 // px; 0: it is not told.
 int sideOf(const JsonValue& image, const char* side) {
   constexpr int kLongest_px = 1'000'000;
@@ -144,7 +135,7 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const BodyPlans&
                                        const OnInputError& on_error) {
   const JsonDocument document = JsonDocument::readFile(path);
   const JsonValue root = document.root();
-  const bool is_export = isExport(root);
+  const bool is_export = isExportedCoco(root);
 
   std::map<double, std::vector<std::string>> names_of;  // by category
   if (const auto categories = root.find("categories"))
@@ -274,7 +265,7 @@ std::string formatCoco(const std::vector<CocoPicture>& pictures, const BodyPlans
     categories.push_back(
         {{"id", categoryOf(*plan)}, {"name", plan->name}, {"keypoints", names}, {"skeleton", bones}});
   }
-  return Json{{"info", {{"contributor", kContributor}}},
+  return Json{{"info", {{"contributor", kCocoContributor}}},
               {"images", images},
               {"annotations", annotations},
               {"categories", categories}}

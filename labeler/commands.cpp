@@ -13,6 +13,7 @@
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/text.h"
+#include "libskel/labels/coco_of_others.h"
 #include "libskel/skeleton/motion_file.h"
 
 namespace skel {
@@ -100,6 +101,7 @@ ExitCode exportLabels(const LabelerOptions& options) {
                              : options.coco          ? "out/labels.coco.json"
                                                      : "out/labels.csv";
   noteOutput(output);
+  if (!options.force) keepCocoOfOthers(output, "name another file by -o, or replace it by --force");
   ExitCode code = ExitCode::kDone;
   const OnError on_error = [&](const Error& error) {
     complaints()(error);
@@ -192,6 +194,7 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
   exported
       ->add_option("-o,--output", options.output, "File (default: out/labels.coco.json or out/labels.csv)")
       ->check(outputFile());
+  exported->add_flag("--force", options.force, "Also over COCO annotations of others");
 }
 
 }  // namespace skel

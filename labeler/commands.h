@@ -23,7 +23,7 @@ struct LabelerOptions {
   bool coco = false, csv = false;
   std::string output;
   double frame_rate = 12;  // 1/s
-  bool force = false;      // of motion
+  bool force = false;      // of motion and export
 };
 
 // Adds all options and commands; those that are chosen set `run` to a function that returns the exit code.

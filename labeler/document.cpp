@@ -74,6 +74,7 @@ Document::Document(const std::string& path, DocumentOptions options)
     readImage(path);
     list({drawingFiles(path, fs::path(path).filename().string())});
   }
+  bool placed_joints = false;
   for (Item& item : items_) {
     if (fs::exists(item.files.mask)) given_masks_.insert(item.files.mask);
     if (motion_ || !fs::is_regular_file(item.files.labels)) continue;
@@ -82,15 +83,17 @@ Document::Document(const std::string& path, DocumentOptions options)
       item.classes = {static_cast<int>(labels.candidates.size()), countLabels(labels.labels)};
       item.joints = jointsOf(labels, options_.body_plans);
       item.has_shape = labels.mask || fs::exists(layersFile(item.files, 1));
+      placed_joints = placed_joints || item.joints.done > 0;
+      // Of a photo that was taken again nobody has looked at the joints.
+      if (item.joints.done > 0 && sha256(readFile(item.files.image)) != labels.image.sha256)
+        item.joints.done = 0;
     } catch (const InputError& error) {
       item.problem = error.what();
     }
   }
-  const auto any = [&](Subject subject) {
-    return std::any_of(items_.begin(), items_.end(),
-                       [&](const Item& item) { return item.of(subject).done > 0; });
-  };
-  const bool joints = editsJointsAlone() || any(Subject::kJoints) || !any(Subject::kClasses);
+  const bool labelled =
+      std::any_of(items_.begin(), items_.end(), [](const Item& item) { return item.classes.done > 0; });
+  const bool joints = editsJointsAlone() || placed_joints || !labelled;
   subject_ = joints ? Subject::kJoints : Subject::kClasses;
   const auto unfinished = std::find_if(items_.begin(), items_.end(),
                                        [&](const Item& item) { return !item.of(subject_).isWhole(); });

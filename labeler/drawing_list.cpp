@@ -8,6 +8,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/foreign_files.h"
 #include "libskel/core/natural_order.h"
+#include "libskel/image/check_image.h"
 #include "libskel/image/result_picture.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/skeleton/skeleton_file.h"
@@ -63,10 +64,9 @@ std::string besideFile(const std::string& file, const std::string& name) {
 
 void checkMeansPicture(const Image& image, const std::string& image_path, int width, int height,
                        const std::string& file, const std::string& place) {
-  const auto size = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
   if (width != image.width || height != image.height)
-    throw InputError(file, place + ": has " + size(width, height) + " px, " + image_path + " has " +
-                               size(image.width, image.height) + "; find the joints anew");
+    throw InputError(file, place + ": has " + sizeInPx(width, height) + " px, " + image_path + " has " +
+                               sizeInPx(image.width, image.height) + "; find the joints anew");
 }
 
 }  // namespace skel

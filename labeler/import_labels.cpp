@@ -11,6 +11,7 @@
 #include "libskel/core/input_guard.h"
 #include "libskel/core/progress.h"
 #include "libskel/core/sha256.h"
+#include "libskel/image/check_image.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "libskel/labels/annotated_image.h"
@@ -62,12 +63,9 @@ void checkSize(const AnnotatedDrawing& drawing, const Image& image) {
   if (drawing.image_width == 0 ||
       (drawing.image_width == image.width && drawing.image_height == image.height))
     return;
-  const auto size = [](int width, int height) {
-    return std::to_string(width) + "x" + std::to_string(height);
-  };
-  throw InputError(drawing.image, "is " + size(image.width, image.height) + " px, " +
+  throw InputError(drawing.image, "is " + sizeInPx(image.width, image.height) + " px, " +
                                       fs::path(drawing.source).filename().string() + " says " +
-                                      size(drawing.image_width, drawing.image_height) +
+                                      sizeInPx(drawing.image_width, drawing.image_height) +
                                       ": its joints and outline are of another picture");
 }
 

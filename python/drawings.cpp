@@ -3,6 +3,7 @@
 #include "libskel/animation/clip_library.h"
 #include "libskel/classifier/features.h"
 #include "libskel/core/files.h"
+#include "libskel/image/check_image.h"
 #include "libskel/image/read_image.h"
 #include "libskel/import/read_character.h"
 #include "libskel/pipeline/rig_drawing.h"
@@ -56,9 +57,8 @@ Plane8 figureOf(const py::object& mask, const Image& image) {
   const std::string name = array ? "mask" : pathOf(mask, "mask", kPictureOrArray);
   Plane8 plane = array ? maskOf(mask, name) : unlocked(name, [&] { return readMask(name); });
   if (plane.rows() != image.height || plane.cols() != image.width)
-    throw InputError(name, "has " + std::to_string(plane.cols()) + "x" + std::to_string(plane.rows()) +
-                               " px, the drawing " + std::to_string(image.width) + "x" +
-                               std::to_string(image.height));
+    throw InputError(name, "has " + sizeInPx(plane.cols(), plane.rows()) + " px, the drawing " +
+                               sizeInPx(image.width, image.height));
   return plane;
 }
 

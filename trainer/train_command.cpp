@@ -13,6 +13,7 @@
 #include "libskel/core/progress.h"
 #include "libskel/core/text.h"
 #include "libskel/labels/annotated_image.h"
+#include "libskel/labels/coco_of_others.h"
 #include "trainer/cross_validation.h"
 #include "trainer/evaluation.h"
 #include "trainer/generated_characters.h"
@@ -224,6 +225,7 @@ ExitCode runTrain(const TrainOptions& given) {
   checkCounts(options, characters.size());
   ensureWritableNet(options.output, "skel-weights");
   if (!options.json.empty()) ensureWritableFile(options.json);
+  keepCocoOfOthers(options.json, "name another file by --json");
   if (!options.report.empty()) ensureWritableFolder(options.report);
   const std::vector<LabelledCharacter> drawn_by_program = generateCharacters(
       options.generated, static_cast<std::uint64_t>(training.seed), training.threads, {options.candidates});
@@ -281,6 +283,7 @@ void bindEvaluateWeightsOptions(CLI::App& app, EvaluateWeightsOptions& options) 
 }
 
 ExitCode runEvaluateWeights(const EvaluateWeightsOptions& options) {
+  keepCocoOfOthers(options.json, "name another file by --json");
   const bool from_labels =
       options.candidates == CandidateMethod::kMaxima && !findLabelFiles(options.dir).empty();
   const LabelledSet set =

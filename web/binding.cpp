@@ -13,6 +13,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/sha256.h"
 #include "libskel/cutout/cut_out_atlas.h"
+#include "libskel/image/check_image.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "libskel/pipeline/drawn_cut_out.h"
@@ -40,18 +41,16 @@ std::string bytesOf(const val& array) {
   return bytes;
 }
 
-// A copy that JavaScript owns.
-template <class Bytes>
-val arrayOf(const Bytes& bytes) {
-  return val::global("Uint8Array")
-      .new_(val(emscripten::typed_memory_view(static_cast<std::size_t>(bytes.size()),
-                                              reinterpret_cast<const std::uint8_t*>(bytes.data()))));
-}
-
-// The same of numbers; `type` is its name in JavaScript.
+// A copy that JavaScript owns; `type` is its name there.
 template <class Number>
 val numbersOf(const char* type, const Number* numbers, std::size_t count) {
   return val::global(type).new_(val(emscripten::typed_memory_view(count, numbers)));
+}
+
+template <class Bytes>
+val arrayOf(const Bytes& bytes) {
+  return numbersOf("Uint8Array", reinterpret_cast<const std::uint8_t*>(bytes.data()),
+                   static_cast<std::size_t>(bytes.size()));
 }
 
 val textsOf(const std::vector<std::string>& texts) {
@@ -65,8 +64,6 @@ std::string stemOf(const std::string& file) {
   return dot == std::string::npos || dot == 0 ? file : file.substr(0, dot);
 }
 
-std::string sizeText(long width, long height) { return std::to_string(width) + "x" + std::to_string(height); }
-
 // Throws unless `array` holds just what a picture of that size needs: the memory that a shorter one would
 // leave as it is has held the pictures of others. `what` it is stands in the complaint.
 void checkLength(const val& array, int width, int height, int bytes_a_pixel, const std::string& file,
@@ -77,15 +74,15 @@ void checkLength(const val& array, int width, int height, int bytes_a_pixel, con
   const std::string hint =
       bytes_a_pixel == 4 && has * 4 == needs * 3 ? "; RGB needs a fourth byte a pixel, alpha" : "";
   throw InputError(file, what + " has " + std::to_string(static_cast<std::int64_t>(has)) + " bytes, " +
-                             sizeText(width, height) + " px of " + std::to_string(bytes_a_pixel) +
+                             sizeInPx(width, height) + " px of " + std::to_string(bytes_a_pixel) +
                              (bytes_a_pixel == 1 ? " byte" : " bytes") + " need " +
                              std::to_string(static_cast<std::int64_t>(needs)) + hint);
 }
 
 Image imageOf(const val& rgba, int width, int height, const std::string& file) {
-  if (width < 1 || height < 1) throw InputError(file, "has no pixels: " + sizeText(width, height));
+  if (width < 1 || height < 1) throw InputError(file, "has no pixels: " + sizeInPx(width, height));
   if (std::max(width, height) > kLongestSide_px || std::int64_t{width} * height > kMaxPixels)
-    throw InputError(file, "is too large: " + sizeText(width, height) + " px; make it smaller");
+    throw InputError(file, "is too large: " + sizeInPx(width, height) + " px; make it smaller");
   checkLength(rgba, width, height, 4, file, "rgba");
   Image image(width, height);
   copyInto(image.rgba, rgba);
@@ -156,8 +153,8 @@ SkeletonFile givenSkeleton(const std::string& text, const std::string& name, con
                            const RigInput& input) {
   SkeletonFile given = skeletonFileOf(text, name);
   if (given.image_width != input.image.width || given.image_height != input.image.height)
-    throw InputError(name, "belongs to an image of " + sizeText(given.image_width, given.image_height) +
-                               " px, " + image + " has " + sizeText(input.image.width, input.image.height));
+    throw InputError(name, "belongs to an image of " + sizeInPx(given.image_width, given.image_height) +
+                               " px, " + image + " has " + sizeInPx(input.image.width, input.image.height));
   return given;
 }
 
@@ -242,8 +239,8 @@ val maskOf(const val& request) {
     const int of_width = request["ofWidth"].as<int>(), of_height = request["ofHeight"].as<int>();
     if (mask.cols() != width || mask.rows() != height) {
       if (mask.cols() != of_width || mask.rows() != of_height)
-        throw InputError(file, "is a mask of " + sizeText(mask.cols(), mask.rows()) + " px, the image has " +
-                                   sizeText(of_width, of_height));
+        throw InputError(file, "is a mask of " + sizeInPx(mask.cols(), mask.rows()) + " px, the image has " +
+                                   sizeInPx(of_width, of_height));
       mask = madeSmaller(mask, width, height);
     }
     if (!request["skeleton"].isNull()) {

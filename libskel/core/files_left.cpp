@@ -29,11 +29,20 @@ std::string placeOf(const std::string& path) {
 
 }  // namespace
 
+FilesLeft::Stamp FilesLeft::stampOf(const std::string& path) {
+  std::error_code unknown;
+  return {fs::file_size(path, unknown), fs::last_write_time(path, unknown)};
+}
+
 void FilesLeft::note(const std::string& path) { sha256_[placeOf(path)] = hashOf(path); }
 
+void FilesLeft::noteUnread(const std::string& path) { unread_[placeOf(path)] = stampOf(path); }
+
 bool FilesLeft::hasChanged(const std::string& path) const {
-  const auto left = sha256_.find(placeOf(path));
-  return left != sha256_.end() && left->second != hashOf(path);
+  const std::string place = placeOf(path);
+  if (const auto left = sha256_.find(place); left != sha256_.end()) return left->second != hashOf(path);
+  const auto left = unread_.find(place);
+  return left != unread_.end() && left->second != stampOf(path);
 }
 
 }  // namespace skel

@@ -8,7 +8,9 @@
 namespace skel {
 
 std::string netFormatName(std::string_view format) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kKinds = {
+  constexpr std::string_view kCheckpoint =
+      "a checkpoint (the line of skel-train that wrote it, run to its end, makes a net of it)";
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kKinds = {
       {{"skel-confidence", "numbers that say how sure the recognition is"},
        {"skel-silhouette-confidence", "numbers that say how sure a silhouette is"},
        {"skel-loop-net", "a net that tells what is ground within lines"},
@@ -16,7 +18,9 @@ std::string netFormatName(std::string_view format) {
        {"skel-weights", "weights that tell candidates apart (--weights)"},
        {"skel-joint-net", "a net that finds joints (--joint-net)"},
        {"skel-part-net", "a net that tells parts (--part-net)"},
-       {"skel-page-net", "a net that finds figures on pages"}}};
+       {"skel-page-net", "a net that finds figures on pages"},
+       {"skel-training", kCheckpoint},
+       {"skel-checkpoint", kCheckpoint}}};  // of former versions, by themselves
   for (const auto& [kind, name] : kKinds)
     if (kind == format) return std::string(name);
   return {};

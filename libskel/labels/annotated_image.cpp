@@ -9,6 +9,7 @@
 #include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
+#include "libskel/image/check_image.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/label_from_joints.h"
 
@@ -127,17 +128,6 @@ std::vector<std::string> jointNames(const NamedJoints& joints) {
   return names;
 }
 
-std::string otherPlanOf(const NamedJoints& joints, const SkeletonTemplate& body_plan) {
-  const auto hasAll = [&](const SkeletonTemplate& plan) {
-    return std::all_of(joints.begin(), joints.end(),
-                       [&](const auto& joint) { return !joint.second || plan.find(joint.first) >= 0; });
-  };
-  if (hasAll(body_plan)) return "";
-  for (const std::string& name : builtinTemplates())
-    if (name != body_plan.name && hasAll(loadTemplate(name))) return name;
-  return "";
-}
-
 std::optional<Eigen::Vector2d> jointPlaceAt(const JsonValue& place) {
   if (place.isNull()) return std::nullopt;
   const std::vector<double> xy = place.asNumbers(2);
@@ -154,9 +144,9 @@ std::string readView(const std::string& joints_file) {
 Plane8 readMaskOf(const Image& image, const std::string& mask) {
   Plane8 pixels = readMask(mask);
   if (pixels.cols() != image.width || pixels.rows() != image.height)
-    throw InputError(mask, "has " + std::to_string(pixels.cols()) + "x" + std::to_string(pixels.rows()) +
-                               " px, its drawing has " + std::to_string(image.width) + "x" +
-                               std::to_string(image.height) + "; give both the same size or remove the mask");
+    throw InputError(mask, "has " + sizeInPx(pixels.cols(), pixels.rows()) + " px, its drawing has " +
+                               sizeInPx(image.width, image.height) +
+                               "; give both the same size or remove the mask");
   return pixels;
 }
 

@@ -57,9 +57,6 @@ std::optional<std::string> jointsFileBeside(const std::string& image);
 
 std::vector<std::string> jointNames(const NamedJoints& joints);
 
-// The body plan whose joints these are, if it is not that one but another that skel brings along; else "".
-std::string otherPlanOf(const NamedJoints& joints, const SkeletonTemplate& body_plan);
-
 // What such a file says of the view: "front", "three-quarter" or "side"; "" if nothing. Throws InputError.
 std::string readView(const std::string& joints_file);
 

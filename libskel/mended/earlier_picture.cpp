@@ -9,6 +9,7 @@
 #include "libskel/core/input_guard.h"
 #include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
+#include "libskel/image/check_image.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/label_file.h"
 
@@ -30,12 +31,32 @@ std::optional<LabelFile> labelsIn(const std::string& path) {
   }
 }
 
-bool hasSize(const Plane8& mask, const Image& image) {
-  return mask.cols() == image.width && mask.rows() == image.height;
+// Leaves a file out that has not the picture's size. Whether it does.
+bool leaveOutOtherSize(std::string& file, Eigen::Index width, Eigen::Index height, const Image& image,
+                       MendedFiles& files) {
+  if (width == image.width && height == image.height) return false;
+  files.other_size[file] =
+      "of " + sizeInPx(width, height) + " px, the picture has " + sizeInPx(image.width, image.height);
+  leaveOut(file, files);
+  return true;
 }
 
-bool hasSize(const Image& limbs, const Image& image) {
-  return limbs.width == image.width && limbs.height == image.height;
+// Of the files that were left out and are, or are not, of another size.
+std::optional<Note> leftOutNote(const std::string& shared, const MendedFiles& files,
+                                const std::vector<KeptFile>& kept, bool of_other_size) {
+  std::vector<std::string> names;
+  for (const std::string& file : files.earlier) {
+    const auto size = files.other_size.find(file);
+    if ((size != files.other_size.end()) != of_other_size) continue;
+    std::string name = fileName(file), more = of_other_size ? size->second : "";
+    for (const KeptFile& one : kept)
+      if (one.was == file)
+        more += (more.empty() ? "now " : "; now ") + fileName(one.is) +
+                (one.may_be_named ? "; --skeleton " + shellWord(one.is) + " takes it up" : "");
+    names.push_back(name + (more.empty() ? "" : " (" + more + ")"));
+  }
+  if (names.empty()) return std::nullopt;
+  return Note{shared + ": " + joined(names), shared, joined(names)};
 }
 
 std::vector<std::string> numbered(const std::string& start, const std::string& end) {
@@ -112,13 +133,13 @@ void leaveOutEarlier(MendedFiles& files, const MendRequest& request,
 void leaveOutOtherSizes(MendedFiles& files, const MendRequest& request, const Image& image) {
   if (!files.has_result) return;
   const LookAtOutputs look;  // painted results stay as they are
-  if (!files.mask.empty() && files.mask != request.mask && !hasSize(readMask(files.mask), image)) {
-    leaveOut(files.mask, files);
-    files.mask_before = false;
+  if (!files.mask.empty() && files.mask != request.mask) {
+    const Plane8 mask = readMask(files.mask);
+    if (leaveOutOtherSize(files.mask, mask.cols(), mask.rows(), image, files)) files.mask_before = false;
   }
-  if (!files.limbs.empty() && files.limbs != request.limbs && !hasSize(readImage(files.limbs), image)) {
-    leaveOut(files.limbs, files);
-    files.limbs_before = false;
+  if (!files.limbs.empty() && files.limbs != request.limbs) {
+    const Image limbs = readImage(files.limbs);
+    if (leaveOutOtherSize(files.limbs, limbs.width, limbs.height, image, files)) files.limbs_before = false;
   }
 }
 
@@ -135,17 +156,12 @@ std::vector<const char*> warningsOfEarlier(const MendedFiles& files) {
 }
 
 std::optional<Note> earlierNote(const MendedFiles& files, const std::vector<KeptFile>& kept) {
-  if (files.earlier.empty()) return std::nullopt;
-  std::vector<std::string> names;
-  for (const std::string& file : files.earlier) {
-    names.push_back(fileName(file));
-    for (const KeptFile& one : kept)
-      if (one.was == file)
-        names.back() += " (now " + fileName(one.is) +
-                        (one.may_be_named ? "; --skeleton " + shellWord(one.is) + " takes it up" : "") + ")";
-  }
-  const std::string shared = "mended for an earlier picture of this name, not taken up for this one";
-  return Note{shared + ": " + joined(names), shared, joined(names)};
+  return leftOutNote("mended for an earlier picture of this name, not taken up for this one", files, kept,
+                     false);
+}
+
+std::optional<Note> otherSizeNote(const MendedFiles& files, const std::vector<KeptFile>& kept) {
+  return leftOutNote("of another size than the picture, not taken up", files, kept, true);
 }
 
 std::optional<Note> fitsAgainNote(const MendedFiles& files) {

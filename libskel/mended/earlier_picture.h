@@ -43,8 +43,9 @@ struct KeptFile {
   bool may_be_named = false;  // a skeleton of a picture of this size
 };
 
-// Which files were left out; nothing where none was.
+// Which files were left out, and which because of their size; nothing where none was.
 std::optional<Note> earlierNote(const MendedFiles& files, const std::vector<KeptFile>& kept = {});
+std::optional<Note> otherSizeNote(const MendedFiles& files, const std::vector<KeptFile>& kept = {});
 
 // What to do to go back to a picture that was there before; nothing where there is no skeleton of it, or no
 // layers that may be.

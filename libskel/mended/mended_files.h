@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -55,10 +56,12 @@ struct MendedFiles {
   std::optional<SkeletonSource> earlier_result;  // what was found in that one
   bool has_result = false;                       // of this one or of that
   std::vector<std::string> earlier;              // files made for that one: not among those above
-  std::string fits_again;                        // a skeleton that was kept and is of this picture
-  std::vector<std::string> kept_layers;          // painted limbs that were kept: one may be of this picture
-  bool mask_before = false;                      // the mask was there before the picture changed
-  bool limbs_before = false;                     // the limbs may have been
+  std::map<std::string, std::string>
+      other_size;                        // of those: that are not of the picture's size, which is told
+  std::string fits_again;                // a skeleton that was kept and is of this picture
+  std::vector<std::string> kept_layers;  // painted limbs that were kept: one may be of this picture
+  bool mask_before = false;              // the mask was there before the picture changed
+  bool limbs_before = false;             // the limbs may have been
 };
 
 // Those that are named, and what a person has left in the folders of mend_places.h, of each kind the first:

@@ -8,6 +8,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/core/sha256.h"
+#include "libskel/image/check_image.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/mended/earlier_picture.h"
@@ -19,8 +20,6 @@
 namespace skel {
 namespace fs = std::filesystem;
 namespace {
-
-std::string sizeText(long width, long height) { return std::to_string(width) + "x" + std::to_string(height); }
 
 // Reads the mask that is used and returns its path and hash, "": none. A skeleton that was handed in brings
 // its own.
@@ -38,8 +37,8 @@ SkeletonFile::Mask useMask(const MendRequest& request, const MendedFiles& mended
   if (path.empty()) return {};
   input.mask = readMask(path);
   if (input.mask->cols() != input.image.width || input.mask->rows() != input.image.height)
-    throw InputError(path, "is a mask of " + sizeText(input.mask->cols(), input.mask->rows()) +
-                               " px, the image has " + sizeText(input.image.width, input.image.height));
+    throw InputError(path, "is a mask of " + sizeInPx(input.mask->cols(), input.mask->rows()) +
+                               " px, the image has " + sizeInPx(input.image.width, input.image.height));
   return {path, sha256(readFile(path))};
 }
 
@@ -70,16 +69,29 @@ void checkJoints(const Skeleton& skeleton, const std::string& file, int figure, 
 constexpr const char* kOutlineChanged =
     "the figure is not outlined as it was when the joints were found: look at them";
 
-// Of limbs that were painted in pieces.
+// The limb on the other side if no pixel is painted as that; "": there is none, or it is painted.
+std::string unpaintedMirror(const RiggedDrawing& drawing, int limb) {
+  for (const auto& [one, other] : drawing.body_plan.limbPairs())
+    for (const auto& [painted, mirror] : {std::pair(one + 1, other + 1), std::pair(other + 1, one + 1)})
+      if (painted == limb && !(drawing.layers.limb == mirror).any())
+        return limbName(drawing.body_plan, mirror);
+  return "";
+}
+
+// Of limbs that were painted in pieces, maybe both arms in one colour.
 std::vector<std::string> looseLimbs(const RiggedDrawing& drawing) {
   constexpr double kSpecks = .02;  // of the limb: less is the brush's
+  constexpr double kAnother = .25;
   std::vector<std::string> warnings;
   for (int limb = 1; limb <= int(drawing.body_plan.limbs.size()); ++limb) {
     const int loose = loosePixels(drawing.layers, limb, drawing.found_limbs);
-    if (loose == 0 || loose < kSpecks * double((drawing.layers.limb == limb).count())) continue;
+    const auto all = double((drawing.layers.limb == limb).count());
+    if (loose == 0 || loose < kSpecks * all) continue;
+    const std::string mirror = loose > kAnother * all ? unpaintedMirror(drawing, limb) : "";
     warnings.push_back(std::to_string(loose) + " px painted as the " + limbName(drawing.body_plan, limb) +
-                       " are not joined to the rest of it and stay with the body: look at them (skel-label "
-                       "FILE, key G)");
+                       " are not joined to the rest of it and stay with the body" +
+                       (mirror.empty() ? "" : ", and none are painted as the " + mirror) +
+                       ": look at them (skel-label FILE, key G)");
   }
   return warnings;
 }
@@ -123,9 +135,9 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
   if (given) {
     if (given->image_width != input.image.width || given->image_height != input.image.height)
       throw InputError(request.skeleton, "belongs to an image of " +
-                                             sizeText(given->image_width, given->image_height) + " px, " +
+                                             sizeInPx(given->image_width, given->image_height) + " px, " +
                                              request.source + " has " +
-                                             sizeText(input.image.width, input.image.height));
+                                             sizeInPx(input.image.width, input.image.height));
     input.skeleton = given->skeleton;
     input.turned_deg = given->figure.turned_deg;
   }

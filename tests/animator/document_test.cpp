@@ -344,6 +344,20 @@ TEST_CASE("a clip was saved over what a script had made of its file since it was
   CHECK(document.saveClip(path));
 }
 
+TEST_CASE(
+    "nothing is saved over a file of the clips' folder that has changed, though the window has not read it") {
+  const TempDir dir;
+  const std::string path = dir.file("clips/stand.pose.json");
+  writeFile(path, "{}");
+  ClipSource library;
+  library.clips_dir = dir.file("clips");
+  AnimationDocument document({.path = figureFile(dir)}, library);
+  writeFile(path, "{ }");
+  CHECK_FALSE(document.savePose(path));
+  CHECK_THAT(document.message(), Contains("stand.pose.json: was changed elsewhere since"));
+  CHECK(readFile(path) == "{ }");
+}
+
 TEST_CASE("a clip that eases comes back with its keys and its ease, and plays as others play its file") {
   const TempDir dir;
   const std::string path = dir.file("bow.clip.json");

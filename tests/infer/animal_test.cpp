@@ -90,6 +90,21 @@ TEST_CASE("a part net can be given as a file, and no other net in its place") {
                        "(--part-net) was expected") != std::string::npos);
 }
 
+TEST_CASE("a checkpoint that was given as a net was said to be no JSON") {
+  const std::string formats = SKEL_SOURCE_DIR "/tests/data/formats/";
+  const TempDir dir;
+  const std::string checkpoint = dir.file("net.checkpoint");
+  writeFile(checkpoint,
+            readFile(formats + "skel-training-1.json") + readFile(formats + "skel-checkpoint-1.bin"));
+  for (const char* option : {"--weights", "--joint-net", "--part-net"}) {
+    const ToolRun run = infer("'" + kAnimals + "/crayon_pig.png' -o '" + dir.path() + "' " + option + " '" +
+                              checkpoint + "'");
+    CHECK(run.exit_code == 2);
+    CHECK(run.err.find("net.checkpoint: is a checkpoint (the line of skel-train that wrote it, run to "
+                       "its end, makes a net of it); ") != std::string::npos);
+  }
+}
+
 // Also: drawings side by side in a folder are evaluated like those in folders of their own.
 TEST_CASE("the drawn animals are found, from the picture alone") {
   const TempDir dir;

@@ -200,6 +200,30 @@ TEST_CASE("evaluate measures joints without a mask, and what there is nothing to
     CHECK(figures.root().at("mean").at(key).isNull());
 }
 
+TEST_CASE("evaluate printed the head of an empty table where no joints are annotated") {
+  const skel::TempDir dir;
+  skel::writeFile(dir.file("boy/image.png"), skel::readFile(SKEL_DATASETS "/characters/cap_boy.png"));
+  const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "'");
+  CHECK(run.exit_code == 0);
+  CHECK(run.err == "skel-infer: note: no joints are annotated in " + dir.path() + ", so none are measured\n");
+  CHECK(run.out.starts_with("hard case boy: confidence "));
+}
+
+TEST_CASE("evaluate --json wrote over COCO annotations of others") {
+  const skel::TempDir dir;
+  copyCapBoy(dir);
+  const std::string theirs = R"({"images": [], "annotations": []})", path = dir.file("coco.json");
+  skel::writeFile(path, theirs);
+  const std::string evaluate = "evaluate '" + dir.path() + "' --json '" + path + "'";
+  for (const std::string tool : {"skel-infer ", "skel-train "}) {
+    const auto run = skel::runTool(tool + evaluate);
+    CHECK(run.exit_code == 4);
+    CHECK(run.err.ends_with(path + ": holds COCO annotations that skel-label has not exported; name another "
+                                   "file by --json\n"));
+    CHECK(skel::readFile(path) == theirs);
+  }
+}
+
 TEST_CASE("evaluate goes on after a drawing that cannot be read, and says so") {
   const skel::TempDir dir;
   for (const char* end : {".png", ".mask.png", ".joints.json"})

@@ -228,6 +228,32 @@ TEST_CASE(
   CHECK_THAT(again.err, Contains("in/text.png: is not a picture"));
 }
 
+TEST_CASE("a run that goes on forgot that a blank sheet is to be taken again") {
+  const TempDir dir;
+  writeFile(dir.file("class/blank.png"), encodePng(Plane8::Constant(200, 200, 255)));
+  writeFile(dir.file("class/hero.png"), figure());
+  const std::string run = "class --resume -o out" + kCheap;
+  for (const char* counts : {"2 drawings: 1 fine, 1 to retake\n", "1 to retake; 2 done before\n"})
+    CHECK_THAT(infer(dir, run).err,
+               Contains(counts) && Contains("retake class/blank.png: nothing was found on it\n"));
+}
+
+TEST_CASE("a run that went on after the folder was moved named files where they had been") {
+  const TempDir dir;
+  writeFile(dir.file("class/text.png"), "no picture");
+  writeFile(dir.file("class/hero.png"), figure());
+  Plane8 mask = Plane8::Zero(200, 200);
+  mask.block(20, 60, 160, 80).setConstant(255);
+  writeFile(dir.file("class/hero.mask.png"), encodePng(mask));
+  const std::string run = " --resume" + kCheap;
+  infer(dir, "class -o class/out" + run);
+  fs::rename(dir.file("class"), dir.file("moved"));
+  const ToolRun moved = infer(dir, "moved -o moved/out" + run);
+  CHECK_THAT(moved.err, Contains("skel-infer: moved/text.png: is not a picture") &&
+                            Contains("mask (moved/hero.mask.png)") && Contains("; 1 done before"));
+  CHECK(moved.err.find("class/") == std::string::npos);
+}
+
 TEST_CASE("joints that were moved by hand in a result are taken up when a run goes on") {
   const TempDir dir;
   fs::copy(kDrawing, dir.file("hero.png"));
@@ -351,7 +377,7 @@ TEST_CASE("a result is read as it was written") {
   DrawingResult drawing;
   drawing.source = dir.file("in/a\xff.png");
   drawing.origin = {"i", "", "o", "n", "1.0"};
-  drawing.error = "in/a.png: is cut";
+  drawing.error = drawing.source + ": is cut";
   drawing.code = ExitCode::kInput;
   FigureResult one;
   one.number = 2;
@@ -369,6 +395,8 @@ TEST_CASE("a result is read as it was written") {
   const DrawingResult again = parseResult(text, path);
   CHECK(again.source == drawing.source);
   CHECK(again.origin == drawing.origin);
+  CHECK(again.error == drawing.error);
+  CHECK(again.problem == "is cut");
   CHECK(again.figures.at(0).outputs.at(0).path == dir.file("out/a.glb"));
   CHECK(formatResult(again, path) == text);
 }

@@ -330,8 +330,11 @@ TEST_CASE("a mask that was there before the photo was taken again is taken up an
     writeFile(dir.file("boy.png"), encodePng(capsuleImage({.size = 500})));
     fs::copy(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("boy.limbs.png"));
     for (int run = 1; run <= 2; ++run)  // the second one failed
-      CHECK_THAT(infer(dir, "boy.png").err,
-                 Contains(kEarlier + std::string("boy.mask.png, boy.limbs.png\n")));
+      CHECK_THAT(
+          infer(dir, "boy.png").err,
+          Contains("note: of another size than the picture, not taken up: boy.mask.png (of 600x600 px, "
+                   "the picture has 500x500), boy.limbs.png (of 600x600 px, the picture has "
+                   "500x500)\n"));
   }
 }
 
@@ -507,6 +510,18 @@ TEST_CASE("layers that were painted in place are taken up, said in one line, and
     CHECK(run.err.find(kEarlier) == run.err.npos);
     CHECK(readFile(dir.file("out/boy.old.layers.png")) == painted);
   }
+  SECTION("of another size they were said to be of an earlier picture") {
+    const std::string shrunk = encodePng(capsuleImage({.size = 300}));
+    writeFile(path, shrunk);
+    CHECK_THAT(infer(dir, "boy.png --formats json").err,
+               Contains("of another size than the picture, not taken up: boy.layers.png (of 300x300 px, the "
+                        "picture has 600x600)\n"));
+    CHECK(readFile(path) == shrunk);
+    CHECK_THAT(infer(dir, call).err,
+               Contains("painted by hand, not taken up and kept: boy.layers.png (now boy.old.layers.png), as "
+                        "it is of 300x300 px, the picture has 600x600\n"));
+    CHECK(readFile(dir.file("out/boy.old.layers.png")) == shrunk);
+  }
   SECTION("limbs of skel-label come first") {
     writeFile(dir.file("boy.limbs.png"), found);
     CHECK_THAT(
@@ -600,6 +615,21 @@ TEST_CASE("a patch of a limb that was painted apart from the rest of it was drop
   CHECK_THAT(run.err,
              Contains("400 px painted as the right arm are not joined to the rest of it and stay with the "
                       "body: look at them (skel-label boy.png, key G)"));
+}
+
+TEST_CASE("of both arms painted in one colour none was said to be missing") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png --formats layers").exit_code == 0);
+  Image limbs = readImage(dir.file("out/boy.layers.png"));
+  for (Eigen::Index p = 0; p < limbs.rgba.rows(); ++p) {
+    if (limbs.rgba(p, 3) > 0) limbs.rgba(p, 3) = 255;
+    if (limbs.rgba(p, 0) == 230 && limbs.rgba(p, 1) == 60) limbs.rgba.row(p) << 50, 110, 230, 255;
+  }
+  writeFile(dir.file("boy.limbs.png"), encodePng(limbs));
+  CHECK_THAT(infer(dir, "boy.png --formats glb").err,
+             Contains(" px painted as the left arm are not joined to the rest of it and stay with the body, "
+                      "and none are painted as the right arm: look at them (skel-label boy.png, key G)"));
 }
 
 TEST_CASE("what skel wrote and nobody touched is not taken for mended") {

@@ -629,6 +629,22 @@ TEST_CASE("stats and the table count the same candidates") {
   CHECK(csv.substr(0, csv.find("cap_boy.labels.json,1,")).ends_with(",\n"));  // the one without label
 }
 
+TEST_CASE("export wrote over COCO annotations of others") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  const std::string theirs = R"({"images": [], "annotations": []})";
+  writeFile(dir.file("out/labels.coco.json"), theirs);
+  const ToolRun run = label(dir, "export . --coco");
+  CHECK(run.exit_code == 4);
+  CHECK(run.err ==
+        "skel-label: out/labels.coco.json: holds COCO annotations that skel-label has not exported; name "
+        "another file by -o, or replace it by --force\n");
+  CHECK(readFile(dir.file("out/labels.coco.json")) == theirs);
+  CHECK(label(dir, "export . --coco --force").exit_code == 0);
+  CHECK(label(dir, "export . --coco").exit_code == 0);  // over its own
+}
+
 TEST_CASE("export leaves out what check complains about and drawings of another body plan, and says so") {
   const TempDir dir;
   for (const char* name : {"cap_boy", "box_robot"}) {

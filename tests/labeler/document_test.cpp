@@ -1322,6 +1322,32 @@ TEST_CASE("joints of the photo before were said not to be placed, though they we
   CHECK(document.countedJoints() == std::string("joints placed"));
 }
 
+TEST_CASE("a photo taken again kept its tick in the list until it was opened") {
+  const TempDir dir;
+  for (const char* name : {"box_robot", "cap_boy"}) copyCharacter(name, dir.path(), false);
+  {
+    Document document(dir.path(), documentOptions());
+    for (int item : {0, 1}) {
+      document.go(item);
+      document.findJoints();
+      document.acceptJoints();
+    }
+  }
+  const auto ticks = [&] {
+    const Document document(dir.path(), documentOptions());
+    return std::pair(document.items()[0].joints.isWhole(), document.current());
+  };
+  CHECK(ticks() == std::pair(true, 0));
+  fs::copy(kCharacters + "clown.png", dir.file("box_robot.png"), fs::copy_options::overwrite_existing);
+  CHECK(ticks() == std::pair(false, 0));
+  fs::copy(kCharacters + "box_robot.png", dir.file("box_robot.png"), fs::copy_options::overwrite_existing);
+  fs::copy(kCharacters + "clown.png", dir.file("cap_boy.png"), fs::copy_options::overwrite_existing);
+  CHECK(ticks() == std::pair(true, 1));
+  Document document(dir.path(), documentOptions());
+  document.go(0);
+  CHECK_FALSE(document.items()[1].joints.isWhole());
+}
+
 TEST_CASE("a photo taken again in another size opens without what was mended of the one before") {
   TakenAgain photo;
   const Image clown = readImage(kCharacters + "clown.png");
