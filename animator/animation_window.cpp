@@ -367,7 +367,7 @@ class AnimationWindow {
     dialog_.ask(std::move(question));
   }
   void askSaveClip(std::function<void()> then = {}) {
-    const std::string file = document_.fileOfClip();
+    const std::string file = document_.fileForClip();
     FileQuestion question{
         "Save the clip",
         "Save",

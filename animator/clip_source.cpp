@@ -169,9 +169,12 @@ std::string stemOfPose(const std::string& path) {
 // What is to be said of a person's motion for an animal.
 std::string otherBodyPlan(const RetargetedMotion& motion, const std::string& path,
                           const RiggedCharacter& character) {
-  const std::optional<RoleFigure> figure = roleFigure(character.skeleton);
-  if (!figure || figure->skeleton.template_name == "biped" || motion.match.ours_left.empty()) return "";
-  return "is a " + figure->skeleton.template_name + ", " + path + " a biped's motion: it moves " +
+  std::string body_plan = character.skeleton.template_name;
+  if (body_plan.empty())
+    if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton))
+      body_plan = figure->skeleton.template_name;
+  if (body_plan.empty() || body_plan == "biped" || motion.match.ours_left.empty()) return "";
+  return "is a " + body_plan + ", " + path + " a biped's motion: it moves " +
          std::to_string(motion.match.joints.size()) + " of " +
          std::to_string(character.skeleton.joints.size()) + " joints (skel-animate retarget says which)";
 }

@@ -14,6 +14,7 @@
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/text.h"
 #include "libskel/export/formats.h"
 #include "libskel/import/read_weights.h"
 
@@ -574,6 +575,7 @@ bool AnimationDocument::loadClip(const std::string& path) {
     Clip clip = loadClipFor(path, character(), library_);
     const std::optional<ClipKeys> eased = easedKeysOf(path, skeleton());
     if (eased) clip = withEvenKeys(*eased);
+    const bool loses_ease = !eased && easedKeysIn(path);
     on_disk_.note(path);
     addSaved({clip});
     files_[clip.name] = path;
@@ -591,7 +593,8 @@ bool AnimationDocument::loadClip(const std::string& path) {
     state_.clips = std::move(clips);
     state_.time_s = 0;
     takePoseFromClip();
-    return "loaded " + path;
+    return "loaded " + path +
+           (loses_ease ? "; its ease is even keys here, as it is not for this character's rest pose" : "");
   });
 }
 
@@ -614,6 +617,18 @@ std::string AnimationDocument::fileOfClip() const {
     }
   }
   return "";
+}
+
+std::string AnimationDocument::fileForClip() const {
+  if (std::string own = fileOfClip(); !own.empty()) return own;
+  const auto loaded = clip() ? files_.find(clip()->name) : files_.end();
+  if (loaded == files_.end()) return "";
+  const std::filesystem::path file(loaded->second);
+  const std::string name = file.filename().string(),
+                    stem = name.ends_with(kClipFileEnding)
+                               ? name.substr(0, name.size() - std::string_view(kClipFileEnding).size())
+                               : file.stem().string();
+  return (file.parent_path() / (stem + "-" + stemOf(source_.path) + kClipFileEnding)).string();
 }
 
 bool AnimationDocument::saveClip(const std::string& path) {
@@ -721,15 +736,25 @@ bool AnimationDocument::travel(AnimationState& step) {
   return true;
 }
 
+std::string AnimationDocument::changedElsewhere() const {
+  std::vector<std::string> changed;
+  if (on_disk_.hasChanged(source_.path)) changed.push_back(source_.path);
+  if (const auto of_clip = clip() ? files_.find(clip()->name) : files_.end();
+      of_clip != files_.end() && on_disk_.hasChanged(of_clip->second))
+    changed.push_back(of_clip->second);
+  if (changed.empty()) return "";
+  return "; changed elsewhere since it was read or saved here: " + joined(changed);
+}
+
 bool AnimationDocument::undo() {
   if (!history_.undo([&](AnimationState& step) { return travel(step); })) return false;
-  message_ = "undone";
+  message_ = "undone" + changedElsewhere();
   return true;
 }
 
 bool AnimationDocument::redo() {
   if (!history_.redo([&](AnimationState& step) { return travel(step); })) return false;
-  message_ = "done again";
+  message_ = "done again" + changedElsewhere();
   return true;
 }
 

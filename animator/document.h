@@ -131,6 +131,9 @@ class AnimationDocument {
   bool loadClip(const std::string& path);
   // The clip file that the clip was loaded from, or saved to, for this very rest pose; "": there is none.
   std::string fileOfClip() const;
+  // What saveClip() is offered: that, or, of a clip that was loaded from a file for others, one beside it
+  // that is named after it and this character; "": the clip came from no file.
+  std::string fileForClip() const;
   // As it is for this character, which it is read back for key by key, with its ease. A clip that newClip()
   // has named gets the file's name, if that is free; that is a step.
   bool saveClip(const std::string& path);
@@ -171,6 +174,8 @@ class AnimationDocument {
   void addSaved(const std::vector<Clip>& clips);
   bool isSaved(const Clip& clip) const;
   bool travel(AnimationState& step);
+  // A clause behind what is said of a step: which of the files that are shown; "": none.
+  std::string changedElsewhere() const;
 
   CharacterSource source_;
   ClipSource library_;

@@ -43,6 +43,10 @@ CutOutPainter FlatFigure::painterFor(const Camera& camera, int height) const {
   return CutOutPainter(cut_out_, height / camera.view_height_m);
 }
 
+void FlatFigure::forgetPictures() {
+  for (CutOutSheet& sheet : cut_out_.sheets) sheet.picture = Image(), sheet.lattice.square_of.resize(0, 0);
+}
+
 Image FlatFigure::paint(const Clip& clip, double time_s, const Camera& camera, const CutOutPainter& painter,
                         const FilmOptions& options) const {
   const Projection project(camera, options.width, options.height);

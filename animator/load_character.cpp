@@ -18,6 +18,7 @@
 #include "libskel/image/sprite_sheet_file.h"
 #include "libskel/mended/earlier_picture.h"
 #include "libskel/mended/rig_mended.h"
+#include "libskel/pipeline/drawing_notes.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/skeleton/skeleton_file.h"
 
@@ -95,7 +96,8 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
   RigInput input;
   input.image = decodeImage(bytes, source.path);
   MendedRig rig = rigMended(request, options, std::move(input), given);
-  DrawnCharacter result{std::move(rig.drawing), std::move(rig.warnings), {}};
+  DrawnCharacter result{
+      std::move(rig.drawing), withAdviceIfUpright(std::move(rig.warnings), "use --upright"), {}};
   for (const auto& note :
        {mendedNote(rig.files, request, rig.placed), contradictionNote(rig.files, rig.placed),
         otherPlanNote(rig.files, options), earlierNote(rig.files), otherSizeNote(rig.files),

@@ -19,6 +19,7 @@
 #include "libskel/core/text.h"
 #include "libskel/image/named_drawings.h"
 #include "libskel/pipeline/drawing_notes.h"
+#include "libskel/video/video_writer.h"
 
 namespace skel {
 namespace {
@@ -79,6 +80,19 @@ bool isKnown(const std::string& name, const ClipSource& library) {
   return hasClip(clipLibrary(library), name);
 }
 
+// What a character does in a film of several that do `name`: that, or what its body plan has in its place.
+std::string clipAmongOthers(const std::string& name, const CharacterFile& file, const ClipSource& library,
+                            const std::string& path) {
+  const std::vector<Clip> fitting = clipsFor(clipLibrary(library), file.character);
+  if (!isKnown(name, library) || hasClip(file.clips, name) || hasClip(fitting, name)) return name;
+  std::string instead = meantClip(name, fitting);
+  if (instead.empty()) instead = "walk";
+  if (!hasClip(fitting, instead)) return name;
+  std::fprintf(stderr, "%s: note: there is no clip \"%s\" for this body plan: \"%s\" instead\n",
+               printable(path).c_str(), printable(name).c_str(), printable(instead).c_str());
+  return instead;
+}
+
 AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, const std::string& path) {
   AskedClips asked;
   std::map<std::string, std::string> words;  // that ask for a clip, by its name: films and frames have that
@@ -94,7 +108,8 @@ AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, c
     if (asked.left_out_code == ExitCode::kDone) asked.left_out_code = error.exitCode();
   };
   std::optional<UsageError> unknown;
-  for (const std::string& name : options.clips) {
+  for (const std::string& word : options.clips) {
+    const std::string name = options.together ? clipAmongOthers(word, file, options.library, path) : word;
     if (name == kAllClips) {
       noteUnfitting(options, file.character, path);
       for (const Error& error : addLibrary(file, options.library)) leaveOut(InputError(path, error.what()));
@@ -139,13 +154,11 @@ void checkNames(const std::vector<std::string>& files) {
                        "; rename one");
 }
 
-// A character and what it is to do.
 struct Cast {
   std::string path;
-  CharacterFile file;
-  std::optional<RiggedDrawing> flat;  // the drawing, where it is shown itself
-  std::vector<Clip> clips;
+  Performer performer;
   ExitCode code = ExitCode::kDone;  // of what it cannot do
+  bool unsure = false;              // something about the figure is unusual, or had to be guessed
 };
 
 // Whether the look of a drawing's film is left to skel: nothing is asked for that the flat look refuses or
@@ -179,9 +192,21 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path) {
                                whyNoRoles(file.character.skeleton));
   if (drawn) tell(*drawn, !chooses ? "" : flat ? ", look flat" : ", look solid", path, clips);
   noteWhatStays(options, file.character, path, clips, drawn ? std::vector<Clip>{} : file.clips);
+  const bool unsure = drawn && !drawn->warnings.empty();
   std::optional<RiggedDrawing> shown;
   if (flat) shown = std::move(drawn->drawing);
-  return {path, std::move(file), std::move(shown), clips, left_out_code};
+  return {path, {std::move(file), std::move(shown), clips}, left_out_code, unsure};
+}
+
+// ", 2 to look at (a.png, b.png)"; nothing of none.
+std::string counted(std::vector<std::string> paths, const std::string& what) {
+  constexpr std::size_t kMostNamed = 12;
+  if (paths.empty()) return "";
+  const std::string count = std::to_string(paths.size());
+  const std::size_t more = paths.size() - std::min(paths.size(), kMostNamed);
+  paths.resize(paths.size() - more);
+  return ", " + count + " " + what + " (" + printable(joined(paths)) +
+         (more > 0 ? " and " + std::to_string(more) + " more)" : ")");
 }
 
 // Whether `name` is that of a clip, after which no comma was written.
@@ -210,7 +235,7 @@ void checkFiles(const RenderCommandOptions& options) {
     if (options.files.size() > 1 && !options.source.skeleton.empty() && isDrawing({.path = path}))
       throw UsageError("--skeleton FILE is of one drawing, " + std::to_string(options.files.size()) +
                        " characters are named; give them one at a time");
-  checkNames(options.files);
+  if (!options.together) checkNames(options.files);
 }
 
 }  // namespace
@@ -225,11 +250,17 @@ ExitCode runRender(const RenderCommandOptions& asked) {
     options.library.names = options.clips;
   toldClipLibrary(options.library);
   findDrawings(options);
+  if (options.files.size() > 1 && options.sheet.output.empty() && !options.output.empty() &&
+      !isFrameFolder(options.output))
+    options.together = true;
+  if (options.names && !options.together)
+    throw UsageError("--names is of one film of several drawings: -o NAME.mp4, or --together");
   checkFiles(options);
   const NewFolders folders(options.sheet.output.empty() ? options.output : options.sheet.output);
   const CharacterRenderer renderer =
       options.sheet.output.empty() ? filmRenderer(options) : sheetRenderer(options);
   ExitCode code = ExitCode::kDone;
+  std::vector<std::string> unsure, failed;
   // `work` returns the exit code of what it leaves out.
   const auto attempt = [&](const std::string& path, const auto& work) {
     ExitCode here = ExitCode::kDone;
@@ -241,11 +272,13 @@ ExitCode runRender(const RenderCommandOptions& asked) {
       const Error error = caughtError(path);
       complain(error);
       here = error.exitCode();
+      failed.push_back(path);
     }
     if (code == ExitCode::kDone) code = here;
   };
   const auto render = [&](Cast one) {
-    renderer.render(std::move(one.file), one.flat ? &*one.flat : nullptr, one.clips);
+    renderer.render(std::move(one.performer));
+    if (one.unsure) unsure.push_back(one.path);
     return one.code;
   };
   std::vector<Cast> measured;
@@ -253,11 +286,16 @@ ExitCode runRender(const RenderCommandOptions& asked) {
     attempt(path, [&] {
       Cast one = cast(options, path);
       if (!renderer.measure) return render(std::move(one));
-      renderer.measure(one.file, one.clips);
+      renderer.measure(one.performer);
       measured.push_back(std::move(one));
       return ExitCode::kDone;
     });
   for (Cast& one : measured) attempt(one.path, [&] { return render(std::move(one)); });
+  if (renderer.finish) renderer.finish();
+  if (const std::size_t all = options.files.size(); all > 1)
+    std::printf("%zu characters: %zu fine%s%s\n", all, all - unsure.size() - failed.size(),
+                counted(unsure, "to look at").c_str(),
+                counted(failed, options.sheet.output.empty() ? "without a film" : "without a sheet").c_str());
   return code;
 }
 

@@ -2,10 +2,10 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <numbers>
 
 #include "animator/film.h"
-#include "animator/flat_figure.h"
+#include "animator/group_film.h"
+#include "animator/stage.h"
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
@@ -18,10 +18,6 @@
 namespace skel {
 namespace {
 namespace fs = std::filesystem;
-
-bool manyClips(const RenderCommandOptions& options) {
-  return options.clips.size() > 1 || options.clips.front() == kAllClips;
-}
 
 // Where films go.
 struct FilmNames {
@@ -36,8 +32,13 @@ struct FilmNames {
 };
 
 FilmNames filmNames(const RenderCommandOptions& options) {
-  const bool several = options.files.size() > 1 || manyClips(options);
   if (options.output.empty()) throw UsageError("name the film by -o, or a sprite sheet by --sheet");
+  if (options.together && manyClips(options))
+    throw UsageError(
+        options.output +
+        " is one film of all drawings, which shows one clip; for a film of each drawing and clip "
+        "name a folder (a name that ends with /)");
+  const bool several = manyClips(options) || (options.files.size() > 1 && !options.together);
   FilmNames names{options.output, options.format.empty() ? filmFormats().front() : options.format,
                   several || !options.format.empty()};
   if (names.in_folder && !options.output.ends_with('/') && !fs::is_directory(options.output))
@@ -47,7 +48,8 @@ FilmNames filmNames(const RenderCommandOptions& options) {
 }
 
 FilmOptions filmOptions(const RenderCommandOptions& options) {
-  const PictureSize size = sizeOf(options, {512, 512});
+  const PictureSize size =
+      sizeOf(options, options.together ? PictureSize{1920, 1080} : PictureSize{512, 512});
   FilmOptions film;
   film.width = size.width;
   film.height = size.height;
@@ -90,84 +92,54 @@ struct Films {
     if (!film.look.picture.empty()) film.look.picture = covering(film.look.picture, film.width, film.height);
   }
 
-  Camera cameraOf(const RiggedCharacter& character, const std::vector<Clip>& clips) const {
-    return filmCamera(character, clips, options.angle_deg * std::numbers::pi / 180,
-                      options.pitch_deg * std::numbers::pi / 180, double(film.width) / film.height);
-  }
-
-  // `frames(video, on_frame)` writes them all.
-  template <class Frames>
-  void write(const Clip& clip, const std::string& path, const Frames& frames) const {
-    VideoOptions clip_video = video;
-    clip_video.frames = frameCount(clip, film);
-    const auto writer = openVideo(path, clip_video);
+  void write(const std::string& path, const std::string& what, int frames, bool concurrent,
+             const std::function<Image(int)>& paint) const {
+    VideoOptions of_film = video;
+    of_film.frames = frames;
+    const auto writer = openVideo(path, of_film);
     {
-      ProgressBar bar("frames", std::size_t(clip_video.frames));
-      frames(*writer, [&] { bar.advance(); });
+      ProgressBar bar("frames", std::size_t(frames));
+      writeFrames(frames, concurrent, paint, *writer, [&] { bar.advance(); });
       writer->finish();
     }
     // Who has not asked for pictures may have wanted a film.
     const char* hint = !fs::is_directory(path)  ? ""
                        : options.format.empty() ? ", as PNG files (a film: -o NAME.mp4)"
                                                 : ", as PNG files";
-    std::printf("%s: %d frames of %dx%d, %.2f s of \"%s\"%s\n", printable(path).c_str(), clip_video.frames,
-                film.width, film.height, clip_video.frames / film.frame_rate, printable(clip.name).c_str(),
-                hint);
+    std::printf("%s: %d frames of %dx%d, %.2f s of %s%s\n", printable(path).c_str(), frames, film.width,
+                film.height, frames / film.frame_rate, printable(what).c_str(), hint);
   }
 
-  void writeFlat(const FlatFigure& figure, const Clip& clip, const Camera& camera,
-                 const std::string& path) const {
-    const CutOutPainter painter = figure.painterFor(camera, film.height);
-    const auto paint = [&](int frame) {
-      return figure.paint(clip, frame / film.frame_rate, camera, painter, film);
-    };
-    write(clip, path, [&](VideoWriter& writer, const auto& on_frame) {
-      writeFrames(frameCount(clip, film), true, paint, writer, on_frame);
-    });
-  }
-
-  void operator()(CharacterFile file, const RiggedDrawing* flat, const std::vector<Clip>& clips) const {
-    const RiggedCharacter& character = file.character;
-    Look look = film.look;
-    if (!options.weights_of.empty()) {
-      look.weights_of = character.skeleton.find(options.weights_of);
-      if (look.weights_of < 0)
-        throw UsageError("--show-weights: there is no joint \"" + options.weights_of + "\" in " + file.name);
-    }
+  void operator()(const Performer& performer) const {
     std::vector<std::string> paths;
-    for (const Clip& clip : clips) {
-      paths.push_back(names(file.name, clip.name));
+    for (const Clip& clip : performer.clips) {
+      paths.push_back(names(performer.file.name, clip.name));
       if (names.in_folder) noteNamedOutput(paths.back());
     }
-    const bool one_camera = options.frame == "clips" || (options.frame == "auto" && manyClips(options));
-    if (one_camera) {
-      ClipSource library = options.library;
-      library.flat = flat != nullptr;
-      addLibrary(file, library);
-      file.clips.insert(file.clips.end(), clips.begin(), clips.end());
+    const Stage stage(options, performer);
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const Clip& clip = performer.clips[i];
+      const MomentPainter paint = stage.painterOf(clip, film);
+      write(paths[i], '"' + clip.name + '"', frameCount(clip, film), stage.isConcurrent(),
+            [&](int frame) { return paint(frame / film.frame_rate); });
     }
-    const auto shownWith = [&](const Clip& clip) {
-      return one_camera ? file.clips : std::vector<Clip>{clip};
-    };
-    if (flat) {
-      const FlatFigure figure(*flat);
-      for (std::size_t i = 0; i < clips.size(); ++i)
-        writeFlat(figure, clips[i], figure.camera(shownWith(clips[i]), double(film.width) / film.height),
-                  paths[i]);
-      return;
-    }
-    FilmOptions shown = film;
-    shown.look = look;
-    const Scene scene(character, painterFor(options, character.mesh));
-    for (std::size_t i = 0; i < clips.size(); ++i)
-      write(clips[i], paths[i], [&](VideoWriter& writer, const auto& on_frame) {
-        writeFilm(scene, clips[i], cameraOf(character, shownWith(clips[i])), shown, writer, on_frame);
-      });
+  }
+
+  void write(const GroupFilm& group) const {
+    if (group.size() == 0) return;
+    write(options.output, std::to_string(group.size()) + (group.size() == 1 ? " character" : " characters"),
+          group.frameCount(), group.isConcurrent(), [&](int frame) { return group.paint(frame); });
   }
 };
 
 }  // namespace
 
-CharacterRenderer filmRenderer(const RenderCommandOptions& options) { return {Films(options)}; }
+CharacterRenderer filmRenderer(const RenderCommandOptions& options) {
+  const Films films(options);
+  if (!options.together) return {films};
+  const auto group = std::make_shared<GroupFilm>(options, films.film);
+  return {.render = [group](Performer one) { group->add(std::move(one)); },
+          .finish = [group, films] { films.write(*group); }};
+}
 
 }  // namespace skel

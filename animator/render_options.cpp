@@ -74,19 +74,28 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
       app.add_option(
              "-o,--output", options.output,
              "The film: " + videoFormatNames() +
-                 " (a name that ends with /) of PNG files; of several drawings or clips, a folder of films")
+                 " (a name that ends with /) of PNG files; of several drawings one film of all, or a folder "
+                 "of films; of several clips a folder")
           ->check(outputFile());
   CLI::Option* sheet = bindSheetOptions(app, film, options.sheet);
+  CLI::Option* together =
+      app.add_flag("--together", options.together,
+                   "One film of all drawings, side by side, also where -o is a folder, which is then of PNG "
+                   "files")
+          ->excludes(sheet);
+  app.add_flag("--names", options.names, "In a film of several drawings: what they are called, below each")
+      ->excludes(sheet);
   app.add_option("--format", options.format,
                  "Of the films in a folder, which are called FILE-CLIP (default: " + filmFormats().front() +
                      "); png: folders of PNG files")
       ->check(CLI::IsMember(filmFormats()))
-      ->excludes(sheet);
+      ->excludes(sheet)
+      ->excludes(together);
   app.add_option("--fps", options.frame_rate, "Frames a second (default: 30, of sheets 12)")
       ->check(numberIn(0.1, 240.0));
   bindClipSource(app, options.library);
   app.add_option("--duration", options.duration_s, "In seconds; the clip repeats (default: once)")
-      ->check(numberIn(0.0, 3600.0))
+      ->check(numberIn(0.01, 3600.0))
       ->excludes(sheet);
   app.add_option(
          "--look", options.look,
@@ -96,7 +105,8 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
       ->check(CLI::IsMember({"auto", "solid", "flat"}))
       ->capture_default_str();
   app.add_option("--size", options.size,
-                 "WIDTHxHEIGHT, or one number for both, px (default: 512, of a sheet's frames 64)");
+                 "WIDTHxHEIGHT, or one number for both, px (default: 512, of a film of several drawings "
+                 "1920x1080, of a sheet's frames 64)");
   app.add_option("--angle", options.angle_deg,
                  "From where it is seen: 0 from the front, 90 from its left, degrees")
       ->check(numberIn(-360.0, 360.0))
@@ -128,6 +138,10 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
   app.add_option("--painter", options.painter, "What draws: auto takes a graphics card if there is one")
       ->check(CLI::IsMember({"auto", "software", "gl"}))
       ->capture_default_str();
+}
+
+bool manyClips(const RenderCommandOptions& options) {
+  return options.clips.size() > 1 || options.clips.front() == kAllClips;
 }
 
 bool needsModel(const RenderCommandOptions& options) {

@@ -37,7 +37,9 @@ struct RenderCommandOptions {
   std::vector<std::string> clips;
   ClipSource library;
   std::string output;
-  std::string format;  // of films in a folder; empty: the first of filmFormats()
+  bool together = false;  // one film of all
+  bool names = false;     // below the characters of such a film
+  std::string format;     // of films in a folder; empty: the first of filmFormats()
   SheetOptions sheet;
   std::optional<double> frame_rate;  // 30 of films, 12 of sheets
   double duration_s = 0;
@@ -52,6 +54,8 @@ struct RenderCommandOptions {
   std::string weights_of;
 };
 void bindRenderOptions(CLI::App& app, RenderCommandOptions& options);
+
+bool manyClips(const RenderCommandOptions& options);
 
 // Whether something is asked for that the flat look does not have.
 bool needsModel(const RenderCommandOptions& options);

@@ -225,14 +225,9 @@ struct Sheets {
 
 CharacterRenderer sheetRenderer(const RenderCommandOptions& options) {
   const auto sheets = std::make_shared<Sheets>(options);
-  CharacterRenderer renderer{
-      [sheets](CharacterFile file, const RiggedDrawing*, const std::vector<Clip>& clips) {
-        sheets->write(std::move(file), clips);
-      }};
+  CharacterRenderer renderer{[sheets](Performer one) { sheets->write(std::move(one.file), one.clips); }};
   if (options.sheet.same_scale)
-    renderer.measure = [sheets](const CharacterFile& file, const std::vector<Clip>& clips) {
-      sheets->measure(file, clips);
-    };
+    renderer.measure = [sheets](const Performer& one) { sheets->measure(one.file, one.clips); };
   return renderer;
 }
 

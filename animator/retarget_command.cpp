@@ -37,7 +37,13 @@ void report(const JointMatch& match) {
 Clip motionFor(const RetargetCommandOptions& options, const CharacterFile& file) {
   if (!options.motion.ends_with(".bvh")) {
     ClipNotes notes;
-    Clip clip = clipFor(options.motion, file, options.clips, &notes);
+    Clip clip;
+    try {
+      clip = clipFor(options.motion, file, options.clips, &notes);
+    } catch (const UsageError& error) {
+      if (!options.clips.clips_dir.empty()) throw;
+      throw UsageError(std::string(error.what()) + "; one of a folder of your own: --clips-dir DIR");
+    }
     if (!notes.of_file.empty()) std::printf("%s\n", printable(notes.of_file).c_str());
     for (const std::string& clause : notes.of_character)
       std::printf("%s: note: %s\n", printable(options.target).c_str(), printable(clause).c_str());
@@ -100,8 +106,10 @@ std::string encoded(const std::string& path, CharacterFile file, const ClipKeys&
 }  // namespace
 
 void bindRetargetOptions(CLI::App& app, RetargetCommandOptions& options) {
-  app.add_option("MOTION", options.motion,
-                 "The motion: a .bvh of anybody's skeleton, a clip that comes with skel, or a clip file")
+  app.add_option(
+         "MOTION", options.motion,
+         "The motion: a .bvh of anybody's skeleton, a clip that comes with skel or lies in --clips-dir, by "
+         "its name, or a clip file")
       ->required();
   app.add_option("--to", options.target, "The rigged character (.glb) that is to move so")
       ->required()

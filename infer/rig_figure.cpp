@@ -14,6 +14,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/mended/rig_mended.h"
 #include "libskel/mesh/read_mesh.h"
+#include "libskel/pipeline/drawing_notes.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/pipeline/trace.h"
 #include "libskel/skeleton/mark_placed.h"
@@ -115,7 +116,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   file.skeleton = drawing.recognition.skeleton;
   file.confidence = drawing.recognition.confidence;
   file.missing = drawing.recognition.missing;
-  file.warnings = std::move(mended.warnings);
+  file.warnings = withAdviceIfUpright(std::move(mended.warnings), "use --upright");
   if (!mask.empty()) file.mask = {pathSeenFrom(skeleton_path, mask), mended.mask.sha256};
   file.labels = mended.placed.labels;
   if (file.labels && !mended.files.labels.empty())

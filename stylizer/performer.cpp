@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 #include "libskel/core/error.h"
@@ -66,11 +65,8 @@ Performer readPerformer(const std::string& path) {
                          "'s figure, and these motions are a person's; if it is a person, give its joints "
                          "instead: the .skeleton.json that skel-infer --template biped writes");
   Performer performer;
-  performer.notes = figureNotes(drawing);
-  constexpr std::string_view kOption = "use --upright";  // of skel-infer
-  for (std::string& note : performer.notes)
-    if (const std::size_t at = note.find(kOption); at != std::string::npos)
-      note.replace(at, kOption.size(), "give the .skeleton.json that skel-infer --upright writes");
+  performer.notes =
+      withAdviceIfUpright(figureNotes(drawing), "give the .skeleton.json that skel-infer --upright writes");
   for (const Note& note : limbNotes(drawing, {})) performer.notes.push_back(noteText(note, path));
   performer.model_from_image = drawing.character.mesh.model_from_image;
   performer.skeleton = withoutHanging(drawing.character.skeleton);

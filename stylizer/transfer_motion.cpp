@@ -33,6 +33,16 @@ Eigen::VectorXd stride(const PoseMatrix& poses, const SkeletonTemplate& plan) {
   return (poses.row(2 * feet[0]) - poses.row(2 * feet[1])).transpose();
 }
 
+// Whether the feet come apart and together again as in a walk.
+bool steps(const PoseMatrix& poses, const SkeletonTemplate& plan) {
+  constexpr double kStep = 0.15;  // of the figure's height; a dance on the spot has .1, half a step .25
+  const Eigen::VectorXd apart = stride(poses, plan);
+  double low = poses(1, 0), high = low;
+  for (Index r = 1; r < poses.rows(); r += 2)
+    low = std::min(low, poses(r, 0)), high = std::max(high, poses(r, 0));
+  return apart.maxCoeff() - apart.minCoeff() > kStep * (high - low);
+}
+
 // How far a limb's end moves, seen from where it begins.
 double swing(const PoseMatrix& poses, const TemplateLimb& limb) {
   Eigen::AlignedBox2d box;
@@ -171,6 +181,7 @@ MotionTransferReport transferMotion(const std::vector<NamedMotion>& content,
   report.error = transfer.coding.error;
   const PoseMatrix& poses = transfer.poses[0];
   report.phase_correlation = correlation(stride(poses, plan), stride(pairs[0].content, plan));
+  report.steps = steps(pairs[0].content, plan) && steps(pairs[0].style, plan);
   report.mean_pose_moved = shareOfWay(pairs[0].content, pairs[0].style, poses, plan);
   for (const TemplateLimb& limb : plan.limbs) {
     const double least = std::min(swing(pairs[0].content, limb), swing(pairs[0].style, limb));
@@ -187,7 +198,7 @@ std::vector<std::string> transferNotes(const MotionTransferReport& report) {
   std::vector<std::string> notes;
   char number[16];
   std::snprintf(number, sizeof number, "%.2f", report.phase_correlation);
-  if (report.phase_correlation < kInStep)
+  if (report.steps && report.phase_correlation < kInStep)
     notes.push_back(std::string("the feet do not keep the content's time (phase correlation ") + number +
                     "): in one of the two, left and right are probably taken for each other; look at them by "
                     "skel-style inspect, mend joints by skel-label");

@@ -23,6 +23,7 @@ struct MotionTransferReport {
   double error = 0;   // of the factorisation
   bool content_loops = false, style_loops = false, mirrored = false;
   double phase_correlation = 0;  // of the distance between the feet, over time, with the content's
+  bool steps = false;            // in both the feet come apart and together as in a walk, which few dances do
   double mean_pose_moved = 0;    // share of the way from the content's mean bone directions to the style's
   // Last joints of limbs that move, seen from the first, less than a quarter as far as in the content and as
   // in the style.

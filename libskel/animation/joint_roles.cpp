@@ -65,11 +65,11 @@ PlainName plainName(std::string_view name) {
 // there is an "upleg".
 const std::initializer_list<std::string_view> kArm[3] = {{"upperarm", "uparm", "arm", "shldr", "shoulder"},
                                                          {"forearm", "lowerarm", "lowarm", "elbow"},
-                                                         {"hand", "wrist"}};
+                                                         {"hand", "wrist", "frontfoot"}};
 const std::initializer_list<std::string_view> kLeg[3] = {
     {"upleg", "upperleg", "thigh", "hip", "leg"},
     {"lowerleg", "lowleg", "shin", "calf", "knee", "leg"},
-    {"foot", "ankle"}};
+    {"foot", "ankle", "hindfoot"}};
 
 struct Tree {
   const Skeleton& skeleton;

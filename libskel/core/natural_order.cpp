@@ -21,26 +21,6 @@ bool isAscii(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
 }
 
-// Bytes that are no Latin letter of two bytes in UTF-8, nor a mark upon one, stay.
-std::string withoutMarks(const std::string& text) {
-  std::string plain;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const auto first = static_cast<unsigned char>(text[i]);
-    const auto second = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
-    const bool pair = (first & 0xE0) == 0xC0 && (second & 0xC0) == 0x80;
-    const size_t code = pair ? static_cast<size_t>((first & 0x1F) << 6 | (second & 0x3F)) : 0;
-    const bool is_mark = code >= 0x300 && code < 0x370;
-    const bool is_letter =
-        code >= 0xC0 && code - 0xC0 < kWithoutMarks.size() && kWithoutMarks[code - 0xC0] != '.';
-    if (is_letter) plain += kWithoutMarks[code - 0xC0];
-    if (is_letter || is_mark)
-      ++i;
-    else
-      plain += text[i];
-  }
-  return plain;
-}
-
 // Below 0: `a` comes first. 0: they differ in capitals and in zeros before numbers at most.
 int compared(const std::string& a, const std::string& b) {
   const auto isDigit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
@@ -65,6 +45,25 @@ int compared(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+std::string withoutMarks(const std::string& text) {
+  std::string plain;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const auto first = static_cast<unsigned char>(text[i]);
+    const auto second = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    const bool pair = (first & 0xE0) == 0xC0 && (second & 0xC0) == 0x80;
+    const size_t code = pair ? static_cast<size_t>((first & 0x1F) << 6 | (second & 0x3F)) : 0;
+    const bool is_mark = code >= 0x300 && code < 0x370;
+    const bool is_letter =
+        code >= 0xC0 && code - 0xC0 < kWithoutMarks.size() && kWithoutMarks[code - 0xC0] != '.';
+    if (is_letter) plain += kWithoutMarks[code - 0xC0];
+    if (is_letter || is_mark)
+      ++i;
+    else
+      plain += text[i];
+  }
+  return plain;
+}
 
 bool comesBefore(const std::string& a, const std::string& b) {
   const int order = isAscii(a) && isAscii(b) ? compared(a, b) : compared(withoutMarks(a), withoutMarks(b));

@@ -9,4 +9,7 @@ namespace skel {
 // "a10", "neu" before "Zoe", "Ömer" (in UTF-8, composed or not) between "Olga" and "Otto".
 bool comesBefore(const std::string& a, const std::string& b);
 
+// "Ömer" as "Omer". What is no Latin letter stays.
+std::string withoutMarks(const std::string& text);
+
 }  // namespace skel

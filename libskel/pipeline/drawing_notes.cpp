@@ -24,6 +24,13 @@ std::string noteText(const Note& note, const std::string& file) {
   return text;
 }
 
+std::vector<std::string> withAdviceIfUpright(std::vector<std::string> notes, const std::string& advice) {
+  for (std::string& note : notes)
+    if (note.starts_with("the figure is turned by ") && note.ends_with(" degrees"))
+      note += " (if it is not, " + advice + ")";
+  return notes;
+}
+
 std::vector<std::string> figureNotes(const RiggedDrawing& drawing) {
   std::vector<std::string> notes = drawing.silhouette.warnings;
   notes.insert(notes.end(), drawing.recognition.warnings.begin(), drawing.recognition.warnings.end());

@@ -22,6 +22,9 @@ std::string noteText(const Note& note, const std::string& file);
 // Of the figure, its joints and its body plan, where the joints were looked for.
 std::vector<std::string> figureNotes(const RiggedDrawing& drawing);
 
+// `notes`, of which the one that the figure is turned says what to do if it is not: `advice`.
+std::vector<std::string> withAdviceIfUpright(std::vector<std::string> notes, const std::string& advice);
+
 // Of limbs that these clips, which are relative to the rest pose, do not move as limbs should; nothing where
 // the joints are a guess.
 std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip>& clips);

@@ -83,7 +83,7 @@ Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
   recognition.turned_deg = static_cast<int>(std::lround(tree.turned * 180 / std::numbers::pi));
   if (recognition.turned_deg != 0)
     recognition.warnings.push_back("the figure is turned by " + std::to_string(recognition.turned_deg) +
-                                   " degrees (if it is not, use --upright)");
+                                   " degrees");
   completeSkeleton(recognition.skeleton, placed, body_plan, silhouette);
   return recognition;
 }

@@ -62,6 +62,11 @@ class Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
+  // Of several contexts the one that what follows is for.
+  void makeCurrent() const {
+    if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+      throw UnavailableError("OpenGL has lost its context");
+  }
   bool isSoftware() const {
     const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     for (const char* name : {"llvmpipe", "softpipe", "swrast", "SwiftShader"})
@@ -171,6 +176,7 @@ class GlPainter : public MeshPainter {
     SKEL_CHECK_EQ(vertices.rows(), vertex_count_);
     SKEL_CHECK(width >= 1 && height >= 1);
     if (vertex_count_ == 0 || triangles_.rows() == 0) return blankImage(width, height, kClear);
+    context_.makeCurrent();
     const bool textured = texture_ != 0 && !surface.colors;
     float nearest = 0, farthest = 0;
     fillCorners(vertices, camera, surface, textured, nearest, farthest);

@@ -45,6 +45,8 @@ std::string videoFormatNames() {
   return names + "a folder";
 }
 
+bool isFrameFolder(const std::string& path) { return endingOf(path).empty(); }
+
 bool keepsTransparency(const std::string& path) { return endingOf(path) != ".mp4"; }
 
 void checkVideo(const VideoOptions& options) {

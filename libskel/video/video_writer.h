@@ -43,6 +43,9 @@ void checkVideo(const VideoOptions& options);
 // The formats that this build can write, for --help: ".mp4, .gif, a folder".
 std::string videoFormatNames();
 
+// Whether a film of this name is a folder of frames.
+bool isFrameFolder(const std::string& path);
+
 // Whether the film at this path can be seen through.
 bool keepsTransparency(const std::string& path);
 

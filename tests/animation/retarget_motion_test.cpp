@@ -6,6 +6,7 @@
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/skeleton/template.h"
 #include "tests/support/catch.h"
 #include "tests/support/figure.h"
 
@@ -155,6 +156,24 @@ TEST_CASE("every family's joints are found, and by shape where the names say not
       CHECK(is_right == ours.starts_with("right_"));
     }
   }
+}
+
+TEST_CASE("an animal whose tail is as long as a leg had neither arms nor legs for a person's motion") {
+  Skeleton animal = presetSkeleton(loadTemplate("quadruped"), {0, 0}, {1, 1});
+  const auto at = [&](const std::string& name) -> Eigen::Vector3d& {
+    return animal.joints[std::size_t(animal.index(name))].position;
+  };
+  for (Joint& joint : animal.joints) joint.position = {joint.image.x(), 1 - joint.image.y(), 0};
+  at("left_hind_foot").y() -= 0.1;
+  at("tail") = at("tail_root") + Eigen::Vector3d(0.45, 0, 0);  // as the right leg
+  const JointRoles roles = findJointRoles(animal);
+  CHECK_FALSE(roles.by_shape);
+  for (const std::string side : {"left_", "right_"})
+    for (const auto& [role, joint] :
+         {std::pair("shoulder", "shoulder"), std::pair("elbow", "elbow"), std::pair("hand", "front_foot"),
+          std::pair("hip", "hip"), std::pair("knee", "knee"), std::pair("foot", "hind_foot")})
+      CHECK(roles.joint(side + role) == animal.find(side + joint));
+  CHECK(retargeted("cmu", animal).match.joints.size() == kJointRoles.size());
 }
 
 TEST_CASE("one motion looks the same from every family, on every rest pose") {

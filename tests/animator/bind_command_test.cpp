@@ -246,6 +246,12 @@ TEST_CASE("a person's motion moved an animal without a word") {
   CHECK(run.exit_code == 0);
   CHECK(run.err.find("elk.glb: note: is a quadruped, " + motion + " a biped's motion: it moves ") !=
         std::string::npos);
+  // Its legs end where it leaps, not near the ground.
+  const std::string bull = SKEL_SOURCE_DIR "/datasets/animals/leaping_bull.png";
+  const ToolRun leaping =
+      animate(dir, "render '" + bull + "' --clip '" + motion + "' --fps 2 --size 32 -o bull.gif");
+  CHECK(leaping.exit_code == 0);
+  CHECK(leaping.err.find(bull + ": note: is a quadruped, ") != std::string::npos);
 }
 
 TEST_CASE("bad skeletons are refused with the place in them, and nothing is written") {

@@ -18,6 +18,7 @@
 
 using namespace skel;
 using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
 namespace fs = std::filesystem;
 
 namespace {
@@ -321,6 +322,7 @@ TEST_CASE("a clip comes back from its file with the keys that were set, for the 
   AnimationDocument on_other({.path = dir.file("other.glb")});
   REQUIRE(on_other.loadClip(dir.file("my-clip.clip.json")));
   CHECK(on_other.clip()->tracks[0].times_s.size() > 2);
+  CHECK(on_other.fileForClip() == dir.file("my-clip-other.clip.json"));
   on_other.setTime(1);
   CHECK(on_other.anglesOf(head).y() == Approx(0.8).margin(0.01));
 }
@@ -338,6 +340,11 @@ TEST_CASE("a clip was saved over what a script had made of its file since it was
   writeFile(path, theirs);
   CHECK_FALSE(document.saveClip(path));
   CHECK_THAT(document.message(), Contains("mine.clip.json: was changed elsewhere since"));
+  document.turnJoint(document.skeleton().index("left_shoulder"), 2, 0.25);
+  REQUIRE(document.undo());
+  CHECK(document.message() == "undone; changed elsewhere since it was read or saved here: " + path);
+  REQUIRE(document.redo());
+  CHECK(document.message() == "done again; changed elsewhere since it was read or saved here: " + path);
   CHECK(readFile(path) == theirs);
   CHECK(document.saveClip(dir.file("other.clip.json")));
   REQUIRE(document.loadClip(path));
@@ -376,6 +383,7 @@ TEST_CASE("a clip that eases comes back with its keys and its ease, and plays as
 
   AnimationDocument again({.path = figureFile(dir, "again.glb")});
   REQUIRE(again.loadClip(dir.file("eased/bow.clip.json")));
+  CHECK(again.message() == "loaded " + dir.file("eased/bow.clip.json"));
   again.choose(head);
   CHECK(again.keyTimes() == std::vector<double>{0, 2});
   CHECK(again.unsavedClips().empty());
@@ -385,6 +393,15 @@ TEST_CASE("a clip that eases comes back with its keys and its ease, and plays as
   CHECK(readFile(dir.file("saved.clip.json")) == text);
   const Clip played = readClipFile(dir.file("eased/bow.clip.json"));
   CHECK(again.clip()->tracks == played.tracks);
+
+  // To another character it is fitted without it.
+  RiggedCharacter other = figure();
+  other.skeleton.joints[std::size_t(head)].position.y() += 0.02;
+  writeFile(dir.file("other.glb"), encodeGlb(other, {}));
+  AnimationDocument on_other({.path = dir.file("other.glb")});
+  REQUIRE(on_other.loadClip(dir.file("eased/bow.clip.json")));
+  CHECK_THAT(on_other.message(), EndsWith("; its ease is even keys here, as it is not for this character's "
+                                          "rest pose"));
 
   // A model has the even keys that the clip plays by.
   REQUIRE(again.saveModel(dir.file("saved.glb")));

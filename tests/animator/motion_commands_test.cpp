@@ -112,6 +112,10 @@ TEST_CASE("retarget said nothing of the clip files that it leaves out of a folde
   CHECK(run.exit_code == 0);
   CHECK_THAT(run.err, Contains("skel-animate: note: left out: " + dir.file("clips/broken.clip.json") + ": "));
   CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+  const ToolRun without =
+      runTool("skel-animate retarget nods --to '" + model + "' -o '" + dir.file("nods.glb") + "'");
+  CHECK(without.exit_code == 1);
+  CHECK_THAT(without.err, Catch::Matchers::EndsWith("; one of a folder of your own: --clips-dir DIR\n"));
 }
 
 TEST_CASE(

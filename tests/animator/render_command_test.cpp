@@ -241,6 +241,46 @@ TEST_CASE("a film's advice for a figure that is turned named an option that rend
   CHECK_THAT(upright.err, !Contains("is turned by "));
 }
 
+TEST_CASE("several drawings are one film, each in a cell as in a film of its own, at the same time") {
+  const TempDir dir;
+  const std::string dog = std::string(SKEL_SOURCE_DIR) + "/datasets/animals/walking_dog.png";
+  const std::string rest = " --duration 0.8 --fps 5 --size ";
+  const auto frame = [&](const std::string& film, int number) {
+    return readImage(dir.file(film) + "/frame-000" + std::to_string(number) + ".png");
+  };
+  const ToolRun run =
+      render(kDrawing + " " + dog + " --clip run --together" + rest + "160x80 -o " + dir.file("both/"));
+  REQUIRE(run.exit_code == 0);
+  CHECK_THAT(run.err, EndsWith("walking_dog.png: note: there is no clip \"run\" for this body plan: "
+                               "\"gallop\" instead\n"));
+  CHECK_THAT(run.out,
+             Contains("4 frames of 160x80, 0.80 s of 2 characters") && EndsWith("2 characters: 2 fine\n"));
+  REQUIRE(render(kDrawing + " --clip run" + rest + "80 -o " + dir.file("boy/")).exit_code == 0);
+  REQUIRE(render(dog + " --clip gallop" + rest + "80 -o " + dir.file("dog/")).exit_code == 0);
+  for (int number = 1; number <= 4; ++number) {
+    const Image both = frame("both", number), boy = frame("boy", number), animal = frame("dog", number);
+    int most = 0;
+    for (int y = 0; y < 80; ++y)
+      for (int x = 0; x < 160; ++x)
+        for (int c = 0; c < 3; ++c)
+          most = std::max(
+              most, std::abs(both.pixel(x, y)[c] - (x < 80 ? boy.pixel(x, y) : animal.pixel(x - 80, y))[c]));
+    CHECK(most <= 2);  // of rounding
+  }
+
+  // A film's name says so without the option, of a folder, too.
+  fs::create_directory(dir.file("class"));
+  fs::copy(kDrawing, dir.file("class/J\xc3\xb6rg.png"));
+  fs::copy(dog, dir.file("class/dog.png"));
+  const std::string film = dir.file("class") + " --clip dance" + rest + "96x64 -o " + dir.file("film.gif");
+  REQUIRE(render(film).exit_code == 0);
+  const std::string bytes = readFile(dir.file("film.gif"));
+  REQUIRE(render(film).exit_code == 0);
+  CHECK(readFile(dir.file("film.gif")) == bytes);
+  REQUIRE(render(film + " --names").exit_code == 0);
+  CHECK(readFile(dir.file("film.gif")) != bytes);
+}
+
 TEST_CASE("of several drawings, one that cannot be rigged keeps no other from its film") {
   const TempDir dir;
   writeFile(dir.file("text.png"), "no picture");
@@ -249,6 +289,11 @@ TEST_CASE("of several drawings, one that cannot be rigged keeps no other from it
   CHECK(run.exit_code == 2);
   CHECK_THAT(run.err, Contains("text.png: is not a picture"));
   CHECK(filesBelow(dir.file("films")) == std::vector<std::string>{dir.file("films/cap_boy-walk.gif")});
+  CHECK_THAT(run.out, EndsWith("2 characters: 1 fine, 1 without a film (" + dir.file("text.png") + ")\n"));
+  const ToolRun together = render(dir.file("text.png") + " " + kDrawing +
+                                  " --clip walk --fps 4 --size 64x64 -o " + dir.file("film.gif"));
+  CHECK(together.exit_code == 2);
+  CHECK_THAT(together.out, Contains("s of 1 character\n"));
 }
 
 TEST_CASE(
@@ -493,6 +538,9 @@ TEST_CASE("what cannot be rendered is said in one line, and no film is left") {
       {kDrawing + " --figure 2 --clip wave -o " + film, 2, "cap_boy.png: there is no figure 2, only 1"},
       {model + " --clip nod --show-weights wing -o " + film, 1, "there is no joint \"wing\""},
       {model + " --clips nod,walk -o " + film, 1, "film.gif must be a folder (a name that ends with /)"},
+      {model + " " + kDrawing + " --clips nod,walk -o " + film, 1, "film.gif is one film of all drawings"},
+      {model + " --clip nod --names -o " + film, 1, "--names is of one film of several drawings"},
+      {model + " --clip nod --duration 0 -o " + film, 1, "--duration: Value 0 not in range"},
       {model + " --clip nod --format gif -o " + film, 1, "--format is that of films in a folder"},
       {model + " " + model + " --clip nod -o " + dir.file("films/"), 1,
        "would both write files called figure"},

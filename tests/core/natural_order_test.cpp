@@ -40,3 +40,9 @@ TEST_CASE("names that begin with a letter with a mark stood before all others") 
   // Bytes that are no UTF-8, and letters cut in two.
   checkOrder({"a", "z", "z\xC3", "z\xC3z", "z\xF6"});
 }
+
+TEST_CASE("names without the marks of their letters") {
+  CHECK(withoutMarks("\xc3\x96mer") == "Omer");
+  CHECK(withoutMarks("Zoe\xcc\x88") == "Zoe");
+  CHECK(withoutMarks("\xe7\x8e\x8b 1") == "\xe7\x8e\x8b 1");
+}

@@ -142,8 +142,9 @@ TEST_CASE("figures on their side and on their head are turned back, and it is sa
         return p;
       };
       CHECK(shareRight(figure, recognition, turned) >= 12.0 / 14);
-      CHECK(std::any_of(recognition.warnings.begin(), recognition.warnings.end(),
-                        [](const std::string& w) { return w.starts_with("the figure is turned by "); }));
+      CHECK(std::any_of(recognition.warnings.begin(), recognition.warnings.end(), [](const std::string& w) {
+        return w.starts_with("the figure is turned by ") && w.ends_with(" degrees");
+      }));
       TreeRecognizerOptions upright;
       upright.try_orientations = false;
       const Recognition kept =

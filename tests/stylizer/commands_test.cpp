@@ -73,6 +73,15 @@ TEST_CASE("from a drawing and two films to a new film, and on from what lies bet
   CHECK(done("transfer --content " + content + " --style " + styled + " -o " + dir.file("t.motion.json"))
             .exit_code == 0);
   CHECK(readFile(dir.file("t.motion.json")) == readFile(dir.file("out.gif.work/transfer.motion.json")));
+  const std::vector<NamedMotion> walks = readMotions(content), runs = readMotions(styled);
+  CHECK(transferMotion(walks, runs).steps);
+  std::vector<NamedMotion> dances = walks;  // whose feet keep their distance
+  const auto left = std::size_t(loadTemplate("biped").find("left_foot")),
+             right = std::size_t(loadTemplate("biped").find("right_foot"));
+  for (MotionFrame& frame : dances[0].motion.frames)
+    if (frame.joints[left] && frame.joints[right])
+      frame.joints[left]->image.x() = frame.joints[right]->image.x() + 20;
+  CHECK_FALSE(transferMotion(dances, runs).steps);
 
   done("render --motion " + dir.file("t.motion.json") + " --to-clip " + dir.file("new.clip.json"));
   CHECK(runTool("skel-animate render " + kDrawing + " --clip " + dir.file("new.clip.json") +
@@ -324,6 +333,8 @@ TEST_CASE("a transfer whose feet are out of step, or whose limbs stay, says so")
   report.phase_correlation = .95;
   CHECK(transferNotes(report).empty());
   report.phase_correlation = .36;
+  CHECK(transferNotes(report).empty());  // a dance keeps no step
+  report.steps = true;
   report.still = {"left_foot"};
   const std::vector<std::string> notes = transferNotes(report);
   REQUIRE(notes.size() == 2);

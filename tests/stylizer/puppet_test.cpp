@@ -1,4 +1,5 @@
 // A drawing as a cut-out, and key points on films whose joints are known.
+#include <algorithm>
 #include <cstdlib>
 
 #include "animator/film.h"
@@ -56,6 +57,18 @@ Filmed filmed(const CharacterFile& file, const std::string& clip_name, double ya
 }
 
 }  // namespace
+
+TEST_CASE("what a figure that is turned is told of names no option that skel-style does not have") {
+  const std::vector<std::string> notes =
+      readPerformer(SKEL_SOURCE_DIR "/datasets/unseen/characters/in4_cartwheel_kid.png").notes;
+  const auto turned = std::find_if(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.starts_with("the figure is turned by ");
+  });
+  REQUIRE(turned != notes.end());
+  CHECK_THAT(*turned,
+             Catch::Matchers::EndsWith(
+                 " degrees (if it is not, give the .skeleton.json that skel-infer --upright writes)"));
+}
 
 TEST_CASE("a drawing at rest is the drawing, and hardly any of it is torn in the motions of skel") {
   for (const char* name : {"cap_boy", "alien", "dad_tie", "clerk", "zombie"}) {

@@ -42,6 +42,8 @@ const turn = () => new Promise((resolve) => {
   port2.postMessage(null);
 });
 
+const saidHere = (warning) => warning.replace(/^the figure is turned by -?\d+ degrees$/, '$& (if it is not, use upright)');
+
 async function rigged(skel, { drawing, name, plan, figure, upright, mask, skeleton }) {
   const picture = drawing.rgba ? { name, width: drawing.width, height: drawing.height, rgba: drawing.rgba, scaled: false } :
     await skel.open(await bytesOf(drawing, name), name);
@@ -57,7 +59,7 @@ async function rigged(skel, { drawing, name, plan, figure, upright, mask, skelet
     if (asked !== undefined && asked !== has) throw new SkelError(`${option}: is ${asked}, the skeleton is of ${option} ${has}; leave one of them out`);
   return {
     name: picture.name, width: picture.width, height: picture.height, scaled: picture.scaled,
-    plan: found.plan, confidence: found.confidence, warnings: found.warnings, figures: found.figures,
+    plan: found.plan, confidence: found.confidence, warnings: found.warnings.map(saidHere), figures: found.figures,
     skeleton: file, mask: found.mask, times_ms: found.times, glb: skel.glb(), texture: skel.texture(),
   };
 }
