@@ -7,6 +7,7 @@
 #include "libskel/core/files.h"
 #include "libskel/jointnet/joint_net.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/layers/part_net.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 #include "tests/support/temp_dir.h"
@@ -216,11 +217,14 @@ TEST_CASE("a checkpoint of a negative step, or of what is no number, is refused"
 TEST_CASE("the mean of a net and itself is that net, the mean of two lies between them") {
   const TempDir dir;
   const std::string archive = SKEL_DATASETS "/../weights/archive/", tool = "skel-train average '";
-  const std::string a = archive + "joint-net-pass-1.bin", b = archive + "joint-net-pass-2.bin";
+  const bool of_parts = GENERATE(false, true);
+  const std::string a = archive + (of_parts ? "part-net-version-1.bin" : "joint-net-pass-1.bin"),
+                    b = archive + (of_parts ? "part-net-pass-2.bin" : "joint-net-pass-2.bin");
   REQUIRE(runTool(tool + a + "' '" + a + "' -o '" + dir.file("same.bin") + "'").exit_code == 0);
   REQUIRE(runTool(tool + a + "' '" + b + "' -o '" + dir.file("mean.bin") + "'").exit_code == 0);
-  const auto parameters = [](const std::string& file) {
-    return parseJointNet(readFile(file), file).parameters;
+  const auto parameters = [&](const std::string& file) {
+    return of_parts ? parsePartNet(readFile(file), file).parameters
+                    : parseJointNet(readFile(file), file).parameters;
   };
   const auto of_a = parameters(a), of_b = parameters(b), same = parameters(dir.file("same.bin")),
              mean = parameters(dir.file("mean.bin"));
@@ -232,10 +236,18 @@ TEST_CASE("the mean of a net and itself is that net, the mean of two lies betwee
     apart += std::abs(of_a[i] - of_b[i]);
   }
   CHECK(off < .5 * apart);
-  const auto refused = runTool(tool + a + "' '" + archive + "quadruped-joint-net-pass-1.bin' -o '" +
-                               dir.file("none.bin") + "'");
+}
+
+TEST_CASE("nets of two kinds have no mean") {
+  const TempDir dir;
+  const std::string archive = SKEL_DATASETS "/../weights/archive/", tool = "skel-train average '";
+  const auto refused = runTool(tool + archive + "joint-net-pass-1.bin' '" + archive +
+                               "quadruped-joint-net-pass-1.bin' -o '" + dir.file("none.bin") + "'");
   CHECK(refused.exit_code == 2);
   CHECK(refused.err.find("is another kind of net than") != std::string::npos);
+  const auto parts = runTool(tool + archive + "part-net-pass-2.bin' '" + archive +
+                             "joint-net-pass-1.bin' -o '" + dir.file("none.bin") + "'");
+  CHECK(parts.exit_code == 2);
   CHECK_FALSE(std::filesystem::exists(dir.file("none.bin")));
 }
 
