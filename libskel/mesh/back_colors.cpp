@@ -230,8 +230,15 @@ Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
         small.figure[i] && (closing - light[i] > kLineContrast || light[i] - opened[i] > 2 * kLineContrast);
   }
   Lines lines{std::vector<char>(thin.size(), 0), std::vector<char>(thin.size(), 0)};
+  // Hatching is finer than what is drawn by lines.
+  const int fine = std::max(1, radius / 2);
+  const auto closed_fine = extreme(small, extreme(small, light, fine, true), fine, false);
+  const auto opened_fine = extreme(small, extreme(small, light, fine, false), fine, true);
   // The outline is no hatching.
   std::vector<char> deep = small.figure, deep_thin = thin;
+  for (std::size_t i = 0; i < thin.size(); ++i)
+    deep_thin[i] = small.figure[i] &&
+                   (closed_fine[i] - light[i] > kLineContrast || light[i] - opened_fine[i] > 2 * kLineContrast);
   for (std::size_t i = 0; i < thin.size(); ++i)
     if (rim[i] <= 2.0f * float(radius)) deep[i] = deep_thin[i] = 0;
   BoxSums thin_sums(small, deep_thin), figure_sums(small, deep);
@@ -563,7 +570,7 @@ class BackPainter {
   // where they tell paper from paper: around and between white parts.
   void keepLines() {
     drawn_.assign(kept_.size(), 0);
-    std::vector<char> plain = small_.figure;
+    std::vector<char> plain = small_.figure, between(kept_.size(), 0);
     for (int i = 0; i < int(plain.size()); ++i)
       plain[i] &= area_[i] >= 0 && areas_[area_[i]].core >= kLeastCore * areas_[area_[i]].size;
     BoxSums plain_sums(small_, plain), all_sums(small_, small_.figure);
@@ -575,8 +582,20 @@ class BackPainter {
         const int reach = 4 * line_radius_;
         const double plain_px = plain_sums.around(x, y, reach)[3], all_px = all_sums.around(x, y, reach)[3];
         const bool alone = rim_[i] <= 2.0f * float(line_radius_) && plain_px < kAlone * (all_px - plain_px);
-        drawn_[i] = alone || ((lines_.line[i] || area_[i] < 0) && isPaper(filled_[i]) &&
-                              (outline_[i] || (fromHead(place(i)) > 1 && isBorder(x, y))));
+        const bool tells = (lines_.line[i] || area_[i] < 0) && isPaper(filled_[i]);
+        drawn_[i] = alone || (tells && outline_[i]);
+        between[i] = tells && !drawn_[i] && fromHead(place(i)) > 1 && isBorder(x, y);
+      }
+    // What is drawn on the front alone does not come to the outline.
+    std::vector<int> open;
+    for (int i = 0; i < int(drawn_.size()); ++i)
+      if (drawn_[i]) open.push_back(i);
+    for (std::size_t next = 0; next < open.size(); ++next)
+      for (const auto& step : kNeighbours) {
+        const int u = open[next] % small_.width + step[0], v = open[next] / small_.width + step[1];
+        if (!small_.holds(u, v)) continue;
+        const int j = small_.index(u, v);
+        if (between[j] && !drawn_[j]) drawn_[j] = 1, open.push_back(j);
       }
   }
 
