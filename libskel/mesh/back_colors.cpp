@@ -237,8 +237,8 @@ Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
   // The outline is no hatching.
   std::vector<char> deep = small.figure, deep_thin = thin;
   for (std::size_t i = 0; i < thin.size(); ++i)
-    deep_thin[i] = small.figure[i] &&
-                   (closed_fine[i] - light[i] > kLineContrast || light[i] - opened_fine[i] > 2 * kLineContrast);
+    deep_thin[i] = small.figure[i] && (closed_fine[i] - light[i] > kLineContrast ||
+                                       light[i] - opened_fine[i] > 2 * kLineContrast);
   for (std::size_t i = 0; i < thin.size(); ++i)
     if (rim[i] <= 2.0f * float(radius)) deep[i] = deep_thin[i] = 0;
   BoxSums thin_sums(small, deep_thin), figure_sums(small, deep);

@@ -118,8 +118,8 @@ class Head {
     const double share = (x + left->rim) / (left->rim + right->rim);
     // Hair and brims hang around a ball, lowest in the middle.
     const double row = (kTop - t - kHang * 4 * share * (1 - share)) * kRowsPerRadius;
-    const auto [a, a_is_face] = seenFrom(0, row, share);
-    const auto [b, b_is_face] = seenFrom(1, row, 1 - share);
+    const auto& [a, a_is_face] = seenFrom(0, row, share);
+    const auto& [b, b_is_face] = seenFrom(1, row, 1 - share);
     if (alike(a, b)) return Vector3f(a + float(share) * (b - a));
     const double seam = a_is_face == b_is_face ? .5 : a_is_face ? kCheek : 1 - kCheek;
     return share < seam ? a : b;
@@ -246,6 +246,7 @@ class Head {
     }
     match();
     meet();
+    mix();
   }
 
   // Low ones go to the higher of their neighbours.
@@ -322,19 +323,26 @@ class Head {
     bool face = false;
   };
   // What a side has at a row, `share` of the way across.
-  Seen seenFrom(std::size_t k, double row, double share) const {
+  const Seen& seenFrom(std::size_t k, double row, double share) const {
     const double t = std::min(1., 2 * share);
     std::size_t at = 0;
     for (std::size_t i = 1; i < stripes_[k].size(); ++i)
       if (const Stripe& s = stripes_[k][i]; s.begin + t * (s.middle - s.begin) <= row) at = i;
     const Stripe& stripe = stripes_[k][at];
-    const auto clamped = [&](double i) {
-      return std::size_t(std::clamp(int(std::lround(i)), stripe.begin, stripe.end - 1));
-    };
-    Seen out{Vector3f::Zero(), rows_[clamped(row)][k]->face};
-    for (int d = -kMixedRows; d <= kMixedRows; ++d) out.color += rows_[clamped(row + d)][k]->color;
-    out.color /= 2 * kMixedRows + 1;
-    return out;
+    return seen_[k][std::size_t(std::clamp(int(row + .5), stripe.begin, stripe.end - 1))];
+  }
+
+  // Rows mixed with those of their stripe beside them.
+  void mix() {
+    for (const std::size_t k : {0, 1})
+      for (const Stripe& stripe : stripes_[k])
+        for (int i = stripe.begin; i < stripe.end; ++i) {
+          Seen seen{Vector3f::Zero(), rows_[std::size_t(i)][k]->face};
+          for (int d = -kMixedRows; d <= kMixedRows; ++d)
+            seen.color += rows_[std::size_t(std::clamp(i + d, stripe.begin, stripe.end - 1))][k]->color;
+          seen.color /= 2 * kMixedRows + 1;
+          seen_[k].push_back(seen);
+        }
   }
 
   const Image& front_;
@@ -343,6 +351,7 @@ class Head {
   Vector2d right_;
   std::vector<std::array<std::optional<Side>, 2>> rows_;
   std::array<std::vector<Stripe>, 2> stripes_;  // from the top, without gaps
+  std::array<std::vector<Seen>, 2> seen_;       // of each row
 };
 
 }  // namespace
