@@ -231,7 +231,7 @@ Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
   }
   Lines lines{std::vector<char>(thin.size(), 0), std::vector<char>(thin.size(), 0)};
   // Hatching is finer than what is drawn by lines.
-  const int fine = std::max(1, radius / 2);
+  const int fine = std::max(1, 3 * radius / 4);
   const auto closed_fine = extreme(small, extreme(small, light, fine, true), fine, false);
   const auto opened_fine = extreme(small, extreme(small, light, fine, false), fine, true);
   // The outline is no hatching.
