@@ -20,11 +20,11 @@ Color inkOn(const Look& look) {
 // Names in letters that our font does not have are not written.
 void drawName(Image& image, const std::string& name, double middle_x, double base_y, double most_width,
               double height_px, Color ink) {
-  const std::string text = withoutMarks(name);
-  if (std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x80; }))
+  const std::string plain = withoutMarks(name);
+  if (std::any_of(plain.begin(), plain.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x80; }))
     return;
-  const double width = textWidth(text, height_px), shrunk = std::min(1.0, most_width / std::max(1.0, width));
-  drawText(image, {middle_x - shrunk * width / 2, base_y}, text, shrunk * height_px, ink);
+  const double width = textWidth(name, height_px), shrunk = std::min(1.0, most_width / std::max(1.0, width));
+  drawText(image, {middle_x - shrunk * width / 2, base_y}, name, shrunk * height_px, ink);
 }
 
 }  // namespace

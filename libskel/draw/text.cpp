@@ -1,7 +1,10 @@
 // A stroke font: each character is a few polylines on a grid.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
+#include "libskel/core/natural_order.h"
 #include "libskel/draw/canvas.h"
 
 namespace skel {
@@ -134,12 +137,112 @@ Glyph glyphOf(char c) {
 
 constexpr double kSpacing = 1.7;  // between characters, grid cells
 
+// Marks of letters from U+00C0 to U+017F, by the first of their strokes below; "." has none.
+constexpr std::string_view kMarks =
+    "`'^~:o.,`'^:`'^:.~`'^~:./`'^:'.."
+    "`'^~:o.,`'^:`'^:.~`'^~:./`'^:'.:"
+    "--uu;;''^^**vvvv//--uu**;;vv^^uu**,,^^//~~--uu;;*...^^,,.'',,vv*"
+    "*//'',,vv...--uu\"\"..'',,vv''^^,,vv,,vv//~~--uuoo\"\";;^^^^:''**vv.";
+
+struct Mark {
+  char name;
+  int combining;        // U+0300 and so on
+  const char* strokes;  // as in kGlyphs, x from the letter's middle, 3 more; y from its top, 3 more
+};
+constexpr Mark kMarkStrokes[] = {
+    {'`', 0x300, "2031"},       {'\'', 0x301, "4031"},     {'^', 0x302, "213041"},
+    {'~', 0x303, "1120314050"}, {'-', 0x304, "1151"},      {'u', 0x306, "20314050"},
+    {'*', 0x307, "3030"},       {':', 0x308, "2020 4040"}, {'o', 0x30A, "203040413121 2120"},
+    {'"', 0x30B, "2021 4041"},  {'v', 0x30C, "203140"},    {',', 0x327, ""},
+    {';', 0x328, ""},           {'/', 0x338, ""},
+};
+
+struct Letter {
+  char base;
+  char mark = '.';
+};
+
+// Of UTF-8; what the font does not have shows as a box.
+std::vector<Letter> lettersOf(std::string_view text) {
+  std::vector<Letter> letters;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto first = static_cast<unsigned char>(text[i]);
+    if (first < 0x80) {
+      letters.push_back({text[i]});
+      continue;
+    }
+    std::size_t end = i + 1;
+    while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) ++end;
+    const std::string_view character = text.substr(i, end - i);
+    i = end - 1;
+    const int code = character.size() == 2 ? (first & 0x1F) << 6 | (character[1] & 0x3F) : 0;
+    static constexpr std::pair<int, const char*> kTwo[] = {
+        {0xC6, "AE"}, {0xE6, "ae"}, {0xDF, "ss"}, {0x152, "OE"}, {0x153, "oe"}};
+    const auto two =
+        std::find_if(std::begin(kTwo), std::end(kTwo), [&](const auto& t) { return t.first == code; });
+    const auto mark = std::find_if(std::begin(kMarkStrokes), std::end(kMarkStrokes),
+                                   [&](const Mark& m) { return m.combining == code; });
+    const std::string base = withoutMarks(std::string(character));
+    if (two != std::end(kTwo))
+      letters.insert(letters.end(), {{two->second[0]}, {two->second[1]}});
+    else if (mark != std::end(kMarkStrokes) && !letters.empty())
+      letters.back().mark = mark->name;
+    else if (base.size() == 1)
+      letters.push_back({base[0], kMarks[static_cast<std::size_t>(code - 0xC0)]});
+    else
+      letters.push_back({'\0'});
+  }
+  return letters;
+}
+
+// Above small letters, above capitals, below or across.
+void addMark(Letter letter, Glyph& glyph) {
+  const double middle = glyph.width / 2;
+  if (letter.mark == ',' || letter.mark == ';') {
+    const double out = letter.mark == ',' ? -.8 : .8;
+    glyph.strokes.push_back({{middle, 6.4}, {middle + .2, 7.2}, {middle + out, 7.8}});
+    return;
+  }
+  if (letter.mark == '/') {
+    if (letter.base == 'l' || letter.base == 'L')
+      glyph.strokes.push_back({{-.9, 4.1}, {1.4, 2.5}});
+    else
+      glyph.strokes.push_back({{-.4, 6}, {glyph.width + .4, letter.base == 'o' ? 2 : 0}});
+    return;
+  }
+  const bool is_small = letter.base >= 'a' && letter.base <= 'z' &&
+                        std::string_view("bdfhklt").find(letter.base) == std::string_view::npos;
+  const double top = is_small ? 0 : -2;
+  for (const Mark& mark : kMarkStrokes) {
+    if (mark.name != letter.mark) continue;
+    const std::string_view code = mark.strokes;
+    Points stroke;
+    for (std::size_t i = 0; i <= code.size();) {
+      if (i == code.size() || code[i] == ' ') {
+        if (!stroke.empty()) glyph.strokes.push_back(std::exchange(stroke, {}));
+        ++i;
+        continue;
+      }
+      stroke.emplace_back(middle + .8 * (code[i] - '3'), top + (code[i + 1] - '0'));
+      i += 2;
+    }
+  }
+}
+
+Glyph glyphOf(Letter letter) {
+  Glyph glyph = glyphOf(letter.base);
+  if (letter.mark == '.') return glyph;
+  if (letter.base == 'i' || letter.base == 'j') glyph.strokes.pop_back();  // its dot
+  addMark(letter, glyph);
+  return glyph;
+}
+
 }  // namespace
 
 double textWidth(std::string_view text, double height_px) {
   if (text.empty()) return 0;
   double cells = -kSpacing;
-  for (const char c : text) cells += glyphOf(c).width + kSpacing;
+  for (const Letter letter : lettersOf(text)) cells += glyphOf(letter.base).width + kSpacing;
   return cells * height_px / 6;
 }
 
@@ -147,8 +250,8 @@ void drawText(Image& image, const Eigen::Vector2d& origin, std::string_view text
               Color color) {
   const double cell = height_px / 6, width_px = std::max(1.1, height_px / 7.5);
   double x = origin.x();
-  for (const char c : text) {
-    const Glyph glyph = glyphOf(c);
+  for (const Letter letter : lettersOf(text)) {
+    const Glyph glyph = glyphOf(letter);
     for (const Points& stroke : glyph.strokes) {
       Points points;
       for (const Eigen::Vector2d& p : stroke)

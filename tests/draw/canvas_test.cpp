@@ -1,5 +1,8 @@
 #include "libskel/draw/canvas.h"
 
+#include <string>
+#include <utility>
+
 #include "libskel/core/error.h"
 #include "tests/support/catch.h"
 
@@ -32,6 +35,27 @@ TEST_CASE("shapes cover the area that they should, wherever they lie between pix
     fillPolygons(square, {{{0, 0}}, {}}, kBlack);
     CHECK(ink(square) == Approx(900).epsilon(0.001));
   }
+}
+
+TEST_CASE("letters have their marks, composed or not, and take no more room by them") {
+  const auto written = [](const std::string& text) {
+    Image image = blankImage(120, 40);
+    drawText(image, {10, 30}, text, 16, kBlack);
+    return image;
+  };
+  for (const auto& [marked, plain] : {std::pair{"\xc3\xb6", "o"},
+                                      {"\xc3\x89", "E"},
+                                      {"\xc3\xa7", "c"},
+                                      {"\xc5\x81", "L"},
+                                      {"\xc5\xa1", "s"}}) {
+    CAPTURE(plain);
+    CHECK(ink(written(marked)) > ink(written(plain)) + 2);
+    CHECK(textWidth(marked, 16) == textWidth(plain, 16));
+  }
+  CHECK((written("J\xc3\xb6rg").rgba == written("Jo\xcc\x88rg").rgba).all());
+  CHECK((written("Wei\xc3\x9f").rgba == written("Weiss").rgba).all());
+  // One box, not one a byte.
+  CHECK(textWidth("\xe7\x8e\x8b", 16) == textWidth("\x01", 16));
 }
 
 TEST_CASE("a polygon in a polygon is a hole, and a triangle's slanted sides are smooth") {
