@@ -269,7 +269,7 @@ class Head {
 
   // In order from the top, those of one colour that lie about as high, as many rows as possible.
   void match() {
-    auto& [left, right] = stripes_;
+    std::vector<Stripe>&left = stripes_[0], &right = stripes_[1];
     const std::size_t m = left.size(), n = right.size();
     const auto worth = [&](std::size_t i, std::size_t j) {
       if (left[i].color != right[j].color) return 0;
