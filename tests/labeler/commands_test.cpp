@@ -515,6 +515,20 @@ TEST_CASE("import: a joint that is missing is said, and candidates that may belo
   CHECK(readLabelFile(dir.file("round/cap_boy.labels.json")).labels == labels.labels);
 }
 
+TEST_CASE("import said that 0 candidates have no class") {
+  const TempDir dir;
+  copyCharacter("box_robot", dir.path());
+  const std::string path = dir.file("box_robot.labels.json");
+  replaceIn(dir.file("box_robot.joints.json"), "\"left_foot\": [", "\"left_foot\": null, \"hip\": [");
+  REQUIRE(contains(label(dir, "import .").err, "candidates have no class"));
+  LabelFile labels = readLabelFile(path);
+  for (auto& joint_class : labels.labels)
+    if (!joint_class) joint_class = JointClass::kLeg;
+  writeLabelFile(path, labels);
+  CHECK(label(dir, "import . --force").err ==
+        "skel-label: note: ./box_robot.labels.json: no place for left_foot\n");
+}
+
 TEST_CASE("import: one picture of a COCO file that was missing kept all others from being imported") {
   const TempDir dir;
   exportTwo(dir);
