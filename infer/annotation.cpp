@@ -108,7 +108,7 @@ MeasuredDrawing fromLabels(const std::string& path) {
   MeasuredDrawing drawing;
   drawing.joints_file = path;
   drawing.image = readImage(image);
-  if (labels.mask) drawing.mask = silhouetteOf(image, besideLabelFile(path, labels.mask->file)).mask;
+  if (const auto mask = maskOf(path, labels)) drawing.mask = silhouetteOf(image, mask).mask;
   for (const auto& [name, place] : labels.joints)
     if (labels.isPlaced(name)) drawing.joints.emplace(name, place);
   return drawing;
@@ -157,7 +157,7 @@ void noteMeasuredFiles(const std::string& root, const std::string& id) {
   try {
     const LabelFile file = readLabelFile(labels);
     noteInput(besideLabelFile(labels, file.image.file));
-    if (file.mask) noteInput(besideLabelFile(labels, file.mask->file));
+    if (const auto mask = maskOf(labels, file)) noteInput(*mask);
   } catch (const InputError&) {  // told where the drawing is read
   }
 }

@@ -163,13 +163,17 @@ std::string reportPage(const std::vector<DrawingResult>& drawings) {
     if (!card.fine()) (card.again() ? again : card.figure ? look_at : not_used) += line(reasonsFor(card));
     if (card.figure && !card.figure->left_out.empty()) left_out += line(card.figure->left_out);
   }
-  const std::string title = counted(cards.size(), "drawing", "drawings");
+  const bool of_figures = cards.size() > drawings.size();
+  const auto countedCards = [of_figures](std::size_t count) {
+    return of_figures ? counted(count, "figure", "figures") : counted(count, "drawing", "drawings");
+  };
+  const std::string title = countedCards(cards.size());
   std::string heading = title;
   const bool choose = fine > 0 && fine < shown;  // the good ones, among the pictures
   if (shown < cards.size() || choose)
-    heading = "<span class=\"all\">" + title + "</span><span class=\"shown\">" +
-              counted(shown, "drawing", "drawings") + "</span>";
-  if (choose) heading += "<span class=\"good\">" + counted(fine, "drawing", "drawings") + "</span>";
+    heading =
+        "<span class=\"all\">" + title + "</span><span class=\"shown\">" + countedCards(shown) + "</span>";
+  if (choose) heading += "<span class=\"good\">" + countedCards(fine) + "</span>";
   std::string summary = std::to_string(fine) + " fine";
   if (look > 0) summary += ", " + std::to_string(look) + " to look at";
   if (retake > 0) summary += ", " + std::to_string(retake) + " to take again";

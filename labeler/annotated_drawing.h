@@ -1,7 +1,6 @@
 // Drawings that something else has annotated: found in a folder, their joints under our names.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,6 +9,7 @@
 #include "libskel/core/error.h"
 #include "libskel/image/image.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/labels/label_folder.h"
 #include "libskel/silhouette/silhouette.h"
 #include "libskel/skeleton/body_plans.h"
 
@@ -25,8 +25,6 @@ struct AnnotatedDrawing {
   bool is_export = false;                 // of our own label files: formatCoco()
   int image_width = 0, image_height = 0;  // px, of the picture that it is for; 0: it does not say
 };
-
-using OnInputError = std::function<void(const InputError&)>;
 
 // The body plan that has all of the joints; the first where none has.
 const SkeletonTemplate& planOf(const NamedJoints& joints, const BodyPlans& plans);

@@ -47,10 +47,12 @@ void notePassedOver(const std::set<std::string>& exports) {
 
 void noteLacking(const ImportCounts& counts) {
   if (counts.lacking.empty()) return;
-  std::fprintf(stderr, "skel-label: note: %s: no place for %s: %zu candidates have no class\n",
-               firstAndMore(counts.lacking).c_str(),
+  const std::string without_class =
+      counts.without_class > 0 ? ": " + std::to_string(counts.without_class) + " candidates have no class"
+                               : "";
+  std::fprintf(stderr, "skel-label: note: %s: no place for %s%s\n", firstAndMore(counts.lacking).c_str(),
                joined({counts.missing_joints.begin(), counts.missing_joints.end()}).c_str(),
-               counts.without_class);
+               without_class.c_str());
 }
 
 std::string namesOf(const std::set<std::string>& folders) {
@@ -154,6 +156,9 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
         const ExitCode code = report(counts);
         if (counts.labelled > 0)
           print("classes by placed joints in " + std::to_string(counts.labelled) +
+                " label files that had none\n");
+        if (counts.masks_taken > 0)
+          print("the mask beside the picture taken in " + std::to_string(counts.masks_taken) +
                 " label files that had none\n");
         notePassedOver(counts.passed_over);
         noteKept(counts.earlier,

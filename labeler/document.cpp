@@ -303,8 +303,12 @@ void Document::takeMended() {
     message_ = masks_.openOf(*skeleton_, image_);
   } else if (labels && labels->mask) {
     message_ = masks_.openOf(*labels, image_);
-  } else if (const auto given = givenMask(files); !labels && given) {
-    masks_.open(*given, image_);
+  } else if (const auto given = givenMask(files)) {
+    if (labels)
+      message_ =
+          fs::path(*given).filename().string() + " lies beside the label file, which has none: not shown";
+    else
+      masks_.open(*given, image_);
   }
   state_.mask = masks_.opened();
   figure_ = figureOf(image_, state_.mask.get(), figureNumber(), options_.mlp);

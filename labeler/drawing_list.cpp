@@ -26,10 +26,9 @@ std::string layersFile(const DrawingFiles& files, int figure) {
 }
 
 std::optional<std::string> givenMask(const DrawingFiles& files) {
-  if (fs::is_regular_file(files.mask)) return files.mask;
+  if (const auto mask = maskBeside(files.image)) return mask;
   const fs::path image = files.image, beside = image.parent_path() / "mask.png";
-  if ((image.stem() == "image" || image.stem() == "texture") && fs::is_regular_file(beside))
-    return beside.string();
+  if (image.stem() == "texture" && fs::is_regular_file(beside)) return beside.string();
   return std::nullopt;
 }
 

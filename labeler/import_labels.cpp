@@ -136,16 +136,13 @@ void compareKept(const std::string& label_path, const AnnotatedDrawing& drawing,
   }
 }
 
-// What is to be made anew, if it is a label file of this very picture.
+// What is to be made anew, if it is a label file of this very picture. One that cannot be read is refused: it
+// may hold classes that were set by hand.
 std::optional<LabelFile> labelsBefore(const std::string& label_path, const std::string& image_path) {
   if (!fs::exists(label_path)) return std::nullopt;
   const LookAtOutputs look;
-  try {
-    LabelFile labels = readLabelFile(label_path);
-    if (labels.image.sha256 == sha256(readFile(image_path))) return labels;
-  } catch (const InputError&) {
-  }
-  return std::nullopt;
+  LabelFile labels = readLabelFile(label_path);
+  return labels.image.sha256 == sha256(peek(image_path)) ? std::optional(std::move(labels)) : std::nullopt;
 }
 
 // Takes over the classes of `before` that its own joints do not explain, for candidates that are still there;
@@ -177,21 +174,24 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
     return false;
   }
 
+  const std::optional<LabelFile> before = labelsBefore(label_path, drawing.image);
   const Image image = readImage(drawing.image);
   checkSize(drawing, image);
   checkJoints(drawing, image);
-  if (drawing.mask) readMaskOf(image, *drawing.mask);  // before anything is copied
+  std::optional<std::string> mask = drawing.mask;
+  if (!mask && drawing.mask_polygons.empty()) mask = maskBeside(drawing.image);
+  if (mask) readMaskOf(image, *mask);  // before anything is copied
   copyFile(drawing.image, image_path, options);
-  std::optional<std::string> mask;
-  if (drawing.mask) {
-    mask = destination(*drawing.mask, dir, options);
-    copyFile(*drawing.mask, *mask, options);
+  if (mask) {
+    const std::string from = *mask;
+    mask = destination(from, dir, options);
+    copyFile(from, *mask, options);
   } else if (!drawing.mask_polygons.empty()) {
     mask = drawingFiles(image_path, {}).mask;
     writeNew(*mask, encodePng(maskFromPolygons(drawing.mask_polygons, image.width, image.height)), options);
   }
   LabelFile labels = labelImage(image_path, mask, drawing.joints, body_plan, {}, drawing.recognized);
-  if (const std::optional<LabelFile> before = labelsBefore(label_path, image_path))
+  if (before)
     counts.classes_kept += keepClasses(
         labels, *before,
         labelImage(image_path, mask, before->joints, planOf(before->joints, plans), {}, before->recognized));
@@ -226,10 +226,13 @@ void forEach(const List& list, const char* title, const OnError& on_error, const
   }
 }
 
-// Joints that were placed in the window, of drawings of which nobody has labelled a candidate.
-void labelByPlacedJoints(const std::string& dir, const BodyPlans& plans, const OnError& on_error,
+// Joints that were placed in the window, of drawings of which nobody has labelled a candidate; by force also
+// where a mask lies beside the label file that it does not name. `made_anew`: label files that were to be.
+void labelByPlacedJoints(const std::string& dir, const BodyPlans& plans, bool force,
+                         const std::set<std::string>& made_anew, const OnError& on_error,
                          ImportCounts& counts) {
   for (const std::string& path : findLabelFiles(dir)) {
+    if (made_anew.contains(fs::path(path).lexically_normal().string())) continue;
     try {
       const LookAtOutputs look;
       const LabelFile before = readLabelFile(path);
@@ -237,15 +240,17 @@ void labelByPlacedJoints(const std::string& dir, const BodyPlans& plans, const O
         return std::all_of(file.labels.begin(), file.labels.end(), [](const auto& label) { return !label; });
       };
       const SkeletonTemplate* body_plan = planOf(before, plans);
-      if (!before.hasPlacedJoint() || !hasNone(before) || !body_plan) continue;
+      const std::optional<std::string> mask = maskOf(path, before);
+      const bool gets_mask = force && mask && !before.mask;
+      if (!before.hasPlacedJoint() || !(hasNone(before) || gets_mask) || !body_plan) continue;
       ensureUnchanged(path, before);
-      std::optional<std::string> mask;
-      if (before.mask) mask = besideLabelFile(path, before.mask->file);
-      const LabelFile labels = labelImage(besideLabelFile(path, before.image.file), mask, before.joints,
-                                          *body_plan, {}, before.recognized);
-      if (hasNone(labels)) continue;
+      LabelFile labels = labelImage(besideLabelFile(path, before.image.file), mask, before.joints, *body_plan,
+                                    {}, before.recognized);
+      if (hasNone(labels) && !gets_mask) continue;
+      const LabelFile by_joints = labels;
+      counts.classes_kept += keepClasses(labels, before, by_joints);
       writeLabelFile(path, labels);
-      ++counts.labelled;
+      ++(gets_mask ? counts.masks_taken : counts.labelled);
     } catch (const InputError& error) {
       countFailure(error, counts, on_error);
     }
@@ -269,8 +274,14 @@ ImportCounts importLabels(const std::string& path, const BodyPlans& plans, const
     return importDrawing(drawing, dir, plans, options, counts);
   };
   forEach(drawings, "import", on_error, make, counts);
-  if (!is_file && options.output.empty()) labelByPlacedJoints(path, plans, on_error, counts);
-  if (drawings.empty() && counts.failed == 0 && counts.passed_over.empty() && counts.labelled == 0)
+  std::set<std::string> made_anew;
+  if (options.force)
+    for (const AnnotatedDrawing& drawing : drawings)
+      made_anew.insert(fs::path(labelFileFor(drawing.image)).lexically_normal().string());
+  if (!is_file && options.output.empty())
+    labelByPlacedJoints(path, plans, options.force, made_anew, on_error, counts);
+  if (drawings.empty() && counts.failed == 0 && counts.passed_over.empty() && counts.labelled == 0 &&
+      counts.masks_taken == 0)
     throw InputError(path,
                      "holds nothing to import (char_cfg.yaml, joints.json, <stem>.joints.json, a COCO file "
                      "with keypoints, "

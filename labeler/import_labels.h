@@ -27,6 +27,7 @@ struct ImportCounts {
   int failed = 0;
   int joints_placed = 0, joints_found = 0;  // in those made: by a person, by the program
   int labelled = 0;      // label files without any class whose candidates got theirs by their placed joints
+  int masks_taken = 0;   // label files made anew by a mask beside their picture, without an annotation
   int classes_kept = 0;  // in those made: of a label file before, set by hand
   std::vector<std::string> lacking;      // of those made: without a place for some joint
   std::set<std::string> missing_joints;  // of these

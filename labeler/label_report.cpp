@@ -30,11 +30,6 @@ std::vector<std::string> labelFiles(const std::string& dir) {
   return files;
 }
 
-std::optional<std::string> maskOf(const std::string& path, const LabelFile& labels) {
-  if (!labels.mask) return std::nullopt;
-  return besideLabelFile(path, labels.mask->file);
-}
-
 Silhouette labelledFigure(const std::string& path, const LabelFile& labels) {
   return silhouetteOf(besideLabelFile(path, labels.image.file), maskOf(path, labels));
 }

@@ -282,8 +282,7 @@ class LabelingWindow {
     const auto done = static_cast<int>(std::count_if(
         items.begin(), items.end(), [&](const Item& item) { return item.of(subject()).isWhole(); }));
     ImGui::BeginChild("list", {kListWidth, height}, true);
-    progressBar({static_cast<int>(items.size()), done},
-                subject() == Subject::kClasses ? "classes finished" : "joints finished");
+    progressBar({static_cast<int>(items.size()), done}, "drawings finished");
     ImGui::BeginChild("items", {0, -kButtonHeight - 10});
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(items.size()), kRowHeight + ImGui::GetStyle().ItemSpacing.y);

@@ -37,15 +37,16 @@ void ensureUnchanged(const std::string& path, const SkeletonFile& file) {
 
 JointedDrawing fromSkeleton(const std::string& path, const SkeletonFile& file) {
   JointedDrawing drawing{beside(path, file.image_file), std::nullopt, path, {}, false};
-  if (file.mask) drawing.mask = beside(path, file.mask->file);
+  if (file.mask)
+    drawing.mask = beside(path, file.mask->file);
+  else if (file.figure.number == 1)
+    drawing.mask = maskBeside(drawing.image);
   for (const Joint& joint : file.skeleton.joints) drawing.joints.emplace_back(joint.name, joint.image);
   return drawing;
 }
 
 JointedDrawing fromLabels(const std::string& path, const LabelFile& file) {
-  JointedDrawing drawing{besideLabelFile(path, file.image.file), std::nullopt, path, file.joints, false};
-  if (file.mask) drawing.mask = besideLabelFile(path, file.mask->file);
-  return drawing;
+  return {besideLabelFile(path, file.image.file), maskOf(path, file), path, file.joints, false};
 }
 
 }  // namespace

@@ -192,10 +192,12 @@ void bindTrainOptions(CLI::App& app, TrainOptions& options) {
   app.add_option("--threads", training.threads, "0: one a core")
       ->check(numberIn(0, 1024))
       ->capture_default_str();
-  app.add_option("--folds", options.folds, "Groups of characters for cross-validation; 0: none")
-      ->check(numberIn(0, 1'000'000))
-      ->capture_default_str();
-  app.add_flag("--leave-one-out", options.leave_one_out, "As many folds as there are characters");
+  CLI::Option* folds =
+      app.add_option("--folds", options.folds, "Groups of characters for cross-validation; 0: none")
+          ->check(numberIn(0, 1'000'000))
+          ->capture_default_str();
+  app.add_flag("--leave-one-out", options.leave_one_out, "As many folds as there are characters")
+      ->excludes(folds);
   app.add_option("--draws", options.draws, "Also train on so many random draws of --drawn characters")
       ->check(numberIn(0, 10'000))
       ->capture_default_str();
@@ -286,8 +288,13 @@ ExitCode runEvaluateWeights(const EvaluateWeightsOptions& options) {
   keepCocoOfOthers(options.json, "name another file by --json");
   const bool from_labels =
       options.candidates == CandidateMethod::kMaxima && !findLabelFiles(options.dir).empty();
-  const LabelledSet set =
-      from_labels ? readLabelledSet(options.dir) : labelAnnotatedImages(options.dir, {options.candidates});
+  ExitCode code = ExitCode::kDone;
+  const OnInputError leave_out = [&code](const InputError& error) {
+    std::fprintf(stderr, "skel-train: %s\n", error.what());
+    code = error.exitCode();
+  };
+  const LabelledSet set = from_labels ? readLabelledSet(options.dir, leave_out)
+                                      : labelAnnotatedImages(options.dir, {options.candidates}, leave_out);
   const Mlp mlp = options.weights.empty() ? defaultMlp() : readMlp(options.weights);
   Evaluation evaluation;
   {
@@ -296,7 +303,7 @@ ExitCode runEvaluateWeights(const EvaluateWeightsOptions& options) {
   }
   std::printf("%s", describeEvaluation(evaluation).c_str());
   if (!options.json.empty()) writeFile(options.json, formatEvaluation(evaluation));
-  return ExitCode::kDone;
+  return code;
 }
 
 }  // namespace skel

@@ -192,6 +192,13 @@ void checkSource(const std::string& path, const char* key, const LabelFile::Sour
     throw InputError(path, place + " has changed since it was labelled; label it anew");
 }
 
+void checkNoMaskBeside(const std::string& path, const LabelFile::Source& image) {
+  if (const auto mask = maskBeside(besideLabelFile(path, image.file)))
+    throw InputError(path,
+                     "mask: is null, but " + std::filesystem::path(*mask).filename().string() +
+                         " lies beside it; label it anew (skel-label import --force), or remove the mask");
+}
+
 template <class Number>
 std::string show(Number number) {
   char text[64];
@@ -218,6 +225,20 @@ std::string besideLabelFile(const std::string& label_file, const std::string& na
   return (std::filesystem::path(label_file).parent_path() / name).string();
 }
 
+std::optional<std::string> maskBeside(const std::string& image) {
+  const std::filesystem::path picture = image;
+  const std::string named = std::filesystem::path(picture).replace_extension().string() + ".mask.png",
+                    own = (picture.parent_path() / "mask.png").string();
+  if (std::filesystem::is_regular_file(named)) return named;
+  if (picture.stem() == "image" && std::filesystem::is_regular_file(own)) return own;
+  return std::nullopt;
+}
+
+std::optional<std::string> maskOf(const std::string& label_file, const LabelFile& labels) {
+  return labels.mask ? besideLabelFile(label_file, labels.mask->file)
+                     : maskBeside(besideLabelFile(label_file, labels.image.file));
+}
+
 LabelFile readLabelFile(const std::string& path) {
   Problems problems;
   LabelFile file = parseFile(path, problems);
@@ -229,7 +250,10 @@ std::vector<std::string> findProblems(const std::string& path) {
   Problems problems;
   const LabelFile file = parseFile(path, problems);
   if (!file.image.file.empty()) problems.attempt([&] { checkSource(path, "image", file.image); });
-  if (file.mask) problems.attempt([&] { checkSource(path, "mask", *file.mask); });
+  if (file.mask)
+    problems.attempt([&] { checkSource(path, "mask", *file.mask); });
+  else if (problems.none())
+    problems.attempt([&] { checkNoMaskBeside(path, file.image); });
   return problems.lines();
 }
 

@@ -50,7 +50,7 @@ void writeLabelFile(const std::string& path, const LabelFile& labels);
 
 // Everything that is wrong with a label file, with file and JSON path, one line for all that is wrong in the
 // same way: what readLabelFile() refuses, and an image or a mask that is missing or has changed since it was
-// labelled.
+// labelled, or a mask beside the picture that it does not name.
 std::vector<std::string> findProblems(const std::string& path);
 
 // Throws InputError: the image or the mask is missing, or has changed since it was labelled.
@@ -58,5 +58,11 @@ void ensureUnchanged(const std::string& path, const LabelFile& labels);
 
 // Of the image or mask, as a path that can be opened.
 std::string besideLabelFile(const std::string& label_file, const std::string& name);
+
+// A mask that a person has left beside a picture: <stem>.mask.png, or mask.png beside image.png.
+std::optional<std::string> maskBeside(const std::string& image);
+
+// The mask that the label file names, or else the one beside its picture.
+std::optional<std::string> maskOf(const std::string& label_file, const LabelFile& labels);
 
 }  // namespace skel

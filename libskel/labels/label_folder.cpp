@@ -10,6 +10,7 @@
 #include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
 #include "libskel/labels/annotated_image.h"
+#include "libskel/skeleton/body_plans.h"
 #include "libskel/skeleton/template.h"
 
 namespace skel {
@@ -53,6 +54,16 @@ void checkAllLabelled(const std::string& path, const LabelFile& labels) {
                   "where none is labelled)");
 }
 
+template <class Step>
+void attempt(const OnInputError& on_error, const Step& step) {
+  try {
+    step();
+  } catch (const InputError& error) {
+    if (!on_error) throw;
+    on_error(error);
+  }
+}
+
 struct JointedImage {
   std::string image;  // path
   std::optional<std::string> mask;
@@ -62,19 +73,30 @@ struct JointedImage {
 };
 
 // A label file's placed joints count before a joints file beside it. Sorted by the picture's path.
-std::vector<JointedImage> findJointedImages(const std::string& dir) {
+std::vector<JointedImage> findJointedImages(const std::string& dir, const OnInputError& on_error) {
   std::map<std::string, JointedImage> by_image;
   for (const AnnotatedImage& annotated : findAnnotatedImages(dir))
-    by_image[annotated.image] = {
-        annotated.image, annotated.mask, annotated.joints, readJointsFile(annotated.joints), {}};
-  for (const std::string& path : findLabelFiles(dir)) {
-    const LabelFile labels = readLabelFile(path);
-    if (!labels.hasPlacedJoint()) continue;
-    ensureUnchanged(path, labels);
+    attempt(on_error, [&] {
+      by_image[annotated.image] = {
+          annotated.image, annotated.mask, annotated.joints, readJointsFile(annotated.joints), {}};
+    });
+  const auto leaveOut = [&](const std::string& path) {
+    std::erase_if(by_image, [&](const auto& known) { return labelFileFor(known.first) == path; });
+  };
+  const auto take = [&](const std::string& path) {
+    LabelFile labels;
+    try {
+      labels = readLabelFile(path);
+      if (!labels.hasPlacedJoint()) return;
+      ensureUnchanged(path, labels);
+    } catch (const InputError&) {
+      leaveOut(path);
+      throw;
+    }
     const std::string image = besideLabelFile(path, labels.image.file);
     const auto [known, is_new] = by_image.try_emplace(image);
     JointedImage& drawing = known->second;
-    if (labels.mask) drawing.mask = besideLabelFile(path, labels.mask->file);
+    if (const auto mask = maskOf(path, labels)) drawing.mask = mask;
     if (is_new) {
       drawing.image = image;
       drawing.joints_file = path;
@@ -83,13 +105,15 @@ std::vector<JointedImage> findJointedImages(const std::string& dir) {
     } else {
       overrule(drawing.joints, labels);
     }
-  }
+  };
+  for (const std::string& path : findLabelFiles(dir)) attempt(on_error, [&] { take(path); });
   std::vector<JointedImage> images;
   for (auto& [image, drawing] : by_image) images.push_back(std::move(drawing));
   return images;
 }
 
 void ensureSamples(const std::string& dir, const LabelledSet& set) {
+  if (set.characters.empty()) throw InputError(dir, "no drawing is left");
   if (set.sampleCount() == 0) throw InputError(dir, "no candidate has a class");
 }
 
@@ -144,11 +168,11 @@ std::vector<std::string> checkLabelFolder(const std::string& dir) {
   return lines;
 }
 
-LabelledSet readLabelledSet(const std::string& dir) {
+LabelledSet readLabelledSet(const std::string& dir, const OnInputError& on_error) {
   LabelledSet set;
   std::string hashed, first_path;
   int grid_size = 0;
-  for (const std::string& path : findLabelFiles(dir)) {
+  const auto take = [&](const std::string& path) {
     const LabelFile labels = readLabelFile(path);
     if (const auto problems = findProblems(path); !problems.empty())
       throw InputError(path, problems.front().substr(path.size() + 2));
@@ -162,27 +186,48 @@ LabelledSet readLabelledSet(const std::string& dir) {
     checkAllLabelled(path, labels);
     set.characters.push_back(characterOf(name, labels));
     hashed += name + " " + sha256(readFile(path)) + "\n";
-  }
-  if (set.characters.empty())
-    throw InputError(dir, "holds no label files (*" + std::string(kLabelFileEnding) + ")");
+  };
+  const std::vector<std::string> files = findLabelFiles(dir);
+  for (const std::string& path : files) attempt(on_error, [&] { take(path); });
+  if (files.empty()) throw InputError(dir, "holds no label files (*" + std::string(kLabelFileEnding) + ")");
   ensureSamples(dir, set);
   set.sha256 = sha256(hashed);
   return set;
 }
 
-LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions& options) {
+LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions& options,
+                                 const OnInputError& on_error) {
   const SkeletonTemplate body_plan = loadTemplate("biped");
   LabelledSet set;
   std::string hashed;
-  for (const JointedImage& drawing : findJointedImages(dir)) {
+  std::map<std::string, std::vector<std::string>> of_other_plans;
+  const auto take = [&](const JointedImage& drawing) {
+    const std::string plan = otherPlanWith(jointNames(drawing.joints), {body_plan});
+    if (!plan.empty() && plan != body_plan.name) {
+      of_other_plans[plan].push_back(nameBelow(dir, drawing.image));
+      return;
+    }
     ensureJointsOf(body_plan, drawing.joints, drawing.joints_file);
     const LabelFile labels =
         labelImage(drawing.image, drawing.mask, drawing.joints, body_plan, options, drawing.recognized);
     const std::string name = nameBelow(dir, drawing.image);
     set.characters.push_back(characterOf(name, labels));
     hashed += name + " " + sha256(formatLabelFile(labels)) + "\n";
-  }
-  if (set.characters.empty())
+  };
+  bool any_left_out = false;
+  const OnInputError leave_out = [&](const InputError& error) {
+    if (!on_error) throw error;
+    any_left_out = true;
+    on_error(error);
+  };
+  const std::vector<JointedImage> drawings = findJointedImages(dir, leave_out);
+  for (const JointedImage& drawing : drawings) attempt(leave_out, [&] { take(drawing); });
+  for (const auto& [plan, names] : of_other_plans)
+    leave_out({dir, std::to_string(names.size()) + " of " + std::to_string(drawings.size()) + " drawings (" +
+                        names.front() + (names.size() > 1 ? ", ..." : "") + ") have joints of a " + plan +
+                        ", not of a " + body_plan.name + "; skel-infer evaluate --template " + plan +
+                        " measures those"});
+  if (set.characters.empty() && !any_left_out)
     throw InputError(dir,
                      "holds no pictures with joints (*.joints.json, or *.labels.json of which a person "
                      "has placed a joint)");

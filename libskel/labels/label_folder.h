@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "libskel/classifier/features.h"
+#include "libskel/core/error.h"
 #include "libskel/labels/label_file.h"
 
 namespace skel {
@@ -36,13 +38,18 @@ std::vector<std::string> findLabelFiles(const std::string& dir);
 // Candidates without a label are not one: label files may be in the making.
 std::vector<std::string> checkLabelFolder(const std::string& dir);
 
+// Is told why a drawing is left out.
+using OnInputError = std::function<void(const InputError&)>;
+
 // Throws InputError that names file, JSON path and reason: whatever checkLabelFolder() finds, no label files
-// at all, a candidate without label, no candidates.
-LabelledSet readLabelledSet(const std::string& dir);
+// at all, a candidate without label, no candidates. With `on_error` a drawing of which that is true is left
+// out; what is thrown then is that none is left.
+LabelledSet readLabelledSet(const std::string& dir, const OnInputError& on_error = {});
 
 // The same with candidates of any method, labelled from the joints: of annotated pictures (see
 // annotated_image.h), and of label files, in which only joints count that a person has placed. Candidates
-// that may belong to a joint without a place have no class and are left out. Throws InputError.
-LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions& options = {});
+// that may belong to a joint without a place have no class and are left out. Throws InputError, as above.
+LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions& options = {},
+                                 const OnInputError& on_error = {});
 
 }  // namespace skel

@@ -124,6 +124,15 @@ std::string planOfLabels(const LabelFile& labels, const std::string& path, const
   return plan == &plans.back() || !planWith(names, {plans.back()}) ? plan->name : "";
 }
 
+std::size_t countPlacedIn(const LabelFile& labels,
+                          const std::vector<std::pair<std::string, Eigen::Vector2d>>& joints) {
+  std::size_t count = 0;
+  for (const auto& [name, place] : labels.joints)
+    for (const auto& joint : joints)
+      count += joint.first == name && labels.isPlaced(name) && isSamePlace(joint.second, *place);
+  return count;
+}
+
 // Those that a person has placed; of a file that was named also those that were found for it.
 PlacedJoints jointsOfLabels(const std::string& path, bool named, const std::string& source,
                             const std::string& image_sha256, const RigOptions& rig) {
@@ -231,6 +240,7 @@ PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, 
   const std::string labels_sha256 = sha256(readFile(files.labels));
   if (placed.labels && placed.labels->sha256 == labels_sha256) {
     placed.labels->file = files.labels;
+    placed.of_own_labels = countPlacedIn(readLabelFile(files.labels), placed.joints);
     return placed;
   }
   const PlacedJoints labelled = jointsOfLabels(files.labels, files.labels == request.skeleton, request.source,
@@ -356,8 +366,8 @@ std::optional<Note> mendedNote(const MendedFiles& files, const MendRequest& requ
   };
   if (const std::size_t count = placed.joints.size(); count > 0 && request.skeleton.empty()) {
     std::vector<std::string> from;
-    if (!files.skeleton.empty()) from.push_back(files.skeleton);
-    if (placed.has_of_labels) from.push_back(files.labels);
+    if (!files.skeleton.empty() && placed.of_own_labels < count) from.push_back(files.skeleton);
+    if (placed.has_of_labels || placed.of_own_labels > 0) from.push_back(files.labels);
     add(std::to_string(count) + (count == 1 ? " joint" : " joints"), from);
   }
   addFound(files.painted_silhouette ? "silhouette" : "mask", files.mask, request.mask);

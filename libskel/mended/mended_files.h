@@ -79,6 +79,7 @@ struct PlacedJoints {
   std::string body_plan;                                        // that they belong to; "": either
   std::optional<SkeletonFile::Labels> labels;                   // where some of them are from; path as given
   bool has_of_labels = false;                                   // of a label file, newer than the skeleton
+  std::size_t of_own_labels = 0;          // that stand so in the labels that the skeleton was made with
   std::vector<std::string> contradicted;  // joints that the skeleton and the label file place elsewhere
   bool labels_count = false;              // for those; else the skeleton does
   std::string outline_sha256;             // of the figure when they were mended; or ""

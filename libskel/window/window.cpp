@@ -10,6 +10,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -44,8 +45,10 @@ struct Glfw {
 // there is one window.
 struct Input {
   std::vector<int> pressed_keys;
-  int modifiers = 0;  // that were down when one of them was pressed
-  int clicks = 0;     // presses that no frame has shown
+  int modifiers = 0;             // that were down when one of them was pressed
+  std::optional<ImVec2> cursor;  // as of the last event
+  std::vector<std::optional<ImVec2>>
+      clicks;  // where the button went down, of presses that no frame has shown
   bool changed = false;
 };
 Input& input() {
@@ -60,16 +63,20 @@ void watchInput(GLFWwindow* window) {
     input().pressed_keys.push_back(key);
     input().modifiers |= modifiers;
   });
+  glfwSetCursorPosCallback(window, [](GLFWwindow*, double x, double y) {
+    input().cursor = ImVec2(static_cast<float>(x), static_cast<float>(y));
+  });
   glfwSetMouseButtonCallback(window, [](GLFWwindow*, int button, int action, int) {
     input().changed = true;
-    if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS) ++input().clicks;
+    if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS) input().clicks.push_back(input().cursor);
   });
 }
 
 #if IMGUI_VERSION_NUM < 18700
 // Up to 1.86, Dear ImGui sees only what is down when a frame begins: a key that is pressed and released
 // between two frames would be lost, and of two clicks the second. Such keys are held down for one frame, such
-// clicks are shown in frames of their own. From 1.87 on it has a queue of its own.
+// clicks are shown in frames of their own, where the button went down: the mouse may be elsewhere by now.
+// From 1.87 on it has a queue of its own.
 class Taps {
  public:
   // Before ImGui::NewFrame().
@@ -82,9 +89,12 @@ class Taps {
       }
     input().pressed_keys.clear();
     takeModifiers();
-    if (input().clicks > 0) {
+    if (auto& clicks = input().clicks; !clicks.empty()) {
       io.MouseDown[0] = !was_down_;
-      if (!was_down_) --input().clicks;
+      if (!was_down_) {
+        if (clicks.front()) io.MousePos = *clicks.front();
+        clicks.erase(clicks.begin());
+      }
     }
     was_down_ = io.MouseDown[0];
   }
@@ -114,7 +124,7 @@ class Taps {
 struct Taps {
   void hold() {
     input().pressed_keys.clear();
-    input().clicks = 0;
+    input().clicks.clear();
   }
   void release() {}
 };

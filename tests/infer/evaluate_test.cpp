@@ -182,6 +182,20 @@ TEST_CASE("evaluate measures by the joints of label files that a person has plac
   CHECK(run.err.find("of which a person has placed a joint") != std::string::npos);
 }
 
+TEST_CASE("evaluate ignored a mask beside a label file that has none") {
+  const skel::TempDir dir;
+  const std::string image = dir.file("cap_boy.png"), label_file = dir.file("cap_boy.labels.json");
+  std::filesystem::copy_file(SKEL_DATASETS "/characters/cap_boy.png", image);
+  skel::writeLabelFile(label_file,
+                       skel::labelImage(image, {}, {{"head", {{301, 198}}}}, skel::loadTemplate("biped")));
+  std::filesystem::copy_file(SKEL_DATASETS "/characters/cap_boy.mask.png", dir.file("cap_boy.mask.png"));
+  const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "' --given-mask");
+  CAPTURE(run.out);
+  CHECK(run.exit_code == 0);
+  CHECK(run.err.empty());
+  CHECK(run.out.find("silhouette IoU 1.000") != std::string::npos);
+}
+
 TEST_CASE("evaluate measures joints without a mask, and what there is nothing to measure by is no figure") {
   const skel::TempDir dir;
   copyCapBoy(dir);

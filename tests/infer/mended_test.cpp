@@ -653,6 +653,9 @@ TEST_CASE("joints placed in skel-label's folder mode are taken up, and changed b
   CHECK_THAT(infer(dir, "boy.png").err, Contains(kTakenUp + std::string("1 joint (boy.labels.json)\n")));
   CHECK(placeIn(dir, "left_hand")[0] == Approx(found[0] - 8));
   CHECK(placeIn(dir, "right_hand") == right);  // that one was found by a net, not placed
+  SECTION("later runs name the file that it was placed in, too") {
+    CHECK_THAT(infer(dir, "boy.png").err, Contains(kTakenUp + std::string("1 joint (boy.labels.json)\n")));
+  }
   SECTION("a later edit of the skeleton file counts, as the labels are the ones it was made with") {
     moveInFile(dir, "left_hand", "430");
     REQUIRE(infer(dir, "boy.png").exit_code == 0);

@@ -162,6 +162,19 @@ TEST_CASE("advice fits the picture: of light and pen it speaks for photos alone,
   }
 }
 
+TEST_CASE("the report of all figures counted them as drawings") {
+  const TempDir dir;
+  const Image one = capsuleImage();
+  Image two(2 * one.width, one.height);
+  for (int y = 0; y < two.height; ++y)
+    for (int x = 0; x < two.width; ++x) std::copy_n(one.pixel(x % one.width, y), 4, two.pixel(x, y));
+  writeFile(dir.file("class/Ann.png"), encodePng(one));
+  writeFile(dir.file("class/Two.png"), encodePng(two));
+  const ToolRun run = infer(dir, "class -o class --formats json --figure all --report class/report.html");
+  CHECK_THAT(run.err, Contains("3 figures: "));
+  CHECK_THAT(readFile(dir.file("class/report.html")), Contains("<title>3 figures, moving</title>"));
+}
+
 TEST_CASE("a printed report shows the figures at rest") {
   const TempDir dir;
   const std::string html = reportOf(dir, "--clips wave"), print = html.substr(html.find("@media print"));

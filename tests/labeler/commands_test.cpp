@@ -234,6 +234,51 @@ TEST_CASE("import --force drops classes of joints that are other ones now, and k
   }
 }
 
+TEST_CASE("import --force wrote over a label file that cannot be read, and lost its classes") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const std::string path = dir.file("cap_boy.labels.json");
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  replaceIn(path, "\"label\": \"head\"", "\"label\": \"haed\"");
+  const std::string mistyped = readFile(path);
+  for (const char* arguments : {"import .", "import . --force"}) {
+    INFO(arguments);
+    const ToolRun run = label(dir, arguments);
+    CHECK(run.exit_code == 2);
+    CHECK(contains(run.err, "cap_boy.labels.json: candidates["));
+    CHECK(contains(run.err, "is \"haed\", must be head, body, hand, leg or null"));
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+    CHECK(readFile(path) == mistyped);
+  }
+}
+
+TEST_CASE("a mask beside a picture was ignored by import, and by check where the label file has none") {
+  const TempDir dir;
+  fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
+  writeSkeleton(dir, "cap_boy", 300);
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  const std::string path = dir.file("cap_boy.labels.json");
+  REQUIRE_FALSE(readLabelFile(path).mask);
+  REQUIRE(label(dir, "check .").out == "no inconsistencies\n");
+
+  fs::copy(kCharacters + "cap_boy.mask.png", dir.file("cap_boy.mask.png"));
+  const ToolRun check = label(dir, "check .");
+  CHECK(check.exit_code == 2);
+  CHECK(
+      check.err ==
+      "skel-label: ./cap_boy.labels.json: mask: is null, but cap_boy.mask.png lies beside it; label it anew "
+      "(skel-label import --force), or remove the mask\n");
+  SECTION("of a skeleton") {}
+  SECTION("of joints placed in the label file alone") { fs::remove(dir.file("cap_boy.skeleton.json")); }
+  REQUIRE(label(dir, "import . --force").exit_code == 0);
+  const LabelFile labels = readLabelFile(path);
+  REQUIRE(labels.mask);
+  CHECK(labels.mask->file == "cap_boy.mask.png");
+  CHECK(labels.mask->sha256 == sha256(readFile(dir.file("cap_boy.mask.png"))));
+  CHECK(labels.isPlaced("head"));
+  CHECK(label(dir, "check .").out == "no inconsistencies\n");
+}
+
 TEST_CASE("import: skeletons that skel-infer has found, of which what a person has moved counts as placed") {
   const TempDir dir;
   const SkeletonTemplate plan = loadTemplate("biped");
@@ -468,6 +513,20 @@ TEST_CASE("import: a joint that is missing is said, and candidates that may belo
   fs::copy(dir.file("box_robot.png"), dir.file("round/box_robot.png"));
   CHECK(contains(label(dir, "import round").err, "no place for left_elbow"));
   CHECK(readLabelFile(dir.file("round/cap_boy.labels.json")).labels == labels.labels);
+}
+
+TEST_CASE("import said that 0 candidates have no class") {
+  const TempDir dir;
+  copyCharacter("box_robot", dir.path());
+  const std::string path = dir.file("box_robot.labels.json");
+  replaceIn(dir.file("box_robot.joints.json"), "\"left_foot\": [", "\"left_foot\": null, \"hip\": [");
+  REQUIRE(contains(label(dir, "import .").err, "candidates have no class"));
+  LabelFile labels = readLabelFile(path);
+  for (auto& joint_class : labels.labels)
+    if (!joint_class) joint_class = JointClass::kLeg;
+  writeLabelFile(path, labels);
+  CHECK(label(dir, "import . --force").err ==
+        "skel-label: note: ./box_robot.labels.json: no place for left_foot\n");
 }
 
 TEST_CASE("import: one picture of a COCO file that was missing kept all others from being imported") {

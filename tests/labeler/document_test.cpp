@@ -367,6 +367,20 @@ TEST_CASE("a joint that is dragged is edited, stays in the picture, and takes it
         JointOrigin::kEdited);
 }
 
+TEST_CASE("a joint of the trunk that was moved did not count as placed") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.path(), documentOptions());
+  document.rig();
+  const int parts = document.item().joints.parts;
+  REQUIRE(document.item().joints.done == 0);
+  document.moveJoint(document.bodyPlan().find("neck"), {300, 250});
+  CHECK(document.item().joints.done == 1);
+  CHECK(document.item().joints.parts == parts + 1);
+  document.acceptJoints();
+  CHECK(document.item().joints.done == parts + 1);
+}
+
 TEST_CASE("a model was taken for the one that was shown before, at whose address it lay") {
   LastShown shown;
   for (int i = 0; i < 20; ++i) {

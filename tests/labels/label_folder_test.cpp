@@ -162,6 +162,10 @@ TEST_CASE("label files with placed joints were no pictures with joints to candid
   CHECK(of_labels.characters[0].name == "man.png");
   CHECK(of_labels.characters[0].labels == of_joints.characters[0].labels);
   CHECK(of_labels.sha256 == of_joints.sha256);
+  // A mask beside a label file that names none counts.
+  labels.mask.reset();
+  writeLabelFile(label_file, labels);
+  CHECK(labelAnnotatedImages(dir.path(), {CandidateMethod::kDiscs}).sha256 == of_joints.sha256);
 
   // What may belong to a hand that nobody has placed is left out.
   labels.recognized = {"left_hand"};

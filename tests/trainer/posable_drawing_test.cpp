@@ -147,6 +147,26 @@ TEST_CASE("a skeleton counts once a person has placed a joint of it, labels befo
   CHECK(findJointedDrawings(dir.path())[0].joints_file == dir.file("a.skeleton.json"));
 }
 
+TEST_CASE("a mask beside labels or a skeleton that name none was not learned from") {
+  const TempDir dir;
+  write(dir);
+  LabelFile labels = labelImage(dir.file("a.png"), dir.file("a.mask.png"),
+                                findJointedDrawings(dir.path())[0].joints, loadTemplate("biped"));
+  labels.mask.reset();
+  std::filesystem::remove(dir.file("a.joints.json"));
+  SECTION("labels") { writeLabelFile(dir.file("a.labels.json"), labels); }
+  SECTION("a skeleton") {
+    SkeletonFile file;
+    file.image_file = "a.png";
+    file.image_width = labels.image_width;
+    file.image_height = labels.image_height;
+    file.skeleton = presetSkeleton(loadTemplate("biped"), {0, 0}, {10, 10});
+    file.skeleton.joints[3].origin = JointOrigin::kEdited;
+    writeFile(dir.file("a.skeleton.json"), formatSkeletonFile(file));
+  }
+  CHECK(findJointedDrawings(dir.path())[0].mask == dir.file("a.mask.png"));
+}
+
 TEST_CASE("what has changed since a person placed its joints is not learned from") {
   const TempDir dir;
   write(dir);

@@ -189,6 +189,7 @@ TEST_CASE("wrong arguments are refused in one line, with exit code 1") {
            {good + "--generated -1", "--generated"},
            {good + "--class-weights some", "--class-weights"},
            {good + "--folds 1", "--folds 1: must be 0 or at least 2"},
+           {good + "--folds 3 --leave-one-out", "--folds excludes --leave-one-out"},
            {good + "--folds 9", "--folds 9: there are only 6 characters"},
            {good + "--folds 0 --draws 2", "--drawn 17: must be less than the 6 characters"},
            {good + "--candidates all", "--candidates"},
@@ -253,6 +254,38 @@ TEST_CASE("bad data is refused with file, path and reason, and exit code 2") {
   const ToolRun weights = run("evaluate " + dir.path() + " --weights " + dir.file("bad.json"));
   CHECK(weights.exit_code == 2);
   CHECK(holds(weights.err, "bad.json: lacks \"format\""));
+}
+
+TEST_CASE("evaluate refused a whole set for one picture that has changed") {
+  const TempDir dir;
+  fill(dir);
+  writeFile(dir.file("c2.png"), "another picture");
+  const ToolRun measured = run("evaluate " + dir.path());
+  CHECK(measured.exit_code == 2);
+  CHECK(measured.err == "skel-train: " + dir.file("c2.labels.json") +
+                            ": image.file: \"c2.png\" has changed since it was labelled; label it anew\n");
+  CHECK(measured.out.find("(500 candidates of 5 characters)") != std::string::npos);
+
+  for (const char* name : {"c0", "c1", "c3", "c4", "c5"})
+    writeFile(dir.file(std::string(name) + ".png"), "another picture");
+  const ToolRun none = run("evaluate " + dir.path());
+  CHECK(none.exit_code == 2);
+  CHECK(none.out.empty());
+  CHECK(none.err.ends_with("skel-train: " + dir.path() + ": no drawing is left\n"));
+}
+
+TEST_CASE("evaluate said of animals only that the first joint is none of a biped") {
+  const TempDir dir;
+  for (const char* name : {"cat", "dog"}) {
+    writeFile(dir.file(std::string(name) + ".png"), "picture");
+    writeFile(dir.file(std::string(name) + ".joints.json"), R"({"joints": {"tail_root": [1, 2]}})");
+  }
+  const ToolRun animals = run("evaluate " + dir.path());
+  CHECK(animals.exit_code == 2);
+  CHECK(
+      animals.err.starts_with("skel-train: " + dir.path() +
+                              ": 2 of 2 drawings (cat.png, ...) have joints of a quadruped, not of a biped; "
+                              "skel-infer evaluate --template quadruped measures those\n"));
 }
 
 TEST_CASE("a net is not replaced by one of another kind, but by one of its own") {
