@@ -172,7 +172,7 @@ TEST_CASE("frames in a folder were taken for 12 a second without a word") {
   CHECK(said(" --fps 12") == "");
 }
 
-TEST_CASE("--fps was ignored of films without a word") {
+TEST_CASE("of films --fps was ignored without a word") {
   const TempDir dir;
   const std::string walk = dir.file("walk.gif");
   REQUIRE(runTool("skel-animate render '" SKEL_SOURCE_DIR
