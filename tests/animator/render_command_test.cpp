@@ -226,6 +226,12 @@ TEST_CASE("a film of a drawing says what skel-infer says of it, once for all fil
   CHECK(run.err.find("looks like a quadruped") == run.err.rfind("looks like a quadruped"));
 }
 
+TEST_CASE("for --figure all, which skel-infer takes, no line said what to do instead") {
+  const ToolRun run = render(kDrawing + " --figure all --clip walk -o a.gif");
+  CHECK(run.exit_code == 1);
+  CHECK_THAT(run.err, Contains("--figure: takes one figure; `skel-infer DRAWING --figure all` makes"));
+}
+
 TEST_CASE("a film's advice for a figure that is turned named an option that render did not have") {
   const TempDir dir;
   const std::string film = "'" SKEL_SOURCE_DIR
