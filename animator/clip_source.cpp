@@ -1,6 +1,7 @@
 #include "animator/clip_source.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -37,6 +38,40 @@ FigureShape measureByRoles(const RiggedCharacter& character, const RoleFigure& f
 bool fitsByNames(Clip clip, const Skeleton& skeleton) {
   clip.template_name.clear();
   return fits(clip, skeleton);
+}
+
+// "": neither a template's nor one that could be told.
+std::string bodyPlanOf(const Skeleton& skeleton) {
+  if (!skeleton.template_name.empty()) return skeleton.template_name;
+  const std::optional<RoleFigure> figure = roleFigure(skeleton);
+  return figure ? figure->skeleton.template_name : "";
+}
+
+// Made for another body plan, not all of whose joints the skeleton has.
+bool isForOther(const Clip& clip, const Skeleton& skeleton) {
+  if (clip.template_name.empty() || fits(clip, skeleton)) return false;
+  const std::string body_plan = bodyPlanOf(skeleton);
+  return !body_plan.empty() && body_plan != clip.template_name;
+}
+
+// The character's parts, where it does the clip by these and not by the names of its joints.
+std::optional<RoleFigure> partsFor(const Clip& clip, const Skeleton& skeleton) {
+  if (fits(clip, skeleton)) return std::nullopt;
+  std::optional<RoleFigure> figure = roleFigure(skeleton);
+  if (!figure || fits(clip, *figure)) return figure;
+  const bool by_names = !skeleton.template_name.empty() || fitsByNames(clip, skeleton);
+  if (by_names || !isForOther(clip, skeleton) || !hasParts(clip, *figure)) return std::nullopt;
+  return figure;
+}
+
+// Of a clip for another body plan what our own skeleton can do of it, by the names of its joints; or nothing.
+std::optional<Clip> commonPart(Clip clip, const Skeleton& skeleton) {
+  if (!isForOther(clip, skeleton) || !faultOf(clip, skeleton).empty()) return std::nullopt;
+  if (!skeleton.template_name.empty())
+    std::erase_if(clip.tracks, [&](const JointTrack& track) { return skeleton.find(track.joint) < 0; });
+  clip.template_name.clear();
+  if (clip.tracks.empty() || !fits(clip, skeleton)) return std::nullopt;
+  return clip;
 }
 
 // What is wrong with a clip that calls some joints as the character does and some as we do; "": nothing.
@@ -107,13 +142,23 @@ std::string whyUnfit(const Clip& clip, const RiggedCharacter& character) {
   if (std::string fault = figure ? mixedNames(clip, character.skeleton, *figure) : std::string();
       !fault.empty())
     return fault;
-  const bool by_parts = figure && isFor(clip, *figure);
   const JointLookup joints(character.skeleton);
   const auto lacks = [&](const std::string& joint) {
-    return joints.find(joint) < 0 && !(by_parts && figure->skeleton.find(joint) >= 0);
+    return joints.find(joint) < 0 && !(figure && figure->skeleton.find(joint) >= 0);
   };
+  const std::string body_plan = bodyPlanOf(character.skeleton);
+  const bool is_other = isForOther(clip, character.skeleton);
+  const std::string other =
+      is_other ? "is for a " + clip.template_name + ", this is a " + body_plan + ": the clip " : "";
+  for (const FootContact& contact : clip.contacts)
+    if (is_other && lacks(contact.joint))
+      return other + "puts \"" + contact.joint + "\" on the ground, which a " + body_plan +
+             " lacks; without \"contacts\" its file plays as far as it fits";
+  if (is_other && std::any_of(clip.tracks.begin(), clip.tracks.end(),
+                              [&](const JointTrack& track) { return !lacks(track.joint); }))
+    return other + "plays as far as it fits where its file is named (--clip FILE)";
   for (const JointTrack& track : clip.tracks)
-    if (lacks(track.joint)) return "moves \"" + track.joint + "\", which this character lacks";
+    if (lacks(track.joint)) return other + "moves \"" + track.joint + "\", which this character lacks";
   for (const FootContact& contact : clip.contacts)
     if (lacks(contact.joint))
       return "puts \"" + contact.joint + "\" on the ground, which this character lacks";
@@ -121,32 +166,33 @@ std::string whyUnfit(const Clip& clip, const RiggedCharacter& character) {
 }
 
 std::vector<std::string> whatStays(const Clip& clip, const RiggedCharacter& character) {
-  if (!fits(clip, character.skeleton))
-    if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton);
-        figure && fits(clip, *figure)) {
-      std::vector<std::string> clauses =
-          armsThatStay(clip, figure->skeleton, measureByRoles(character, *figure));
-      std::vector<std::string> lacking;
-      for (const JointTrack& track : clip.tracks)
-        if (figure->skeleton.find(track.joint) < 0) lacking.push_back('"' + track.joint + '"');
-      if (!lacking.empty())
-        clauses.push_back("the clip \"" + clip.name + "\" plays without " + joined(lacking) +
-                          ", which this character lacks");
-      return clauses;
-    }
-  return armsThatStay(clip, character.skeleton,
-                      measureFigure(character.mesh, character.weights, character.skeleton));
+  std::vector<std::string> clauses;
+  if (isForOther(clip, character.skeleton))
+    clauses.push_back("is a " + bodyPlanOf(character.skeleton) + ", the clip \"" + clip.name +
+                      "\" is for a " + clip.template_name);
+  const std::optional<RoleFigure> figure = partsFor(clip, character.skeleton);
+  const Skeleton& skeleton = figure ? figure->skeleton : character.skeleton;
+  for (std::string& arm :
+       armsThatStay(clip, skeleton,
+                    figure ? measureByRoles(character, *figure)
+                           : measureFigure(character.mesh, character.weights, character.skeleton)))
+    clauses.push_back(std::move(arm));
+  std::vector<std::string> lacking;
+  for (const JointTrack& track : clip.tracks)
+    if (skeleton.find(track.joint) < 0) lacking.push_back('"' + track.joint + '"');
+  if (!lacking.empty())
+    clauses.push_back("the clip \"" + clip.name + "\" plays without " + joined(lacking) +
+                      ", which this character lacks");
+  return clauses;
 }
 
 Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource& source) {
-  if (!fits(clip, character.skeleton))
-    if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton);
-        figure && fits(clip, *figure))
-      return retargetByRoles(clip, *figure, character.skeleton, measureByRoles(character, *figure));
+  if (const std::optional<RoleFigure> figure = partsFor(clip, character.skeleton))
+    return retargetByRoles(clip, *figure, character.skeleton, measureByRoles(character, *figure));
   RetargetOptions options;
   options.shape = measureFigure(character.mesh, character.weights, character.skeleton);
   options.into_picture = intoPicture(source, clip.frame);
-  return retargetToRest(clip, character.skeleton, options);
+  return retargetToRest(commonPart(clip, character.skeleton).value_or(clip), character.skeleton, options);
 }
 
 RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& character,
@@ -169,10 +215,7 @@ std::string stemOfPose(const std::string& path) {
 // What is to be said of a person's motion for an animal.
 std::string otherBodyPlan(const RetargetedMotion& motion, const std::string& path,
                           const RiggedCharacter& character) {
-  std::string body_plan = character.skeleton.template_name;
-  if (body_plan.empty())
-    if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton))
-      body_plan = figure->skeleton.template_name;
+  const std::string body_plan = bodyPlanOf(character.skeleton);
   if (body_plan.empty() || body_plan == "biped" || motion.match.ours_left.empty()) return "";
   return "is a " + body_plan + ", " + path + " a biped's motion: it moves " +
          std::to_string(motion.match.joints.size()) + " of " +
@@ -207,10 +250,12 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
   if (isPoseFile(text))
     return clipOfPose(parsePose(text, path, character.skeleton), character.skeleton, stemOfPose(path));
   const Clip clip = parseClip(text, path);
+  if (!partsFor(clip, character.skeleton) && !commonPart(clip, character.skeleton))
+    if (const std::string fault = whyUnfit(clip, character); !fault.empty()) {
+      if (isForOther(clip, character.skeleton)) throw OtherBodyPlan(path, fault);
+      throw InputError(path, fault);
+    }
   if (notes) notes->of_character = whatStays(clip, character);
-  if (const std::optional<RoleFigure> figure = roleFigure(character.skeleton); figure && fits(clip, *figure))
-    return fitted(clip, character, source);
-  if (const std::string fault = whyUnfit(clip, character); !fault.empty()) throw InputError(path, fault);
   return fitted(clip, character, source);
 }
 
@@ -251,7 +296,6 @@ std::vector<ClipKeys> easedKeysOf(const ClipSource& source, const Skeleton& skel
     try {
       if (std::optional<ClipKeys> keys = easedKeysOf(path, skeleton)) eased.push_back(std::move(*keys));
     } catch (const InputError&) {
-      if (source.names.empty()) throw;
     }
   }
   return eased;

@@ -7,6 +7,7 @@
 
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/retarget_motion.h"
+#include "libskel/core/error.h"
 #include "libskel/import/read_character.h"
 
 namespace CLI {
@@ -17,7 +18,7 @@ namespace skel {
 
 struct ClipSource {
   std::string clips_dir;                // a folder of clip files beside those that come with skel
-  std::vector<std::string> names;       // that are needed of the folder; empty: all
+  std::vector<std::string> names;       // that are asked for of the folder
   std::string interpolation = "slerp";  // of files of the elk system: slerp, or linear on the angles
   std::string clip_up = "z";            // of files of the elk system: the axis that points up
   double into_picture = RetargetOptions().into_picture;
@@ -29,8 +30,7 @@ struct ClipSource {
 // --clips-dir, --interpolation, --clip-up, --into-picture.
 void bindClipSource(CLI::App& app, ClipSource& source);
 
-// Those that come with skel, and those of the folder. `left_out` (or null): which files of it are no clips,
-// where only some are needed.
+// Those that come with skel, and those of the folder. `left_out` (or null): which files of it are no clips.
 std::vector<Clip> clipLibrary(const ClipSource& source, std::vector<std::string>* left_out = nullptr);
 // The same, and says on stderr what is left out.
 std::vector<Clip> toldClipLibrary(const ClipSource& source);
@@ -43,7 +43,7 @@ std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharact
 std::string whyUnfit(const Clip& clip, const RiggedCharacter& character);
 
 // What the character does not do of a clip that fits it and is for the canonical pose: a clause an arm, and
-// one for the joints that it lacks.
+// one for the joints that it lacks; first, that the clip is for another body plan.
 std::vector<std::string> whatStays(const Clip& clip, const RiggedCharacter& character);
 
 // Made for the canonical pose; the result is for the character's rest pose.
@@ -53,6 +53,12 @@ Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource
 RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& character,
                             const ClipSource& source = {});
 
+// A clip file for another body plan than the character's, whose joints this lacks.
+class OtherBodyPlan : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 // What is to be said of a clip that was read from a file.
 struct ClipNotes {
   std::string of_file;                    // what is not used of it, a line that begins with its name; or ""
@@ -60,14 +66,14 @@ struct ClipNotes {
 };
 
 // A clip file, ours or of the elk system, or a .bvh, fitted to the character. `notes` may be null. Throws
-// InputError.
+// InputError, of which OtherBodyPlan is one.
 Clip loadClipFor(const std::string& path, const RiggedCharacter& character, const ClipSource& source = {},
                  ClipNotes* notes = nullptr);
 // Of a clip file whose keys ease, these keys; else nothing. Throws InputError.
 std::optional<ClipKeys> easedKeysIn(const std::string& path);
 // The same of one that is for this very rest pose (Clip::rest_pose).
 std::optional<ClipKeys> easedKeysOf(const std::string& path, const Skeleton& skeleton);
-// The same of all clip files of the folder; what is no clip file is refused where all are needed.
+// The same of all clip files of the folder.
 std::vector<ClipKeys> easedKeysOf(const ClipSource& source, const Skeleton& skeleton);
 
 }  // namespace skel

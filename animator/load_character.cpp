@@ -14,6 +14,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/foreign_files.h"
 #include "libskel/core/sha256.h"
+#include "libskel/core/tool_command.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/sprite_sheet_file.h"
 #include "libskel/mended/earlier_picture.h"
@@ -54,6 +55,11 @@ void bindCharacterOptions(CLI::App& app, CharacterSource& source) {
          "(default: half of the most)")
       ->check(numberIn(0.01, 1.0));
   app.add_option("--figure", source.figure, "Which figure of a drawing: 1 is the largest")
+      ->check([](const std::string& text) -> std::string {
+        return text == "all" ? "takes one figure; `" + toolCommand("skel-infer") +
+                                   " DRAWING --figure all` makes a .glb of each, which can be named instead"
+                             : "";
+      })
       ->check(numberIn(1, 9999))
       ->capture_default_str();
   app.add_flag("--upright", source.upright,

@@ -133,6 +133,13 @@ AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, c
       } else {
         leaveOut(here);
       }
+    } catch (const OtherBodyPlan& error) {
+      const bool walks =
+          options.together && hasClip(clipsFor(clipLibrary(options.library), file.character), "walk");
+      if (options.files.size() == 1 || (!walks && options.clips.size() == 1)) throw;
+      std::fprintf(stderr, "%s: note: %s: %s\n", printable(path).c_str(), error.what(),
+                   walks ? "\"walk\" instead" : "left out");
+      if (walks) found = clipFor("walk", file, options.library);
     } catch (const InputError& error) {  // of the clip; it may be made for others
       if (options.files.size() == 1 || options.clips.size() == 1) throw;
       leaveOut(InputError(path, error.what()));

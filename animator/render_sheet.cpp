@@ -152,6 +152,26 @@ struct Sheets {
     shared = shared.with(extentOf(file, std::move(clips)));
   }
 
+  // Of the clip that reaches farthest.
+  void noteBeyondCell(const CharacterFile& file, const std::vector<Clip>& clips,
+                      const std::vector<SpriteDirection>& directions) const {
+    BeyondCell farthest;
+    std::string name;
+    for (const Clip& clip : clips) {
+      const BeyondCell beyond = beyondCell(
+          spriteExtent(file.character, outermostPoints(file.character, {clip}), directions, pitch_rad()),
+          *like);
+      if (beyond.px <= farthest.px) continue;
+      farthest = beyond;
+      name = clip.name;
+    }
+    if (farthest.px > 0)
+      std::fprintf(stderr,
+                   "%s: note: reaches %d px beyond the cell of %s (%s, in \"%s\"), and is cut off there\n",
+                   printable(file.name).c_str(), farthest.px, printable(options.sheet.like).c_str(),
+                   farthest.where, printable(name).c_str());
+  }
+
   void write(CharacterFile file, const std::vector<Clip>& asked) const {
     const std::string path = pathOf(file);
     const RiggedCharacter& character = file.character;
@@ -169,9 +189,7 @@ struct Sheets {
     const SpriteCamera camera = like ? spriteCamera(*like)
                                      : spriteCamera(extent, options.pitch_deg, size.width, size.height,
                                                     options.sheet.outline ? 2 : 1);
-    if (const int beyond = like ? beyondCell_px(extent, *like) : 0; beyond > 0)
-      std::fprintf(stderr, "%s: note: reaches %d px beyond the cell of %s, and is cut off there\n",
-                   printable(file.name).c_str(), beyond, printable(options.sheet.like).c_str());
+    if (like) noteBeyondCell(file, clips, directions);
     const SpritePacking packing = options.sheet.trim ? SpritePacking::kTrimmed : SpritePacking::kEven;
     const std::vector<SpriteTag> tags = tagsOf(clips, directions, camera.cell, packing);
     struct Moment {

@@ -93,11 +93,12 @@ SpriteCamera spriteCamera(const SpriteCell& cell) {
   return result;
 }
 
-int beyondCell_px(const SpriteExtent& extent, const SpriteCell& cell) {
+BeyondCell beyondCell(const SpriteExtent& extent, const SpriteCell& cell) {
   const double aside = extent.aside * cell.px_per_m - std::min(cell.pivot_x, cell.width - cell.pivot_x),
                above = extent.high * cell.px_per_m - cell.pivot_y,
                below = -extent.low * cell.px_per_m - (cell.height - cell.pivot_y);
-  return int(std::lround(std::max({0.0, aside, above, below})));
+  const double most = std::max({0.0, aside, above, below});
+  return {int(std::lround(most)), most == above ? "above" : most == below ? "below" : "at a side"};
 }
 
 Camera turned(const SpriteCamera& sprites, const RiggedCharacter& character, double yaw_rad) {

@@ -41,7 +41,11 @@ SpriteCamera spriteCamera(const SpriteExtent& extent, double pitch_deg, int widt
 // The same for a cell that is given. What reaches beyond it is not seen.
 SpriteCamera spriteCamera(const SpriteCell& cell);
 // How far that is, px; 0: all is seen.
-int beyondCell_px(const SpriteExtent& extent, const SpriteCell& cell);
+struct BeyondCell {
+  int px = 0;
+  const char* where = "";  // where it is farthest, for the user
+};
+BeyondCell beyondCell(const SpriteExtent& extent, const SpriteCell& cell);
 
 // Of one direction.
 Camera turned(const SpriteCamera& camera, const RiggedCharacter& character, double yaw_rad);

@@ -8,7 +8,7 @@ namespace skel {
 namespace {
 
 void bindFilm(CLI::App& app, FilmSource& source) {
-  app.add_option("--fps", source.frame_rate, "Frames a second of a folder of pictures")
+  app.add_option("--fps", source.frame_rate, "Frames a second of a folder of pictures (a film says its own)")
       ->check(numberIn(0.1, 240.0))
       ->each([&source](const std::string&) { source.frame_rate_given = true; })
       ->capture_default_str();

@@ -60,7 +60,7 @@ NamedMotion motionOf(const MotionSource& source) {
   std::printf("%s: %d frames%s\n", printable(file).c_str(), int(found.motion.frames.size()),
               source.made_anew ? ", made anew: what was there was of another film, or by other options" : "");
   sayOtherPlan(found, source.find.film.path);
-  sayAssumedRate(source.find.film);
+  sayWhatRate(source.find.film);
   // As the next run will see it.
   return {file, readMotionFile(file, plan)};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "embedded/builtin_clip_files.h"
@@ -115,7 +116,7 @@ bool isOwn(const Clip& clip) {
 namespace {
 
 bool isNeeded(const std::string& name, const std::vector<std::string>& names) {
-  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 // What a file's clip is usually called.
@@ -133,6 +134,7 @@ std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std:
   std::vector<Clip> library = builtinClips();
   std::vector<Clip> own;
   std::vector<std::string> files;  // of `own`
+  std::optional<InputError> broken;
   for (const std::string& path : filesBelow(dir)) {
     if (!path.ends_with(kClipFileEnding)) continue;
     Clip clip;
@@ -141,6 +143,7 @@ std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std:
     } catch (const InputError& error) {
       if (isNeeded(clipStem(path), names)) throw;
       if (left_out) left_out->push_back(error.what());
+      if (!broken) broken = error;
       continue;
     }
     const auto other = std::find_if(own.begin(), own.end(), [&](const Clip& one) {
@@ -151,13 +154,14 @@ std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std:
                                         templateOf(clip, *other) + ", after " +
                                         files[std::size_t(other - own.begin())] +
                                         "; change \"name\" in one of them, or remove it");
-      if (!names.empty() && isNeeded(clip.name, names)) throw second;
+      if (isNeeded(clip.name, names)) throw second;
       if (left_out) left_out->push_back(second.what());
       continue;
     }
     own.push_back(std::move(clip));
     files.push_back(path);
   }
+  if (own.empty() && broken) throw *broken;
   if (own.empty())
     throw InputError(dir, "holds no clip; the files must end in " + std::string(kClipFileEnding));
   for (Clip& clip : own) {

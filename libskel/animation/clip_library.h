@@ -20,10 +20,10 @@ bool isOwn(const Clip& clip);
 
 // All that come with skel, and the clip files (kClipFileEnding) of `dir` ("": of none), at any depth; one of
 // the same name takes the place of the built-in one for its template, or, without a template, of those for
-// all that have its joints. `names`: the clips that are needed, empty: all; a file that is no clip and not
-// called as one of these, or whose clip is none of these and has the name of one before, is left out, and
-// what is wrong with it added to `left_out` (or null). Throws InputError: no folder, a needed file that is no
-// clip, two needed clips of the same name.
+// all that have its joints. `names`: the clips that are asked for; a file that is no clip and not called
+// as one of these, or whose clip is none of these and has the name of one before, is left out, and what is
+// wrong with it added to `left_out` (or null). Throws InputError: no folder or none with a clip, a file that
+// is asked for and no clip, two clips of a name that is asked for.
 std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std::string>& names = {},
                                   std::vector<std::string>* left_out = nullptr);
 

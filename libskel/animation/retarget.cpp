@@ -613,7 +613,7 @@ FigureShape shapeOfBones(const Skeleton& skeleton) {
 }
 
 std::vector<std::string> armsThatStay(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
-  constexpr double kMoves_rad = 0.3, kStays = 0.5;
+  constexpr double kMoves_rad = 0.3, kStays = 0.5, kInPart = 1. / 3;
   if (isRelativeTo(clip, skeleton)) return {};
   const auto named = [](const std::string& side) { return side.substr(0, side.size() - 1) + " arm"; };
   const std::string quoted = '"' + clip.name + '"', cannot = armThatCannot(clip, skeleton, shape);
@@ -625,16 +625,18 @@ std::vector<std::string> armsThatStay(const Clip& clip, const Skeleton& skeleton
   }
   // Bones of a clip that lets none stay where they were drawn turn all the way, and the flesh that hangs on
   // them.
-  const auto follows = [&](const std::string& side, double kept) {
+  const auto follows = [&](const std::string& side, double kept, double least_share) {
     const int elbow = skeleton.find(side + "elbow");
-    return motionOf(clip, side, heldShare(kept)) >= heldShare(kStays) * motionOf(clip, side) &&
+    return motionOf(clip, side, heldShare(kept)) >= least_share * motionOf(clip, side) &&
            (shape.taken.empty() || shape.taken[elbow] >= kStump);
   };
   std::vector<std::string> stay;
   for (const std::string side : {"left_", "right_"})
     if (const double kept = keptArm(skeleton, shape, side);
-        motionOf(clip, side) > kMoves_rad && kept > kStays && !follows(side, kept))
-      stay.push_back("the " + named(side) + " is one piece with the body and does not follow " + quoted);
+        motionOf(clip, side) > kMoves_rad && kept > kStays && !follows(side, kept, heldShare(kStays)))
+      stay.push_back("the " + named(side) + " is one piece with the body and " +
+                     (follows(side, kept, kInPart) ? "follows " + quoted + " only in part"
+                                                   : "does not follow " + quoted));
   return stay;
 }
 

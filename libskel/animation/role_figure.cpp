@@ -80,14 +80,17 @@ bool isFor(const Clip& clip, const RoleFigure& figure) {
   return clip.template_name.empty() ? fits(clip, loadTemplate(body_plan)) : clip.template_name == body_plan;
 }
 
-bool fits(const Clip& clip, const RoleFigure& figure) {
-  if (!isFor(clip, figure)) return false;
+bool hasParts(const Clip& clip, const RoleFigure& figure) {
   if (!faultOf(clip, figure.skeleton).empty()) return false;
   const auto there = std::count_if(clip.tracks.begin(), clip.tracks.end(),
                                    [&](const JointTrack& track) { return moves(figure.skeleton, track); });
   return (isOwn(clip) ? there > 0 : 2 * std::size_t(there) > clip.tracks.size()) &&
          std::all_of(clip.contacts.begin(), clip.contacts.end(),
                      [&](const FootContact& contact) { return figure.skeleton.find(contact.joint) >= 0; });
+}
+
+bool fits(const Clip& clip, const RoleFigure& figure) {
+  return isFor(clip, figure) && hasParts(clip, figure);
 }
 
 Clip retargetByRoles(const Clip& clip, const RoleFigure& figure, const Skeleton& theirs,

@@ -27,8 +27,11 @@ std::optional<RoleFigure> roleFigure(const Skeleton& theirs);
 // Made for this body plan, or for none and by its names of joints.
 bool isFor(const Clip& clip, const RoleFigure& figure);
 
-// And it moves no others than that body plan's joints, most of which are there (no tail, no wagging; but
-// walking), of a user's own clip one.
+// Whether it moves no others than its body plan's joints, most of which are there (no tail, no wagging; but
+// walking), of a user's own clip one; and all are that it puts on the ground.
+bool hasParts(const Clip& clip, const RoleFigure& figure);
+
+// Both.
 bool fits(const Clip& clip, const RoleFigure& figure);
 
 // The clip for the rest pose of `theirs`. `shape`: of `figure.skeleton`.

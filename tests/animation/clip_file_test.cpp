@@ -322,6 +322,19 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a broken clip file kept its whole folder from use where no clip was asked for by name") {
+  const TempDir dir;
+  std::ofstream(dir.file("broken.clip.json")) << "{";
+  CHECK_THROWS_WITH(clipsWithFolder(dir.path()),
+                    Catch::Matchers::StartsWith(dir.file("broken.clip.json") + ": is not JSON"));
+  std::ofstream(dir.file("nod.clip.json")) << fileWith(
+      R"("template": "biped", "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [9, 0, 0, 0]]}])");
+  std::vector<std::string> left_out;
+  CHECK(clipsWithFolder(dir.path(), {}, &left_out).size() == builtinClips().size() + 1);
+  CHECK(left_out.size() == 1);
+  CHECK_THROWS_WITH(clipsWithFolder(dir.path(), {"broken"}), left_out[0]);
+}
+
 TEST_CASE("keys that ease come and go as they stand for who edits them") {
   for (const std::string ease : {"rest", "flow", "loop"})
     for (const std::string loop : {"", "\"loop\": true, ", "\"loop\": false, "}) {

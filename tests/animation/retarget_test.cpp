@@ -507,6 +507,12 @@ TEST_CASE(
     shape.joined[skeleton.index(joint)] = 1;
   CHECK(armsThatStay(walk, skeleton, shape) ==
         std::vector<std::string>{"the left arm is one piece with the body and does not follow \"walk\""});
+  // One that is not all one piece with it moves by more than a third.
+  shape.joined[skeleton.index("left_elbow")] = kGrownArm - 0.07F;
+  CHECK(
+      armsThatStay(walk, skeleton, shape) ==
+      std::vector<std::string>{"the left arm is one piece with the body and follows \"walk\" only in part"});
+  shape.joined[skeleton.index("left_elbow")] = 1;
   // One whose bones must turn takes the flesh along that hangs on them, if there is any.
   Clip swing = walk;
   for (JointTrack& track : swing.tracks) track.slack_rad = 0;

@@ -238,6 +238,52 @@ TEST_CASE("a clip of one's own did not play on a model without one of its joints
   }
 }
 
+TEST_CASE("a biped's clip was refused for an animal by a joint that this has") {
+  const TempDir dir;
+  REQUIRE(animate(dir, "bind '" + kElk + "' --skeleton '" + kBones + "' -o elk.glb").exit_code == 0);
+  const std::string bull = SKEL_SOURCE_DIR "/datasets/animals/leaping_bull.png";
+  const std::string turn = R"("angles_deg": [[0, 0, 0, 0], [1, 0, 0, 20]]})",
+                    body = R"({"joint": "body", )" + turn, hand = R"({"joint": "left_hand", )" + turn;
+  const auto write = [&](const std::string& name, const std::string& contacts, const std::string& tracks) {
+    writeFile(dir.file("clips/" + name + ".clip.json"), R"({"format": "skel-clip", "version": 1, "name": ")" +
+                                                            name + R"(", "template": "biped", )" + contacts +
+                                                            R"("tracks": [)" + tracks + "]}");
+  };
+  const std::string stands = R"("contacts": [{"joint": "left_foot", "from_s": 0, "to_s": 1}], )";
+  write("bow", "", body);
+  write("wink", "", body + "," + hand);
+  write("stand", stands, body);
+  const auto film = [&](const std::string& character, const std::string& clips) {
+    return animate(dir, "render '" + character + "' --fps 2 --size 32 -o a.gif --clip " + clips);
+  };
+  for (const std::string& animal : {std::string("elk.glb"), bull}) {
+    CAPTURE(animal);
+    const auto note = [&](const std::string& clip) {
+      return animal + ": note: is a quadruped, the clip \"" + clip + "\" is for a biped\n";
+    };
+    expect(film(animal, "clips/bow.clip.json"), 0, note("bow"));
+    CHECK(film(animal, "clips/wink.clip.json").err ==
+          note("wink") + animal +
+              ": note: the clip \"wink\" plays without \"left_hand\", which this character lacks\n");
+    expect(film(animal, "clips/stand.clip.json"), 2,
+           "clips/stand.clip.json: is for a biped, this is a quadruped: the clip puts \"left_foot\" on the "
+           "ground, which a quadruped lacks; without \"contacts\" its file plays as far as it fits\n");
+    expect(film(animal, "bow --clips-dir clips"), 1,
+           "the clip \"bow\" is for a biped, this is a quadruped: the clip plays as far as it fits where its "
+           "file is named (--clip FILE)\n");
+  }
+  // Of several drawings it is as with a name.
+  const std::string boy = SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png";
+  const std::string both = "render '" + boy + "' '" + bull + "' --fps 2 --size 32 --clips ";
+  const std::string why = bull + ": note: clips/stand.clip.json: is for a biped, this is a quadruped: ";
+  const ToolRun sheet = animate(dir, both + "walk,clips/stand.clip.json --sheet sheet/");
+  expect(sheet, 0, why);
+  CHECK(sheet.err.find(": left out\n") != std::string::npos);
+  const ToolRun together = animate(dir, both + "clips/stand.clip.json -o both.gif");
+  expect(together, 0, why);
+  CHECK(together.err.find(": \"walk\" instead\n") != std::string::npos);
+}
+
 TEST_CASE("a person's motion moved an animal without a word") {
   const TempDir dir;
   REQUIRE(animate(dir, "bind '" + kElk + "' --skeleton '" + kBones + "' -o elk.glb").exit_code == 0);

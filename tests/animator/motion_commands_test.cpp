@@ -94,8 +94,9 @@ TEST_CASE("a clip file goes by its path where it goes by its folder, whatever th
   CHECK(readGlb(dir.file("a.glb")).clips[0].tracks[0].joint == "mixamorig:Spine");
   writeFile(clip, R"({"format": "skel-clip", "version": 1, "name": "wag", "template": "quadruped",
     "tracks": [{"joint": "tail", "angles_deg": [[0, 0, 0, 0], [1, 40, 0, 0]]}]})");
-  checkFails("render " + model + " --clips " + clip + " -o " + dir.file("film.gif"), 2,
-             clip + ": moves \"tail\", which this character lacks");
+  checkFails(
+      "render " + model + " --clips " + clip + " -o " + dir.file("film.gif"), 2,
+      clip + ": is for a quadruped, this is a biped: the clip moves \"tail\", which this character lacks");
 }
 
 TEST_CASE("retarget said nothing of the clip files that it leaves out of a folder") {

@@ -279,7 +279,8 @@ TEST_CASE(
   const ToolRun cut =
       render(of_idle + " --like " + dir.file("narrow.json") + " --sheet " + dir.file("cut.png"));
   CHECK(cut.exit_code == 0);
-  CHECK_THAT(cut.err, Contains("cap_boy: note: reaches ") && Contains(" px beyond the cell of "));
+  CHECK_THAT(cut.err, Contains("cap_boy: note: reaches ") && Contains(" px beyond the cell of ") &&
+                          Contains("narrow.json (above, in \"idle\"), and is cut off there\n"));
 
   narrow["meta"].erase("skel");
   writeFile(dir.file("old.json"), narrow.dump());

@@ -172,6 +172,26 @@ TEST_CASE("frames in a folder were taken for 12 a second without a word") {
   CHECK(said(" --fps 12") == "");
 }
 
+TEST_CASE("of films --fps was ignored without a word") {
+  const TempDir dir;
+  const std::string walk = dir.file("walk.gif");
+  REQUIRE(runTool("skel-animate render '" SKEL_SOURCE_DIR
+                  "/datasets/characters/runner.png' --look solid --clip "
+                  "walk --fps 10 --size 64 -o " +
+                  walk)
+              .exit_code == 0);
+  for (const std::string& command : {"keypoints " + walk + " -o " + dir.file("a.motion.json"),
+                                     "keyframes " + walk + " -o " + dir.file("keys")}) {
+    CAPTURE(command);
+    CHECK(style(command).err.find("--fps") == std::string::npos);
+    const ToolRun run = style(command + " --fps 24");
+    CHECK(run.exit_code == 0);
+    CHECK_THAT(run.err,
+               Contains(walk + ": note: a film says itself how many frames a second it has; --fps is "
+                               "for folders of frames\n"));
+  }
+}
+
 TEST_CASE("key frames and the distances of all frames") {
   const TempDir dir;
   const std::string walk = film(dir, "walk");
