@@ -356,6 +356,9 @@ TEST_CASE(
   const TempDir dir;
   const std::string path = dir.file("clips/stand.pose.json");
   writeFile(path, "{}");
+  writeFile(
+      dir.file("clips/nod.clip.json"),
+      R"({"format":"skel-clip","version":1,"name":"nod","tracks":[{"joint":"head","angles_deg":[[0,0,0,0],[1,9,0,0]]}]})");
   ClipSource library;
   library.clips_dir = dir.file("clips");
   AnimationDocument document({.path = figureFile(dir)}, library);
