@@ -232,14 +232,14 @@ TEST_CASE("option --report beside --resume or --from is refused with what to do"
 
 TEST_CASE("a path in a note can be pasted into a shell") {
   const TempDir dir;
-  fs::copy(SKEL_DATASETS "/characters/box_carrier.png", dir.file("Eva's photo.png"));
+  fs::copy(SKEL_DATASETS "/characters/water_raincoat.png", dir.file("Eva's photo.png"));
   CHECK_THAT(infer(dir, "\"Eva's photo.png\"").err, Contains("(skel-label 'Eva'\\''s photo.png', key G)"));
 }
 
 TEST_CASE("a command in a note can be pasted where the tools are not on the PATH") {
   const TempDir dir;
   for (const char* name : {"a b.png", "c.png"})
-    fs::copy(SKEL_DATASETS "/characters/box_carrier.png", dir.file(name));
+    fs::copy(SKEL_DATASETS "/characters/water_raincoat.png", dir.file(name));
   const std::string bin = binFolder(), drawing = shellWord(dir.file("a b.png"));
   const auto says = [&](const std::string& folder, const std::string& tools, const std::string& drawings) {
     return runTool("cd '" + folder + "' && PATH=/usr/bin:/bin && " + tools + "/skel-infer " + drawings +

@@ -59,7 +59,7 @@ TEST_CASE("A part net's file gives back the rounded net, and damaged ones are re
 
 TEST_CASE("The part net of weights/ fits its hash") {
   const std::string path = SKEL_SOURCE_DIR "/weights/part_net.bin";
-  CHECK(parsePartNet(readFile(path), path).provenance.starts_with("skel-train parts"));
+  CHECK(parsePartNet(readFile(path), path).provenance.starts_with("skel-train average"));
 }
 
 TEST_CASE("The part net is shown nothing outside of the mask") {

@@ -153,6 +153,7 @@ TEST_CASE("a training of parts goes on from its checkpoint by the same options a
                  {"--held-out", mine + " --shapes " + shapes},
                  {"--drawn", ".1"},
                  {"--posed", ".1"},
+                 {"--things", ".1"},
                  {"--animals", ".1"}},
                 {"--sheet", "--truth", "--shapes"});
 }
