@@ -196,6 +196,31 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("results that were moved lost what was mended when the sprite got other colours after that") {
+  const TempDir dir;
+  drawSprite(dir);
+  const std::string call = "boy.png --formats glb,json,layers";
+  REQUIRE(infer(dir, call).exit_code == 0);
+  moveInFile(dir, "left_hand", "420.5");
+  paintOverLeg(dir);
+  // The path in the skeleton file leads nowhere from here.
+  fs::create_directories(dir.file("art/sprites"));
+  fs::rename(dir.file("out"), dir.file("art/sprites/out"));
+  fs::rename(dir.file("boy.png"), dir.file("art/sprites/boy.png"));
+  std::string skeleton = readFile(dir.file("art/sprites/out/boy.skeleton.json"));
+  const std::string there = "../boy.png";
+  REQUIRE(skeleton.find(there) != std::string::npos);
+  skeleton.replace(skeleton.find(there), there.size(), "../of/yore/boy.png");
+  writeFile(dir.file("art/sprites/out/boy.skeleton.json"), skeleton);
+  Image sprite = readImage(dir.file("art/sprites/boy.png"));
+  for (Eigen::Index p = 0; p < sprite.rgba.rows(); ++p) std::swap(sprite.rgba(p, 0), sprite.rgba(p, 2));
+  writeFile(dir.file("art/sprites/boy.png"), encodePng(sprite));
+  const ToolRun run = infer(dir, "art/sprites/boy.png --formats glb -o elsewhere");
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err,
+             Contains("1 joint (art/sprites/out/boy.skeleton.json), limbs (art/sprites/out/boy.layers.png)"));
+}
+
 TEST_CASE("a sprite in other colours lost what was mended of it where its silhouette was painted by hand") {
   const TempDir dir;
   drawSprite(dir);

@@ -219,6 +219,18 @@ TEST_CASE("the report shows the clip that was asked for, or the drawing alone wh
   CHECK(countIn(still, "class=\"film\"") == 0);
 }
 
+TEST_CASE("a photo that a pattern of the shell makes the report's name is not written over") {
+  const TempDir dir;
+  std::filesystem::copy(kDrawing, dir.file("a.png"));
+  writeFile(dir.file("Ben.JPG"), "his photo");
+  const ToolRun run = infer(dir, "a.png --report Ben.JPG");
+  CHECK(run.exit_code == 1);
+  CHECK_THAT(run.err,
+             Contains("--report would write over Ben.JPG, which is no page: its name must end in .html"));
+  CHECK(readFile(dir.file("Ben.JPG")) == "his photo");
+  CHECK_FALSE(std::filesystem::exists(dir.file("out")));
+}
+
 TEST_CASE("a drawing is not written over by the report") {
   const TempDir dir;
   writeFile(dir.file("a.png"), readFile(kDrawing));
