@@ -56,7 +56,7 @@ struct Sheets {
     if (!in_folder && options.files.size() > 1)
       throw UsageError(path + " must be a folder (a name that ends with /): there are several drawings");
     checkSheetSize({}, {size.width, size.height}, SpritePacking::kEven);
-    if (!in_folder) noteNamedOutput(atlasOf(path));
+    if (!in_folder) noteSheet(path);
     ensureWritableFolderOf(path);
   }
 
@@ -82,11 +82,20 @@ struct Sheets {
     return fs::path(sheet).replace_extension(".json").string();
   }
 
+  // A picture without frames beside it is no sheet, but somebody's drawing.
+  static void noteSheet(const std::string& path) {
+    std::error_code unknown;
+    if (fs::is_regular_file(path, unknown) && !fs::exists(atlasOf(path), unknown))
+      throw UsageError("--sheet would write over " + path + ", which is no sheet (there is no " +
+                       fs::path(atlasOf(path)).filename().string() + " beside it): name another file");
+    noteNamedOutput(atlasOf(path));
+  }
+
   std::string pathOf(const CharacterFile& file) const {
     if (!in_folder) return options.sheet.output;
     const std::string path = options.sheet.output + safeFileName(file.name) + ".png";
     noteNamedOutput(path);
-    noteNamedOutput(atlasOf(path));
+    noteSheet(path);
     return path;
   }
 

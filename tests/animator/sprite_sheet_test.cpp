@@ -7,6 +7,7 @@
 
 #include "animator/pixel_look.h"
 #include "animator/sprite_camera.h"
+#include "libskel/core/files.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/draw/oklab.h"
 #include "libskel/image/read_image.h"
@@ -434,6 +435,19 @@ TEST_CASE("a pixel is one of the colours of its square, and there only if half o
   CHECK(keyOf(small.pixel(0, 0)) == (200 << 16 | 10 << 8 | 10));
   CHECK(int(small.pixel(0, 0)[3]) == 255);
   CHECK(int(small.pixel(1, 0)[3]) == 0);
+}
+
+TEST_CASE("a drawing is not written over by a sheet of its name; a sheet is made anew") {
+  const TempDir dir;
+  writeFile(dir.file("nele.png"), "her drawing");
+  const std::string arguments = kDrawing + " --clips idle --frames 1 --sheet " + dir.file("nele.png");
+  const ToolRun run = render(arguments);
+  CHECK(run.exit_code == 1);
+  CHECK_THAT(run.err, Contains("nele.png, which is no sheet (there is no nele.json beside it)"));
+  CHECK(readFile(dir.file("nele.png")) == "her drawing");
+  std::filesystem::remove(dir.file("nele.png"));
+  CHECK(render(arguments).exit_code == 0);
+  CHECK(render(arguments).exit_code == 0);
 }
 
 TEST_CASE("few colours stand for many, small things keep theirs, and the same ones are in all pictures") {
