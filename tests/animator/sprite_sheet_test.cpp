@@ -437,7 +437,7 @@ TEST_CASE("a pixel is one of the colours of its square, and there only if half o
   CHECK(int(small.pixel(1, 0)[3]) == 0);
 }
 
-TEST_CASE("a drawing is not written over by a sheet of its name; a sheet is made anew") {
+TEST_CASE("a drawing is not written over by a sheet of its name, a sheet is made anew") {
   const TempDir dir;
   writeFile(dir.file("nele.png"), "her drawing");
   const std::string arguments = kDrawing + " --clips idle --frames 1 --sheet " + dir.file("nele.png");
