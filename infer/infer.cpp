@@ -81,6 +81,11 @@ void ensureFolders(const InferOptions& options) {
   if (options.report_file.empty()) return;
   if (options.report_file.ends_with('/') || fs::is_directory(options.report_file))
     throw OutputError(options.report_file, "is a folder; name a file by --report");
+  // A pattern of the shell puts a photo there.
+  if (!options.report_file.ends_with(".html") && !options.report_file.ends_with(".htm") &&
+      fs::is_regular_file(options.report_file))
+    throw OutputError(options.report_file,
+                      "is no page, and would be written over; name a file that ends in .html by --report");
   ensureWritableFolderOf(options.report_file);
 }
 

@@ -142,14 +142,16 @@ void sayOtherPlan(const Keypoints& found, const std::string& film) {
                printable(film).c_str(), found.other_plan.c_str());
 }
 
-void sayWhatRate(const FilmSource& film) {
-  const bool is_folder = fs::is_directory(film.path);
-  if (film.frame_rate_given && !is_folder)
+void sayUnusedRate(const FilmSource& film) {
+  if (film.frame_rate_given && !fs::is_directory(film.path))
     std::fprintf(
         stderr,
         "%s: note: a film says itself how many frames a second it has; --fps is for folders of frames\n",
         printable(film.path).c_str());
-  if (film.frame_rate_given || !is_folder) return;
+}
+
+void sayAssumedRate(const FilmSource& film) {
+  if (film.frame_rate_given || !fs::is_directory(film.path)) return;
   std::fprintf(stderr, "%s: note: %g frames a second assumed; --fps says another\n",
                printable(film.path).c_str(), film.frame_rate);
 }

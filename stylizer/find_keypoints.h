@@ -35,9 +35,10 @@ struct Keypoints {
 // On stderr, where the film shows another body plan's figure.
 void sayOtherPlan(const Keypoints& found, const std::string& film);
 
-// On stderr, where the frames lie in a folder and nobody has said how many a second they are, or somebody has
-// of a film, which says so itself.
-void sayWhatRate(const FilmSource& film);
+// On stderr, where the frames lie in a folder and nobody has said how many a second they are.
+void sayAssumedRate(const FilmSource& film);
+// The same, where somebody has said it of a film, which says so itself.
+void sayUnusedRate(const FilmSource& film);
 
 // Recognition of each frame (rigCharacter()), one path through all of them (track_joints.h), key frames by
 // the outlines. The frames of a film are written as pictures to `<stem>.frames/`. Throws InputError: no

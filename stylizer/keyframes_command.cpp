@@ -99,7 +99,7 @@ ExitCode runKeyframes(const KeyframesOptions& options) {
     noteOutput((fs::path(options.output) / name).string());
   Image background;
   const FilmInfo info = lookAtFilm(options.film, background);
-  sayWhatRate(options.film);
+  sayUnusedRate(options.film);
   if (options.matrix && info.frames > kMostInMatrix)
     throw InputError(options.film.path, "has " + std::to_string(info.frames) + " frames; --matrix takes " +
                                             std::to_string(kMostInMatrix) + " at most");

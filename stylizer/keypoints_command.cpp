@@ -28,7 +28,8 @@ ExitCode runKeypoints(const KeypointsCommandOptions& given) {
   std::printf("\n  limbs renamed in %d frames (arms) and %d (legs); unevenness %.4f as seen, %.4f smoothed\n",
               found.arms_swapped, found.legs_swapped, found.unevenness_seen, found.unevenness);
   sayOtherPlan(found, options.film.path);
-  sayWhatRate(options.film);
+  sayAssumedRate(options.film);
+  sayUnusedRate(options.film);
   return ExitCode::kDone;
 }
 

@@ -60,7 +60,8 @@ NamedMotion motionOf(const MotionSource& source) {
   std::printf("%s: %d frames%s\n", printable(file).c_str(), int(found.motion.frames.size()),
               source.made_anew ? ", made anew: what was there was of another film, or by other options" : "");
   sayOtherPlan(found, source.find.film.path);
-  sayWhatRate(source.find.film);
+  sayAssumedRate(source.find.film);
+  sayUnusedRate(source.find.film);
   // As the next run will see it.
   return {file, readMotionFile(file, plan)};
 }

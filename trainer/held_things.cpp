@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -80,7 +81,7 @@ Thing drawnThing(Rng& rng, const PartSample& colours) {
     std::vector<cv::Point> corners;
     const int count = 3 + int(rng.below(8));
     for (int i = 0; i < count; ++i) {
-      const double angle = 2 * 3.14159265358979 * i / count, r = rng.uniform(16, 58);
+      const double angle = 2 * std::numbers::pi * i / count, r = rng.uniform(16, 58);
       corners.emplace_back(int(middle + r * std::cos(angle)), int(middle + r * std::sin(angle)));
     }
     polygon(corners, fill);
@@ -143,7 +144,7 @@ void lay(Rng& rng, const Thing& thing, const Vec& at, int arm, Place place, Part
   const int side = std::max(figure.mask.rows, figure.mask.cols) / 2;  // of the figure: half is margin
   const double size = side * std::exp(rng.uniform(std::log(.12), std::log(.8))),
                scale = size / std::max(thing.mask.rows, thing.mask.cols);
-  const double angle = rng.chance(.6) ? rng.normal(0, .4) : rng.uniform(-3.14159, 3.14159),
+  const double angle = rng.chance(.6) ? rng.normal(0, .4) : rng.uniform(-std::numbers::pi, std::numbers::pi),
                c = scale * std::cos(angle), s = scale * std::sin(angle);
   const Vec g = thing.grip;
   const cv::Matx23d map(c, -s, at.x() - c * g.x() + s * g.y(), s, c, at.y() - s * g.x() - c * g.y());
