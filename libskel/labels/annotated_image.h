@@ -2,11 +2,13 @@
 // `<stem>.png`, `<stem>.mask.png` and `<stem>.joints.json` side by side.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "libskel/candidates/candidates.h"
+#include "libskel/core/error.h"
 #include "libskel/core/json.h"
 #include "libskel/image/image.h"
 #include "libskel/labels/label_file.h"
@@ -20,6 +22,10 @@ struct AnnotatedImage {
   std::optional<std::string> mask;  // path; none: the figure is found in the image
   std::string joints;               // path
 };
+
+// The picture that a joints file is for, of any kind, whether its ending is in small letters or capitals.
+// Throws InputError if there is none.
+std::string imageOfJointsFile(const std::string& joints_file);
 
 // All below `dir`, at any depth, sorted by path. Throws InputError: no such folder, a folder that cannot be
 // read, joints without an image.
