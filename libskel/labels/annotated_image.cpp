@@ -68,11 +68,17 @@ std::string imageOfJointsFile(const std::string& joints_file) {
   throw InputError(joints_file, "has no image beside it, " + stem.filename().string() + ".png");
 }
 
-std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir) {
+std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir, const OnInputError& on_error) {
   std::vector<AnnotatedImage> found;
   for (const std::string& path : filesBelow(dir)) {
     if (fs::path(path).filename() != kOwnJoints && !path.ends_with(kJointsEnding)) continue;
-    found.push_back({imageOfJointsFile(path), std::nullopt, path});
+    try {
+      found.push_back({imageOfJointsFile(path), std::nullopt, path});
+    } catch (const InputError& error) {
+      if (!on_error) throw;
+      on_error(error);
+      continue;
+    }
     const std::string mask = path.substr(0, path.size() - kOwnJoints.size()) + "mask.png";
     if (fs::is_regular_file(mask)) found.back().mask = mask;
   }

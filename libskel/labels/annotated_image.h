@@ -27,9 +27,12 @@ struct AnnotatedImage {
 // Throws InputError if there is none.
 std::string imageOfJointsFile(const std::string& joints_file);
 
+// Is told why a drawing is left out.
+using OnInputError = std::function<void(const InputError&)>;
+
 // All below `dir`, at any depth, sorted by path. Throws InputError: no such folder, a folder that cannot be
-// read, joints without an image.
-std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir);
+// read, joints without an image. `on_error`, if given, is told of the latter, and the others are found.
+std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir, const OnInputError& on_error = {});
 
 // Joints by the names of the biped template; a file may also call `body` "torso" and `pelvis` "hip".
 // Throws InputError that names file, JSON path and reason.

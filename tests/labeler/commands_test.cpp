@@ -539,6 +539,17 @@ TEST_CASE("import: one picture of a COCO file that was missing kept all others f
   CHECK(fs::exists(dir.file("round/cap_boy.labels.json")));
 }
 
+TEST_CASE("import: one joints file without its picture kept all others from being imported") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  fs::copy(kCharacters + "box_robot.joints.json", dir.file("away.joints.json"));
+  const ToolRun run = label(dir, "import .");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.out, "1 label files made, 0 kept as they were, 1 failed\n"));
+  CHECK(run.err == "skel-label: ./away.joints.json: has no image beside it, away.png\n");
+  CHECK(fs::exists(dir.file("cap_boy.labels.json")));
+}
+
 TEST_CASE("import: joints and outline of a COCO file were taken for a picture of another size") {
   const TempDir dir;
   exportTwo(dir);
