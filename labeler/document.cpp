@@ -386,8 +386,16 @@ void Document::labelFromJoints() {
   }
   const bool any =
       std::any_of(labels.begin(), labels.end(), [](const auto& label) { return label.has_value(); });
-  message_ = any ? counted(changed, "label") + " changed to fit the joints"
-                 : "there are no joints to take labels from: press R first";
+  if (!any) {
+    message_ = "there are no joints to take labels from: press R first";
+    return;
+  }
+  message_ = counted(changed, "label") + " changed to fit the joints";
+  const Progress joints = progressOf(state_.joints, bodyPlan());
+  if (const int found = joints.parts - joints.done; found > 0)
+    message_ += ", of which " + std::to_string(found) +
+                (found == 1 ? " was found, not placed" : " were found, not placed") +
+                ": look through the labels";
 }
 
 void Document::moveJoint(int joint, const Eigen::Vector2d& image_px) {

@@ -124,6 +124,21 @@ TEST_CASE("labels are set, undone, done again, and are on the disk at once") {
   CHECK_FALSE(document.redo());
 }
 
+TEST_CASE("classes by joints that nobody has placed looked like those by joints of a person") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.path(), documentOptions());
+  document.rig();
+  document.labelFromJoints();
+  const Progress found = document.item().joints;
+  REQUIRE(found.done == 0);
+  CHECK(contains(document.message(), "changed to fit the joints, of which " + std::to_string(found.parts) +
+                                         " were found, not placed"));
+  document.acceptJoints();
+  document.labelFromJoints();
+  CHECK(document.message() == "0 labels changed to fit the joints");
+}
+
 TEST_CASE("a step that changes nothing is no step") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());
