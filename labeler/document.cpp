@@ -95,9 +95,18 @@ Document::Document(const std::string& path, DocumentOptions options)
       std::any_of(items_.begin(), items_.end(), [](const Item& item) { return item.classes.done > 0; });
   const bool joints = editsJointsAlone() || placed_joints || !labelled;
   subject_ = joints ? Subject::kJoints : Subject::kClasses;
-  const auto unfinished = std::find_if(items_.begin(), items_.end(),
-                                       [&](const Item& item) { return !item.of(subject_).isWhole(); });
-  load(unfinished == items_.end() ? 0 : static_cast<int>(unfinished - items_.begin()));
+  loadFirst();
+}
+
+void Document::loadFirst() {
+  std::optional<int> first;  // unfinished
+  for (int i = 0; i < static_cast<int>(items_.size()); ++i) {
+    if (items_[static_cast<size_t>(i)].of(subject_).isWhole()) continue;
+    load(i);
+    if (!image_.empty()) return;
+    if (!first) first = i;
+  }
+  load(first.value_or(0));
 }
 
 bool Document::go(int item) {

@@ -307,6 +307,23 @@ TEST_CASE("a folder opens where it was left off: at joints, or at the candidates
   CHECK(document.current() == 0);
 }
 
+TEST_CASE("a folder opened at a picture that cannot be read, not at the first that can be labelled") {
+  const TempDir dir;
+  writeFile(dir.file("Ada.heic"), "no picture");
+  writeFile(dir.file("Ben.png"), "no picture");
+  {
+    const Document document(dir.path(), documentOptions());
+    CHECK(document.current() == 0);
+    CHECK(contains(document.item().problem, "Ada.heic"));
+  }
+  copyCharacter("cap_boy", dir.path());
+  copyCharacter("runner", dir.path());
+  const Document document(dir.path(), documentOptions());
+  CHECK(document.item().files.name == "cap_boy.png");
+  CHECK(document.item().problem.empty());
+  CHECK(contains(document.items()[0].problem, "Ada.heic"));
+}
+
 TEST_CASE("drawings of a folder stand in the order in which people count") {
   const TempDir dir;
   for (const char* name : {"10.png", "9.png", "Ada.png"})
@@ -1094,6 +1111,7 @@ TEST_CASE("pictures that cannot be labelled say why and do not stop the others")
   writeFile(dir.file("b_blank.png"), encodePng(blank));
   Document document(dir.path(), documentOptions());
   REQUIRE(document.items().size() == 3);
+  CHECK(document.go(0));
   CHECK(contains(document.item().problem, "a_broken.png"));
   document.rig();
   document.acceptSuggestions();
