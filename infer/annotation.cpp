@@ -87,8 +87,8 @@ std::string stemOf(const std::string& root, const std::string& id) {
   return root + "/" + id + (isOwnFolder(root, id) ? "/" : ".");
 }
 
-std::string imageOf(const std::string& root, const std::string& id) {
-  return stemOf(root, id) + (isOwnFolder(root, id) ? "image.png" : "png");
+std::string labelFileOf(const std::string& root, const std::string& id) {
+  return stemOf(root, id) + (isOwnFolder(root, id) ? "image.labels.json" : "labels.json");
 }
 
 // Whoever reads it says what is wrong with it.
@@ -120,7 +120,8 @@ std::vector<std::string> findDrawings(const std::string& root) {
   std::set<std::string> folders, ids;
   const std::vector<std::string> files = filesBelow(root);
   for (const fs::path file : files) {
-    if (file.filename() == "image.png") folders.insert(file.lexically_relative(root).parent_path().string());
+    if (file.filename() == "image.png" || file.filename() == "joints.json")
+      folders.insert(file.lexically_relative(root).parent_path().string());
     if (file.string().ends_with(kJointsEnding)) ids.insert(idOf(file, root, kJointsEnding));
   }
   for (const fs::path file : files)
@@ -149,10 +150,12 @@ std::string nameOfDrawing(const std::string& root, const std::string& id) {
 }
 
 void noteMeasuredFiles(const std::string& root, const std::string& id) {
-  const std::string image = imageOf(root, id), labels = labelFileFor(image);
-  for (const char* name : {"joints.json", "mask.png"}) noteInput(stemOf(root, id) + name);
-  noteInput(image);
-  noteInput(labels);
+  const std::string joints = stemOf(root, id) + "joints.json", labels = labelFileOf(root, id);
+  for (const std::string& name : {joints, stemOf(root, id) + "mask.png", labels}) noteInput(name);
+  try {
+    noteInput(imageOfJointsFile(joints));
+  } catch (const InputError&) {  // told where the drawing is read
+  }
   if (!fs::exists(labels)) return;
   try {
     const LabelFile file = readLabelFile(labels);
@@ -170,8 +173,8 @@ MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& 
     return drawing;
   }
   const std::string stem = stemOf(root, id);
-  const std::string image = imageOf(root, id);
-  const std::string annotation = stem + "joints.json", label_file = labelFileFor(image);
+  const std::string annotation = stem + "joints.json", image = imageOfJointsFile(annotation),
+                    label_file = labelFileFor(image);
   std::string mask = stem + "mask.png";
   const std::optional<LabelFile> labels = placedLabelsBeside(image);
   if (labels) {

@@ -131,7 +131,7 @@ std::vector<AnnotatedDrawing> findAnnotatedDrawings(const std::string& dir, cons
     }
   };
   std::set<std::string> annotated;  // pictures, also those whose annotation is wrong
-  for (const AnnotatedImage& files : findAnnotatedImages(dir)) {
+  for (const AnnotatedImage& files : findAnnotatedImages(dir, on_error)) {
     annotated.insert(fs::path(files.image).lexically_normal().string());
     attempt([&] { drawings.push_back(readJoints(files, plans)); });
   }

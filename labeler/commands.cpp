@@ -163,6 +163,8 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
         notePassedOver(counts.passed_over);
         noteKept(counts.earlier,
                  "but the picture has changed since it was labelled; --force makes the labels anew");
+        noteKept(counts.other_mask,
+                 "but the mask has changed since it was labelled; --force makes the labels anew");
         noteKept(counts.differing, "with other joints than what is to be imported; --force takes the latter");
         noteLacking(counts);
         if (counts.made > 0)

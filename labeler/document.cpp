@@ -95,9 +95,18 @@ Document::Document(const std::string& path, DocumentOptions options)
       std::any_of(items_.begin(), items_.end(), [](const Item& item) { return item.classes.done > 0; });
   const bool joints = editsJointsAlone() || placed_joints || !labelled;
   subject_ = joints ? Subject::kJoints : Subject::kClasses;
-  const auto unfinished = std::find_if(items_.begin(), items_.end(),
-                                       [&](const Item& item) { return !item.of(subject_).isWhole(); });
-  load(unfinished == items_.end() ? 0 : static_cast<int>(unfinished - items_.begin()));
+  loadFirst();
+}
+
+void Document::loadFirst() {
+  std::optional<int> first;  // unfinished
+  for (int i = 0; i < static_cast<int>(items_.size()); ++i) {
+    if (items_[static_cast<size_t>(i)].of(subject_).isWhole()) continue;
+    load(i);
+    if (!image_.empty()) return;
+    if (!first) first = i;
+  }
+  load(first.value_or(0));
 }
 
 bool Document::go(int item) {
@@ -386,8 +395,16 @@ void Document::labelFromJoints() {
   }
   const bool any =
       std::any_of(labels.begin(), labels.end(), [](const auto& label) { return label.has_value(); });
-  message_ = any ? counted(changed, "label") + " changed to fit the joints"
-                 : "there are no joints to take labels from: press R first";
+  if (!any) {
+    message_ = "there are no joints to take labels from: press R first";
+    return;
+  }
+  message_ = counted(changed, "label") + " changed to fit the joints";
+  const Progress joints = progressOf(state_.joints, bodyPlan());
+  if (const int found = joints.parts - joints.done; found > 0)
+    message_ += ", of which " + std::to_string(found) +
+                (found == 1 ? " was found, not placed" : " were found, not placed") +
+                ": look through the labels";
 }
 
 void Document::moveJoint(int joint, const Eigen::Vector2d& image_px) {

@@ -173,6 +173,7 @@ class Document {
   class StepScope;
 
   Item& mutableItem() { return items_[static_cast<size_t>(current_)]; }
+  void loadFirst();  // unfinished that can be read
   void load(int item);
   void clear();
   void loadDrawing();

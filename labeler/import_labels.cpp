@@ -123,15 +123,28 @@ bool jointsDiffer(const LabelFile& labels, const AnnotatedDrawing& drawing,
   return !std::all_of(drawing.joints.begin(), drawing.joints.end(), same);
 }
 
+// Whether the mask that the labels were made by is not what it was, beside them or where it is imported from;
+// or one lies there that they do not name.
+bool maskHasChanged(const std::string& label_path, const LabelFile& labels, const AnnotatedDrawing& drawing) {
+  if (!labels.mask) return drawing.mask_polygons.empty() && maskBeside(drawing.image).has_value();
+  const auto isOther = [&](const std::string& path) {
+    return fs::exists(path) && sha256(readFile(path)) != labels.mask->sha256;
+  };
+  const std::string ours = besideLabelFile(label_path, labels.mask->file);
+  return !fs::exists(ours) || isOther(ours) || isOther(besideFile(drawing.image, labels.mask->file));
+}
+
 // A label file that cannot be read is not compared.
 void compareKept(const std::string& label_path, const AnnotatedDrawing& drawing,
                  const SkeletonTemplate& body_plan, ImportCounts& counts) {
   try {
     const LabelFile labels = readLabelFile(label_path);
-    if (labels.image.sha256 != sha256(readFile(drawing.image)))
+    if (labels.image.sha256 != sha256(readFile(drawing.image))) {
       counts.earlier.push_back(label_path);
-    else if (jointsDiffer(labels, drawing, body_plan))
-      counts.differing.push_back(label_path);
+      return;
+    }
+    if (maskHasChanged(label_path, labels, drawing)) counts.other_mask.push_back(label_path);
+    if (jointsDiffer(labels, drawing, body_plan)) counts.differing.push_back(label_path);
   } catch (const InputError&) {
   }
 }

@@ -21,9 +21,10 @@ struct ImportOptions {
 
 struct ImportCounts {
   int made = 0;
-  int kept = 0;                        // there was a label file already
-  std::vector<std::string> differing;  // of those kept: whose joints are not those of the annotation
-  std::vector<std::string> earlier;    // of those kept: made for another picture than the one that is there
+  int kept = 0;                         // there was a label file already
+  std::vector<std::string> differing;   // of those kept: whose joints are not those of the annotation
+  std::vector<std::string> earlier;     // of those kept: made for another picture than the one that is there
+  std::vector<std::string> other_mask;  // of those kept: made by another mask than the one that is there
   int failed = 0;
   int joints_placed = 0, joints_found = 0;  // in those made: by a person, by the program
   int labelled = 0;      // label files without any class whose candidates got theirs by their placed joints

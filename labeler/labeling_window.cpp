@@ -118,7 +118,9 @@ class LabelingWindow {
         "middle", {ImGui::GetContentRegionAvail().x - kPanelWidth - 8, height}, false,
         ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoBackground);
     drawTools();
+    const ImVec2 corner = ImGui::GetCursorPos();
     canvas_.draw();
+    if (document_.image().empty()) drawProblem(corner);
     ImGui::EndChild();
     ImGui::SameLine();
     const bool moving = drawPanel(height);
@@ -282,7 +284,7 @@ class LabelingWindow {
     const auto done = static_cast<int>(std::count_if(
         items.begin(), items.end(), [&](const Item& item) { return item.of(subject()).isWhole(); }));
     ImGui::BeginChild("list", {kListWidth, height}, true);
-    progressBar({static_cast<int>(items.size()), done}, "drawings finished");
+    progressBar({static_cast<int>(items.size()), done}, "finished");
     ImGui::BeginChild("items", {0, -kButtonHeight - 10});
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(items.size()), kRowHeight + ImGui::GetStyle().ItemSpacing.y);
@@ -303,20 +305,21 @@ class LabelingWindow {
     ImGui::EndChild();
   }
 
+  std::string stateOf(const Item& item) const {
+    if (!item.problem.empty()) return item.problem;
+    const Progress& progress = item.of(subject());
+    if (progress.parts == 0) return item.has_shape ? "its shape was mended" : "not looked at yet";
+    return std::to_string(progress.done) + " of " + std::to_string(progress.parts) +
+           (item.has_shape ? "; its shape was mended" : "");
+  }
+
   void drawRow(int index) {
     const Item& item = document_.items()[static_cast<size_t>(index)];
     const Progress& progress = item.of(subject());
     ImGui::PushID(index);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     if (ImGui::Selectable("##row", index == document_.current(), 0, {0, kRowHeight})) goTo(index);
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s\n%s", item.files.name.c_str(),
-                        !item.problem.empty() ? item.problem.c_str()
-                        : progress.parts == 0
-                            ? (item.has_shape ? "its shape was mended" : "not looked at yet")
-                            : (std::to_string(progress.done) + " of " + std::to_string(progress.parts) +
-                               (item.has_shape ? "; its shape was mended" : ""))
-                                  .c_str());
+    if (ImGui::IsItemHovered()) tip((item.files.name + "\n" + stateOf(item)).c_str());
     ImDrawList* list = ImGui::GetWindowDrawList();
     const ImVec2 c{corner.x + 16, corner.y + kRowHeight / 2};
     if (!item.problem.empty()) {
@@ -498,6 +501,15 @@ class LabelingWindow {
     ImGui::SameLine();
     enabledButton(
         "From joints", {half, kButtonHeight}, found, [&] { labelFromJoints(); }, "D");
+  }
+
+  // In place of a picture that cannot be read.
+  void drawProblem(const ImVec2& corner) const {
+    constexpr float kMargin = 24;
+    ImGui::SetCursorPos({corner.x + kMargin, corner.y + kMargin});
+    ImGui::PushTextWrapPos(ImGui::GetWindowWidth() - kMargin);
+    ImGui::TextUnformatted(document_.item().problem.c_str());
+    ImGui::PopTextWrapPos();
   }
 
   void drawStatus() {

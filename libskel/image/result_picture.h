@@ -22,6 +22,10 @@ inline bool isResultPicture(std::string_view name) {
 // among them, so that whoever reads them says what to do.
 bool isDrawingName(std::string_view name);
 
+// The endings of those, in small letters.
+inline constexpr std::array<std::string_view, 11> kDrawingEndings = {
+    ".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tif", ".tiff", ".gif", ".heic", ".heif", ".avif"};
+
 // The endings of the pictures that can be read, for messages.
 inline constexpr std::string_view kPictureEndings = ".png, .jpg, .webp, .bmp, .tif, .gif";
 

@@ -1,8 +1,12 @@
 #include "libskel/labels/annotated_image.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <system_error>
+#include <utility>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
@@ -11,6 +15,7 @@
 #include "libskel/core/text.h"
 #include "libskel/image/check_image.h"
 #include "libskel/image/read_image.h"
+#include "libskel/image/result_picture.h"
 #include "libskel/labels/label_from_joints.h"
 
 namespace skel {
@@ -18,13 +23,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kJointsEnding = ".joints.json";
+constexpr std::string_view kOwnJoints = "joints.json", kJointsEnding = ".joints.json";
 constexpr double kFarthest_px = 1e6;  // more than pictures have; joints may lie a little beside them
 
-std::optional<std::string> imageOfStem(const fs::path& stem) {
-  for (const char* extension : {".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tif", ".tiff", ".gif"})
-    if (fs::is_regular_file(stem.string() + extension)) return stem.string() + extension;
-  return std::nullopt;
+std::string inSmallLetters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+// The first by the order of the endings; one in small letters counts before all others.
+std::optional<std::string> pictureOfStem(const fs::path& stem) {
+  for (const std::string_view ending : kDrawingEndings)
+    if (const std::string path = stem.string() + std::string(ending); fs::is_regular_file(path)) return path;
+  std::optional<std::pair<std::ptrdiff_t, std::string>> first;
+  std::error_code failure;
+  const fs::path dir = stem.has_parent_path() ? stem.parent_path() : ".";
+  for (fs::directory_iterator entry(dir, failure), end; !failure && entry != end; entry.increment(failure)) {
+    const fs::path name = entry->path().filename();
+    std::error_code unknown;
+    if (name.stem() != stem.filename() || !entry->is_regular_file(unknown)) continue;
+    const auto known =
+        std::find(kDrawingEndings.begin(), kDrawingEndings.end(), inSmallLetters(name.extension().string()));
+    if (known == kDrawingEndings.end()) continue;
+    const std::pair found(known - kDrawingEndings.begin(), (stem.parent_path() / name).string());
+    if (!first || found < *first) first = found;
+  }
+  if (!first) return std::nullopt;
+  return first->second;
 }
 
 LabelFile::Source sourceOf(const std::string& path) {
@@ -33,24 +59,28 @@ LabelFile::Source sourceOf(const std::string& path) {
 
 }  // namespace
 
-std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir) {
+std::string imageOfJointsFile(const std::string& joints_file) {
+  const fs::path path = joints_file;
+  const std::string name = path.filename().string();
+  const fs::path stem = path.parent_path() /
+                        (name == kOwnJoints ? "image" : name.substr(0, name.size() - kJointsEnding.size()));
+  if (const auto picture = pictureOfStem(stem)) return *picture;
+  throw InputError(joints_file, "has no image beside it, " + stem.filename().string() + ".png");
+}
+
+std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir, const OnInputError& on_error) {
   std::vector<AnnotatedImage> found;
-  for (const fs::path path : filesBelow(dir)) {
-    const std::string name = path.filename().string();
-    fs::path stem, mask;
-    if (name == "joints.json") {
-      stem = path.parent_path() / "image";
-      mask = path.parent_path() / "mask.png";
-    } else if (name.ends_with(kJointsEnding)) {
-      stem = path.parent_path() / name.substr(0, name.size() - kJointsEnding.size());
-      mask = stem.string() + ".mask.png";
-    } else {
+  for (const std::string& path : filesBelow(dir)) {
+    if (fs::path(path).filename() != kOwnJoints && !path.ends_with(kJointsEnding)) continue;
+    try {
+      found.push_back({imageOfJointsFile(path), std::nullopt, path});
+    } catch (const InputError& error) {
+      if (!on_error) throw;
+      on_error(error);
       continue;
     }
-    const auto image = imageOfStem(stem);
-    if (!image) throw InputError(path, "has no image beside it, " + stem.filename().string() + ".png");
-    found.push_back({*image, std::nullopt, path.string()});
-    if (fs::is_regular_file(mask)) found.back().mask = mask.string();
+    const std::string mask = path.substr(0, path.size() - kOwnJoints.size()) + "mask.png";
+    if (fs::is_regular_file(mask)) found.back().mask = mask;
   }
   std::sort(found.begin(), found.end(),
             [](const AnnotatedImage& a, const AnnotatedImage& b) { return a.image < b.image; });

@@ -2,11 +2,13 @@
 // `<stem>.png`, `<stem>.mask.png` and `<stem>.joints.json` side by side.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "libskel/candidates/candidates.h"
+#include "libskel/core/error.h"
 #include "libskel/core/json.h"
 #include "libskel/image/image.h"
 #include "libskel/labels/label_file.h"
@@ -21,9 +23,16 @@ struct AnnotatedImage {
   std::string joints;               // path
 };
 
+// The picture that a joints file is for, of any kind, whether its ending is in small letters or capitals.
+// Throws InputError if there is none.
+std::string imageOfJointsFile(const std::string& joints_file);
+
+// Is told why a drawing is left out.
+using OnInputError = std::function<void(const InputError&)>;
+
 // All below `dir`, at any depth, sorted by path. Throws InputError: no such folder, a folder that cannot be
-// read, joints without an image.
-std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir);
+// read, joints without an image. `on_error`, if given, is told of the latter, and the others are found.
+std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir, const OnInputError& on_error = {});
 
 // Joints by the names of the biped template; a file may also call `body` "torso" and `pelvis` "hip".
 // Throws InputError that names file, JSON path and reason.

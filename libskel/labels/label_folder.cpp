@@ -75,7 +75,7 @@ struct JointedImage {
 // A label file's placed joints count before a joints file beside it. Sorted by the picture's path.
 std::vector<JointedImage> findJointedImages(const std::string& dir, const OnInputError& on_error) {
   std::map<std::string, JointedImage> by_image;
-  for (const AnnotatedImage& annotated : findAnnotatedImages(dir))
+  for (const AnnotatedImage& annotated : findAnnotatedImages(dir, on_error))
     attempt(on_error, [&] {
       by_image[annotated.image] = {
           annotated.image, annotated.mask, annotated.joints, readJointsFile(annotated.joints), {}};

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "libskel/classifier/features.h"
-#include "libskel/core/error.h"
+#include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 
 namespace skel {
@@ -37,9 +36,6 @@ std::vector<std::string> findLabelFiles(const std::string& dir);
 // Every inconsistency of all label files below `dir`, one line each; none: all is well.
 // Candidates without a label are not one: label files may be in the making.
 std::vector<std::string> checkLabelFolder(const std::string& dir);
-
-// Is told why a drawing is left out.
-using OnInputError = std::function<void(const InputError&)>;
 
 // Throws InputError that names file, JSON path and reason: whatever checkLabelFolder() finds, no label files
 // at all, a candidate without label, no candidates. With `on_error` a drawing of which that is true is left

@@ -12,9 +12,16 @@ namespace skel {
 // In this frame; `repeat`: also while it is held down.
 inline bool pressed(key::Code code, bool repeat = false) { return ImGui::IsKeyPressed(code, repeat); }
 
+inline constexpr float kTipWidth_em = 35;
+
 // Of the last item, under the mouse.
 inline void tip(const char* text) {
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(kTipWidth_em * ImGui::GetFontSize());
+  ImGui::TextUnformatted(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
 }
 
 template <class Action>

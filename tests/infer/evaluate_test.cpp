@@ -253,6 +253,34 @@ TEST_CASE("evaluate goes on after a drawing that cannot be read, and says so") {
   CHECK(run.out.find("mean over 1 characters") != std::string::npos);
 }
 
+TEST_CASE("evaluate took joints beside a .png alone, and no tool those beside a picture in capitals") {
+  const skel::TempDir dir;
+  const std::string robot = SKEL_DATASETS "/characters/box_robot";
+  for (const char* name : {"a.jpg", "b.JPG", "c.PNG", "d/image.Jpeg"}) {
+    const std::filesystem::path picture = dir.file(name);
+    std::filesystem::create_directories(picture.parent_path());
+    std::filesystem::copy_file(robot + ".png", picture);
+    const bool own = picture.stem() == "image";
+    std::filesystem::copy_file(robot + ".joints.json",
+                               own ? picture.parent_path() / "joints.json"
+                                   : std::filesystem::path(picture).replace_extension(".joints.json"));
+  }
+  const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "' --jobs 1");
+  CAPTURE(run.out, run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(run.out.find("mean over 4 characters") != std::string::npos);
+  const auto over =
+      skel::runTool("skel-infer evaluate '" + dir.path() + "' --json '" + dir.file("b.JPG") + "'");
+  CHECK(over.exit_code != 0);
+  CHECK(skel::readFile(dir.file("b.JPG")) == skel::readFile(robot + ".png"));
+
+  std::filesystem::remove(dir.file("a.jpg"));
+  const auto without = skel::runTool("skel-infer evaluate '" + dir.path() + "' --jobs 1");
+  CHECK(without.exit_code == 2);
+  CHECK(without.err.find("a.joints.json: has no image beside it, a.png") != std::string::npos);
+  CHECK(without.out.find("mean over 3 characters") != std::string::npos);
+}
+
 TEST_CASE(
     "evaluate wrote its figures over the joints, the mask or the picture of a drawing that it measures") {
   const skel::TempDir dir;

@@ -392,6 +392,24 @@ TEST_CASE("import: of a picture that has changed other joints were told, and --f
   CHECK(readLabelFile(path).image.sha256 == sha256(readFile(dir.file("cap_boy.png"))));
 }
 
+TEST_CASE("import kept the labels of a mask that has changed without a word") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.file("in"));
+  const std::string to = GENERATE("", " -o out");
+  REQUIRE(label(dir, "import in" + to).exit_code == 0);
+  CHECK(label(dir, "import in" + to).err == "");
+  Plane8 mask = readMask(dir.file("in/cap_boy.mask.png"));
+  mask.block(0, 0, 200, 200) = 255;
+  writeFile(dir.file("in/cap_boy.mask.png"), encodePng(mask));
+  const ToolRun run = label(dir, "import in" + to);
+  CHECK(contains(run.out, "0 label files made, 1 kept as they were, 0 failed\n"));
+  CHECK(contains(run.err,
+                 "cap_boy.labels.json: kept, but the mask has changed since it was labelled; "
+                 "--force makes the labels anew, and drops joints set by hand\n"));
+  REQUIRE(label(dir, "import in --force" + to).exit_code == 0);
+  CHECK(label(dir, "import in" + to).err == "");
+}
+
 TEST_CASE("import: joints that follow from others, and roundings, were told as other joints") {
   const TempDir dir;
   fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
@@ -537,6 +555,17 @@ TEST_CASE("import: one picture of a COCO file that was missing kept all others f
   CHECK(contains(run.out, "1 label files made, 0 kept as they were, 1 failed\n"));
   CHECK(run.err == "skel-label: round/coco.json: images[0].file_name: there is no round/box_robot.png\n");
   CHECK(fs::exists(dir.file("round/cap_boy.labels.json")));
+}
+
+TEST_CASE("import: one joints file without its picture kept all others from being imported") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  fs::copy(kCharacters + "box_robot.joints.json", dir.file("away.joints.json"));
+  const ToolRun run = label(dir, "import .");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.out, "1 label files made, 0 kept as they were, 1 failed\n"));
+  CHECK(run.err == "skel-label: ./away.joints.json: has no image beside it, away.png\n");
+  CHECK(fs::exists(dir.file("cap_boy.labels.json")));
 }
 
 TEST_CASE("import: joints and outline of a COCO file were taken for a picture of another size") {

@@ -124,6 +124,21 @@ TEST_CASE("labels are set, undone, done again, and are on the disk at once") {
   CHECK_FALSE(document.redo());
 }
 
+TEST_CASE("classes by joints that nobody has placed looked like those by joints of a person") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.path(), documentOptions());
+  document.rig();
+  document.labelFromJoints();
+  const Progress found = document.item().joints;
+  REQUIRE(found.done == 0);
+  CHECK(contains(document.message(), "changed to fit the joints, of which " + std::to_string(found.parts) +
+                                         " were found, not placed"));
+  document.acceptJoints();
+  document.labelFromJoints();
+  CHECK(document.message() == "0 labels changed to fit the joints");
+}
+
 TEST_CASE("a step that changes nothing is no step") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());
@@ -290,6 +305,23 @@ TEST_CASE("a folder opens where it was left off: at joints, or at the candidates
   const Document document(dir.path(), documentOptions());
   CHECK(document.subject() == Subject::kJoints);
   CHECK(document.current() == 0);
+}
+
+TEST_CASE("a folder opened at a picture that cannot be read, not at the first that can be labelled") {
+  const TempDir dir;
+  writeFile(dir.file("Ada.heic"), "no picture");
+  writeFile(dir.file("Ben.png"), "no picture");
+  {
+    const Document document(dir.path(), documentOptions());
+    CHECK(document.current() == 0);
+    CHECK(contains(document.item().problem, "Ada.heic"));
+  }
+  copyCharacter("cap_boy", dir.path());
+  copyCharacter("runner", dir.path());
+  const Document document(dir.path(), documentOptions());
+  CHECK(document.item().files.name == "cap_boy.png");
+  CHECK(document.item().problem.empty());
+  CHECK(contains(document.items()[0].problem, "Ada.heic"));
 }
 
 TEST_CASE("drawings of a folder stand in the order in which people count") {
@@ -1079,6 +1111,7 @@ TEST_CASE("pictures that cannot be labelled say why and do not stop the others")
   writeFile(dir.file("b_blank.png"), encodePng(blank));
   Document document(dir.path(), documentOptions());
   REQUIRE(document.items().size() == 3);
+  CHECK(document.go(0));
   CHECK(contains(document.item().problem, "a_broken.png"));
   document.rig();
   document.acceptSuggestions();

@@ -176,6 +176,30 @@ TEST_CASE("label files with placed joints were no pictures with joints to candid
   CHECK(without_hand.characters[0].features.rows() == without_hand.sampleCount());
 }
 
+TEST_CASE("joints had no image beside them where its ending is in capitals") {
+  const TempDir dir;
+  const auto picture = GENERATE("man.PNG", "man.Png", "man.JPG", "man.TIFF");
+  writeFile(dir.file(picture), encodePng(blockMan()));
+  writeFile(dir.file("man.joints.json"), kBlockManJoints);
+  writeFile(dir.file("manner.png"), encodePng(blockMan()));
+  CHECK(imageOfJointsFile(dir.file("man.joints.json")) == dir.file(picture));
+  writeFile(dir.file("man.bmp"), encodePng(blockMan()));
+  CHECK(imageOfJointsFile(dir.file("man.joints.json")) == dir.file("man.bmp"));
+}
+
+TEST_CASE("one joints file without its picture left no drawing to be measured") {
+  const TempDir dir;
+  writeFile(dir.file("man.png"), encodePng(blockMan()));
+  writeFile(dir.file("man.joints.json"), kBlockManJoints);
+  writeFile(dir.file("away.joints.json"), kBlockManJoints);
+  std::vector<std::string> left_out;
+  const LabelledSet set = labelAnnotatedImages(
+      dir.path(), {}, [&](const InputError& error) { left_out.push_back(error.what()); });
+  CHECK(set.characters.size() == 1);
+  CHECK(left_out ==
+        std::vector<std::string>{dir.file("away.joints.json") + ": has no image beside it, away.png"});
+}
+
 TEST_CASE("annotated pictures that cannot be used are refused") {
   const TempDir dir;
   CHECK_THROWS_WITH(labelAnnotatedImages(dir.path()),
