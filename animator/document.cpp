@@ -156,8 +156,16 @@ JointTransforms AnimationDocument::posed() const {
 
 double AnimationDocument::duration_s() const { return clip() ? double(clip()->duration_s()) : 0; }
 
-void AnimationDocument::takePoseFromClip() {
-  state_.pose = clip() ? samplePose(*clip(), skeleton(), float(state_.time_s)) : restPose(skeleton());
+Pose AnimationDocument::poseOfClip() const {
+  return clip() ? samplePose(*clip(), skeleton(), float(state_.time_s)) : restPose(skeleton());
+}
+
+void AnimationDocument::takePoseFromClip() { state_.pose = poseOfClip(); }
+
+bool AnimationDocument::standsAs(const Pose& pose) const {
+  return pose.rotations.size() == state_.pose.rotations.size() &&
+         std::equal(pose.rotations.begin(), pose.rotations.end(), state_.pose.rotations.begin(), sameTurn) &&
+         state_.pose.root_translation.isApprox(pose.root_translation, 1e-6f);
 }
 
 void AnimationDocument::playOrPause() {
@@ -185,6 +193,11 @@ bool AnimationDocument::advance(double seconds) {
 }
 
 void AnimationDocument::setTime(double time_s) {
+  std::optional<StepScope> step;
+  if (!standsAs(poseOfClip())) {
+    step.emplace(*this);
+    message_ = "what had no key is gone; undo brings it back";
+  }
   state_.time_s = std::clamp(time_s, 0.0, duration_s());
   takePoseFromClip();
 }
@@ -369,6 +382,7 @@ void AnimationDocument::setKey() {
   changed.lead_s = 0;  // the clip may no longer come from the rest pose, nor the feet stand
   changed.contacts.clear();
   replaceKeys(edited);
+  takePoseFromClip();
   message_ = "key set for " + std::to_string(joints.size()) + (joints.size() == 1 ? " joint" : " joints");
 }
 
@@ -421,7 +435,7 @@ void AnimationDocument::setDuration(double duration_s) {
   Clip& changed = edited.clip;
   changed.least_duration_s = float(std::max(duration_s, 0.0));
   replaceKeys(edited);
-  state_.time_s = std::min(state_.time_s, this->duration_s());
+  if (state_.time_s > this->duration_s()) setTime(this->duration_s());
 }
 
 bool AnimationDocument::hasOtherClip(const std::string& name) const {
@@ -459,14 +473,7 @@ std::vector<std::string> AnimationDocument::unsavedClips() const {
 }
 
 bool AnimationDocument::hasUnsavedPose() const {
-  const auto stands = [&](const Pose& pose) {
-    return pose.rotations.size() == state_.pose.rotations.size() &&
-           std::equal(pose.rotations.begin(), pose.rotations.end(), state_.pose.rotations.begin(),
-                      sameTurn) &&
-           state_.pose.root_translation.isApprox(pose.root_translation, 1e-6f);
-  };
-  return !stands(clip() ? samplePose(*clip(), skeleton(), float(state_.time_s)) : restPose(skeleton())) &&
-         !(saved_pose_ && stands(*saved_pose_));
+  return !standsAs(poseOfClip()) && !(saved_pose_ && standsAs(*saved_pose_));
 }
 
 std::string AnimationDocument::unsavedBelow(const std::string& path) const {

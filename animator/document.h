@@ -75,7 +75,7 @@ class AnimationDocument {
   // In the pose that is shown.
   JointTransforms posed() const;
 
-  // Time. These are no steps; they take the pose from the clip.
+  // Time. These take the pose from the clip, and are steps only where joints have been turned and got no key.
   bool playing = false, loops = true;
   double speed = 1;
   double duration_s() const;
@@ -156,7 +156,9 @@ class AnimationDocument {
   class StepScope;
   template <class Action>
   bool attempt(const Action& action);
+  Pose poseOfClip() const;  // or the rest pose
   void takePoseFromClip();
+  bool standsAs(const Pose& pose) const;
   std::string whyIdle(int joint) const;  // why turning it moves nothing; "": it does
   void sayIfIdle(int joint);
   // The clip, which there is, as it is edited; eased(): null if it does not ease.

@@ -1,9 +1,10 @@
 #include "libskel/draw/oklab.h"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "libskel/image/srgb.h"
 
 namespace skel {
 namespace {
@@ -39,12 +40,7 @@ Color srgbFromOklab(const Eigen::Vector3f& lab) {
   static const Eigen::Matrix3f kRootsFromLab = kLabFromRoots.inverse();
   static const Eigen::Matrix3f kLinearFromCones = kConesFromLinear.inverse();
   const Eigen::Vector3f linear = kLinearFromCones * (kRootsFromLab * lab).array().cube().matrix();
-  const auto byte = [](float l) {
-    l = std::clamp(l, 0.0f, 1.0f);
-    const float s = l <= 0.0031308f ? 12.92f * l : 1.055f * std::pow(l, 1 / 2.4f) - 0.055f;
-    return std::uint8_t(std::lround(255 * s));
-  };
-  return {byte(linear[0]), byte(linear[1]), byte(linear[2])};
+  return {srgbFromLinear(linear[0]), srgbFromLinear(linear[1]), srgbFromLinear(linear[2])};
 }
 
 }  // namespace skel

@@ -10,8 +10,10 @@
 #include "libskel/animation/clip_limits.h"
 #include "libskel/core/files.h"
 #include "libskel/image/read_image.h"
+#include "libskel/image/srgb.h"
 #include "libskel/import/glb_container.h"
 #include "libskel/import/read_character.h"
+#include "libskel/mesh/plain_texture.h"
 #include "libskel/mesh/split_seams.h"
 #include "libskel/skeleton/hanging.h"
 #include "libskel/skeleton/rig_file.h"
@@ -282,6 +284,16 @@ bool shinesInPart(const GlbContainer& glb, const JsonValue& material, const Json
   return factor[3] == 1;
 }
 
+// What shines by itself adds to what the light shows. White needs no texture.
+void wearPlainColor(const JsonValue& material, const std::vector<double>& factor, TriangleMesh& mesh) {
+  const std::vector<double> shine = numbersAt(material, "emissiveFactor", 3).value_or(std::vector<double>(3));
+  std::array<std::uint8_t, 3> rgb{};
+  for (std::size_t k = 0; k < 3; ++k) rgb[k] = srgbFromLinear(static_cast<float>(factor[k] + shine[k]));
+  if (rgb == std::array<std::uint8_t, 3>{255, 255, 255}) return;
+  mesh.texture = plainTexture(rgb);
+  mesh.uv.setConstant(mesh.vertices.rows(), 2, 0.5f);
+}
+
 void readTexture(const GlbContainer& glb, const JsonValue& primitive, const std::string& file,
                  TriangleMesh& mesh) {
   const std::optional<JsonValue> material_index = primitive.find("material");
@@ -289,10 +301,12 @@ void readTexture(const GlbContainer& glb, const JsonValue& primitive, const std:
   const JsonValue material = glb.element("materials", *material_index);
   const std::optional<JsonValue> pbr = material.find("pbrMetallicRoughness");
   if (!pbr) return;
-  if (const auto factor = numbersAt(*pbr, "baseColorFactor", 4))
-    if (*factor != std::vector<double>(4, 1) && !shinesInPart(glb, material, *pbr, *factor))
-      pbr->at("baseColorFactor").fail("is not read; put the colour into a texture");
   const std::optional<JsonValue> found = pbr->find("baseColorTexture");
+  if (const auto factor = numbersAt(*pbr, "baseColorFactor", 4)) {
+    if (!found && !material.find("emissiveTexture")) return wearPlainColor(material, *factor, mesh);
+    if (*factor != std::vector<double>(4, 1) && !shinesInPart(glb, material, *pbr, *factor))
+      pbr->at("baseColorFactor").fail("is not read beside a picture; put the colour into the picture");
+  }
   if (!found) return;
   const JsonValue image = imageOf(glb, *found);
   if (image.find("uri")) image.at("uri").fail("lies outside of the file; export as one .glb");

@@ -18,6 +18,7 @@
 #include "libskel/core/number_chars.h"
 #include "libskel/image/read_image.h"
 #include "libskel/mesh/cut_polygon.h"
+#include "libskel/mesh/plain_texture.h"
 #include "libskel/mesh/texture_atlas.h"
 
 namespace skel {
@@ -313,10 +314,8 @@ Looks looksOf(const Obj& obj, const std::string& path) {
           tile.image = readImage(material.picture);
           pixels += static_cast<double>(tile.image.width) * tile.image.height;
         } else {
-          tile.image = Image(4, 4);
-          for (Eigen::Index i = 0; i < 16; ++i)
-            tile.image.rgba.row(i) << static_cast<std::uint8_t>(rgb[0]), static_cast<std::uint8_t>(rgb[1]),
-                static_cast<std::uint8_t>(rgb[2]), 255;
+          tile.image = plainTexture({static_cast<std::uint8_t>(rgb[0]), static_cast<std::uint8_t>(rgb[1]),
+                                     static_cast<std::uint8_t>(rgb[2])});
         }
         looks.tiles.push_back(std::move(tile));
         looks.plain.push_back(!picture);

@@ -7,6 +7,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/image/write_image.h"
 
@@ -28,12 +29,42 @@ bool isOurs(const fs::path& path) {
   return file.good() && std::string_view(head).substr(kMarkAt) == kMark;
 }
 
+constexpr std::string_view kEnding = ".png", kDigits = "0123456789";
+
 bool isFrame(const std::string& name, const std::string& prefix) {
-  constexpr std::string_view kEnding = ".png";
   if (!name.starts_with(prefix) || !name.ends_with(kEnding)) return false;
   const std::string_view number =
       std::string_view(name).substr(prefix.size(), name.size() - prefix.size() - kEnding.size());
-  return !number.empty() && number.find_first_not_of("0123456789") == std::string_view::npos;
+  return !number.empty() && number.find_first_not_of(kDigits) == std::string_view::npos;
+}
+
+std::size_t numberAt(const std::string& frame) {
+  return frame.find_last_not_of(kDigits, frame.size() - kEnding.size() - 1) + 1;
+}
+
+// frame-0010.png after frame-0009.png.
+std::string frameAfter(std::string frame) {
+  for (std::size_t i = frame.size() - kEnding.size(); i-- > numberAt(frame);) {
+    if (frame[i] != '9') {
+      ++frame[i];
+      break;
+    }
+    frame[i] = '0';
+  }
+  return frame;
+}
+
+// The shell's command for frames that follow on each other, in brackets; of others "".
+std::string removalOf(const std::string& dir, const std::vector<std::string>& frames) {
+  const auto gap = std::adjacent_find(frames.begin(), frames.end(),
+                                      [](const auto& a, const auto& b) { return frameAfter(a) != b; });
+  if (gap != frames.end()) return "";
+  const std::size_t at = numberAt(frames.front());
+  const auto number = [&](const std::string& frame) {
+    return frame.substr(at, frame.size() - kEnding.size() - at);
+  };
+  return " (rm " + shellWord((fs::path(dir) / frames.front().substr(0, at)).string()) + "{" +
+         number(frames.front()) + ".." + number(frames.back()) + "}" + std::string(kEnding) + ")";
 }
 
 }  // namespace
@@ -65,10 +96,17 @@ std::vector<std::string> checkFrames(const std::string& dir, const std::string& 
 
 void refuseOtherFrames(const std::string& dir, const std::vector<std::string>& there,
                        const std::set<std::string>& known) {
-  for (const std::string& name : there)
-    if (!known.contains(name))
-      throw OutputError((fs::path(dir) / name).string(),
-                        "belongs to another film; remove it, or name another folder with -o");
+  std::vector<std::string> others;
+  std::copy_if(there.begin(), there.end(), std::back_inserter(others),
+               [&](const std::string& name) { return !known.contains(name); });
+  if (others.empty()) return;
+  std::string text = "belongs to another film";
+  if (others.size() == 1)
+    text += "; remove it";
+  else
+    text += ", as do " + std::to_string(others.size() - 1) + " more up to " + others.back() +
+            "; remove them" + removalOf(dir, others);
+  throw OutputError((fs::path(dir) / others.front()).string(), text + ", or name another folder with -o");
 }
 
 }  // namespace skel

@@ -637,6 +637,41 @@ TEST_CASE("joints that were turned and have no key were lost without a question"
   }
 }
 
+TEST_CASE("a pose without a key was lost with a click on the time line, and undo did not bring it back") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  const int arm = document.skeleton().index("left_shoulder");
+  document.newClip("throw", 2);
+  document.setTime(0.5);
+  document.turnJoint(arm, 2, 1);
+  document.scrub(1.5);
+  CHECK_THAT(document.message(), Contains("undo brings it back"));
+  document.scrub(1.6);  // a drag goes on
+  document.playing = true;
+  document.advance(0.1);
+  CHECK(atRest(document));
+  REQUIRE(document.undo());
+  CHECK(document.state().time_s == 0.5);
+  CHECK(document.anglesOf(arm).z() == Approx(1).margin(1e-5));
+  REQUIRE(document.redo());
+  CHECK(atRest(document));
+  REQUIRE(document.undo());
+  document.setKey();
+  document.setTime(1);
+  REQUIRE(document.undo());  // the key: time alone is no step
+  CHECK(document.clip()->tracks.empty());
+}
+
+TEST_CASE("a key between two frames left joints as they stood before it, which no key holds") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  document.chooseClip(clipIndex(document, "walk"));
+  document.setTime(0.49);
+  document.turnJoint(document.skeleton().index("head"), 0, 1);
+  document.setKey();
+  CHECK_FALSE(document.hasUnsavedPose());
+}
+
 TEST_CASE("a clip is called as its file, unless somebody has named it, and names are free") {
   const TempDir dir;
   AnimationDocument document({.path = figureFile(dir)});

@@ -243,7 +243,7 @@ TEST_CASE("GLB files that mean something else are refused with their place") {
       {[](json& d, std::string&) {
          d["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {1, 0, 0, 1};
        },
-       "materials[0].pbrMetallicRoughness.baseColorFactor: is not read"},
+       "materials[0].pbrMetallicRoughness.baseColorFactor: is not read beside a picture"},
   };
   for (const Case& c : cases) {
     const std::string said = complaint(changed(c.change));
@@ -277,6 +277,33 @@ TEST_CASE("a texture that shines in part may be two textures of one image, as Bl
   };
   CHECK(with(0) == "none");
   CHECK(with(1).find("baseColorFactor: is not read") != std::string::npos);
+}
+
+TEST_CASE("a model whose only material has a plain colour was refused") {
+  const auto meshWith = [](const json& factor, const json& shine) {
+    return decodeGlb(changed([&](json& document, std::string&) {
+                       json& material = document["materials"][0];
+                       material.erase("emissiveTexture");
+                       material["emissiveFactor"] = shine;
+                       material["pbrMetallicRoughness"].erase("baseColorTexture");
+                       material["pbrMetallicRoughness"]["baseColorFactor"] = factor;
+                     }),
+                     "a.glb")
+        .character.mesh;
+  };
+  const auto shows = [](const TriangleMesh& mesh, int r, int g, int b) {
+    REQUIRE(mesh.uv.rows() == mesh.vertices.rows());
+    for (Eigen::Index i = 0; i < mesh.texture.rgba.rows(); ++i) {
+      const Eigen::Array4i rgba = mesh.texture.rgba.row(i).cast<int>();
+      if ((rgba != Eigen::Array4i(r, g, b, 255)).any()) return false;
+    }
+    return !mesh.texture.empty();
+  };
+  const json dark = {0, 0, 0};
+  // Factors are of linear light.
+  CHECK(shows(meshWith({1, 0.2158605, 0, 1}, dark), 255, 128, 0));
+  CHECK(shows(meshWith({0, 0, 0, 1}, {1, 0.2158605, 0}), 255, 128, 0));
+  CHECK(meshWith({1, 1, 1, 1}, dark).texture.empty());
 }
 
 TEST_CASE("an animation of 1e8 s, which became a film of one frame, is refused") {

@@ -108,6 +108,20 @@ TEST_CASE("a folder of frames holds the frames") {
                     Catch::Matchers::Contains("frame-0003.png: belongs to another film; remove it"));
 }
 
+TEST_CASE("of the frames that a longer film had left in a folder only the first was named") {
+  const TempDir dir;
+  VideoOptions options{.width = 33, .height = 21, .frame_rate = 24, .frames = 12};
+  write(dir.file("my frames"), options, 12);
+  options.frames = 8;
+  CHECK_THROWS_WITH(openVideo(dir.file("my frames"), options),
+                    Catch::Matchers::Contains("frame-0009.png: belongs to another film, as do 3 more up to "
+                                              "frame-0012.png; remove them (rm '" +
+                                              dir.file("my frames/frame-") + "'{0009..0012}.png), or name"));
+  fs::remove(dir.file("my frames/frame-0010.png"));
+  CHECK_THROWS_WITH(openVideo(dir.file("my frames"), options),
+                    Catch::Matchers::Contains("as do 2 more up to frame-0012.png; remove them, or name"));
+}
+
 #ifdef SKEL_VIDEO_MP4
 namespace {
 
