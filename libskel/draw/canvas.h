@@ -42,8 +42,8 @@ Image magnified(const Image& image, int factor);
 // Heat colours, 0 darkest and the largest value lightest; cells <= 0 are clear.
 Image heatMap(const Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& field);
 
-// Latin letters, with their marks, in a stroke font of our own (UTF-8); what it does not have shows as a box. `height_px`: of capitals, which stand on
-// origin.y and start at origin.x.
+// Latin letters, with their marks, in a stroke font of our own (UTF-8); what it does not have shows as a box.
+// `height_px`: of capitals, which stand on origin.y and start at origin.x.
 void drawText(Image& image, const Eigen::Vector2d& origin, std::string_view text, double height_px,
               Color color = kInk);
 double textWidth(std::string_view text, double height_px);
