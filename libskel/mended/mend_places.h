@@ -24,7 +24,8 @@ struct MendPlace {
 
 // In the order in which they count: where the run writes (request.results, if it does), beside the drawing,
 // in out/ beside the drawing, in out/ of the working directory; each folder once. Elsewhere than where the
-// run writes, only a result counts that names the picture, or the drawing.
+// run writes, only a result counts that names the picture, or the drawing. Throws InputError: a skeleton file
+// of ours there cannot be read.
 std::vector<MendPlace> mendPlaces(const MendRequest& request);
 
 }  // namespace skel

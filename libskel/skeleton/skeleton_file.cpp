@@ -215,28 +215,32 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
   return file;
 }
 
+SkeletonSource readSkeletonSource(const std::string& path) {
+  const LookAtOutputs look;
+  const JsonDocument document = JsonDocument::readFile(path);
+  const JsonValue root = document.root();
+  root.checkFormat("skel-skeleton", kSkeletonVersion);
+  SkeletonSource source;
+  const JsonValue image = root.at("image");
+  source.image_file = image.at("file").asFileName();
+  source.image_width = image.at("width").asInt(1, kLongestImageSide_px);
+  source.image_height = image.at("height").asInt(1, kLongestImageSide_px);
+  if (const auto hash = image.find("sha256")) source.image_sha256 = hash->asString();
+  if (const JsonValue mask = root.at("mask"); !mask.isNull()) source.mask = sourceAt(mask);
+  if (const auto labels = root.find("labels")) source.labels = sourceAt(*labels);
+  if (const auto json = root.find("figure")) {
+    const SkeletonFile::Figure figure = figureAt(*json);
+    source.outline_sha256 = figure.sha256;
+    source.found_outline_sha256 = source.mask ? figure.found_sha256 : figure.sha256;
+    source.number = figure.number;
+  }
+  return source;
+}
+
 std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path) {
   if (std::error_code unknown; !std::filesystem::exists(path, unknown)) return std::nullopt;
-  const LookAtOutputs look;
   try {
-    const JsonDocument document = JsonDocument::readFile(path);
-    const JsonValue root = document.root();
-    root.checkFormat("skel-skeleton", kSkeletonVersion);
-    SkeletonSource source;
-    const JsonValue image = root.at("image");
-    source.image_file = image.at("file").asFileName();
-    source.image_width = image.at("width").asInt(1, kLongestImageSide_px);
-    source.image_height = image.at("height").asInt(1, kLongestImageSide_px);
-    if (const auto hash = image.find("sha256")) source.image_sha256 = hash->asString();
-    if (const JsonValue mask = root.at("mask"); !mask.isNull()) source.mask = sourceAt(mask);
-    if (const auto labels = root.find("labels")) source.labels = sourceAt(*labels);
-    if (const auto json = root.find("figure")) {
-      const SkeletonFile::Figure figure = figureAt(*json);
-      source.outline_sha256 = figure.sha256;
-      source.found_outline_sha256 = source.mask ? figure.found_sha256 : figure.sha256;
-      source.number = figure.number;
-    }
-    return source;
+    return readSkeletonSource(path);
   } catch (const InputError&) {
     return std::nullopt;
   }

@@ -70,7 +70,9 @@ struct SkeletonSource {
   std::optional<SkeletonFile::Labels> labels;
 };
 
-// Of the skeleton file at `path`. Nothing where there is none, or none that can be read.
+// Of the skeleton file at `path`. Throws InputError.
+SkeletonSource readSkeletonSource(const std::string& path);
+// The same. Nothing where there is none, or none that can be read.
 std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path);
 
 // Whether a person has moved a joint in the skeleton file at `path`, said so or not. False where there is no

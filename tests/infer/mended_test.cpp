@@ -196,6 +196,24 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a mended skeleton file that somebody has broken was passed over without a word") {
+  const TempDir dir;
+  drawSprite(dir);
+  REQUIRE(infer(dir, "boy.png --formats json -o out").exit_code == 0);
+  moveInFile(dir, "left_hand", "420.5");
+  std::string broken = readFile(dir.file(kSkeleton));
+  broken.erase(broken.find(','), 1);
+  writeFile(dir.file(kSkeleton), broken);
+  const ToolRun run = infer(dir, "boy.png --formats glb -o elsewhere");
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("out/boy.skeleton.json: is not JSON"));
+  CHECK_FALSE(fs::exists(dir.file("elsewhere/boy.glb")));
+  CHECK(readFile(dir.file(kSkeleton)) == broken);
+  // What is not ours is nothing to us.
+  writeFile(dir.file(kSkeleton), "bones");
+  CHECK(infer(dir, "boy.png --formats glb -o elsewhere").exit_code == 0);
+}
+
 TEST_CASE("results that were moved lost what was mended when the sprite got other colours after that") {
   const TempDir dir;
   drawSprite(dir);
