@@ -630,12 +630,8 @@ std::string AnimationDocument::fileForClip() const {
   if (std::string own = fileOfClip(); !own.empty()) return own;
   const auto loaded = clip() ? files_.find(clip()->name) : files_.end();
   if (loaded == files_.end()) return "";
-  const std::filesystem::path file(loaded->second);
-  const std::string name = file.filename().string(),
-                    stem = name.ends_with(kClipFileEnding)
-                               ? name.substr(0, name.size() - std::string_view(kClipFileEnding).size())
-                               : file.stem().string();
-  return (file.parent_path() / (stem + "-" + stemOf(source_.path) + kClipFileEnding)).string();
+  const fs::path folder = fs::path(loaded->second).parent_path();
+  return (folder / (clipNameIn(loaded->second) + "-" + stemOf(source_.path) + kClipFileEnding)).string();
 }
 
 bool AnimationDocument::saveClip(const std::string& path) {

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 
 #include "animator/rig_source.h"
@@ -26,13 +25,6 @@
 namespace skel {
 namespace {
 namespace fs = std::filesystem;
-
-std::string endingOf(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return ending;
-}
 
 }  // namespace
 

@@ -49,6 +49,14 @@ std::string pathInside(const std::string& dir, const std::string& named, const s
   return path.string();
 }
 
+std::string inSmallLetters(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+std::string endingOf(const std::string& path) { return inSmallLetters(fs::path(path).extension().string()); }
+
 std::string numberedName(const std::string& start, const std::string& end, int number) {
   return start + (number > 1 ? "-" + std::to_string(number) : "") + end;
 }

@@ -18,6 +18,11 @@ bool liesBelow(const std::string& dir, const std::string& path);
 // `dir`: an absolute path, or one that leads out by `..` or by a link to another folder.
 std::string pathInside(const std::string& dir, const std::string& named, const std::string& file);
 
+// A to Z as a to z, whatever the locale.
+std::string inSmallLetters(std::string text);
+// ".png" of Hero.PNG, with its dot; "": it has none.
+std::string endingOf(const std::string& path);
+
 // `start`, from the second on a number, `end`: boy.old.png, boy.old-2.png.
 std::string numberedName(const std::string& start, const std::string& end, int number);
 

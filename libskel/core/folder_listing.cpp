@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
 
+#include "libskel/core/file_names.h"
 #include "libskel/core/natural_order.h"
 
 namespace skel {
@@ -62,10 +62,7 @@ std::string withEnding(const std::string& typed, const std::string& ending) {
   constexpr std::array<std::string_view, 9> kOwn = {".json", ".glb", ".obj", ".bvh", ".yaml",
                                                     ".png",  ".mp4", ".gif", ".webp"};
   if (typed.empty() || typed.ends_with('/')) return typed;
-  std::string own = fs::path(typed).extension().string();
-  std::transform(own.begin(), own.end(), own.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::find(kOwn.begin(), kOwn.end(), own) != kOwn.end() ? typed : typed + ending;
+  return std::find(kOwn.begin(), kOwn.end(), endingOf(typed)) != kOwn.end() ? typed : typed + ending;
 }
 
 }  // namespace skel

@@ -1,7 +1,6 @@
 #include "libskel/labels/annotated_image.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
@@ -26,12 +26,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view kOwnJoints = "joints.json", kJointsEnding = ".joints.json";
 constexpr double kFarthest_px = 1e6;  // more than pictures have; joints may lie a little beside them
 
-std::string inSmallLetters(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 // The first by the order of the endings; one in small letters counts before all others.
 std::optional<std::string> pictureOfStem(const fs::path& stem) {
   for (const std::string_view ending : kDrawingEndings)
@@ -43,8 +37,7 @@ std::optional<std::string> pictureOfStem(const fs::path& stem) {
     const fs::path name = entry->path().filename();
     std::error_code unknown;
     if (name.stem() != stem.filename() || !entry->is_regular_file(unknown)) continue;
-    const auto known =
-        std::find(kDrawingEndings.begin(), kDrawingEndings.end(), inSmallLetters(name.extension().string()));
+    const auto known = std::find(kDrawingEndings.begin(), kDrawingEndings.end(), endingOf(name.string()));
     if (known == kDrawingEndings.end()) continue;
     const std::pair found(known - kDrawingEndings.begin(), (stem.parent_path() / name).string());
     if (!first || found < *first) first = found;

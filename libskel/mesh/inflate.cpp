@@ -371,7 +371,10 @@ Eigen::VectorXd heightsBehind(const PlanarMesh& mesh, const std::vector<DepthThe
 
 // How far legs that are seen from the side lie before the drawing's plane.
 Eigen::VectorXd asideOf(const BodyDepth& body, double range_px, const PlanarMesh& mesh) {
-  Eigen::VectorXd aside(static_cast<Eigen::Index>(mesh.vertices.size()));
+  Eigen::VectorXd aside = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.vertices.size()));
+  if (std::none_of(body.bones.begin(), body.bones.end(),
+                   [](const DepthBone& bone) { return bone.to_aside_px != 0; }))
+    return aside;
   for (Eigen::Index v = 0; v < aside.size(); ++v)
     aside[v] = asideAt(body.bones, mesh.vertices[static_cast<std::size_t>(v)]);
   return localMean(mesh, aside, range_px);

@@ -1,11 +1,11 @@
 // A folder of pictures as a film.
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <vector>
 
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/core/natural_order.h"
@@ -16,13 +16,6 @@
 namespace skel {
 namespace {
 namespace fs = std::filesystem;
-
-std::string endingOf(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 bool isPicture(const std::string& path) {
   constexpr std::array<std::string_view, 7> kEndings = {".png", ".jpg", ".jpeg", ".webp",

@@ -1,10 +1,9 @@
 #include "libskel/video/video_writer.h"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/video/formats.h"
 
@@ -16,17 +15,14 @@ namespace fs = std::filesystem;
 constexpr int kMaxSide_px = 16383;
 constexpr double kMinFrameRate = 0.1, kMaxFrameRate = 240;
 
-std::string endingOf(const std::string& path) {
-  if (path.ends_with('/') || fs::is_directory(path)) return "";
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+// "": a folder of frames.
+std::string filmEndingOf(const std::string& path) {
+  return path.ends_with('/') || fs::is_directory(path) ? "" : endingOf(path);
 }
 
 [[noreturn]] [[maybe_unused]] void lacking(const std::string& path, const std::string& packages) {
   throw UnavailableError(path + ": this build of skel writes " + videoFormatNames() + "; for " +
-                         endingOf(path) + " install " + packages + " and build again");
+                         filmEndingOf(path) + " install " + packages + " and build again");
 }
 
 }  // namespace
@@ -45,9 +41,9 @@ std::string videoFormatNames() {
   return names + "a folder";
 }
 
-bool isFrameFolder(const std::string& path) { return endingOf(path).empty(); }
+bool isFrameFolder(const std::string& path) { return filmEndingOf(path).empty(); }
 
-bool keepsTransparency(const std::string& path) { return endingOf(path) != ".mp4"; }
+bool keepsTransparency(const std::string& path) { return filmEndingOf(path) != ".mp4"; }
 
 void checkVideo(const VideoOptions& options) {
   if (options.width < 1 || options.height < 1 || options.width > kMaxSide_px || options.height > kMaxSide_px)
@@ -61,7 +57,7 @@ void checkVideo(const VideoOptions& options) {
 std::unique_ptr<VideoWriter> openVideo(const std::string& path, const VideoOptions& options) {
   if (path.empty()) throw UsageError("name the film that is to be written");
   checkVideo(options);
-  const std::string ending = endingOf(path);
+  const std::string ending = filmEndingOf(path);
   if (ending.empty()) return openFrameFolder(path, options);
   ensureWritableFolderOf(path);
   if (ending == ".mp4") {

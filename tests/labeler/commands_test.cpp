@@ -48,6 +48,14 @@ void writeSkeleton(const TempDir& dir, const std::string& name, double head_x) {
   writeFile(dir.file(name + ".skeleton.json"), formatSkeletonFile(file));
 }
 
+// With its skeleton; returns the label file that is made of both.
+std::string importedBoy(const TempDir& dir) {
+  fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
+  writeSkeleton(dir, "cap_boy", 300);
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  return dir.file("cap_boy.labels.json");
+}
+
 double headOf(const std::string& label_file) {
   for (const auto& [name, place] : readLabelFile(label_file).joints)
     if (name == "head" && place) return place->x();
@@ -254,10 +262,7 @@ TEST_CASE("import --force wrote over a label file that cannot be read, and lost 
 
 TEST_CASE("a mask beside a picture was ignored by import, and by check where the label file has none") {
   const TempDir dir;
-  fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
-  writeSkeleton(dir, "cap_boy", 300);
-  REQUIRE(label(dir, "import .").exit_code == 0);
-  const std::string path = dir.file("cap_boy.labels.json");
+  const std::string path = importedBoy(dir);
   REQUIRE_FALSE(readLabelFile(path).mask);
   REQUIRE(label(dir, "check .").out == "no inconsistencies\n");
 
@@ -412,10 +417,7 @@ TEST_CASE("import kept the labels of a mask that has changed without a word") {
 
 TEST_CASE("import: joints that follow from others, and roundings, were told as other joints") {
   const TempDir dir;
-  fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
-  writeSkeleton(dir, "cap_boy", 300);
-  REQUIRE(label(dir, "import .").exit_code == 0);
-  const std::string path = dir.file("cap_boy.labels.json");
+  const std::string path = importedBoy(dir);
   const LabelFile made = readLabelFile(path);
   const auto noteWith = [&](const std::string& joint, double by) {
     LabelFile moved = made;
@@ -467,9 +469,7 @@ TEST_CASE("import: joints that were placed in the window gave no classes without
 
 TEST_CASE("import: our own export put old joints back, and a second one stopped every import") {
   const TempDir dir;
-  fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
-  writeSkeleton(dir, "cap_boy", 300);
-  REQUIRE(label(dir, "import .").exit_code == 0);
+  importedBoy(dir);
   for (const char* name : {"joints", "more"})
     REQUIRE(label(dir, "export . --coco -o " + std::string(name) + ".coco.json").exit_code == 0);
   writeSkeleton(dir, "cap_boy", 310);
