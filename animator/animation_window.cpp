@@ -619,7 +619,8 @@ class AnimationWindow {
     }
     ImDrawList* list = ImGui::GetWindowDrawList();
     if (duration <= 0) {
-      const char* const hint = "Choose a clip on the left, or make one";
+      const char* const hint = document_.clip() ? "A clip of one moment: give it a length below"
+                                                : "Choose a clip on the left, or make one";
       const ImVec2 size = ImGui::CalcTextSize(hint);
       list->AddText({corner.x + (width - size.x) / 2, y - size.y / 2},
                     ImGui::GetColorU32(ImGuiCol_TextDisabled), hint);

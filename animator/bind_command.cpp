@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "animator/glb_output.h"
 #include "libskel/cli/outputs.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
@@ -66,7 +67,7 @@ void bindBindOptions(CLI::App& app, BindOptions& options) {
 
 ExitCode runBind(const BindOptions& options) {
   const std::string path =
-      options.output.empty() ? "out/" + stemOf(options.source.model) + ".glb" : options.output;
+      options.output.empty() ? glbNamedAfter(options.source.model, kWrittenByBind) : options.output;
   checkEnding(path, ".glb");
   noteOutput(path);
   CharacterFile file;
@@ -78,7 +79,9 @@ ExitCode runBind(const BindOptions& options) {
   }
   if (const std::string note = namingNote(file.character.skeleton, options.joints); !note.empty())
     std::printf("%s\n", note.c_str());
-  writeFile(path, encodeGlb(file.character, file.clips, exportOptions(file.name, options.joints)));
+  ExportOptions written = exportOptions(file.name, options.joints);
+  written.generator = kWrittenByBind;
+  writeFile(path, encodeGlb(file.character, file.clips, written));
   std::printf("wrote %s\n", printable(path).c_str());
   return ExitCode::kDone;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "animator/glb_output.h"
 #include "animator/load_character.h"
 #include "animator/pose_file.h"
 #include "animator/rig_source.h"
@@ -58,13 +59,6 @@ bool isEmpty(const JointTrack& track) {
 }
 
 bool moves(const Clip& clip) { return !clip.tracks.empty() || !clip.root_times_s.empty(); }
-
-// The name of a clip's file without its folder and ending.
-std::string clipNameIn(const std::string& path) {
-  const std::string name = fs::path(path).filename().string();
-  return name.ends_with(kClipFileEnding) ? name.substr(0, name.size() - std::string(kClipFileEnding).size())
-                                         : stemOf(path);
-}
 
 // As far as a typed number shows. Floats are no more of unit length than they can be.
 bool sameTurn(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
@@ -139,11 +133,13 @@ AnimationDocument::AnimationDocument(const CharacterSource& source, const ClipSo
   state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
   state_.pose = restPose(skeleton());
   takeEaseOfLibrary();
-  addSaved(clips());
+  setSaved(source.path, clips());
   on_disk_.note(source.path);
   if (!library.clips_dir.empty())
-    for (const std::string& file : filesBelow(library.clips_dir))
+    for (const std::string& file : filesBelow(library.clips_dir)) {
       file.ends_with(kClipFileEnding) ? on_disk_.note(file) : on_disk_.noteUnread(file);
+      takeSavedFrom(file);
+    }
 }
 
 const Clip* AnimationDocument::clip() const {
@@ -170,7 +166,7 @@ bool AnimationDocument::standsAs(const Pose& pose) const {
 
 void AnimationDocument::playOrPause() {
   if (!canPlay()) {
-    message_ = "nothing to play: choose a clip";
+    message_ = clip() ? "nothing to play: the clip has no length" : "nothing to play: choose a clip";
     return;
   }
   if (!playing && !loops && state_.time_s >= duration_s()) setTime(0);
@@ -457,12 +453,25 @@ void AnimationDocument::renameClip(const std::string& name) {
   message_ = "the clip is called \"" + name + "\"";
 }
 
-void AnimationDocument::addSaved(const std::vector<Clip>& clips) {
-  saved_.insert(saved_.end(), clips.begin(), clips.end());
+void AnimationDocument::setSaved(const std::string& path, const std::vector<Clip>& clips) {
+  saved_[fs::absolute(path).lexically_normal().string()] = clips;
+}
+
+void AnimationDocument::takeSavedFrom(const std::string& clip_file) {
+  if (!clip_file.ends_with(kClipFileEnding)) return;
+  try {
+    const Clip held = loadClipFor(clip_file, character(), library_);
+    if (!isSaved(held)) return;
+    for (auto& [file, clips] : saved_) std::erase(clips, held);
+    setSaved(clip_file, {held});
+  } catch (const Error&) {  // it is none of the clips, then
+  }
 }
 
 bool AnimationDocument::isSaved(const Clip& clip) const {
-  return std::find(saved_.begin(), saved_.end(), clip) != saved_.end();
+  return std::any_of(saved_.begin(), saved_.end(), [&](const auto& file) {
+    return std::find(file.second.begin(), file.second.end(), clip) != file.second.end();
+  });
 }
 
 std::vector<std::string> AnimationDocument::unsavedClips() const {
@@ -530,7 +539,7 @@ bool AnimationDocument::openModel(const std::string& path) {
     state_.time_s = 0;
     state_.pose = restPose(skeleton());
     chosen_ = -1;
-    addSaved(clips());
+    setSaved(path, clips());
     return note.empty() ? "opened " + path : note;
   });
 }
@@ -551,8 +560,9 @@ bool AnimationDocument::saveModel(const std::string& path) {
     ExportOptions options;
     options.name = name_;
     options.bones = bones_;
+    options.generator = kWrittenByView;
     save(path, ".glb", encodeGlb(character(), clips, options));
-    addSaved(clips);
+    setSaved(path, clips);
     return "saved " + path;
   });
 }
@@ -584,7 +594,7 @@ bool AnimationDocument::loadClip(const std::string& path) {
     if (eased) clip = withEvenKeys(*eased);
     const bool loses_ease = !eased && easedKeysIn(path);
     on_disk_.note(path);
-    addSaved({clip});
+    setSaved(path, {clip});
     files_[clip.name] = path;
     const StepScope step(*this);
     keepEase(clip.name, eased.value_or(ClipKeys()));
@@ -647,7 +657,7 @@ bool AnimationDocument::saveClip(const std::string& path) {
     ClipKeys written = named;
     written.clip.rest_pose = restPoseHash(skeleton());
     save(path, kClipFileEnding, formatClipKeys(written));
-    addSaved({withEvenKeys(named)});
+    setSaved(path, {withEvenKeys(named)});
     files_[named.clip.name] = path;
     if (named.clip.name != clip()->name) {
       const StepScope step(*this);
@@ -673,7 +683,7 @@ bool AnimationDocument::loadSkeleton(const std::string& path) {
     // Clips that were made for other bones go, but for those that say what they need.
     state_.clips = std::make_shared<const std::vector<Clip>>(libraryFor(character(), library_));
     takeEaseOfLibrary();
-    addSaved(clips());
+    setSaved(path, clips());
     state_.clip = -1;
     state_.time_s = 0;
     state_.pose = restPose(this->skeleton());

@@ -173,7 +173,10 @@ class AnimationDocument {
   // A document of its kind is edited in place; nothing else that was read is written over, nor what another
   // program has made of it since. Throws OutputError.
   void save(const std::string& path, std::string_view ending, std::string_view bytes);
-  void addSaved(const std::vector<Clip>& clips);
+  // `path` holds these now, and no longer what it held.
+  void setSaved(const std::string& path, const std::vector<Clip>& clips);
+  // One of those clips came from this file, and is the file's to hold.
+  void takeSavedFrom(const std::string& clip_file);
   bool isSaved(const Clip& clip) const;
   bool travel(AnimationState& step);
   // A clause behind what is said of a step: which of the files that are shown; "": none.
@@ -189,7 +192,7 @@ class AnimationDocument {
   AnimationState before_;
   UndoHistory<AnimationState> history_{200};
   std::string message_;
-  std::vector<Clip> saved_;                   // as files hold them
+  std::map<std::string, std::vector<Clip>> saved_;  // as files hold them, by their paths
   std::map<std::string, std::string> files_;  // of clips that loadClip() and saveClip() know, by their names
   std::optional<Pose> saved_pose_;            // the same of the last one
   std::set<std::string> given_names_;         // by newClip(), or by saveClip() after the file

@@ -22,6 +22,7 @@
 #include "libskel/core/progress.h"
 #include "libskel/core/text.h"
 #include "libskel/draw/canvas.h"
+#include "libskel/image/sprite_sheet_file.h"
 #include "libskel/image/write_image.h"
 
 namespace skel {
@@ -85,10 +86,13 @@ struct Sheets {
   // A picture without frames beside it is no sheet, but somebody's drawing.
   static void noteSheet(const std::string& path) {
     std::error_code unknown;
-    if (fs::is_regular_file(path, unknown) && !fs::exists(atlasOf(path), unknown))
+    const std::string atlas = atlasOf(path);
+    if (fs::is_regular_file(path, unknown) && !fs::exists(atlas, unknown))
       throw UsageError("--sheet would write over " + path + ", which is no sheet (there is no " +
-                       fs::path(atlasOf(path)).filename().string() + " beside it): name another file");
-    noteNamedOutput(atlasOf(path));
+                       fs::path(atlas).filename().string() + " beside it): name another file");
+    if (fs::is_regular_file(atlas, unknown) && !isAtlas(atlas))
+      throw UsageError("--sheet would write over " + atlas + ", which is no sheet's: name another file");
+    noteNamedOutput(atlas);
   }
 
   std::string pathOf(const CharacterFile& file) const {

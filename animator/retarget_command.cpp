@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "animator/glb_output.h"
 #include "animator/load_character.h"
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_file.h"
@@ -100,7 +101,8 @@ std::string encoded(const std::string& path, CharacterFile file, const ClipKeys&
   }
   std::erase_if(file.clips, [&](const Clip& other) { return other.name == clip.name; });
   file.clips.push_back(clip);
-  return encodeGlb(file.character, file.clips, {.name = file.name, .bones = file.bones});
+  return encodeGlb(file.character, file.clips,
+                   {.name = file.name, .bones = file.bones, .generator = kWrittenByRetarget});
 }
 
 }  // namespace
@@ -125,7 +127,8 @@ void bindRetargetOptions(CLI::App& app, RetargetCommandOptions& options) {
 
 ExitCode runRetarget(const RetargetCommandOptions& asked) {
   RetargetCommandOptions options = asked;
-  const std::string path = options.output.empty() ? "out/" + stemOf(options.motion) + ".glb" : options.output;
+  const std::string path =
+      options.output.empty() ? glbNamedAfter(options.motion, kWrittenByRetarget) : options.output;
   if (!path.ends_with(".glb") && !path.ends_with(".bvh") && !path.ends_with(kClipFileEnding))
     throw UsageError(path + ": must end in .glb, .clip.json or .bvh");
   noteOutput(path);

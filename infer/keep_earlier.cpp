@@ -10,6 +10,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/image/sealed_png.h"
+#include "libskel/import/read_character.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -104,6 +105,23 @@ std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, 
                     what = name(path) + " (now " +
                            name(keepAs(path, start + kEarlierLayersStart, kEarlierLayersEnd)) + "), as " +
                            whyNotTakenUp(path, files, options, result, file);
+  return Note{shared + ": " + what, shared, what};
+}
+
+std::optional<Note> keepModelOfOthers(const InferOptions& options, const std::string& stem) {
+  const std::string start = options.out_dir + "/" + stem, path = start + ".glb";
+  std::error_code unknown;
+  if (!writes(options, "glb") || options.force || !fs::is_regular_file(path, unknown)) return std::nullopt;
+  std::string writer;
+  {
+    const LookAtOutputs look;
+    writer = generatorOfGlb(path);
+  }
+  if (writer == ExportOptions().generator) return std::nullopt;
+  const std::string shared = "a model that skel-infer did not write is kept",
+                    what = fs::path(path).filename().string() + " is now " +
+                           fs::path(keepAs(path, start + ".old", ".glb")).filename().string() +
+                           (writer.empty() ? "" : " (by " + writer + ")");
   return Note{shared + ": " + what, shared, what};
 }
 

@@ -25,6 +25,10 @@ std::optional<Note> keepPaintedLayers(const std::vector<std::string>& taken_up, 
                                       const InferOptions& options, const std::string& stem,
                                       const SkeletonFile& file);
 
+// The same for a model that others have written, as the window of skel-animate does with its clips:
+// <stem>.old.glb, or with a number. Not with --force.
+std::optional<Note> keepModelOfOthers(const InferOptions& options, const std::string& stem);
+
 // The same for a skeleton that this run writes over and whose joints lose against those of labels that were
 // placed later. Returns what it is called now; "": nothing was kept.
 std::string keepContradicted(const MendedRig& mended, const InferOptions& options,

@@ -128,6 +128,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   const std::optional<Note> kept_layers = keepPaintedLayers(painted, mended.files, options, stem, file);
   const std::vector<KeptFile> kept = keepEarlier(mended.files, options, skeleton_path, drawing.image);
   const std::string contradicted = keepContradicted(mended, options, skeleton_path);
+  const std::optional<Note> kept_model = keepModelOfOthers(options, stem);
   FigureResult result;
   result.outputs = writeOutputs(options, stem, drawing, file, painted);
   if (!options.trace_dir.empty()) {
@@ -158,7 +159,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
     result.notes.push_back(*note);
     result.left_out += (result.left_out.empty() ? "" : ", ") + note->what;
   }
-  if (kept_layers) result.notes.push_back(*kept_layers);
+  for (const auto& note : {kept_layers, kept_model})
+    if (note) result.notes.push_back(*note);
   for (const auto& note : {fitsAgainNote(mended.files), keptLayersNote(mended.files, request)})
     if (note) result.notes.push_back(*note);
   if (!options.report_file.empty()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
@@ -262,6 +263,13 @@ void appendTrack(std::string& text, const JointTrack& track) {
 }
 
 }  // namespace
+
+std::string clipNameIn(const std::string& path) {
+  const std::filesystem::path name = std::filesystem::path(path).filename();
+  const std::string whole = name.string();
+  const std::size_t ending = std::string_view(kClipFileEnding).size();
+  return whole.ends_with(kClipFileEnding) ? whole.substr(0, whole.size() - ending) : name.stem().string();
+}
 
 std::string formatClip(const Clip& clip) { return formatClipKeys({clip}); }
 

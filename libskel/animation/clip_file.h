@@ -12,6 +12,9 @@ namespace skel {
 
 inline constexpr const char* kClipFileEnding = ".clip.json";
 
+// The name of a file without its folder and that ending, or any other.
+std::string clipNameIn(const std::string& path);
+
 // Rotations as quaternions, or as angles to the thousandth of a degree where the clip has them.
 // Throws Error by checkTimes() (clip_limits.h).
 std::string formatClip(const Clip& clip);

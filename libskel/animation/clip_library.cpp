@@ -119,13 +119,6 @@ bool isNeeded(const std::string& name, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// What a file's clip is usually called.
-std::string clipStem(const std::string& path) {
-  std::string name = std::filesystem::path(path).filename().string();
-  name.resize(name.size() - std::string_view(kClipFileEnding).size());
-  return name;
-}
-
 }  // namespace
 
 std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std::string>& names,
@@ -141,7 +134,7 @@ std::vector<Clip> clipsWithFolder(const std::string& dir, const std::vector<std:
     try {
       clip = readClipFile(path);
     } catch (const InputError& error) {
-      if (isNeeded(clipStem(path), names)) throw;
+      if (isNeeded(clipNameIn(path), names)) throw;
       if (left_out) left_out->push_back(error.what());
       if (!broken) broken = error;
       continue;

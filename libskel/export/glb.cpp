@@ -56,7 +56,6 @@ class GlbBuilder {
 
   GlbBuilder() {
     model.asset.version = "2.0";
-    model.asset.generator = "skel";
     model.buffers.emplace_back();
   }
 
@@ -461,6 +460,7 @@ std::string encodeGlb(const RiggedCharacter& character, const std::vector<Clip>&
                       const ExportOptions& options) {
   checkCharacter(character, clips);
   GlbBuilder glb;
+  glb.model.asset.generator = options.generator;
   const int kMeshNode = 0, kFirstJoint = 1;
   const std::string name = asUtf8(options.name);
   tinygltf::Node node;

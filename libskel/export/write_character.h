@@ -31,6 +31,7 @@ struct ExportOptions {
   std::string name = "character";  // of the mesh and of the scene
   JointNaming naming = JointNaming::kSkel;
   BoneStyle bones = BoneStyle::kAlong;
+  std::string generator = "skel";  // who wrote it
 };
 
 // glTF 2.0 binary: one skinned mesh with its texture, the joints, the clips as animations (already retargeted

@@ -571,6 +571,17 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
   return result;
 }
 
+std::string generatorOfGlb(const std::string& path) {
+  try {
+    const std::string bytes = readFile(path);
+    const GlbContainer glb(bytes, path);
+    const auto generator = glb.root().at("asset").find("generator");
+    return generator ? generator->asString() : "";
+  } catch (const Error&) {
+    return "";
+  }
+}
+
 CharacterFile readGlb(const std::string& path) { return decodeGlb(readFile(path), path); }
 
 }  // namespace skel

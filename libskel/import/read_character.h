@@ -26,4 +26,7 @@ CharacterFile readGlb(const std::string& path);
 // `file` is the name that complaints use.
 CharacterFile decodeGlb(std::string_view bytes, const std::string& file);
 
+// Who wrote a GLB file (ExportOptions::generator); "": it does not say so, or is none that can be read.
+std::string generatorOfGlb(const std::string& path);
+
 }  // namespace skel

@@ -124,13 +124,32 @@ std::string planOfLabels(const LabelFile& labels, const std::string& path, const
   return plan == &plans.back() || !planWith(names, {plans.back()}) ? plan->name : "";
 }
 
-std::size_t countPlacedIn(const LabelFile& labels,
-                          const std::vector<std::pair<std::string, Eigen::Vector2d>>& joints) {
-  std::size_t count = 0;
+using PlacesOfJoints = std::vector<std::pair<std::string, Eigen::Vector2d>>;
+
+bool isThere(const PlacesOfJoints& joints, const std::string& name, const Eigen::Vector2d& place) {
+  return std::any_of(joints.begin(), joints.end(), [&](const auto& joint) {
+    return joint.first == name && isSamePlace(joint.second, place);
+  });
+}
+
+// Of the joints that a person has placed in labels those that stand there in `joints`, too.
+std::map<std::string, Eigen::Vector2d> placedThere(const LabelFile& labels, const PlacesOfJoints& joints) {
+  std::map<std::string, Eigen::Vector2d> there;
   for (const auto& [name, place] : labels.joints)
-    for (const auto& joint : joints)
-      count += joint.first == name && labels.isPlaced(name) && isSamePlace(joint.second, *place);
-  return count;
+    if (place && labels.isPlaced(name) && isThere(joints, name, *place)) there[name] = *place;
+  return there;
+}
+
+// Leaves out joints that are in the skeleton because labels had them there, which those have no longer.
+void takeBackJoints(PlacedJoints& placed, const LabelFile& labels) {
+  const auto still = placedThere(labels, placed.joints);
+  const std::size_t taken_back = std::erase_if(placed.joints, [&](const auto& joint) {
+    const auto taken = placed.labels->joints.find(joint.first);
+    return taken != placed.labels->joints.end() && isSamePlace(taken->second, joint.second) &&
+           !still.contains(joint.first);
+  });
+  if (taken_back > 0) placed.skeleton.reset();
+  if (placed.joints.empty()) placed.body_plan.clear();
 }
 
 // Those that a person has placed; of a file that was named also those that were found for it.
@@ -147,7 +166,10 @@ PlacedJoints jointsOfLabels(const std::string& path, bool named, const std::stri
   if (named && file.image.sha256 != image_sha256)
     throw InputError(path, "was made for another picture than " + source + "; place the joints anew (" +
                                toolCommand("skel-label") + " " + shellWord(source) + ")");
-  if (!placed.joints.empty()) placed.body_plan = planOfLabels(file, path, rig);
+  // A person may have chosen it, and placed nothing.
+  const bool may_tell_plan =
+      rig.otherwise && !file.joints.empty() && planWith(jointNames(file.joints), plansOf(rig));
+  if (!placed.joints.empty() || may_tell_plan) placed.body_plan = planOfLabels(file, path, rig);
   return placed;
 }
 
@@ -239,18 +261,26 @@ PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, 
   if (files.labels.empty()) return placed;
   const std::string labels_sha256 = sha256(readFile(files.labels));
   if (placed.labels && placed.labels->sha256 == labels_sha256) {
-    placed.labels->file = files.labels;
-    placed.of_own_labels = countPlacedIn(readLabelFile(files.labels), placed.joints);
+    const LabelFile labels = readLabelFile(files.labels);
+    placed.labels = SkeletonFile::Labels{files.labels, labels_sha256, placedThere(labels, placed.joints)};
+    placed.of_own_labels = placed.labels->joints.size();
     return placed;
   }
+  if (placed.labels) takeBackJoints(placed, readLabelFile(files.labels));
   const PlacedJoints labelled = jointsOfLabels(files.labels, files.labels == request.skeleton, request.source,
                                                request.image_sha256, rig);
-  if (labelled.joints.empty()) return placed;
+  if (labelled.joints.empty()) {
+    placed.labels.reset();
+    if (placed.joints.empty()) placed.body_plan = labelled.body_plan;
+    placed.has_plan_of_labels =
+        placed.joints.empty() && !labelled.body_plan.empty() && labelled.body_plan != rig.body_plan.name;
+    return placed;
+  }
   placed.labels_count = !files.skeleton.empty() && !isWrittenLater(files.skeleton, files.labels);
   if (!labelled.body_plan.empty() && labelled.body_plan != placed.body_plan) {
-    if (!files.skeleton.empty() && !placed.labels_count) {
+    if (!placed.joints.empty() && !placed.labels_count) {
       for (const auto& joint : labelled.joints) placed.contradicted.push_back(joint.first);
-      placed.labels = SkeletonFile::Labels{files.labels, labels_sha256};
+      placed.labels = SkeletonFile::Labels{files.labels, labels_sha256, {}};
       return placed;
     }
     for (const auto& joint : placed.joints) placed.contradicted.push_back(joint.first);
@@ -270,7 +300,10 @@ PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, 
     placed.has_of_labels |= is_new || (contradicts && placed.labels_count);
   }
   if (placed.has_of_labels) placed.skeleton.reset();
-  placed.labels = SkeletonFile::Labels{files.labels, labels_sha256};
+  placed.labels = SkeletonFile::Labels{files.labels, labels_sha256, {}};
+  for (const auto& [name, place] : labelled.joints)
+    if (isThere(placed.joints, name, place)) placed.labels->joints[name] = place;
+  placed.of_own_labels = placed.labels->joints.size();
   return placed;
 }
 
@@ -370,6 +403,7 @@ std::optional<Note> mendedNote(const MendedFiles& files, const MendRequest& requ
     if (placed.has_of_labels || placed.of_own_labels > 0) from.push_back(files.labels);
     add(std::to_string(count) + (count == 1 ? " joint" : " joints"), from);
   }
+  if (placed.has_plan_of_labels) add("the body plan " + placed.body_plan, {files.labels});
   addFound(files.painted_silhouette ? "silhouette" : "mask", files.mask, request.mask);
   addFound("limbs", files.limbs, request.limbs);
   addFound("back", files.back, request.back);

@@ -79,7 +79,8 @@ struct PlacedJoints {
   std::string body_plan;                                        // that they belong to; "": either
   std::optional<SkeletonFile::Labels> labels;                   // where some of them are from; path as given
   bool has_of_labels = false;                                   // of a label file, newer than the skeleton
-  std::size_t of_own_labels = 0;          // that stand so in the labels that the skeleton was made with
+  bool has_plan_of_labels = false;        // another than the first of those that are tried, without a joint
+  std::size_t of_own_labels = 0;          // that stand so in the labels, too
   std::vector<std::string> contradicted;  // joints that the skeleton and the label file place elsewhere
   bool labels_count = false;              // for those; else the skeleton does
   std::string outline_sha256;             // of the figure when they were mended; or ""
@@ -101,7 +102,8 @@ void leaveOutOtherPlans(MendedFiles& files, const MendRequest& request, const Ri
 // How they are taken up; nothing where none were left out.
 std::optional<Note> otherPlanNote(const MendedFiles& files, const RigOptions& rig);
 
-// Of skeleton and labels. Where both place a joint, each elsewhere, or are of different body plans, the file
+// Of skeleton and labels. What the skeleton has from labels goes where it has gone, or been moved, in those.
+// Where both place a joint, each elsewhere, or are of different body plans, the file
 // that was written later counts; always the skeleton, if it was made with those very labels. Throws
 // InputError: made for another figure; labels that were named and hold no joints, or are of another picture
 // or body plan.

@@ -20,7 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSkeletonVersion = 5;         // 3: without `found`, 4: without `found_sha256`
+constexpr int kSkeletonVersion =
+    6;  // 3: without `found`, 4: without `found_sha256`, 5: without `labels.joints`
 constexpr std::size_t kMostWarnings = 100;  // all are shown, each once; skel gives a handful
 constexpr int kLongestImageSide_px = 1'000'000;
 constexpr double kUnmoved_px = 0.005;  // files keep hundredths of a pixel
@@ -56,6 +57,15 @@ Joint jointAt(const JsonValue& item, const SkeletonTemplate& body_plan, const Sk
 SkeletonFile::Mask sourceAt(const JsonValue& given) {
   given.allowOnly({"file", "sha256"});
   return {given.at("file").asFileName(), given.at("sha256").asString()};
+}
+
+SkeletonFile::Labels labelsAt(const JsonValue& given, int image_width, int image_height) {
+  given.allowOnly({"file", "sha256", "joints"});
+  SkeletonFile::Labels labels{given.at("file").asFileName(), given.at("sha256").asString()};
+  if (const auto joints = given.find("joints"))
+    for (const std::string& name : joints->keys())
+      labels.joints[name] = imagePointAt(joints->at(name), name, image_width, image_height);
+  return labels;
 }
 
 SkeletonFile::Figure figureAt(const JsonValue& value) {
@@ -138,11 +148,15 @@ std::string formatSkeletonFile(const SkeletonFile& file) {
   root["confidence"] = rounded(file.confidence, 1000);
   root["missing"] = file.missing;
   root["warnings"] = file.warnings;
-  const auto source = [](const SkeletonFile::Mask& given) {
+  const auto source = [](const auto& given) {
     return Json{{"file", jsonFromFileName(given.file)}, {"sha256", given.sha256}};
   };
   root["mask"] = file.mask ? source(*file.mask) : Json(nullptr);
-  if (file.labels) root["labels"] = source(*file.labels);
+  if (file.labels) {
+    root["labels"] = source(*file.labels);
+    for (const auto& [name, place] : file.labels->joints)
+      root["labels"]["joints"][name] = {rounded(place.x(), 100), rounded(place.y(), 100)};
+  }
   // One joint a line, so that a person finds and mends it.
   std::string text = root.dump(2, ' ', false, Json::error_handler_t::replace);
   text.resize(text.size() - 2);
@@ -194,7 +208,8 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
   file.missing = textsAt(root.at("missing"), body_plan.joints.size());
   file.warnings = textsAt(root.at("warnings"), kMostWarnings);
   if (const JsonValue mask = root.at("mask"); !mask.isNull()) file.mask = sourceAt(mask);
-  if (const auto labels = root.find("labels")) file.labels = sourceAt(*labels);
+  if (const auto labels = root.find("labels"))
+    file.labels = labelsAt(*labels, file.image_width, file.image_height);
   file.skeleton.template_name = body_plan.name;
   file.skeleton.joints.resize(body_plan.joints.size());
   std::vector<std::optional<Eigen::Vector2d>> places_found(body_plan.joints.size());
@@ -227,7 +242,8 @@ SkeletonSource readSkeletonSource(const std::string& path) {
   source.image_height = image.at("height").asInt(1, kLongestImageSide_px);
   if (const auto hash = image.find("sha256")) source.image_sha256 = hash->asString();
   if (const JsonValue mask = root.at("mask"); !mask.isNull()) source.mask = sourceAt(mask);
-  if (const auto labels = root.find("labels")) source.labels = sourceAt(*labels);
+  if (const auto labels = root.find("labels"))
+    source.labels = labelsAt(*labels, source.image_width, source.image_height);
   if (const auto json = root.find("figure")) {
     const SkeletonFile::Figure figure = figureAt(*json);
     source.outline_sha256 = figure.sha256;

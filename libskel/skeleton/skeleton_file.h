@@ -1,6 +1,7 @@
 // `<stem>.skeleton.json`: a skeleton that people may look at, mend by hand and hand back.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,7 +17,11 @@ struct SkeletonFile {
     std::string file;
     std::string sha256;
   };
-  using Labels = Mask;
+  struct Labels {
+    std::string file;
+    std::string sha256;
+    std::map<std::string, Eigen::Vector2d> joints = {};  // that a person placed there; not before version 6
+  };
 
   // Which figure of the drawing it is.
   struct Figure {

@@ -79,6 +79,23 @@ TEST_CASE("the elk's last bones end where its skeleton says, in what is made of 
   CHECK(readFile(dir.file("walks.glb")).find("_end\"") != std::string::npos);
 }
 
+TEST_CASE("a model that nobody gave a name for took the place of another character's") {
+  const TempDir dir;
+  REQUIRE(animate(dir, "bind '" + kElk + "' --skeleton '" + kBones + "'").exit_code == 0);
+  REQUIRE(animate(dir, "bind '" + kElk + "' --skeleton '" + kBones + "'").exit_code == 0);  // its own
+  const std::string elk = readFile(dir.file("out/elk.glb"));
+  REQUIRE(animate(dir, "retarget walk --to out/elk.glb -o walk.clip.json").exit_code == 0);
+  std::filesystem::rename(dir.file("walk.clip.json"), dir.file("elk.clip.json"));
+  const ToolRun refused = animate(dir, "retarget elk.clip.json --to out/elk.glb");
+  CHECK(refused.exit_code == 1);
+  CHECK(refused.err.find("out/elk.glb is there, and was not written by skel-animate retarget: name the file "
+                         "to write by -o") != std::string::npos);
+  CHECK(readFile(dir.file("out/elk.glb")) == elk);
+  std::filesystem::rename(dir.file("elk.clip.json"), dir.file("stroll.clip.json"));
+  CHECK(animate(dir, "retarget stroll.clip.json --to out/elk.glb").exit_code == 0);
+  CHECK(std::filesystem::exists(dir.file("out/stroll.glb")));
+}
+
 TEST_CASE("the elk is bound, and its weights are saved and taken again") {
   const TempDir dir;
   const ToolRun bound = animate(dir, "bind '" + kElk + "' --skeleton '" + kBones + "' -o elk.glb");

@@ -608,6 +608,42 @@ TEST_CASE("clips that no file holds are known, and a save, a load or undo change
   CHECK(document.unsavedClips().empty());
 }
 
+TEST_CASE("a clip counted as saved that undo brought back from before its file was saved over") {
+  using Names = std::vector<std::string>;
+  const TempDir dir;
+  const std::string figure = figureFile(dir);
+  const std::string file = dir.file("salute.clip.json");
+  AnimationDocument document({.path = figure});
+  const int head = document.skeleton().index("head");
+  const auto turnAndKey = [head](AnimationDocument& in) {
+    in.turnJoint(head, 0, 0.5);
+    in.setKey();
+  };
+  document.newClip("salute", 1);
+  turnAndKey(document);
+  REQUIRE(document.saveClip(file));
+  turnAndKey(document);
+  SECTION("in this window") {
+    REQUIRE(document.saveClip(file));
+    while (document.clip() && document.unsavedClips().empty()) document.undo();
+    CHECK(document.unsavedClips() == Names{"salute"});
+    REQUIRE(document.saveClip(dir.file("second.clip.json")));
+    CHECK(document.unsavedClips().empty());
+  }
+  SECTION("in a folder of clips") {
+    ClipSource folder;
+    folder.clips_dir = dir.path();
+    AnimationDocument next({.path = figure}, folder);
+    next.chooseClip(clipIndex(next, "salute"));
+    turnAndKey(next);
+    REQUIRE(next.saveClip(file));
+    CHECK(next.unsavedClips().empty());
+    while (next.undo() && next.unsavedClips().empty()) {
+    }
+    CHECK(next.unsavedClips() == Names{"salute"});
+  }
+}
+
 TEST_CASE("joints that were turned and have no key were lost without a question") {
   const TempDir dir;
   AnimationDocument document({.path = figureFile(dir)});

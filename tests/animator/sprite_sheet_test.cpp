@@ -446,6 +446,10 @@ TEST_CASE("a drawing is not written over by a sheet of its name, a sheet is made
   CHECK_THAT(run.err, Contains("nele.png, which is no sheet (there is no nele.json beside it)"));
   CHECK(readFile(dir.file("nele.png")) == "her drawing");
   std::filesystem::remove(dir.file("nele.png"));
+  writeFile(dir.file("nele.json"), "{\"my\": \"config\"}");
+  CHECK_THAT(render(arguments).err, Contains("nele.json, which is no sheet's: name another file"));
+  CHECK(readFile(dir.file("nele.json")) == "{\"my\": \"config\"}");
+  std::filesystem::remove(dir.file("nele.json"));
   CHECK(render(arguments).exit_code == 0);
   CHECK(render(arguments).exit_code == 0);
 }

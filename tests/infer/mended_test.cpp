@@ -7,6 +7,7 @@
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
+#include "libskel/import/read_character.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/silhouette/silhouette.h"
@@ -52,7 +53,8 @@ std::map<std::string, std::string> contentOf(const TempDir& dir, const std::stri
 }
 
 // As skel-label saves them: one joint placed, one that was found.
-void placeInLabels(const TempDir& dir, const Eigen::Vector2d& left_hand, const std::string& mask = "") {
+void placeInLabels(const TempDir& dir, const Eigen::Vector2d& left_hand,
+                   const std::string& mask = "") {
   LabelFile labels;
   const std::string image = readFile(dir.file("boy.png"));
   labels.image = {"boy.png", sha256(image)};
@@ -62,6 +64,15 @@ void placeInLabels(const TempDir& dir, const Eigen::Vector2d& left_hand, const s
   labels.joints = {{"left_hand", left_hand}, {"right_hand", Eigen::Vector2d(100, 300)}};
   labels.recognized = {"right_hand"};
   writeLabelFile(dir.file("boy.labels.json"), labels);
+}
+
+// As undo leaves them.
+void takeBackInLabels(const TempDir& dir) {
+  const std::string path = dir.file("boy.labels.json");
+  LabelFile labels = readLabelFile(path);
+  for (auto& [name, place] : labels.joints)
+    if (labels.isPlaced(name)) place.reset();
+  writeLabelFile(path, labels);
 }
 
 // Another drawing under the same name.
@@ -746,6 +757,80 @@ TEST_CASE(
     CHECK(infer(dir, "boy.png -o . --formats json").err.find("two files") == std::string::npos);
     CHECK(placeIn(dir, "left_hand", skeleton)[0] == Approx(435));
     CHECK_FALSE(fs::exists(dir.file("boy.skeleton.old-2.json")));
+  }
+}
+
+TEST_CASE("a joint stayed, and was said to be made by hand, when its placing was undone in the labels") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png --formats json").exit_code == 0);
+  const auto found = placeIn(dir, "left_hand");
+  const auto fresh = readFile(dir.file("out/boy.skeleton.json"));
+  placeInLabels(dir, {found[0] - 9, found[1]});
+  CHECK_THAT(infer(dir, "boy.png --formats json").err, Contains("1 joint (boy.labels.json)"));
+  REQUIRE(placeIn(dir, "left_hand")[0] == Approx(found[0] - 9));
+  takeBackInLabels(dir);
+  SECTION("it alone") {
+    CHECK(infer(dir, "boy.png --formats json").err.find("made by hand") == std::string::npos);
+    CHECK(readFile(dir.file("out/boy.skeleton.json")) == fresh);
+  }
+  SECTION("what was moved in the skeleton file stays") {
+    moveInFile(dir, "right_foot", "250");
+    CHECK_THAT(infer(dir, "boy.png --formats json").err, Contains("1 joint (out/boy.skeleton.json)"));
+    CHECK(placeIn(dir, "right_foot")[0] == 250);
+    CHECK(placeIn(dir, "left_hand")[0] == Approx(found[0]).margin(30));
+    CHECK(placeIn(dir, "left_hand")[0] != Approx(found[0] - 9));
+  }
+}
+
+TEST_CASE("of a joint that was placed twice in the labels two files were said to place it elsewhere") {
+  const TempDir dir;
+  drawBoy(dir);
+  placeInLabels(dir, {430, 300});
+  REQUIRE(infer(dir, "boy.png --formats json").exit_code == 0);
+  placeInLabels(dir, {440, 300});
+  fs::last_write_time(dir.file("out/boy.skeleton.json"),
+                      fs::last_write_time(dir.file("boy.labels.json")) + std::chrono::seconds(5));
+  const ToolRun run = infer(dir, "boy.png --formats json");
+  CHECK(run.err == "boy.png: note: " + std::string(kTakenUp) + "1 joint (boy.labels.json)\n");
+  CHECK(placeIn(dir, "left_hand")[0] == 440);
+}
+
+TEST_CASE("an animal that was chosen in skel-label, no joint placed, was rigged as a biped") {
+  const TempDir dir;
+  drawBoy(dir);
+  LabelFile labels = labelImage(dir.file("boy.png"), std::nullopt, {}, loadTemplate("quadruped"));
+  labels.joints.clear();
+  const SkeletonTemplate quadruped = loadTemplate("quadruped");
+  for (const auto& joint : quadruped.joints) labels.joints.emplace_back(joint.name, std::nullopt);
+  writeLabelFile(dir.file("boy.labels.json"), labels);
+  CHECK_THAT(infer(dir, "boy.png --formats json").err,
+             Contains(std::string(kTakenUp) + "the body plan quadruped (boy.labels.json)"));
+  CHECK(
+      readSkeletonFile(dir.file("out/boy.skeleton.json"), loadTemplate("quadruped")).skeleton.template_name ==
+      "quadruped");
+  CHECK(infer(dir, "boy.png --formats json --template biped").err.find("made by hand") == std::string::npos);
+}
+
+TEST_CASE("a model that the window of skel-animate had saved, with own clips, was written over") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png --formats glb").exit_code == 0);
+  const std::string made = readFile(dir.file("out/boy.glb"));
+  const CharacterFile boy = readGlb(dir.file("out/boy.glb"));
+  const std::string saved = encodeGlb(boy.character, {}, {.generator = "skel-animate view"});
+  writeFile(dir.file("out/boy.glb"), saved);
+  SECTION("it is kept") {
+    CHECK_THAT(infer(dir, "boy.png --formats glb").err,
+               Contains("a model that skel-infer did not write is kept: boy.glb is now boy.old.glb (by "
+                        "skel-animate view)"));
+    CHECK(readFile(dir.file("out/boy.old.glb")) == saved);
+    CHECK(readFile(dir.file("out/boy.glb")) == made);
+    CHECK(infer(dir, "boy.png --formats glb").err.find("is kept") == std::string::npos);
+  }
+  SECTION("not with --force") {
+    CHECK(infer(dir, "boy.png --formats glb --force").exit_code == 0);
+    CHECK_FALSE(fs::exists(dir.file("out/boy.old.glb")));
   }
 }
 
