@@ -254,3 +254,11 @@ TEST_CASE("a command in a note can be pasted where the tools are not on the PATH
   CHECK_THAT(says(dir.path(), bin, "'a b.png' c.png"),
              Contains("(" + bin + "/skel-label FILE, key G): 'a b.png'"));
 }
+
+TEST_CASE("a folder that is named was said to be not looked into") {
+  const TempDir dir;
+  for (const char* name : {"k/anna.png", "k/di/ben.png", "k/mi/carl.png"})
+    writeFile(dir.file(name), figure());
+  const NamedDrawings found = drawingsOf({dir.file("k/"), dir.file("k/../k/di")});
+  CHECK(found.folders == std::vector<std::string>{dir.file("k/mi")});
+}
