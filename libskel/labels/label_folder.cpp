@@ -11,6 +11,7 @@
 #include "libskel/core/text.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/skeleton/body_plans.h"
+#include "libskel/skeleton/skeleton_file.h"
 #include "libskel/skeleton/template.h"
 
 namespace skel {
@@ -142,6 +143,7 @@ void ensureEveryClass(const std::string& name, const LabelledSet& set) {
 
 std::vector<std::string> findLabelFiles(const std::string& dir) {
   std::vector<std::string> files = filesBelow(dir);
+  noteSkeletonFiles(files);
   std::erase_if(files, [](const std::string& file) { return !file.ends_with(kLabelFileEnding); });
   return files;
 }
