@@ -99,6 +99,8 @@ ExitCode check(const LabelerOptions& options) {
 
 ExitCode exportLabels(const LabelerOptions& options) {
   if (options.coco == options.csv) throw UsageError("export needs either --coco or --csv");
+  if (const std::string twins = twinsAmong(options.dir); !twins.empty())
+    std::fprintf(stderr, "skel-label: note: %s\n", twins.c_str());
   const std::string output = !options.output.empty() ? options.output
                              : options.coco          ? "out/labels.coco.json"
                                                      : "out/labels.csv";

@@ -19,6 +19,7 @@
 
 namespace skel {
 namespace {
+#include "libskel/labels/twins.h"
 
 namespace fs = std::filesystem;
 
@@ -172,6 +173,20 @@ std::string labelStats(const std::string& dir) {
     with_placed += labels.hasPlacedJoint();
   }
   std::string text;
+std::string twinsAmong(const std::string& dir) {
+  std::vector<std::string> names, sha256s;
+  for (const std::string& path : labelFiles(dir)) {
+    try {
+      const LabelFile labels = readLabelFile(path);
+      names.push_back(nameBelow(dir, besideLabelFile(path, labels.image.file)));
+      sha256s.push_back(labels.image.sha256);
+    } catch (const InputError&) {
+      // checkLabels() says it.
+    }
+  }
+  return twinsSaid("drawings", names, sha256s);
+}
+
   const auto line = [&](const char* name, int count, const std::string& note = {}) {
     char row[128];
     std::snprintf(row, sizeof row, "%-16s %6d%s\n", name, count, note.c_str());

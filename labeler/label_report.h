@@ -14,6 +14,9 @@ namespace skel {
 std::vector<std::string> checkLabels(const std::string& dir, const BodyPlans& plans);
 
 // Counts of drawings, candidates and labels, of every class, of joints and masks, as text. Throws InputError.
+// Of label files whose pictures are the same, twinsSaid().
+std::string twinsAmong(const std::string& dir);
+
 std::string labelStats(const std::string& dir);
 
 // One row a candidate: file, index, place and radius on the grid, the three features, the label (empty:

@@ -35,7 +35,7 @@ std::string gridComplaint(const std::string& path, const LabelFile& labels, cons
 LabelledCharacter characterOf(const std::string& name, const LabelFile& labels) {
   CandidateSet candidates;
   candidates.maxima = labels.candidates;
-  LabelledCharacter character{name, features(candidates), {}};
+  LabelledCharacter character{name, features(candidates), {}, labels.image.sha256};
   Eigen::Index kept = 0;
   for (std::size_t i = 0; i < labels.labels.size(); ++i)
     if (labels.labels[i]) {

@@ -15,6 +15,7 @@ struct LabelledCharacter {
   std::string name;  // path of its label file below the folder, without the ending
   Features features;
   std::vector<JointClass> labels;  // one for each row
+  std::string image_sha256 = {};   // of its picture; "": it has none
 };
 
 struct LabelledSet {

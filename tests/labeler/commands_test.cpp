@@ -921,3 +921,16 @@ TEST_CASE("the card of the labelled set tells its counts") {
     CHECK(contains(card, text));
   }
 }
+
+TEST_CASE("check said nothing of a picture that occurs twice") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  fs::create_directories(dir.file("b"));
+  for (const char* ending : {".png", ".mask.png", ".joints.json"})
+    fs::copy(dir.file("cap_boy") + ending, dir.file("b/again") + ending);
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  const ToolRun run = label(dir, "check .");
+  CHECK(run.exit_code == 0);
+  CHECK(run.out == "no inconsistencies\n");
+  CHECK(run.err == "skel-label: note: 2 drawings are one picture (b/again.png, cap_boy.png)\n");
+}
