@@ -350,3 +350,16 @@ TEST_CASE("characters of one picture were left out one by one, and learned from 
   CHECK(done.out.find("(2 folds)") != std::string::npos);
   CHECK(run(train + "--folds 0").err == "");
 }
+
+TEST_CASE("--leave-one-out of one character measured on the training set without a word") {
+  const TempDir dir;
+  fill(dir);
+  for (int c = 1; c < 6; ++c) std::filesystem::remove(dir.file("c" + std::to_string(c) + ".labels.json"));
+  for (const auto& [option, message] :
+       {std::pair("--leave-one-out", "--leave-one-out: there is only 1 character; take --folds 0"),
+        {"--folds 10", "--folds 10: there is only 1 character; take --folds 0"}}) {
+    const ToolRun refused = run(dir.path() + " -o " + dir.file("w.json") + " " + option);
+    CHECK(refused.exit_code == 1);
+    CHECK(refused.err.find(message) != std::string::npos);
+  }
+}
