@@ -142,6 +142,19 @@ void checkCounts(const TrainOptions& options, std::size_t characters, std::size_
                      " that there are");
 }
 
+// Where people and animals lie in one folder, somebody may have meant one of them.
+void noteAnimals(const LabelledSet& set) {
+  std::vector<std::string> animals;
+  for (const LabelledCharacter& character : set.characters)
+    if (character.body_plan == "quadruped") animals.push_back(character.name);
+  if (!animals.empty() && animals.size() < set.characters.size())
+    std::fprintf(
+        stderr,
+        "skel-train: note: %zu of %zu characters have joints of a quadruped (%s): one net learns the "
+        "classes of all\n",
+        animals.size(), set.characters.size(), firstFew(animals).c_str());
+}
+
 void noteTwins(const LabelledSet& set) {
   std::vector<std::string> names, pictures;
   for (const LabelledCharacter& character : set.characters) {
@@ -251,6 +264,7 @@ ExitCode runTrain(const TrainOptions& given) {
   if (!options.json.empty()) ensureWritableFile(options.json);
   keepCocoOfOthers(options.json, "name another file by --json");
   if (!options.report.empty()) ensureWritableFolder(options.report);
+  noteAnimals(set);
   const int folds = options.leave_one_out ? static_cast<int>(pictures) : options.folds;
   if (folds > 1 || options.draws > 0 || training.validation > 0) noteTwins(set);
   const std::vector<LabelledCharacter> drawn_by_program = generateCharacters(

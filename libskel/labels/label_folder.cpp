@@ -171,6 +171,7 @@ std::vector<std::string> checkLabelFolder(const std::string& dir) {
 }
 
 LabelledSet readLabelledSet(const std::string& dir, const OnInputError& on_error) {
+  const BodyPlans plans = bodyPlans("auto");
   LabelledSet set;
   std::string hashed, first_path;
   int grid_size = 0;
@@ -187,6 +188,8 @@ LabelledSet readLabelledSet(const std::string& dir, const OnInputError& on_error
     const std::string name = nameBelow(dir, path);
     checkAllLabelled(path, labels);
     set.characters.push_back(characterOf(name, labels));
+    const SkeletonTemplate* plan = planWith(jointNames(labels.joints), plans);
+    if (plan && !labels.joints.empty()) set.characters.back().body_plan = plan->name;
     hashed += name + " " + sha256(readFile(path)) + "\n";
   };
   const std::vector<std::string> files = findLabelFiles(dir);

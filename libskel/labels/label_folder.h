@@ -16,6 +16,7 @@ struct LabelledCharacter {
   Features features;
   std::vector<JointClass> labels;  // one for each row
   std::string image_sha256 = {};   // of its picture; "": it has none
+  std::string body_plan = {};      // whose joints its label file has; "": it has none, or others
 };
 
 struct LabelledSet {

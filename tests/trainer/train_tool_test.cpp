@@ -363,3 +363,22 @@ TEST_CASE("--leave-one-out of one character measured on the training set without
     CHECK(refused.err.find(message) != std::string::npos);
   }
 }
+
+TEST_CASE("classes were learned from animals among people without a word") {
+  const TempDir dir;
+  fill(dir);
+  const std::string train = dir.path() + " -o " + dir.file("w.json") + " --generated 0 --epochs 2 --folds 0";
+  const auto give = [&](int character, const std::string& joint) {
+    const std::string path = dir.file("c" + std::to_string(character) + ".labels.json");
+    LabelFile labels = readLabelFile(path);
+    labels.joints = {{joint, Eigen::Vector2d(10, 10)}};
+    writeLabelFile(path, labels);
+  };
+  for (int c = 0; c < 6; ++c) give(c, "head");
+  CHECK(run(train).err == "");
+  for (const int c : {1, 4}) give(c, "tail");
+  CHECK(run(train).err ==
+        "skel-train: note: 2 of 6 characters have joints of a quadruped (c1, c4): one net learns the classes "
+        "of "
+        "all\n");
+}
