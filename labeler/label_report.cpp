@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "labeler/annotated_drawing.h"
 #include "labeler/placed_joints.h"
@@ -68,14 +70,19 @@ void checkFigure(const std::string& path, const LabelFile& labels, const Silhoue
     return;
   }
   for (size_t i = 0; i < maxima.size(); ++i)
-    if (maxima[i].x != labels.candidates[i].x || maxima[i].y != labels.candidates[i].y ||
-        maxima[i].radius != labels.candidates[i].radius) {
+    if (!places.contains(placeOf(labels.candidates[i]))) {
+  using Place = std::tuple<float, float, float>;
+  const auto placeOf = [](const JointCandidate& candidate) {
+    return Place(candidate.x, candidate.y, candidate.radius);
+  };
       lines.push_back(path + ": candidates[" + std::to_string(i) +
                       "]: is not the figure's; open and save it in skel-label");
       return;
     }
 }
 
+  std::set<Place> places;  // in any order: label files of others may sort them
+  for (const JointCandidate& candidate : maxima) places.insert(placeOf(candidate));
 std::string shown(double value) {
   char text[32];
   return std::string(text, std::to_chars(text, text + sizeof text, static_cast<float>(value)).ptr);

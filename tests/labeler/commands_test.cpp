@@ -934,3 +934,14 @@ TEST_CASE("check said nothing of a picture that occurs twice") {
   CHECK(run.out == "no inconsistencies\n");
   CHECK(run.err == "skel-label: note: 2 drawings are one picture (b/again.png, cap_boy.png)\n");
 }
+
+TEST_CASE("check complained of candidates that stand in another order") {
+  const TempDir dir;
+  const std::string path = importedBoy(dir);
+  LabelFile labels = readLabelFile(path);
+  std::reverse(labels.candidates.begin(), labels.candidates.end());
+  std::reverse(labels.labels.begin(), labels.labels.end());
+  writeLabelFile(path, labels);
+  CHECK(label(dir, "check .").out == "no inconsistencies\n");
+  REQUIRE(label(dir, "export . --csv -o labels.csv").exit_code == 0);
+}
