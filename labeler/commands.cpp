@@ -93,14 +93,14 @@ ExitCode motion(const LabelerOptions& options) {
 ExitCode check(const LabelerOptions& options) {
   const std::vector<std::string> lines = checkLabels(options.dir, bodyPlans(options.body_plan));
   for (const std::string& line : lines) std::fprintf(stderr, "skel-label: %s\n", messageLine(line).c_str());
+  if (const std::string twins = twinsAmong(options.dir); !twins.empty())
+    std::fprintf(stderr, "skel-label: note: %s\n", twins.c_str());
   if (lines.empty()) print("no inconsistencies\n");
   return lines.empty() ? ExitCode::kDone : ExitCode::kInput;
 }
 
 ExitCode exportLabels(const LabelerOptions& options) {
   if (options.coco == options.csv) throw UsageError("export needs either --coco or --csv");
-  if (const std::string twins = twinsAmong(options.dir); !twins.empty())
-    std::fprintf(stderr, "skel-label: note: %s\n", twins.c_str());
   const std::string output = !options.output.empty() ? options.output
                              : options.coco          ? "out/labels.coco.json"
                                                      : "out/labels.csv";
@@ -169,6 +169,8 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
                  "but the mask has changed since it was labelled; --force makes the labels anew");
         noteKept(counts.differing, "with other joints than what is to be imported; --force takes the latter");
         noteLacking(counts);
+        if (!counts.outside_mask.empty())
+          std::fprintf(stderr, "skel-label: note: %s\n", firstAndMore(counts.outside_mask).c_str());
         if (counts.made > 0)
           print(std::to_string(counts.joints_placed) + " joints placed, " +
                 std::to_string(counts.joints_found) + " found" +

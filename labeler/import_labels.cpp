@@ -5,6 +5,7 @@
 
 #include "labeler/annotated_drawing.h"
 #include "labeler/drawing_list.h"
+#include "labeler/joints_outside_mask.h"
 #include "labeler/placed_joints.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
@@ -211,6 +212,9 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
   writeLabelFile(label_path, labels);
   countJoints(labels, body_plan, counts);
   countMissing(label_path, labels, body_plan, counts);
+  if (mask)
+    if (const std::string outside = jointsOutsideMask(labels, body_plan, *mask); !outside.empty())
+      counts.outside_mask.push_back(label_path + ": " + outside);
   const std::string folder = fs::path(label_path).lexically_normal().parent_path().string();
   counts.folders.insert(folder.empty() ? "." : folder);
   return true;

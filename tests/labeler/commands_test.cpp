@@ -945,3 +945,23 @@ TEST_CASE("check complained of candidates that stand in another order") {
   CHECK(label(dir, "check .").out == "no inconsistencies\n");
   REQUIRE(label(dir, "export . --csv -o labels.csv").exit_code == 0);
 }
+
+TEST_CASE("an inverted mask, and that of a part of the figure, were imported and checked without a word") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const Plane8 whole = readMask(dir.file("cap_boy.mask.png"));
+  CHECK(label(dir, "import . --force").err == "");
+  Plane8 half = whole;
+  half.bottomRows(half.rows() / 2) = 0;
+  for (const Plane8& wrong : {Plane8(255 - whole), half}) {
+    writeFile(dir.file("cap_boy.mask.png"), encodePng(wrong));
+    const ToolRun imported = label(dir, "import . --force");
+    CHECK(imported.exit_code == 0);
+    CHECK(contains(imported.err, "skel-label: note: ./cap_boy.labels.json: "));
+    CHECK(contains(imported.err, " of 14 joints lie outside the mask cap_boy.mask.png\n"));
+    const ToolRun checked = label(dir, "check .");
+    CHECK(checked.exit_code == 2);
+    CHECK(contains(checked.err, "cap_boy.labels.json: mask: "));
+    CHECK(contains(checked.err, " of 14 joints lie outside the mask cap_boy.mask.png\n"));
+  }
+}
