@@ -384,7 +384,7 @@ TEST_CASE("import: of a picture that has changed other joints were told, and --f
   fs::remove(dir.file("cap_boy.mask.png"));
   fs::copy(kCharacters + "clown.png", dir.file("cap_boy.png"), fs::copy_options::overwrite_existing);
   ToolRun run = label(dir, "import .");
-  CHECK(contains(run.out, "0 label files made, 1 kept as they were"));
+  CHECK(run.out == "0 label files made, 1 kept as they were, 0 failed\n");
   CHECK(
       contains(run.err,
                "cap_boy.labels.json: kept, but the picture has changed since it was labelled; --force makes "
@@ -964,4 +964,15 @@ TEST_CASE("an inverted mask, and that of a part of the figure, were imported and
     CHECK(contains(checked.err, "cap_boy.labels.json: mask: "));
     CHECK(contains(checked.err, " of 14 joints lie outside the mask cap_boy.mask.png\n"));
   }
+}
+
+TEST_CASE("import counted a broken label file twice, as kept and as failed") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  copyCharacter("box_robot", dir.path());
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  writeFile(dir.file("box_robot.labels.json"), "{");
+  const ToolRun run = label(dir, "import .");
+  CHECK(run.exit_code == 2);
+  CHECK(run.out == "0 label files made, 1 kept as they were, 1 failed\n");
 }
