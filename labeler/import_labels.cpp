@@ -301,6 +301,9 @@ ImportCounts importLabels(const std::string& path, const BodyPlans& plans, const
     if (!made) kept.insert(labelFileOf(drawing));
     return made;
   };
+  for (const AnnotatedDrawing& drawing : drawings)
+    if (!drawing.unknown.empty())
+      counts.unknown_joints[drawing.source].insert(drawing.unknown.begin(), drawing.unknown.end());
   forEach(drawings, "import", on_error, make, counts);
   std::set<std::string> told;
   if (options.force)
