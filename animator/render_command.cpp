@@ -155,10 +155,19 @@ AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, c
 // Files are named after characters.
 void checkNames(const std::vector<std::string>& files) {
   std::map<std::string, std::string> file_of_name;
-  for (const std::string& file : files)
-    if (const auto [other, is_new] = file_of_name.emplace(stemOf(file), file); !is_new)
-      throw UsageError(other->second + " and " + file + " would both write files called " + other->first +
-                       "; rename one");
+  std::string clash;
+  std::vector<std::string> more;
+  for (const std::string& file : files) {
+    const auto [other, is_new] = file_of_name.emplace(stemOf(file), file);
+    if (is_new) continue;
+    const std::string both = other->second + " and " + file;
+    if (clash.empty())
+      clash = both + " would both write files called " + other->first;
+    else
+      more.push_back(both);
+  }
+  if (!clash.empty())
+    throw UsageError(clash + (more.empty() ? "" : ", as would " + firstFew(more)) + "; rename one");
 }
 
 struct Cast {
@@ -206,14 +215,10 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path) {
 }
 
 // ", 2 to look at (a.png, b.png)"; nothing of none.
-std::string counted(std::vector<std::string> paths, const std::string& what) {
+std::string counted(const std::vector<std::string>& paths, const std::string& what) {
   constexpr std::size_t kMostNamed = 12;
   if (paths.empty()) return "";
-  const std::string count = std::to_string(paths.size());
-  const std::size_t more = paths.size() - std::min(paths.size(), kMostNamed);
-  paths.resize(paths.size() - more);
-  return ", " + count + " " + what + " (" + printable(joined(paths)) +
-         (more > 0 ? " and " + std::to_string(more) + " more)" : ")");
+  return ", " + std::to_string(paths.size()) + " " + what + " (" + firstFew(paths, kMostNamed) + ")";
 }
 
 // Whether `name` is that of a clip, after which no comma was written.

@@ -13,6 +13,7 @@
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/skeleton/body_plans.h"
+#include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -119,6 +120,7 @@ MeasuredDrawing fromLabels(const std::string& path) {
 std::vector<std::string> findDrawings(const std::string& root) {
   std::set<std::string> folders, ids;
   const std::vector<std::string> files = filesBelow(root);
+  noteSkeletonFiles(files);
   for (const fs::path file : files) {
     if (file.filename() == "image.png" || file.filename() == "joints.json")
       folders.insert(file.lexically_relative(root).parent_path().string());

@@ -151,6 +151,8 @@ void bindEvaluateOptions(CLI::App& app, EvaluateOptions& options) {
   app.add_option("--rotate", options.turn_deg, "Turn all drawings clockwise first, degrees")
       ->check(oneOfNumbers({0, 90, 180, 270}));
   bindRecognitionOptions(app, options.infer);
+  app.get_option("--template")
+      ->description("Body plan that is measured against: biped, quadruped, or a .json file");
 }
 
 ExitCode runEvaluate(const EvaluateOptions& options) {

@@ -36,16 +36,25 @@ std::vector<RigJob> jobsOf(const InferOptions& options) {
   for (const std::string& source : sources)
     jobs.push_back({source, options.name.empty() ? fs::path(source).stem().string() : options.name, {}});
   std::map<std::string, std::string> writers;
+  std::string clash;
+  bool same_folder = false;
+  std::vector<std::string> more;
   for (const RigJob& job : jobs) {
     const auto [other, is_new] = writers.emplace(job.stem, job.source);
     if (is_new) continue;
-    const bool same_folder = fs::path(other->second).parent_path() == fs::path(job.source).parent_path();
-    throw UsageError(other->second + " and " + job.source + " would both write " + options.out_dir + "/" +
-                     job.stem + ".*; " +
+    if (!clash.empty()) {
+      more.push_back(other->second + " and " + job.source);
+      continue;
+    }
+    same_folder = fs::path(other->second).parent_path() == fs::path(job.source).parent_path();
+    clash =
+        other->second + " and " + job.source + " would both write " + options.out_dir + "/" + job.stem + ".*";
+  }
+  if (!clash.empty())
+    throw UsageError(clash + (more.empty() ? "" : ", as would " + firstFew(more)) + "; " +
                      (same_folder
                           ? "if one is the other taken again, move the older one elsewhere, else rename one"
                           : "rename one or run them with different -o"));
-  }
   return jobs;
 }
 

@@ -22,6 +22,7 @@ struct AnnotatedDrawing {
   std::vector<Polygon> mask_polygons;  // instead of a file, image px; empty: none
   NamedJoints joints;
   std::vector<std::string> recognized;    // those of `joints` that no person has placed
+  std::vector<std::string> unknown = {};  // what the annotation has and nothing is known of, by name
   bool is_export = false;                 // of our own label files: formatCoco()
   int image_width = 0, image_height = 0;  // px, of the picture that it is for; 0: it does not say
 };

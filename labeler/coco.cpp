@@ -36,16 +36,26 @@ double placeAt(const JsonValue& list, double number) {
 
 using Points = std::map<std::string, Eigen::Vector2d>;
 
+std::string ownName(std::string name) {
+  if (const size_t at = name.find("_wrist"); at != std::string::npos) name.replace(at, 6, "_hand");
+  if (const size_t at = name.find("_ankle"); at != std::string::npos) name.replace(at, 6, "_foot");
+  return name;
+}
+
+std::vector<std::string> unknownNames(const Points& points, const SkeletonTemplate& body_plan) {
+  std::vector<std::string> unknown;
+  for (const auto& [name, point] : points)
+    if (body_plan.find(ownName(name)) < 0 &&
+        std::find(kPersonKeypoints.begin(), kPersonKeypoints.end(), name) == kPersonKeypoints.end())
+      unknown.push_back(name);
+  return unknown;
+}
+
 // The keypoints of people under our names: hands for wrists, feet for ankles, the head at the nose, or
 // between eyes or ears where it is turned away, the body between shoulders and hips.
 NamedJoints underOurNames(const Points& theirs, const SkeletonTemplate& body_plan) {
   Points points;
-  for (const auto& [name, point] : theirs) {
-    std::string own = name;
-    if (const size_t at = name.find("_wrist"); at != std::string::npos) own.replace(at, 6, "_hand");
-    if (const size_t at = name.find("_ankle"); at != std::string::npos) own.replace(at, 6, "_foot");
-    points[own] = point;
-  }
+  for (const auto& [name, point] : theirs) points[ownName(name)] = point;
   const auto middle = [&](const std::string& ours, const std::vector<std::string>& of) {
     if (points.contains(ours)) return;
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -186,6 +196,7 @@ std::vector<AnnotatedDrawing> readCoco(const std::string& path, const BodyPlans&
     const SkeletonTemplate& body_plan = named_plan ? *named_plan : plans.front();
     const Points points = keypoints(annotation, joint_names);
     drawing.joints = underOurNames(points, body_plan);
+    drawing.unknown = unknownNames(points, body_plan);
     takeFound(annotation, points, body_plan, drawing);
     drawing.mask_polygons = polygons(annotation);
     if (annotation.find("skel_outline_found")) drawing.mask_polygons.clear();

@@ -55,6 +55,12 @@ void noteLacking(const ImportCounts& counts) {
                without_class.c_str());
 }
 
+void noteUnknownJoints(const ImportCounts& counts) {
+  for (const auto& [source, names] : counts.unknown_joints)
+    std::fprintf(stderr, "skel-label: note: %s: not known as joints, and left out: %s\n",
+                 printable(source).c_str(), firstFew({names.begin(), names.end()}, 8).c_str());
+}
+
 std::string namesOf(const std::set<std::string>& folders) {
   constexpr std::size_t kMostNamed = 4;
   std::vector<std::string> names;
@@ -93,6 +99,8 @@ ExitCode motion(const LabelerOptions& options) {
 ExitCode check(const LabelerOptions& options) {
   const std::vector<std::string> lines = checkLabels(options.dir, bodyPlans(options.body_plan));
   for (const std::string& line : lines) std::fprintf(stderr, "skel-label: %s\n", messageLine(line).c_str());
+  if (const std::string twins = twinsAmong(options.dir); !twins.empty())
+    std::fprintf(stderr, "skel-label: note: %s\n", twins.c_str());
   if (lines.empty()) print("no inconsistencies\n");
   return lines.empty() ? ExitCode::kDone : ExitCode::kInput;
 }
@@ -167,6 +175,9 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
                  "but the mask has changed since it was labelled; --force makes the labels anew");
         noteKept(counts.differing, "with other joints than what is to be imported; --force takes the latter");
         noteLacking(counts);
+        noteUnknownJoints(counts);
+        if (!counts.outside_mask.empty())
+          std::fprintf(stderr, "skel-label: note: %s\n", firstAndMore(counts.outside_mask).c_str());
         if (counts.made > 0)
           print(std::to_string(counts.joints_placed) + " joints placed, " +
                 std::to_string(counts.joints_found) + " found" +

@@ -5,6 +5,7 @@
 
 #include "labeler/annotated_drawing.h"
 #include "labeler/drawing_list.h"
+#include "labeler/joints_outside_mask.h"
 #include "labeler/placed_joints.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/files.h"
@@ -211,9 +212,17 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
   writeLabelFile(label_path, labels);
   countJoints(labels, body_plan, counts);
   countMissing(label_path, labels, body_plan, counts);
+  if (mask)
+    if (const std::string outside = jointsOutsideMask(labels, body_plan, *mask); !outside.empty())
+      counts.outside_mask.push_back(label_path + ": " + outside);
   const std::string folder = fs::path(label_path).lexically_normal().parent_path().string();
   counts.folders.insert(folder.empty() ? "." : folder);
   return true;
+}
+
+// Beside its picture.
+std::string labelFileOf(const AnnotatedDrawing& drawing) {
+  return fs::path(labelFileFor(drawing.image)).lexically_normal().string();
 }
 
 void countFailure(const Error& error, ImportCounts& counts, const OnError& on_error) {
@@ -240,12 +249,14 @@ void forEach(const List& list, const char* title, const OnError& on_error, const
 }
 
 // Joints that were placed in the window, of drawings of which nobody has labelled a candidate; by force also
-// where a mask lies beside the label file that it does not name. `made_anew`: label files that were to be.
+// where a mask lies beside the label file that it does not name. `told`: label files that were to be made
+// anew, or whose picture has changed; `kept`: those that count as such, unless they fail here.
 void labelByPlacedJoints(const std::string& dir, const BodyPlans& plans, bool force,
-                         const std::set<std::string>& made_anew, const OnError& on_error,
-                         ImportCounts& counts) {
+                         const std::set<std::string>& told, const std::set<std::string>& kept,
+                         const OnError& on_error, ImportCounts& counts) {
   for (const std::string& path : findLabelFiles(dir)) {
-    if (made_anew.contains(fs::path(path).lexically_normal().string())) continue;
+    const std::string normal = fs::path(path).lexically_normal().string();
+    if (told.contains(normal)) continue;
     try {
       const LookAtOutputs look;
       const LabelFile before = readLabelFile(path);
@@ -265,6 +276,7 @@ void labelByPlacedJoints(const std::string& dir, const BodyPlans& plans, bool fo
       writeLabelFile(path, labels);
       ++(gets_mask ? counts.masks_taken : counts.labelled);
     } catch (const InputError& error) {
+      if (kept.contains(normal)) --counts.kept;
       countFailure(error, counts, on_error);
     }
   }
@@ -283,16 +295,23 @@ ImportCounts importLabels(const std::string& path, const BodyPlans& plans, const
       is_file ? readCoco(path, plans, on_input_error)
               : findAnnotatedDrawings(path, plans, on_input_error, &counts.passed_over);
   const std::string dir = is_file ? fs::path(path).parent_path().string() : path;
+  std::set<std::string> kept;  // label files
   const auto make = [&](const AnnotatedDrawing& drawing) {
-    return importDrawing(drawing, dir, plans, options, counts);
+    const bool made = importDrawing(drawing, dir, plans, options, counts);
+    if (!made) kept.insert(labelFileOf(drawing));
+    return made;
   };
+  for (const AnnotatedDrawing& drawing : drawings)
+    if (!drawing.unknown.empty())
+      counts.unknown_joints[drawing.source].insert(drawing.unknown.begin(), drawing.unknown.end());
   forEach(drawings, "import", on_error, make, counts);
-  std::set<std::string> made_anew;
+  std::set<std::string> told;
   if (options.force)
-    for (const AnnotatedDrawing& drawing : drawings)
-      made_anew.insert(fs::path(labelFileFor(drawing.image)).lexically_normal().string());
+    for (const AnnotatedDrawing& drawing : drawings) told.insert(labelFileOf(drawing));
+  for (const std::string& label_path : counts.earlier)
+    told.insert(fs::path(label_path).lexically_normal().string());
   if (!is_file && options.output.empty())
-    labelByPlacedJoints(path, plans, options.force, made_anew, on_error, counts);
+    labelByPlacedJoints(path, plans, options.force, told, kept, on_error, counts);
   if (drawings.empty() && counts.failed == 0 && counts.passed_over.empty() && counts.labelled == 0 &&
       counts.masks_taken == 0)
     throw InputError(path,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -33,6 +34,8 @@ struct ImportCounts {
   std::vector<std::string> lacking;      // of those made: without a place for some joint
   std::set<std::string> missing_joints;  // of these
   std::size_t without_class = 0;         // candidates of these
+  std::map<std::string, std::set<std::string>> unknown_joints;  // by annotation: names of none that is known
+  std::vector<std::string> outside_mask;                        // of those made: jointsOutsideMask()
   std::set<std::string> passed_over;     // files that we have exported, beside what they were made of
   std::set<std::string> folders;         // that those made lie in
   ExitCode exit_code = ExitCode::kDone;  // of the first failure

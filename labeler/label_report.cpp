@@ -6,8 +6,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "labeler/annotated_drawing.h"
+#include "labeler/joints_outside_mask.h"
 #include "labeler/placed_joints.h"
 #include "labeler/save_drawing.h"
 #include "libskel/classifier/features.h"
@@ -16,6 +19,7 @@
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/labels/label_folder.h"
+#include "libskel/labels/twins.h"
 
 namespace skel {
 namespace {
@@ -50,6 +54,14 @@ void checkJointsFile(const std::string& path, const LabelFile& labels, std::vect
                     ", which does not count: mend or remove that");
 }
 
+void checkMask(const std::string& path, const LabelFile& labels, const SkeletonTemplate& body_plan,
+               std::vector<std::string>& lines) {
+  const std::optional<std::string> mask = maskOf(path, labels);
+  if (!mask) return;
+  if (const std::string outside = jointsOutsideMask(labels, body_plan, *mask); !outside.empty())
+    lines.push_back(path + ": mask: " + outside);
+}
+
 void checkFigure(const std::string& path, const LabelFile& labels, const Silhouette& silhouette,
                  std::vector<std::string>& lines) {
   if (silhouette.mask.cols() != labels.image_width || silhouette.mask.rows() != labels.image_height)
@@ -60,15 +72,20 @@ void checkFigure(const std::string& path, const LabelFile& labels, const Silhoue
                     std::to_string(silhouette.grid.height) + "; open and save it in skel-label");
     return;
   }
+  using Place = std::tuple<float, float, float>;
+  const auto placeOf = [](const JointCandidate& candidate) {
+    return Place(candidate.x, candidate.y, candidate.radius);
+  };
   const std::vector<JointCandidate> maxima = extractCandidates(silhouette).maxima;
   if (maxima.size() != labels.candidates.size()) {
     lines.push_back(path + ": candidates: are " + std::to_string(labels.candidates.size()) +
                     ", the figure has " + std::to_string(maxima.size()) + "; open and save it in skel-label");
     return;
   }
+  std::set<Place> places;  // in any order: label files of others may sort them
+  for (const JointCandidate& candidate : maxima) places.insert(placeOf(candidate));
   for (size_t i = 0; i < maxima.size(); ++i)
-    if (maxima[i].x != labels.candidates[i].x || maxima[i].y != labels.candidates[i].y ||
-        maxima[i].radius != labels.candidates[i].radius) {
+    if (!places.contains(placeOf(labels.candidates[i]))) {
       lines.push_back(path + ": candidates[" + std::to_string(i) +
                       "]: is not the figure's; open and save it in skel-label");
       return;
@@ -148,11 +165,26 @@ std::vector<std::string> checkLabels(const std::string& dir, const BodyPlans& pl
       checkJointNames(path, labels, planOf(labels.joints, plans), lines);
       checkJointsFile(path, labels, lines);
       checkFigure(path, labels, labelledFigure(path, labels), lines);
+      checkMask(path, labels, planOf(labels.joints, plans), lines);
     } catch (const InputError& error) {
       lines.emplace_back(path + ": " + error.what());
     }
   }
   return lines;
+}
+
+std::string twinsAmong(const std::string& dir) {
+  std::vector<std::string> names, sha256s;
+  for (const std::string& path : labelFiles(dir)) {
+    try {
+      const LabelFile labels = readLabelFile(path);
+      names.push_back(nameBelow(dir, besideLabelFile(path, labels.image.file)));
+      sha256s.push_back(labels.image.sha256);
+    } catch (const InputError&) {
+      // checkLabels() says it.
+    }
+  }
+  return twinsSaid("drawings", names, sha256s);
 }
 
 std::string labelStats(const std::string& dir) {

@@ -10,16 +10,20 @@
 namespace skel {
 
 // One line each, with file and JSON path: all that checkLabelFolder() finds, candidates that are not those of
-// picture and mask, joints that the template does not have. Throws InputError: no label files.
+// picture and mask, joints that the template does not have, masks beside which joints lie. Throws InputError:
+// no label files.
 std::vector<std::string> checkLabels(const std::string& dir, const BodyPlans& plans);
+
+// Of label files whose pictures are the same, twinsSaid().
+std::string twinsAmong(const std::string& dir);
 
 // Counts of drawings, candidates and labels, of every class, of joints and masks, as text. Throws InputError.
 std::string labelStats(const std::string& dir);
 
 // One row a candidate: file, index, place and radius on the grid, the three features, the label (empty:
 // none). Drawings whose picture or mask has changed, or of which checkLabels() has another complaint than a
-// joints file beside them, and those of another body plan, are left out: `on_error` is told. "": none is
-// left. Throws InputError: no label files.
+// joints file or mask beside them, and those of another body plan, are left out: `on_error` is told. "": none
+// is left. Throws InputError: no label files.
 std::string labelsAsCsv(const std::string& dir, const BodyPlans& plans, const OnError& on_error);
 
 // One annotation a drawing: placed joints as keypoints, found ones beside them, the outline as polygons.

@@ -9,6 +9,7 @@
 #include "libskel/core/input_guard.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
+#include "libskel/core/standard_output.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/skeleton/motion_file.h"
@@ -56,7 +57,7 @@ const SkeletonTemplate& planOfMost(const std::vector<DrawingFiles>& drawings, co
 
 const SkeletonTemplate& planInFile(const std::string& path, const BodyPlans& plans) {
   const LookAtOutputs look;
-  return fs::is_regular_file(path) ? planNamed(templateOfMotion(path), plans) : plans.front();
+  return isFileToReplace(path) ? planNamed(templateOfMotion(path), plans) : plans.front();
 }
 
 // Joints stay open, and `reason` says why, where there is no figure.

@@ -101,10 +101,11 @@ Trained train(const LabelledSet& set, Whole folds, Whole epochs, Whole restarts,
   ensureEveryClass("characters", set);
   if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0)
     throw UsageError("progress: must be callable, or None");
-  const auto count = static_cast<int>(set.characters.size());
-  if (folds != 0 && (folds < 2 || folds > count))
-    throw UsageError("folds: must be 0, or from 2 to the " + std::to_string(count) +
-                     " characters that there are");
+  const auto pictures = static_cast<int>(byPicture(pointersTo(set.characters)).size());
+  if (folds != 0 && (folds < 2 || folds > pictures))
+    throw UsageError("folds: must be 0, or from 2 to the " + std::to_string(pictures) + " " +
+                     (pictures < static_cast<int>(set.characters.size()) ? "pictures" : "characters") +
+                     " that there are");
   TrainingOptions options;
   options.epochs = int(epochs);
   options.restarts = int(restarts);
@@ -128,7 +129,8 @@ Trained train(const LabelledSet& set, Whole folds, Whole epochs, Whole restarts,
                                               : evaluateOn(trained.training.mlp, characters).accuracy();
                   trained.net = {trained.training.mlp,
                                  {set.sha256, spelled(options, int(folds), int(generated)), options.seed,
-                                  trained.training.epochs, set.sampleCount(), count, accuracy}};
+                                  trained.training.epochs, set.sampleCount(),
+                                  static_cast<int>(set.characters.size()), accuracy}};
                 });
   return trained;
 }

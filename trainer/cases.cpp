@@ -2,9 +2,6 @@
 
 #include <cstdio>
 #include <map>
-
-#include "trainer/hands.h"
-
 namespace skel {
 namespace {
 
@@ -20,11 +17,11 @@ LogisticNet learnFrom(const std::vector<const Case*>& cases, const LogisticFitOp
   return fitLogisticNet(inputs, came_true, weights, fit);
 }
 
-void measureOnHandsLeftOut(const std::vector<Case>& cases, const LearningOptions& options,
+void measureOnHandsLeftOut(const std::vector<Case>& cases, const Hands& hands, const LearningOptions& options,
                            const PrintForecasts& print, const LogisticFitOptions& fit) {
   std::vector<std::string> drawings;
   for (const Case& one : cases) drawings.push_back(one.drawing);
-  const std::map<std::string, int> fold_of = foldOfDrawing(drawings, readHands(options.hands), options.folds);
+  const std::map<std::string, int> fold_of = foldOfDrawing(drawings, hands, options.folds);
   std::map<std::string, std::vector<Forecast>> by_group;
   std::vector<Forecast> all;
   for (int fold = 0; fold < options.folds; ++fold) {
@@ -46,10 +43,10 @@ void measureOnHandsLeftOut(const std::vector<Case>& cases, const LearningOptions
 
 }  // namespace
 
-LogisticNet learnFromCases(const std::vector<Case>& cases, const LearningOptions& options,
+LogisticNet learnFromCases(const std::vector<Case>& cases, const Hands& hands, const LearningOptions& options,
                            const PrintForecasts& print, LogisticFitOptions fit) {
   fit.seed = static_cast<std::uint64_t>(options.seed);
-  if (options.folds > 1) measureOnHandsLeftOut(cases, options, print, fit);
+  if (options.folds > 1) measureOnHandsLeftOut(cases, hands, options, print, fit);
   std::vector<const Case*> all;
   for (const Case& one : cases) all.push_back(&one);
   return learnFrom(all, fit);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libskel/recognition/calibration.h"
+#include "trainer/hands.h"
 #include "trainer/learning_options.h"
 #include "trainer/logistic_fit.h"
 
@@ -24,7 +25,7 @@ using PrintForecasts = std::function<void(const std::string& title, const std::v
 
 // Learns from all cases, at least one, and before that, with folds, from those of all hands but a fold's,
 // which it is measured on: all of them, and group by group. The seed of `fit` is that of `options`.
-LogisticNet learnFromCases(const std::vector<Case>& cases, const LearningOptions& options,
+LogisticNet learnFromCases(const std::vector<Case>& cases, const Hands& hands, const LearningOptions& options,
                            const PrintForecasts& print, LogisticFitOptions fit = {});
 
 }  // namespace skel

@@ -18,6 +18,7 @@
 #include "trainer/confidence_table.h"
 #include "trainer/hands.h"
 #include "trainer/logistic_fit.h"
+#include "trainer/twin_hands.h"
 #include "trainer/writable_output.h"
 
 namespace skel {
@@ -155,11 +156,15 @@ void bindConfidenceTrainingOptions(CLI::App& command, ConfidenceTrainingOptions&
 
 ExitCode runConfidenceTraining(const ConfidenceTrainingOptions& options) {
   if (options.table.empty() && options.output.empty()) throw UsageError("-o FILE or --table FILE is needed");
-  const Hands hands = readHands(options.hands, options.first_hand);
+  Hands hands = readHands(options.hands, options.first_hand);
   std::map<std::string, std::vector<JointedDrawing>> drawings;
   for (const auto& [plan, dirs] : options.drawings)
     for (JointedDrawing& drawing : findJointedDrawings(dirs))
       if (!hands.learned.contains(drawingName(drawing.image))) drawings[plan].push_back(std::move(drawing));
+  std::vector<std::string> images;
+  for (const auto& [plan, list] : drawings)
+    for (const JointedDrawing& drawing : list) images.push_back(drawing.image);
+  uniteTwins(images, options.output.empty() ? 0 : options.folds, hands);
   if (!options.output.empty()) ensureWritableNet(options.output, "skel-confidence");
   if (!options.table.empty()) ensureWritableFile(options.table);
   std::vector<ConfidenceSample> samples;

@@ -6,11 +6,16 @@
 namespace skel {
 namespace {
 
-Characters shuffled(Characters characters, const TrainingOptions& options, std::uint64_t stream) {
+std::vector<Characters> shuffled(std::vector<Characters> pictures, const TrainingOptions& options,
+                                 std::uint64_t stream) {
   Rng rng(static_cast<std::uint64_t>(options.seed), stream);
-  for (std::size_t i = characters.size(); i > 1; --i)
-    std::swap(characters[i - 1], characters[rng.below(static_cast<std::uint32_t>(i))]);
-  return characters;
+  for (std::size_t i = pictures.size(); i > 1; --i)
+    std::swap(pictures[i - 1], pictures[rng.below(static_cast<std::uint32_t>(i))]);
+  return pictures;
+}
+
+void append(Characters& characters, const Characters& more) {
+  characters.insert(characters.end(), more.begin(), more.end());
 }
 
 struct Split {
@@ -35,12 +40,12 @@ constexpr std::uint64_t kFoldStream = 1'000'000, kDrawStream = 2'000'000;
 
 Evaluation crossValidate(const Characters& characters, const Characters& generated, int folds,
                          const TrainingOptions& options, const TrainingProgress& progress) {
-  SKEL_CHECK(folds >= 2 && static_cast<std::size_t>(folds) <= characters.size());
-  const Characters order = shuffled(characters, options, kFoldStream);
+  const std::vector<Characters> order = shuffled(byPicture(characters), options, kFoldStream);
+  SKEL_CHECK(folds >= 2 && static_cast<std::size_t>(folds) <= order.size());
   std::vector<Split> splits(static_cast<std::size_t>(folds));
   for (std::size_t i = 0; i < order.size(); ++i)
     for (std::size_t f = 0; f < splits.size(); ++f)
-      (i % splits.size() == f ? splits[f].test : splits[f].training).push_back(order[i]);
+      append(i % splits.size() == f ? splits[f].test : splits[f].training, order[i]);
   Evaluation all;
   for (const Evaluation& evaluation : evaluateSplits(splits, generated, options, progress))
     all.add(evaluation);
@@ -50,13 +55,15 @@ Evaluation crossValidate(const Characters& characters, const Characters& generat
 std::vector<Evaluation> drawAndTest(const Characters& characters, const Characters& generated, int draws,
                                     int drawn, const TrainingOptions& options,
                                     const TrainingProgress& progress) {
-  SKEL_CHECK(drawn >= 1 && static_cast<std::size_t>(drawn) < characters.size());
-  std::vector<Split> splits;
-  for (int d = 0; d < draws; ++d) {
-    const Characters order = shuffled(characters, options, kDrawStream + static_cast<std::uint64_t>(d));
-    const auto border = order.begin() + drawn;
-    splits.push_back({Characters(order.begin(), border), Characters(border, order.end())});
-  }
+  const std::vector<Characters> pictures = byPicture(characters);
+  SKEL_CHECK(drawn >= 1 && static_cast<std::size_t>(drawn) < pictures.size());
+  std::vector<Split> splits(static_cast<std::size_t>(draws));
+  for (std::size_t d = 0; d < splits.size(); ++d)
+    for (const Characters& picture : shuffled(pictures, options, kDrawStream + d)) {
+      Split& split = splits[d];
+      const bool enough = split.training.size() >= static_cast<std::size_t>(drawn);
+      append(enough ? split.test : split.training, picture);
+    }
   return evaluateSplits(splits, generated, options, progress);
 }
 

@@ -14,7 +14,9 @@
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
+#include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
+#include "libskel/labels/twins.h"
 #include "trainer/checkpoint.h"
 #include "trainer/conv_net_trainer.h"
 #include "trainer/figures/figure.h"
@@ -258,6 +260,7 @@ class Training {
     goOnFrom(options.checkpoint, made_by_, trainer_);
     if (!drawings.empty()) {
       splitOff(drawings);
+      dropLeftOut(rehearsed);
       own_ = drawings.size();
       repeatHard(drawings);
       learned_ = drawings.size();
@@ -317,17 +320,48 @@ class Training {
     return numbers;
   }
 
-  // Every so many drawings one that only measures, if there are enough.
+  static std::vector<std::string> imagesOf(const std::vector<JointedDrawing>& drawings) {
+    std::vector<std::string> images;
+    for (const JointedDrawing& drawing : drawings) images.push_back(drawing.image);
+    return images;
+  }
+
+  static std::vector<std::string> picturesOf(const std::vector<JointedDrawing>& drawings) {
+    std::vector<std::string> sha256s;
+    for (const JointedDrawing& drawing : drawings) sha256s.push_back(sha256(readFile(drawing.image)));
+    return sha256s;
+  }
+
+  // Every so many pictures one that only measures, if there are enough.
   void splitOff(std::vector<JointedDrawing>& drawings) {
+    const std::vector<std::string> sha256s = picturesOf(drawings);
+    const std::vector<std::vector<std::size_t>> pictures = groupedByPicture(sha256s);
     const auto count =
-        static_cast<std::size_t>(std::lround(schedule_.left_out * static_cast<double>(drawings.size())));
-    if (count == 0 || count >= drawings.size()) return;
+        static_cast<std::size_t>(std::lround(schedule_.left_out * static_cast<double>(pictures.size())));
+    if (count == 0 || count >= pictures.size()) return;
+    if (const std::string twins = twinsSaid("drawings", imagesOf(drawings), sha256s); !twins.empty())
+      std::fprintf(stderr, "skel-train: note: %s: they are left out together\n", twins.c_str());
     std::vector<JointedDrawing> rest;
-    for (std::size_t i = 0; i < drawings.size(); ++i) {
-      const bool out = (i + 1) * count / drawings.size() > i * count / drawings.size();
-      (out ? left_out_ : rest).push_back(drawings[i]);
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      const bool out = (i + 1) * count / pictures.size() > i * count / pictures.size();
+      for (const std::size_t d : pictures[i]) (out ? left_out_ : rest).push_back(drawings[d]);
     }
     drawings = std::move(rest);
+  }
+
+  // What only measures is not rehearsed either.
+  void dropLeftOut(std::vector<JointedDrawing>& rehearsed) const {
+    const std::vector<std::string> left_out = picturesOf(left_out_);
+    std::vector<JointedDrawing> dropped;
+    std::erase_if(rehearsed, [&](const JointedDrawing& drawing) {
+      const bool out =
+          std::find(left_out.begin(), left_out.end(), sha256(readFile(drawing.image))) != left_out.end();
+      if (out) dropped.push_back(drawing);
+      return out;
+    });
+    if (!dropped.empty())
+      std::fprintf(stderr, "skel-train: note: %s: left out to measure by, so not rehearsed\n",
+                   firstFew(imagesOf(dropped)).c_str());
   }
 
   // Drawings that the first net does not know yet are drawn more often.

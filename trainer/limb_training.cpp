@@ -19,6 +19,7 @@
 #include "trainer/confidence_samples.h"
 #include "trainer/hands.h"
 #include "trainer/part_samples.h"
+#include "trainer/twin_hands.h"
 #include "trainer/writable_output.h"
 
 namespace skel {
@@ -127,11 +128,14 @@ void bindLimbTrainingOptions(CLI::App& command, LimbTrainingOptions& options) {
 }
 
 ExitCode runLimbTraining(const LimbTrainingOptions& options) {
-  const Hands hands = readHands(options.hands, options.first_hand);
+  Hands hands = readHands(options.hands, options.first_hand);
   auto files = drawingsWithShapes(options.drawings, options.shapes);
   std::erase_if(files,
                 [&](const auto& file) { return hands.learned.contains(drawingName(file.first.image)); });
   if (files.empty()) throw UsageError("there are no drawings with shapes to learn from");
+  std::vector<std::string> images;
+  for (const auto& [drawing, shapes] : files) images.push_back(drawing.image);
+  uniteTwins(images, options.folds, hands);
   ensureWritableNet(options.output, "skel-limb-net");
   std::vector<std::vector<Case>> of_drawing(files.size());
   parallelFor(files.size(), options.threads,
@@ -142,7 +146,7 @@ ExitCode runLimbTraining(const LimbTrainingOptions& options) {
   LogisticFitOptions fit;
   fit.hidden = 0;  // units bring nothing with so few limbs
   fit.decay = 5e-3;
-  const LogisticNet net = learnFromCases(cases, options, printLimbs, fit);
+  const LogisticNet net = learnFromCases(cases, hands, options, printLimbs, fit);
   writeFile(options.output, formatLimbNet({net, "skel-train limbs --seed " + std::to_string(options.seed) +
                                                     ": " + std::to_string(cases.size()) + " limbs of " +
                                                     std::to_string(files.size()) + " drawings"}));

@@ -7,6 +7,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
 #include "trainer/confidence_samples.h"
+#include "trainer/twin_hands.h"
 #include "trainer/writable_output.h"
 
 namespace skel {
@@ -60,12 +61,16 @@ LearnedFromPages learnFromPages(const PageCaseOptions& options, std::string_view
     if (drawings.size() == before)
       throw InputError(folder, "has no drawing with a mask and joints (*.mask.png, *.joints.json)");
   }
+  Hands hands = readHands(options.hands);
+  std::vector<std::string> images;
+  for (const AnnotatedImage& drawing : drawings) images.push_back(drawing.image);
+  uniteTwins(images, options.folds, hands);
   ensureWritableNet(options.output, format);
   const std::vector<Case> found = casesOnPages(drawings, options, cases);
   if (found.empty()) throw UsageError(none);
-  return {learnFromCases(found, options, print, fit), "--seed " + std::to_string(options.seed) + ": " +
-                                                          std::to_string(found.size()) + " cases with " +
-                                                          std::to_string(drawings.size()) + " drawings"};
+  return {learnFromCases(found, hands, options, print, fit),
+          "--seed " + std::to_string(options.seed) + ": " + std::to_string(found.size()) + " cases with " +
+              std::to_string(drawings.size()) + " drawings"};
 }
 
 }  // namespace skel

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "libskel/core/rng.h"
+#include "libskel/labels/twins.h"
 
 namespace skel {
 
@@ -29,6 +30,23 @@ Characters pointersTo(const std::vector<LabelledCharacter>& characters) {
   Characters pointers;
   for (const LabelledCharacter& character : characters) pointers.push_back(&character);
   return pointers;
+}
+
+std::vector<Characters> byPicture(const Characters& characters) {
+  std::vector<std::string> pictures;
+  for (const LabelledCharacter* character : characters) pictures.push_back(character->image_sha256);
+  std::vector<Characters> groups;
+  for (const std::vector<std::size_t>& group : groupedByPicture(pictures)) {
+    groups.emplace_back();
+    for (const std::size_t i : group) groups.back().push_back(characters[i]);
+  }
+  return groups;
+}
+
+Characters joined(const std::vector<Characters>& groups) {
+  Characters all;
+  for (const Characters& group : groups) all.insert(all.end(), group.begin(), group.end());
+  return all;
 }
 
 namespace {

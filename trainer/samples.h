@@ -33,6 +33,11 @@ extern template struct SampleBlocks<double>;
 using Characters = std::vector<const LabelledCharacter*>;
 Characters pointersTo(const std::vector<LabelledCharacter>& characters);
 
+// Those of one picture are together: what is measured on one of them is not learned from the others. In the
+// order of the first of each picture.
+std::vector<Characters> byPicture(const Characters& characters);
+Characters joined(const std::vector<Characters>& groups);
+
 struct SampleOptions {
   bool mirror = true;  // add each character's mirror image
   // Add so many copies of each character with other proportions: x, y and radius each bent by up to `warp`.

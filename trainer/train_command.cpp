@@ -14,6 +14,7 @@
 #include "libskel/core/text.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/coco_of_others.h"
+#include "libskel/labels/twins.h"
 #include "trainer/cross_validation.h"
 #include "trainer/evaluation.h"
 #include "trainer/generated_characters.h"
@@ -29,6 +30,10 @@ const std::map<std::string, CandidateMethod> kCandidateMethods = {{"maxima", Can
 const std::map<std::string, TrainingMethod> kMethods = {{"gradient", TrainingMethod::kGradient},
                                                         {"rprop", TrainingMethod::kRprop},
                                                         {"lbfgs", TrainingMethod::kLbfgs}};
+
+std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
 
 std::string trim(double number) {
   char text[32];
@@ -121,14 +126,43 @@ Draws summaryOf(const std::vector<Evaluation>& draws, int drawn) {
   return {static_cast<int>(draws.size()), drawn, mean, std::sqrt(std::max(0., square - mean * mean))};
 }
 
-void checkCounts(const TrainOptions& options, std::size_t characters) {
-  const auto count = std::to_string(characters);
-  if (!options.leave_one_out && static_cast<std::size_t>(options.folds) > characters)
-    throw UsageError("--folds " + std::to_string(options.folds) + ": there are only " + count +
-                     " characters; take fewer folds, or --folds 0");
-  if (options.draws > 0 && static_cast<std::size_t>(options.drawn) >= characters)
+// `pictures`: how many the characters have.
+void checkCounts(const TrainOptions& options, std::size_t characters, std::size_t pictures) {
+  const std::string count = pictures == characters
+                                ? counted(characters, "character")
+                                : counted(pictures, "picture") + " of " + counted(characters, "character");
+  const auto needed = static_cast<std::size_t>(options.leave_one_out ? 2 : options.folds);
+  if (needed > pictures)
+    throw UsageError(
+        (options.leave_one_out ? "--leave-one-out" : "--folds " + std::to_string(options.folds)) + ": " +
+        (pictures == 1 ? "there is only " : "there are only ") + count + "; take " +
+        (pictures > 1 ? "fewer folds, or " : "") + "--folds 0");
+  if (options.draws > 0 && static_cast<std::size_t>(options.drawn) >= pictures)
     throw UsageError("--drawn " + std::to_string(options.drawn) + ": must be less than the " + count +
-                     " characters that there are");
+                     " that there are");
+}
+
+// Where people and animals lie in one folder, somebody may have meant one of them.
+void noteAnimals(const LabelledSet& set) {
+  std::vector<std::string> animals;
+  for (const LabelledCharacter& character : set.characters)
+    if (character.body_plan == "quadruped") animals.push_back(character.name);
+  if (!animals.empty() && animals.size() < set.characters.size())
+    std::fprintf(
+        stderr,
+        "skel-train: note: %zu of %zu characters have joints of a quadruped (%s): one net learns the "
+        "classes of all\n",
+        animals.size(), set.characters.size(), firstFew(animals).c_str());
+}
+
+void noteTwins(const LabelledSet& set) {
+  std::vector<std::string> names, pictures;
+  for (const LabelledCharacter& character : set.characters) {
+    names.push_back(character.name);
+    pictures.push_back(character.image_sha256);
+  }
+  if (const std::string twins = twinsSaid("characters", names, pictures); !twins.empty())
+    std::fprintf(stderr, "skel-train: note: %s: they are left out together\n", twins.c_str());
 }
 
 }  // namespace
@@ -196,7 +230,7 @@ void bindTrainOptions(CLI::App& app, TrainOptions& options) {
       app.add_option("--folds", options.folds, "Groups of characters for cross-validation; 0: none")
           ->check(numberIn(0, 1'000'000))
           ->capture_default_str();
-  app.add_flag("--leave-one-out", options.leave_one_out, "As many folds as there are characters")
+  app.add_flag("--leave-one-out", options.leave_one_out, "As many folds as there are pictures")
       ->excludes(folds);
   app.add_option("--draws", options.draws, "Also train on so many random draws of --drawn characters")
       ->check(numberIn(0, 10'000))
@@ -224,15 +258,18 @@ ExitCode runTrain(const TrainOptions& given) {
   const LabelledSet set = readSet(options.dir, options.candidates);
   ensureEveryClass(options.dir, set);
   const Characters characters = pointersTo(set.characters);
-  checkCounts(options, characters.size());
+  const std::size_t pictures = byPicture(characters).size();
+  checkCounts(options, characters.size(), pictures);
   ensureWritableNet(options.output, "skel-weights");
   if (!options.json.empty()) ensureWritableFile(options.json);
   keepCocoOfOthers(options.json, "name another file by --json");
   if (!options.report.empty()) ensureWritableFolder(options.report);
+  noteAnimals(set);
+  const int folds = options.leave_one_out ? static_cast<int>(pictures) : options.folds;
+  if (folds > 1 || options.draws > 0 || training.validation > 0) noteTwins(set);
   const std::vector<LabelledCharacter> drawn_by_program = generateCharacters(
       options.generated, static_cast<std::uint64_t>(training.seed), training.threads, {options.candidates});
   const Characters generated = pointersTo(drawn_by_program);
-  const int folds = options.leave_one_out ? static_cast<int>(characters.size()) : options.folds;
 
   const Training result = withProgress("training", 1, training, [&](const TrainingProgress& progress) {
     return train(characters, generated, training, progress);

@@ -11,10 +11,10 @@
 namespace skel {
 namespace {
 
-// Moves `count` random characters to the end.
-void shuffleTail(Characters& characters, std::size_t count, Rng& rng) {
-  for (std::size_t i = characters.size(); i > characters.size() - count; --i)
-    std::swap(characters[i - 1], characters[rng.below(static_cast<std::uint32_t>(i))]);
+// Moves `count` random pictures to the end.
+void shuffleTail(std::vector<Characters>& pictures, std::size_t count, Rng& rng) {
+  for (std::size_t i = pictures.size(); i > pictures.size() - count; --i)
+    std::swap(pictures[i - 1], pictures[rng.below(static_cast<std::uint32_t>(i))]);
 }
 
 // Inputs to mean 0 and deviation 1.
@@ -86,26 +86,26 @@ Training trainOnce(const TrainingData& data, const TrainingData* held_out, const
 Training train(const Characters& characters, const Characters& generated, const TrainingOptions& options,
                const TrainingProgress& progress) {
   SKEL_CHECK(!characters.empty());
-  Characters order = characters;
+  std::vector<Characters> order = byPicture(characters);
   std::size_t held_out = 0;
-  if (options.validation > 0 && characters.size() > 1)
+  if (options.validation > 0 && order.size() > 1)
     held_out = std::clamp<std::size_t>(
-        static_cast<std::size_t>(std::lround(options.validation * static_cast<double>(characters.size()))), 1,
-        characters.size() - 1);
+        static_cast<std::size_t>(std::lround(options.validation * static_cast<double>(order.size()))), 1,
+        order.size() - 1);
   Rng rng(static_cast<std::uint64_t>(options.seed), ~std::uint64_t{0} >> 1);
   shuffleTail(order, held_out, rng);
   const auto border = order.end() - static_cast<std::ptrdiff_t>(held_out);
   SampleOptions as_they_are = options.samples;
   as_they_are.mirror = false;
   as_they_are.warps = 0;
-  Samples samples = joined(samplesOf(Characters(order.begin(), border), options.samples),
+  Samples samples = joined(samplesOf(joined(std::vector<Characters>(order.begin(), border)), options.samples),
                            samplesOf(generated, as_they_are));
   const Scaling scaling(samples.inputs);
   scaling.apply(samples.inputs);
   const TrainingData data(std::move(samples));
   std::unique_ptr<TrainingData> validation;
   if (held_out > 0) {
-    Samples held = samplesOf(Characters(border, order.end()), options.samples);
+    Samples held = samplesOf(joined(std::vector<Characters>(border, order.end())), options.samples);
     scaling.apply(held.inputs);
     validation = std::make_unique<TrainingData>(std::move(held));
   }

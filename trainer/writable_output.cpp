@@ -10,6 +10,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/core/net_format.h"
+#include "libskel/core/standard_output.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -26,8 +27,7 @@ void ensureWritableFile(const std::string& file) {
 
 void ensureWritableNet(const std::string& file, std::string_view format) {
   ensureWritableFile(file);
-  std::error_code unknown;
-  if (!fs::is_regular_file(file, unknown)) return;
+  if (!isFileToReplace(file)) return;
   const LookAtOutputs look;
   const std::string there = netFormatOf(readFile(file));
   if (!there.empty() && there != format)

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "libskel/core/standard_output.h"
+
 namespace skel {
 namespace {
 
@@ -17,7 +19,10 @@ CLI::Validator mark(const char* name) {
 CLI::Validator outputFile() { return mark(kOutputMark); }
 CLI::Validator pickedFiles() { return mark(kPickedMark); }
 
-void noteFiles(const CLI::App& app) {
+namespace {
+
+// The outputs are added to `outputs`.
+void noteFiles(const CLI::App& app, std::vector<std::string>& outputs) {
   const auto has = [](const CLI::Option& option, const char* mark) {
     try {
       return const_cast<CLI::Option&>(option).get_validator(mark) != nullptr;
@@ -32,8 +37,17 @@ void noteFiles(const CLI::App& app) {
     std::vector<std::string> files = option->results();
     if (files.empty() && output && !option->get_default_str().empty()) files = {option->get_default_str()};
     for (const std::string& file : files) output ? noteNamedOutput(file) : noteInput(file);
+    if (output) outputs.insert(outputs.end(), files.begin(), files.end());
   }
-  for (const CLI::App* command : app.get_subcommands()) noteFiles(*command);
+  for (const CLI::App* command : app.get_subcommands()) noteFiles(*command, outputs);
+}
+
+}  // namespace
+
+void noteFiles(const CLI::App& app) {
+  std::vector<std::string> outputs;
+  noteFiles(app, outputs);
+  keepStandardOutputFor(outputs);
 }
 
 }  // namespace skel

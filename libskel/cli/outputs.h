@@ -13,8 +13,8 @@ CLI::Validator outputFile();
 // Inputs, not all of which are taken: the tool calls noteInput() for those that are.
 CLI::Validator pickedFiles();
 
-// Notes the files and pipes that the command line names, and the outputs' defaults. Throws UsageError where
-// an output is an input.
+// Notes the files and pipes that the command line names, and the outputs' defaults; where an output is the
+// standard output, it stands there alone (standard_output.h). Throws UsageError where an output is an input.
 void noteFiles(const CLI::App& app);
 
 }  // namespace skel

@@ -17,6 +17,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/input_guard.h"
+#include "libskel/core/standard_output.h"
 #include "libskel/core/temporary_file.h"
 
 namespace skel {
@@ -56,16 +57,11 @@ void writeTo(int fd, std::string_view bytes, const std::string& path) {
   if (!writeAll(fd, bytes)) throw OutputError(path, "cannot be written: " + reason());
 }
 
-bool isSame(const struct stat& a, const struct stat& b) {
-  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
-}
-
 // What is no file, or is the standard output under another name (/dev/stdout), is written as it comes.
 bool wroteDirectly(const std::string& path, const struct stat& there, std::string_view bytes) {
-  struct stat standard;
-  if (::fstat(STDOUT_FILENO, &standard) == 0 && isSame(there, standard)) {
+  if (const int standard_output = standardOutputNamed(path); standard_output >= 0) {
     std::fflush(stdout);
-    writeTo(STDOUT_FILENO, bytes, path);
+    writeTo(standard_output, bytes, path);
     return true;
   }
   if (S_ISREG(there.st_mode)) return false;
@@ -211,6 +207,7 @@ void ensureWritableFolder(const std::string& dir) {
 }
 
 void ensureWritableFolderOf(const std::string& file) {
+  if (standardOutputNamed(file) >= 0) return;
   const fs::path folder = fs::path(file).parent_path();
   ensureWritableFolder(folder.empty() ? "." : folder.string());
 }

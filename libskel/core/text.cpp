@@ -81,4 +81,10 @@ std::string firstAndMore(const std::vector<std::string>& texts) {
          (texts.size() > 1 ? " (and " + std::to_string(texts.size() - 1) + " more)" : "");
 }
 
+std::string firstFew(std::vector<std::string> texts, std::size_t most) {
+  const std::size_t more = texts.size() - std::min(texts.size(), most);
+  texts.resize(texts.size() - more);
+  return printable(joined(texts)) + (more > 0 ? " and " + std::to_string(more) + " more" : "");
+}
+
 }  // namespace skel

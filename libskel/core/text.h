@@ -1,6 +1,7 @@
 // Words for messages.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,5 +22,8 @@ std::string messageLine(std::string_view text);
 
 // The first as printable(), and how many there are besides: "a.json (and 3 more)". At least one.
 std::string firstAndMore(const std::vector<std::string>& texts);
+
+// The first `most` as printable(), and how many there are besides: "a, b, c and 2 more".
+std::string firstFew(std::vector<std::string> texts, std::size_t most = 4);
 
 }  // namespace skel

@@ -71,17 +71,21 @@ NamedDrawings drawingsOf(const std::vector<std::string>& named) {
   NamedDrawings found;
   std::vector<std::string> pictures;
   std::set<std::string> from_folders;
+  std::set<fs::path> folders;
   for (const std::string& name : named) {
     std::error_code not_there;
     if (!fs::is_directory(name, not_there)) {
       pictures.push_back(name);
       continue;
     }
+    folders.insert(fs::canonical(name));
     for (std::string& drawing : drawingsIn(name, found)) {
       from_folders.insert(drawing);
       pictures.push_back(std::move(drawing));
     }
   }
+  std::erase_if(found.folders,
+                [&](const std::string& folder) { return folders.contains(fs::canonical(folder)); });
   std::sort(found.folders.begin(), found.folders.end(), comesBefore);
 
   std::set<fs::path> without_endings;

@@ -10,7 +10,7 @@ struct NamedDrawings {
   std::vector<std::string> drawings;
   std::vector<std::string> results;    // files that were named, but were made of a drawing
   std::vector<std::string> documents;  // PDF files in folders, passed over
-  std::vector<std::string> folders;    // in folders, with drawings in them, not looked into
+  std::vector<std::string> folders;    // in folders, with drawings in them, not named: not looked into
 };
 
 // `named`: pictures and folders, mixed. A folder stands for the drawings in it, not for those in its folders,

@@ -1,17 +1,15 @@
 #include "libskel/labels/coco_of_others.h"
 
-#include <filesystem>
-
 #include "libskel/core/error.h"
 #include "libskel/core/input_guard.h"
+#include "libskel/core/standard_output.h"
 
 namespace skel {
 namespace {
 
 // What cannot be read holds nothing that would be lost.
 bool holdsCocoOfOthers(const std::string& path) {
-  std::error_code unknown;
-  if (!std::filesystem::is_regular_file(path, unknown)) return false;
+  if (!isFileToReplace(path)) return false;
   const LookAtOutputs look;
   try {
     const JsonDocument document = JsonDocument::readFile(path);

@@ -11,6 +11,7 @@
 #include "libskel/core/text.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/skeleton/body_plans.h"
+#include "libskel/skeleton/skeleton_file.h"
 #include "libskel/skeleton/template.h"
 
 namespace skel {
@@ -34,7 +35,7 @@ std::string gridComplaint(const std::string& path, const LabelFile& labels, cons
 LabelledCharacter characterOf(const std::string& name, const LabelFile& labels) {
   CandidateSet candidates;
   candidates.maxima = labels.candidates;
-  LabelledCharacter character{name, features(candidates), {}};
+  LabelledCharacter character{name, features(candidates), {}, labels.image.sha256};
   Eigen::Index kept = 0;
   for (std::size_t i = 0; i < labels.labels.size(); ++i)
     if (labels.labels[i]) {
@@ -142,6 +143,7 @@ void ensureEveryClass(const std::string& name, const LabelledSet& set) {
 
 std::vector<std::string> findLabelFiles(const std::string& dir) {
   std::vector<std::string> files = filesBelow(dir);
+  noteSkeletonFiles(files);
   std::erase_if(files, [](const std::string& file) { return !file.ends_with(kLabelFileEnding); });
   return files;
 }
@@ -169,6 +171,7 @@ std::vector<std::string> checkLabelFolder(const std::string& dir) {
 }
 
 LabelledSet readLabelledSet(const std::string& dir, const OnInputError& on_error) {
+  const BodyPlans plans = bodyPlans("auto");
   LabelledSet set;
   std::string hashed, first_path;
   int grid_size = 0;
@@ -185,6 +188,8 @@ LabelledSet readLabelledSet(const std::string& dir, const OnInputError& on_error
     const std::string name = nameBelow(dir, path);
     checkAllLabelled(path, labels);
     set.characters.push_back(characterOf(name, labels));
+    const SkeletonTemplate* plan = planWith(jointNames(labels.joints), plans);
+    if (plan && !labels.joints.empty()) set.characters.back().body_plan = plan->name;
     hashed += name + " " + sha256(readFile(path)) + "\n";
   };
   const std::vector<std::string> files = findLabelFiles(dir);

@@ -15,6 +15,8 @@ struct LabelledCharacter {
   std::string name;  // path of its label file below the folder, without the ending
   Features features;
   std::vector<JointClass> labels;  // one for each row
+  std::string image_sha256 = {};   // of its picture; "": it has none
+  std::string body_plan = {};      // whose joints its label file has; "": it has none, or others
 };
 
 struct LabelledSet {
@@ -30,7 +32,7 @@ struct LabelledSet {
 void ensureEveryClass(const std::string& name, const LabelledSet& set);
 
 // Label files below `dir`, at any depth, sorted by path. Throws InputError: no such folder, one that
-// cannot be read.
+// cannot be read; OverwriteError: a skeleton file there is an output (noteSkeletonFiles()).
 std::vector<std::string> findLabelFiles(const std::string& dir);
 
 // Every inconsistency of all label files below `dir`, one line each; none: all is well.

@@ -8,6 +8,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/core/json_names.h"
+#include "libskel/core/standard_output.h"
 #include "libskel/skeleton/joint_json.h"
 
 namespace skel {
@@ -126,8 +127,8 @@ std::string templateOfMotion(const std::string& path) {
 }
 
 void requireNoEdits(const std::string& path, const SkeletonTemplate& body_plan) {
-  if (!std::filesystem::exists(path)) return;
   if (std::filesystem::is_directory(path)) throw OutputError(path, "is a folder; name a file by -o");
+  if (!isFileToReplace(path)) return;
   const LookAtOutputs look;
   for (const MotionFrame& frame : readMotionFile(path, body_plan).frames)
     for (const auto& joint : frame.joints)

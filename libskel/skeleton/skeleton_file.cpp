@@ -132,6 +132,11 @@ std::map<std::string, std::vector<double>> placesIn(const std::string& path) {
 
 }  // namespace
 
+void noteSkeletonFiles(const std::vector<std::string>& files) {
+  for (const std::string& file : files)
+    if (file.ends_with(kSkeletonFileEnding)) noteInput(file);
+}
+
 std::string formatSkeletonFile(const SkeletonFile& file) {
   Json root;
   root["format"] = "skel-skeleton";

@@ -49,6 +49,10 @@ struct SkeletonFile {
 
 inline constexpr const char* kSkeletonFileEnding = ".skeleton.json";
 
+// Those of `files` belong to what a command works on, whether it reads them or not: notes them as inputs, so
+// that no output replaces what a person has mended in them. Throws OverwriteError (input_guard.h).
+void noteSkeletonFiles(const std::vector<std::string>& files);
+
 // Each joint that no person has placed stands there twice: what is moved is `image`, `found` says from where.
 std::string formatSkeletonFile(const SkeletonFile& file);
 

@@ -254,3 +254,27 @@ TEST_CASE("a command in a note can be pasted where the tools are not on the PATH
   CHECK_THAT(says(dir.path(), bin, "'a b.png' c.png"),
              Contains("(" + bin + "/skel-label FILE, key G): 'a b.png'"));
 }
+
+TEST_CASE("a folder that is named was said to be not looked into") {
+  const TempDir dir;
+  for (const char* name : {"k/anna.png", "k/di/ben.png", "k/mi/carl.png"})
+    writeFile(dir.file(name), figure());
+  const NamedDrawings found = drawingsOf({dir.file("k/"), dir.file("k/../k/di")});
+  CHECK(found.folders == std::vector<std::string>{dir.file("k/mi")});
+}
+
+TEST_CASE("drawings of equal names in two folders were named one pair a run") {
+  const TempDir dir;
+  const auto refusal = [&] { return infer(dir, "3a 3b -o both").err; };
+  const auto add = [&](const std::string& name) {
+    for (const char* folder : {"3a/", "3b/"}) writeFile(dir.file(folder + name + ".png"), figure());
+  };
+  add("anna");
+  CHECK(refusal() ==
+        "skel-infer: 3a/anna.png and 3b/anna.png would both write both/anna.*; rename one or run them with "
+        "different -o\n");
+  for (const char* name : {"ben", "carl", "dora", "emil", "fritz"}) add(name);
+  CHECK_THAT(refusal(),
+             Contains("both/anna.*, as would 3a/ben.png and 3b/ben.png, 3a/carl.png and 3b/carl.png, "));
+  CHECK_THAT(refusal(), Contains("3b/emil.png and 1 more; rename one"));
+}

@@ -401,3 +401,10 @@ TEST_CASE("evaluate measures no animal as a biped, and says by which template it
        "measures them",
        "walking_dog");
 }
+
+TEST_CASE("evaluate offered --template auto, which it refuses") {
+  const skel::ToolRun help = skel::runTool("skel-infer evaluate --help");
+  CHECK(help.exit_code == 0);
+  CHECK(help.out.find("biped, quadruped, or a .json file") != std::string::npos);
+  CHECK(help.out.find("auto") == std::string::npos);
+}

@@ -53,8 +53,7 @@ std::map<std::string, std::string> contentOf(const TempDir& dir, const std::stri
 }
 
 // As skel-label saves them: one joint placed, one that was found.
-void placeInLabels(const TempDir& dir, const Eigen::Vector2d& left_hand,
-                   const std::string& mask = "") {
+void placeInLabels(const TempDir& dir, const Eigen::Vector2d& left_hand, const std::string& mask = "") {
   LabelFile labels;
   const std::string image = readFile(dir.file("boy.png"));
   labels.image = {"boy.png", sha256(image)};

@@ -384,7 +384,7 @@ TEST_CASE("import: of a picture that has changed other joints were told, and --f
   fs::remove(dir.file("cap_boy.mask.png"));
   fs::copy(kCharacters + "clown.png", dir.file("cap_boy.png"), fs::copy_options::overwrite_existing);
   ToolRun run = label(dir, "import .");
-  CHECK(contains(run.out, "0 label files made, 1 kept as they were"));
+  CHECK(run.out == "0 label files made, 1 kept as they were, 0 failed\n");
   CHECK(
       contains(run.err,
                "cap_boy.labels.json: kept, but the picture has changed since it was labelled; --force makes "
@@ -687,6 +687,75 @@ TEST_CASE("check names joints that a person has placed elsewhere than a joints f
   labels.recognized = {"head", "left_hand"};
   writeLabelFile(dir.file("cap_boy.labels.json"), labels);
   CHECK(label(dir, "check .").exit_code == 0);
+}
+
+TEST_CASE("check said nothing of a picture that occurs twice") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  fs::create_directories(dir.file("b"));
+  for (const char* ending : {".png", ".mask.png", ".joints.json"})
+    fs::copy(dir.file("cap_boy") + ending, dir.file("b/again") + ending);
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  const ToolRun run = label(dir, "check .");
+  CHECK(run.exit_code == 0);
+  CHECK(run.out == "no inconsistencies\n");
+  CHECK(run.err == "skel-label: note: 2 drawings are one picture (b/again.png, cap_boy.png)\n");
+}
+
+TEST_CASE("an inverted mask, and that of a part of the figure, were imported and checked without a word") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const Plane8 whole = readMask(dir.file("cap_boy.mask.png"));
+  CHECK(label(dir, "import . --force").err == "");
+  Plane8 half = whole;
+  half.bottomRows(half.rows() / 2) = 0;
+  for (const Plane8& wrong : {Plane8(255 - whole), half}) {
+    writeFile(dir.file("cap_boy.mask.png"), encodePng(wrong));
+    const ToolRun imported = label(dir, "import . --force");
+    CHECK(imported.exit_code == 0);
+    CHECK(contains(imported.err, "skel-label: note: ./cap_boy.labels.json: "));
+    CHECK(contains(imported.err, " of 14 joints lie outside the mask cap_boy.mask.png\n"));
+    const ToolRun checked = label(dir, "check .");
+    CHECK(checked.exit_code == 2);
+    CHECK(contains(checked.err, "cap_boy.labels.json: mask: "));
+    CHECK(contains(checked.err, " of 14 joints lie outside the mask cap_boy.mask.png\n"));
+  }
+}
+
+TEST_CASE("check complained of candidates that stand in another order") {
+  const TempDir dir;
+  const std::string path = importedBoy(dir);
+  LabelFile labels = readLabelFile(path);
+  std::reverse(labels.candidates.begin(), labels.candidates.end());
+  std::reverse(labels.labels.begin(), labels.labels.end());
+  writeLabelFile(path, labels);
+  CHECK(label(dir, "check .").out == "no inconsistencies\n");
+  REQUIRE(label(dir, "export . --csv -o labels.csv").exit_code == 0);
+}
+
+TEST_CASE("import counted a broken label file twice, as kept and as failed") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  copyCharacter("box_robot", dir.path());
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  writeFile(dir.file("box_robot.labels.json"), "{");
+  const ToolRun run = label(dir, "import .");
+  CHECK(run.exit_code == 2);
+  CHECK(run.out == "0 label files made, 1 kept as they were, 1 failed\n");
+}
+
+TEST_CASE("import dropped keypoints of names of their own without a word") {
+  const TempDir dir;
+  exportTwo(dir);
+  fs::copy(dir.file("in/box_robot.png"), dir.file("round/box_robot.png"));
+  std::string text = readFile(dir.file("round/coco.json"));
+  for (const auto& [ours, theirs] : {std::pair("\"left_hand\"", "\"LHand\""), {"\"head\"", "\"Top\""}})
+    text.replace(text.find(ours), std::string(ours).size(), theirs);
+  writeFile(dir.file("round/coco.json"), text);
+  const ToolRun run = label(dir, "import round/coco.json");
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.err,
+                 "skel-label: note: round/coco.json: not known as joints, and left out: LHand, Top\n"));
 }
 
 TEST_CASE("the labelled set of the repository has no inconsistency") {

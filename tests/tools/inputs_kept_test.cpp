@@ -128,3 +128,16 @@ TEST_CASE("weights and pictures that skel-train and skel-label are given are kep
   keeps(dir, "set/cap_boy.png", "skel-label export set --csv -o set/cap_boy.png");
   keeps(dir, "set/cap_boy.labels.json", "skel-label export set --csv -o set/cap_boy.labels.json");
 }
+
+TEST_CASE("skeletons beside the drawings of a set were written over by what was made of the set") {
+  const TempDir dir;
+  fs::create_directories(dir.file("C"));
+  for (const char* ending : {".png", ".mask.png", ".labels.json"})
+    fs::copy_file(SKEL_SOURCE_DIR "/datasets/characters/cap_boy" + std::string(ending),
+                  dir.file("C/cap_boy") + ending);
+  writeFile(dir.file("C/cap_boy.skeleton.json"), "mended by hand");
+  for (const char* command :
+       {"skel-infer evaluate C --json ", "skel-train C --folds 0 -o ", "skel-train C -o w.json --json ",
+        "skel-train evaluate C --json ", "skel-label export C --coco -o ", "skel-label export C --csv -o "})
+    keeps(dir, "C/cap_boy.skeleton.json", command + std::string("C/cap_boy.skeleton.json"));
+}

@@ -103,8 +103,8 @@ TEST_CASE("devices and pipes are written into and stay what they are") {
   done(dir, "mkfifo pipe && { cat pipe > read & } && " + write + "pipe && wait");
   CHECK(readFile(dir.file("read")) == table);
   CHECK(fs::is_fifo(dir.file("pipe")));
-  CHECK(done(dir, write + "/dev/stdout | cat").out == table + "/dev/stdout\n");
-  CHECK(done(dir, write + "/dev/stdout > both && cat both").out == table + "/dev/stdout\n");
+  CHECK(done(dir, write + "/dev/stdout | cat").out == table);
+  CHECK(done(dir, write + "/dev/stdout > both && cat both").out == table);
   done(dir, "ln -s there/table.csv link.csv && " + write + "link.csv");
   CHECK(fs::is_symlink(dir.file("link.csv")));
   CHECK(readFile(dir.file("there/table.csv")) == table);
@@ -112,6 +112,39 @@ TEST_CASE("devices and pipes are written into and stay what they are") {
   struct stat status;
   REQUIRE(stat(dir.file("private.csv").c_str(), &status) == 0);
   CHECK((status.st_mode & 0777) == 0600);
+}
+
+TEST_CASE("a result on the standard output stood among what else is said") {
+  const TempDir dir;
+  fs::create_directories(dir.file("set"));
+  for (const char* ending : {".png", ".mask.png", ".labels.json"})
+    fs::copy_file(SKEL_SOURCE_DIR "/datasets/characters/cap_boy" + std::string(ending),
+                  dir.file("set/cap_boy") + ending);
+  for (const char* command :
+       {"skel-label export set --coco -o ", "skel-infer evaluate set --json ",
+        "skel-train evaluate set --json ", "skel-train set --folds 0 --epochs 2 --generated 0 -o "}) {
+    CAPTURE(command);
+    std::string said = done(dir, command + std::string("result.json")).out;
+    const std::string result = readFile(dir.file("result.json"));
+    fs::remove(dir.file("result.json"));
+    if (const size_t name = said.find("result.json"); name != std::string::npos)
+      said.replace(name, 11, "/dev/stdout");
+    const ToolRun piped = done(dir, command + std::string("/dev/stdout"));
+    CHECK(piped.out == result);
+    CHECK(piped.err.find(said) != std::string::npos);
+    done(dir, command + std::string("/dev/stdout > redirected.json"));
+    CHECK(readFile(dir.file("redirected.json")) == result);
+  }
+}
+
+TEST_CASE("a motion for the standard output was looked for there, to keep what it holds") {
+  const TempDir dir;
+  writeFigure(dir.file("film/1.png"));
+  const ToolRun piped = done(dir, "timeout 60 skel-label motion film -o /dev/stdout | cat");
+  CHECK(piped.out.starts_with("{"));
+  CHECK(piped.err.find("1 frames") != std::string::npos);
+  done(dir, "skel-label motion film -o /dev/stdout > m.motion.json 2> said");
+  CHECK(readFile(dir.file("m.motion.json")) == piped.out);
 }
 
 TEST_CASE("a blank mask is blamed, not the drawing") {

@@ -123,6 +123,18 @@ TEST_CASE(
   CHECK(folder.out.empty());
 }
 
+TEST_CASE("drawings of one picture were learned from and measured on, by two hands") {
+  const TempDir dir;
+  const std::string people = folderOf(dir, "p", "characters", {"cap_boy"});
+  for (const char* end : {".png", ".mask.png", ".joints.json"})
+    std::filesystem::copy_file(people + "/cap_boy" + end, people + "/twin" + end);
+  const ToolRun one = trainOnPages("silhouettes", people, dir.file("one.json"), "");
+  CHECK(one.exit_code == 0);
+  CHECK(one.err.find("skel-train: note: 2 drawings are one picture (" + people + "/cap_boy.png, " + people +
+                     "/twin.png): they are left out together\n") != std::string::npos);
+  CHECK(one.out.find("\nall" + std::string(12, ' ') + "0 pages,") != std::string::npos);  // of no other hand
+}
+
 TEST_CASE("which loops are ground is learned to the same bytes whatever the number of threads") {
   const TempDir dir;
   const std::string people = folderOf(dir, "p", "characters", {"cap_boy", "ninja", "pirate"});

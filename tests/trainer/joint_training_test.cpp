@@ -152,6 +152,30 @@ TEST_CASE(
   CHECK(old.err.find("comes from a former version of skel-train") != std::string::npos);
 }
 
+TEST_CASE("drawings left out to measure by were rehearsed, or learned from in a copy") {
+  const TempDir dir;
+  const std::string from = drawings(dir);
+  const auto copy = [&](const std::string& name, const std::string& to) {
+    for (const char* end : {".png", ".mask.png", ".joints.json"})
+      std::filesystem::copy_file(SKEL_DATASETS "/characters/" + name + end, dir.file("drawings/" + to) + end);
+  };
+  copy("ninja", "ninja");
+  copy("ninja", "twin");
+  REQUIRE(runTool(command(dir, "first.bin", "", 1)).exit_code == 0);
+  const auto result = runTool(command(dir, "mine.bin",
+                                      "--left-out .5 --start '" + dir.file("first.bin") + "' --rehearse '" +
+                                          dir.file("drawings") + "'" + from,
+                                      1));
+  CHECK(result.exit_code == 0);
+  const std::string twins = dir.file("drawings/ninja.png") + ", " + dir.file("drawings/twin.png");
+  CHECK(result.err.find("skel-train: note: 2 drawings are one picture (" + twins +
+                        "): they are left out together\n") != std::string::npos);
+  CHECK(result.err.find("skel-train: note: " + twins + ": left out to measure by, so not rehearsed\n") !=
+        std::string::npos);
+  CHECK(result.out.find("1 drawings are learned from, 1 rehearsed, 2 left out to measure by\n") !=
+        std::string::npos);
+}
+
 TEST_CASE("bones of drawn figures are measured, and a net keeps them when it is trained on") {
   const TempDir dir;
   const std::string net = dir.file("net.bin"), measured = dir.file("measured.bin");

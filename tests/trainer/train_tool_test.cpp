@@ -1,5 +1,6 @@
 // skel-train as a user runs it.
 #include <algorithm>
+#include <filesystem>
 
 #include "libskel/classifier/weights_file.h"
 #include "libskel/core/files.h"
@@ -17,14 +18,17 @@ namespace {
 
 const std::string kTool = "skel-train";
 
-// A folder of the benchmark's samples as six characters.
-void fill(const TempDir& dir) {
+std::string pictureOf(int character) { return "picture " + std::to_string(character); }
+
+// A folder of the benchmark's samples as six characters, of as many pictures if not of one.
+void fill(const TempDir& dir, bool of_one_picture = false) {
   const Samples samples = benchmarkSamples();
   for (int c = 0; c < 6; ++c) {
     const std::string name = "c" + std::to_string(c);
-    writeFile(dir.file(name + ".png"), "picture");
+    const std::string picture = pictureOf(of_one_picture ? 0 : c);
+    writeFile(dir.file(name + ".png"), picture);
     LabelFile file;
-    file.image = {name + ".png", sha256("picture")};
+    file.image = {name + ".png", sha256(picture)};
     file.image_width = file.image_height = 100;
     file.grid_width = file.grid_height = 128;
     for (Eigen::Index i = c * 100; i < c * 100 + 100; ++i) {
@@ -225,7 +229,7 @@ TEST_CASE("bad data is refused with file, path and reason, and exit code 2") {
   CHECK(holds(refusal("\"label\": \"leg\"", "\"label\": \"tail\""), "must be head, body, hand, leg or null"));
   CHECK(holds(refusal("\"radius\": ", "\"radius\": NaN, \"r\": "), "].radius is not a finite number"));
   CHECK(holds(refusal("\"height\": 128", "\"height\": 256"), "it is 128 px; label one of them anew"));
-  CHECK(holds(refusal(sha256("picture"), sha256("other")), "has changed since it was labelled"));
+  CHECK(holds(refusal(sha256(pictureOf(2)), sha256("other")), "has changed since it was labelled"));
   CHECK(holds(refusal("\"version\": 1", "\"version\": 3"), "use a newer skel"));
 
   const TempDir empty;
@@ -323,4 +327,58 @@ TEST_CASE("the help of a command does not end with the example of the whole tool
   CHECK(skel::runTool("skel-train --help").out.find("Example: ") != std::string::npos);
   for (const std::string command : {"joints", "evaluate", "pages"})
     CHECK(skel::runTool("skel-train " + command + " --help").out.find("Example: ") == std::string::npos);
+}
+
+TEST_CASE("characters of one picture were left out one by one, and learned from in each other's shape") {
+  const TempDir dir;
+  fill(dir, true);
+  const std::string train =
+      dir.path() + " -o " + dir.file("w.json") + " --generated 0 --epochs 2 --restarts 1 ";
+  const ToolRun refused = run(train + "--leave-one-out");
+  CHECK(refused.exit_code == 1);
+  CHECK(refused.err.find("--leave-one-out: there is only 1 picture of 6 characters; take --folds 0") !=
+        std::string::npos);
+  LabelFile other = readLabelFile(dir.file("c5.labels.json"));
+  writeFile(dir.file("c5.png"), pictureOf(5));
+  other.image.sha256 = sha256(pictureOf(5));
+  writeLabelFile(dir.file("c5.labels.json"), other);
+  const ToolRun done = run(train + "--leave-one-out");
+  CHECK(done.exit_code == 0);
+  CHECK(done.err ==
+        "skel-train: note: 5 characters are one picture (c0, c1, c2, c3 and 1 more): they are left out "
+        "together\n");
+  CHECK(done.out.find("(2 folds)") != std::string::npos);
+  CHECK(run(train + "--folds 0").err == "");
+}
+
+TEST_CASE("--leave-one-out of one character measured on the training set without a word") {
+  const TempDir dir;
+  fill(dir);
+  for (int c = 1; c < 6; ++c) std::filesystem::remove(dir.file("c" + std::to_string(c) + ".labels.json"));
+  for (const auto& [option, message] :
+       {std::pair("--leave-one-out", "--leave-one-out: there is only 1 character; take --folds 0"),
+        {"--folds 10", "--folds 10: there is only 1 character; take --folds 0"}}) {
+    const ToolRun refused = run(dir.path() + " -o " + dir.file("w.json") + " " + option);
+    CHECK(refused.exit_code == 1);
+    CHECK(refused.err.find(message) != std::string::npos);
+  }
+}
+
+TEST_CASE("classes were learned from animals among people without a word") {
+  const TempDir dir;
+  fill(dir);
+  const std::string train = dir.path() + " -o " + dir.file("w.json") + " --generated 0 --epochs 2 --folds 0";
+  const auto give = [&](int character, const std::string& joint) {
+    const std::string path = dir.file("c" + std::to_string(character) + ".labels.json");
+    LabelFile labels = readLabelFile(path);
+    labels.joints = {{joint, Eigen::Vector2d(10, 10)}};
+    writeLabelFile(path, labels);
+  };
+  for (int c = 0; c < 6; ++c) give(c, "head");
+  CHECK(run(train).err == "");
+  for (const int c : {1, 4}) give(c, "tail");
+  CHECK(run(train).err ==
+        "skel-train: note: 2 of 6 characters have joints of a quadruped (c1, c4): one net learns the classes "
+        "of "
+        "all\n");
 }

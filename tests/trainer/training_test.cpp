@@ -162,3 +162,20 @@ TEST_CASE("balanced accuracy counts each class the same") {
   CHECK(Evaluation().accuracy() == 0);
   CHECK(Evaluation().balancedAccuracy() == 0);
 }
+
+TEST_CASE("characters of one picture lay in two folds and on both sides of a draw") {
+  auto all = characters(4);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].image_sha256 = i % 2 == 0 ? "even" : "odd";
+  const Characters even = {&all[0], &all[2]}, odd = {&all[1], &all[3]};
+  TrainingOptions options = quick();
+  options.epochs = 20;
+  options.restarts = 1;
+  Evaluation apart = evaluateOn(train(even, {}, options, {}).mlp, odd);
+  apart.add(evaluateOn(train(odd, {}, options, {}).mlp, even));
+  CHECK(crossValidate(pointersTo(all), {}, 2, options, {}).confusion == apart.confusion);
+  for (const Evaluation& draw : drawAndTest(pointersTo(all), {}, 5, 1, options, {})) {
+    REQUIRE(draw.characters.size() == 2);
+    const bool is_even = draw.characters[0].name == all[0].name;
+    CHECK(draw.characters[1].name == all[is_even ? 2 : 3].name);
+  }
+}

@@ -1,0 +1,55 @@
+#include "labeler/joints_outside_mask.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "libskel/image/read_image.h"
+
+namespace skel {
+namespace {
+
+// Of the figure's long side: joints of thin limbs lie a pixel or two beside them. In the labelled set of 278
+// drawings no more than 2 of 14 joints lie farther out; of an inverted mask 6 at least.
+constexpr double kBeside = .005, kMostOutside = 1 / 3.;
+constexpr int kFewestOutside = 3;
+
+double longSide(const Plane8& mask) {
+  Eigen::AlignedBox2i box;
+  for (int y = 0; y < mask.rows(); ++y)
+    for (int x = 0; x < mask.cols(); ++x)
+      if (mask(y, x)) box.extend(Eigen::Vector2i(x, y));
+  return box.isEmpty() ? 0 : box.sizes().maxCoeff() + 1;
+}
+
+bool isWithin(const Plane8& mask, const Eigen::Vector2d& place, double beside_px) {
+  const auto clamped = [](double at, Eigen::Index size) {
+    return static_cast<int>(std::clamp(std::round(at), 0., static_cast<double>(size - 1)));
+  };
+  const int left = clamped(place.x() - beside_px, mask.cols()),
+            right = clamped(place.x() + beside_px, mask.cols()),
+            top = clamped(place.y() - beside_px, mask.rows()),
+            bottom = clamped(place.y() + beside_px, mask.rows());
+  return (mask.block(top, left, bottom - top + 1, right - left + 1) != 0).any();
+}
+
+}  // namespace
+
+std::string jointsOutsideMask(const LabelFile& labels, const SkeletonTemplate& body_plan,
+                              const std::string& mask_path) {
+  const Plane8 mask = readMask(mask_path);
+  const double beside_px = kBeside * longSide(mask);
+  int known = 0, outside = 0;
+  for (const auto& [name, place] : labels.joints) {
+    const int joint = body_plan.find(name);
+    if (!place || joint < 0 || body_plan.joints[static_cast<size_t>(joint)].derived) continue;
+    ++known;
+    outside += !isWithin(mask, *place, beside_px);
+  }
+  if (outside < kFewestOutside || outside <= kMostOutside * known) return "";
+  return std::to_string(outside) + " of " + std::to_string(known) + " joints lie outside the mask " +
+         std::filesystem::path(mask_path).filename().string();
+}
+
+}  // namespace skel
