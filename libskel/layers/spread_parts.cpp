@@ -69,11 +69,10 @@ cv::Mat openness(const cv::Mat& rgb, const cv::Mat& mask, double range, const cv
 void dissect(const cv::Mat& figure, const cv::Rect& box, std::vector<cv::Point>& order) {
   if (std::min(box.width, box.height) <= 1 || box.area() <= kLeaf) {
     for (int v = box.y; v < box.y + box.height; ++v)
-      for (int u = box.x; u < box.x + box.width; ++u) {
-        const cv::Point p((u + v) / 2, (u - v) / 2);
-        const bool is_px =
-            p.x + p.y == u && p.x - p.y == v && cv::Rect(cv::Point(), figure.size()).contains(p);
-        if (is_px && figure.at<std::uint8_t>(p) != 0) order.push_back(p);
+      for (int u = box.x + ((box.x + v) & 1); u < box.x + box.width; u += 2) {
+        const int x = (u + v) / 2, y = (u - v) / 2;
+        const bool within = x >= 0 && y >= 0 && x < figure.cols && y < figure.rows;
+        if (within && figure.at<std::uint8_t>(y, x) != 0) order.emplace_back(x, y);
       }
     return;
   }

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -42,6 +42,9 @@ struct Colors {
   std::array<std::vector<std::uint8_t>, 3> channels;
 
   std::size_t size() const { return channels[0].size(); }
+  Vector3f operator[](std::size_t i) const {
+    return {float(channels[0][i]), float(channels[1][i]), float(channels[2][i])};
+  }
   void add(const Vector3f& color) {
     for (int c = 0; c < 3; ++c) channels[std::size_t(c)].push_back(std::uint8_t(color[c]));
   }
@@ -51,37 +54,40 @@ struct Colors {
   }
 };
 
+constexpr std::size_t kTogether = 16;
+using Bytes = std::uint8_t __attribute__((vector_size(kTogether)));
+
 // The middle one of each channel of the colours that most of them are like.
 Vector3f commonest(Colors colors) {
-  constexpr std::size_t kTogether = 16;
   const std::size_t count = colors.size(), stride = std::max<std::size_t>(1, count / 64);
-  auto& [red, green, blue] = colors.channels;
-  std::vector<std::uint8_t> real(count, 1), best;
-  for (auto* of_each : {&red, &green, &blue, &real})
-    of_each->resize((count + kTogether - 1) / kTogether * kTogether, 0);
-  std::vector<std::uint8_t> like(real.size());
-  const auto apart = [](std::uint8_t a, std::uint8_t b) {
-    return std::uint8_t(std::max(a, b) - std::min(a, b));
-  };
+  const std::size_t padded = (count + kTogether - 1) / kTogether * kTogether;
+  std::vector<std::uint8_t> real(count, 1);
+  real.resize(padded, 0);
+  for (auto& channel : colors.channels) channel.resize(padded);
   int most = 0;
+  Vector3f best = Vector3f::Zero();
   for (std::size_t i = 0; i < count; i += stride) {
-    const std::uint8_t r = red[i], g = green[i], b = blue[i];
-    std::array<std::uint16_t, kTogether> sums{};
-    for (std::size_t first = 0; first < like.size(); first += kTogether)
-      for (std::size_t k = 0; k < kTogether; ++k) {
-        const std::size_t j = first + k;
-        const std::uint8_t most_apart = std::max({apart(red[j], r), apart(green[j], g), apart(blue[j], b)});
-        like[j] = std::uint8_t(real[j] & (most_apart < kOneColor));
-        sums[k] = std::uint16_t(sums[k] + like[j]);
+    int number = 0;
+    for (std::size_t first = 0; first < count; first += kTogether) {
+      Bytes like;
+      std::memcpy(&like, &real[first], sizeof like);
+      for (const auto& channel : colors.channels) {
+        Bytes other;
+        std::memcpy(&other, &channel[first], sizeof other);
+        const Bytes apart = other > channel[i] ? other - channel[i] : channel[i] - other;
+        like &= Bytes(apart < std::uint8_t(kOneColor));
       }
-    const int number = std::accumulate(sums.begin(), sums.end(), 0);
-    if (number > most) most = number, best = like;
+      std::array<std::uint64_t, 2> halves;
+      std::memcpy(&halves, &like, sizeof like);
+      number += int((halves[0] + halves[1]) * 0x0101010101010101 >> 56);  // the sum of its bytes
+    }
+    if (number > most) most = number, best = colors[i];
   }
   Vector3f middle;
   for (int c = 0; c < 3; ++c) {
-    std::vector<std::uint8_t> values;
+    std::vector<float> values;
     for (std::size_t i = 0; i < count; ++i)
-      if (best[i]) values.push_back(colors.channels[std::size_t(c)][i]);
+      if (alike(colors[i], best)) values.push_back(colors[i][c]);
     std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
     middle[c] = values[values.size() / 2];
   }
