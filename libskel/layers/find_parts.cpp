@@ -71,7 +71,7 @@ void cut(const Image& image, const Plane8& mask, Sketch& picture) {
       const std::uint8_t* p = image.pixel(x + box.x0, y + box.y0);
       auto& o = rgb.at<cv::Vec3b>(y, x);
       for (int c = 0; c < 3; ++c)
-        o[c] = static_cast<std::uint8_t>((p[c] * p[3] + 255 * (255 - p[3]) + 127) / 255);
+        o[c] = p[3] == 255 ? p[c] : static_cast<std::uint8_t>((p[c] * p[3] + 255 * (255 - p[3]) + 127) / 255);
       inside.at<std::uint8_t>(y, x) = mask(y + box.y0, x + box.x0) != 0 ? 255 : 0;
     }
   const int long_side = std::max(box.width(), box.height());
