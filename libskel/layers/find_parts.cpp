@@ -89,8 +89,8 @@ float nearHand(const std::array<Vec, 3>& arm, const Vec& p) {
   return kHandMore * static_cast<float>(std::exp(-(p - arm[2]).squaredNorm() / std::max(1e-9, 2 * reach2)));
 }
 
-// The net's probabilities, one plane a part, of the picture's size, empty for parts that are not there; also
-// fills `before` and `sure`.
+// The net's probabilities, one plane a part, of its px, empty for parts that are not there; also fills
+// `before` and `sure`.
 std::vector<cv::Mat> ask(const PartNet& net, const PartSkeleton& skeleton, Sketch& picture) {
   const cv::Size full = picture.rgb.size();
   const double scale = static_cast<double>(kPartNetSize) / std::max(full.width, full.height);
@@ -144,10 +144,7 @@ std::vector<cv::Mat> ask(const PartNet& net, const PartSkeleton& skeleton, Sketc
   for (std::size_t k = 0; k < 4; ++k)
     if (weight[k] > 0) picture.sure[k] /= weight[k], picture.before[k] /= weight[k];
   for (std::size_t k = 0; k < kPartCount; ++k)
-    if (highest[k] < kLeastSeen)
-      planes[k].release();
-    else
-      cv::resize(planes[k], planes[k], full, 0, 0, cv::INTER_LINEAR);
+    if (highest[k] < kLeastSeen) planes[k].release();
   return planes;
 }
 

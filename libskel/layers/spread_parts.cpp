@@ -153,7 +153,7 @@ void spreadParts(const cv::Mat& rgb, const cv::Mat& mask, double range, std::vec
     for (Shares& of_pixel : shares) of_pixel.setZero();
     for (std::size_t k = 0; k < some.size(); ++k) {
       cv::Mat small;
-      cv::resize(*some[k], small, size, 0, 0, cv::INTER_AREA);
+      cv::resize(*some[k], small, size, 0, 0, cv::INTER_LINEAR);
       for (std::size_t i = 0; i < pixels.size(); ++i)
         shares[i][static_cast<Eigen::Index>(k)] =
             own[static_cast<Eigen::Index>(i)] * static_cast<double>(small.at<float>(pixels[i]));

@@ -84,3 +84,13 @@ TEST_CASE("a figure above 240 px is spread at that size, and more parts than go 
   CHECK(alone[0].at<float>(120, 128) < .5f);
   CHECK(alone[0].at<float>(120, 128) + many[0].at<float>(120, 128) == Approx(1).margin(1e-4));
 }
+
+TEST_CASE("probabilities that are coarser than the picture are spread as those of its own size are") {
+  Sheet sheet(66);
+  for (std::size_t k = 0; k < 2; ++k) cv::resize(sheet.parts[k], sheet.parts[k], {}, .5, .5, cv::INTER_AREA);
+  spreadParts(sheet.rgb, sheet.mask, 255, sheet.parts);
+  REQUIRE(sheet.parts[0].size() == sheet.mask.size());
+  CHECK(sheet.parts[0].at<float>(60, 57) > .9f);
+  CHECK(sheet.parts[0].at<float>(60, 64) < .5f);
+  CHECK(sheet.parts[0].at<float>(1, 1) == 0);
+}
