@@ -17,7 +17,7 @@
 namespace skel {
 namespace {
 
-constexpr int kSpreadSize = 240;       // px, the long side of the figure
+constexpr int kSpreadSize = 200;       // px, the long side of the figure
 constexpr double kSpreadReach = .06;   // of the long side: how far a walker comes on flat ground
 constexpr double kOpenContrast = .02;  // of the range of colours: what lets 1/e of the walkers through
 // Where more than so much changes around, more by this of the rest: one line of many, in hatching, divides
