@@ -9,6 +9,8 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/segment.h"
+#include "libskel/image/mask_parts.h"
+#include "libskel/layers/plane_of.h"
 #include "libskel/layers/spread_parts.h"
 
 namespace skel {
@@ -277,16 +279,13 @@ void removeIslands(Sketch& picture) {
     const cv::Mat own = picture.of(static_cast<Part>(part));
     const cv::Rect box = cv::boundingRect(own);
     if (box.empty()) continue;
-    cv::Mat labels, stats, centres, apart = moved(box);
-    const int count = cv::connectedComponentsWithStats(own(box), labels, stats, centres, 4);
-    int largest = 0;
-    for (int i = 1; i < count; ++i) largest = std::max(largest, stats.at<int>(i, cv::CC_STAT_AREA));
-    for (int y = 0; y < box.height; ++y)
-      for (int x = 0; x < box.width; ++x) {
-        const int i = labels.at<int>(y, x);
-        if (i > 0 && stats.at<int>(i, cv::CC_STAT_AREA) < kIsland * largest)
-          apart.at<std::uint8_t>(y, x) = 255;
-      }
+    const MaskParts pieces = maskParts(planeOf(own(box)));
+    const auto sizeOf = [&](int piece) {
+      return static_cast<double>(pieces.size[static_cast<std::size_t>(piece)]);
+    };
+    const double least = kIsland * sizeOf(pieces.largest());
+    for (const MaskParts::Run& run : pieces.runs)
+      if (sizeOf(run.part) < least) moved(box).row(run.y).colRange(run.x0, run.x1).setTo(255);
   }
   cv::Mat distance, labels;
   const cv::Mat open = moved | ~picture.mask;
@@ -320,10 +319,7 @@ PartPicture findParts(const Image& image, const Plane8& mask, const PartSkeleton
   shareInk(sketch);
   removeIslands(sketch);
   PartPicture picture{sketch.box, sketch.scale, {}, {}, {}, sketch.sure, sketch.before, sketch.range};
-  const auto plane = [](const cv::Mat& of) {
-    return Plane8(Eigen::Map<const Plane8>(of.ptr<std::uint8_t>(), of.rows, of.cols));
-  };
-  picture.mask = plane(sketch.mask), picture.part = plane(sketch.part);
+  picture.mask = planeOf(sketch.mask), picture.part = planeOf(sketch.part);
   picture.rgb.assign(sketch.rgb.ptr<std::uint8_t>(), sketch.rgb.ptr<std::uint8_t>() + 3 * sketch.rgb.total());
   return picture;
 }

@@ -558,8 +558,9 @@ class BackPainter {
       if (kept_[i] && core_[i] && !isStroke(area_[i]))
         cost[i] = lines_.hatch[i] ? kFromHatch * line_radius_ : 0;
     const auto comesNowhere = [&](int i) {  // all that is beside it costs no more
+      const int x = i % small_.width, y = i / small_.width;
       return std::all_of(std::begin(kNeighbours), std::end(kNeighbours), [&](const auto& step) {
-        const int u = i % small_.width + step[0], v = i / small_.width + step[1];
+        const int u = x + step[0], v = y + step[1];
         return !small_.holds(u, v) || cost[small_.index(u, v)] <= cost[i];
       });
     };
@@ -569,10 +570,12 @@ class BackPainter {
       const auto [reached, i] = open.top();
       open.pop();
       if (reached > cost[i]) continue;
+      const int x = i % small_.width, y = i / small_.width;
       for (int k = 0; k < 8; ++k) {
-        const int u = i % small_.width + kNeighbours[k][0], v = i / small_.width + kNeighbours[k][1];
+        const int u = x + kNeighbours[k][0], v = y + kNeighbours[k][1];
         if (!small_.holds(u, v)) continue;
         const int j = small_.index(u, v);
+        if (reached + costs[k] >= cost[j]) continue;  // it costs no less
         // Hair covers the skull, not the back.
         const bool runs = source_[i] >= 0 && isOfHead(areas_[source_[i]]) && !nearHead(place(j));
         const double there = reached + costs[k] * (runs ? kBelowHair : 1);
