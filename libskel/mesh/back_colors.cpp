@@ -124,17 +124,21 @@ std::vector<float> extreme(const Small& small, std::vector<float> values, int ra
   const float sign = grow ? 1 : -1;
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = small.figure[i] ? sign * values[i] : std::numeric_limits<float>::lowest();
+  const int size = int(values.size());
+  std::vector<float> result = values;
   for (const bool across : {true, false}) {
-    const int length = across ? small.width : small.height, stride = across ? 1 : small.width;
-    std::vector<float> result = values;
-    for (int i = 0; i < int(values.size()); ++i) {
-      if (!small.figure[i]) continue;
-      const int at = across ? i % small.width : i / small.width;
-      const int last = std::min(radius, length - 1 - at);
-      for (int step = -std::min(radius, at); step <= last; ++step)
-        result[i] = std::max(result[i], values[i + step * stride]);
-    }
-    values = std::move(result);
+    // Columns go together.
+    const int line = across ? small.width : size, stride = across ? 1 : small.width;
+    for (int first = 0; first < size; first += line)
+      for (int shift = stride; shift <= radius * stride && shift < line; shift += stride) {
+        float *near = &result[first], *far = near + shift;
+        const float *from_near = &values[first], *from_far = from_near + shift;
+        for (int i = 0; i < line - shift; ++i) near[i] = std::max(near[i], from_far[i]);
+        for (int i = 0; i < line - shift; ++i) far[i] = std::max(far[i], from_near[i]);
+      }
+    for (int i = 0; i < size; ++i)
+      if (!small.figure[i]) result[i] = std::numeric_limits<float>::lowest();
+    values = result;
   }
   for (float& value : values) value *= sign;
   return values;
