@@ -336,23 +336,20 @@ class BackPainter {
   Image paint(const Image& front) const {
     Image back = front;
     const int shrink = small_.shrink;
-    for (int y = 0; y < back.height; ++y)
-      for (int x = 0; x < back.width; ++x) {
-        const int u = x / shrink, v = y / shrink;
-        if (!small_.holds(u, v)) continue;
-        const int i = small_.index(u, v);
-        if (drawn_[i]) continue;
+    for (int i = 0; i < int(small_.figure.size()); ++i) {
+      if (!small_.figure[i] || drawn_[i]) continue;
+      forTexels(i, back, [&](int x, int y) {
         std::uint8_t* p = back.pixel(x, y);
         const Eigen::Vector3f own(p[0], p[1], p[2]);
         // likest() is no farther from it.
-        if (kept_[i] && (filled_[i] - own).squaredNorm() <= kLikeArea * kLikeArea) continue;
-        const Eigen::Vector3f color =
-            kept_[i] ? likest(u, v, own) : filledAt((x + 0.5) / shrink - 0.5, (y + 0.5) / shrink - 0.5);
+        if (kept_[i] && (filled_[i] - own).squaredNorm() <= kLikeArea * kLikeArea) return;
+        const Eigen::Vector3f color = kept_[i] ? likest(i % small_.width, i / small_.width, own)
+                                               : filledAt((x + 0.5) / shrink - 0.5, (y + 0.5) / shrink - 0.5);
         // The grain of what stays stays; the edge of a line beside it does not.
-        if (kept_[i] && ((color - own).cwiseAbs().maxCoeff() <= kLikeArea || own.sum() > color.sum()))
-          continue;
+        if (kept_[i] && ((color - own).cwiseAbs().maxCoeff() <= kLikeArea || own.sum() > color.sum())) return;
         for (int c = 0; c < 3; ++c) p[c] = std::uint8_t(std::lround(std::clamp(color[c], 0.0f, 255.0f)));
-      }
+      });
+    }
     return back;
   }
 
@@ -363,16 +360,11 @@ class BackPainter {
     std::vector<Eigen::Vector3i> color(small_.figure.size());
     std::vector<char> steps(small_.figure.size(), 0);  // from the figure, plus 1
     std::vector<int> open;
-    const auto forTexels = [&](int i, const auto& visit) {
-      const int x = i % small_.width * small_.shrink, y = i / small_.width * small_.shrink;
-      for (int v = y; v < std::min(y + small_.shrink, picture.height); ++v)
-        for (int u = x; u < std::min(x + small_.shrink, picture.width); ++u) visit(u, v);
-    };
     for (int i = 0; i < int(color.size()); ++i) {
       if (!small_.figure[i] || rim_[i] > 2) continue;
       Eigen::Vector3i sum = Eigen::Vector3i::Zero();
       int count = 0;
-      forTexels(i, [&](int u, int v) {
+      forTexels(i, picture, [&](int u, int v) {
         if (figure(v, u) == 0) return;
         const std::uint8_t* p = picture.pixel(u, v);
         sum += Eigen::Vector3i(p[0], p[1], p[2]), ++count;
@@ -383,7 +375,7 @@ class BackPainter {
     }
     for (std::size_t next = 0; next < open.size(); ++next) {
       const int i = open[next];
-      forTexels(i, [&](int u, int v) {
+      forTexels(i, picture, [&](int u, int v) {
         if (figure(v, u) != 0) return;
         for (int c = 0; c < 3; ++c) picture.pixel(u, v)[c] = std::uint8_t(color[i][c]);
       });
@@ -409,6 +401,14 @@ class BackPainter {
     int at_head_rim = 0;
     Eigen::Vector3f color = Eigen::Vector3f::Zero();
   };
+
+  // Visits the texels of `picture` that a px shows.
+  template <class Visit>
+  void forTexels(int i, const Image& picture, const Visit& visit) const {
+    const int x = i % small_.width * small_.shrink, y = i / small_.width * small_.shrink;
+    for (int v = y; v < std::min(y + small_.shrink, picture.height); ++v)
+      for (int u = x; u < std::min(x + small_.shrink, picture.width); ++u) visit(u, v);
+  }
 
   // Lines near the rim that hang together with it.
   void findOutline() {
