@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 
 #include "libskel/candidates/candidates.h"
@@ -171,13 +172,12 @@ Root rootOf(const Coarse& coarse, const DistanceField& inside, const std::array<
     for (int u = 0; u < inside.cols(); ++u) {
       if (inside(v, u) == 0) continue;
       const Vector2d p(coarse.box.x0 + (u + .5) * coarse.step, coarse.box.y0 + (v + .5) * coarse.step);
-      const auto nearer = [&](const Vector2d& a, const Vector2d& b) {
-        return (a - p).squaredNorm() < (b - p).squaredNorm();
-      };
-      const auto nearest =
-          static_cast<std::size_t>(std::min_element(bones.begin(), bones.end(), nearer) - bones.begin());
+      std::size_t nearest = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < bones.size(); ++i)
+        if (const double d = (bones[i] - p).squaredNorm(); d < least) least = d, nearest = i;
       widest[nearest] = std::max(widest[nearest], inside(v, u));
-      if ((bones[nearest] - p).norm() <= near) seen = std::min(seen, nearest);
+      if (std::sqrt(least) <= near) seen = std::min(seen, nearest);
     }
   const auto first = widest.begin() + std::ptrdiff_t(std::max<std::size_t>(seen, kSteps / 4));
   std::vector<float> radii;

@@ -36,8 +36,8 @@ std::vector<int> farLimbs(const SkeletonTemplate& body_plan, const std::array<do
   return far;
 }
 
-// To the image's size, borders as smooth as its pixels allow: of each pixel the number that most of its
-// neighbours in `small` have, nearer ones more.
+// To the image's size, borders as smooth as its pixels allow: of each pixel of `mask` the number that most of
+// its neighbours in `small` have, nearer ones more.
 Plane8 enlarged(const PartPicture& picture, const Plane8& small, const Plane8& mask) {
   Plane8 whole = Plane8::Zero(mask.rows(), mask.cols());
   const PixelBox& box = picture.box;
@@ -57,6 +57,7 @@ Plane8 enlarged(const PartPicture& picture, const Plane8& small, const Plane8& m
     const std::uint8_t *upper = small.row(row.first).data(), *lower = small.row(row.second).data();
     std::uint8_t* out = &whole(y + box.y0, box.x0);
     for (int x = 0; x < box.width(); ++x) {
+      if (mask(y + box.y0, x + box.x0) == 0) continue;
       const Between& column = columns[static_cast<std::size_t>(x)];
       const std::array<std::uint8_t, 4> value = {upper[column.first], upper[column.second],
                                                  lower[column.first], lower[column.second]};
@@ -72,7 +73,7 @@ Plane8 enlarged(const PartPicture& picture, const Plane8& small, const Plane8& m
       }
     }
   }
-  return (mask != 0).select(whole, Plane8::Zero(mask.rows(), mask.cols()));
+  return whole;
 }
 
 }  // namespace

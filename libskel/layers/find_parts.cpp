@@ -9,6 +9,8 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/segment.h"
+#include "libskel/image/mask_parts.h"
+#include "libskel/layers/plane_of.h"
 #include "libskel/layers/spread_parts.h"
 
 namespace skel {
@@ -71,7 +73,7 @@ void cut(const Image& image, const Plane8& mask, Sketch& picture) {
       const std::uint8_t* p = image.pixel(x + box.x0, y + box.y0);
       auto& o = rgb.at<cv::Vec3b>(y, x);
       for (int c = 0; c < 3; ++c)
-        o[c] = static_cast<std::uint8_t>((p[c] * p[3] + 255 * (255 - p[3]) + 127) / 255);
+        o[c] = p[3] == 255 ? p[c] : static_cast<std::uint8_t>((p[c] * p[3] + 255 * (255 - p[3]) + 127) / 255);
       inside.at<std::uint8_t>(y, x) = mask(y + box.y0, x + box.x0) != 0 ? 255 : 0;
     }
   const int long_side = std::max(box.width(), box.height());
@@ -89,8 +91,8 @@ float nearHand(const std::array<Vec, 3>& arm, const Vec& p) {
   return kHandMore * static_cast<float>(std::exp(-(p - arm[2]).squaredNorm() / std::max(1e-9, 2 * reach2)));
 }
 
-// The net's probabilities, one plane a part, of the picture's size, empty for parts that are not there; also
-// fills `before` and `sure`.
+// The net's probabilities, one plane a part, of its px, empty for parts that are not there; also fills
+// `before` and `sure`.
 std::vector<cv::Mat> ask(const PartNet& net, const PartSkeleton& skeleton, Sketch& picture) {
   const cv::Size full = picture.rgb.size();
   const double scale = static_cast<double>(kPartNetSize) / std::max(full.width, full.height);
@@ -144,10 +146,7 @@ std::vector<cv::Mat> ask(const PartNet& net, const PartSkeleton& skeleton, Sketc
   for (std::size_t k = 0; k < 4; ++k)
     if (weight[k] > 0) picture.sure[k] /= weight[k], picture.before[k] /= weight[k];
   for (std::size_t k = 0; k < kPartCount; ++k)
-    if (highest[k] < kLeastSeen)
-      planes[k].release();
-    else
-      cv::resize(planes[k], planes[k], full, 0, 0, cv::INTER_LINEAR);
+    if (highest[k] < kLeastSeen) planes[k].release();
   return planes;
 }
 
@@ -280,16 +279,13 @@ void removeIslands(Sketch& picture) {
     const cv::Mat own = picture.of(static_cast<Part>(part));
     const cv::Rect box = cv::boundingRect(own);
     if (box.empty()) continue;
-    cv::Mat labels, stats, centres, apart = moved(box);
-    const int count = cv::connectedComponentsWithStats(own(box), labels, stats, centres, 4);
-    int largest = 0;
-    for (int i = 1; i < count; ++i) largest = std::max(largest, stats.at<int>(i, cv::CC_STAT_AREA));
-    for (int y = 0; y < box.height; ++y)
-      for (int x = 0; x < box.width; ++x) {
-        const int i = labels.at<int>(y, x);
-        if (i > 0 && stats.at<int>(i, cv::CC_STAT_AREA) < kIsland * largest)
-          apart.at<std::uint8_t>(y, x) = 255;
-      }
+    const MaskParts pieces = maskParts(planeOf(own(box)));
+    const auto sizeOf = [&](int piece) {
+      return static_cast<double>(pieces.size[static_cast<std::size_t>(piece)]);
+    };
+    const double least = kIsland * sizeOf(pieces.largest());
+    for (const MaskParts::Run& run : pieces.runs)
+      if (sizeOf(run.part) < least) moved(box).row(run.y).colRange(run.x0, run.x1).setTo(255);
   }
   cv::Mat distance, labels;
   const cv::Mat open = moved | ~picture.mask;
@@ -323,10 +319,7 @@ PartPicture findParts(const Image& image, const Plane8& mask, const PartSkeleton
   shareInk(sketch);
   removeIslands(sketch);
   PartPicture picture{sketch.box, sketch.scale, {}, {}, {}, sketch.sure, sketch.before, sketch.range};
-  const auto plane = [](const cv::Mat& of) {
-    return Plane8(Eigen::Map<const Plane8>(of.ptr<std::uint8_t>(), of.rows, of.cols));
-  };
-  picture.mask = plane(sketch.mask), picture.part = plane(sketch.part);
+  picture.mask = planeOf(sketch.mask), picture.part = planeOf(sketch.part);
   picture.rgb.assign(sketch.rgb.ptr<std::uint8_t>(), sketch.rgb.ptr<std::uint8_t>() + 3 * sketch.rgb.total());
   return picture;
 }

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "libskel/core/check.h"
+#include "libskel/image/mask_parts.h"
 #include "libskel/layers/limb_bones.h"
+#include "libskel/layers/plane_of.h"
 
 namespace skel {
 namespace {
@@ -99,14 +101,10 @@ Seen seenAlong(const PartLook& look, const LimbBones& bones, int limb, double fr
 }
 
 double largestShare(const cv::Mat& of) {
-  cv::Mat labels, stats, centres;
-  const int count = cv::connectedComponentsWithStats(of, labels, stats, centres, 4);
-  int largest = 0, all = 0;
-  for (int i = 1; i < count; ++i) {
-    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
-    largest = std::max(largest, area), all += area;
-  }
-  return all == 0 ? 1 : static_cast<double>(largest) / all;
+  const std::vector<std::int64_t> sizes = maskParts(planeOf(of)).size;
+  if (sizes.empty()) return 1;
+  return static_cast<double>(*std::max_element(sizes.begin(), sizes.end())) /
+         static_cast<double>(std::accumulate(sizes.begin(), sizes.end(), std::int64_t{0}));
 }
 
 double median(std::vector<double> of) {

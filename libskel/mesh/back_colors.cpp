@@ -124,49 +124,57 @@ std::vector<float> extreme(const Small& small, std::vector<float> values, int ra
   const float sign = grow ? 1 : -1;
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = small.figure[i] ? sign * values[i] : std::numeric_limits<float>::lowest();
+  const int size = int(values.size());
+  std::vector<float> result = values;
   for (const bool across : {true, false}) {
-    const int length = across ? small.width : small.height, stride = across ? 1 : small.width;
-    std::vector<float> result = values;
-    for (int i = 0; i < int(values.size()); ++i) {
-      if (!small.figure[i]) continue;
-      const int at = across ? i % small.width : i / small.width;
-      const int last = std::min(radius, length - 1 - at);
-      for (int step = -std::min(radius, at); step <= last; ++step)
-        result[i] = std::max(result[i], values[i + step * stride]);
-    }
-    values = std::move(result);
+    // Columns go together.
+    const int line = across ? small.width : size, stride = across ? 1 : small.width;
+    for (int first = 0; first < size; first += line)
+      for (int shift = stride; shift <= radius * stride && shift < line; shift += stride) {
+        float *near = &result[first], *far = near + shift;
+        const float *from_near = &values[first], *from_far = from_near + shift;
+        for (int i = 0; i < line - shift; ++i) near[i] = std::max(near[i], from_far[i]);
+        for (int i = 0; i < line - shift; ++i) far[i] = std::max(far[i], from_near[i]);
+      }
+    for (int i = 0; i < size; ++i)
+      if (!small.figure[i]) result[i] = std::numeric_limits<float>::lowest();
+    values = result;
   }
   for (float& value : values) value *= sign;
   return values;
 }
 
-// Sums over boxes of the px that `counts` marks (F. Crow, "Summed-area tables for texture mapping", 1984).
+// Sums over boxes of what the px have (F. Crow, "Summed-area tables for texture mapping", 1984).
+template <int kNumbers>
 class BoxSums {
  public:
-  BoxSums(const Small& small, const std::vector<char>& counts)
+  using Sum = Eigen::Matrix<double, kNumbers, 1>;
+
+  template <class OwnOf>
+  BoxSums(const Small& small, const OwnOf& ownOf)
       : width_(small.width + 1), height_(small.height + 1), sums_(std::size_t(width_) * height_) {
     for (auto& sum : sums_) sum.setZero();
     for (int y = 1; y < height_; ++y)
-      for (int x = 1; x < width_; ++x) {
-        Eigen::Vector4d own = Eigen::Vector4d::Zero();
-        const int i = small.index(x - 1, y - 1);
-        if (counts[i]) own << small.color[i].cast<double>(), 1;
-        at(x, y) = own + at(x - 1, y) + at(x, y - 1) - at(x - 1, y - 1);
-      }
+      for (int x = 1; x < width_; ++x)
+        at(x, y) = ownOf(small.index(x - 1, y - 1)) + at(x - 1, y) + at(x, y - 1) - at(x - 1, y - 1);
   }
-  // Red, green, blue and the number of px, up to `reach` px away each way.
-  Eigen::Vector4d around(int x, int y, int reach) {
+  // Up to `reach` px away each way.
+  Sum around(int x, int y, int reach) {
     const int x0 = std::max(0, x - reach), x1 = std::min(width_ - 1, x + reach + 1);
     const int y0 = std::max(0, y - reach), y1 = std::min(height_ - 1, y + reach + 1);
     return at(x1, y1) - at(x0, y1) - at(x1, y0) + at(x0, y0);
   }
 
  private:
-  Eigen::Vector4d& at(int x, int y) { return sums_[std::size_t(y) * width_ + x]; }
+  Sum& at(int x, int y) { return sums_[std::size_t(y) * width_ + x]; }
 
   int width_, height_;
-  std::vector<Eigen::Vector4d> sums_;
+  std::vector<Sum> sums_;
 };
+
+BoxSums<1> countsOf(const Small& small, const std::vector<char>& marked) {
+  return {small, [&](int i) { return BoxSums<1>::Sum(marked[i]); }};
+}
 
 struct Lines {
   std::vector<char> line;   // thin dark and thin light things, with their blurred edges
@@ -201,7 +209,8 @@ void dropEnclosed(const Small& small, int near_px, const std::vector<float>& rim
 Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
                 const std::vector<float>& open_rim, const std::function<bool(int, int)>& is_face,
                 const std::function<bool(int, int)>& is_head) {
-  std::vector<float> light(small.color.size(), 0);
+  std::vector<float> own_light, light(small.color.size(), 0);
+  for (const Eigen::Vector3f& c : small.color) own_light.push_back(float(inkLightness(c[0], c[1], c[2])));
   for (int y = 0; y < small.height; ++y)
     for (int x = 0; x < small.width; ++x) {
       if (!small.holds(x, y)) continue;
@@ -209,9 +218,7 @@ Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
       float five[5];
       int count = 0;
       for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-        if (!small.holds(x + dx, y + dy)) continue;
-        const Eigen::Vector3f& c = small.color[small.index(x + dx, y + dy)];
-        five[count++] = float(inkLightness(c[0], c[1], c[2]));
+        if (small.holds(x + dx, y + dy)) five[count++] = own_light[small.index(x + dx, y + dy)];
       }
       std::nth_element(five, five + count / 2, five + count);
       light[small.index(x, y)] = five[count / 2];
@@ -241,13 +248,13 @@ Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
                                        light[i] - opened_fine[i] > 2 * kLineContrast);
   for (std::size_t i = 0; i < thin.size(); ++i)
     if (rim[i] <= 2.0f * float(radius)) deep[i] = deep_thin[i] = 0;
-  BoxSums thin_sums(small, deep_thin), figure_sums(small, deep);
+  BoxSums<1> thin_counts = countsOf(small, deep_thin), figure_counts = countsOf(small, deep);
   for (int y = 0; y < small.height; ++y)
     for (int x = 0; x < small.width; ++x) {
       if (!small.holds(x, y)) continue;
       const int i = small.index(x, y), reach = 3 * radius;
-      lines.hatch[i] =
-          !is_face(x, y) && thin_sums.around(x, y, reach)[3] > kHatched * figure_sums.around(x, y, reach)[3];
+      lines.hatch[i] = !is_face(x, y) &&
+                       thin_counts.around(x, y, reach)[0] > kHatched * figure_counts.around(x, y, reach)[0];
       if (thin[i] && rim[i] <= float(radius)) lines.hatch[i] = 0;  // nor is its inner edge
     }
   dropEnclosed(small, 2 * radius, open_rim, lines.hatch);
@@ -268,14 +275,20 @@ Lines findLines(const Small& small, int radius, const std::vector<float>& rim,
 std::vector<Eigen::Vector3f> smoothed(const Small& small, const Lines& lines, int radius) {
   std::vector<char> plain = small.figure;
   for (std::size_t i = 0; i < plain.size(); ++i) plain[i] &= !lines.line[i];
-  BoxSums sums(small, plain);
+  // Red, green, blue and the number of px, where anything asks.
+  std::optional<BoxSums<4>> sums;
+  if (std::find(lines.hatch.begin(), lines.hatch.end(), 1) != lines.hatch.end())
+    sums.emplace(small, [&](int i) -> Eigen::Vector4d {
+      if (!plain[i]) return Eigen::Vector4d::Zero();
+      return {small.color[i][0], small.color[i][1], small.color[i][2], 1};
+    });
   std::vector<Eigen::Vector3f> result = small.color;
   for (int y = 0; y < small.height; ++y)
     for (int x = 0; x < small.width; ++x) {
       const int i = small.index(x, y);
       if (!plain[i]) continue;
       if (lines.hatch[i]) {
-        const Eigen::Vector4d sum = sums.around(x, y, 2 * radius);
+        const Eigen::Vector4d sum = sums->around(x, y, 2 * radius);
         result[i] = (sum.head<3>() / sum[3]).cast<float>();
         continue;
       }
@@ -323,21 +336,20 @@ class BackPainter {
   Image paint(const Image& front) const {
     Image back = front;
     const int shrink = small_.shrink;
-    for (int y = 0; y < back.height; ++y)
-      for (int x = 0; x < back.width; ++x) {
-        const int u = x / shrink, v = y / shrink;
-        if (!small_.holds(u, v)) continue;
-        const int i = small_.index(u, v);
-        if (drawn_[i]) continue;
+    for (int i = 0; i < int(small_.figure.size()); ++i) {
+      if (!small_.figure[i] || drawn_[i]) continue;
+      forTexels(i, back, [&](int x, int y) {
         std::uint8_t* p = back.pixel(x, y);
         const Eigen::Vector3f own(p[0], p[1], p[2]);
-        const Eigen::Vector3f color =
-            kept_[i] ? likest(u, v, own) : filledAt((x + 0.5) / shrink - 0.5, (y + 0.5) / shrink - 0.5);
+        // likest() is no farther from it.
+        if (kept_[i] && (filled_[i] - own).squaredNorm() <= kLikeArea * kLikeArea) return;
+        const Eigen::Vector3f color = kept_[i] ? likest(i % small_.width, i / small_.width, own)
+                                               : filledAt((x + 0.5) / shrink - 0.5, (y + 0.5) / shrink - 0.5);
         // The grain of what stays stays; the edge of a line beside it does not.
-        if (kept_[i] && ((color - own).cwiseAbs().maxCoeff() <= kLikeArea || own.sum() > color.sum()))
-          continue;
+        if (kept_[i] && ((color - own).cwiseAbs().maxCoeff() <= kLikeArea || own.sum() > color.sum())) return;
         for (int c = 0; c < 3; ++c) p[c] = std::uint8_t(std::lround(std::clamp(color[c], 0.0f, 255.0f)));
-      }
+      });
+    }
     return back;
   }
 
@@ -348,16 +360,11 @@ class BackPainter {
     std::vector<Eigen::Vector3i> color(small_.figure.size());
     std::vector<char> steps(small_.figure.size(), 0);  // from the figure, plus 1
     std::vector<int> open;
-    const auto forTexels = [&](int i, const auto& visit) {
-      const int x = i % small_.width * small_.shrink, y = i / small_.width * small_.shrink;
-      for (int v = y; v < std::min(y + small_.shrink, picture.height); ++v)
-        for (int u = x; u < std::min(x + small_.shrink, picture.width); ++u) visit(u, v);
-    };
     for (int i = 0; i < int(color.size()); ++i) {
       if (!small_.figure[i] || rim_[i] > 2) continue;
       Eigen::Vector3i sum = Eigen::Vector3i::Zero();
       int count = 0;
-      forTexels(i, [&](int u, int v) {
+      forTexels(i, picture, [&](int u, int v) {
         if (figure(v, u) == 0) return;
         const std::uint8_t* p = picture.pixel(u, v);
         sum += Eigen::Vector3i(p[0], p[1], p[2]), ++count;
@@ -368,7 +375,7 @@ class BackPainter {
     }
     for (std::size_t next = 0; next < open.size(); ++next) {
       const int i = open[next];
-      forTexels(i, [&](int u, int v) {
+      forTexels(i, picture, [&](int u, int v) {
         if (figure(v, u) != 0) return;
         for (int c = 0; c < 3; ++c) picture.pixel(u, v)[c] = std::uint8_t(color[i][c]);
       });
@@ -394,6 +401,14 @@ class BackPainter {
     int at_head_rim = 0;
     Eigen::Vector3f color = Eigen::Vector3f::Zero();
   };
+
+  // Visits the texels of `picture` that a px shows.
+  template <class Visit>
+  void forTexels(int i, const Image& picture, const Visit& visit) const {
+    const int x = i % small_.width * small_.shrink, y = i / small_.width * small_.shrink;
+    for (int v = y; v < std::min(y + small_.shrink, picture.height); ++v)
+      for (int u = x; u < std::min(x + small_.shrink, picture.width); ++u) visit(u, v);
+  }
 
   // Lines near the rim that hang together with it.
   void findOutline() {
@@ -545,15 +560,26 @@ class BackPainter {
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
     for (int i = 0; i < int(kept_.size()); ++i)
       if (kept_[i] && core_[i] && !isStroke(area_[i]))
-        cost[i] = lines_.hatch[i] ? kFromHatch * line_radius_ : 0, open.emplace(cost[i], i);
+        cost[i] = lines_.hatch[i] ? kFromHatch * line_radius_ : 0;
+    const auto comesNowhere = [&](int i) {  // all that is beside it costs no more
+      const int x = i % small_.width, y = i / small_.width;
+      return std::all_of(std::begin(kNeighbours), std::end(kNeighbours), [&](const auto& step) {
+        const int u = x + step[0], v = y + step[1];
+        return !small_.holds(u, v) || cost[small_.index(u, v)] <= cost[i];
+      });
+    };
+    for (int i = 0; i < int(kept_.size()); ++i)
+      if (cost[i] < 1e9 && !comesNowhere(i)) open.emplace(cost[i], i);
     while (!open.empty()) {
       const auto [reached, i] = open.top();
       open.pop();
       if (reached > cost[i]) continue;
+      const int x = i % small_.width, y = i / small_.width;
       for (int k = 0; k < 8; ++k) {
-        const int u = i % small_.width + kNeighbours[k][0], v = i / small_.width + kNeighbours[k][1];
+        const int u = x + kNeighbours[k][0], v = y + kNeighbours[k][1];
         if (!small_.holds(u, v)) continue;
         const int j = small_.index(u, v);
+        if (reached + costs[k] >= cost[j]) continue;  // it costs no less
         // Hair covers the skull, not the back.
         const bool runs = source_[i] >= 0 && isOfHead(areas_[source_[i]]) && !nearHead(place(j));
         const double there = reached + costs[k] * (runs ? kBelowHair : 1);
@@ -573,14 +599,15 @@ class BackPainter {
     std::vector<char> plain = small_.figure, between(kept_.size(), 0);
     for (int i = 0; i < int(plain.size()); ++i)
       plain[i] &= area_[i] >= 0 && areas_[area_[i]].core >= kLeastCore * areas_[area_[i]].size;
-    BoxSums plain_sums(small_, plain), all_sums(small_, small_.figure);
+    BoxSums<1> plain_counts = countsOf(small_, plain), all_counts = countsOf(small_, small_.figure);
     for (int y = 0; y < small_.height; ++y)
       for (int x = 0; x < small_.width; ++x) {
         const int i = small_.index(x, y);
         if (kept_[i] && (lines_.hatch[i] || isStroke(area_[i]))) drawn_[i] = 1;
         if (!small_.figure[i] || kept_[i]) continue;
         const int reach = 4 * line_radius_;
-        const double plain_px = plain_sums.around(x, y, reach)[3], all_px = all_sums.around(x, y, reach)[3];
+        const double plain_px = plain_counts.around(x, y, reach)[0],
+                     all_px = all_counts.around(x, y, reach)[0];
         const bool alone = rim_[i] <= 2.0f * float(line_radius_) && plain_px < kAlone * (all_px - plain_px);
         const bool tells = (lines_.line[i] || area_[i] < 0) && isPaper(filled_[i]);
         drawn_[i] = alone || (tells && outline_[i]);

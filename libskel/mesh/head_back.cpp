@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -35,28 +37,61 @@ constexpr double kMostly = 0.5;      // of the rows, of their ends above the mid
 
 bool alike(const Vector3f& a, const Vector3f& b) { return (a - b).cwiseAbs().maxCoeff() < kOneColor; }
 
-Vector3f median(std::vector<Vector3f> colors) {
-  Vector3f out;
-  for (int c = 0; c < 3; ++c) {
-    const auto middle = colors.begin() + std::ptrdiff_t(colors.size() / 2);
-    std::nth_element(colors.begin(), middle, colors.end(),
-                     [c](const Vector3f& a, const Vector3f& b) { return a[c] < b[c]; });
-    out[c] = (*middle)[c];
-  }
-  return out;
-}
+// Channel by channel, so that many are compared at once.
+struct Colors {
+  std::array<std::vector<std::uint8_t>, 3> channels;
 
-// The colour that most of them are like.
-Vector3f commonest(const std::vector<Vector3f>& colors) {
-  std::vector<Vector3f> best;
-  const std::size_t stride = std::max<std::size_t>(1, colors.size() / 64);
-  for (std::size_t i = 0; i < colors.size(); i += stride) {
-    std::vector<Vector3f> like;
-    std::copy_if(colors.begin(), colors.end(), std::back_inserter(like),
-                 [&](const Vector3f& c) { return alike(c, colors[i]); });
-    if (like.size() > best.size()) best = std::move(like);
+  std::size_t size() const { return channels[0].size(); }
+  Vector3f operator[](std::size_t i) const {
+    return {float(channels[0][i]), float(channels[1][i]), float(channels[2][i])};
   }
-  return median(std::move(best));
+  void add(const Vector3f& color) {
+    for (int c = 0; c < 3; ++c) channels[std::size_t(c)].push_back(std::uint8_t(color[c]));
+  }
+  void add(const Colors& others) {
+    for (std::size_t c = 0; c < 3; ++c)
+      channels[c].insert(channels[c].end(), others.channels[c].begin(), others.channels[c].end());
+  }
+};
+
+constexpr std::size_t kTogether = 16;
+using Bytes = std::uint8_t __attribute__((vector_size(kTogether)));
+
+// The middle one of each channel of the colours that most of them are like.
+Vector3f commonest(Colors colors) {
+  const std::size_t count = colors.size(), stride = std::max<std::size_t>(1, count / 64);
+  const std::size_t padded = (count + kTogether - 1) / kTogether * kTogether;
+  std::vector<std::uint8_t> real(count, 1);
+  real.resize(padded, 0);
+  for (auto& channel : colors.channels) channel.resize(padded);
+  int most = 0;
+  Vector3f best = Vector3f::Zero();
+  for (std::size_t i = 0; i < count; i += stride) {
+    int number = 0;
+    for (std::size_t first = 0; first < count; first += kTogether) {
+      Bytes like;
+      std::memcpy(&like, &real[first], sizeof like);
+      for (const auto& channel : colors.channels) {
+        Bytes other;
+        std::memcpy(&other, &channel[first], sizeof other);
+        const Bytes apart = other > channel[i] ? other - channel[i] : channel[i] - other;
+        like &= Bytes(apart < std::uint8_t(kOneColor));
+      }
+      std::array<std::uint64_t, 2> halves;
+      std::memcpy(&halves, &like, sizeof like);
+      number += int((halves[0] + halves[1]) * 0x0101010101010101 >> 56);  // the sum of its bytes
+    }
+    if (number > most) most = number, best = colors[i];
+  }
+  Vector3f middle;
+  for (int c = 0; c < 3; ++c) {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < count; ++i)
+      if (alike(colors[i], best)) values.push_back(colors[i][c]);
+    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
+    middle[c] = values[values.size() / 2];
+  }
+  return middle;
 }
 
 struct Side {
@@ -69,11 +104,11 @@ class Head {
  public:
   Head(const Image& front, const Plane8& figure, const HeadDisc& disc)
       : front_(front), figure_(figure), disc_(disc), right_(-disc.up.y(), disc.up.x()) {
-    std::vector<Vector3f> inner;
+    Colors inner;
     for (double t = -kFace; t <= kFace; t += 1. / kRowsPerRadius)
       for (double x = -kFace; x <= kFace; x += 1. / kRowsPerRadius)
-        if (x * x + t * t < kFace * kFace && inside(x, t)) inner.push_back(colorAt(x, t));
-    if (inner.empty()) return;
+        if (x * x + t * t < kFace * kFace && inside(x, t)) inner.add(colorAt(x, t));
+    if (inner.size() == 0) return;
     const Vector3f face = commonest(inner);
     const int rows = int(std::lround((kTop - kBottom) * kRowsPerRadius)) + 1;
     rows_.resize(std::size_t(rows));
@@ -83,13 +118,10 @@ class Head {
       constexpr int kAround = int(kEven * kRowsPerRadius);
       for (int i = 0; i < rows; ++i) {
         if (bands[std::size_t(i)].rim <= 0) continue;
-        std::vector<Vector3f> plain, all;
+        Colors plain, all;
         for (int j = std::max(0, i - kAround); j <= std::min(rows - 1, i + kAround); ++j)
-          for (const Vector3f& color : bands[std::size_t(j)].colors) {
-            all.push_back(color);
-            if (!isInk(color)) plain.push_back(color);
-          }
-        if (all.empty()) continue;
+          plain.add(bands[std::size_t(j)].plain), all.add(bands[std::size_t(j)].all);
+        if (all.size() == 0) continue;
         Side side{bands[std::size_t(i)].rim,
                   commonest(double(plain.size()) > kPlain * double(all.size()) ? plain : all)};
         side.face = alike(side.color, face);
@@ -107,14 +139,21 @@ class Head {
     divide();
   }
 
-  // Of the back at a place in the head's frame; nothing where it stays.
-  std::optional<Vector3f> colorBehind(double x, double t, const Vector3f& now) const {
-    if (rows_.empty()) return std::nullopt;
-    const int i = int(std::lround((kTop - t) * kRowsPerRadius));
-    if (i < 0 || i >= int(rows_.size())) return std::nullopt;
+  bool empty() const { return rows_.empty(); }
+  // Whether there may be something behind a place in the head's frame or within `margin` of it.
+  static bool reaches(const Vector2d& p, double margin) {
+    margin += 1. / kRowsPerRadius;
+    return std::abs(p.x()) < kAside + margin && p.y() < kTop + margin && p.y() > kBottom - margin;
+  }
+
+  // Of the back at a place in the head's frame; nothing where it stays. `ink`: whether it is dark now.
+  std::optional<Vector3f> colorBehind(double x, double t, bool ink) const {
+    const double from_top = (kTop - t) * kRowsPerRadius + .5;
+    if (from_top < 0 || from_top >= double(rows_.size())) return std::nullopt;
+    const int i = int(from_top);
     const auto& [left, right] = rows_[std::size_t(i)];
     if (!left || !right || x < -left->rim || x > right->rim) return std::nullopt;
-    if (isInk(now) && std::min(x + left->rim, right->rim - x) < kDrawnRim) return std::nullopt;
+    if (ink && std::min(x + left->rim, right->rim - x) < kDrawnRim) return std::nullopt;
     const double share = (x + left->rim) / (left->rim + right->rim);
     // Hair and brims hang around a ball, lowest in the middle.
     const double row = (kTop - t - kHang * 4 * share * (1 - share)) * kRowsPerRadius;
@@ -123,6 +162,11 @@ class Head {
     if (alike(a, b)) return Vector3f(a + float(share) * (b - a));
     const double seam = a_is_face == b_is_face ? .5 : a_is_face ? kCheek : 1 - kCheek;
     return share < seam ? a : b;
+  }
+
+  static bool isInk(const Vector3f& c) {
+    constexpr double kInk = 80;
+    return inkLightness(c[0], c[1], c[2]) < kInk;
   }
 
   Vector2d frame(const Vector2d& p) const {
@@ -147,14 +191,10 @@ class Head {
     const std::uint8_t* p = front_.pixel(at.x(), at.y());
     return {float(p[0]), float(p[1]), float(p[2])};
   }
-  static bool isInk(const Vector3f& c) {
-    constexpr double kInk = 80;
-    return inkLightness(c[0], c[1], c[2]) < kInk;
-  }
 
   struct Band {
-    double rim = 0;  // 0: the row leaves the head elsewhere
-    std::vector<Vector3f> colors;
+    double rim = 0;     // 0: the row leaves the head elsewhere
+    Colors all, plain;  // plain: without ink
   };
 
   // What lies behind the rim at one end of a row, towards the middle of the head.
@@ -166,8 +206,11 @@ class Head {
     if (band.rim >= kAside) return {};
     const Vector2d rim(sign * band.rim, t), inwards = -rim.normalized();
     for (double d = kSkip; d < kBand; d += kStep)
-      if (const Vector2d p = rim + d * inwards; inside(p.x(), p.y()))
-        band.colors.push_back(colorAt(p.x(), p.y()));
+      if (const Vector2d p = rim + d * inwards; inside(p.x(), p.y())) {
+        const Vector3f color = colorAt(p.x(), p.y());
+        band.all.add(color);
+        if (!isInk(color)) band.plain.add(color);
+      }
     return band;
   }
 
@@ -359,21 +402,23 @@ class Head {
 void paintBackOfHead(const Image& front, const Plane8& figure, const HeadDisc& disc, Image& back) {
   if (disc.radius < 2) return;
   const Head head(front, figure, disc);
-  const double reach = 2 * kAside * disc.radius;
+  if (head.empty()) return;
+  const double reach = std::hypot(kAside, kTop) * disc.radius + 1;
   const int x0 = std::max(0, int(disc.center.x() - reach)),
             x1 = std::min(front.width, int(disc.center.x() + reach) + 1),
             y0 = std::max(0, int(disc.center.y() - reach)),
             y1 = std::min(front.height, int(disc.center.y() + reach) + 1);
   for (int y = y0; y < y1; ++y)
     for (int x = x0; x < x1; ++x) {
-      if (figure(y, x) == 0) continue;
+      if (figure(y, x) == 0 || !Head::reaches(head.frame({x, y}), 1 / disc.radius)) continue;
       std::uint8_t* p = back.pixel(x, y);
       const Vector3f now{float(p[0]), float(p[1]), float(p[2])};
+      const bool ink = Head::isInk(now);
       Vector3f sum = Vector3f::Zero();
       for (int i = 0; i < kSamples * kSamples; ++i) {
         const Vector2d at = head.frame(
             {x + (i % kSamples + .5) / kSamples - .5, y + (double(i / kSamples) + .5) / kSamples - .5});
-        sum += head.colorBehind(at.x(), at.y(), now).value_or(now);
+        sum += head.colorBehind(at.x(), at.y(), ink).value_or(now);
       }
       const Vector3f color = sum / (kSamples * kSamples);
       for (int c = 0; c < 3; ++c) p[c] = std::uint8_t(std::lround(std::clamp(color[c], 0.f, 255.f)));

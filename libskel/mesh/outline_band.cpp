@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "libskel/mesh/cut_mesh.h"
 #include "libskel/mesh/ink.h"
@@ -28,16 +29,12 @@ constexpr double kGap = 5;            // widths of an outline along which it may
 // How far a line's inner edge is blurred: a share of its width and px, at most a share of a cell.
 constexpr double kSoft = 0.15, kSoftPx = 1.5, kMostSoft = 0.35;
 
-double lightnessAt(const Image& image, const Vector2d& p) {
-  const int x = std::clamp(static_cast<int>(std::lround(p.x())), 0, image.width - 1);
-  const int y = std::clamp(static_cast<int>(std::lround(p.y())), 0, image.height - 1);
+// Nothing outside of the figure.
+std::optional<double> lightnessAt(const Image& image, const Plane8& mask, const Vector2d& p) {
+  const auto x = static_cast<int>(std::lround(p.x())), y = static_cast<int>(std::lround(p.y()));
+  if (x < 0 || y < 0 || x >= image.width || y >= image.height || mask(y, x) == 0) return std::nullopt;
   const std::uint8_t* c = image.pixel(x, y);
   return inkLightness(c[0], c[1], c[2]);
-}
-
-bool inside(const Plane8& mask, const Vector2d& p) {
-  const auto x = std::lround(p.x()), y = std::lround(p.y());
-  return x >= 0 && y >= 0 && x < mask.cols() && y < mask.rows() && mask(y, x) != 0;
 }
 
 constexpr double kStep = 0.5;  // px, from value to value
@@ -68,9 +65,9 @@ double lineWidth(const Image& image, const Plane8& mask, const Vector2d& p, cons
   std::vector<double> light;
   light.reserve(samples);
   for (std::size_t i = 1; i <= samples; ++i) {
-    const Vector2d at = p + static_cast<double>(i) * kStep * inwards;
-    if (!inside(mask, at)) break;
-    light.push_back(lightnessAt(image, at));
+    const auto here = lightnessAt(image, mask, p + static_cast<double>(i) * kStep * inwards);
+    if (!here) break;
+    light.push_back(*here);
   }
   const auto reach = static_cast<std::size_t>(widest_px / kStep);
   if (light.size() < 4) return 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace skel {
@@ -76,12 +77,25 @@ DrawingTexture drawingTexture(const Image& image, const Plane8& mask, const Pixe
   result.image = Image(width + 2 * kMargin, height + 2 * kMargin);
   result.image.rgba.setZero();
   // A texel is the mean of the figure's pixels under it.
+  const auto pixelsUnder = [&](int texel, int begin, int end) {
+    const int first = begin + static_cast<int>(texel * shrink);
+    const int after = std::min(end, begin + static_cast<int>((texel + 1) * shrink));
+    return std::pair(first, std::max(first + 1, after));
+  };
+  std::vector<std::pair<int, int>> columns;
+  for (int x = 0; x < width; ++x) columns.push_back(pixelsUnder(x, box.x0, box.x1));
   for (int y = 0; y < height; ++y) {
-    const int top = box.y0 + static_cast<int>(y * shrink);
-    const int bottom = std::max(top + 1, std::min(box.y1, box.y0 + static_cast<int>((y + 1) * shrink)));
+    const auto [top, bottom] = pixelsUnder(y, box.y0, box.y1);
     for (int x = 0; x < width; ++x) {
-      const int left = box.x0 + static_cast<int>(x * shrink);
-      const int right = std::max(left + 1, std::min(box.x1, box.x0 + static_cast<int>((x + 1) * shrink)));
+      const auto [left, right] = columns[x];
+      std::uint8_t* texel = result.image.pixel(x + kMargin, y + kMargin);
+      if (right - left == 1 && bottom - top == 1) {
+        const std::uint8_t* p = image.pixel(left, top);
+        if (mask(top, left) == 0) continue;
+        figure(y + kMargin, x + kMargin) = 1;
+        if (p[3] != 0) std::copy_n(p, 4, texel);
+        continue;
+      }
       std::int64_t sum[4] = {0, 0, 0, 0}, count = 0;
       for (int v = top; v < bottom; ++v) {
         for (int u = left; u < right; ++u) {
@@ -93,10 +107,9 @@ DrawingTexture drawingTexture(const Image& image, const Plane8& mask, const Pixe
       }
       if (count == 0) continue;
       figure(y + kMargin, x + kMargin) = 1;
-      std::uint8_t* p = result.image.pixel(x + kMargin, y + kMargin);
       if (sum[3] == 0) continue;
-      for (int c = 0; c < 3; ++c) p[c] = static_cast<std::uint8_t>((sum[c] + sum[3] / 2) / sum[3]);
-      p[3] = static_cast<std::uint8_t>(sum[3] / count);
+      for (int c = 0; c < 3; ++c) texel[c] = static_cast<std::uint8_t>((sum[c] + sum[3] / 2) / sum[3]);
+      texel[3] = static_cast<std::uint8_t>(sum[3] / count);
     }
   }
 

@@ -65,7 +65,7 @@ TEST_CASE("a figure of no px has no parts to spread") {
   CHECK(cv::countNonZero(sheet.parts[0]) == 0);
 }
 
-TEST_CASE("a figure above 240 px is spread at that size, and more parts than go together do not differ") {
+TEST_CASE("a figure above 200 px is spread at that size, and more parts than go together do not differ") {
   Sheet sheet(66);
   cv::resize(sheet.rgb, sheet.rgb, {}, 3, 3, cv::INTER_NEAREST);
   cv::resize(sheet.mask, sheet.mask, {}, 3, 3, cv::INTER_NEAREST);
@@ -76,11 +76,21 @@ TEST_CASE("a figure above 240 px is spread at that size, and more parts than go 
   for (int k = 0; k < 9; ++k) many.push_back((k == 8 ? left : right).clone());
   spreadParts(sheet.rgb, sheet.mask, 255, alone);
   spreadParts(sheet.rgb, sheet.mask, 255, many);
-  REQUIRE(alone[0].size() == cv::Size(240, 240));
-  for (const cv::Mat& plane : many) REQUIRE(plane.size() == cv::Size(240, 240));
+  REQUIRE(alone[0].size() == cv::Size(200, 200));
+  for (const cv::Mat& plane : many) REQUIRE(plane.size() == cv::Size(200, 200));
   CHECK(cv::norm(alone[0], many[8], cv::NORM_INF) == 0);
   CHECK(cv::norm(many[0], many[7], cv::NORM_INF) == 0);
-  CHECK(alone[0].at<float>(120, 114) > .9f);
-  CHECK(alone[0].at<float>(120, 128) < .5f);
-  CHECK(alone[0].at<float>(120, 128) + many[0].at<float>(120, 128) == Approx(1).margin(1e-4));
+  CHECK(alone[0].at<float>(100, 95) > .9f);
+  CHECK(alone[0].at<float>(100, 107) < .5f);
+  CHECK(alone[0].at<float>(100, 107) + many[0].at<float>(100, 107) == Approx(1).margin(1e-4));
+}
+
+TEST_CASE("probabilities that are coarser than the picture are spread as those of its own size are") {
+  Sheet sheet(66);
+  for (std::size_t k = 0; k < 2; ++k) cv::resize(sheet.parts[k], sheet.parts[k], {}, .5, .5, cv::INTER_AREA);
+  spreadParts(sheet.rgb, sheet.mask, 255, sheet.parts);
+  REQUIRE(sheet.parts[0].size() == sheet.mask.size());
+  CHECK(sheet.parts[0].at<float>(60, 57) > .9f);
+  CHECK(sheet.parts[0].at<float>(60, 64) < .5f);
+  CHECK(sheet.parts[0].at<float>(1, 1) == 0);
 }
