@@ -15,7 +15,10 @@ struct LargestPiece {
   cv::Rect box;
 };
 
-LargestPiece largestPiece(const cv::Mat& mask) {
+LargestPiece largestPiece(const cv::Mat& picture) {
+  const cv::Rect place = cv::boundingRect(picture);
+  if (place.empty()) return {};
+  const cv::Mat mask = picture(place);
   cv::Mat labels, stats, centroids;
   const int count = cv::connectedComponentsWithStats(mask, labels, stats, centroids, 4);
   LargestPiece out;
@@ -23,7 +26,7 @@ LargestPiece largestPiece(const cv::Mat& mask) {
     const int area = stats.at<int>(i, cv::CC_STAT_AREA);
     if (area <= out.area) continue;
     out.area = area;
-    out.box = {stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+    out.box = {place.x + stats.at<int>(i, cv::CC_STAT_LEFT), place.y + stats.at<int>(i, cv::CC_STAT_TOP),
                stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT)};
   }
   return out;
