@@ -34,18 +34,28 @@ cv::Mat thinDarkness(const cv::Mat& rgb) {
   return dark;
 }
 
+// Darkness on every column of the picture, a row each.
+using Columns = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+Columns columnsOf(const cv::Mat& dark) {
+  Columns columns(dark.cols, dark.rows);
+  for (int y = 0; y < dark.rows; ++y)
+    for (int x = 0; x < dark.cols; ++x) columns(x, y) = dark.at<std::uint8_t>(y, x);
+  return columns;
+}
+
 // Mean darkness of the strip from x0 to x1 along each line of this slope, by its height at the strip's
 // middle.
-std::vector<float> profile(const cv::Mat& dark, int x0, int x1, double slope) {
-  const int h = dark.rows, middle = (x0 + x1) / 2;
+std::vector<float> profile(const Columns& dark, int x0, int x1, double slope) {
+  const int h = static_cast<int>(dark.cols()), middle = (x0 + x1) / 2;
   std::vector<float> sum(static_cast<std::size_t>(h), 0);
+  Eigen::Map<Eigen::Array<float, 1, Eigen::Dynamic>> sums(sum.data(), h);
   int count = 0;
   for (int x = x0; x < x1; x += 2, ++count) {
-    const int shift = cvRound(slope * (x - middle));
-    for (int y = std::max(0, -shift); y < std::min(h, h - shift); ++y)
-      sum[static_cast<std::size_t>(y)] += dark.at<std::uint8_t>(y + shift, x);
+    const int shift = cvRound(slope * (x - middle)), rows = h - std::abs(shift);
+    if (rows > 0) sums.segment(std::max(0, -shift), rows) += dark.row(x).segment(std::max(0, shift), rows);
   }
-  for (float& s : sum) s /= static_cast<float>(std::max(1, count));
+  sums /= static_cast<float>(std::max(1, count));
   return sum;
 }
 
@@ -99,8 +109,8 @@ bool evenlySpaced(const std::vector<Line>& lines, int height) {
 }
 
 // Lines that run through the picture from left to right.
-std::vector<Line> linesIn(const cv::Mat& dark) {
-  const int w = dark.cols;
+std::vector<Line> linesIn(const Columns& dark) {
+  const int w = static_cast<int>(dark.rows());
   const auto edge = [&](int strip) { return w * strip / kStrips; };
   double best_slope = 0, most = -1;
   for (double slope = -kSteepest; slope <= kSteepest + 1e-9; slope += kSlopeStep) {
@@ -171,15 +181,14 @@ std::vector<Line> linesIn(const cv::Mat& dark) {
       lines.push_back(std::move(line));
     }
   }
-  if (evenlySpaced(lines, dark.rows)) return lines;
+  if (evenlySpaced(lines, static_cast<int>(dark.cols()))) return lines;
   std::erase_if(lines, [](const Line& line) { return line.seen < kStrips - 1; });
   return lines;
 }
 
 // Erases level lines and returns them.
 std::vector<RuledLine> eraseLevel(cv::Mat& rgb) {
-  const cv::Mat dark = thinDarkness(rgb);
-  const std::vector<Line> lines = linesIn(dark);
+  const std::vector<Line> lines = linesIn(columnsOf(thinDarkness(rgb)));
   if (lines.empty()) return {};
   cv::Mat closed;
   cv::morphologyEx(rgb, closed, cv::MORPH_CLOSE, cv::Mat::ones(kThickest, 1, CV_8U));
