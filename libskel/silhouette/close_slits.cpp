@@ -7,6 +7,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "libskel/silhouette/components.h"
+
 namespace skel {
 namespace {
 
@@ -40,12 +42,11 @@ void closeSlits(Plane8& figure) {
   const int frame = reach + 1;
   cv::copyMakeBorder(view, framed, frame, frame, frame, frame, cv::BORDER_CONSTANT, cv::Scalar(0));
   const cv::Mat added = ~within(~within(framed, reach), reach) & (framed == 0);
-  cv::Mat labels, stats, centres;
-  cv::connectedComponentsWithStats(added, labels, stats, centres, 8);
+  const Components slits = componentsOf(added, 8);
   for (int y = 0; y < view.rows; ++y)
     for (int x = 0; x < view.cols; ++x) {
-      const int label = labels.at<int>(y + frame, x + frame);
-      if (label > 0 && stats.at<int>(label, cv::CC_STAT_AREA) >= kLong * reach * reach)
+      const int slit = slits.labels.at<int>(y + frame, x + frame);
+      if (slits.of[static_cast<std::size_t>(slit)].area >= kLong * reach * reach)
         view.at<std::uint8_t>(y, x) = 255;
     }
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "embedded/loop_net_weights.h"
+#include "libskel/silhouette/components.h"
 
 namespace skel {
 namespace {
@@ -23,11 +24,6 @@ double greatest(const cv::Mat& values, const cv::Mat& where = {}) {
   double most = 0;
   cv::minMaxLoc(values, nullptr, &most, nullptr, nullptr, where.empty() ? cv::noArray() : where);
   return most;
-}
-
-cv::Rect boxOf(const cv::Mat& stats, int label) {
-  const int* s = stats.ptr<int>(label);
-  return {s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH], s[cv::CC_STAT_HEIGHT]};
 }
 
 double shareOf(const cv::Mat& part, const cv::Mat& whole) {
@@ -49,12 +45,11 @@ std::vector<Loop> findLoops(const Enclosed& enclosed) {
                 difference = enclosed.difference(seen);
   const double area = cv::countNonZero(figure);
   const cv::Mat open = figure & ~ink;
-  cv::Mat labels, stats, centroids;
-  const int count = cv::connectedComponentsWithStats(open, labels, stats, centroids, 4, CV_32S);
+  const Components parts = componentsOf(open, 4);
   std::vector<int> large;
   double loop_area = 0;
-  for (int label = 1; label < count; ++label) {
-    const double own = stats.at<int>(label, cv::CC_STAT_AREA);
+  for (int label = 1; label < static_cast<int>(parts.of.size()); ++label) {
+    const double own = parts.of[static_cast<std::size_t>(label)].area;
     if (own > kLeastLoop * area) large.push_back(label), loop_area += own;
   }
   if (large.empty()) return {};
@@ -65,13 +60,14 @@ std::vector<Loop> findLoops(const Enclosed& enclosed) {
   const double deepest = greatest(depth), widest = greatest(width), drawn = shareOf(ink, figure);
   std::vector<Loop> loops;
   for (const int label : large) {
-    const cv::Rect box = boxOf(stats, label);
+    const Component& part = parts.of[static_cast<std::size_t>(label)];
+    const cv::Rect& box = part.box;
     const cv::Rect near = around(box) & cv::Rect({}, seen.size());
-    const cv::Mat region = labels(near) == label;
+    const cv::Mat region = parts.labels(near) == label;
     cv::Mat away;
     cv::distanceTransform(~region, away, cv::DIST_L2, 3);
     const cv::Mat beside = (away > 0) & (away <= stroke), beyond = (away > stroke) & (away <= 2 * stroke);
-    const double own = stats.at<int>(label, cv::CC_STAT_AREA), half = greatest(width(near), region);
+    const double own = part.area, half = greatest(width(near), region);
     Loop loop;
     for (int y = 0; y < region.rows; ++y)
       for (int x = 0; x < region.cols; ++x)
@@ -79,10 +75,8 @@ std::vector<Loop> findLoops(const Enclosed& enclosed) {
           loop.pixels.push_back((seen.y + near.y + y) * picture.width + seen.x + near.x + x);
     loop.inputs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kLoopInputs.size()));
     loop.inputs.head(loop.inputs.size() - kSeenInputs) << std::log(own / area), std::log(half * half / area),
-        half * half / own, own / box.area(),
-        std::abs((centroids.at<double>(label, 0) - figure_box.x) / figure_box.width - .5),
-        (centroids.at<double>(label, 1) - figure_box.y) / figure_box.height,
-        static_cast<double>(box.width) / figure_box.width,
+        half * half / own, own / box.area(), std::abs((part.centre.x - figure_box.x) / figure_box.width - .5),
+        (part.centre.y - figure_box.y) / figure_box.height, static_cast<double>(box.width) / figure_box.width,
         static_cast<double>(box.height) / figure_box.height, greatest(depth(near), region) / deepest,
         half / widest, drawn, std::log(static_cast<double>(large.size())), loop_area / area,
         shareOf(depth(near) <= stroke, beside), shareOf(figure(near), beyond), shareOf(ink(near), beyond),

@@ -6,30 +6,18 @@
 #include <opencv2/imgproc.hpp>
 
 #include "libskel/core/check.h"
+#include "libskel/silhouette/components.h"
 
 namespace skel {
 namespace {
 
-struct LargestPiece {
-  double area = 0;  // px
-  cv::Rect box;
-};
-
-LargestPiece largestPiece(const cv::Mat& picture) {
-  const cv::Rect place = cv::boundingRect(picture);
+Component largestPiece(const cv::Mat& mask) {
+  const cv::Rect place = cv::boundingRect(mask);
   if (place.empty()) return {};
-  const cv::Mat mask = picture(place);
-  cv::Mat labels, stats, centroids;
-  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centroids, 4);
-  LargestPiece out;
-  for (int i = 1; i < count; ++i) {
-    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
-    if (area <= out.area) continue;
-    out.area = area;
-    out.box = {place.x + stats.at<int>(i, cv::CC_STAT_LEFT), place.y + stats.at<int>(i, cv::CC_STAT_TOP),
-               stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT)};
-  }
-  return out;
+  const Components pieces = componentsOf(mask(place), 4);
+  Component largest = pieces.of[static_cast<std::size_t>(pieces.largest())];
+  largest.box += place.tl();
+  return largest;
 }
 
 // Of `mask`, what is thicker than a strip along its edge.
@@ -76,7 +64,7 @@ MaskEvidence evidenceOfMask(const Plane8& mask, const SeenPage& page) {
     at_border += cv::countNonZero(side);
 
   MaskEvidence out;
-  const LargestPiece doubtful = largestPiece(not_seen);
+  const Component doubtful = largestPiece(not_seen);
   out.inputs.resize(static_cast<Eigen::Index>(kMaskInputs.size()));
   const auto damped = [](double share) { return std::log10(share + 1e-3); };
   out.inputs << both / std::max(1e-9, area + seen - both), damped(cv::countNonZero(not_seen) / area),
