@@ -10,6 +10,7 @@
 #include "libskel/core/check.h"
 #include "libskel/core/segment.h"
 #include "libskel/layers/spread_parts.h"
+#include "libskel/silhouette/components.h"
 
 namespace skel {
 namespace {
@@ -280,14 +281,13 @@ void removeIslands(Sketch& picture) {
     const cv::Mat own = picture.of(static_cast<Part>(part));
     const cv::Rect box = cv::boundingRect(own);
     if (box.empty()) continue;
-    cv::Mat labels, stats, centres, apart = moved(box);
-    const int count = cv::connectedComponentsWithStats(own(box), labels, stats, centres, 4);
-    int largest = 0;
-    for (int i = 1; i < count; ++i) largest = std::max(largest, stats.at<int>(i, cv::CC_STAT_AREA));
+    cv::Mat apart = moved(box);
+    const Components pieces = componentsOf(own(box), 4);
+    const int largest = pieces.of[static_cast<std::size_t>(pieces.largest())].area;
     for (int y = 0; y < box.height; ++y)
       for (int x = 0; x < box.width; ++x) {
-        const int i = labels.at<int>(y, x);
-        if (i > 0 && stats.at<int>(i, cv::CC_STAT_AREA) < kIsland * largest)
+        const int i = pieces.labels.at<int>(y, x);
+        if (i > 0 && pieces.of[static_cast<std::size_t>(i)].area < kIsland * largest)
           apart.at<std::uint8_t>(y, x) = 255;
       }
   }

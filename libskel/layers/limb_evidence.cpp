@@ -8,6 +8,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/layers/limb_bones.h"
+#include "libskel/silhouette/components.h"
 
 namespace skel {
 namespace {
@@ -99,14 +100,9 @@ Seen seenAlong(const PartLook& look, const LimbBones& bones, int limb, double fr
 }
 
 double largestShare(const cv::Mat& of) {
-  cv::Mat labels, stats, centres;
-  const int count = cv::connectedComponentsWithStats(of, labels, stats, centres, 4);
-  int largest = 0, all = 0;
-  for (int i = 1; i < count; ++i) {
-    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
-    largest = std::max(largest, area), all += area;
-  }
-  return all == 0 ? 1 : static_cast<double>(largest) / all;
+  const Components pieces = componentsOf(of, 4);
+  const int all = cv::countNonZero(of);
+  return all == 0 ? 1 : pieces.of[static_cast<std::size_t>(pieces.largest())].area / double(all);
 }
 
 double median(std::vector<double> of) {
