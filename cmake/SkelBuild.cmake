@@ -43,8 +43,9 @@ add_library(skel_options INTERFACE)
 target_link_libraries(skel_options INTERFACE skel_usage)
 # No fused multiply-add unless written: results do not depend on the machine's instruction set.
 target_compile_options(skel_options INTERFACE -Wall -Wextra -Wpedantic -ffp-contract=off)
-# GCC sees uninitialised members in every moved std::optional of a struct of matrices.
-target_compile_options(skel_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+# GCC sees uninitialised members in every moved std::optional of a struct of matrices, and strings that overlap where two
+# are joined.
+target_compile_options(skel_options INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-restrict>")
 if(PROJECT_IS_TOP_LEVEL)
   target_compile_options(skel_options INTERFACE -Werror)
 endif()
@@ -78,6 +79,8 @@ function(skel_room name)
   list(TRANSFORM ARG_PRIVATE REPLACE "^nlohmann_json::nlohmann_json$" "$<BUILD_INTERFACE:nlohmann_json::nlohmann_json>")
   target_link_libraries(skel_${name} PUBLIC skel_usage Eigen3::Eigen ${ARG_ROOMS}
                         PRIVATE $<BUILD_INTERFACE:skel_options> ${ARG_PRIVATE})
+  # GCC makes vectors of most loops at -O3 alone: 5 % less time a drawing, 6 % more program.
+  target_compile_options(skel_${name} PRIVATE $<$<CONFIG:Release>:-O3>)
 endfunction()
 
 # skel_tool(NAME SOURCES file... [ROOMS room...] [PRIVATE lib...]): an executable of build/<preset>/bin.
