@@ -458,6 +458,7 @@ std::vector<std::size_t> keysWithin(const Skeleton& skeleton, const std::vector<
   }
   // Leaves do not show in the joints' places: how far a hand would be off at its tip.
   constexpr double kTip_m = 0.1;
+  const double most_turn = std::tan(tolerance_m / kTip_m);  // of half the angle
   const auto near = [&](std::size_t from, std::size_t to, std::size_t k) {
     const double t = double(k - from) / double(to - from);
     ModelPose between;
@@ -465,7 +466,8 @@ std::vector<std::size_t> keysWithin(const Skeleton& skeleton, const std::vector<
     between.globals.resize(count);
     for (std::size_t j = 0; j < count; ++j) {
       const Quaterniond local = locals[from][j].slerp(t, locals[to][j]);
-      if (kTip_m * local.angularDistance(locals[k][j]) > 2 * tolerance_m) return false;
+      const Quaterniond off = local * locals[k][j].conjugate();
+      if (off.vec().norm() > most_turn * std::abs(off.w())) return false;
       const int parent = skeleton.joints[j].parent;
       between.globals[j] = parent < 0 ? local : between.globals[std::size_t(parent)] * local;
     }
