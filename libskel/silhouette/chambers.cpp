@@ -38,9 +38,13 @@ struct Regions {
 
 void fillChambers(cv::Mat& picture, const ChamberOptions& options) {
   const int long_side = std::max(picture.cols, picture.rows);
-  // What lies beside all of the barrier is outside: away from it, it only gets wider.
-  cv::Mat barrier = picture(cv::boundingRect(picture));
-  if (barrier.empty()) return;
+  const double max_gap = options.max_gap * long_side;
+  // Beside all of the barrier it only gets wider; farther away than any gap that counts, all is outside.
+  const int beyond = static_cast<int>(max_gap) + 2;
+  const cv::Rect box = cv::boundingRect(picture);
+  if (box.empty()) return;
+  cv::Mat barrier = picture((box + cv::Size(2 * beyond, 2 * beyond) - cv::Point(beyond, beyond)) &
+                            cv::Rect({}, picture.size()));
   // A frame one pixel wide stands for the outside.
   cv::Mat open;
   cv::copyMakeBorder(barrier == 0, open, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(255));
@@ -48,7 +52,6 @@ void fillChambers(cv::Mat& picture, const ChamberOptions& options) {
   cv::distanceTransform(open, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   const int w = distance.cols, h = distance.rows;
   const float* height = distance.ptr<float>();
-  const double max_gap = options.max_gap * long_side;
 
   // Pixels from the widest place to the narrowest, in steps of a quarter pixel (counting sort).
   constexpr float kStepsPerPixel = 4;
