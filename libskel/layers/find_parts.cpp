@@ -282,12 +282,13 @@ void removeIslands(Sketch& picture) {
     const cv::Rect box = cv::boundingRect(own);
     if (box.empty()) continue;
     cv::Mat apart = moved(box);
-    const Components pieces = componentsOf(own(box), 4);
-    const int largest = pieces.of[static_cast<std::size_t>(pieces.largest())].area;
+    cv::Mat labels;
+    const std::vector<Component> pieces = componentsOf(own(box), 4, labels);
+    const int largest = pieces[static_cast<std::size_t>(largestOf(pieces))].area;
     for (int y = 0; y < box.height; ++y)
       for (int x = 0; x < box.width; ++x) {
-        const int i = pieces.labels.at<int>(y, x);
-        if (i > 0 && pieces.of[static_cast<std::size_t>(i)].area < kIsland * largest)
+        const int i = labels.at<int>(y, x);
+        if (i > 0 && pieces[static_cast<std::size_t>(i)].area < kIsland * largest)
           apart.at<std::uint8_t>(y, x) = 255;
       }
   }

@@ -100,9 +100,10 @@ Seen seenAlong(const PartLook& look, const LimbBones& bones, int limb, double fr
 }
 
 double largestShare(const cv::Mat& of) {
-  const Components pieces = componentsOf(of, 4);
+  cv::Mat labels;
+  const std::vector<Component> pieces = componentsOf(of, 4, labels);
   const int all = cv::countNonZero(of);
-  return all == 0 ? 1 : pieces.of[static_cast<std::size_t>(pieces.largest())].area / double(all);
+  return all == 0 ? 1 : pieces[static_cast<std::size_t>(largestOf(pieces))].area / double(all);
 }
 
 double median(std::vector<double> of) {

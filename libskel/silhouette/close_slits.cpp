@@ -42,11 +42,12 @@ void closeSlits(Plane8& figure) {
   const int frame = reach + 1;
   cv::copyMakeBorder(view, framed, frame, frame, frame, frame, cv::BORDER_CONSTANT, cv::Scalar(0));
   const cv::Mat added = ~within(~within(framed, reach), reach) & (framed == 0);
-  const Components slits = componentsOf(added, 8);
+  cv::Mat labels;
+  const std::vector<Component> slits = componentsOf(added, 8, labels);
   for (int y = 0; y < view.rows; ++y)
     for (int x = 0; x < view.cols; ++x) {
-      const int slit = slits.labels.at<int>(y + frame, x + frame);
-      if (slits.of[static_cast<std::size_t>(slit)].area >= kLong * reach * reach)
+      const int slit = labels.at<int>(y + frame, x + frame);
+      if (slits[static_cast<std::size_t>(slit)].area >= kLong * reach * reach)
         view.at<std::uint8_t>(y, x) = 255;
     }
 }

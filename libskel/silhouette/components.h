@@ -1,24 +1,25 @@
 // Connected components of masks, with area, box and centre.
 #pragma once
 
-#include <opencv2/core.hpp>
 #include <vector>
+
+namespace cv {
+class Mat;
+}
 
 namespace skel {
 
 struct Component {
-  int area = 0;        // px
-  cv::Rect box;        // of all its pixels
-  cv::Point2d centre;  // mean of its pixels
-};
-struct Components {
-  cv::Mat labels;             // 32-bit: an index of `of`
-  std::vector<Component> of;  // by the first pixel in reading order; 0: what is not in the mask, empty
-
-  int largest() const;  // the first of them; 0: there is none
+  int area = 0;                             // px
+  int x = 0, y = 0, width = 0, height = 0;  // its box
+  double centre_x = 0, centre_y = 0;        // mean of its pixels
 };
 
-// As cv::connectedComponentsWithStats() tells, which takes several times as long.
-Components componentsOf(const cv::Mat& mask, int connectivity);
+// As cv::connectedComponentsWithStats() tells, which takes several times as long: by label, which `labels`
+// (32-bit) says of each pixel. Label 0, what is not in the mask, stays empty.
+std::vector<Component> componentsOf(const cv::Mat& mask, int connectivity, cv::Mat& labels);
+
+// The label of the first of the largest; 0: there is none.
+int largestOf(const std::vector<Component>& components);
 
 }  // namespace skel

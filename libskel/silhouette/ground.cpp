@@ -24,10 +24,11 @@ struct Part {
 };
 
 // Those of a mask, by label.
-std::vector<Part> partsOf(const Components& components) {
+std::vector<Part> partsOf(const cv::Mat& mask, int connectivity, cv::Mat& labels) {
   std::vector<Part> parts;
-  for (std::size_t i = 1; i < components.of.size(); ++i)
-    parts.push_back({static_cast<int>(i), components.of[i].area, components.of[i].box});
+  for (const Component& c : componentsOf(mask, connectivity, labels))
+    if (c.area > 0)
+      parts.push_back({static_cast<int>(parts.size()) + 1, c.area, {c.x, c.y, c.width, c.height}});
   return parts;
 }
 
@@ -56,18 +57,18 @@ Level levelThrough(const cv::Mat& labels, const std::vector<Part>& parts) {
 }  // namespace
 
 bool dropGround(cv::Mat& figure, const cv::Mat& lines) {
-  const Components figures = componentsOf(figure, 8);
-  const Component& whole = figures.of[static_cast<std::size_t>(figures.largest())];
-  if (whole.area == 0) return false;
+  cv::Mat labels;
+  const std::vector<Part> figures = partsOf(figure, 8, labels);
+  if (figures.empty()) return false;
+  const Part whole = *std::max_element(figures.begin(), figures.end(),
+                                       [](const Part& a, const Part& b) { return a.area < b.area; });
 
   const int thickest = std::max(3, cvRound(kThickest * std::max(figure.cols, figure.rows)));
   cv::Mat bulk;
   const cv::Size size(1, thickest + 2);  // what is higher than a line is none
   cv::morphologyEx(figure, bulk, cv::MORPH_OPEN, cv::Mat::ones(size, CV_8U));
-  const Components thin = componentsOf(figure & ~bulk, 8);
-  const cv::Mat& labels = thin.labels;
   std::vector<Part> flat;
-  for (const Part& part : partsOf(thin)) {
+  for (const Part& part : partsOf(figure & ~bulk, 8, labels)) {
     if (part.box.width < 4 * thickest / 2 || part.box.height > thickest + kFlattest * part.box.width ||
         part.box.y < whole.box.y + kLowest * whole.box.height || (part.box & whole.box).area() == 0)
       continue;
@@ -109,19 +110,18 @@ bool dropGround(cv::Mat& figure, const cv::Mat& lines) {
   // a part of the figure that has the line for a sole.
   const cv::Mat inner = figure & ~lines & ~band;
   const cv::Mat closed = figure & ~cut & ~band;
-  const Components enclosed = componentsOf(closed, 4);
   const auto standsIn = [&](int x0, int x1, int y0, int y1) {
     const cv::Rect place = cv::Rect(cv::Point(x0, y0), cv::Point(x1, y1)) & cv::Rect({}, figure.size());
     return place.area() > 0 && cv::countNonZero(inner(place)) >= 2 * thickest;
   };
   cv::Mat kept = cv::Mat::zeros(figure.size(), CV_8U);
-  for (const Part& part : partsOf(enclosed)) {
+  for (const Part& part : partsOf(closed, 4, labels)) {
     const int low = part.box.br().y, high = low - std::max(2 * thickest, part.box.height / 4);
     const bool at_line = std::abs(low - level.at(part.box.x + part.box.width / 2.0)) < 2 * half;
     if (!at_line || part.area < thickest * thickest) continue;
     const bool between = standsIn(whole.box.x, part.box.x, high, low) &&
                          standsIn(part.box.br().x, whole.box.br().x, high, low);
-    if (!between) kept |= enclosed.labels == part.label;
+    if (!between) kept |= labels == part.label;
   }
   cv::Mat soles;
   cv::dilate(kept | (cut & ~lines), soles, cv::Mat::ones(4 * half + 1, 1, CV_8U));

@@ -45,11 +45,12 @@ std::vector<Loop> findLoops(const Enclosed& enclosed) {
                 difference = enclosed.difference(seen);
   const double area = cv::countNonZero(figure);
   const cv::Mat open = figure & ~ink;
-  const Components parts = componentsOf(open, 4);
+  cv::Mat labels;
+  const std::vector<Component> parts = componentsOf(open, 4, labels);
   std::vector<int> large;
   double loop_area = 0;
-  for (int label = 1; label < static_cast<int>(parts.of.size()); ++label) {
-    const double own = parts.of[static_cast<std::size_t>(label)].area;
+  for (int label = 1; label < static_cast<int>(parts.size()); ++label) {
+    const double own = parts[static_cast<std::size_t>(label)].area;
     if (own > kLeastLoop * area) large.push_back(label), loop_area += own;
   }
   if (large.empty()) return {};
@@ -60,10 +61,10 @@ std::vector<Loop> findLoops(const Enclosed& enclosed) {
   const double deepest = greatest(depth), widest = greatest(width), drawn = shareOf(ink, figure);
   std::vector<Loop> loops;
   for (const int label : large) {
-    const Component& part = parts.of[static_cast<std::size_t>(label)];
-    const cv::Rect& box = part.box;
+    const Component& part = parts[static_cast<std::size_t>(label)];
+    const cv::Rect box(part.x, part.y, part.width, part.height);
     const cv::Rect near = around(box) & cv::Rect({}, seen.size());
-    const cv::Mat region = parts.labels(near) == label;
+    const cv::Mat region = labels(near) == label;
     cv::Mat away;
     cv::distanceTransform(~region, away, cv::DIST_L2, 3);
     const cv::Mat beside = (away > 0) & (away <= stroke), beyond = (away > stroke) & (away <= 2 * stroke);
@@ -75,8 +76,8 @@ std::vector<Loop> findLoops(const Enclosed& enclosed) {
           loop.pixels.push_back((seen.y + near.y + y) * picture.width + seen.x + near.x + x);
     loop.inputs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kLoopInputs.size()));
     loop.inputs.head(loop.inputs.size() - kSeenInputs) << std::log(own / area), std::log(half * half / area),
-        half * half / own, own / box.area(), std::abs((part.centre.x - figure_box.x) / figure_box.width - .5),
-        (part.centre.y - figure_box.y) / figure_box.height, static_cast<double>(box.width) / figure_box.width,
+        half * half / own, own / box.area(), std::abs((part.centre_x - figure_box.x) / figure_box.width - .5),
+        (part.centre_y - figure_box.y) / figure_box.height, static_cast<double>(box.width) / figure_box.width,
         static_cast<double>(box.height) / figure_box.height, greatest(depth(near), region) / deepest,
         half / widest, drawn, std::log(static_cast<double>(large.size())), loop_area / area,
         shareOf(depth(near) <= stroke, beside), shareOf(figure(near), beyond), shareOf(ink(near), beyond),

@@ -14,9 +14,10 @@ namespace {
 Component largestPiece(const cv::Mat& mask) {
   const cv::Rect place = cv::boundingRect(mask);
   if (place.empty()) return {};
-  const Components pieces = componentsOf(mask(place), 4);
-  Component largest = pieces.of[static_cast<std::size_t>(pieces.largest())];
-  largest.box += place.tl();
+  cv::Mat labels;
+  const std::vector<Component> pieces = componentsOf(mask(place), 4, labels);
+  Component largest = pieces[static_cast<std::size_t>(largestOf(pieces))];
+  largest.x += place.x, largest.y += place.y;
   return largest;
 }
 
@@ -75,7 +76,7 @@ MaskEvidence evidenceOfMask(const Plane8& mask, const SeenPage& page) {
       page.ruled, page.soft;
   if (doubtful.area > 0) {
     const double x = double(mask.cols()) / figure.cols, y = double(mask.rows()) / figure.rows;
-    out.doubtful = {doubtful.box.x * x, doubtful.box.y * y, doubtful.box.width * x, doubtful.box.height * y};
+    out.doubtful = {doubtful.x * x, doubtful.y * y, doubtful.width * x, doubtful.height * y};
   }
   return out;
 }

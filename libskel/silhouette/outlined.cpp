@@ -41,9 +41,9 @@ double linedShare(const cv::Mat& figure, const cv::Mat& lines) {
 }
 
 cv::Mat largestPart(const cv::Mat& mask) {
-  const Components parts = componentsOf(mask, 4);
-  const int largest = parts.largest();
-  return largest == 0 ? cv::Mat(cv::Mat::zeros(mask.size(), CV_8U)) : cv::Mat(parts.labels == largest);
+  cv::Mat labels;
+  const int largest = largestOf(componentsOf(mask, 4, labels));
+  return largest == 0 ? cv::Mat(cv::Mat::zeros(mask.size(), CV_8U)) : cv::Mat(labels == largest);
 }
 
 }  // namespace

@@ -73,9 +73,10 @@ void encodePage(const cv::Mat& rgb, std::vector<float>& input) {
 
 cv::Mat figureProbability(const PageNet& net, const cv::Mat& rgb) {
   cv::Mat probability = probabilityAt(net, rgb);
-  const Components parts = componentsOf(probability > .5f, 8);
-  const cv::Rect box = parts.of[static_cast<std::size_t>(parts.largest())].box;
-  if (box.empty()) return probability;
+  cv::Mat labels;
+  const std::vector<Component> parts = componentsOf(probability > .5f, 8, labels);
+  const Component& box = parts[static_cast<std::size_t>(largestOf(parts))];
+  if (box.area == 0) return probability;
   const int margin = cvRound(.25 * std::max(box.width, box.height));
   const cv::Rect window =
       cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &

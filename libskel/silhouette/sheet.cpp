@@ -95,13 +95,15 @@ void dropShadowEdges(cv::Mat& edges, const cv::Mat& dx, const cv::Mat& dy) {
       if (kMaxChromaShare * std::max(step[1], step[2]) < step[0]) out[x] = step[0];
     }
   }
-  const Components lines = componentsOf(steepness > 0, 8);
+  cv::Mat labels;
+  const std::vector<Component> lines = componentsOf(steepness > 0, 8, labels);
   constexpr int kMargin = 3;
   int longest = 0, length = std::max(edges.cols, edges.rows) / 10;
-  for (int label = 1; label < static_cast<int>(lines.of.size()); ++label) {
-    const cv::Rect& box = lines.of[static_cast<std::size_t>(label)].box;
-    const bool ends_at_border = box.x < kMargin || box.y < kMargin || box.br().x > edges.cols - kMargin ||
-                                box.br().y > edges.rows - kMargin;
+  for (int label = 1; label < static_cast<int>(lines.size()); ++label) {
+    const Component& box = lines[static_cast<std::size_t>(label)];
+    const bool ends_at_border = box.x < kMargin || box.y < kMargin ||
+                                box.x + box.width > edges.cols - kMargin ||
+                                box.y + box.height > edges.rows - kMargin;
     if (!ends_at_border || std::max(box.width, box.height) < length) continue;
     longest = label;
     length = std::max(box.width, box.height);
@@ -110,7 +112,7 @@ void dropShadowEdges(cv::Mat& edges, const cv::Mat& dx, const cv::Mat& dy) {
   std::vector<float> steps;
   for (int y = 0; y < edges.rows; ++y) {
     for (int x = 0; x < edges.cols; ++x) {
-      if (lines.labels.at<int>(y, x) == longest) steps.push_back(steepness.at<float>(y, x));
+      if (labels.at<int>(y, x) == longest) steps.push_back(steepness.at<float>(y, x));
     }
   }
   const double shadow = median(steps);

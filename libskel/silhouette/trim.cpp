@@ -45,9 +45,9 @@ bool touchesBorder(const cv::Mat& figure) {
 void dropBorderStrips(cv::Mat& figure) {
   const int w = figure.cols, h = figure.rows;
   if (!touchesBorder(figure)) return;
-  const Components parts = componentsOf(figure, 4);
-  const cv::Mat& labels = parts.labels;
-  std::vector<int> contact(parts.of.size(), 0);
+  cv::Mat labels;
+  const std::vector<Component> parts = componentsOf(figure, 4, labels);
+  std::vector<int> contact(parts.size(), 0);
   for (int x = 0; x < w; ++x) {
     ++contact[static_cast<std::size_t>(labels.at<int>(0, x))];
     ++contact[static_cast<std::size_t>(labels.at<int>(h - 1, x))];
@@ -62,7 +62,7 @@ void dropBorderStrips(cv::Mat& figure) {
     std::uint8_t* row = figure.ptr(y);
     for (int x = 0; x < w; ++x) {
       const auto part = static_cast<std::size_t>(label[x]);
-      if (part > 0 && contact[part] > kStrip * std::sqrt(parts.of[part].area)) row[x] = 0;
+      if (part > 0 && contact[part] > kStrip * std::sqrt(parts[part].area)) row[x] = 0;
     }
   }
 }
