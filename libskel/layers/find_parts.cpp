@@ -10,7 +10,6 @@
 #include "libskel/core/check.h"
 #include "libskel/core/segment.h"
 #include "libskel/layers/spread_parts.h"
-#include "libskel/silhouette/components.h"
 
 namespace skel {
 namespace {
@@ -281,14 +280,14 @@ void removeIslands(Sketch& picture) {
     const cv::Mat own = picture.of(static_cast<Part>(part));
     const cv::Rect box = cv::boundingRect(own);
     if (box.empty()) continue;
-    cv::Mat apart = moved(box);
-    cv::Mat labels;
-    const std::vector<Component> pieces = componentsOf(own(box), 4, labels);
-    const int largest = pieces[static_cast<std::size_t>(largestOf(pieces))].area;
+    cv::Mat labels, stats, centres, apart = moved(box);
+    const int count = cv::connectedComponentsWithStats(own(box), labels, stats, centres, 4);
+    int largest = 0;
+    for (int i = 1; i < count; ++i) largest = std::max(largest, stats.at<int>(i, cv::CC_STAT_AREA));
     for (int y = 0; y < box.height; ++y)
       for (int x = 0; x < box.width; ++x) {
         const int i = labels.at<int>(y, x);
-        if (i > 0 && pieces[static_cast<std::size_t>(i)].area < kIsland * largest)
+        if (i > 0 && stats.at<int>(i, cv::CC_STAT_AREA) < kIsland * largest)
           apart.at<std::uint8_t>(y, x) = 255;
       }
   }

@@ -8,7 +8,6 @@
 
 #include "libskel/core/check.h"
 #include "libskel/layers/limb_bones.h"
-#include "libskel/silhouette/components.h"
 
 namespace skel {
 namespace {
@@ -100,10 +99,14 @@ Seen seenAlong(const PartLook& look, const LimbBones& bones, int limb, double fr
 }
 
 double largestShare(const cv::Mat& of) {
-  cv::Mat labels;
-  const std::vector<Component> pieces = componentsOf(of, 4, labels);
-  const int all = cv::countNonZero(of);
-  return all == 0 ? 1 : pieces[static_cast<std::size_t>(largestOf(pieces))].area / double(all);
+  cv::Mat labels, stats, centres;
+  const int count = cv::connectedComponentsWithStats(of, labels, stats, centres, 4);
+  int largest = 0, all = 0;
+  for (int i = 1; i < count; ++i) {
+    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
+    largest = std::max(largest, area), all += area;
+  }
+  return all == 0 ? 1 : static_cast<double>(largest) / all;
 }
 
 double median(std::vector<double> of) {
