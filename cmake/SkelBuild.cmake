@@ -10,11 +10,6 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 # Eigen at -O0 is too slow to run the tests.
 set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
-# GCC's -O2 makes vectors of loops of a fixed length alone. Clang's does of all.
-if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-  string(PREPEND CMAKE_CXX_FLAGS_RELEASE "-fvect-cost-model=dynamic ")
-endif()
-
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release)
 endif()
@@ -47,8 +42,9 @@ add_library(skel_options INTERFACE)
 target_link_libraries(skel_options INTERFACE skel_usage)
 # No fused multiply-add unless written: results do not depend on the machine's instruction set.
 target_compile_options(skel_options INTERFACE -Wall -Wextra -Wpedantic -ffp-contract=off)
-# GCC sees uninitialised members in every moved std::optional of a struct of matrices.
-target_compile_options(skel_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+# GCC sees uninitialised members in every moved std::optional of a struct of matrices, and strings that overlap where two
+# are joined.
+target_compile_options(skel_options INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-restrict>")
 if(PROJECT_IS_TOP_LEVEL)
   target_compile_options(skel_options INTERFACE -Werror)
 endif()
@@ -82,6 +78,8 @@ function(skel_room name)
   list(TRANSFORM ARG_PRIVATE REPLACE "^nlohmann_json::nlohmann_json$" "$<BUILD_INTERFACE:nlohmann_json::nlohmann_json>")
   target_link_libraries(skel_${name} PUBLIC skel_usage Eigen3::Eigen ${ARG_ROOMS}
                         PRIVATE $<BUILD_INTERFACE:skel_options> ${ARG_PRIVATE})
+  # GCC makes vectors of most loops at -O3 alone: 5 % less time a drawing, 6 % more program.
+  target_compile_options(skel_${name} PRIVATE $<$<CONFIG:Release>:-O3>)
 endfunction()
 
 # skel_tool(NAME SOURCES file... [ROOMS room...] [PRIVATE lib...]): an executable of build/<preset>/bin.

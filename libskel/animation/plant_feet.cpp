@@ -60,30 +60,38 @@ double boneLength(const Skeleton& skeleton, int child) {
   return (skeleton.joints[child].position - skeleton.joints[skeleton.joints[child].parent].position).norm();
 }
 
+// From the parent's.
+Vector3d placeOf(const Skeleton& skeleton, const ModelPose& pose, const Joint& joint,
+                 const Vector3d& parent_at) {
+  return parent_at + pose.globals[joint.parent] * (joint.position - skeleton.joints[joint.parent].position);
+}
+
 // Turns the two bones above `foot` so that it comes to lie at `goal`, or as near as they reach.
 void reach(const Skeleton& skeleton, int foot, const Vector3d& goal, const Vector3d& forwards,
            ModelPose& pose) {
   const int knee = skeleton.joints[foot].parent, hip = skeleton.joints[knee].parent;
-  const std::vector<Vector3d> at = jointPositions(skeleton, pose);
+  const Vector3d hip_at = jointPosition(skeleton, pose, hip),
+                 knee_at = placeOf(skeleton, pose, skeleton.joints[knee], hip_at),
+                 foot_at = placeOf(skeleton, pose, skeleton.joints[foot], knee_at);
   const double upper = boneLength(skeleton, knee), lower = boneLength(skeleton, foot);
-  const Vector3d way = goal - at[hip];
+  const Vector3d way = goal - hip_at;
   if (!(upper > 1e-6 && lower > 1e-6 && way.norm() > 1e-6)) return;
   const double least = std::abs(upper - lower) + 1e-4 * (upper + lower);
   const double length = std::clamp(way.norm(), least, 0.9999 * (upper + lower));
   const Vector3d axis = way.normalized();
   // The knee keeps to the side where it is, and a straight one bends forwards.
-  const Vector3d leg = (at[foot] - at[hip]).normalized();
-  Vector3d bend = at[knee] - at[hip];
+  const Vector3d leg = (foot_at - hip_at).normalized();
+  Vector3d bend = knee_at - hip_at;
   bend -= bend.dot(leg) * leg;
   bend += 0.1 * (upper + lower) * forwards;
   bend -= bend.dot(axis) * axis;
   if (!(bend.norm() > 1e-9)) return;
   const double along = (upper * upper - lower * lower + length * length) / (2 * length);
   const double aside = std::sqrt(std::max(0.0, upper * upper - along * along));
-  const Vector3d knee_at = at[hip] + along * axis + aside * bend.normalized();
-  const Vector3d foot_at = at[hip] + length * axis;
-  const Quaterniond upper_turn = shortestTurn(at[knee] - at[hip], knee_at - at[hip]);
-  const Quaterniond lower_turn = shortestTurn(at[foot] - at[knee], foot_at - knee_at);
+  const Vector3d knee_goal = hip_at + along * axis + aside * bend.normalized();
+  const Vector3d foot_goal = hip_at + length * axis;
+  const Quaterniond upper_turn = shortestTurn(knee_at - hip_at, knee_goal - hip_at);
+  const Quaterniond lower_turn = shortestTurn(foot_at - knee_at, foot_goal - knee_goal);
   pose.globals[hip] = (upper_turn * pose.globals[hip]).normalized();
   pose.globals[knee] = (lower_turn * pose.globals[knee]).normalized();
   pose.globals[foot] = (lower_turn * pose.globals[foot]).normalized();
@@ -141,16 +149,18 @@ double liftGain(const Skeleton& skeleton, int foot, const std::vector<Stand>& st
 }  // namespace
 
 std::vector<Vector3d> jointPositions(const Skeleton& skeleton, const ModelPose& pose) {
-  std::vector<Vector3d> result(skeleton.joints.size());
-  for (std::size_t j = 0; j < result.size(); ++j) {
-    const Joint& joint = skeleton.joints[j];
-    result[j] =
-        joint.parent < 0
-            ? Vector3d(joint.position + pose.root_offset_m)
-            : Vector3d(result[joint.parent] + pose.globals[joint.parent] *
-                                                  (joint.position - skeleton.joints[joint.parent].position));
-  }
+  std::vector<Vector3d> result;
+  result.reserve(skeleton.joints.size());
+  for (const Joint& joint : skeleton.joints)
+    result.push_back(joint.parent < 0 ? Vector3d(joint.position + pose.root_offset_m)
+                                      : placeOf(skeleton, pose, joint, result[joint.parent]));
   return result;
+}
+
+Vector3d jointPosition(const Skeleton& skeleton, const ModelPose& pose, int joint) {
+  const Joint& own = skeleton.joints[joint];
+  return own.parent < 0 ? Vector3d(own.position + pose.root_offset_m)
+                        : placeOf(skeleton, pose, own, jointPosition(skeleton, pose, own.parent));
 }
 
 void plantFeet(const Skeleton& skeleton, const std::vector<FootContact>& contacts,
@@ -223,7 +233,7 @@ void plantFeet(const Skeleton& skeleton, const std::vector<FootContact>& contact
     for (const auto& [foot, step] : steps) {
       if (step.gain > 0 && step.lifts_m[k] > 0) {
         const Vector3d up(0, pose.share * step.gain * step.lifts_m[k], 0);
-        reach(skeleton, foot, jointPositions(skeleton, pose)[foot] + up, planting.forwards[foot], pose);
+        reach(skeleton, foot, jointPosition(skeleton, pose, foot) + up, planting.forwards[foot], pose);
       }
       if (planting.as_drawn > 0)
         pose.globals[foot] =
@@ -233,14 +243,14 @@ void plantFeet(const Skeleton& skeleton, const std::vector<FootContact>& contact
       const double time_s = k == count ? poses[0].time_s : pose.time_s;
       const double weight = pose.share * weightAt(stand, time_s, duration_s, planting.ramp_s);
       if (weight <= 0) continue;
-      const Vector3d now = jointPositions(skeleton, pose)[stand.foot];
+      const Vector3d now = jointPosition(skeleton, pose, stand.foot);
       reach(skeleton, stand.foot, now + weight * (goalOf(stand, time_s) - now), planting.forwards[stand.foot],
             pose);
       pose.globals[stand.foot] = pose.globals[stand.foot].slerp(weight, planting.standing_turn[stand.foot]);
     }
     // A swinging foot does not go below the ground.
     for (const Stand& stand : stands) {
-      const Vector3d now = jointPositions(skeleton, pose)[stand.foot];
+      const Vector3d now = jointPosition(skeleton, pose, stand.foot);
       const double depth = planting.standing_y_m[stand.foot] - now.y();
       if (depth > 1e-4 && pose.share > 0)
         reach(skeleton, stand.foot, now + Vector3d(0, pose.share * depth, 0), planting.forwards[stand.foot],

@@ -19,6 +19,8 @@ struct ModelPose {
 
 // Where the joints come to lie, model frame, m.
 std::vector<Eigen::Vector3d> jointPositions(const Skeleton& skeleton, const ModelPose& pose);
+// One of them: by the rotations of those above it alone.
+Eigen::Vector3d jointPosition(const Skeleton& skeleton, const ModelPose& pose, int joint);
 
 struct FootPlanting {
   // One a joint, used for the feet: the height of the foot's joint when it stands, m, and how the foot lies

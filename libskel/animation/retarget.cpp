@@ -50,7 +50,7 @@ double canonicalShare(const Clip& clip, double time_s) {
   return skel::smoothStep(std::min(time_s, clip.duration_s() - time_s) / clip.lead_s);
 }
 
-// One moment of the clip on the drawn skeleton.
+// Moments of the clip on the drawn skeleton.
 struct Retargeter {
   const Skeleton& skeleton;
   std::vector<bool> pointed;            // joints whose bone follows the canonical one
@@ -61,6 +61,7 @@ struct Retargeter {
   Quaterniond figure_from_clip = Quaterniond::Identity();  // about the vertical
   std::vector<Vector3d> bones;                             // of pointed joints, canonical
   std::vector<Vector3d> ahead, behind;  // what is added for each unit that it points at the viewer, or away
+  std::vector<Quaterniond> undone;      // the whole `turns`, back
 
   // How each joint turns from its parent, and from the canonical figure.
   struct Motion {
@@ -79,25 +80,36 @@ struct Retargeter {
     return motion;
   }
 
-  // Rotations to the model frame.
-  std::vector<Quaterniond> globals(const Pose& canonical, double share) const {
-    const std::size_t count = skeleton.joints.size();
-    const auto [locals, motion] = motionOf(canonical);
-    std::vector<Quaterniond> result(count);
-    std::vector<double> swung(count, 0);
-    for (std::size_t j = 0; j < count; ++j) {
-      const int parent = skeleton.joints[j].parent;
-      const double up = raised[j].isZero() ? 1 : smoothStep(-0.2, 0.6, (motion[j] * raised[j]).y());
-      swung[j] = up * swing[j] + (parent < 0 ? 0 : swung[parent]);
-      if (pointed[j]) {
-        const Quaterniond turn = aboutZ(swung[j] * share) * motion[j];
-        const Vector3d bone = turn * bones[j];
-        const Vector3d seen = bone + share * bone.z() * (bone.z() > 0 ? ahead : behind)[j];
-        result[j] = shortestTurn(bone, seen) * turn * turns[j].share(share).conjugate();
-      } else
-        result[j] = parent < 0 ? locals[j] : result[parent] * locals[j];
+  // The joint's rotation to the model frame; `globals`: its parent's.
+  Quaterniond global(const Motion& motion, double share, std::size_t joint,
+                     const std::vector<Quaterniond>& globals) const {
+    if (!pointed[joint]) {
+      const int parent = skeleton.joints[joint].parent;
+      return parent < 0 ? motion.locals[joint] : globals[std::size_t(parent)] * motion.locals[joint];
     }
+    const double swung = swungAt(motion, int(joint));
+    const Quaterniond turn =
+        swung == 0 ? motion.globals[joint] : aboutZ(swung * share) * motion.globals[joint];
+    const Vector3d bone = turn * bones[joint];
+    const Vector3d seen = bone + share * bone.z() * (bone.z() > 0 ? ahead : behind)[joint];
+    return shortestTurn(bone, seen) * turn *
+           (share == 1 ? undone[joint] : turns[joint].share(share).conjugate());
+  }
+  std::vector<Quaterniond> globals(const Motion& motion, double share) const {
+    std::vector<Quaterniond> result(skeleton.joints.size());
+    for (std::size_t j = 0; j < result.size(); ++j) result[j] = global(motion, share, j, result);
     return result;
+  }
+
+ private:
+  double swungAt(const Motion& motion, int joint) const {
+    double swung = 0;
+    for (; joint >= 0; joint = skeleton.joints[joint].parent)
+      if (swing[joint] != 0)
+        swung +=
+            swing[joint] *
+            (raised[joint].isZero() ? 1 : smoothStep(-0.2, 0.6, (motion.globals[joint] * raised[joint]).y()));
+    return swung;
   }
 };
 
@@ -231,8 +243,12 @@ bool comesTowardsViewer(const FigureShape& shape, const Clip& clip, const Retarg
   return clip.frame == ClipFrame::kBody && shape.looks != 0 && shape.yaw_rad == 0 && !options.aslant;
 }
 
-using ClipMoments =
-    std::vector<std::pair<Pose, double>>;  // with the share of the drawn pose that is taken back
+struct ClipMoment {
+  Retargeter::Motion motion;
+  Vector3d root_translation;  // in heights
+  double share;               // of the drawn pose that is taken back
+};
+using ClipMoments = std::vector<ClipMoment>;
 
 // Whether bones, all arms' or all legs', rather move towards the viewer than in the picture: 0…1. As H. J.
 // Smith et al., "A method for animating children's drawings of the human figure" (2023), look at each group
@@ -243,9 +259,8 @@ double shareAside(const Retargeter& retargeter, const ClipMoments& moments,
   constexpr double kFront = 0.4, kSide = 0.6;  // shares of what moves towards the viewer
   double towards = 0, all = 0;
   for (std::size_t k = 0; k < moments.size(); k += 1 + moments.size() / kEnough) {
-    const std::vector<Quaterniond> turns = retargeter.motionOf(moments[k].first).globals;
     for (const std::size_t j : joints) {
-      const Vector3d bone = turns[j] * retargeter.bones[j];
+      const Vector3d bone = moments[k].motion.globals[j] * retargeter.bones[j];
       towards += bone.z() * bone.z();
       all += bone.z() * bone.z() + bone.x() * bone.x();
     }
@@ -443,6 +458,7 @@ std::vector<std::size_t> keysWithin(const Skeleton& skeleton, const std::vector<
   }
   // Leaves do not show in the joints' places: how far a hand would be off at its tip.
   constexpr double kTip_m = 0.1;
+  const double most_turn = std::tan(tolerance_m / kTip_m);  // of half the angle
   const auto near = [&](std::size_t from, std::size_t to, std::size_t k) {
     const double t = double(k - from) / double(to - from);
     ModelPose between;
@@ -450,7 +466,8 @@ std::vector<std::size_t> keysWithin(const Skeleton& skeleton, const std::vector<
     between.globals.resize(count);
     for (std::size_t j = 0; j < count; ++j) {
       const Quaterniond local = locals[from][j].slerp(t, locals[to][j]);
-      if (kTip_m * local.angularDistance(locals[k][j]) > 2 * tolerance_m) return false;
+      const Quaterniond off = local * locals[k][j].conjugate();
+      if (off.vec().norm() > most_turn * std::abs(off.w())) return false;
       const int parent = skeleton.joints[j].parent;
       between.globals[j] = parent < 0 ? local : between.globals[std::size_t(parent)] * local;
     }
@@ -476,12 +493,12 @@ std::vector<std::size_t> keysWithin(const Skeleton& skeleton, const std::vector<
 }
 
 // Seen from the front, the least turn of the joint's bone away from the trunk that keeps the part from `from`
-// to `to` of the bone between `begin` and `end`, in its lengths, off the head at all `moments`.
+// to `to` of the bone from there to `end`, in its lengths, off the head at all `moments`.
 struct Clearing {
-  int turned, begin, end;
+  int turned, end;
   double from, to;
 };
-double clearingSwing(Retargeter retargeter, const ClipMoments& moments, const Clearing& part,
+double clearingSwing(Retargeter& retargeter, const ClipMoments& moments, const Clearing& part,
                      double head_half_width_m) {
   const Skeleton& skeleton = retargeter.skeleton;
   const int head = skeleton.find("head"), top = skeleton.find("head_top");
@@ -492,19 +509,27 @@ double clearingSwing(Retargeter retargeter, const ClipMoments& moments, const Cl
   constexpr double kStep = kPi / 36;
   constexpr int kSteps = 15;  // no further than 75°
   constexpr std::size_t kEvery = 3;
+  // The joints that carry the head or the end, parents first.
+  std::vector<bool> carries(skeleton.joints.size(), false);
+  for (const int last : {head, part.end})
+    for (int j = skeleton.joints[last].parent; j >= 0; j = skeleton.joints[j].parent) carries[j] = true;
+  ModelPose at;
+  at.globals.resize(skeleton.joints.size());
   double best_swing = 0, best_clearance = -1e9;
   for (int step = 0; step <= kSteps; ++step) {
     retargeter.swing[part.turned] = away * step * kStep;
     double clearance = 1e9;
     for (std::size_t k = 0; k < moments.size(); k += kEvery) {
-      const auto& [pose, share] = moments[k];
+      const auto& [motion, root, share] = moments[k];
       if (share < 1) continue;
-      const std::vector<Vector3d> at = positions(skeleton, retargeter.globals(pose, share));
-      const Vector2d begin = at[part.begin].head<2>(), along = at[part.end].head<2>() - begin;
-      clearance =
-          std::min(clearance, distanceToSegment<Vector2d>(at[head].head<2>(), begin + part.from * along,
-                                                          begin + part.to * along) -
-                                  1.1 * radius);
+      for (std::size_t j = 0; j < carries.size(); ++j)
+        if (carries[j]) at.globals[j] = retargeter.global(motion, share, j, at.globals);
+      const Vector2d begin = jointPosition(skeleton, at, part.turned).head<2>(),
+                     along = jointPosition(skeleton, at, part.end).head<2>() - begin;
+      clearance = std::min(clearance,
+                           distanceToSegment<Vector2d>(jointPosition(skeleton, at, head).head<2>(),
+                                                       begin + part.from * along, begin + part.to * along) -
+                               1.1 * radius);
     }
     if (clearance > best_clearance) best_clearance = clearance, best_swing = retargeter.swing[part.turned];
     if (clearance >= 0) break;
@@ -523,11 +548,10 @@ void swingClearOfHead(Retargeter& retargeter, const ClipMoments& moments,
     if (retargeter.pointed[shoulder]) {
       retargeter.raised[shoulder] = canonical[shoulder];
       retargeter.swing[shoulder] =
-          clearingSwing(retargeter, moments, {shoulder, shoulder, elbow, 1, 1}, head_half_width_m);
+          clearingSwing(retargeter, moments, {shoulder, elbow, 1, 1}, head_half_width_m);
     }
     if (retargeter.pointed[elbow])
-      retargeter.swing[elbow] =
-          clearingSwing(retargeter, moments, {elbow, elbow, hand, 0, 1.35}, head_half_width_m);
+      retargeter.swing[elbow] = clearingSwing(retargeter, moments, {elbow, hand, 0, 1.35}, head_half_width_m);
   }
 }
 
@@ -681,6 +705,7 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
                         figure_from_clip,
                         canonical,
                         {},
+                        {},
                         {}};
   for (std::size_t j = 0; j < count; ++j) retargeter.pointed[j] = !canonical[j].isZero();
   // Seen from the side, limbs swing where they could else stay away.
@@ -689,6 +714,7 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
   holdArms(retargeter, shape, slack_rad);
   const double steps = holdLegs(retargeter, shape, clip.contacts, slack_rad);
   giveSlack(skeleton, slack_rad, shape.hang_rad, retargeter.turns);
+  for (const BoneTurn& turn : retargeter.turns) retargeter.undone.push_back(turn.share(1).conjugate());
 
   const float duration = clip.duration_s();
   const double most_keys = double(std::ceil(duration * options.rate_hz - 1e-3f)) + 1;
@@ -700,7 +726,9 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
   const ClipSampler sampler(clip, skeleton);
   for (int k = 0; k < keys; ++k) {
     poses[k].time_s = keys == 1 ? 0 : duration * float(k) / float(keys - 1);
-    moments.emplace_back(sampler.at(poses[k].time_s), canonicalShare(clip, poses[k].time_s));
+    const Pose pose = sampler.at(poses[k].time_s);
+    moments.push_back({retargeter.motionOf(pose), pose.root_translation.cast<double>(),
+                       canonicalShare(clip, poses[k].time_s)});
   }
   turnIntoPicture(shape, clip, options, moments, retargeter);
   if (options.clear_of_head) swingClearOfHead(retargeter, moments, canonical, shape.head_half_width_m);
@@ -725,23 +753,24 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
     }
     Pose still;
     still.rotations.assign(count, Eigen::Quaternionf::Identity());
-    stand = standing(skeleton, positions(skeleton, retargeter.globals(still, 1)), clip.contacts, planting);
+    stand = standing(skeleton, positions(skeleton, retargeter.globals(retargeter.motionOf(still), 1)),
+                     clip.contacts, planting);
   }
   const Vector3d ahead = figure_from_clip * Vector3d::UnitZ();
   for (int k = 0; k < keys; ++k) {
-    const auto& [pose, share] = moments[k];
-    poses[k].globals = retargeter.globals(pose, share);
+    const auto& [motion, root, share] = moments[k];
+    poses[k].globals = retargeter.globals(motion, share);
     poses[k].share = share;
     if (!moves_root) continue;
-    Vector3d offset = shape.height_m * pose.root_translation.cast<double>();
+    Vector3d offset = shape.height_m * root;
     // Who takes small steps rocks from foot to foot.
-    const Quaterniond roll(Eigen::AngleAxisd(-waddle_rad * share * double(pose.root_translation.x()), ahead));
+    const Quaterniond roll(Eigen::AngleAxisd(-waddle_rad * share * root.x(), ahead));
     for (Quaterniond& turn : poses[k].globals) turn = roll * turn;
     // Steps are as long as the legs; what is jumped is not.
     offset.x() *= sway;
     offset.z() *= stride;
     // Breath is no squat.
-    const double deep = smoothStep(0, 0.1, -double(pose.root_translation.y()));
+    const double deep = smoothStep(0, 0.1, -root.y());
     if (offset.y() < 0) offset.y() *= stride + deep * (sink - stride);
     offset = retargeter.figure_from_clip * offset;
     if (points) offset += share * offset.z() * retargeter.ahead[0];

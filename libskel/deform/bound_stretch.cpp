@@ -88,6 +88,7 @@ class Stretched {
       : mesh_(mesh), joints_(std::move(joints)), rest_(restTriangles(mesh)) {
     const std::size_t vertices = std::size_t(mesh.vertices.rows());
     posed_.resize(3 * Index(vertices), joints_[0].cols());
+    is_posed_.assign(vertices, 0);
     first_.assign(vertices + 1, 0);
     for (Index t = 0; t < mesh.triangles.rows(); ++t)
       for (int k = 0; k < 3; ++k) ++first_[std::size_t(mesh.triangles(t, k)) + 1];
@@ -102,17 +103,17 @@ class Stretched {
   // differ by `same` at least.
   std::vector<int> among(const std::vector<int>& changed, const JointWeights& weights, float same = kSame) {
     std::vector<char> is_near(rest_.size(), 0);
+    for (const int v : changed) is_posed_[std::size_t(v)] = 0;
     for (const int v : changed)
       for (int i = first_[std::size_t(v)]; i < first_[std::size_t(v) + 1]; ++i)
         is_near[std::size_t(triangles_[std::size_t(i)])] = 1;
     std::vector<int> near;
     for (int t = 0; t < int(is_near.size()); ++t)
       if (is_near[std::size_t(t)] && !isRigid(t, weights, same)) near.push_back(t);
-    std::vector<char> corner(std::size_t(mesh_.vertices.rows()), 0);
     for (const int t : near)
       for (int k = 0; k < 3; ++k)
-        if (char& seen = corner[std::size_t(mesh_.triangles(t, k))]; !seen)
-          seen = 1, pose(mesh_.triangles(t, k), weights);
+        if (char& posed = is_posed_[std::size_t(mesh_.triangles(t, k))]; !posed)
+          posed = 1, pose(mesh_.triangles(t, k), weights);
     std::erase_if(near, [&](int t) { return !isStretched(t); });
     return near;
   }
@@ -179,6 +180,7 @@ class Stretched {
   std::vector<MomentRows> joints_;
   std::vector<RestTriangle> rest_;
   MomentRows posed_;                    // three rows a vertex
+  std::vector<char> is_posed_;          // as its weights are now
   std::vector<int> first_, triangles_;  // of each vertex
   std::vector<Carrier> carriers_;
 };

@@ -302,7 +302,20 @@ SkinWeights ofCarriers(const SkinWeights& weights, const Skeleton& skeleton) {
   return carried;
 }
 
+double heightOf(const TriangleMesh& mesh) {
+  return double(mesh.vertices.col(1).maxCoeff() - mesh.vertices.col(1).minCoeff());
+}
+
+bool isBiped(const Skeleton& skeleton) { return skeleton.find("left_front_foot") < 0; }
+
 }  // namespace
+
+double figureYaw(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton) {
+  if (!isBiped(skeleton) || mesh.vertices.rows() == 0) return shapeOfBones(skeleton).yaw_rad;
+  const SkinWeights carried = ofCarriers(weights, skeleton);
+  double side = 1;
+  return bipedYaw({mesh, carried, skeleton}, heightOf(mesh), side);
+}
 
 FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton) {
   const auto& vertices = mesh.vertices;
@@ -314,10 +327,10 @@ FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, 
   shape.taken.assign(skeleton.joints.size(), 1);
   if (vertices.rows() == 0) return shape;
   const SkinWeights carried = ofCarriers(weights, skeleton);
-  shape.height_m = double(vertices.col(1).maxCoeff() - vertices.col(1).minCoeff());
+  shape.height_m = heightOf(mesh);
   const Flesh flesh{mesh, carried, skeleton};
   measureFeet(flesh, shape);
-  if (skeleton.find("left_front_foot") < 0) {
+  if (isBiped(skeleton)) {
     measureArms(flesh, shape);
     shape.head_half_width_m = headHalfWidth(flesh);
     double side = 1;

@@ -8,5 +8,7 @@ namespace skel {
 
 // From the mesh in its rest pose.
 FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton);
+// FigureShape::yaw_rad alone.
+double figureYaw(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton);
 
 }  // namespace skel

@@ -29,11 +29,6 @@ Matrix2d flat(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, Eigen:
   return edges;
 }
 
-double largestSingularValue(const Matrix2d& map) {
-  const double sum = map.squaredNorm(), det = map.determinant();
-  return std::sqrt((sum + std::sqrt(std::max(0., sum * sum - 4 * det * det))) / 2);
-}
-
 }  // namespace
 
 std::vector<RestTriangle> restTriangles(const TriangleMesh& mesh, Eigen::Index step) {
@@ -49,7 +44,15 @@ std::vector<RestTriangle> restTriangles(const TriangleMesh& mesh, Eigen::Index s
 
 double stretchOf(const RestTriangle& rest, const TriangleMesh& mesh, const Eigen::MatrixX3f& posed) {
   if (rest.inverse.isZero(0)) return 1;
-  return largestSingularValue(flat(posed, mesh, rest.triangle) * rest.inverse);
+  const auto corner = [&](int k) -> Vector3d {
+    return posed.row(mesh.triangles(rest.triangle, k)).transpose().cast<double>();
+  };
+  const Vector3d from = corner(0), u = corner(1) - from, v = corner(2) - from;
+  const double p = rest.inverse(0, 0), q = rest.inverse(0, 1), s = rest.inverse(1, 1);  // below is zero
+  // The map's columns: along the first edge at rest, and across it.
+  const Vector3d along = p * u, across = q * u + s * v;
+  const double a = along.squaredNorm(), b = along.dot(across), c = across.squaredNorm();
+  return std::sqrt((a + c + std::sqrt((a - c) * (a - c) + 4 * b * b)) / 2);
 }
 
 std::vector<ClipStretch> clipStretches(const TriangleMesh& mesh, const Skeleton& skeleton,

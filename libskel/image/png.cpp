@@ -174,8 +174,7 @@ Image decodePng(std::string_view bytes, const std::string& file) {
 std::string encodePng(const Image& image, int compression) {
   const bool opaque = (image.rgba.col(3) == 255).all();
   return encode(image.rgba.data(), image.width, image.height, 4,
-                opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, compression,
-                PNG_FILTER_SUB | PNG_FILTER_UP);
+                opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, compression, PNG_FILTER_UP);
 }
 
 std::string encodePng(const Plane8& plane, int compression) {

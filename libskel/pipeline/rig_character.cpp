@@ -384,7 +384,7 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
         computeSkinWeights(mesh, skinned.skeleton, options.skin_method, options.skin, joint_layers);
     if (inflated) {
       carryWornParts(mesh, body_plan, drawing.layers, skinned.skeleton, skinned.weights);
-      const double yaw_rad = measureFigure(mesh, skinned.weights, skinned.skeleton).yaw_rad;
+      const double yaw_rad = figureYaw(mesh, skinned.weights, skinned.skeleton);
       partLimbsInDepth(mesh, skinned.skeleton, skinned.weights, body_plan, yaw_rad, drawing.layers.far);
     }
     skinned.vertices = mesh.vertices;

@@ -36,7 +36,15 @@ struct Regions {
 
 }  // namespace
 
-void fillChambers(cv::Mat& barrier, const ChamberOptions& options) {
+void fillChambers(cv::Mat& picture, const ChamberOptions& options) {
+  const int long_side = std::max(picture.cols, picture.rows);
+  const double max_gap = options.max_gap * long_side;
+  // Beside all of the barrier it only gets wider; farther away than any gap that counts, all is outside.
+  const int beyond = static_cast<int>(max_gap) + 2;
+  const cv::Rect box = cv::boundingRect(picture);
+  if (box.empty()) return;
+  cv::Mat barrier = picture((box + cv::Size(2 * beyond, 2 * beyond) - cv::Point(beyond, beyond)) &
+                            cv::Rect({}, picture.size()));
   // A frame one pixel wide stands for the outside.
   cv::Mat open;
   cv::copyMakeBorder(barrier == 0, open, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(255));
@@ -44,19 +52,20 @@ void fillChambers(cv::Mat& barrier, const ChamberOptions& options) {
   cv::distanceTransform(open, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   const int w = distance.cols, h = distance.rows;
   const float* height = distance.ptr<float>();
-  const double max_gap = options.max_gap * std::max(barrier.cols, barrier.rows);
 
   // Pixels from the widest place to the narrowest, in steps of a quarter pixel (counting sort).
   constexpr float kStepsPerPixel = 4;
   const int pixel_count = w * h;
   const auto stepOf = [&](int p) { return static_cast<int>(height[p] * kStepsPerPixel); };
-  int max_step = 0;
-  for (int p = 0; p < pixel_count; ++p) max_step = std::max(max_step, stepOf(p));
+  double greatest = 0;
+  cv::minMaxLoc(distance, nullptr, &greatest);
+  const int max_step = static_cast<int>(static_cast<float>(greatest) * kStepsPerPixel);
   std::vector<int> begin(static_cast<std::size_t>(max_step) + 2, 0);
   for (int p = 0; p < pixel_count; ++p) ++begin[static_cast<std::size_t>(max_step - stepOf(p)) + 1];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<int> order(static_cast<std::size_t>(pixel_count));
+  std::vector<int> order(static_cast<std::size_t>(begin[static_cast<std::size_t>(max_step)]));
   for (int p = 0; p < pixel_count; ++p) {
+    if (height[p] == 0) continue;
     order[static_cast<std::size_t>(begin[static_cast<std::size_t>(max_step - stepOf(p))]++)] = p;
   }
 
@@ -68,7 +77,6 @@ void fillChambers(cv::Mat& barrier, const ChamberOptions& options) {
   for (int y = 0; y < h; ++y) region[y * w] = region[y * w + w - 1] = outside;
 
   for (const int p : order) {
-    if (height[p] == 0) break;
     if (region[p] != kNone) continue;
     int mine = kNone;
     for (const int step : {-w, -1, 1, w}) {
@@ -97,7 +105,7 @@ void fillChambers(cv::Mat& barrier, const ChamberOptions& options) {
 
   // A mended outline has the figure on one side and the outside on the other. What lies between limbs is
   // bordered by lines with the figure behind them, and stays outside however narrow the way in is.
-  const int reach = std::max(3, static_cast<int>(options.max_stroke * std::max(barrier.cols, barrier.rows)));
+  const int reach = std::max(3, static_cast<int>(options.max_stroke * long_side));
   std::vector<int> facing_outside(regions.parent.size(), 0), facing(regions.parent.size(), 0);
   for (int y = 1; y + 1 < h; ++y) {
     for (int x = 1; x + 1 < w; ++x) {

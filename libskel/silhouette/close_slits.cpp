@@ -7,16 +7,28 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "libskel/silhouette/components.h"
+
 namespace skel {
 namespace {
 
 constexpr double kNarrow = 0.006;  // half as wide, of the figure's long side
 constexpr int kLong = 16;          // its area, in squares of half its width
 
-cv::Mat within(const cv::Mat& mask, float reach_px) {
-  cv::Mat distance;
-  cv::distanceTransform(mask == 0, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  return distance <= reach_px;
+// What is no farther than `reach` px from the mask.
+cv::Mat within(const cv::Mat& mask, int reach) {
+  constexpr int kSmallDisc = 24;  // the work for each pixel is its area
+  if (reach > kSmallDisc) {
+    cv::Mat distance;
+    cv::distanceTransform(mask == 0, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    return distance <= reach;
+  }
+  cv::Mat disc(2 * reach + 1, 2 * reach + 1, CV_8U), grown;
+  for (int y = -reach; y <= reach; ++y)
+    for (int x = -reach; x <= reach; ++x)
+      disc.at<std::uint8_t>(reach + y, reach + x) = x * x + y * y <= reach * reach;
+  cv::dilate(mask, grown, disc);
+  return grown;
 }
 
 }  // namespace
@@ -29,14 +41,13 @@ void closeSlits(Plane8& figure) {
   cv::Mat framed;
   const int frame = reach + 1;
   cv::copyMakeBorder(view, framed, frame, frame, frame, frame, cv::BORDER_CONSTANT, cv::Scalar(0));
-  const auto reach_px = static_cast<float>(reach);
-  const cv::Mat added = ~within(~within(framed, reach_px), reach_px) & (framed == 0);
-  cv::Mat labels, stats, centres;
-  cv::connectedComponentsWithStats(added, labels, stats, centres, 8);
+  const cv::Mat added = ~within(~within(framed, reach), reach) & (framed == 0);
+  cv::Mat labels;
+  const std::vector<Component> slits = componentsOf(added, 8, labels);
   for (int y = 0; y < view.rows; ++y)
     for (int x = 0; x < view.cols; ++x) {
-      const int label = labels.at<int>(y + frame, x + frame);
-      if (label > 0 && stats.at<int>(label, cv::CC_STAT_AREA) >= kLong * reach * reach)
+      const int slit = labels.at<int>(y + frame, x + frame);
+      if (slits[static_cast<std::size_t>(slit)].area >= kLong * reach * reach)
         view.at<std::uint8_t>(y, x) = 255;
     }
 }

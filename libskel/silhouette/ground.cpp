@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libskel/silhouette/chambers.h"
+#include "libskel/silhouette/components.h"
 
 namespace skel {
 namespace {
@@ -22,11 +23,13 @@ struct Part {
   cv::Rect box;
 };
 
-Part partOf(const cv::Mat& stats, int label) {
-  const int* s = stats.ptr<int>(label);
-  return {label,
-          s[cv::CC_STAT_AREA],
-          {s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH], s[cv::CC_STAT_HEIGHT]}};
+// Those of a mask, by label.
+std::vector<Part> partsOf(const cv::Mat& mask, int connectivity, cv::Mat& labels) {
+  std::vector<Part> parts;
+  for (const Component& c : componentsOf(mask, connectivity, labels))
+    if (c.area > 0)
+      parts.push_back({static_cast<int>(parts.size()) + 1, c.area, {c.x, c.y, c.width, c.height}});
+  return parts;
 }
 
 // y = height + slope·x through the middle of the pixels of the parts (least squares).
@@ -54,22 +57,18 @@ Level levelThrough(const cv::Mat& labels, const std::vector<Part>& parts) {
 }  // namespace
 
 bool dropGround(cv::Mat& figure, const cv::Mat& lines) {
-  cv::Mat labels, stats, centroids;
-  int count = cv::connectedComponentsWithStats(figure, labels, stats, centroids, 8, CV_32S);
-  if (count < 2) return false;
-  Part whole = partOf(stats, 1);
-  for (int label = 2; label < count; ++label) {
-    if (stats.at<int>(label, cv::CC_STAT_AREA) > whole.area) whole = partOf(stats, label);
-  }
+  cv::Mat labels;
+  const std::vector<Part> figures = partsOf(figure, 8, labels);
+  if (figures.empty()) return false;
+  const Part whole = *std::max_element(figures.begin(), figures.end(),
+                                       [](const Part& a, const Part& b) { return a.area < b.area; });
 
   const int thickest = std::max(3, cvRound(kThickest * std::max(figure.cols, figure.rows)));
   cv::Mat bulk;
   const cv::Size size(1, thickest + 2);  // what is higher than a line is none
   cv::morphologyEx(figure, bulk, cv::MORPH_OPEN, cv::Mat::ones(size, CV_8U));
-  count = cv::connectedComponentsWithStats(figure & ~bulk, labels, stats, centroids, 8, CV_32S);
   std::vector<Part> flat;
-  for (int label = 1; label < count; ++label) {
-    const Part part = partOf(stats, label);
+  for (const Part& part : partsOf(figure & ~bulk, 8, labels)) {
     if (part.box.width < 4 * thickest / 2 || part.box.height > thickest + kFlattest * part.box.width ||
         part.box.y < whole.box.y + kLowest * whole.box.height || (part.box & whole.box).area() == 0)
       continue;
@@ -111,20 +110,18 @@ bool dropGround(cv::Mat& figure, const cv::Mat& lines) {
   // a part of the figure that has the line for a sole.
   const cv::Mat inner = figure & ~lines & ~band;
   const cv::Mat closed = figure & ~cut & ~band;
-  count = cv::connectedComponentsWithStats(closed, labels, stats, centroids, 4, CV_32S);
   const auto standsIn = [&](int x0, int x1, int y0, int y1) {
     const cv::Rect place = cv::Rect(cv::Point(x0, y0), cv::Point(x1, y1)) & cv::Rect({}, figure.size());
     return place.area() > 0 && cv::countNonZero(inner(place)) >= 2 * thickest;
   };
   cv::Mat kept = cv::Mat::zeros(figure.size(), CV_8U);
-  for (int label = 1; label < count; ++label) {
-    const Part part = partOf(stats, label);
+  for (const Part& part : partsOf(closed, 4, labels)) {
     const int low = part.box.br().y, high = low - std::max(2 * thickest, part.box.height / 4);
     const bool at_line = std::abs(low - level.at(part.box.x + part.box.width / 2.0)) < 2 * half;
     if (!at_line || part.area < thickest * thickest) continue;
     const bool between = standsIn(whole.box.x, part.box.x, high, low) &&
                          standsIn(part.box.br().x, whole.box.br().x, high, low);
-    if (!between) kept |= labels == label;
+    if (!between) kept |= labels == part.label;
   }
   cv::Mat soles;
   cv::dilate(kept | (cut & ~lines), soles, cv::Mat::ones(4 * half + 1, 1, CV_8U));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "embedded/loop_net_weights.h"
+#include "libskel/silhouette/components.h"
 
 namespace skel {
 namespace {
@@ -25,11 +26,6 @@ double greatest(const cv::Mat& values, const cv::Mat& where = {}) {
   return most;
 }
 
-cv::Rect boxOf(const cv::Mat& stats, int label) {
-  const int* s = stats.ptr<int>(label);
-  return {s[cv::CC_STAT_LEFT], s[cv::CC_STAT_TOP], s[cv::CC_STAT_WIDTH], s[cv::CC_STAT_HEIGHT]};
-}
-
 double shareOf(const cv::Mat& part, const cv::Mat& whole) {
   return cv::countNonZero(part & whole) / std::max(1., static_cast<double>(cv::countNonZero(whole)));
 }
@@ -37,52 +33,56 @@ double shareOf(const cv::Mat& part, const cv::Mat& whole) {
 }  // namespace
 
 std::vector<Loop> findLoops(const Enclosed& enclosed) {
-  const cv::Mat& figure = enclosed.figure;
+  const cv::Rect picture({}, enclosed.figure.size()), in_picture = cv::boundingRect(enclosed.figure);
+  if (in_picture.empty()) return {};
+  const int stroke = std::max(2, cvRound(kStroke * std::max(picture.width, picture.height)));
+  const auto around = [&](const cv::Rect& box) {
+    return box + cv::Size(4 * stroke, 4 * stroke) - cv::Point(2 * stroke, 2 * stroke);
+  };
+  // All that is looked at; places are of this from here on.
+  const cv::Rect seen = around(in_picture) & picture, figure_box = in_picture - seen.tl();
+  const cv::Mat figure = enclosed.figure(seen), ink = enclosed.drawn(seen),
+                difference = enclosed.difference(seen);
   const double area = cv::countNonZero(figure);
-  if (area == 0) return {};
-  const cv::Mat open = figure & ~enclosed.drawn;
-  cv::Mat labels, stats, centroids;
-  const int count = cv::connectedComponentsWithStats(open, labels, stats, centroids, 4, CV_32S);
+  const cv::Mat open = figure & ~ink;
+  cv::Mat labels;
+  const std::vector<Component> parts = componentsOf(open, 4, labels);
   std::vector<int> large;
   double loop_area = 0;
-  for (int label = 1; label < count; ++label) {
-    const double own = stats.at<int>(label, cv::CC_STAT_AREA);
+  for (int label = 1; label < static_cast<int>(parts.size()); ++label) {
+    const double own = parts[static_cast<std::size_t>(label)].area;
     if (own > kLeastLoop * area) large.push_back(label), loop_area += own;
   }
   if (large.empty()) return {};
 
-  const cv::Rect figure_box = cv::boundingRect(figure), picture({}, figure.size());
-  const int stroke = std::max(2, cvRound(kStroke * std::max(figure.cols, figure.rows)));
   cv::Mat depth, width;  // px to what is not the figure, and to what is not open
   cv::distanceTransform(figure, depth, cv::DIST_L2, 3);
   cv::distanceTransform(open, width, cv::DIST_L2, 3);
-  const double deepest = greatest(depth), widest = greatest(width), drawn = shareOf(enclosed.drawn, figure);
+  const double deepest = greatest(depth), widest = greatest(width), drawn = shareOf(ink, figure);
   std::vector<Loop> loops;
   for (const int label : large) {
-    const cv::Rect box = boxOf(stats, label);
-    const cv::Rect near =
-        (box + cv::Size(4 * stroke, 4 * stroke) - cv::Point(2 * stroke, 2 * stroke)) & picture;
+    const Component& part = parts[static_cast<std::size_t>(label)];
+    const cv::Rect box(part.x, part.y, part.width, part.height);
+    const cv::Rect near = around(box) & cv::Rect({}, seen.size());
     const cv::Mat region = labels(near) == label;
     cv::Mat away;
     cv::distanceTransform(~region, away, cv::DIST_L2, 3);
-    const cv::Mat around = (away > 0) & (away <= stroke), beyond = (away > stroke) & (away <= 2 * stroke);
-    const double own = stats.at<int>(label, cv::CC_STAT_AREA), half = greatest(width(near), region);
+    const cv::Mat beside = (away > 0) & (away <= stroke), beyond = (away > stroke) & (away <= 2 * stroke);
+    const double own = part.area, half = greatest(width(near), region);
     Loop loop;
     for (int y = 0; y < region.rows; ++y)
       for (int x = 0; x < region.cols; ++x)
-        if (region.at<std::uint8_t>(y, x)) loop.pixels.push_back((near.y + y) * figure.cols + near.x + x);
+        if (region.at<std::uint8_t>(y, x))
+          loop.pixels.push_back((seen.y + near.y + y) * picture.width + seen.x + near.x + x);
     loop.inputs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(kLoopInputs.size()));
     loop.inputs.head(loop.inputs.size() - kSeenInputs) << std::log(own / area), std::log(half * half / area),
-        half * half / own, own / box.area(),
-        std::abs((centroids.at<double>(label, 0) - figure_box.x) / figure_box.width - .5),
-        (centroids.at<double>(label, 1) - figure_box.y) / figure_box.height,
-        static_cast<double>(box.width) / figure_box.width,
+        half * half / own, own / box.area(), std::abs((part.centre_x - figure_box.x) / figure_box.width - .5),
+        (part.centre_y - figure_box.y) / figure_box.height, static_cast<double>(box.width) / figure_box.width,
         static_cast<double>(box.height) / figure_box.height, greatest(depth(near), region) / deepest,
         half / widest, drawn, std::log(static_cast<double>(large.size())), loop_area / area,
-        shareOf(depth(near) <= stroke, around), shareOf(figure(near), beyond),
-        shareOf(enclosed.drawn(near), beyond), shareOf(open(near), beyond),
-        shareOf(enclosed.drawn(near), around),
-        cv::mean(enclosed.difference(near), region)[0] / std::max(1., enclosed.different),
+        shareOf(depth(near) <= stroke, beside), shareOf(figure(near), beyond), shareOf(ink(near), beyond),
+        shareOf(open(near), beyond), shareOf(ink(near), beside),
+        cv::mean(difference(near), region)[0] / std::max(1., enclosed.different),
         static_cast<double>(enclosed.colored_ground), static_cast<double>(enclosed.paper);
     loops.push_back(std::move(loop));
   }

@@ -6,27 +6,19 @@
 #include <opencv2/imgproc.hpp>
 
 #include "libskel/core/check.h"
+#include "libskel/silhouette/components.h"
 
 namespace skel {
 namespace {
 
-struct LargestPiece {
-  double area = 0;  // px
-  cv::Rect box;
-};
-
-LargestPiece largestPiece(const cv::Mat& mask) {
-  cv::Mat labels, stats, centroids;
-  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centroids, 4);
-  LargestPiece out;
-  for (int i = 1; i < count; ++i) {
-    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
-    if (area <= out.area) continue;
-    out.area = area;
-    out.box = {stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
-               stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT)};
-  }
-  return out;
+Component largestPiece(const cv::Mat& mask) {
+  const cv::Rect place = cv::boundingRect(mask);
+  if (place.empty()) return {};
+  cv::Mat labels;
+  const std::vector<Component> pieces = componentsOf(mask(place), 4, labels);
+  Component largest = pieces[static_cast<std::size_t>(largestOf(pieces))];
+  largest.x += place.x, largest.y += place.y;
+  return largest;
 }
 
 // Of `mask`, what is thicker than a strip along its edge.
@@ -73,7 +65,7 @@ MaskEvidence evidenceOfMask(const Plane8& mask, const SeenPage& page) {
     at_border += cv::countNonZero(side);
 
   MaskEvidence out;
-  const LargestPiece doubtful = largestPiece(not_seen);
+  const Component doubtful = largestPiece(not_seen);
   out.inputs.resize(static_cast<Eigen::Index>(kMaskInputs.size()));
   const auto damped = [](double share) { return std::log10(share + 1e-3); };
   out.inputs << both / std::max(1e-9, area + seen - both), damped(cv::countNonZero(not_seen) / area),
@@ -84,7 +76,7 @@ MaskEvidence evidenceOfMask(const Plane8& mask, const SeenPage& page) {
       page.ruled, page.soft;
   if (doubtful.area > 0) {
     const double x = double(mask.cols()) / figure.cols, y = double(mask.rows()) / figure.rows;
-    out.doubtful = {doubtful.box.x * x, doubtful.box.y * y, doubtful.box.width * x, doubtful.box.height * y};
+    out.doubtful = {doubtful.x * x, doubtful.y * y, doubtful.width * x, doubtful.height * y};
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libskel/silhouette/chambers.h"
+#include "libskel/silhouette/components.h"
 #include "libskel/silhouette/strokes.h"
 #include "libskel/silhouette/trim.h"
 
@@ -40,13 +41,8 @@ double linedShare(const cv::Mat& figure, const cv::Mat& lines) {
 }
 
 cv::Mat largestPart(const cv::Mat& mask) {
-  cv::Mat labels, stats, centroids;
-  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centroids, 4, CV_32S);
-  int largest = 0;
-  for (int label = 1; label < count; ++label) {
-    const int area = stats.at<int>(label, cv::CC_STAT_AREA);
-    if (largest == 0 || area > stats.at<int>(largest, cv::CC_STAT_AREA)) largest = label;
-  }
+  cv::Mat labels;
+  const int largest = largestOf(componentsOf(mask, 4, labels));
   return largest == 0 ? cv::Mat(cv::Mat::zeros(mask.size(), CV_8U)) : cv::Mat(labels == largest);
 }
 

@@ -76,51 +76,61 @@ struct Side {
 
 class Finder {
  public:
-  Finder(const cv::Mat& lab, const cv::Vec3f& paper) : colors_(inFullLight(lab, paper[0])), paper_(paper) {
+  Finder(const cv::Mat& lab, const cv::Vec3f& paper)
+      : colors_(inFullLight(lab, paper[0])), is_paper_(lab.size(), CV_8U) {
     cv::blur(colors_, colors_, cv::Size(3, 3));
+    for (int y = 0; y < lab.rows; ++y)
+      for (int x = 0; x < lab.cols; ++x) {
+        const cv::Vec3f& c = colors_.at<cv::Vec3f>(y, x);
+        is_paper_.at<std::uint8_t>(y, x) =
+            c[0] > 0.4f * paper[0] && std::hypot(c[1] - (paper[1] - 128), c[2] - (paper[2] - 128)) < 16;
+      }
   }
 
-  Side measured(double rho, double theta, double sign) const {
+  // Nothing if it is not so strong.
+  std::optional<Side> measured(double rho, double theta, double sign, double least_strength) {
     Side side;
     side.normal = sign * Eigen::Vector2d(std::cos(theta), std::sin(theta));
     side.direction = {-side.normal.y(), side.normal.x()};
     const double length = std::hypot(colors_.cols, colors_.rows);
     side.base = sign * rho * side.normal - length * side.direction;
-    side.good = side.inside = {0};
+    rims_.clear(), papers_.clear();
     double run = 0;
     for (double t = 0; t < 2 * length; t += kStep_px) {
       const Eigen::Vector2d p = side.base + t * side.direction;
-      const cv::Vec3f *within = color(p + kReach_px * side.normal),
-                      *without = color(p - kReach_px * side.normal);
-      const bool seen = within != nullptr && without != nullptr;
-      const bool paper = within != nullptr && isPaper(*within);
-      const bool rim = seen && paper && isOther(*within, *without);
-      side.good.push_back(side.good.back() + rim);
-      side.inside.push_back(side.inside.back() + paper);
-      if (!seen) continue;
+      const std::optional<cv::Point> within = pixel(p + kReach_px * side.normal),
+                                     without = pixel(p - kReach_px * side.normal);
+      const bool paper = within && is_paper_.at<std::uint8_t>(*within);
+      const bool rim =
+          paper && without && isOther(colors_.at<cv::Vec3f>(*within), colors_.at<cv::Vec3f>(*without));
+      rims_.push_back(rim), papers_.push_back(paper);
+      if (!within || !without) continue;
       run = std::max(0.0, run + (rim ? 1.0 : -0.8));
       side.strength = std::max(side.strength, run);
     }
+    if (side.strength < least_strength) return {};
+    side.good = sumsOf(rims_), side.inside = sumsOf(papers_);
     return side;
   }
 
  private:
-  const cv::Vec3f* color(const Eigen::Vector2d& p) const {
+  std::optional<cv::Point> pixel(const Eigen::Vector2d& p) const {
     const int x = cvRound(p.x()), y = cvRound(p.y());
-    if (x < 0 || y < 0 || x >= colors_.cols || y >= colors_.rows) return nullptr;
-    return colors_.ptr<cv::Vec3f>(y) + x;
-  }
-  bool isPaper(const cv::Vec3f& c) const {
-    return c[0] > 0.4f * paper_[0] && std::hypot(c[1] - (paper_[1] - 128), c[2] - (paper_[2] - 128)) < 16;
+    if (x < 0 || y < 0 || x >= colors_.cols || y >= colors_.rows) return {};
+    return cv::Point(x, y);
   }
   static bool isOther(const cv::Vec3f& within, const cv::Vec3f& without) {
     const float darker = within[0] - without[0];
-    const float chroma = std::hypot(within[1] - without[1], within[2] - without[2]);
-    return darker > 14 || (chroma > 12 && darker > -20);
+    return darker > 14 || (darker > -20 && std::hypot(within[1] - without[1], within[2] - without[2]) > 12);
+  }
+  static std::vector<int> sumsOf(const std::vector<std::uint8_t>& places) {
+    std::vector<int> sums = {0};
+    for (const std::uint8_t place : places) sums.push_back(sums.back() + place);
+    return sums;
   }
 
-  cv::Mat colors_;
-  cv::Vec3f paper_;
+  cv::Mat colors_, is_paper_;
+  std::vector<std::uint8_t> rims_, papers_;  // of the places along a line
 };
 
 Eigen::Vector2d crossing(const Side& a, const Side& b) {
@@ -166,13 +176,13 @@ std::optional<PageCorners> findPage(const cv::Mat& lab) {
   constexpr std::size_t kMostMeasured = 1500;
   if (lines.size() > kMostMeasured) lines.resize(kMostMeasured);
 
-  const Finder finder(small, *paper);
+  Finder finder(small, *paper);
   std::vector<Side> sides;
   const double least_strength = 0.25 * std::min(small.cols, small.rows) / kStep_px;
   for (const cv::Vec2f& line : lines) {
     for (const double sign : {1.0, -1.0}) {
-      Side side = finder.measured(line[0], line[1], sign);
-      if (side.strength >= least_strength) sides.push_back(std::move(side));
+      std::optional<Side> side = finder.measured(line[0], line[1], sign, least_strength);
+      if (side) sides.push_back(std::move(*side));
     }
   }
   std::stable_sort(sides.begin(), sides.end(),

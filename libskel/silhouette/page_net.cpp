@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "libskel/core/check.h"
+#include "libskel/silhouette/components.h"
 
 namespace skel {
 namespace {
@@ -72,14 +73,10 @@ void encodePage(const cv::Mat& rgb, std::vector<float>& input) {
 
 cv::Mat figureProbability(const PageNet& net, const cv::Mat& rgb) {
   cv::Mat probability = probabilityAt(net, rgb);
-  cv::Mat labels, stats, centres;
-  const int count = cv::connectedComponentsWithStats(probability > .5f, labels, stats, centres, 8);
-  int best = 0;
-  for (int i = 1; i < count; ++i)
-    if (best == 0 || stats.at<int>(i, cv::CC_STAT_AREA) > stats.at<int>(best, cv::CC_STAT_AREA)) best = i;
-  if (best == 0) return probability;
-  const cv::Rect box(stats.at<int>(best, cv::CC_STAT_LEFT), stats.at<int>(best, cv::CC_STAT_TOP),
-                     stats.at<int>(best, cv::CC_STAT_WIDTH), stats.at<int>(best, cv::CC_STAT_HEIGHT));
+  cv::Mat labels;
+  const std::vector<Component> parts = componentsOf(probability > .5f, 8, labels);
+  const Component& box = parts[static_cast<std::size_t>(largestOf(parts))];
+  if (box.area == 0) return probability;
   const int margin = cvRound(.25 * std::max(box.width, box.height));
   const cv::Rect window =
       cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &

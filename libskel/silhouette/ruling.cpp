@@ -34,18 +34,29 @@ cv::Mat thinDarkness(const cv::Mat& rgb) {
   return dark;
 }
 
+// Darkness on every column of the picture, a row each.
+cv::Mat columnsOf(const cv::Mat& dark) {
+  cv::Mat columns;
+  cv::transpose(dark, columns);
+  columns.convertTo(columns, CV_32F);
+  return columns;
+}
+
 // Mean darkness of the strip from x0 to x1 along each line of this slope, by its height at the strip's
 // middle.
-std::vector<float> profile(const cv::Mat& dark, int x0, int x1, double slope) {
-  const int h = dark.rows, middle = (x0 + x1) / 2;
+std::vector<float> profile(const cv::Mat& columns, int x0, int x1, double slope) {
+  using Row = Eigen::Array<float, 1, Eigen::Dynamic>;
+  const int h = columns.cols, middle = (x0 + x1) / 2;
   std::vector<float> sum(static_cast<std::size_t>(h), 0);
+  Eigen::Map<Row> sums(sum.data(), h);
   int count = 0;
   for (int x = x0; x < x1; x += 2, ++count) {
-    const int shift = cvRound(slope * (x - middle));
-    for (int y = std::max(0, -shift); y < std::min(h, h - shift); ++y)
-      sum[static_cast<std::size_t>(y)] += dark.at<std::uint8_t>(y + shift, x);
+    const int shift = cvRound(slope * (x - middle)), rows = h - std::abs(shift);
+    if (rows <= 0) continue;
+    const Eigen::Map<const Row> column(columns.ptr<float>(x), h);
+    sums.segment(std::max(0, -shift), rows) += column.segment(std::max(0, shift), rows);
   }
-  for (float& s : sum) s /= static_cast<float>(std::max(1, count));
+  sums /= static_cast<float>(std::max(1, count));
   return sum;
 }
 
@@ -99,14 +110,15 @@ bool evenlySpaced(const std::vector<Line>& lines, int height) {
 }
 
 // Lines that run through the picture from left to right.
-std::vector<Line> linesIn(const cv::Mat& dark) {
-  const int w = dark.cols;
+std::vector<Line> linesIn(const cv::Mat& columns) {
+  const int w = columns.rows;
   const auto edge = [&](int strip) { return w * strip / kStrips; };
   double best_slope = 0, most = -1;
   for (double slope = -kSteepest; slope <= kSteepest + 1e-9; slope += kSlopeStep) {
     double sum = 0;
     // A few lines of a drawing are strong, those of paper are many.
-    for (int s = 0; s < kStrips; s += 2) sum += std::sqrt(energy(profile(dark, edge(s), edge(s + 1), slope)));
+    for (int s = 0; s < kStrips; s += 2)
+      sum += std::sqrt(energy(profile(columns, edge(s), edge(s + 1), slope)));
     if (sum > most) {
       most = sum;
       best_slope = slope;
@@ -119,7 +131,7 @@ std::vector<Line> linesIn(const cv::Mat& dark) {
     std::vector<float> best;
     double strongest = -1;
     for (int i = -2; i <= 2; ++i) {
-      std::vector<float> sums = profile(dark, edge(s), edge(s + 1), best_slope + i * kSlopeStep);
+      std::vector<float> sums = profile(columns, edge(s), edge(s + 1), best_slope + i * kSlopeStep);
       const double e = energy(sums);
       if (e <= strongest) continue;
       strongest = e;
@@ -171,15 +183,14 @@ std::vector<Line> linesIn(const cv::Mat& dark) {
       lines.push_back(std::move(line));
     }
   }
-  if (evenlySpaced(lines, dark.rows)) return lines;
+  if (evenlySpaced(lines, columns.cols)) return lines;
   std::erase_if(lines, [](const Line& line) { return line.seen < kStrips - 1; });
   return lines;
 }
 
 // Erases level lines and returns them.
 std::vector<RuledLine> eraseLevel(cv::Mat& rgb) {
-  const cv::Mat dark = thinDarkness(rgb);
-  const std::vector<Line> lines = linesIn(dark);
+  const std::vector<Line> lines = linesIn(columnsOf(thinDarkness(rgb)));
   if (lines.empty()) return {};
   cv::Mat closed;
   cv::morphologyEx(rgb, closed, cv::MORPH_CLOSE, cv::Mat::ones(kThickest, 1, CV_8U));

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "libskel/silhouette/components.h"
 #include "libskel/silhouette/levels.h"
 #include "libskel/silhouette/strokes.h"
 
@@ -94,19 +95,18 @@ void dropShadowEdges(cv::Mat& edges, const cv::Mat& dx, const cv::Mat& dy) {
       if (kMaxChromaShare * std::max(step[1], step[2]) < step[0]) out[x] = step[0];
     }
   }
-  cv::Mat labels, stats, centroids;
-  const int count = cv::connectedComponentsWithStats(steepness > 0, labels, stats, centroids, 8, CV_32S);
+  cv::Mat labels;
+  const std::vector<Component> lines = componentsOf(steepness > 0, 8, labels);
   constexpr int kMargin = 3;
   int longest = 0, length = std::max(edges.cols, edges.rows) / 10;
-  for (int label = 1; label < count; ++label) {
-    const int* s = stats.ptr<int>(label);
-    const int left = s[cv::CC_STAT_LEFT], top = s[cv::CC_STAT_TOP];
-    const int width = s[cv::CC_STAT_WIDTH], height = s[cv::CC_STAT_HEIGHT];
-    const bool ends_at_border = left < kMargin || top < kMargin || left + width > edges.cols - kMargin ||
-                                top + height > edges.rows - kMargin;
-    if (!ends_at_border || std::max(width, height) < length) continue;
+  for (int label = 1; label < static_cast<int>(lines.size()); ++label) {
+    const Component& box = lines[static_cast<std::size_t>(label)];
+    const bool ends_at_border = box.x < kMargin || box.y < kMargin ||
+                                box.x + box.width > edges.cols - kMargin ||
+                                box.y + box.height > edges.rows - kMargin;
+    if (!ends_at_border || std::max(box.width, box.height) < length) continue;
     longest = label;
-    length = std::max(width, height);
+    length = std::max(box.width, box.height);
   }
   if (longest == 0) return;
   std::vector<float> steps;

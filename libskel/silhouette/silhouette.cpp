@@ -123,10 +123,14 @@ struct AlphaMask {
 
 AlphaMask alphaMask(const Image& image, std::optional<double> least = std::nullopt) {
   AlphaMask out;
-  const int strongest = image.rgba.col(3).maxCoeff();
+  int weakest = 255, strongest = 0;
+  for (Eigen::Index i = 0; i < image.rgba.rows(); ++i) {
+    weakest = std::min<int>(weakest, image.rgba(i, 3));
+    strongest = std::max<int>(strongest, image.rgba(i, 3));
+  }
   const int threshold =
       std::max(1, least ? int(std::lround(255 * *least)) : std::min(128, (strongest + 1) / 2));
-  if (image.rgba.col(3).minCoeff() >= threshold) return out;
+  if (weakest >= threshold) return out;
   out.opaque = Plane8(image.height, image.width);
   std::int64_t area = 0;
   int left = image.width, right = 0, top = image.height, bottom = 0;

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "libskel/silhouette/components.h"
 #include "libskel/silhouette/simple_point.h"
 
 namespace skel {
@@ -44,9 +45,9 @@ bool touchesBorder(const cv::Mat& figure) {
 void dropBorderStrips(cv::Mat& figure) {
   const int w = figure.cols, h = figure.rows;
   if (!touchesBorder(figure)) return;
-  cv::Mat labels, stats, centroids;
-  const int count = cv::connectedComponentsWithStats(figure, labels, stats, centroids, 4, CV_32S);
-  std::vector<int> contact(static_cast<std::size_t>(count), 0);
+  cv::Mat labels;
+  const std::vector<Component> parts = componentsOf(figure, 4, labels);
+  std::vector<int> contact(parts.size(), 0);
   for (int x = 0; x < w; ++x) {
     ++contact[static_cast<std::size_t>(labels.at<int>(0, x))];
     ++contact[static_cast<std::size_t>(labels.at<int>(h - 1, x))];
@@ -60,10 +61,8 @@ void dropBorderStrips(cv::Mat& figure) {
     const int* label = labels.ptr<int>(y);
     std::uint8_t* row = figure.ptr(y);
     for (int x = 0; x < w; ++x) {
-      if (label[x] > 0 && contact[static_cast<std::size_t>(label[x])] >
-                              kStrip * std::sqrt(stats.at<int>(label[x], cv::CC_STAT_AREA))) {
-        row[x] = 0;
-      }
+      const auto part = static_cast<std::size_t>(label[x]);
+      if (part > 0 && contact[part] > kStrip * std::sqrt(parts[part].area)) row[x] = 0;
     }
   }
 }
