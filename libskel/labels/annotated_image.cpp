@@ -10,6 +10,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/core/json.h"
 #include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
@@ -46,6 +47,10 @@ std::optional<std::string> pictureOfStem(const fs::path& stem) {
   return first->second;
 }
 
+bool isJointsFile(const std::string& path) {
+  return fs::path(path).filename() == kOwnJoints || path.ends_with(kJointsEnding);
+}
+
 LabelFile::Source sourceOf(const std::string& path) {
   return {fs::path(path).filename().string(), sha256(readFile(path))};
 }
@@ -61,10 +66,17 @@ std::string imageOfJointsFile(const std::string& joints_file) {
   throw InputError(joints_file, "has no image beside it, " + stem.filename().string() + ".png");
 }
 
+void noteJointsFiles(const std::vector<std::string>& files) {
+  for (const std::string& file : files)
+    if (isJointsFile(file)) noteInput(file);
+}
+
 std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir, const OnInputError& on_error) {
   std::vector<AnnotatedImage> found;
-  for (const std::string& path : filesBelow(dir)) {
-    if (fs::path(path).filename() != kOwnJoints && !path.ends_with(kJointsEnding)) continue;
+  const std::vector<std::string> files = filesBelow(dir);
+  noteJointsFiles(files);
+  for (const std::string& path : files) {
+    if (!isJointsFile(path)) continue;
     try {
       found.push_back({imageOfJointsFile(path), std::nullopt, path});
     } catch (const InputError& error) {

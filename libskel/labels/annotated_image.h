@@ -30,6 +30,9 @@ std::string imageOfJointsFile(const std::string& joints_file);
 // Is told why a drawing is left out.
 using OnInputError = std::function<void(const InputError&)>;
 
+// As noteSkeletonFiles() does for skeleton files. Throws OverwriteError.
+void noteJointsFiles(const std::vector<std::string>& files);
+
 // All below `dir`, at any depth, sorted by path. Throws InputError: no such folder, a folder that cannot be
 // read, joints without an image. `on_error`, if given, is told of the latter, and the others are found.
 std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir, const OnInputError& on_error = {});

@@ -144,6 +144,7 @@ void ensureEveryClass(const std::string& name, const LabelledSet& set) {
 std::vector<std::string> findLabelFiles(const std::string& dir) {
   std::vector<std::string> files = filesBelow(dir);
   noteSkeletonFiles(files);
+  noteJointsFiles(files);
   std::erase_if(files, [](const std::string& file) { return !file.ends_with(kLabelFileEnding); });
   return files;
 }

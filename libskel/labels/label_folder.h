@@ -32,7 +32,7 @@ struct LabelledSet {
 void ensureEveryClass(const std::string& name, const LabelledSet& set);
 
 // Label files below `dir`, at any depth, sorted by path. Throws InputError: no such folder, one that
-// cannot be read; OverwriteError: a skeleton file there is an output (noteSkeletonFiles()).
+// cannot be read; OverwriteError: a skeleton file or joints file there is an output (noteSkeletonFiles()).
 std::vector<std::string> findLabelFiles(const std::string& dir);
 
 // Every inconsistency of all label files below `dir`, one line each; none: all is well.

@@ -141,3 +141,19 @@ TEST_CASE("skeletons beside the drawings of a set were written over by what was 
         "skel-train evaluate C --json ", "skel-label export C --coco -o ", "skel-label export C --csv -o "})
     keeps(dir, "C/cap_boy.skeleton.json", command + std::string("C/cap_boy.skeleton.json"));
 }
+
+TEST_CASE("joints annotated beside the drawings of a set were written over by what was made of the set") {
+  const TempDir dir;
+  fs::create_directories(dir.file("C"));
+  for (const char* ending : {".png", ".mask.png", ".labels.json"})
+    fs::copy_file(SKEL_SOURCE_DIR "/datasets/characters/cap_boy" + std::string(ending),
+                  dir.file("C/cap_boy") + ending);
+  writeFile(dir.file("C/cap_boy.joints.json"), R"({"joints": {"head": [300, 100]}})");
+  // Whose picture has gone.
+  writeFile(dir.file("C/alien.joints.json"), R"({"joints": {"head": [300, 100]}})");
+  for (const char* command :
+       {"skel-train C --folds 0 -o ", "skel-train C -o w.json --json ", "skel-train evaluate C --json ",
+        "skel-train evaluate C --candidates discs --json ", "skel-train joints --drawings C --steps 1 -o "})
+    for (const char* joints : {"C/cap_boy.joints.json", "C/alien.joints.json"})
+      keeps(dir, joints, command + std::string(joints));
+}
