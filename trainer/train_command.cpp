@@ -312,7 +312,7 @@ ExitCode runTrain(const TrainOptions& given) {
 }
 
 void bindEvaluateWeightsOptions(CLI::App& app, EvaluateWeightsOptions& options) {
-  app.add_option("dir", options.dir, "Folder of label files, or of pictures with joints.json and mask.png")
+  app.add_option("dir", options.dir, "Folder of label files, and of pictures with joints.json and mask.png")
       ->required()
       ->type_name("DIR");
   app.add_option("--weights", options.weights, "Weights file; without: those built in")->type_name("FILE");
@@ -323,15 +323,14 @@ void bindEvaluateWeightsOptions(CLI::App& app, EvaluateWeightsOptions& options) 
 
 ExitCode runEvaluateWeights(const EvaluateWeightsOptions& options) {
   keepCocoOfOthers(options.json, "name another file by --json");
-  const bool from_labels =
-      options.candidates == CandidateMethod::kMaxima && !findLabelFiles(options.dir).empty();
   ExitCode code = ExitCode::kDone;
   const OnInputError leave_out = [&code](const InputError& error) {
     std::fprintf(stderr, "skel-train: %s\n", error.what());
     code = error.exitCode();
   };
-  const LabelledSet set = from_labels ? readLabelledSet(options.dir, leave_out)
-                                      : labelAnnotatedImages(options.dir, {options.candidates}, leave_out);
+  const LabelledSet set = options.candidates == CandidateMethod::kMaxima
+                              ? readMeasuredSet(options.dir, leave_out)
+                              : labelAnnotatedImages(options.dir, {options.candidates}, leave_out);
   const Mlp mlp = options.weights.empty() ? defaultMlp() : readMlp(options.weights);
   Evaluation evaluation;
   {

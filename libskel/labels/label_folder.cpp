@@ -73,14 +73,21 @@ struct JointedImage {
   std::vector<std::string> recognized;
 };
 
+std::vector<JointedImage> annotatedImages(const std::string& dir, const OnInputError& on_error) {
+  std::vector<JointedImage> images;
+  for (const AnnotatedImage& annotated : findAnnotatedImages(dir, on_error))
+    attempt(on_error, [&] {
+      images.push_back(
+          {annotated.image, annotated.mask, annotated.joints, readJointsFile(annotated.joints), {}});
+    });
+  return images;
+}
+
 // A label file's placed joints count before a joints file beside it. Sorted by the picture's path.
 std::vector<JointedImage> findJointedImages(const std::string& dir, const OnInputError& on_error) {
   std::map<std::string, JointedImage> by_image;
-  for (const AnnotatedImage& annotated : findAnnotatedImages(dir, on_error))
-    attempt(on_error, [&] {
-      by_image[annotated.image] = {
-          annotated.image, annotated.mask, annotated.joints, readJointsFile(annotated.joints), {}};
-    });
+  for (JointedImage& annotated : annotatedImages(dir, on_error))
+    by_image[annotated.image] = std::move(annotated);
   const auto leaveOut = [&](const std::string& path) {
     std::erase_if(by_image, [&](const auto& known) { return labelFileFor(known.first) == path; });
   };
@@ -111,6 +118,60 @@ std::vector<JointedImage> findJointedImages(const std::string& dir, const OnInpu
   std::vector<JointedImage> images;
   for (auto& [image, drawing] : by_image) images.push_back(std::move(drawing));
   return images;
+}
+
+// Returns what LabelledSet::sha256 is over; so does addAnnotated().
+std::string addLabelFiles(const std::string& dir, const std::vector<std::string>& files,
+                          const OnInputError& on_error, LabelledSet& set) {
+  const BodyPlans plans = bodyPlans("auto");
+  std::string hashed, first_path;
+  int grid_size = 0;
+  const auto take = [&](const std::string& path) {
+    const LabelFile labels = readLabelFile(path);
+    if (const auto problems = findProblems(path); !problems.empty())
+      throw InputError(path, problems.front().substr(path.size() + 2));
+    if (grid_size == 0) {
+      first_path = path;
+      grid_size = labels.gridSize();
+    } else if (labels.gridSize() != grid_size) {
+      throw InputError(path, gridComplaint(path, labels, first_path, grid_size).substr(path.size() + 2));
+    }
+    const std::string name = nameBelow(dir, path);
+    checkAllLabelled(path, labels);
+    set.characters.push_back(characterOf(name, labels));
+    const SkeletonTemplate* plan = planWith(jointNames(labels.joints), plans);
+    if (plan && !labels.joints.empty()) set.characters.back().body_plan = plan->name;
+    hashed += name + " " + sha256(readFile(path)) + "\n";
+  };
+  for (const std::string& path : files) attempt(on_error, [&] { take(path); });
+  return hashed;
+}
+
+std::string addAnnotated(const std::string& dir, const std::vector<JointedImage>& drawings,
+                         const CandidateOptions& options, const OnInputError& on_error, LabelledSet& set) {
+  const SkeletonTemplate body_plan = loadTemplate("biped");
+  std::string hashed;
+  std::map<std::string, std::vector<std::string>> of_other_plans;
+  const auto take = [&](const JointedImage& drawing) {
+    const std::string plan = otherPlanWith(jointNames(drawing.joints), {body_plan});
+    if (!plan.empty() && plan != body_plan.name) {
+      of_other_plans[plan].push_back(nameBelow(dir, drawing.image));
+      return;
+    }
+    ensureJointsOf(body_plan, drawing.joints, drawing.joints_file);
+    const LabelFile labels =
+        labelImage(drawing.image, drawing.mask, drawing.joints, body_plan, options, drawing.recognized);
+    const std::string name = nameBelow(dir, drawing.image);
+    set.characters.push_back(characterOf(name, labels));
+    hashed += name + " " + sha256(formatLabelFile(labels)) + "\n";
+  };
+  for (const JointedImage& drawing : drawings) attempt(on_error, [&] { take(drawing); });
+  for (const auto& [plan, names] : of_other_plans)
+    on_error({dir, std::to_string(names.size()) + " of " + std::to_string(drawings.size()) + " drawings (" +
+                       names.front() + (names.size() > 1 ? ", ..." : "") + ") have joints of a " + plan +
+                       ", not of a " + body_plan.name + "; skel-infer evaluate --template " + plan +
+                       " measures those"});
+  return hashed;
 }
 
 void ensureSamples(const std::string& dir, const LabelledSet& set) {
@@ -172,30 +233,10 @@ std::vector<std::string> checkLabelFolder(const std::string& dir) {
 }
 
 LabelledSet readLabelledSet(const std::string& dir, const OnInputError& on_error) {
-  const BodyPlans plans = bodyPlans("auto");
-  LabelledSet set;
-  std::string hashed, first_path;
-  int grid_size = 0;
-  const auto take = [&](const std::string& path) {
-    const LabelFile labels = readLabelFile(path);
-    if (const auto problems = findProblems(path); !problems.empty())
-      throw InputError(path, problems.front().substr(path.size() + 2));
-    if (grid_size == 0) {
-      first_path = path;
-      grid_size = labels.gridSize();
-    } else if (labels.gridSize() != grid_size) {
-      throw InputError(path, gridComplaint(path, labels, first_path, grid_size).substr(path.size() + 2));
-    }
-    const std::string name = nameBelow(dir, path);
-    checkAllLabelled(path, labels);
-    set.characters.push_back(characterOf(name, labels));
-    const SkeletonTemplate* plan = planWith(jointNames(labels.joints), plans);
-    if (plan && !labels.joints.empty()) set.characters.back().body_plan = plan->name;
-    hashed += name + " " + sha256(readFile(path)) + "\n";
-  };
   const std::vector<std::string> files = findLabelFiles(dir);
-  for (const std::string& path : files) attempt(on_error, [&] { take(path); });
   if (files.empty()) throw InputError(dir, "holds no label files (*" + std::string(kLabelFileEnding) + ")");
+  LabelledSet set;
+  const std::string hashed = addLabelFiles(dir, files, on_error, set);
   ensureSamples(dir, set);
   set.sha256 = sha256(hashed);
   return set;
@@ -203,40 +244,32 @@ LabelledSet readLabelledSet(const std::string& dir, const OnInputError& on_error
 
 LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions& options,
                                  const OnInputError& on_error) {
-  const SkeletonTemplate body_plan = loadTemplate("biped");
   LabelledSet set;
-  std::string hashed;
-  std::map<std::string, std::vector<std::string>> of_other_plans;
-  const auto take = [&](const JointedImage& drawing) {
-    const std::string plan = otherPlanWith(jointNames(drawing.joints), {body_plan});
-    if (!plan.empty() && plan != body_plan.name) {
-      of_other_plans[plan].push_back(nameBelow(dir, drawing.image));
-      return;
-    }
-    ensureJointsOf(body_plan, drawing.joints, drawing.joints_file);
-    const LabelFile labels =
-        labelImage(drawing.image, drawing.mask, drawing.joints, body_plan, options, drawing.recognized);
-    const std::string name = nameBelow(dir, drawing.image);
-    set.characters.push_back(characterOf(name, labels));
-    hashed += name + " " + sha256(formatLabelFile(labels)) + "\n";
-  };
   bool any_left_out = false;
   const OnInputError leave_out = [&](const InputError& error) {
     if (!on_error) throw error;
     any_left_out = true;
     on_error(error);
   };
-  const std::vector<JointedImage> drawings = findJointedImages(dir, leave_out);
-  for (const JointedImage& drawing : drawings) attempt(leave_out, [&] { take(drawing); });
-  for (const auto& [plan, names] : of_other_plans)
-    leave_out({dir, std::to_string(names.size()) + " of " + std::to_string(drawings.size()) + " drawings (" +
-                        names.front() + (names.size() > 1 ? ", ..." : "") + ") have joints of a " + plan +
-                        ", not of a " + body_plan.name + "; skel-infer evaluate --template " + plan +
-                        " measures those"});
+  const std::string hashed = addAnnotated(dir, findJointedImages(dir, leave_out), options, leave_out, set);
   if (set.characters.empty() && !any_left_out)
     throw InputError(dir,
                      "holds no pictures with joints (*.joints.json, or *.labels.json of which a person "
                      "has placed a joint)");
+  ensureSamples(dir, set);
+  set.sha256 = sha256(hashed);
+  return set;
+}
+
+LabelledSet readMeasuredSet(const std::string& dir, const OnInputError& on_error) {
+  const std::vector<std::string> files = findLabelFiles(dir);
+  if (files.empty()) return labelAnnotatedImages(dir, {}, on_error);
+  LabelledSet set;
+  std::string hashed = addLabelFiles(dir, files, on_error, set);
+  std::vector<JointedImage> others = annotatedImages(dir, on_error);
+  std::erase_if(others,
+                [](const JointedImage& drawing) { return fs::is_regular_file(labelFileFor(drawing.image)); });
+  hashed += addAnnotated(dir, others, {}, on_error, set);
   ensureSamples(dir, set);
   set.sha256 = sha256(hashed);
   return set;

@@ -50,4 +50,8 @@ LabelledSet readLabelledSet(const std::string& dir, const OnInputError& on_error
 LabelledSet labelAnnotatedImages(const std::string& dir, const CandidateOptions& options = {},
                                  const OnInputError& on_error = {});
 
+// Label files as readLabelledSet() reads them, and behind them annotated pictures that have none. Where there
+// are no label files, labelAnnotatedImages(). `on_error`, as above, must be given.
+LabelledSet readMeasuredSet(const std::string& dir, const OnInputError& on_error);
+
 }  // namespace skel

@@ -278,6 +278,22 @@ TEST_CASE("evaluate refused a whole set for one picture that has changed") {
   CHECK(none.err.ends_with("skel-train: " + dir.path() + ": no drawing is left\n"));
 }
 
+TEST_CASE("one label file made drawings with annotated joints alone drop out of evaluate without a word") {
+  const TempDir dir;
+  fill(dir);
+  for (const char* ending : {".png", ".mask.png", ".joints.json"})
+    std::filesystem::copy_file(SKEL_SOURCE_DIR "/datasets/characters/cap_boy" + std::string(ending),
+                               dir.file("cap_boy") + ending);
+  const ToolRun all = run("evaluate " + dir.path());
+  CHECK(all.exit_code == 0);
+  CHECK(all.err.empty());
+  CHECK(all.out.find(" candidates of 7 characters)") != std::string::npos);
+
+  // What a label file says of a drawing counts, as before.
+  writeFile(dir.file("c0.joints.json"), R"({"joints": {"head": [1, 2]}})");
+  CHECK(run("evaluate " + dir.path()).out == all.out);
+}
+
 TEST_CASE("evaluate said of animals only that the first joint is none of a biped") {
   const TempDir dir;
   for (const char* name : {"cat", "dog"}) {
