@@ -45,8 +45,9 @@ ExitCode runFigureSheet(const FigureSheetOptions& options) {
   figure_options.other_share = options.other_share;
   if (!options.drawings.empty()) {
     Rng poses(options.seed, 1);
+    const SkeletonTemplate body_plan = loadTemplate(options.body_plan);
     const std::vector<PosableDrawing> drawings =
-        posableDrawings(findJointedDrawings(options.drawings), names, loadTemplate(options.body_plan), 0);
+        posableDrawings(findJointedDrawings({options.drawings}, body_plan), names, body_plan, 0);
     for (const PosableDrawing& drawing : drawings) {
       const PosableDrawing& donor = drawings[poses.below(static_cast<std::uint32_t>(drawings.size()))];
       figure_options.drawings.push_back(asDrawn(drawing));

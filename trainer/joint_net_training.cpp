@@ -253,8 +253,9 @@ class Training {
     if (!options.rehearsed.empty() && (options.start.empty() || options.drawings.empty()))
       throw UsageError(
           "--rehearse needs --start and --drawings: what that net knows, and what it is to learn");
-    std::vector<JointedDrawing> drawings = findJointedDrawings(options.drawings),
-                                rehearsed = findJointedDrawings(options.rehearsed);
+    const SkeletonTemplate body_plan = loadTemplate(net_.body_plan);
+    std::vector<JointedDrawing> drawings = findJointedDrawings(options.drawings, body_plan),
+                                rehearsed = findJointedDrawings(options.rehearsed, body_plan);
     made_by_ = madeJointsBy(options, schedule_, net_, drawings, rehearsed);
     ensureWritableNet(options.output, "skel-joint-net");
     goOnFrom(options.checkpoint, made_by_, trainer_);
@@ -265,7 +266,7 @@ class Training {
       repeatHard(drawings);
       learned_ = drawings.size();
       std::move(rehearsed.begin(), rehearsed.end(), std::back_inserter(drawings));
-      drawings_ = posableDrawings(drawings, net_.joints, loadTemplate(net_.body_plan), options.threads);
+      drawings_ = posableDrawings(drawings, net_.joints, body_plan, options.threads);
       shown_ = inEqualShares(learned_, drawings_.size() - learned_);
       figure_options_.drawn_share = schedule_.drawn_share;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <locale>
 #include <map>
 #include <sstream>
@@ -14,6 +15,7 @@
 #include "libskel/core/text.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
+#include "libskel/skeleton/body_plans.h"
 #include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
@@ -47,6 +49,20 @@ JointedDrawing fromSkeleton(const std::string& path, const SkeletonFile& file) {
 
 JointedDrawing fromLabels(const std::string& path, const LabelFile& file) {
   return {besideLabelFile(path, file.image.file), maskOf(path, file), path, file.joints, false};
+}
+
+void ensureBodyPlan(const std::string& dir, const std::vector<JointedDrawing>& drawings,
+                    const SkeletonTemplate& body_plan) {
+  std::map<std::string, std::vector<std::string>> of_other_plans;
+  for (const JointedDrawing& drawing : drawings)
+    if (const std::string plan = otherPlanWith(jointNames(drawing.joints), {body_plan}); !plan.empty())
+      of_other_plans[plan].push_back(fs::path(drawing.joints_file).lexically_relative(dir).string());
+  if (of_other_plans.empty()) return;
+  const auto& [plan, names] = *of_other_plans.begin();
+  throw InputError(dir, std::to_string(names.size()) + " of " + std::to_string(drawings.size()) +
+                            " drawings (" + names.front() + (names.size() > 1 ? ", ..." : "") +
+                            ") have joints of a " + plan + ", not of a " + body_plan.name + ": --template " +
+                            plan + " takes those, in a folder of their own");
 }
 
 }  // namespace
@@ -125,6 +141,17 @@ std::vector<JointedDrawing> findJointedDrawings(const std::vector<std::string>& 
   std::vector<JointedDrawing> drawings;
   for (const std::string& dir : dirs)
     for (JointedDrawing& found : findJointedDrawings(dir)) drawings.push_back(std::move(found));
+  return drawings;
+}
+
+std::vector<JointedDrawing> findJointedDrawings(const std::vector<std::string>& dirs,
+                                                const SkeletonTemplate& body_plan) {
+  std::vector<JointedDrawing> drawings;
+  for (const std::string& dir : dirs) {
+    std::vector<JointedDrawing> found = findJointedDrawings(dir);
+    ensureBodyPlan(dir, found, body_plan);
+    std::move(found.begin(), found.end(), std::back_inserter(drawings));
+  }
   return drawings;
 }
 

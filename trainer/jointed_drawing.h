@@ -8,6 +8,7 @@
 #include "libskel/image/image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/silhouette/silhouette.h"
+#include "libskel/skeleton/template.h"
 
 namespace skel {
 
@@ -27,6 +28,9 @@ struct JointedDrawing {
 std::vector<JointedDrawing> findJointedDrawings(const std::string& dir);
 // Of several folders, one after the other.
 std::vector<JointedDrawing> findJointedDrawings(const std::vector<std::string>& dirs);
+// The same for a net of `body_plan`. Throws InputError, too, where some have the joints of another one.
+std::vector<JointedDrawing> findJointedDrawings(const std::vector<std::string>& dirs,
+                                                const SkeletonTemplate& body_plan);
 
 // What stands in their pictures, masks and joints, not what they are called: "3 drawings (sha256 0123…)";
 // "none".

@@ -308,6 +308,20 @@ TEST_CASE("evaluate said of animals only that the first joint is none of a biped
                               "skel-infer evaluate --template quadruped measures those\n"));
 }
 
+TEST_CASE("joints said of animals among people only that their left hands are missing") {
+  const TempDir dir;
+  for (const auto& [name, joint] : {std::pair("cat", "tail_root"), {"dog", "tail_root"}, {"girl", "head"}}) {
+    writeFile(dir.file(std::string(name) + ".png"), "picture");
+    writeFile(dir.file(std::string(name) + ".joints.json"),
+              "{\"joints\": {\"" + std::string(joint) + "\": [1, 2]}}");
+  }
+  const ToolRun people = run("joints --drawings " + dir.path() + " -o " + dir.file("net.bin"));
+  CHECK(people.exit_code == 2);
+  CHECK(people.err == "skel-train: " + dir.path() +
+                          ": 2 of 3 drawings (cat.joints.json, ...) have joints of a quadruped, not of a "
+                          "biped: --template quadruped takes those, in a folder of their own\n");
+}
+
 TEST_CASE("a net is not replaced by one of another kind, but by one of its own") {
   const TempDir dir;
   fill(dir);
