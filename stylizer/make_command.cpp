@@ -47,7 +47,9 @@ MotionSource lookAt(const std::string& path, const std::string& name, const Make
 NamedMotion motionOf(const MotionSource& source) {
   const std::string& file = source.find.output;
   if (source.motion) {
-    if (!source.film_hash.empty()) std::printf("%s: taken as it is\n", printable(file).c_str());
+    if (source.film_hash.empty()) return *source.motion;
+    std::printf("%s: taken as it is\n", printable(file).c_str());
+    sayUnusedRate(source.find.film);
     return *source.motion;
   }
   const SkeletonTemplate plan = loadTemplate("biped");

@@ -192,6 +192,22 @@ TEST_CASE("of films --fps was ignored without a word") {
   }
 }
 
+TEST_CASE("of films whose motions were there already make ignored --fps without a word") {
+  const TempDir dir;
+  const std::string walk = dir.file("walk.gif");
+  REQUIRE(runTool("skel-animate render '" SKEL_SOURCE_DIR
+                  "/datasets/characters/runner.png' --look solid --clip "
+                  "walk --fps 10 --size 64 -o " +
+                  walk)
+              .exit_code == 0);
+  const std::string make = "make --character " + kDrawing + " --content " + walk + " --style " + walk +
+                           " --size 64 -o " + dir.file("out.gif") + " --work " + dir.file("w");
+  REQUIRE(style(make).exit_code == 0);
+  const ToolRun again = style(make + " --fps 24");
+  CHECK_THAT(again.out, Contains("content.motion.json: taken as it is"));
+  CHECK_THAT(again.err, Contains(walk + ": note: a film says itself how many frames a second it has"));
+}
+
 TEST_CASE("key frames and the distances of all frames") {
   const TempDir dir;
   const std::string walk = film(dir, "walk");
