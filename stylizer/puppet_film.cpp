@@ -44,6 +44,12 @@ Image withoutFigure(const Image& image, const Plane8& mask) {
   return result;
 }
 
+Image on(const Color& color, const Image& image) {
+  Image ground = blankImage(image.width, image.height, color);
+  blit(ground, image, 0, 0);
+  return ground;
+}
+
 // The joints at even moments.
 PoseMatrix atRate(const PoseMatrix& worn, const std::vector<double>& times_s, double rate,
                   const PuppetFilmOptions& options) {
@@ -66,6 +72,11 @@ FilmBackground readBackground(const std::string& text) {
   if (text == "keep") return {true, kWhite, {}};
   if (const auto color = backgroundColor(text)) return {false, *color, {}};
   return {false, kWhite, readImage(text)};
+}
+
+FilmBackground keptBackground(const Image& drawing, const std::string& output) {
+  const bool transparent = (drawing.rgba.col(3) < 255).any();
+  return {true, transparent && keepsTransparency(output) ? kClear : kWhite, {}};
 }
 
 double motionLength_s(const std::vector<double>& times_s, double rate) {
@@ -114,8 +125,10 @@ PuppetFrames layOut(const Puppet& puppet, const Performer& performer, const Pose
   frames.width = even(frames.scale * extent.x());
   frames.height = even(frames.scale * extent.y());
   if (options.background.keep) {
+    const Image drawing =
+        options.background.isTransparent() ? performer.image : on(options.background.color, performer.image);
     frames.background =
-        resized(withoutFigure(performer.image, performer.silhouette.mask), frames.width, frames.height);
+        resized(withoutFigure(drawing, performer.silhouette.mask), frames.width, frames.height);
   } else if (options.background.picture.empty()) {
     frames.background = blankImage(frames.width, frames.height, options.background.color);
   } else {

@@ -13,12 +13,17 @@
 namespace skel {
 
 struct FilmBackground {
-  bool keep = false;  // that of the drawing, closed behind the figure
-  Color color = kWhite;
-  Image picture;  // if not empty: instead of the colour, covering all of the film
+  bool keep = false;     // that of the drawing, closed behind the figure
+  Color color = kWhite;  // of a kept one, where the drawing is transparent
+  Image picture;         // if not empty: instead of the colour, covering all of the film
+
+  bool isTransparent() const { return picture.empty() && color.a < 255; }
 };
 // keep, a backgroundColor(), or a picture's file. Throws UsageError, InputError.
 FilmBackground readBackground(const std::string& text);
+// A drawing's own, to be kept in the film `output`: one that is transparent stays so, if the film can, else
+// it is white.
+FilmBackground keptBackground(const Image& drawing, const std::string& output);
 
 struct PuppetFilmOptions {
   FilmBackground background;

@@ -31,6 +31,12 @@ Stage setStage(const std::string& character, const PerformRequest& request, cons
   for (std::string part; std::getline(parts, part, ',');) order.push_back(part);
   FilmBackground background = readBackground(request.background);
   Performer performer = readPerformer(character);
+  if (background.keep && character.ends_with(".glb")) {
+    performer.notes.push_back("a model has no background to keep");
+    background = {false, keepsTransparency(output) ? kClear : kWhite, {}};
+  } else if (background.keep) {
+    background = keptBackground(performer.image, output);
+  }
   Puppet puppet = makePuppet(performer, order);
   for (const std::string& note : performer.notes)
     std::fprintf(stderr, "%s: note: %s\n", printable(character).c_str(), printable(note).c_str());
@@ -44,7 +50,7 @@ void perform(const Stage& stage, const MotionFile& motion, const std::string& pa
   const std::vector<double> times_s = timesOf(motion);
   VideoOptions video_options;
   video_options.frame_rate = request.frame_rate > 0 ? request.frame_rate : motion.frame_rate;
-  video_options.transparent = request.background == "none";
+  video_options.transparent = stage.background.isTransparent();
   openVideo(output, video_options);  // says what rate cannot be written
   const double duration_s =
       request.duration_s > 0 ? request.duration_s : motionLength_s(times_s, video_options.frame_rate);

@@ -208,6 +208,19 @@ TEST_CASE("of films whose motions were there already make ignored --fps without 
   CHECK_THAT(again.err, Contains(walk + ": note: a film says itself how many frames a second it has"));
 }
 
+TEST_CASE("the background of a model, which has none, was black where it was to be kept") {
+  const TempDir dir;
+  REQUIRE(runTool("skel-infer " + kDrawing + " -o " + dir.path() + " --formats glb --clips none").exit_code ==
+          0);
+  const std::string model = dir.file("cap_boy.glb"), motion = dir.file("a.motion.json");
+  writeFile(motion, motionText(4, 0.3, 10));
+  const ToolRun kept = style("render --character " + model + " --motion " + motion +
+                             " --size 96 --background keep -o " + dir.file("keep/"));
+  CHECK(kept.exit_code == 0);
+  CHECK_THAT(kept.err, Contains(model + ": note: a model has no background to keep\n"));
+  CHECK(readImage(dir.file("keep/frame-0001.png")).pixel(0, 0)[3] == 0);
+}
+
 TEST_CASE("key frames and the distances of all frames") {
   const TempDir dir;
   const std::string walk = film(dir, "walk");

@@ -6,6 +6,7 @@
 #include "animator/load_character.h"
 #include "libskel/core/files.h"
 #include "libskel/export/write_character.h"
+#include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "libskel/mesh/outline.h"
 #include "libskel/skeleton/hanging.h"
@@ -96,6 +97,23 @@ TEST_CASE("a drawing at rest is the drawing, and hardly any of it is torn in the
       CHECK(torn < 0.02);
     }
   }
+}
+
+TEST_CASE("the ground of a transparent drawing was black where it was kept") {
+  const Performer performer = readPerformer(drawing("cap_boy"));
+  const Puppet puppet = makePuppet(performer);
+  const auto corner = [&](const std::string& film) {
+    const FilmBackground background = keptBackground(performer.image, film);
+    const PuppetFrames frames =
+        layOut(puppet, performer, puppet.rest.leftCols(1), {0},
+               {.background = background, .size_px = 100, .frame_rate = 1, .duration_s = 1, .loops = false});
+    const Image frame = paintFrame(puppet, painterFor(puppet, frames), frames, 0);
+    const std::uint8_t* pixel = frame.pixel(0, 0);
+    return background.isTransparent() ? std::vector<int>{pixel[3]} : std::vector<int>(pixel, pixel + 4);
+  };
+  CHECK(corner("film.mp4") == std::vector<int>{255, 255, 255, 255});
+  CHECK(corner("film.gif") == std::vector<int>{0});
+  CHECK_FALSE(keptBackground(readImage(drawing("alien")), "film.gif").isTransparent());
 }
 
 TEST_CASE("a rigged character performs like its drawing") {
