@@ -23,6 +23,8 @@ namespace skel {
 namespace {
 
 constexpr float kListWidth = 220, kPanelWidth = 270, kStatusHeight = 46, kButtonHeight = 44;
+constexpr float kQuestionWidth = 460;
+const ImVec2 kQuestionButton = {120, kButtonHeight};
 constexpr const char* kToolNames[kToolCount] = {"Joints", "Mask", "Limbs", "Touch", "Brush", "Lasso"};
 constexpr const char* kToolKeys[kToolCount] = {"J", "M", "G", "V", "B", "L"};
 constexpr const char* kToolHelp[kToolCount] = {
@@ -53,6 +55,7 @@ constexpr KeyHelp kHelp[] = {
     {"D", "classes from the joints"},
     {"[  ]", "smaller, larger brush"},
     {"Ctrl O", "open another folder, drawing, skeleton or motion"},
+    {"Ctrl Q", "close the window"},
     {"Ctrl Z", "undo"},
     {"Ctrl Y  Ctrl Shift Z", "redo"},
     {"Page Up  Page Down", "previous, next drawing; so do the arrow keys"},
@@ -99,7 +102,7 @@ class LabelingWindow {
   }
 
   NextFrame frame() {
-    if (!ImGui::GetIO().WantTextInput && !dialog_.isOpen()) keys();
+    if (!ImGui::GetIO().WantTextInput && !dialog_.isOpen() && !losing_) keys();
     // A drawing is seen before its joints are looked for.
     const bool wants_joints = canvas_.tool == Tool::kJoints && document_.wantsJoints();
     if (wants_joints && std::exchange(seen_, document_.current()) == document_.current())
@@ -126,9 +129,18 @@ class LabelingWindow {
     const bool moving = drawPanel(height);
     drawStatus();
     dialog_.draw();
+    drawLosing();
     ImGui::End();
     if (help_) drawHelp();
+    if (closes_) return NextFrame::kClose;
     return moving || wants_joints || opened_ ? NextFrame::kAtOnce : NextFrame::kOnInput;
+  }
+
+  // Asks first where a step would be lost.
+  bool mayClose() {
+    canvas_.cancel();
+    losing_ = !document_.go(document_.current());
+    return !losing_;
   }
 
   // What is to be shown instead; null: nothing else.
@@ -145,6 +157,7 @@ class LabelingWindow {
       if (pressed(key::kZ, true)) io.KeyShift ? redo() : undo();
       if (pressed(key::kY, true)) redo();
       if (pressed(key::kO)) askOpen();
+      if (pressed(key::kQ)) closes_ = mayClose();
       return;
     }
     if (pressed(key::kH) || pressed(key::kSlash) || pressed(key::kF1)) help_ = !help_;
@@ -533,6 +546,27 @@ class LabelingWindow {
     ImGui::TextUnformatted(saved.c_str());
   }
 
+  void drawLosing() {
+    if (!losing_) return;
+    if (!ImGui::IsPopupOpen("losing")) ImGui::OpenPopup("losing");
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    if (!ImGui::BeginPopupModal("losing", nullptr,
+                                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize))
+      return;
+    ImGui::PushTextWrapPos(kQuestionWidth);
+    ImGui::TextUnformatted(("The last step is not saved: " + document_.saveProblem()).c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::Spacing();
+    if (ImGui::Button("Try again", kQuestionButton)) closes_ = mayClose();
+    ImGui::SameLine();
+    if (ImGui::Button("Discard", kQuestionButton)) closes_ = true;
+    ImGui::SameLine();
+    if (ImGui::Button("Cancel", kQuestionButton) || pressed(key::kEscape)) losing_ = false;
+    if (!losing_) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+  }
+
   // Over the drawing, which stays usable: any key still works.
   void drawHelp() {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -564,6 +598,8 @@ class LabelingWindow {
   Tool class_tool_ = Tool::kTouch;  // the last one used
   int seen_ = -1;                   // the last drawing whose joints were wanted
   bool help_ = false;
+  bool losing_ = false;  // asks whether the last step may be lost
+  bool closes_ = false;
   bool scroll_to_current_ = true;
 };
 
@@ -573,14 +609,16 @@ ExitCode runLabelingWindow(const std::string& path, DocumentOptions options) {
   auto document = std::make_unique<Document>(path, options);
   Window window({"skel-label: " + path, 1320, 860});
   auto content = std::make_unique<LabelingWindow>(*document, options);
-  window.run([&] {
-    if (auto opened = content->takeOpened()) {
-      content = std::make_unique<LabelingWindow>(*opened, options);
-      document = std::move(opened);
-      window.setTitle("skel-label: " + document->path());
-    }
-    return content->frame();
-  });
+  window.run(
+      [&] {
+        if (auto opened = content->takeOpened()) {
+          content = std::make_unique<LabelingWindow>(*opened, options);
+          document = std::move(opened);
+          window.setTitle("skel-label: " + document->path());
+        }
+        return content->frame();
+      },
+      [&] { return content->mayClose(); });
   return ExitCode::kDone;
 }
 
