@@ -713,21 +713,13 @@ bool Document::throughHistory(const Travel& travel) {
 
 bool Document::undo() {
   return throughHistory([&] {
-    return history_.undo([&](const Step& step) {
-      if (!travel(step, step.before)) return false;
-      message_ = "undone";
-      return true;
-    });
+    return history_.undo([&](const Step& step) { return travel(step, step.before, "undone"); });
   });
 }
 
 bool Document::redo() {
   return throughHistory([&] {
-    return history_.redo([&](const Step& step) {
-      if (!travel(step, step.after)) return false;
-      message_ = "done again";
-      return true;
-    });
+    return history_.redo([&](const Step& step) { return travel(step, step.after, "done again"); });
   });
 }
 
@@ -748,6 +740,16 @@ bool Document::travel(const Step& step, const DrawingState& target) {
   if (!same_layers) rigged_.reset();
   count();
   save();
+  return true;
+}
+
+bool Document::travel(const Step& step, const DrawingState& target, const char* done) {
+  const bool elsewhere = step.item != current_;
+  if (!travel(step, target)) return false;
+  travelled_ = worksOf(step.before, step.after);
+  message_ = std::string(done) + ": " +
+             describeStep(step.before, step.after, planNamed(step.after.body_plan, options_.body_plans)) +
+             (elsewhere ? " of " + item().files.name : "");
   return true;
 }
 

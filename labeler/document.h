@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "labeler/drawing_list.h"
+#include "labeler/describe_step.h"
 #include "labeler/drawing_state.h"
 #include "labeler/figure.h"
 #include "labeler/label_document.h"
@@ -142,9 +143,11 @@ class Document {
   void endStep();
   bool canUndo() const { return history_.canUndo() || open_step_; }
   bool canRedo() const { return history_.canRedo(); }
-  // Goes to the drawing of that step. False if there is none.
+  // Goes to the drawing of that step and says what it was. False if there is none.
   bool undo();
   bool redo();
+  // What the step has changed that was undone or done again last.
+  const std::vector<Work>& travelled() const { return travelled_; }
 
   // See figure.h and placed_joints.h.
   int mostUnsure() const { return skel::mostUnsure(*figure_, state_.labels); }
@@ -206,6 +209,8 @@ class Document {
   // Takes a mask and lets the candidates follow; false, with nothing changed, if it shows no figure.
   bool replaceMask(std::shared_ptr<const MaskVersion> mask);
   bool travel(const Step& step, const DrawingState& target);
+  // travel(), and says so: "undone: a stroke of the mask of Hanna.jpg".
+  bool travel(const Step& step, const DrawingState& target, const char* done);
   template <class Travel>
   bool throughHistory(const Travel& travel);
   void save();
@@ -249,6 +254,7 @@ class Document {
 
   std::optional<OpenStep> open_step_;
   UndoHistory<Step> history_;
+  std::vector<Work> travelled_;
   std::string message_, save_problem_;
 };
 

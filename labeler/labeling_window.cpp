@@ -197,8 +197,27 @@ class LabelingWindow {
     if (pressed(key::kU)) goToUnfinished();
   }
 
-  void undo() { canvas_.cancel(), document_.undo(); }
-  void redo() { canvas_.cancel(), document_.redo(); }
+  void undo() {
+    canvas_.cancel();
+    if (document_.undo()) showTravelled();
+  }
+  void redo() {
+    canvas_.cancel();
+    if (document_.redo()) showTravelled();
+  }
+  void showTravelled() {
+    scroll_to_current_ = true;
+    const std::vector<Work>& works = document_.travelled();
+    const auto toolFor = [&](Work work) {
+      return work == Work::kMask    ? Tool::kMask
+             : work == Work::kLimbs ? Tool::kLimbs
+             : work == Work::kJoints ? Tool::kJoints
+             : subject() == Subject::kClasses ? canvas_.tool : class_tool_;
+    };
+    const bool shown = std::any_of(works.begin(), works.end(),
+                                   [&](Work work) { return toolFor(work) == canvas_.tool; });
+    if (!works.empty() && !shown) chooseTool(toolFor(works.front()));
+  }
   void acceptAll() { canvas_.cancel(), document_.acceptSuggestions(); }
   void labelFromJoints() { canvas_.cancel(), document_.labelFromJoints(); }
 

@@ -250,6 +250,32 @@ TEST_CASE("undo goes to the drawing of the step") {
   CHECK(document.item().classes.done == 0);
 }
 
+TEST_CASE("undo did not say what was undone on another drawing or of another kind") {
+  const TempDir dir;
+  copyCharacter("box_robot", dir.path());
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.path(), documentOptions());
+  document.paintMask({300, 100}, {330, 60}, 12, true);
+  document.label({0, 1}, JointClass::kLeg);
+  document.rig();
+  document.moveJoint(document.bodyPlan().find("left_hand"), {301.25, 150.5});
+  CHECK(document.undo());
+  CHECK(document.message() == "undone: the left hand");
+  CHECK(document.travelled() == std::vector{Work::kJoints});
+  CHECK(document.undo());
+  CHECK(document.message() == "undone: the joints");
+  REQUIRE(document.go(1));
+  CHECK(document.undo());
+  CHECK(document.message() == "undone: the classes of 2 candidates of box_robot.png");
+  CHECK(document.travelled() == std::vector{Work::kClasses});
+  REQUIRE(document.go(1));
+  CHECK(document.undo());
+  CHECK(document.message() == "undone: a stroke of the mask of box_robot.png");
+  CHECK(document.travelled() == std::vector{Work::kMask});
+  CHECK(document.redo());
+  CHECK(document.message() == "done again: a stroke of the mask");
+}
+
 TEST_CASE(
     "a folder's drawings are looked through: joints are found unasked, accepted, and finished next time") {
   const TempDir dir;
