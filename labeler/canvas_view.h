@@ -30,6 +30,10 @@ class CanvasView {
   int selected() const { return selected_; }
   bool chosen() const { return selected_ >= 0 && !touched_; }  // by select()
   void select(int candidate);
+  // The drawing that is shown stands so many places farther down in the list.
+  void followMoved(int places) {
+    if (shown_item_ >= 0) shown_item_ += places;
+  }
   // Ends a stroke that has not ended yet, so that other steps can follow.
   void cancel();
 

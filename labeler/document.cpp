@@ -11,6 +11,7 @@
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/natural_order.h"
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/label_from_joints.h"
@@ -75,27 +76,56 @@ Document::Document(const std::string& path, DocumentOptions options)
     list({drawingFiles(path, fs::path(path).filename().string())});
   }
   bool placed_joints = false;
-  for (Item& item : items_) {
-    if (fs::exists(item.files.mask)) given_masks_.insert(item.files.mask);
-    if (motion_ || !fs::is_regular_file(item.files.labels)) continue;
-    try {
-      const LabelFile labels = readLabelFile(item.files.labels);
-      item.classes = {static_cast<int>(labels.candidates.size()), countLabels(labels.labels)};
-      item.joints = jointsOf(labels, options_.body_plans);
-      item.has_shape = labels.mask || fs::exists(layersFile(item.files, 1));
-      placed_joints = placed_joints || item.joints.done > 0;
-      // Of a photo that was taken again nobody has looked at the joints.
-      if (item.joints.done > 0 && sha256(readFile(item.files.image)) != labels.image.sha256)
-        item.joints.done = 0;
-    } catch (const InputError& error) {
-      item.problem = error.what();
-    }
-  }
+  for (Item& item : items_) placed_joints = takeProgress(item) || placed_joints;
   const bool labelled =
       std::any_of(items_.begin(), items_.end(), [](const Item& item) { return item.classes.done > 0; });
   const bool joints = editsJointsAlone() || placed_joints || !labelled;
   subject_ = joints ? Subject::kJoints : Subject::kClasses;
   loadFirst();
+}
+
+bool Document::takeProgress(Item& item) {
+  if (fs::exists(item.files.mask)) given_masks_.insert(item.files.mask);
+  if (motion_ || !fs::is_regular_file(item.files.labels)) return false;
+  try {
+    const LabelFile labels = readLabelFile(item.files.labels);
+    item.classes = {static_cast<int>(labels.candidates.size()), countLabels(labels.labels)};
+    item.joints = jointsOf(labels, options_.body_plans);
+    item.has_shape = labels.mask || fs::exists(layersFile(item.files, 1));
+    const bool placed = item.joints.done > 0;
+    // Of a photo that was taken again nobody has looked at the joints.
+    if (placed && sha256(readFile(item.files.image)) != labels.image.sha256) item.joints.done = 0;
+    return placed;
+  } catch (const InputError& error) {
+    item.problem = error.what();
+    return false;
+  }
+}
+
+int Document::lookAgain() {
+  if (!fs::is_directory(path_)) return 0;
+  std::vector<DrawingFiles> drawings;
+  try {
+    drawings = findDrawings(path_);
+  } catch (const InputError& error) {
+    message_ = error.what();
+    return 0;
+  }
+  const int before = current_;
+  size_t added = 0;
+  for (DrawingFiles& files : drawings) {
+    const auto place = std::lower_bound(
+        items_.begin(), items_.end(), files.name,
+        [](const Item& item, const std::string& name) { return comesBefore(item.files.name, name); });
+    if (place != items_.end() && place->files.name == files.name) continue;
+    const auto at = static_cast<int>(place - items_.begin());
+    takeProgress(*items_.insert(place, {std::move(files), {}, {}, false, {}}));
+    if (at <= current_) ++current_;
+    history_.forEach([at](Step& step) { step.item += at <= step.item; });
+    ++added;
+  }
+  if (added > 0) message_ = counted(added, "picture") + " more in the folder";
+  return current_ - before;
 }
 
 void Document::loadFirst() {
@@ -712,9 +742,8 @@ bool Document::throughHistory(const Travel& travel) {
 }
 
 bool Document::undo() {
-  return throughHistory([&] {
-    return history_.undo([&](const Step& step) { return travel(step, step.before, "undone"); });
-  });
+  return throughHistory(
+      [&] { return history_.undo([&](const Step& step) { return travel(step, step.before, "undone"); }); });
 }
 
 bool Document::redo() {

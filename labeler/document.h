@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "labeler/drawing_list.h"
 #include "labeler/describe_step.h"
+#include "labeler/drawing_list.h"
 #include "labeler/drawing_state.h"
 #include "labeler/figure.h"
 #include "labeler/label_document.h"
@@ -70,6 +70,9 @@ class Document {
   // Joints are what this is about: they are kept in a file of their own.
   bool editsSkeleton() const { return skeleton_.has_value(); }
   bool editsMotion() const { return motion_.has_value(); }
+  // Takes pictures that have come into the folder since into the list, each at its place; what is open stays
+  // open. Returns by how many places that has moved.
+  int lookAgain();
   // Where the last session has left off: classes if candidates have labels and no joint was placed.
   Subject subject() const { return subject_; }
   // False, and stays, where there is no such item or the last step is not on the disk.
@@ -176,6 +179,8 @@ class Document {
   class StepScope;
 
   Item& mutableItem() { return items_[static_cast<size_t>(current_)]; }
+  // From the files of an item that is new in the list. Whether a person has placed joints in it.
+  bool takeProgress(Item& item);
   void loadFirst();  // unfinished that can be read
   void load(int item);
   void clear();

@@ -143,6 +143,15 @@ class LabelingWindow {
     return !losing_;
   }
 
+  // For pictures that have come into the folder.
+  void lookAgain() {
+    const int moved = document_.lookAgain();
+    if (moved == 0) return;
+    canvas_.followMoved(moved);
+    if (seen_ >= 0) seen_ += moved;
+    scroll_to_current_ = true;
+  }
+
   // What is to be shown instead; null: nothing else.
   std::unique_ptr<Document> takeOpened() { return std::move(opened_); }
 
@@ -209,13 +218,14 @@ class LabelingWindow {
     scroll_to_current_ = true;
     const std::vector<Work>& works = document_.travelled();
     const auto toolFor = [&](Work work) {
-      return work == Work::kMask    ? Tool::kMask
-             : work == Work::kLimbs ? Tool::kLimbs
-             : work == Work::kJoints ? Tool::kJoints
-             : subject() == Subject::kClasses ? canvas_.tool : class_tool_;
+      return work == Work::kMask              ? Tool::kMask
+             : work == Work::kLimbs           ? Tool::kLimbs
+             : work == Work::kJoints          ? Tool::kJoints
+             : subject() == Subject::kClasses ? canvas_.tool
+                                              : class_tool_;
     };
-    const bool shown = std::any_of(works.begin(), works.end(),
-                                   [&](Work work) { return toolFor(work) == canvas_.tool; });
+    const bool shown =
+        std::any_of(works.begin(), works.end(), [&](Work work) { return toolFor(work) == canvas_.tool; });
     if (!works.empty() && !shown) chooseTool(toolFor(works.front()));
   }
   void acceptAll() { canvas_.cancel(), document_.acceptSuggestions(); }
@@ -296,7 +306,10 @@ class LabelingWindow {
     nextUnsure();
   }
 
-  void go(int by) { goTo(document_.current() + by); }
+  void go(int by) {
+    lookAgain();
+    goTo(document_.current() + by);
+  }
 
   void goTo(int item) {
     canvas_.cancel();
@@ -628,8 +641,10 @@ ExitCode runLabelingWindow(const std::string& path, DocumentOptions options) {
   auto document = std::make_unique<Document>(path, options);
   Window window({"skel-label: " + path, 1320, 860});
   auto content = std::make_unique<LabelingWindow>(*document, options);
+  bool had_focus = true;
   window.run(
       [&] {
+        if (!std::exchange(had_focus, window.hasFocus()) && had_focus) content->lookAgain();
         if (auto opened = content->takeOpened()) {
           content = std::make_unique<LabelingWindow>(*opened, options);
           document = std::move(opened);

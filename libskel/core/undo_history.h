@@ -21,6 +21,12 @@ class UndoHistory {
   }
   bool canUndo() const { return !done_.empty(); }
   bool canRedo() const { return !undone_.empty(); }
+  // change(step) of all steps, where something that they name has moved.
+  template <class Change>
+  void forEach(const Change& change) {
+    for (Step& step : done_) change(step);
+    for (Step& step : undone_) change(step);
+  }
   // `travel(step)` goes back, or forth, over the last step and may change it for the way back; false: it did
   // not, and nothing changes. False if there is no step, too.
   template <class Travel>

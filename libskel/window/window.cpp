@@ -234,6 +234,8 @@ Window::~Window() = default;
 
 void Window::setTitle(const std::string& title) { glfwSetWindowTitle(parts_->window, title.c_str()); }
 
+bool Window::hasFocus() const { return glfwGetWindowAttrib(parts_->window, GLFW_FOCUSED) != 0; }
+
 void Window::run(const std::function<NextFrame()>& frame, const std::function<bool()>& may_close) {
   int settling = kSettlingFrames;
   double settled_s = glfwGetTime() + kSettling_s;

@@ -35,6 +35,7 @@ class Window {
   // window, which stays open where `may_close` says false.
   void run(const std::function<NextFrame()>& frame, const std::function<bool()>& may_close = {});
   void setTitle(const std::string& title);
+  bool hasFocus() const;  // of the keyboard
 
  private:
   struct Parts;

@@ -276,6 +276,40 @@ TEST_CASE("undo did not say what was undone on another drawing or of another kin
   CHECK(document.message() == "done again: a stroke of the mask");
 }
 
+TEST_CASE("pictures that were added to an open folder were not seen") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  copyCharacter("runner", dir.path());
+  Document document(dir.path(), documentOptions());
+  REQUIRE(document.go(1));
+  document.label({0}, JointClass::kLeg);
+  REQUIRE(document.go(0));
+  document.label({0}, JointClass::kLeg);
+  const DrawingState open = document.state();
+  CHECK(document.lookAgain() == 0);
+
+  copyCharacter("alien", dir.path());
+  copyCharacter("chef", dir.path());
+  CHECK(document.lookAgain() == 1);
+  CHECK(document.message() == "2 pictures more in the folder");
+  std::vector<std::string> names;
+  for (const Item& item : document.items()) names.push_back(item.files.name);
+  CHECK(names == std::vector<std::string>{"alien.png", "cap_boy.png", "chef.png", "runner.png"});
+  CHECK(document.current() == 1);
+  CHECK(document.state() == open);
+  CHECK(document.lookAgain() == 0);
+
+  // Steps from before know their drawings.
+  CHECK(document.undo());
+  CHECK(document.item().files.name == "cap_boy.png");
+  CHECK(document.undo());
+  CHECK(document.item().files.name == "runner.png");
+  CHECK(document.item().classes.done == 0);
+  REQUIRE(document.go(0));
+  CHECK(document.item().files.name == "alien.png");
+  CHECK(document.image().width > 0);
+}
+
 TEST_CASE(
     "a folder's drawings are looked through: joints are found unasked, accepted, and finished next time") {
   const TempDir dir;
