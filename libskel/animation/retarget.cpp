@@ -509,12 +509,15 @@ double clearingSwing(Retargeter& retargeter, const ClipMoments& moments, const C
   constexpr double kStep = kPi / 36;
   constexpr int kSteps = 15;  // no further than 75°
   constexpr std::size_t kEvery = 3;
-  // The joints that carry the head or the end, parents first.
-  std::vector<bool> carries(skeleton.joints.size(), false);
+  // The joints that carry the head or the end, parents first, and those of them that the turn moves.
+  std::vector<bool> carries(skeleton.joints.size(), false), swings = carries;
   for (const int last : {head, part.end})
     for (int j = skeleton.joints[last].parent; j >= 0; j = skeleton.joints[j].parent) carries[j] = true;
-  ModelPose at;
-  at.globals.resize(skeleton.joints.size());
+  for (std::size_t j = std::size_t(part.turned); j < carries.size(); ++j) {
+    const int parent = skeleton.joints[j].parent;
+    swings[j] = carries[j] && (int(j) == part.turned || (parent >= 0 && swings[std::size_t(parent)]));
+  }
+  std::vector<ModelPose> poses(moments.size());
   double best_swing = 0, best_clearance = -1e9;
   for (int step = 0; step <= kSteps; ++step) {
     retargeter.swing[part.turned] = away * step * kStep;
@@ -522,8 +525,11 @@ double clearingSwing(Retargeter& retargeter, const ClipMoments& moments, const C
     for (std::size_t k = 0; k < moments.size(); k += kEvery) {
       const auto& [motion, root, share] = moments[k];
       if (share < 1) continue;
+      ModelPose& at = poses[k];
+      at.globals.resize(carries.size());
       for (std::size_t j = 0; j < carries.size(); ++j)
-        if (carries[j]) at.globals[j] = retargeter.global(motion, share, j, at.globals);
+        if (step == 0 ? carries[j] : swings[j])
+          at.globals[j] = retargeter.global(motion, share, j, at.globals);
       const Vector2d begin = jointPosition(skeleton, at, part.turned).head<2>(),
                      along = jointPosition(skeleton, at, part.end).head<2>() - begin;
       clearance = std::min(clearance,

@@ -89,6 +89,7 @@ class Stretched {
     const std::size_t vertices = std::size_t(mesh.vertices.rows());
     posed_.resize(3 * Index(vertices), joints_[0].cols());
     is_posed_.assign(vertices, 0);
+    strains_.assign(rest_.size(), Strain::kUnknown);
     first_.assign(vertices + 1, 0);
     for (Index t = 0; t < mesh.triangles.rows(); ++t)
       for (int k = 0; k < 3; ++k) ++first_[std::size_t(mesh.triangles(t, k)) + 1];
@@ -99,26 +100,45 @@ class Stretched {
       for (int k = 0; k < 3; ++k) triangles_[std::size_t(next[std::size_t(mesh.triangles(t, k))]++)] = int(t);
   }
 
-  // Those at the `changed` vertices that any moment stretches too far, ascending; of those whose weights
-  // differ by `same` at least.
+  // Those that any moment stretches too far, ascending; of those whose weights differ by `same` at least.
+  std::vector<int> all(const JointWeights& weights, float same = kSame) {
+    std::vector<int> found;
+    for (int t = 0; t < int(strains_.size()); ++t)
+      if (isStretched(t, weights, same)) found.push_back(t);
+    return found;
+  }
+
+  // The same of those at the vertices whose weights have changed.
   std::vector<int> among(const std::vector<int>& changed, const JointWeights& weights, float same = kSame) {
-    std::vector<char> is_near(rest_.size(), 0);
-    for (const int v : changed) is_posed_[std::size_t(v)] = 0;
-    for (const int v : changed)
-      for (int i = first_[std::size_t(v)]; i < first_[std::size_t(v) + 1]; ++i)
-        is_near[std::size_t(triangles_[std::size_t(i)])] = 1;
-    std::vector<int> near;
+    std::vector<char> is_near(strains_.size(), 0);
+    for (const int v : changed) {
+      is_posed_[std::size_t(v)] = 0;
+      for (int i = first_[std::size_t(v)]; i < first_[std::size_t(v) + 1]; ++i) {
+        const auto t = std::size_t(triangles_[std::size_t(i)]);
+        is_near[t] = 1, strains_[t] = Strain::kUnknown;
+      }
+    }
+    std::vector<int> found;
     for (int t = 0; t < int(is_near.size()); ++t)
-      if (is_near[std::size_t(t)] && !isRigid(t, weights, same)) near.push_back(t);
-    for (const int t : near)
-      for (int k = 0; k < 3; ++k)
-        if (char& posed = is_posed_[std::size_t(mesh_.triangles(t, k))]; !posed)
-          posed = 1, pose(mesh_.triangles(t, k), weights);
-    std::erase_if(near, [&](int t) { return !isStretched(t); });
-    return near;
+      if (is_near[std::size_t(t)] && isStretched(t, weights, same)) found.push_back(t);
+    return found;
   }
 
  private:
+  enum class Strain : char { kUnknown, kBorne, kTooFar };
+
+  bool isStretched(int t, const JointWeights& weights, float same) {
+    Strain& strain = strains_[std::size_t(t)];
+    if (strain == Strain::kBorne || isRigid(t, weights, same)) return false;
+    if (strain == Strain::kUnknown) {
+      for (int k = 0; k < 3; ++k)
+        if (char& posed = is_posed_[std::size_t(mesh_.triangles(t, k))]; !posed)
+          posed = 1, pose(mesh_.triangles(t, k), weights);
+      strain = tears(t) ? Strain::kTooFar : Strain::kBorne;
+    }
+    return strain == Strain::kTooFar;
+  }
+
   bool isRigid(int t, const JointWeights& weights, float same) const {
     const auto a = weights.row(mesh_.triangles(t, 0)), b = weights.row(mesh_.triangles(t, 1)),
                c = weights.row(mesh_.triangles(t, 2));
@@ -144,7 +164,7 @@ class Stretched {
   }
 
   // The largest singular value of J is above b exactly if b² − JᵀJ is not positive definite.
-  bool isStretched(int t) const {
+  bool tears(int t) const {
     const RestTriangle& rest = rest_[std::size_t(t)];
     if (rest.inverse.isZero(0)) return false;
     const Eigen::Matrix2f inverse = rest.inverse.cast<float>();
@@ -181,6 +201,7 @@ class Stretched {
   std::vector<RestTriangle> rest_;
   MomentRows posed_;                    // three rows a vertex
   std::vector<char> is_posed_;          // as its weights are now
+  std::vector<Strain> strains_;         // of triangles, so far as known
   std::vector<int> first_, triangles_;  // of each vertex
   std::vector<Carrier> carriers_;
 };
@@ -302,9 +323,7 @@ StretchBound boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton,
   const std::vector<JointTransforms> moments = tellingMoments(mesh, skeleton, clips);
   if (moments.empty()) return {};
   Stretched stretched(mesh, byJoint(moments, skeleton.joints.size()));
-  std::vector<int> all(static_cast<std::size_t>(vertices));
-  for (int v = 0; v < vertices; ++v) all[std::size_t(v)] = v;
-  std::vector<int> found = stretched.among(all, rows);
+  std::vector<int> found = stretched.all(rows);
   if (found.empty()) return {};
   const Edges edges = edgesOf(vertices, mesh.triangles);
   std::vector<char> changed(static_cast<std::size_t>(vertices), 0);
@@ -329,11 +348,12 @@ StretchBound boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton,
     if (moving.empty()) break;
     held_arms = true;
     for (const int v : moving) changed[std::size_t(v)] = 1;
-    found = stretched.among(all, rows);
+    stretched.among(moving, rows);
+    found = stretched.all(rows);
     best = found.size();
     stalled = 0;
   }
-  found = stretched.among(all, rows, kSliver);
+  found = stretched.all(rows, kSliver);
   for (int round = 0; round < kSliverRounds && !found.empty() && found.size() < kFew; ++round) {
     const std::vector<int> moving = around(mesh, edges, found, 0);
     for (const int t : found) evenOut(mesh, t, rows);

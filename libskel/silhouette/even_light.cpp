@@ -398,21 +398,25 @@ void divide(const Surroundings& around, const cv::Mat& light, Image& image) {
       for (int c = 0; c < 3; ++c)
         gain.at<Log3>(y, x)[c] = std::min(kMostGain, std::exp(-light.at<Log3>(y, x)[c]));
   const double scale = around.scale(), scale_y = double(around.box.height) / light.rows;
-  for (int y = around.box.y; y < around.box.br().y; ++y) {
-    const double v = std::clamp((y - around.box.y + 0.5) / scale_y - 0.5, 0.0, light.rows - 1.0);
-    const int v0 = std::min(static_cast<int>(v), std::max(0, light.rows - 2)),
-              v1 = std::min(v0 + 1, light.rows - 1);
-    const float fv = static_cast<float>(v - v0);
-    for (int x = around.box.x; x < around.box.br().x; ++x) {
-      const double u = std::clamp((x - around.box.x + 0.5) / scale - 0.5, 0.0, light.cols - 1.0);
+  const auto across = [&](int v, std::vector<Log3>& row) {
+    for (int x = 0; x < around.box.width; ++x) {
+      const double u = std::clamp((x + 0.5) / scale - 0.5, 0.0, light.cols - 1.0);
       const int u0 = std::min(static_cast<int>(u), std::max(0, light.cols - 2)),
                 u1 = std::min(u0 + 1, light.cols - 1);
       const float fu = static_cast<float>(u - u0);
-      const Log3 g = (gain.at<Log3>(v0, u0) * (1 - fu) + gain.at<Log3>(v0, u1) * fu) * (1 - fv) +
-                     (gain.at<Log3>(v1, u0) * (1 - fu) + gain.at<Log3>(v1, u1) * fu) * fv;
-      std::uint8_t* p = image.pixel(x, y);
-      for (int c = 0; c < 3; ++c) p[c] = toByte(p[c] * g[c]);
+      row[static_cast<std::size_t>(x)] = gain.at<Log3>(v, u0) * (1 - fu) + gain.at<Log3>(v, u1) * fu;
     }
+  };
+  std::vector<Log3> above(static_cast<std::size_t>(around.box.width)), below = above;
+  for (int y = 0, last = -1; y < around.box.height; ++y) {
+    const double v = std::clamp((y + 0.5) / scale_y - 0.5, 0.0, light.rows - 1.0);
+    const int v0 = std::min(static_cast<int>(v), std::max(0, light.rows - 2));
+    if (v0 != last) across(v0, above), across(std::min(v0 + 1, light.rows - 1), below);
+    last = v0;
+    const float fv = static_cast<float>(v - v0);
+    std::uint8_t* p = image.pixel(around.box.x, around.box.y + y);
+    for (std::size_t x = 0; x < above.size(); ++x, p += 4)
+      for (int c = 0; c < 3; ++c) p[c] = toByte(p[c] * (above[x][c] * (1 - fv) + below[x][c] * fv));
   }
 }
 

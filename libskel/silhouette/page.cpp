@@ -6,6 +6,7 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <tuple>
 #include <vector>
 
 #include "libskel/silhouette/levels.h"
@@ -94,16 +95,26 @@ class Finder {
     side.direction = {-side.normal.y(), side.normal.x()};
     const double length = std::hypot(colors_.cols, colors_.rows);
     side.base = sign * rho * side.normal - length * side.direction;
-    rims_.clear(), papers_.clear();
+    const int places = static_cast<int>(std::ceil(2 * length / kStep_px));
+    rims_.assign(static_cast<std::size_t>(places), 0), papers_.assign(static_cast<std::size_t>(places), 0);
+    // Only where the place within lies in the picture, or a px beside it.
+    double first = 0, last = places;
+    const Eigen::Vector2d inner = side.base + kReach_px * side.normal;
+    for (const auto& [from, along, size] : {std::tuple(inner.x(), side.direction.x(), colors_.cols),
+                                            std::tuple(inner.y(), side.direction.y(), colors_.rows)}) {
+      if (std::abs(along) < 1e-6) continue;
+      const auto [enters, leaves] = std::minmax({(-1 - from) / along, (size - from) / along});
+      first = std::max(first, enters / kStep_px), last = std::min(last, leaves / kStep_px);
+    }
     double run = 0;
-    for (double t = 0; t < 2 * length; t += kStep_px) {
-      const Eigen::Vector2d p = side.base + t * side.direction;
+    for (int k = static_cast<int>(first); k < last; ++k) {
+      const Eigen::Vector2d p = side.base + k * kStep_px * side.direction;
       const std::optional<cv::Point> within = pixel(p + kReach_px * side.normal),
                                      without = pixel(p - kReach_px * side.normal);
       const bool paper = within && is_paper_.at<std::uint8_t>(*within);
       const bool rim =
           paper && without && isOther(colors_.at<cv::Vec3f>(*within), colors_.at<cv::Vec3f>(*without));
-      rims_.push_back(rim), papers_.push_back(paper);
+      rims_[static_cast<std::size_t>(k)] = rim, papers_[static_cast<std::size_t>(k)] = paper;
       if (!within || !without) continue;
       run = std::max(0.0, run + (rim ? 1.0 : -0.8));
       side.strength = std::max(side.strength, run);
