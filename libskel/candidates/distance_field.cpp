@@ -1,7 +1,7 @@
 // Exact Euclidean distance transform in linear time.
 // P. Felzenszwalb, D. Huttenlocher, "Distance Transforms of Sampled Functions" (2012): the lower envelope of
-// parabolas, once for each column and once for each row.
-#include <limits>
+// parabolas, for each row; along a column, where all is inside or outside, by two passes.
+#include <algorithm>
 #include <vector>
 
 #include "libskel/candidates/candidates.h"
@@ -54,18 +54,14 @@ DistanceField distanceField(const Plane8& mask) {
   // A frame of one outside pixel all around, since the outside of the array counts as outside.
   const Eigen::Index height = mask.rows() + 2, width = mask.cols() + 2;
   DistanceField squared = DistanceField::Zero(height, width);
-  squared.block(1, 1, mask.rows(), mask.cols()) =
-      (mask > 0).select(DistanceField::Constant(mask.rows(), mask.cols(), kFar), 0);
+  auto inner = squared.block(1, 1, mask.rows(), mask.cols());
+  for (Eigen::Index y = 0; y < mask.rows(); ++y)
+    inner.row(y) = (mask.row(y) > 0).select(squared.row(y).segment(1, mask.cols()) + 1, 0.0f);
+  for (Eigen::Index y = mask.rows(); y-- > 0;)
+    inner.row(y) = inner.row(y).min(squared.row(y + 2).segment(1, mask.cols()) + 1);
+  squared = squared.square();
 
-  std::vector<float> line(static_cast<size_t>(height)), result(static_cast<size_t>(height));
-  LowerEnvelope columns(static_cast<size_t>(height));
-  for (Eigen::Index x = 0; x < width; ++x) {
-    for (Eigen::Index y = 0; y < height; ++y) line[y] = squared(y, x);
-    columns.transform(line, result);
-    for (Eigen::Index y = 0; y < height; ++y) squared(y, x) = result[y];
-  }
-  line.resize(static_cast<size_t>(width));
-  result.resize(static_cast<size_t>(width));
+  std::vector<float> line(static_cast<size_t>(width)), result(static_cast<size_t>(width));
   LowerEnvelope rows(static_cast<size_t>(width));
   for (Eigen::Index y = 0; y < height; ++y) {
     for (Eigen::Index x = 0; x < width; ++x) line[x] = squared(y, x);

@@ -1,8 +1,24 @@
 #include "libskel/image/mask_parts.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace skel {
+namespace {
+
+constexpr int kTogether = 8;
+
+// Where the next byte from x on is not 0, or the row's end: most of a mask is empty.
+int skipZeros(const std::uint8_t* row, int x, int end) {
+  for (std::uint64_t bytes = 0; x + kTogether <= end; x += kTogether) {
+    std::memcpy(&bytes, row + x, kTogether);
+    if (bytes != 0) break;
+  }
+  while (x < end && row[x] == 0) ++x;
+  return x;
+}
+
+}  // namespace
 
 int MaskParts::largest() const {
   return size.empty() ? -1 : static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
@@ -20,13 +36,10 @@ MaskParts maskParts(const Plane8& mask) {
   for (int y = 0; y < mask.rows(); ++y) {
     const std::size_t row_begin = parts.runs.size();
     const std::uint8_t* row = mask.data() + mask.cols() * y;
-    for (int x = 0; x < columns;) {
-      if (row[x] == 0) {
-        ++x;
-        continue;
-      }
+    for (int x = skipZeros(row, 0, columns); x < columns; x = skipZeros(row, x, columns)) {
       const int x0 = x;
-      while (x < columns && row[x] != 0) ++x;
+      const void* zero = std::memchr(row + x, 0, static_cast<std::size_t>(columns - x));
+      x = zero == nullptr ? columns : static_cast<int>(static_cast<const std::uint8_t*>(zero) - row);
       const auto own = static_cast<int>(parts.runs.size());
       parts.runs.push_back({y, x0, x, 0});
       root.push_back(own);

@@ -68,14 +68,15 @@ double toLimb(const PartSkeleton& skeleton, std::size_t limb, const Vec& p) {
 void cut(const Image& image, const Plane8& mask, Sketch& picture) {
   const PixelBox& box = picture.box;
   cv::Mat rgb(box.height(), box.width(), CV_8UC3), inside(box.height(), box.width(), CV_8U);
-  for (int y = 0; y < box.height(); ++y)
-    for (int x = 0; x < box.width(); ++x) {
-      const std::uint8_t* p = image.pixel(x + box.x0, y + box.y0);
-      auto& o = rgb.at<cv::Vec3b>(y, x);
+  for (int y = 0; y < box.height(); ++y) {
+    const std::uint8_t *p = image.pixel(box.x0, y + box.y0), *own = &mask(y + box.y0, box.x0);
+    auto *o = rgb.ptr<std::uint8_t>(y), *in = inside.ptr<std::uint8_t>(y);
+    for (int x = 0; x < box.width(); ++x, p += 4, o += 3) {
       for (int c = 0; c < 3; ++c)
-        o[c] = p[3] == 255 ? p[c] : static_cast<std::uint8_t>((p[c] * p[3] + 255 * (255 - p[3]) + 127) / 255);
-      inside.at<std::uint8_t>(y, x) = mask(y + box.y0, x + box.x0) != 0 ? 255 : 0;
+        o[c] = static_cast<std::uint8_t>((p[c] * p[3] + 255 * (255 - p[3]) + 127) / 255);
+      in[x] = own[x] != 0 ? 255 : 0;
     }
+  }
   const int long_side = std::max(box.width(), box.height());
   picture.scale = std::min(1., static_cast<double>(kLookSize) / long_side);
   const cv::Size size(std::max(1, cvRound(box.width() * picture.scale)),
@@ -113,7 +114,9 @@ std::vector<cv::Mat> ask(const PartNet& net, const PartSkeleton& skeleton, Sketc
   for (cv::Mat& plane : planes) plane = cv::Mat::zeros(size, CV_32F);
   std::array<double, 4> weight{};
   std::array<float, kPartCount> highest{};
-  for (int y = 0; y < size.height; ++y)
+  for (int y = 0; y < size.height; ++y) {
+    std::array<float*, kPartCount> rows;
+    for (std::size_t k = 0; k < kPartCount; ++k) rows[k] = planes[k].ptr<float>(y);
     for (int x = 0; x < size.width; ++x) {
       if (near.at<std::uint8_t>(y, x) == 0) continue;
       std::array<float, kPartCount + 1> z;
@@ -131,7 +134,7 @@ std::vector<cv::Mat> ask(const PartNet& net, const PartSkeleton& skeleton, Sketc
       float sum = 0;
       for (std::size_t k = 0; k < kPartCount; ++k) sum += p[k] = std::exp(z[k] - most);
       for (std::size_t k = 0; k < kPartCount; ++k) {
-        planes[k].at<float>(y, x) = p[k] /= sum;
+        rows[k][x] = p[k] /= sum;
         highest[k] = std::max(highest[k], p[k]);
       }
       if (mask.at<std::uint8_t>(y, x) == 0) continue;
@@ -143,6 +146,7 @@ std::vector<cv::Mat> ask(const PartNet& net, const PartSkeleton& skeleton, Sketc
         picture.before[k] += 1 / (1 + std::exp(-static_cast<double>(z[kPartCount])));
       }
     }
+  }
   for (std::size_t k = 0; k < 4; ++k)
     if (weight[k] > 0) picture.sure[k] /= weight[k], picture.before[k] /= weight[k];
   for (std::size_t k = 0; k < kPartCount; ++k)

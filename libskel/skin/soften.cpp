@@ -119,7 +119,9 @@ void bendSoftly(const TriangleMesh& mesh, const Edges& edges, Hinge& hinge, Join
     for (const int joint : hinge.above) limb[v] += weights(v, joint);
   }
   // In doubles: rounded to floats, the sines of all C libraries are the same.
-  const auto turn = [](float weight) { return float(std::atan2(double(weight), 1 - double(weight))); };
+  const auto turn = [](float weight) {
+    return weight == 0 ? 0.0f : float(std::atan2(double(weight), 1 - double(weight)));
+  };
   std::vector<float> low(vertices), high(vertices);  // turns; high ones are negative
   for (int v = 0; v < vertices; ++v) low[v] = turn(given[v]), high[v] = -low[v];
   lowerEnvelope(mesh, edges, hinge, low);
@@ -128,6 +130,7 @@ void bendSoftly(const TriangleMesh& mesh, const Edges& edges, Hinge& hinge, Join
   for (int v = 0; v < vertices; ++v) low[v] = 0.5f * (low[v] + std::min(-high[v], turn(limb[v])));
   lowerEnvelope(mesh, edges, hinge, low);
   for (int v = 0; v < vertices; ++v) {
+    if (low[v] == 0 && given[v] == 0) continue;
     const double sine = std::sin(double(low[v])), cosine = std::cos(double(low[v]));
     const auto weight = float(sine / (sine + cosine));
     low[v] = std::abs(weight - given[v]) < 1e-5f ? given[v] : std::min(weight, limb[v]);
