@@ -381,7 +381,7 @@ TEST_CASE("characters of one picture were left out one by one, and learned from 
   CHECK(run(train + "--folds 0").err == "");
 }
 
-TEST_CASE("--leave-one-out of one character measured on the training set without a word") {
+TEST_CASE("of one character --leave-one-out measured on the training set without a word") {
   const TempDir dir;
   fill(dir);
   for (int c = 1; c < 6; ++c) std::filesystem::remove(dir.file("c" + std::to_string(c) + ".labels.json"));
