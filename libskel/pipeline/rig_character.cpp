@@ -131,9 +131,9 @@ std::optional<std::string> betterBodyPlan(const Image& image, const Silhouette& 
   return std::nullopt;
 }
 
-// By the net of the body plan, or of the other one where the first leaves doubt and the other hardly any.
+// By the net of the body plan, or of the other one where the first leaves doubt and the other less.
 FoundJoints recognizeByNet(const RigOptions& options, const Image& image, const Silhouette& silhouette) {
-  constexpr double kSure = .8, kFits = .5;
+  constexpr double kSure = .8, kFits = .5, kMayFit = .1;
   TreeRecognizerOptions recognizer;
   recognizer.try_orientations = !options.upright;
   const auto recognize = [&](const SkeletonTemplate& body_plan) {
@@ -143,7 +143,7 @@ FoundJoints recognizeByNet(const RigOptions& options, const Image& image, const 
   if (options.otherwise) {
     if (found.likeness >= kSure) return {std::move(found), options.body_plan};
     Recognition other = recognize(options.otherwise->body_plan);
-    if (other.likeness < kFits || other.likeness <= found.likeness)
+    if (other.likeness < kMayFit || other.likeness <= found.likeness)
       return {std::move(found), options.body_plan};
     return {std::move(other), options.otherwise->body_plan};
   }
