@@ -36,11 +36,6 @@ constexpr float kListWidth = 236, kTimeHeight = 96, kStatusHeight = 40, kButtonH
 // Keys nearer to each other on the time line are no longer told apart.
 constexpr float kKeysApart_px = 14;
 
-// Of questions before something is lost, or for a name.
-constexpr ImGuiWindowFlags kQuestionFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize;
-constexpr float kQuestionWidth = 460;
-const ImVec2 kQuestionButton = {120, kButtonHeight};
-
 constexpr const char* kSides[] = {"Front", "Left side", "Back", "Right side"};
 
 constexpr KeyHelp kHelp[] = {
@@ -318,15 +313,6 @@ class AnimationWindow {
   }
 
   // In the middle, as files are asked for.
-  static void beginQuestion(const char* name) {
-    if (!ImGui::IsPopupOpen(name)) ImGui::OpenPopup(name);
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(24, 20));
-    ImGui::PushStyleVar(ImGuiStyleVar_PopupRounding, 12);
-  }
-  static void endQuestion() { ImGui::PopStyleVar(2); }
-
   void askModel() {
     ask({"Open a character: a drawing, or a model (.glb)", "Open", "character", document_.path(),
          FileUse::kOpen,

@@ -60,6 +60,8 @@ bool isEmpty(const JointTrack& track) {
 
 bool moves(const Clip& clip) { return !clip.tracks.empty() || !clip.root_times_s.empty(); }
 
+std::string savedKey(const std::string& path) { return fs::absolute(path).lexically_normal().string(); }
+
 // As far as a typed number shows. Floats are no more of unit length than they can be.
 bool sameTurn(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
   constexpr double kSame = 5e-4;  // rad
@@ -136,10 +138,8 @@ AnimationDocument::AnimationDocument(const CharacterSource& source, const ClipSo
   setSaved(source.path, clips());
   on_disk_.note(source.path);
   if (!library.clips_dir.empty())
-    for (const std::string& file : filesBelow(library.clips_dir)) {
+    for (const std::string& file : filesBelow(library.clips_dir))
       file.ends_with(kClipFileEnding) ? on_disk_.note(file) : on_disk_.noteUnread(file);
-      takeSavedFrom(file);
-    }
 }
 
 const Clip* AnimationDocument::clip() const {
@@ -454,11 +454,11 @@ void AnimationDocument::renameClip(const std::string& name) {
 }
 
 void AnimationDocument::setSaved(const std::string& path, const std::vector<Clip>& clips) {
-  saved_[fs::absolute(path).lexically_normal().string()] = clips;
+  saved_[savedKey(path)] = clips;
 }
 
 void AnimationDocument::takeSavedFrom(const std::string& clip_file) {
-  if (!clip_file.ends_with(kClipFileEnding)) return;
+  if (saved_.contains(savedKey(clip_file))) return;
   try {
     const Clip held = loadClipFor(clip_file, character(), library_);
     if (!isSaved(held)) return;
@@ -656,6 +656,7 @@ bool AnimationDocument::saveClip(const std::string& path) {
     }
     ClipKeys written = named;
     written.clip.rest_pose = restPoseHash(skeleton());
+    takeSavedFrom(path);
     save(path, kClipFileEnding, formatClipKeys(written));
     setSaved(path, {withEvenKeys(named)});
     files_[named.clip.name] = path;

@@ -175,7 +175,7 @@ class AnimationDocument {
   void save(const std::string& path, std::string_view ending, std::string_view bytes);
   // `path` holds these now, and no longer what it held.
   void setSaved(const std::string& path, const std::vector<Clip>& clips);
-  // One of those clips came from this file, and is the file's to hold.
+  // Before the file is written over: if one of those clips came from it, that is the file's alone to hold.
   void takeSavedFrom(const std::string& clip_file);
   bool isSaved(const Clip& clip) const;
   bool travel(AnimationState& step);

@@ -4,7 +4,6 @@
 
 #include "libskel/animation/clip_file.h"
 #include "libskel/core/error.h"
-#include "libskel/core/input_guard.h"
 #include "libskel/import/read_character.h"
 
 namespace skel {
@@ -12,7 +11,6 @@ namespace fs = std::filesystem;
 
 std::string glbNamedAfter(const std::string& source, const std::string& writer) {
   const std::string path = "out/" + clipNameIn(source) + ".glb";
-  const LookAtOutputs look;
   if (std::error_code unknown; fs::exists(path, unknown) && generatorOfGlb(path) != writer)
     throw UsageError(path + " is there, and was not written by " + writer + ": name the file to write by -o");
   return path;

@@ -154,20 +154,11 @@ AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, c
 
 // Files are named after characters.
 void checkNames(const std::vector<std::string>& files) {
-  std::map<std::string, std::string> file_of_name;
-  std::string clash;
-  std::vector<std::string> more;
-  for (const std::string& file : files) {
-    const auto [other, is_new] = file_of_name.emplace(stemOf(file), file);
-    if (is_new) continue;
-    const std::string both = other->second + " and " + file;
-    if (clash.empty())
-      clash = both + " would both write files called " + other->first;
-    else
-      more.push_back(both);
-  }
-  if (!clash.empty())
-    throw UsageError(clash + (more.empty() ? "" : ", as would " + firstFew(more)) + "; rename one");
+  std::vector<std::string> names;
+  for (const std::string& file : files) names.push_back(stemOf(file));
+  if (const auto clash = nameClash(files, names))
+    throw UsageError(clash->first + " and " + clash->second + " would both write files called " +
+                     clash->name + clash->more + "; rename one");
 }
 
 struct Cast {

@@ -214,10 +214,7 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
   for (const Row& row : all)
     if (!row.other_plan.empty()) of_other_plans[row.other_plan].push_back(row.name);
   for (const auto& [plan, drawings] : of_other_plans) {
-    const InputError error(options.dir, std::to_string(drawings.size()) + " of " +
-                                            std::to_string(all.size()) + " drawings (" + drawings.front() +
-                                            (drawings.size() > 1 ? ", ..." : "") + ") have joints of a " +
-                                            plan + ", not of a " + rig.body_plan.name +
+    const InputError error(options.dir, otherPlanSaid(drawings, all.size(), plan, rig.body_plan.name) +
                                             ": not measured; --template " + plan + " measures them");
     std::fprintf(stderr, "skel-infer: %s\n", error.what());
     if (code == ExitCode::kDone) code = error.exitCode();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <utility>
 
 #include "infer/drawing_list.h"
@@ -35,26 +34,16 @@ std::vector<RigJob> jobsOf(const InferOptions& options) {
   std::vector<RigJob> jobs;
   for (const std::string& source : sources)
     jobs.push_back({source, options.name.empty() ? fs::path(source).stem().string() : options.name, {}});
-  std::map<std::string, std::string> writers;
-  std::string clash;
-  bool same_folder = false;
-  std::vector<std::string> more;
-  for (const RigJob& job : jobs) {
-    const auto [other, is_new] = writers.emplace(job.stem, job.source);
-    if (is_new) continue;
-    if (!clash.empty()) {
-      more.push_back(other->second + " and " + job.source);
-      continue;
-    }
-    same_folder = fs::path(other->second).parent_path() == fs::path(job.source).parent_path();
-    clash =
-        other->second + " and " + job.source + " would both write " + options.out_dir + "/" + job.stem + ".*";
-  }
-  if (!clash.empty())
-    throw UsageError(clash + (more.empty() ? "" : ", as would " + firstFew(more)) + "; " +
+  std::vector<std::string> stems;
+  for (const RigJob& job : jobs) stems.push_back(job.stem);
+  if (const auto clash = nameClash(sources, stems)) {
+    const bool same_folder = fs::path(clash->first).parent_path() == fs::path(clash->second).parent_path();
+    throw UsageError(clash->first + " and " + clash->second + " would both write " + options.out_dir + "/" +
+                     clash->name + ".*" + clash->more + "; " +
                      (same_folder
                           ? "if one is the other taken again, move the older one elsewhere, else rename one"
                           : "rename one or run them with different -o"));
+  }
   return jobs;
 }
 

@@ -112,11 +112,7 @@ std::optional<Note> keepModelOfOthers(const InferOptions& options, const std::st
   const std::string start = options.out_dir + "/" + stem, path = start + ".glb";
   std::error_code unknown;
   if (!writes(options, "glb") || options.force || !fs::is_regular_file(path, unknown)) return std::nullopt;
-  std::string writer;
-  {
-    const LookAtOutputs look;
-    writer = generatorOfGlb(path);
-  }
+  const std::string writer = generatorOfGlb(path);
   if (writer == ExportOptions().generator) return std::nullopt;
   const std::string shared = "a model that skel-infer did not write is kept",
                     what = fs::path(path).filename().string() + " is now " +

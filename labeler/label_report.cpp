@@ -146,9 +146,7 @@ void forEachSound(const std::string& dir, const BodyPlans& plans, const OnError&
     }
   }
   for (const auto& [plan, names] : of_other_plans)
-    on_error(InputError(dir, std::to_string(names.size()) + " of " + std::to_string(files.size()) +
-                                 " drawings (" + names.front() + (names.size() > 1 ? ", ..." : "") +
-                                 ") have joints of a " + plan + ", not of a " + plans.front().name +
+    on_error(InputError(dir, otherPlanSaid(names, files.size(), plan, plans.front().name) +
                                  ": not exported; --template " + plan + " exports them"));
 }
 

@@ -23,8 +23,6 @@ namespace skel {
 namespace {
 
 constexpr float kListWidth = 220, kPanelWidth = 270, kStatusHeight = 46, kButtonHeight = 44;
-constexpr float kQuestionWidth = 460;
-const ImVec2 kQuestionButton = {120, kButtonHeight};
 constexpr const char* kToolNames[kToolCount] = {"Joints", "Mask", "Limbs", "Touch", "Brush", "Lasso"};
 constexpr const char* kToolKeys[kToolCount] = {"J", "M", "G", "V", "B", "L"};
 constexpr const char* kToolHelp[kToolCount] = {
@@ -580,23 +578,21 @@ class LabelingWindow {
 
   void drawLosing() {
     if (!losing_) return;
-    if (!ImGui::IsPopupOpen("losing")) ImGui::OpenPopup("losing");
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    if (!ImGui::BeginPopupModal("losing", nullptr,
-                                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize))
-      return;
-    ImGui::PushTextWrapPos(kQuestionWidth);
-    ImGui::TextUnformatted(("The last step is not saved: " + document_.saveProblem()).c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::Spacing();
-    if (ImGui::Button("Try again", kQuestionButton)) closes_ = mayClose();
-    ImGui::SameLine();
-    if (ImGui::Button("Discard", kQuestionButton)) closes_ = true;
-    ImGui::SameLine();
-    if (ImGui::Button("Cancel", kQuestionButton) || pressed(key::kEscape)) losing_ = false;
-    if (!losing_) ImGui::CloseCurrentPopup();
-    ImGui::EndPopup();
+    beginQuestion("losing");
+    if (ImGui::BeginPopupModal("losing", nullptr, kQuestionFlags)) {
+      ImGui::PushTextWrapPos(kQuestionWidth);
+      ImGui::TextUnformatted(("The last step is not saved: " + document_.saveProblem()).c_str());
+      ImGui::PopTextWrapPos();
+      ImGui::Spacing();
+      if (ImGui::Button("Try again", kQuestionButton)) closes_ = mayClose();
+      ImGui::SameLine();
+      if (ImGui::Button("Discard", kQuestionButton)) closes_ = true;
+      ImGui::SameLine();
+      if (ImGui::Button("Cancel", kQuestionButton) || pressed(key::kEscape)) losing_ = false;
+      if (!losing_) ImGui::CloseCurrentPopup();
+      ImGui::EndPopup();
+    }
+    endQuestion();
   }
 
   // Over the drawing, which stays usable: any key still works.

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <map>
+
 namespace skel {
 namespace {
 

@@ -59,10 +59,8 @@ void ensureBodyPlan(const std::string& dir, const std::vector<JointedDrawing>& d
       of_other_plans[plan].push_back(fs::path(drawing.joints_file).lexically_relative(dir).string());
   if (of_other_plans.empty()) return;
   const auto& [plan, names] = *of_other_plans.begin();
-  throw InputError(dir, std::to_string(names.size()) + " of " + std::to_string(drawings.size()) +
-                            " drawings (" + names.front() + (names.size() > 1 ? ", ..." : "") +
-                            ") have joints of a " + plan + ", not of a " + body_plan.name + ": --template " +
-                            plan + " takes those, in a folder of their own");
+  throw InputError(dir, otherPlanSaid(names, drawings.size(), plan, body_plan.name) + ": --template " + plan +
+                            " takes those, in a folder of their own");
 }
 
 }  // namespace

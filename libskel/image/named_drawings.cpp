@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <system_error>
 
@@ -106,6 +107,23 @@ NamedDrawings drawingsOf(const std::vector<std::string>& named) {
   if (found.drawings.empty() && !pictures.empty())
     throw UsageError("none of the images is a drawing; name one of them alone to rig it all the same");
   return found;
+}
+
+std::optional<NameClash> nameClash(const std::vector<std::string>& files,
+                                   const std::vector<std::string>& names) {
+  std::map<std::string, std::string> file_of_name;
+  std::optional<NameClash> clash;
+  std::vector<std::string> more;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto [other, is_new] = file_of_name.emplace(names[i], files[i]);
+    if (is_new) continue;
+    if (clash)
+      more.push_back(other->second + " and " + files[i]);
+    else
+      clash = {other->second, files[i], names[i], ""};
+  }
+  if (!more.empty()) clash->more = ", as would " + firstFew(more);
+  return clash;
 }
 
 std::vector<std::string> notesOf(const NamedDrawings& named) {

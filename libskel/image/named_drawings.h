@@ -1,6 +1,7 @@
 // The drawings that a command line means.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,14 @@ struct NamedDrawings {
 // folder of results means the drawings alone. Throws InputError: a folder without drawings or that cannot be
 // read; UsageError: results alone.
 NamedDrawings drawingsOf(const std::vector<std::string>& named);
+
+// Two of `files` whose outputs would have one name, and what is to be said of other pairs: ", as would c and
+// d". `names`: of their outputs. Nothing: all are different.
+struct NameClash {
+  std::string first, second, name, more;
+};
+std::optional<NameClash> nameClash(const std::vector<std::string>& files,
+                                   const std::vector<std::string>& names);
 
 // What is to be said of those that are no drawings.
 std::vector<std::string> notesOf(const NamedDrawings& named);

@@ -9,6 +9,7 @@
 
 #include "libskel/animation/clip_limits.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/srgb.h"
 #include "libskel/import/glb_container.h"
@@ -572,6 +573,7 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
 }
 
 std::string generatorOfGlb(const std::string& path) {
+  const LookAtOutputs look;
   try {
     const std::string bytes = readFile(path);
     const GlbContainer glb(bytes, path);

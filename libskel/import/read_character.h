@@ -27,6 +27,7 @@ CharacterFile readGlb(const std::string& path);
 CharacterFile decodeGlb(std::string_view bytes, const std::string& file);
 
 // Who wrote a GLB file (ExportOptions::generator); "": it does not say so, or is none that can be read.
+// It does not become an input by that: it may be about to be replaced.
 std::string generatorOfGlb(const std::string& path);
 
 }  // namespace skel

@@ -167,10 +167,8 @@ std::string addAnnotated(const std::string& dir, const std::vector<JointedImage>
   };
   for (const JointedImage& drawing : drawings) attempt(on_error, [&] { take(drawing); });
   for (const auto& [plan, names] : of_other_plans)
-    on_error({dir, std::to_string(names.size()) + " of " + std::to_string(drawings.size()) + " drawings (" +
-                       names.front() + (names.size() > 1 ? ", ..." : "") + ") have joints of a " + plan +
-                       ", not of a " + body_plan.name + "; skel-infer evaluate --template " + plan +
-                       " measures those"});
+    on_error({dir, otherPlanSaid(names, drawings.size(), plan, body_plan.name) +
+                       "; skel-infer evaluate --template " + plan + " measures those"});
   return hashed;
 }
 

@@ -34,4 +34,10 @@ std::string otherPlanWith(const std::vector<std::string>& joints, const BodyPlan
   return "";
 }
 
+std::string otherPlanSaid(const std::vector<std::string>& names, std::size_t drawings,
+                          const std::string& theirs, const std::string& asked_for) {
+  return std::to_string(names.size()) + " of " + std::to_string(drawings) + " drawings (" + names.front() +
+         (names.size() > 1 ? ", ..." : "") + ") have joints of a " + theirs + ", not of a " + asked_for;
+}
+
 }  // namespace skel

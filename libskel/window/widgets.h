@@ -33,6 +33,22 @@ void enabledButton(const char* label, const ImVec2& size, bool enabled, const Ac
   tip(hint);
 }
 
+// Of questions before something is lost, or for a name: a popup in the middle, between beginQuestion() and
+// endQuestion(), by ImGui::BeginPopupModal() with these flags.
+inline constexpr ImGuiWindowFlags kQuestionFlags =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize;
+inline constexpr float kQuestionWidth = 460;
+inline const ImVec2 kQuestionButton = {120, 44};
+
+inline void beginQuestion(const char* name) {
+  if (!ImGui::IsPopupOpen(name)) ImGui::OpenPopup(name);
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(24, 20));
+  ImGui::PushStyleVar(ImGuiStyleVar_PopupRounding, 12);
+}
+inline void endQuestion() { ImGui::PopStyleVar(2); }
+
 // Of the list that is open: the arrows choose, Return and Escape close it.
 inline void listKeys(std::size_t& chosen, std::size_t count) {
   if (pressed(key::kUp, true) && chosen > 0) --chosen;

@@ -57,6 +57,17 @@ std::string motionText(int frames, double end_s, double rate, const std::string&
   return formatMotionFile(motion, plan);
 }
 
+// A GIF of ten frames a second.
+std::string walkingFilm(const TempDir& dir) {
+  const std::string walk = dir.file("walk.gif");
+  REQUIRE(runTool("skel-animate render '" SKEL_SOURCE_DIR
+                  "/datasets/characters/runner.png' --look solid --clip "
+                  "walk --fps 10 --size 64 -o " +
+                  walk)
+              .exit_code == 0);
+  return walk;
+}
+
 }  // namespace
 
 TEST_CASE("from a drawing and two films to a new film, and on from what lies between") {
@@ -174,12 +185,7 @@ TEST_CASE("frames in a folder were taken for 12 a second without a word") {
 
 TEST_CASE("of films --fps was ignored without a word") {
   const TempDir dir;
-  const std::string walk = dir.file("walk.gif");
-  REQUIRE(runTool("skel-animate render '" SKEL_SOURCE_DIR
-                  "/datasets/characters/runner.png' --look solid --clip "
-                  "walk --fps 10 --size 64 -o " +
-                  walk)
-              .exit_code == 0);
+  const std::string walk = walkingFilm(dir);
   for (const std::string& command : {"keypoints " + walk + " -o " + dir.file("a.motion.json"),
                                      "keyframes " + walk + " -o " + dir.file("keys")}) {
     CAPTURE(command);
@@ -194,12 +200,7 @@ TEST_CASE("of films --fps was ignored without a word") {
 
 TEST_CASE("of films whose motions were there already make ignored --fps without a word") {
   const TempDir dir;
-  const std::string walk = dir.file("walk.gif");
-  REQUIRE(runTool("skel-animate render '" SKEL_SOURCE_DIR
-                  "/datasets/characters/runner.png' --look solid --clip "
-                  "walk --fps 10 --size 64 -o " +
-                  walk)
-              .exit_code == 0);
+  const std::string walk = walkingFilm(dir);
   const std::string make = "make --character " + kDrawing + " --content " + walk + " --style " + walk +
                            " --size 64 -o " + dir.file("out.gif") + " --work " + dir.file("w");
   REQUIRE(style(make).exit_code == 0);

@@ -131,10 +131,7 @@ TEST_CASE("weights and pictures that skel-train and skel-label are given are kep
 
 TEST_CASE("skeletons beside the drawings of a set were written over by what was made of the set") {
   const TempDir dir;
-  fs::create_directories(dir.file("C"));
-  for (const char* ending : {".png", ".mask.png", ".labels.json"})
-    fs::copy_file(SKEL_SOURCE_DIR "/datasets/characters/cap_boy" + std::string(ending),
-                  dir.file("C/cap_boy") + ending);
+  copyLabelledBoy(dir, "C");
   writeFile(dir.file("C/cap_boy.skeleton.json"), "mended by hand");
   for (const char* command :
        {"skel-infer evaluate C --json ", "skel-train C --folds 0 -o ", "skel-train C -o w.json --json ",
@@ -144,10 +141,7 @@ TEST_CASE("skeletons beside the drawings of a set were written over by what was 
 
 TEST_CASE("joints annotated beside the drawings of a set were written over by what was made of the set") {
   const TempDir dir;
-  fs::create_directories(dir.file("C"));
-  for (const char* ending : {".png", ".mask.png", ".labels.json"})
-    fs::copy_file(SKEL_SOURCE_DIR "/datasets/characters/cap_boy" + std::string(ending),
-                  dir.file("C/cap_boy") + ending);
+  copyLabelledBoy(dir, "C");
   writeFile(dir.file("C/cap_boy.joints.json"), R"({"joints": {"head": [300, 100]}})");
   // Whose picture has gone.
   writeFile(dir.file("C/alien.joints.json"), R"({"joints": {"head": [300, 100]}})");

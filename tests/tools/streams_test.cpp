@@ -116,10 +116,7 @@ TEST_CASE("devices and pipes are written into and stay what they are") {
 
 TEST_CASE("a result on the standard output stood among what else is said") {
   const TempDir dir;
-  fs::create_directories(dir.file("set"));
-  for (const char* ending : {".png", ".mask.png", ".labels.json"})
-    fs::copy_file(SKEL_SOURCE_DIR "/datasets/characters/cap_boy" + std::string(ending),
-                  dir.file("set/cap_boy") + ending);
+  copyLabelledBoy(dir, "set");
   for (const char* command :
        {"skel-label export set --coco -o ", "skel-infer evaluate set --json ",
         "skel-train evaluate set --json ", "skel-train set --folds 0 --epochs 2 --generated 0 -o "}) {

@@ -35,6 +35,14 @@ inline void refused(const TempDir& dir, const std::string& command, int exit_cod
   CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
 }
 
+// cap_boy of the labelled set, with mask and labels, in that folder of the test's own.
+inline void copyLabelledBoy(const TempDir& dir, const std::string& folder) {
+  std::filesystem::create_directories(dir.file(folder));
+  for (const char* ending : {".png", ".mask.png", ".labels.json"})
+    std::filesystem::copy_file(SKEL_SOURCE_DIR "/datasets/characters/cap_boy" + std::string(ending),
+                               dir.file(folder + "/cap_boy") + ending);
+}
+
 // A small figure with arms and legs.
 inline Image smallFigure(double swing = 0) {
   Image image = blankImage(160, 200);
