@@ -25,6 +25,7 @@
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/coco_of_others.h"
 #include "libskel/recognition/calibration.h"
+#include "libskel/skeleton/body_plans.h"
 
 namespace skel {
 namespace {
