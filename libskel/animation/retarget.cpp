@@ -54,6 +54,7 @@ double canonicalShare(const Clip& clip, double time_s) {
 struct Retargeter {
   const Skeleton& skeleton;
   std::vector<bool> pointed;            // joints whose bone follows the canonical one
+  std::vector<bool> upright;            // those of them that are the trunk's, which may lean some way
   std::vector<BoneTurn> turns;          // canonical to drawn
   std::vector<double> swing;            // extra turn about z of a pointed joint and those below it, radians
   std::vector<Vector3d> raised;         // a bone whose swing grows as it points up; zero: swings always
@@ -91,7 +92,8 @@ struct Retargeter {
     const Quaterniond turn =
         swung == 0 ? motion.globals[joint] : aboutZ(swung * share) * motion.globals[joint];
     const Vector3d bone = turn * bones[joint];
-    const Vector3d seen = bone + share * bone.z() * (bone.z() > 0 ? ahead : behind)[joint];
+    const Vector3d seen =
+        upright[joint] ? bone : Vector3d(bone + share * bone.z() * (bone.z() > 0 ? ahead : behind)[joint]);
     return shortestTurn(bone, seen) * turn *
            (share == 1 ? undone[joint] : turns[joint].share(share).conjugate());
   }
@@ -138,19 +140,101 @@ void checkContacts(const Clip& clip, const Skeleton& skeleton) {
   }
 }
 
-double outwards(const Skeleton& skeleton, int joint) {
-  return skeleton.joints[joint].position.x() < skeleton.joints[0].position.x() ? -1 : 1;
+// The trunk's bones, and the head's.
+bool pointsUp(const Vector3d& canonical) { return canonical.y() > 0; }
+
+// To which side of the trunk the joint lies, when that is turned by -`lean_rad`: -1 or 1.
+double outwards(const Skeleton& skeleton, int joint, double lean_rad = 0) {
+  const Vector3d from_root = skeleton.joints[joint].position - skeleton.joints[0].position;
+  return (aboutZ(-lean_rad) * from_root).x() < 0 ? -1 : 1;
+}
+
+// How far the line from the root to the neck leans to the left of the vertical, rad, and by how much less
+// than straight the hips are, those of the straighter leg. Nothing of what has no neck or legs.
+struct Stance {
+  double lean_rad = 0, bent_rad = 0;
+};
+Stance stanceOf(const Skeleton& skeleton) {
+  const int neck = skeleton.find("neck");
+  if (neck < 0) return {};
+  const auto between = [&](int from, int to) -> Vector2d {
+    return (skeleton.joints[to].position - skeleton.joints[from].position).head<2>();
+  };
+  const auto angle = [](const Vector2d& a, const Vector2d& b) {
+    return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+  };
+  const Vector2d trunk = between(0, neck);
+  Stance stance{angle(Vector2d::UnitY(), trunk), kPi};
+  for (const std::string side : {"left_", "right_"})
+    if (const int hip = skeleton.find(side + "hip"), knee = skeleton.find(side + "knee");
+        hip >= 0 && knee >= 0)
+      stance.bent_rad = std::min(stance.bent_rad, std::abs(angle(-trunk, between(hip, knee))));
+  return stance;
+}
+
+// Of a lean, what is taken back: nothing within the slack, and the more the farther it goes beyond, so that
+// who lies stands up.
+double straightened(double lean_rad, double slack_rad) {
+  constexpr double kLies = 3;  // times the slack
+  const double lean = std::abs(lean_rad) / slack_rad;
+  const double kept = std::min({1., lean, std::max(0., (kLies - lean) / (kLies - 1))});
+  return lean <= 1 ? 0 : lean_rad - std::copysign(kept * slack_rad, lean_rad);
+}
+
+// How far the trunk is turned to stand upright, against that. One who is bent at the hips by more than a
+// right angle, crouching or folded, stays as he was drawn: straightened he would only tear.
+double trunkTurn(const Skeleton& skeleton, const std::vector<bool>& upright,
+                 const std::vector<double>& slack_rad) {
+  const Stance stance = stanceOf(skeleton);
+  return upright[0] && stance.bent_rad <= kPi / 2 ? straightened(stance.lean_rad, slack_rad[0]) : 0;
+}
+
+// The trunk turns as one piece, the head by itself, if the trunk does.
+void standUp(const Skeleton& skeleton, const std::vector<double>& slack_rad, const std::vector<bool>& upright,
+             double trunk_turn_rad, std::vector<BoneTurn>& turns) {
+  std::vector<bool> of_trunk(turns.size(), false);
+  for (int j = skeleton.find("neck"); j >= 0; j = skeleton.joints[j].parent)
+    of_trunk[j] = skeleton.joints[j].name != "neck";
+  for (std::size_t j = 0; j < turns.size(); ++j) {
+    if (!upright[j]) continue;
+    const bool alone = trunk_turn_rad != 0 && !of_trunk[j];
+    turns[j].angle_rad = alone ? straightened(turns[j].angle_rad, slack_rad[j]) : trunk_turn_rad;
+    if (!alone) turns[j].out_of_plane.setIdentity();
+  }
+}
+
+// Of each joint, how far what it was drawn against turns: the trunk, of limbs that were drawn along it rather
+// than as they hang, so that who stands on his hands has his legs below him and not crossed.
+std::vector<double> turnsOfGround(const Skeleton& skeleton, const std::vector<Vector3d>& canonical,
+                                  double trunk_turn_rad) {
+  std::vector<double> ground(skeleton.joints.size(), 0);
+  if (trunk_turn_rad == 0) return ground;
+  const std::vector<Vector3d> bones = restBones(skeleton);
+  for (std::size_t j = 0; j < ground.size(); ++j) {
+    if (canonical[j].isZero()) continue;
+    const int parent = skeleton.joints[j].parent;
+    if (pointsUp(canonical[j]))
+      ground[j] = trunk_turn_rad;
+    else if (parent >= 0 && !canonical[parent].isZero() && !pointsUp(canonical[parent]))
+      ground[j] = ground[parent];
+    else if (const double turn_rad = boneTurn(canonical[j], bones[j], 0).angle_rad;
+             std::abs(std::remainder(turn_rad - trunk_turn_rad, 2 * kPi)) < std::abs(turn_rad))
+      ground[j] = trunk_turn_rad;
+  }
+  return ground;
 }
 
 // Lets bones stay where they were drawn as far as `slack` and the trunk allow: the rest of the turn remains.
 void giveSlack(const Skeleton& skeleton, const std::vector<double>& slack_rad,
-               const std::vector<double>& hang_rad, std::vector<BoneTurn>& turns) {
+               const std::vector<double>& hang_rad, const std::vector<bool>& upright,
+               const std::vector<double>& ground_rad, std::vector<BoneTurn>& turns) {
   for (std::size_t j = 0; j < turns.size(); ++j) {
-    if (slack_rad[j] <= 0) continue;
-    const double side = outwards(skeleton, int(j));
+    if (slack_rad[j] <= 0 || upright[j]) continue;
+    const double side = outwards(skeleton, int(j), ground_rad[j]);
     const double most = std::max(slack_rad[j], hang_rad.empty() ? 0 : hang_rad[j]);
-    const double drawn = side * turns[j].angle_rad, kept = std::clamp(drawn, -slack_rad[j], most);
-    turns[j].angle_rad = side * (drawn - kept);
+    const double drawn = side * (turns[j].angle_rad - ground_rad[j]),
+                 kept = std::clamp(drawn, -slack_rad[j], most);
+    turns[j].angle_rad = side * (drawn - kept) + ground_rad[j];
     if (drawn == kept) turns[j].out_of_plane.setIdentity();
   }
 }
@@ -379,6 +463,18 @@ Clip asItCan(const Clip& clip, const Skeleton& skeleton, const FigureShape& shap
   return skeleton.find("body") >= 0 ? rocking(clip, skeleton, side) : clip;
 }
 
+// How long the legs are that the clip puts on the ground, m.
+double legLength(const Skeleton& skeleton, const std::vector<FootContact>& contacts) {
+  double sum = 0;
+  for (const FootContact& contact : contacts) {
+    const int foot = skeleton.index(contact.joint), knee = skeleton.joints[foot].parent,
+              hip = skeleton.joints[knee].parent;
+    const auto at = [&](int joint) -> const Vector3d& { return skeleton.joints[joint].position; };
+    sum += (at(foot) - at(knee)).norm() + (at(knee) - at(hip)).norm();
+  }
+  return sum / double(contacts.size());
+}
+
 // How the feet stand that the clip puts on the ground.
 FootPlanting footPlanting(const Retargeter& retargeter, const Clip& clip, const FigureShape& shape) {
   const Skeleton& skeleton = retargeter.skeleton;
@@ -395,13 +491,18 @@ FootPlanting footPlanting(const Retargeter& retargeter, const Clip& clip, const 
     const int foot = skeleton.index(contact.joint);
     ground = std::min(ground, drawnAt(foot) + soleBelow(shape, foot, Quaterniond::Identity()));
   }
+  // Who is stood up, with feet about as high as the hips, stands on what he lay on.
+  constexpr double kStands = 0.4;  // of the legs, below the pelvis
+  const bool lay = retargeter.upright[0] && retargeter.turns[0].angle_rad != 0 &&
+                   drawnAt(0) - ground < kStands * legLength(skeleton, clip.contacts);
+  if (lay) ground = 0;
   for (const FootContact& contact : clip.contacts) {
     const int foot = skeleton.index(contact.joint), knee = skeleton.joints[foot].parent;
     // One that was drawn in the air comes down, if the clip has a say in how the leg is held.
     double sole_y = drawnAt(foot) + soleBelow(shape, foot, Quaterniond::Identity());
     if (const int turned = retargeter.pointed[foot] ? foot : knee; retargeter.pointed[turned]) {
       planting.standing_turn[foot] = retargeter.turns[turned].share(1).conjugate();
-      if (sole_y > ground + 0.06 * shape.height_m) sole_y = ground;
+      if (lay || sole_y > ground + 0.06 * shape.height_m) sole_y = ground;
     }
     planting.standing_y_m[foot] = sole_y - soleBelow(shape, foot, planting.standing_turn[foot]);
   }
@@ -431,14 +532,7 @@ double standing(const Skeleton& skeleton, const std::vector<Vector3d>& still,
 // How long the legs are, in those of the figure that the clips were made for.
 double legShare(const Skeleton& skeleton, const std::vector<FootContact>& contacts, double height_m) {
   constexpr double kOfHeight = 0.45;
-  double sum = 0;
-  for (const FootContact& contact : contacts) {
-    const int foot = skeleton.index(contact.joint), knee = skeleton.joints[foot].parent,
-              hip = skeleton.joints[knee].parent;
-    const auto at = [&](int joint) -> const Vector3d& { return skeleton.joints[joint].position; };
-    sum += (at(foot) - at(knee)).norm() + (at(knee) - at(hip)).norm();
-  }
-  return std::min(1.3, sum / double(contacts.size()) / (kOfHeight * height_m));
+  return std::min(1.3, legLength(skeleton, contacts) / (kOfHeight * height_m));
 }
 
 // Which poses are keys enough for the joints to stay within `tolerance_m` of the others: from each key as far
@@ -600,7 +694,8 @@ BoneTurn boneTurn(const Vector3d& canonical, const Vector3d& drawn, double near_
   return turn;
 }
 
-std::vector<BoneTurn> turnsFromCanonical(const Skeleton& skeleton, const std::vector<Vector3d>& canonical) {
+std::vector<BoneTurn> turnsFromCanonical(const Skeleton& skeleton, const std::vector<Vector3d>& canonical,
+                                         const std::vector<double>& ground_rad) {
   std::vector<BoneTurn> turns(skeleton.joints.size());
   const std::vector<Vector3d> bones = restBones(skeleton);
   for (std::size_t j = 0; j < turns.size(); ++j) {
@@ -608,11 +703,12 @@ std::vector<BoneTurn> turnsFromCanonical(const Skeleton& skeleton, const std::ve
     const int parent = skeleton.joints[j].parent;
     // A limb's first bone may point anywhere but far across the body; the next ones bend from it by less than
     // a half turn.
+    const double ground = ground_rad.empty() ? 0 : ground_rad[j];
     double near = 0;
-    if (parent >= 0 && !canonical[parent].isZero())
+    if (parent >= 0 && !canonical[parent].isZero() && pointsUp(canonical[parent]) == pointsUp(canonical[j]))
       near = turns[parent].angle_rad;
-    else
-      near = outwards(skeleton, int(j)) * kPi / 2;
+    else if (!pointsUp(canonical[j]))
+      near = ground + outwards(skeleton, int(j), ground) * kPi / 2;
     turns[j] = boneTurn(canonical[j], bones[j], near);
   }
   return turns;
@@ -704,7 +800,8 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
 
   Retargeter retargeter{skeleton,
                         std::vector<bool>(count),
-                        turnsFromCanonical(skeleton, canonical),
+                        std::vector<bool>(count),
+                        {},
                         std::vector<double>(count, 0),
                         std::vector<Vector3d>(count, Vector3d::Zero()),
                         std::vector<double>(count, 1),
@@ -713,13 +810,20 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
                         {},
                         {},
                         {}};
-  for (std::size_t j = 0; j < count; ++j) retargeter.pointed[j] = !canonical[j].isZero();
-  // Seen from the side, limbs swing where they could else stay away.
-  if (clip.frame == ClipFrame::kBody)
-    for (double& slack : slack_rad) slack *= std::abs(std::cos(shape.yaw_rad));
+  for (std::size_t j = 0; j < count; ++j) {
+    retargeter.pointed[j] = !canonical[j].isZero();
+    retargeter.upright[j] = pointsUp(canonical[j]) && slack_rad[j] > 0;
+    // Seen from the side, limbs swing where they could else stay away.
+    if (clip.frame == ClipFrame::kBody && !retargeter.upright[j])
+      slack_rad[j] *= std::abs(std::cos(shape.yaw_rad));
+  }
   holdArms(retargeter, shape, slack_rad);
   const double steps = holdLegs(retargeter, shape, clip.contacts, slack_rad);
-  giveSlack(skeleton, slack_rad, shape.hang_rad, retargeter.turns);
+  const double trunk_turn_rad = trunkTurn(skeleton, retargeter.upright, slack_rad);
+  const std::vector<double> ground_rad = turnsOfGround(skeleton, canonical, trunk_turn_rad);
+  retargeter.turns = turnsFromCanonical(skeleton, canonical, ground_rad);
+  giveSlack(skeleton, slack_rad, shape.hang_rad, retargeter.upright, ground_rad, retargeter.turns);
+  standUp(skeleton, slack_rad, retargeter.upright, trunk_turn_rad, retargeter.turns);
   for (const BoneTurn& turn : retargeter.turns) retargeter.undone.push_back(turn.share(1).conjugate());
 
   const float duration = clip.duration_s();

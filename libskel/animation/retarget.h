@@ -95,8 +95,10 @@ struct BoneTurn {
 BoneTurn boneTurn(const Eigen::Vector3d& canonical, const Eigen::Vector3d& drawn, double near_angle_rad);
 
 // The turns that take canonical bones onto those of the rest pose. `canonical`: a direction for each joint,
-// zero for those that have none (their turn is the identity).
+// zero for those that have none (their turn is the identity). `ground_rad`: how far what each was
+// drawn against turns; empty: nothing does.
 std::vector<BoneTurn> turnsFromCanonical(const Skeleton& skeleton,
-                                         const std::vector<Eigen::Vector3d>& canonical);
+                                         const std::vector<Eigen::Vector3d>& canonical,
+                                         const std::vector<double>& ground_rad = {});
 
 }  // namespace skel

@@ -273,6 +273,70 @@ TEST_CASE("the pelvis stays where it was drawn: no leg that is raised, folded or
   CHECK(bone(at, raised, "left_hip", "left_foot").y() < -0.8f);
 }
 
+TEST_CASE("who lies, or is bent over, stands up to walk, and who leans a little goes on leaning") {
+  const auto turned = [](double degrees) {
+    Skeleton skeleton = figureSkeleton();
+    const Eigen::Rotation2Dd turn(degrees * std::numbers::pi / 180);
+    double low = 1e9;
+    for (Joint& joint : skeleton.joints) {
+      joint.position.head<2>() = turn * joint.position.head<2>().eval();
+      low = std::min(low, joint.position.y());
+    }
+    for (Joint& joint : skeleton.joints) joint.position.y() -= low;
+    return skeleton;
+  };
+  struct Walk {
+    double lean_deg, foot_m;  // in the mean; the lower foot's joint above the ground
+  };
+  const auto walk = [](const Skeleton& skeleton) {
+    RetargetOptions options;
+    options.shape = withFeet(skeleton);
+    const Clip clip = retargetToRest(clipNamed(builtinClips(), "walk"), skeleton, options);
+    Walk mean{0, 0};
+    constexpr int kMoments = 8;
+    for (int k = 0; k < kMoments; ++k) {
+      const float time_s = clip.duration_s() * float(k) / kMoments;
+      const auto at = positions(clip, skeleton, time_s);
+      const Vector3f trunk = bone(at, skeleton, "pelvis", "neck");
+      mean.lean_deg += std::atan2(-double(trunk.x()), double(trunk.y())) * 180 / std::numbers::pi / kMoments;
+      const double up =
+          options.shape->height_m * double(samplePose(clip, skeleton, time_s).root_translation.y());
+      const auto foot = [&](const char* name) {
+        return double(at[std::size_t(skeleton.index(name))].y()) + up;
+      };
+      mean.foot_m += std::min(foot("left_foot"), foot("right_foot")) / kMoments;
+    }
+    return mean;
+  };
+  const double standing_m = walk(turned(0)).foot_m;
+  for (const double degrees : {88., -88., 150.}) {
+    CAPTURE(degrees);
+    const Walk lying = walk(turned(degrees));
+    CHECK(std::abs(lying.lean_deg) < 5);
+    CHECK(lying.foot_m == Approx(standing_m).margin(0.07));  // its sole was drawn upright
+  }
+  for (const double degrees : {20., -20.}) CHECK(walk(turned(degrees)).lean_deg == Approx(degrees).margin(3));
+  // In between the less of the lean is left the farther it goes.
+  CHECK(std::abs(walk(turned(60)).lean_deg) < 15);
+
+  // One who is folded at the hips stays folded.
+  Skeleton folded = turned(0);
+  const Eigen::Vector3d pelvis = folded.joints[0].position;
+  for (Joint& joint : folded.joints)
+    if (joint.position.y() > pelvis.y()) {
+      const Eigen::Vector3d from = joint.position - pelvis;
+      joint.position = pelvis + Eigen::Vector3d(from.y() * .8, from.x() - .6 * from.y(), 0);
+    }
+  CHECK(walk(folded).lean_deg < -90);
+
+  // A head bowed on an upright trunk stays bowed.
+  Skeleton bowed = figureSkeleton();
+  bowed.joints[std::size_t(bowed.index("head_top"))].position =
+      bowed.joints[std::size_t(bowed.index("head"))].position + Eigen::Vector3d(0.2, -0.1, 0);
+  const auto at = positions(retargetToRest(clipNamed(builtinClips(), "walk"), bowed), bowed, 0);
+  CHECK(bone(at, bowed, "head", "head_top").y() < 0);
+}
+
 TEST_CASE(
     "a wave by an arm that is grown to the body, or leaves its hand, is the other arm's, or the trunk's") {
   const Skeleton skeleton = figureSkeleton();
