@@ -103,6 +103,7 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
       map.hidden.push_back(k + 1);
   }
   map.part = enlarged(picture, picture.part, silhouette.mask);
+  completeThings(silhouette.mask, map.part);
   if ((limbs == 0).all()) return map;
   map.limb = enlarged(picture, limbs, silhouette.mask);
   giveThingsToLimbs(silhouette, map);

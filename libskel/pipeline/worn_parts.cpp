@@ -28,6 +28,7 @@ constexpr float kHeld = .3f;       // of the thighs, and of what lies between th
 constexpr float kSwing = .4f;      // of a leg: so far down a skirt's hem would go with the thigh altogether
 constexpr float kMostSwing = .8f;  // of the thigh's turn, of the shortest skirt
 constexpr float kTail = .25f;      // of a piece: moved so far by the joints of a tail, it is the tail
+constexpr float kAlone = .9f;      // of what a thing touches
 constexpr float kApart = .15f;     // of a leg: hips so far apart in the picture push a side each
 
 bool isWorn(Part part) {
@@ -173,8 +174,9 @@ std::optional<Hanging> hang(const TriangleMesh& mesh, const Legs& legs, const st
 }
 
 // As one with the joint that moves most of what the piece touches; with `trunk_alone`, what limbs move apart.
-void ride(const Edges& edges, const std::vector<int>& limbs, const std::vector<int>& piece, bool trunk_alone,
-          JointWeights& weights) {
+// Returns how much each joint moves of that.
+RowVectorXf ride(const Edges& edges, const std::vector<int>& limbs, const std::vector<int>& piece,
+                 bool trunk_alone, JointWeights& weights) {
   std::vector<char> own(static_cast<std::size_t>(weights.rows()), 0);
   for (const int v : piece) own[static_cast<std::size_t>(v)] = 1;
   std::vector<int> touched;
@@ -189,7 +191,7 @@ void ride(const Edges& edges, const std::vector<int>& limbs, const std::vector<i
     for (Index j = 0; j < sum.size(); ++j)
       if (limbs[static_cast<std::size_t>(j)] >= 0) sum[j] = 0;
   Index most = 0;
-  if (touched.empty() || sum.maxCoeff(&most) <= 0) return;
+  if (touched.empty() || sum.maxCoeff(&most) <= 0) return sum;
   RowVectorXf carried = RowVectorXf::Zero(weights.cols());
   for (const int v : touched) {
     RowVectorXf row = weights.row(v);
@@ -199,6 +201,44 @@ void ride(const Edges& edges, const std::vector<int>& limbs, const std::vector<i
   }
   carried /= carried.sum();
   for (const int v : piece) weights.row(v) = carried;
+  return sum;
+}
+
+// A piece of a thing, and how much each joint moves of what it touches.
+struct TouchedThing {
+  const std::vector<int>& vertices;
+  RowVectorXf moved;
+};
+
+// What a limb alone holds, beyond its upper half, moves as one: what is on both sides of a hand stays in one
+// piece. What touches other things, too, goes as far as all of them do.
+void rideTogether(const Skeleton& skeleton, const std::vector<int>& limbs,
+                  const std::vector<TouchedThing>& things, JointWeights& weights) {
+  std::map<int, RowVectorXf> by_limb;
+  // The limb that holds the thing, -1: none alone, or its upper half.
+  const auto limbOf = [&](const TouchedThing& thing) {
+    Index most = 0;
+    if (thing.moved.maxCoeff(&most) <= 0) return -1;
+    const int limb = limbs[static_cast<std::size_t>(most)];
+    const int parent = skeleton.joints[static_cast<std::size_t>(most)].parent;
+    if (parent < 0 || limbs[static_cast<std::size_t>(parent)] != limb) return -1;
+    float of_limb = 0;
+    for (std::size_t j = 0; j < limbs.size(); ++j)
+      if (limbs[j] == limb) of_limb += thing.moved[static_cast<Index>(j)];
+    return of_limb >= kAlone * thing.moved.sum() ? limb : -1;
+  };
+  for (const TouchedThing& thing : things)
+    if (const int limb = limbOf(thing); limb >= 0)
+      by_limb.try_emplace(limb, RowVectorXf::Zero(weights.cols())).first->second += thing.moved;
+  for (const TouchedThing& thing : things) {
+    const int limb = limbOf(thing);
+    if (limb < 0) continue;
+    RowVectorXf sum = by_limb.at(limb);
+    for (Index j = 0; j < sum.size(); ++j)
+      if (limbs[static_cast<std::size_t>(j)] != limb) sum[j] = 0;
+    sum /= sum.sum();
+    for (const int v : thing.vertices) weights.row(v) = sum;
+  }
 }
 
 // Which joints are those of a tail, if the body plan has any: of a limb that is no arm, leg or head.
@@ -243,6 +283,7 @@ void carryWornParts(const TriangleMesh& mesh, const SkeletonTemplate& body_plan,
   const std::optional<Legs> legs = legsOf(skeleton, body_plan);
   const bool skirted = legs && wearsSkirt(layers, skeleton, *legs);
   std::vector<Hanging> hanging;
+  std::vector<TouchedThing> things;
   std::map<std::string, int> named;
   const auto add = [&](const std::string& what, std::optional<Hanging> hangs) {
     if (!hangs) return;
@@ -253,12 +294,13 @@ void carryWornParts(const TriangleMesh& mesh, const SkeletonTemplate& body_plan,
   for (const std::vector<int>& piece : found) {
     const Part part = parts[static_cast<std::size_t>(piece[0])];
     if (part == Part::kAppendix && isMovedBy(tail, piece, flesh)) continue;
-    if (part == Part::kAppendix || part == Part::kThing)
-      ride(edges, limbs, piece, part == Part::kAppendix, rows);
+    if (part == Part::kAppendix) ride(edges, limbs, piece, true, rows);
+    if (part == Part::kThing) things.push_back({piece, ride(edges, limbs, piece, false, rows)});
     if (part == Part::kSkirt && skirted) add("skirt", hang(mesh, *legs, piece, rows));
     if (part == Part::kAppendix) add("cape", hangingFrom(mesh, edges, skeleton, piece, rows));
     if (part == Part::kHair) add("hair", hangingFrom(mesh, edges, skeleton, piece, rows));
   }
+  rideTogether(skeleton, limbs, things, rows);
   if (rows == flesh && hanging.empty()) return;
   for (const Hanging& it : hanging) hangOnChain(mesh, it, skeleton, rows);
   keepHeaviest(4, rows);

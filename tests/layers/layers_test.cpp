@@ -13,6 +13,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/layers/find_limbs.h"
+#include "libskel/layers/held_things.h"
 #include "libskel/layers/limb_net.h"
 #include "libskel/mesh/fill_hidden.h"
 #include "libskel/mesh/inflate.h"
@@ -618,6 +619,25 @@ TEST_CASE("a thing is of the limb that most of its border lies against, also whe
                                          drawing.body_plan, "map.png");
   CHECK((again.limb == read.limb).all());
   CHECK((again.part == read.part).all());
+}
+
+TEST_CASE(
+    "what is called a cape, lies against nothing but a thing and is smaller is the rest of that thing") {
+  Plane8 mask = Plane8::Zero(40, 40), part = mask;
+  const auto draw = [&](int y, int x, int height, int width, Part what) {
+    mask.block(y, x, height, width).setConstant(255);
+    part.block(y, x, height, width).setConstant(std::uint8_t(what));
+  };
+  draw(20, 0, 20, 20, Part::kTrunk);
+  draw(10, 22, 20, 4, Part::kThing);
+  draw(4, 22, 6, 8, Part::kAppendix);     // a staff's knob
+  draw(24, 20, 10, 2, Part::kAppendix);   // a cape, between the trunk and the thing
+  draw(12, 26, 16, 10, Part::kAppendix);  // a wing, larger than the thing
+  completeThings(mask, part);
+  CHECK(int(part(6, 24)) == int(Part::kThing));
+  CHECK(int(part(26, 20)) == int(Part::kAppendix));
+  CHECK(int(part(14, 30)) == int(Part::kAppendix));
+  CHECK(int(part(25, 10)) == int(Part::kTrunk));
 }
 
 TEST_CASE("pixels that skel itself had found apart from a limb were told as painted") {

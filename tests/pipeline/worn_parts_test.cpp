@@ -2,6 +2,7 @@
 #include "libskel/pipeline/worn_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -112,6 +113,23 @@ TEST_CASE("a thing held rides rigidly with the arm whose hand holds it") {
     arm += figure.share(figure.worn, top, joint);
   CHECK(arm > .99f);
   CHECK_FALSE(figure.flesh.weights.row(top) == figure.flesh.weights.row(low));
+}
+
+TEST_CASE("a staff that a hand is drawn before stays in one piece") {
+  Dressed figure({.left_forearm = 0});
+  const Eigen::Vector2d hand = figure.at("left_hand");
+  figure.draw(Part::kThing, hand + Eigen::Vector2d(0, -70), hand + Eigen::Vector2d(24, -8));
+  figure.draw(Part::kThing, hand + Eigen::Vector2d(0, 8), hand + Eigen::Vector2d(24, 70));
+  figure.wear();
+  const std::array<Eigen::Vector2d, 2> places = {hand + Eigen::Vector2d(12, -60),
+                                                 hand + Eigen::Vector2d(12, 60)};
+  const Eigen::Index first = figure.nearest(places[0]);
+  for (const Eigen::Vector2d& place : places) {
+    const Eigen::Index v = figure.nearest(place);
+    CHECK(figure.worn.weights.row(v) == figure.worn.weights.row(first));
+    CHECK(figure.worn.joints.row(v) == figure.worn.joints.row(first));
+    CHECK_FALSE(figure.flesh.weights.row(v) == figure.worn.weights.row(v));
+  }
 }
 
 TEST_CASE("a cape goes with the trunk, also where it hangs against a leg") {
