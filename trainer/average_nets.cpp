@@ -5,12 +5,13 @@
 #include "libskel/core/net_format.h"
 #include "libskel/jointnet/joint_net.h"
 #include "libskel/layers/part_net.h"
+#include "libskel/silhouette/page_net.h"
 #include "trainer/writable_output.h"
 
 namespace skel {
 
 void bindAverageNetsOptions(CLI::App& command, AverageNetsOptions& options) {
-  command.add_option("net", options.nets, "Joint nets, or part nets, trained on from one another")
+  command.add_option("net", options.nets, "Joint nets, part nets or page nets, trained on from one another")
       ->required()
       ->expected(2, 100)
       ->type_name("FILE");
@@ -24,14 +25,22 @@ namespace {
 bool areAlike(const JointNet& a, const JointNet& b) {
   return a.body_plan == b.body_plan && a.joints == b.joints;
 }
-bool areAlike(const PartNet&, const PartNet&) { return true; }
-
 template <typename Net>
-Net meanOf(const std::vector<std::string>& files, Net (*read)(const std::string& file)) {
-  Net mean = read(files.front());
+bool areAlike(const Net&, const Net&) {
+  return true;
+}
+
+// `parse` and `format`: of the nets' files.
+template <typename Parse, typename Format>
+void writeMean(const AverageNetsOptions& options, std::string_view kind, const Parse& parse,
+               const Format& format) {
+  ensureWritableNet(options.output, kind);
+  const std::vector<std::string>& files = options.nets;
+  const auto read = [&](const std::string& file) { return parse(readFile(file), file); };
+  auto mean = read(files.front());
   std::vector<double> sums(mean.parameters.size(), 0);
   for (const std::string& file : files) {
-    const Net net = read(file);
+    const auto net = read(file);
     if (!areAlike(net, mean) || net.parameters.size() != sums.size())
       throw InputError(file, "is another kind of net than " + files.front());
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += net.parameters[i];
@@ -41,23 +50,23 @@ Net meanOf(const std::vector<std::string>& files, Net (*read)(const std::string&
   quantize(mean);
   mean.provenance =
       "skel-train average: of " + std::to_string(files.size()) + " nets; the first: " + mean.provenance;
-  return mean;
+  writeFile(options.output, format(mean));
 }
 
 }  // namespace
 
 ExitCode runAverageNets(const AverageNetsOptions& options) {
-  constexpr std::string_view kParts = "skel-part-net";
-  const bool of_parts = netFormatOf(readFile(options.nets.front())) == kParts;
-  ensureWritableNet(options.output, of_parts ? kParts : "skel-joint-net");
-  if (of_parts)
-    writeFile(options.output, formatPartNet(meanOf<PartNet>(options.nets, [](const std::string& file) {
-                return parsePartNet(readFile(file), file);
-              })));
+  constexpr std::string_view kJoints = "skel-joint-net", kParts = "skel-part-net", kPages = "skel-page-net";
+  const std::string kind = netFormatOf(readFile(options.nets.front()));
+  const auto with = [](auto parse) {
+    return [parse](const std::string& bytes, const std::string& file) { return parse(bytes, file, true); };
+  };
+  if (kind == kParts)
+    writeMean(options, kParts, with(parsePartNet), formatPartNet);
+  else if (kind == kPages)
+    writeMean(options, kPages, with(parsePageNet), formatPageNet);
   else
-    writeFile(options.output, formatJointNet(meanOf<JointNet>(options.nets, [](const std::string& file) {
-                return parseJointNet(readFile(file), file);
-              })));
+    writeMean(options, kJoints, with(parseJointNet), formatJointNet);
   return ExitCode::kDone;
 }
 

@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   skel::bindPartTrainingOptions(*parts, part_training);
   skel::AverageNetsOptions average;
   CLI::App* averaging = app.add_subcommand(
-      "average", "Averages nets of joints, or of parts, that were trained on from one another");
+      "average", "Averages nets of joints, of parts or of pages that were trained on from one another");
   skel::bindAverageNetsOptions(*averaging, average);
   skel::BoneLengthsOptions bone_lengths;
   CLI::App* bones = app.add_subcommand("bones", "Tells a joint net how long the bones of drawn figures are");

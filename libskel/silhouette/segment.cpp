@@ -17,6 +17,7 @@
 #include "libskel/silhouette/page.h"
 #include "libskel/silhouette/page_net.h"
 #include "libskel/silhouette/ruling.h"
+#include "libskel/silhouette/settle.h"
 #include "libskel/silhouette/sheet.h"
 #include "libskel/silhouette/strokes.h"
 #include "libskel/silhouette/trim.h"
@@ -225,17 +226,23 @@ double shareApart(const cv::Mat& figure, const cv::Mat& other, int reach) {
   return static_cast<double>(cv::countNonZero(figure & ~around)) / std::max(1, cv::countNonZero(figure));
 }
 
+// Whether the net has seen a figure like this: where it sees next to nothing of what is drawn, or is sure of
+// little, it does not know what that is.
+bool knows(const cv::Mat& page, const cv::Mat& drawn) {
+  constexpr float kSeen = 0.5f, kWithoutDoubt = 0.9f;
+  constexpr double kLeastSeen = 0.2, kLeastClear = 0.5;  // of what is drawn; of what is seen
+  const int seen = cv::countNonZero(page > kSeen);
+  return seen > kLeastSeen * cv::countNonZero(drawn) &&
+         cv::countNonZero(page > kWithoutDoubt) >= kLeastClear * seen;
+}
+
 // Lines and colours give the sharper edge, the page net knows what is a figure. Where they mean the same
 // figure, it is `drawn`; else what the net is sure of decides, and lines and colours where it is not. `page`:
 // how probably each pixel is figure, CV_32F.
 cv::Mat agreed(const cv::Mat& drawn, const cv::Mat& page) {
-  constexpr float kSurely = 0.7f, kSeen = 0.5f, kPerhaps = 0.3f, kWithoutDoubt = 0.9f;
-  constexpr double kReach = 0.02;                        // of the long side
-  constexpr double kMuch = 0.1;                          // of what is drawn, or of what the net is sure of
-  constexpr double kLeastSeen = 0.2, kLeastClear = 0.5;  // of what is drawn; of what is seen
-  const int seen = cv::countNonZero(page > kSeen);
-  if (seen <= kLeastSeen * cv::countNonZero(drawn)) return drawn;
-  if (cv::countNonZero(page > kWithoutDoubt) < kLeastClear * seen) return drawn;
+  constexpr float kSurely = 0.7f, kPerhaps = 0.3f;
+  constexpr double kReach = 0.02;  // of the long side
+  constexpr double kMuch = 0.1;    // of what is drawn, or of what the net is sure of
   const int reach = std::max(1, cvRound(kReach * std::max(drawn.cols, drawn.rows)));
   if (shareApart(drawn, page > kPerhaps, reach) < kMuch && shareApart(page > kSurely, drawn, reach) < kMuch)
     return drawn;
@@ -275,11 +282,17 @@ Segmentation segment(const Image& image, const PageNet* page_net, bool keep_step
                         cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
     figures = figures >= 128;
   }
+  bool settles = false;
   if (sheet || ruled || !drawn.tidy) {
     look();
     out.seen = {sharesOf(probability), sheet, ruled, drawn.soft};
     if (keep_steps) out.steps.figure_share = out.seen->share;
-    figures = agreed(figures, probability);
+    // Of a sheet or ruling something is left on what is drawn.
+    settles = (sheet || ruled) && knows(probability, figures);
+    if (settles)
+      figures = settled(figures, probability, labOf(picture)) > 0.5;
+    else if (knows(probability, figures))
+      figures = agreed(figures, probability);
   }
   if (keep_steps) {
     if (sheet) toPicture(loops, rgb.size(), page_from_picture, picture.size());
@@ -296,7 +309,7 @@ Segmentation segment(const Image& image, const PageNet* page_net, bool keep_step
     full = shares >= 128;
   }
   // The edges of strokes on paper are soft: what is seen as a stroke is its core.
-  if (drawn.soft) cv::dilate(full, full, cv::Mat::ones(3, 3, CV_8U));
+  if (drawn.soft && !settles) cv::dilate(full, full, cv::Mat::ones(3, 3, CV_8U));
   constexpr double kReach = 2;  // px of the smaller picture
   trimToInk(image, cvCeil(kReach * std::max(1., static_cast<double>(full.cols) / figures.cols)), full);
   out.foreground = Eigen::Map<Plane8>(full.data, full.rows, full.cols);

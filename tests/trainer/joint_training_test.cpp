@@ -8,6 +8,7 @@
 #include "libskel/jointnet/joint_net.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/layers/part_net.h"
+#include "libskel/silhouette/page_net.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 #include "tests/support/temp_dir.h"
@@ -241,14 +242,15 @@ TEST_CASE("a checkpoint of a negative step, or of what is no number, is refused"
 TEST_CASE("the mean of a net and itself is that net, the mean of two lies between them") {
   const TempDir dir;
   const std::string archive = SKEL_DATASETS "/../weights/archive/", tool = "skel-train average '";
-  const bool of_parts = GENERATE(false, true);
-  const std::string a = archive + (of_parts ? "part-net-version-1.bin" : "joint-net-pass-1.bin"),
-                    b = archive + (of_parts ? "part-net-pass-2.bin" : "joint-net-pass-2.bin");
+  const std::string kind = GENERATE("joint", "part", "page");
+  const std::string a = archive + kind + (kind == "part" ? "-net-version-1.bin" : "-net-pass-1.bin"),
+                    b = archive + kind + "-net-pass-2.bin";
   REQUIRE(runTool(tool + a + "' '" + a + "' -o '" + dir.file("same.bin") + "'").exit_code == 0);
   REQUIRE(runTool(tool + a + "' '" + b + "' -o '" + dir.file("mean.bin") + "'").exit_code == 0);
   const auto parameters = [&](const std::string& file) {
-    return of_parts ? parsePartNet(readFile(file), file).parameters
-                    : parseJointNet(readFile(file), file).parameters;
+    return kind == "part"   ? parsePartNet(readFile(file), file).parameters
+           : kind == "page" ? parsePageNet(readFile(file), file).parameters
+                            : parseJointNet(readFile(file), file).parameters;
   };
   const auto of_a = parameters(a), of_b = parameters(b), same = parameters(dir.file("same.bin")),
              mean = parameters(dir.file("mean.bin"));
