@@ -17,6 +17,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
 #include "libskel/core/sha256.h"
+#include "libskel/core/signed_angle.h"
 #include "libskel/core/smooth_step.h"
 #include "libskel/skeleton/check_skeleton.h"
 #include "libskel/skeleton/hanging.h"
@@ -160,15 +161,12 @@ Stance stanceOf(const Skeleton& skeleton) {
   const auto between = [&](int from, int to) -> Vector2d {
     return (skeleton.joints[to].position - skeleton.joints[from].position).head<2>();
   };
-  const auto angle = [](const Vector2d& a, const Vector2d& b) {
-    return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
-  };
   const Vector2d trunk = between(0, neck);
-  Stance stance{angle(Vector2d::UnitY(), trunk), kPi};
+  Stance stance{signedAngle(Vector2d::UnitY(), trunk), kPi};
   for (const std::string side : {"left_", "right_"})
     if (const int hip = skeleton.find(side + "hip"), knee = skeleton.find(side + "knee");
         hip >= 0 && knee >= 0)
-      stance.bent_rad = std::min(stance.bent_rad, std::abs(angle(-trunk, between(hip, knee))));
+      stance.bent_rad = std::min(stance.bent_rad, std::abs(signedAngle(-trunk, between(hip, knee))));
   return stance;
 }
 
@@ -687,7 +685,7 @@ BoneTurn boneTurn(const Vector3d& canonical, const Vector3d& drawn, double near_
   BoneTurn turn;
   turn.angle_rad = near_angle_rad;
   if (from.norm() > 1e-3 && to.norm() > 1e-3) {
-    const double angle = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+    const double angle = signedAngle(from, to);
     turn.angle_rad = angle - 2 * kPi * std::floor((angle - near_angle_rad + kPi) / (2 * kPi));
   }
   turn.out_of_plane = shortestTurn(aboutZ(turn.angle_rad) * canonical, drawn);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libskel/core/check.h"
+#include "libskel/core/signed_angle.h"
 #include "libskel/core/smooth_step.h"
 
 namespace skel {
@@ -32,10 +33,6 @@ std::vector<int> boneEnds(const Skeleton& skeleton, const SkeletonTemplate& body
     if (const int parent = skeleton.joints[j].parent; parent >= 0)
       if (int& end = ends[std::size_t(parent)]; end < 0 || to_head[j]) end = int(j);
   return ends;
-}
-
-double angleBetween(const Vector2d& a, const Vector2d& b) {
-  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
 }
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -117,10 +114,10 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
     const double carried = joint.parent < 0 ? 0 : pose.turn_rad[parent];
     const Vector2d before = bones[j].head<2>(), after = turned.head<2>();
     const double shown = std::min(before.norm(), after.norm());
-    const double own = angleBetween(before, after);
+    const double own = signedAngle(before, after);
     double turn = smoothStep((shown - kStump) / (kSeen - kStump)) * wrapped(own - carried);
     if (bends[j] != Bend::kNone && joint.parent >= 0) {
-      const double drawn = angleBetween(bones[parent].head<2>(), before);
+      const double drawn = signedAngle(bones[parent].head<2>(), before);
       turn = bent(wrapped(drawn + turn), drawn, bends[j] == Bend::kElbow) - drawn;
     }
     pose.turn_rad.push_back(carried + turn);
@@ -147,7 +144,7 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan, s
       const std::size_t end = std::size_t(ends[j]);
       const Vector2d before = skeleton.joints[end].position.head<2>() - pose.rest[j],
                      after = pose.place[end] - pose.place[j];
-      if (before.norm() > 1e-9 && after.norm() > 1e-9) turn += wrapped(angleBetween(before, after) - carried);
+      if (before.norm() > 1e-9 && after.norm() > 1e-9) turn += wrapped(signedAngle(before, after) - carried);
     }
     pose.turn_rad.push_back(turn);
   }

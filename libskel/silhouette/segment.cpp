@@ -287,12 +287,12 @@ Segmentation segment(const Image& image, const PageNet* page_net, bool keep_step
     look();
     out.seen = {sharesOf(probability), sheet, ruled, drawn.soft};
     if (keep_steps) out.steps.figure_share = out.seen->share;
-    // Of a sheet or ruling something is left on what is drawn.
-    settles = (sheet || ruled) && knows(probability, figures);
-    if (settles)
-      figures = settled(figures, probability, labOf(picture)) > 0.5;
-    else if (knows(probability, figures))
-      figures = agreed(figures, probability);
+    const bool known = knows(probability, figures);
+    // Something of a sheet or of ruling is left on what is drawn, and something of that was taken off with
+    // them.
+    settles = known && (sheet || ruled);
+    if (known)
+      figures = settles ? settled(figures, probability, labOf(picture)) > 0.5 : agreed(figures, probability);
   }
   if (keep_steps) {
     if (sheet) toPicture(loops, rgb.size(), page_from_picture, picture.size());

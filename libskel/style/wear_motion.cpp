@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libskel/core/check.h"
+#include "libskel/core/signed_angle.h"
 
 namespace skel {
 namespace {
@@ -47,7 +48,7 @@ PoseMatrix wornBy(const PoseMatrix& rest, const PoseMatrix& motion, const Skelet
   const Vector2d upright = trunk(rest, 0);
   for (Index f = 0; f < motion.cols(); ++f) {
     const Vector2d now = trunk(motion, f);
-    const double turn = std::atan2(upright.x() * now.y() - upright.y() * now.x(), upright.dot(now));
+    const double turn = signedAngle(upright, now);
     for (const TemplateLimb& limb : plan.limbs)
       directions.col(f).segment<2>(2 * limb.joints[0]) =
           Eigen::Rotation2Dd(turn) * jointOf(drawn, limb.joints[0], 0);
