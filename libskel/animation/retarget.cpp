@@ -201,19 +201,17 @@ void standUp(const Skeleton& skeleton, const std::vector<double>& slack_rad, con
   }
 }
 
-// Of each joint, how far what it was drawn against turns: the trunk, of limbs that were drawn along it rather
-// than as they hang, so that who stands on his hands has his legs below him and not crossed.
+// Of each joint of a limb, how far what it was drawn against turns: the trunk, of limbs that were drawn along
+// it rather than as they hang, so that who stands on his hands has his legs below him and not crossed.
 std::vector<double> turnsOfGround(const Skeleton& skeleton, const std::vector<Vector3d>& canonical,
                                   double trunk_turn_rad) {
   std::vector<double> ground(skeleton.joints.size(), 0);
   if (trunk_turn_rad == 0) return ground;
   const std::vector<Vector3d> bones = restBones(skeleton);
   for (std::size_t j = 0; j < ground.size(); ++j) {
-    if (canonical[j].isZero()) continue;
+    if (canonical[j].isZero() || pointsUp(canonical[j])) continue;
     const int parent = skeleton.joints[j].parent;
-    if (pointsUp(canonical[j]))
-      ground[j] = trunk_turn_rad;
-    else if (parent >= 0 && !canonical[parent].isZero() && !pointsUp(canonical[parent]))
+    if (parent >= 0 && !canonical[parent].isZero() && !pointsUp(canonical[parent]))
       ground[j] = ground[parent];
     else if (const double turn_rad = boneTurn(canonical[j], bones[j], 0).angle_rad;
              std::abs(std::remainder(turn_rad - trunk_turn_rad, 2 * kPi)) < std::abs(turn_rad))

@@ -121,19 +121,10 @@ Plane8 limbPlane(const DrawnFigure& figure, const std::vector<FigurePiece>& piec
       limbs = (part == std::uint8_t(limbPart(limb)))
                   .select(Plane8::Constant(part.rows(), part.cols(), std::uint8_t(limb + 1)), limbs);
   trimArms(figure, limbs);
-  const Plane8 open = unsure(mask, part, limbs);
-  const MaskParts specks = maskParts(open);
-  std::vector<std::array<int, 5>> touched(specks.size.size(), {0, 0, 0, 0, 0});
+  const MaskParts specks = maskParts(unsure(mask, part, limbs));
+  const std::vector<std::array<int, 256>> touched = valuesBeside(specks, mask, limbs);
   for (const MaskParts::Run& run : specks.runs) {
-    const auto touch = [&](int x, int y) {
-      if (x >= 0 && y >= 0 && x < mask.cols() && y < mask.rows() && mask(y, x) != 0 && open(y, x) == 0)
-        ++touched[std::size_t(run.part)][limbs(y, x)];
-    };
-    touch(run.x0 - 1, run.y), touch(run.x1, run.y);
-    for (int x = run.x0; x < run.x1; ++x) touch(x, run.y - 1), touch(x, run.y + 1);
-  }
-  for (const MaskParts::Run& run : specks.runs) {
-    const std::array<int, 5>& by = touched[std::size_t(run.part)];
+    const std::array<int, 256>& by = touched[std::size_t(run.part)];
     const auto most = std::max_element(by.begin() + 1, by.end());
     const bool held = *most > kHeld * std::accumulate(by.begin(), by.end(), 0);
     limbs.row(run.y)

@@ -61,4 +61,20 @@ MaskParts maskParts(const Plane8& mask) {
   return parts;
 }
 
+std::vector<std::array<int, 256>> valuesBeside(const MaskParts& parts, const Plane8& figure,
+                                               const Plane8& plane) {
+  std::vector<std::array<int, 256>> beside(parts.size.size(), std::array<int, 256>{});
+  Plane8 own = Plane8::Zero(figure.rows(), figure.cols());
+  for (const MaskParts::Run& run : parts.runs) own.row(run.y).segment(run.x0, run.x1 - run.x0).setConstant(1);
+  const auto touch = [&](int part, Eigen::Index y, Eigen::Index x) {
+    if (y >= 0 && x >= 0 && y < figure.rows() && x < figure.cols() && figure(y, x) != 0 && own(y, x) == 0)
+      ++beside[static_cast<std::size_t>(part)][plane(y, x)];
+  };
+  for (const MaskParts::Run& run : parts.runs) {
+    touch(run.part, run.y, run.x0 - 1), touch(run.part, run.y, run.x1);
+    for (int x = run.x0; x < run.x1; ++x) touch(run.part, run.y - 1, x), touch(run.part, run.y + 1, x);
+  }
+  return beside;
+}
+
 }  // namespace skel

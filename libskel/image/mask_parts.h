@@ -2,6 +2,7 @@
 // digital picture processing", 1966).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -21,5 +22,10 @@ struct MaskParts {
 };
 
 MaskParts maskParts(const Plane8& mask);
+
+// Of each of the parts, how many pixels of `figure` beside it, which are of none of them, have each value of
+// `plane`; one that lies beside several of its pixels counts as often.
+std::vector<std::array<int, 256>> valuesBeside(const MaskParts& parts, const Plane8& figure,
+                                               const Plane8& plane);
 
 }  // namespace skel

@@ -16,31 +16,15 @@ constexpr double kAlone = .9;         // of what lies beside a part
 constexpr auto kThing = static_cast<std::uint8_t>(Part::kThing),
                kAppendix = static_cast<std::uint8_t>(Part::kAppendix);
 
-// Of each of the parts, how many pixels of the figure beside it have each value of `plane`.
-std::vector<std::array<int, 256>> bordersOf(const MaskParts& parts, const Plane8& mask, const Plane8& plane) {
-  std::vector<std::array<int, 256>> border(parts.size.size(), std::array<int, 256>{});
-  Plane8 own = Plane8::Zero(mask.rows(), mask.cols());
-  for (const MaskParts::Run& run : parts.runs) own.row(run.y).segment(run.x0, run.x1 - run.x0).setConstant(1);
-  const auto touch = [&](int part, Eigen::Index y, Eigen::Index x) {
-    if (y >= 0 && x >= 0 && y < mask.rows() && x < mask.cols() && mask(y, x) != 0 && own(y, x) == 0)
-      ++border[static_cast<std::size_t>(part)][plane(y, x)];
-  };
-  for (const MaskParts::Run& run : parts.runs) {
-    touch(run.part, run.y, run.x0 - 1), touch(run.part, run.y, run.x1);
-    for (int x = run.x0; x < run.x1; ++x) touch(run.part, run.y - 1, x), touch(run.part, run.y + 1, x);
-  }
-  return border;
-}
-
 int sumOf(const std::array<int, 256>& counts) { return std::accumulate(counts.begin(), counts.end(), 0); }
 
 }  // namespace
 
 void completeThings(const Plane8& mask, Plane8& part) {
-  const MaskParts found = maskParts((part == kAppendix && mask != 0).cast<std::uint8_t>());
-  const std::vector<std::array<int, 256>> border = bordersOf(found, mask, part);
   const MaskParts things = maskParts((part == kThing && mask != 0).cast<std::uint8_t>());
   if (things.size.empty()) return;
+  const MaskParts found = maskParts((part == kAppendix && mask != 0).cast<std::uint8_t>());
+  const std::vector<std::array<int, 256>> border = valuesBeside(found, mask, part);
   const std::int64_t largest = things.size[static_cast<std::size_t>(things.largest())];
   for (const MaskParts::Run& run : found.runs) {
     const auto number = static_cast<std::size_t>(run.part);
@@ -54,7 +38,7 @@ void giveThingsToLimbs(const Silhouette& silhouette, LayerMap& map) {
   if (!map.any() || map.part.size() == 0) return;
   const MaskParts things = maskParts((map.part == kThing && silhouette.mask != 0).cast<std::uint8_t>());
   const double least = kLeastThing * static_cast<double>((silhouette.mask != 0).count());
-  const std::vector<std::array<int, 256>> border = bordersOf(things, silhouette.mask, map.limb);
+  const std::vector<std::array<int, 256>> border = valuesBeside(things, silhouette.mask, map.limb);
   std::vector<std::uint8_t> owner(things.size.size(), 0);  // a limb, or none
   for (std::size_t part = 0; part < owner.size(); ++part) {
     if (static_cast<double>(things.size[part]) < least) continue;

@@ -173,6 +173,13 @@ std::optional<Hanging> hang(const TriangleMesh& mesh, const Legs& legs, const st
   return hanging;
 }
 
+// Of what joints move, the share of each joint of one limb, or of the trunk (-1), in what they move together.
+RowVectorXf shareOf(int limb, const std::vector<int>& limbs, RowVectorXf moved) {
+  for (Index j = 0; j < moved.size(); ++j)
+    if (limbs[static_cast<std::size_t>(j)] != limb) moved[j] = 0;
+  return moved / moved.sum();
+}
+
 // As one with the joint that moves most of what the piece touches; with `trunk_alone`, what limbs move apart.
 // Returns how much each joint moves of that.
 RowVectorXf ride(const Edges& edges, const std::vector<int>& limbs, const std::vector<int>& piece,
@@ -192,14 +199,7 @@ RowVectorXf ride(const Edges& edges, const std::vector<int>& limbs, const std::v
       if (limbs[static_cast<std::size_t>(j)] >= 0) sum[j] = 0;
   Index most = 0;
   if (touched.empty() || sum.maxCoeff(&most) <= 0) return sum;
-  RowVectorXf carried = RowVectorXf::Zero(weights.cols());
-  for (const int v : touched) {
-    RowVectorXf row = weights.row(v);
-    for (Index j = 0; j < row.size(); ++j)
-      if (limbs[static_cast<std::size_t>(j)] != limbs[static_cast<std::size_t>(most)]) row[j] = 0;
-    carried += row;
-  }
-  carried /= carried.sum();
+  const RowVectorXf carried = shareOf(limbs[static_cast<std::size_t>(most)], limbs, sum);
   for (const int v : piece) weights.row(v) = carried;
   return sum;
 }
@@ -233,11 +233,8 @@ void rideTogether(const Skeleton& skeleton, const std::vector<int>& limbs,
   for (const TouchedThing& thing : things) {
     const int limb = limbOf(thing);
     if (limb < 0) continue;
-    RowVectorXf sum = by_limb.at(limb);
-    for (Index j = 0; j < sum.size(); ++j)
-      if (limbs[static_cast<std::size_t>(j)] != limb) sum[j] = 0;
-    sum /= sum.sum();
-    for (const int v : thing.vertices) weights.row(v) = sum;
+    const RowVectorXf carried = shareOf(limb, limbs, by_limb.at(limb));
+    for (const int v : thing.vertices) weights.row(v) = carried;
   }
 }
 
