@@ -2,7 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
+
+#include "libskel/image/image.h"
 
 namespace skel {
 
@@ -30,9 +33,39 @@ struct DepthFoot {
   int layer = 0;
 };
 
+// Between the chin and the shoulders of who is drawn from the front.
+struct DepthNeck {
+  Eigen::Vector2d at = Eigen::Vector2d::Zero(), up = Eigen::Vector2d::UnitY();  // image px; unit, to the head
+  double reach_px = 1;  // along it, to chin and shoulders
+  double wide_px = 1;   // half
+  double depth_px = 1;  // half
+};
+
+// A level of a skirt, px across it from the line that its top and `down` give.
+struct DepthRing {
+  double middle_px = 0, half_px = 0;
+};
+
+// A skirt, gown or coat of who is drawn from the front.
+struct DepthSkirt {
+  Eigen::Vector2d top = Eigen::Vector2d::Zero(), down = Eigen::Vector2d::UnitY();  // image px; unit
+  double step_px = 1;  // from ring to ring
+  std::vector<DepthRing> rings;
+  double round = 1;  // depth by width
+};
+
+// Capes, wings and tails of who is drawn from the front.
+struct DepthCapes {
+  Plane8 mask;           // of the image's size
+  double thickness = 1;  // share of the depth that they would have as flesh
+};
+
 struct BodyDepth {
   std::vector<DepthBone> bones;  // none: all of the body is as round as its outline
   std::vector<DepthFoot> feet;
+  std::optional<DepthNeck> neck;
+  std::optional<DepthSkirt> skirt;
+  std::optional<DepthCapes> capes;
 };
 
 // The bones' `source`, most half depth and `forward` at one point, blended from bone to bone; beyond the

@@ -96,8 +96,9 @@ Vector3f commonest(Colors colors) {
 
 struct Side {
   double rim = 0;  // from the axis
-  Vector3f color;
+  Vector3f color = Vector3f::Zero();
   bool face = false;
+  bool outlined = true;  // what is dark at the rim is no deeper than an outline
 };
 
 class Head {
@@ -122,9 +123,11 @@ class Head {
         for (int j = std::max(0, i - kAround); j <= std::min(rows - 1, i + kAround); ++j)
           plain.add(bands[std::size_t(j)].plain), all.add(bands[std::size_t(j)].all);
         if (all.size() == 0) continue;
-        Side side{bands[std::size_t(i)].rim,
-                  commonest(double(plain.size()) > kPlain * double(all.size()) ? plain : all)};
+        Side side;
+        side.rim = bands[std::size_t(i)].rim;
+        side.color = commonest(double(plain.size()) > kPlain * double(all.size()) ? plain : all);
         side.face = alike(side.color, face);
+        side.outlined = double(bands[std::size_t(i)].plain.size()) > kPlain * double(bands[std::size_t(i)].all.size());
         rows_[std::size_t(i)][std::size_t(k)] = side;
       }
     }
@@ -135,6 +138,9 @@ class Head {
       return;
     }
     close();
+    even();
+    if (rows_.empty()) return;
+    leaveOutFeatures();
     dress();
     divide();
   }
@@ -153,7 +159,9 @@ class Head {
     const int i = int(from_top);
     const auto& [left, right] = rows_[std::size_t(i)];
     if (!left || !right || x < -left->rim || x > right->rim) return std::nullopt;
-    if (ink && std::min(x + left->rim, right->rim - x) < kDrawnRim) return std::nullopt;
+    const double from_left = x + left->rim, from_right = right->rim - x;
+    if (ink && std::min(from_left, from_right) < kDrawnRim && (from_left < from_right ? left : right)->outlined)
+      return std::nullopt;
     const double share = (x + left->rim) / (left->rim + right->rim);
     // Hair and brims hang around a ball, lowest in the middle.
     const double row = (kTop - t - kHang * 4 * share * (1 - share)) * kRowsPerRadius;
@@ -258,9 +266,8 @@ class Head {
     int rows() const { return end - begin; }
   };
 
-  // Stripes of both sides, and which of them meet: areas on the back of the head have edges as those in front
-  // have.
-  void divide() {
+  // Each side in stripes of one colour: lower ones, as lines that come to the rim, go to their neighbours.
+  void even() {
     std::vector<Vector3f> palette;
     std::array<std::vector<int>, 2> color;
     for (const std::size_t k : {0, 1})
@@ -277,16 +284,41 @@ class Head {
         std::vector<int> own;
         for (int i = stripe.begin; i < stripe.end; ++i)
           if (color[k][std::size_t(i)] == stripe.color) own.push_back(i);
-        for (int i = stripe.begin; i < stripe.end; ++i) {
-          if (color[k][std::size_t(i)] == stripe.color) continue;
-          const int nearest = *std::min_element(
-              own.begin(), own.end(), [i](int a, int b) { return std::abs(a - i) < std::abs(b - i); });
-          const double rim = rows_[std::size_t(i)][k]->rim;
-          rows_[std::size_t(i)][k] = rows_[std::size_t(nearest)][k];
-          rows_[std::size_t(i)][k]->rim = rim;
-        }
+        for (int i = stripe.begin; i < stripe.end; ++i)
+          if (color[k][std::size_t(i)] != stripe.color) repaint(i, k, own);
       }
     }
+  }
+
+  // A row in the colour of the nearest of some others.
+  void repaint(int row, std::size_t k, const std::vector<int>& others) {
+    const int nearest =
+        *std::min_element(others.begin(), others.end(),
+                          [row](int a, int b) { return std::abs(a - row) < std::abs(b - row); });
+    Side& side = *rows_[std::size_t(row)][k];
+    const Side& other = *rows_[std::size_t(nearest)][k];
+    side.color = other.color, side.face = other.face;
+  }
+
+  // What lies between stripes of the face, an eye or an ear, does not reach around to the back.
+  void leaveOutFeatures() {
+    for (const std::size_t k : {0, 1}) {
+      const auto isFace = [&](const Stripe& stripe) {
+        return rows_[std::size_t((stripe.begin + stripe.end) / 2)][k]->face;
+      };
+      for (std::size_t s = 1; s + 1 < stripes_[k].size(); ++s) {
+        const Stripe &above = stripes_[k][s - 1], &stripe = stripes_[k][s], &below = stripes_[k][s + 1];
+        if (isFace(stripe) || !isFace(above) || !isFace(below)) continue;
+        for (int i = stripe.begin; i < stripe.end; ++i) repaint(i, k, {above.end - 1, below.begin});
+      }
+    }
+  }
+
+  // Stripes of both sides, and which of them meet: areas on the back of the head have edges as those in front
+  // have.
+  void divide() {
+    even();
+    if (rows_.empty()) return;
     match();
     meet();
     mix();

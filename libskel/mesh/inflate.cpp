@@ -14,10 +14,12 @@
 #include "libskel/mesh/fill_hidden.h"
 #include "libskel/mesh/lay_over.h"
 #include "libskel/mesh/local_mean.h"
+#include "libskel/mesh/neck.h"
 #include "libskel/mesh/outline.h"
 #include "libskel/mesh/outline_band.h"
 #include "libskel/mesh/planar_mesh.h"
 #include "libskel/mesh/shoes.h"
+#include "libskel/mesh/skirt.h"
 #include "libskel/mesh/texture.h"
 #include "libskel/mesh/texture_atlas.h"
 #include "libskel/silhouette/outline.h"
@@ -314,6 +316,7 @@ BodyDepth depthOf(const BodyDepth& body, const std::vector<FigurePiece>& pieces,
     if (isOf(bone.layer, (bone.from + bone.to) / 2)) own.bones.push_back(bone);
   for (const DepthFoot& foot : body.feet)
     if (isOf(foot.layer, foot.foot)) own.feet.push_back(foot);
+  if (piece == 0) own.neck = body.neck, own.skirt = body.skirt, own.capes = body.capes;
   return own;
 }
 
@@ -380,6 +383,18 @@ Eigen::VectorXd asideOf(const BodyDepth& body, double range_px, const PlanarMesh
   return localMean(mesh, aside, range_px);
 }
 
+// 1 on capes, 0 elsewhere, of all vertices; between them it goes over within the range.
+Eigen::VectorXd capesOf(const DepthCapes& capes, double range_px, const PlanarMesh& mesh) {
+  Eigen::VectorXd share(static_cast<Eigen::Index>(mesh.vertices.size()));
+  for (Eigen::Index v = 0; v < share.size(); ++v) {
+    const Eigen::Vector2d& p = mesh.vertices[static_cast<std::size_t>(v)];
+    const int x = std::clamp(static_cast<int>(p.x()), 0, static_cast<int>(capes.mask.cols()) - 1),
+              y = std::clamp(static_cast<int>(p.y()), 0, static_cast<int>(capes.mask.rows()) - 1);
+    share[v] = capes.mask(y, x) != 0;
+  }
+  return localMean(mesh, share, range_px);
+}
+
 // How thick it is, and where its points stand; sheet.middle must be known. `long_px`: the figure's long side.
 void giveDepth(const BodyDepth& body, bool own_back, double long_px, Sheet& sheet) {
   constexpr double kAround = 0.07;       // of the figure's long side: how far the depth of a part reaches
@@ -397,6 +412,25 @@ void giveDepth(const BodyDepth& body, bool own_back, double long_px, Sheet& shee
   };
   sheet.z.front = heights(band);
   sheet.z.back = behind == band ? sheet.z.front : heights(behind);
+  if (body.skirt) {
+    const Eigen::VectorXd skirt = skirtHeights(sheet.planar, *body.skirt);
+    for (int v = 0; v < sheet.inner(); ++v) {
+      if (band[v] == 0) sheet.z.front[v] = std::max(sheet.z.front[v], skirt[v]);
+      if (behind[v] == 0) sheet.z.back[v] = std::max(sheet.z.back[v], skirt[v]);
+    }
+  }
+  if (body.neck) {
+    const Eigen::VectorXd profile = neckProfile(sheet.planar, plain, *body.neck);
+    sheet.z.front.array() *= profile.array();
+    sheet.z.back.array() *= profile.array();
+  }
+  if (body.capes) {
+    constexpr double kCapeRange = 0.02;  // of the figure's long side
+    const Eigen::VectorXd share = capesOf(*body.capes, kCapeRange * long_px, sheet.planar);
+    const Eigen::ArrayXd thin = 1 - (1 - body.capes->thickness) * share.head(sheet.inner()).array();
+    sheet.z.front.array() *= thin;
+    sheet.z.back.array() *= thin;
+  }
   sheet.lip = lipOf(sheet.planar, band, behind);
   sheet.place = sheet.planar.vertices;
   if (own_back) {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
+#include "libskel/layers/part_net.h"
 #include "libskel/silhouette/outline.h"
 #include "libskel/skeleton/frontal.h"
 
@@ -18,7 +20,7 @@ using Eigen::Vector2d;
 struct Build {
   double source, most;
 };
-constexpr Build kHeadBuild{5, 1.6}, kNeckBuild{1.2, 0.35}, kChestBuild{2.4, 1}, kLimbBuild{2.5, 2};
+constexpr Build kHeadBuild{5, 1.6}, kChestBuild{2.4, 1}, kLimbBuild{2.5, 2};
 constexpr Build kBallBuild{4, 1.3};  // head and trunk in one: a potato, a crab
 // Of the larger of head and trunk: what is as wide between them is no neck; and they are no farther apart.
 constexpr double kNoNeck = 0.95, kInOne = 1.8;
@@ -26,15 +28,27 @@ constexpr Build kSideChestBuild{2.5, 1.4};                               // of a
 constexpr Build kAnimalTrunkBuild{2, 1.05}, kAnimalHeadBuild{2.2, 1.2};  // drawn from the side, always
 constexpr double kForward = 0.5;     // DepthBone::forward of who faces the viewer; by eye, of .5 and .7
 constexpr double kLimbRadius = 0.4;  // at most, as a share of a bone's length: where it lies on the body
-constexpr double kNeckReach = 0.45;  // of the head's radius
+// Of the head's radius: how far the throat lies below the middle of the head, how far it narrows, its half width and
+// its most half depth.
+constexpr double kChin = 1.15, kNeckReach = 0.7, kNeckWide = 0.9, kNeckDepth = 0.5;
 constexpr double kAside =
     0.4;  // of legs seen from the side, from the middle: share of the trunk's half depth
+
+constexpr double kLeastSkirt = 0.04;  // of the figure's area
+constexpr double kSkirtRound = 0.7;   // depth by width
+constexpr int kRings = 32;
+constexpr double kCapeThickness = 0.4;
 
 class DepthFinder {
  public:
   DepthFinder(const Skeleton& skeleton, const SkeletonTemplate& body_plan, const Silhouette& silhouette,
-              const std::vector<int>& far, const std::vector<int>& cut)
-      : skeleton_(skeleton), body_plan_(body_plan), silhouette_(silhouette), far_(far), cut_(cut) {}
+              const std::vector<int>& far, const std::vector<int>& cut, const Plane8& parts)
+      : skeleton_(skeleton),
+        body_plan_(body_plan),
+        silhouette_(silhouette),
+        far_(far),
+        cut_(cut),
+        parts_(parts) {}
 
   BodyDepth operator()() {
     const auto pelvis = at("pelvis"), body = at("body"), neck = at("neck"), head = at("head"),
@@ -56,7 +70,8 @@ class DepthFinder {
             body_plan_.from_side ? kAnimalHeadBuild
             : in_one             ? kBallBuild
                                  : kHeadBuild);
-    if (!body_plan_.from_side && !in_one) addNeck(*neck, *head, head_px);
+    if (!body_plan_.from_side && !in_one && front > 0.5) addNeck(*neck, *head, head_px);
+    if (!body_plan_.from_side && front > 0.5) addSkirt((*pelvis - *neck).normalized()), addCapes();
     for (std::size_t k = 0; k < body_plan_.limbs.size(); ++k)
       addLimb(body_plan_.limbs[k], static_cast<int>(k) + 1, trunk, trunk_px);
     if (const auto root = at("tail_root"), tail = at("tail"); root && tail)
@@ -90,13 +105,54 @@ class DepthFinder {
             kSideChestBuild.most + front * (kChestBuild.most - kSideChestBuild.most)};
   }
 
-  // Between the chin and the shoulders.
   void addNeck(const Vector2d& neck, const Vector2d& head, double head_px) {
     const Vector2d down = neck - head;
-    if (down.norm() < head_px) return;  // the head sits on the shoulders
-    const Vector2d chin = head + down.normalized() * std::min(1.15 * head_px, down.norm());
-    const double reach = kNeckReach * head_px;
-    depth_.bones.push_back({chin, chin, reach, kNeckBuild.source, kNeckBuild.most * head_px, 0, forward_});
+    const Vector2d chin = head + down.normalized() * std::min(kChin * head_px, down.norm());
+    depth_.neck = {chin, -down.normalized(), kNeckReach * head_px, kNeckWide * head_px,
+                   std::min(radius(chin), kNeckDepth * head_px)};
+  }
+
+  void addSkirt(const Vector2d& down) {
+    const Vector2d across(-down.y(), down.x());
+    struct Extent {
+      double least = std::numeric_limits<double>::infinity(), most = -least;
+      int count = 0;
+    };
+    int size = 0;
+    double top = std::numeric_limits<double>::infinity(), bottom = -top;
+    const auto each = [&](const auto& visit) {
+      for (int y = 0; y < parts_.rows(); ++y)
+        for (int x = 0; x < parts_.cols(); ++x)
+          if (parts_(y, x) == static_cast<std::uint8_t>(Part::kSkirt)) visit(Vector2d(x, y));
+    };
+    each([&](const Vector2d& p) { ++size, top = std::min(top, p.dot(down)), bottom = std::max(bottom, p.dot(down)); });
+    if (size < kLeastSkirt * static_cast<double>((silhouette_.mask != 0).count())) return;
+    const double step = (bottom - top) / kRings;
+    std::vector<Extent> extents(kRings + 1);
+    each([&](const Vector2d& p) {
+      Extent& extent = extents[static_cast<std::size_t>((p.dot(down) - top) / step)];
+      extent.least = std::min(extent.least, p.dot(across)), extent.most = std::max(extent.most, p.dot(across));
+      ++extent.count;
+    });
+    DepthSkirt skirt{top * down, down, step, {}, kSkirtRound};
+    for (int k = 0; k <= kRings; ++k) {
+      DepthRing mean;
+      int count = 0;
+      for (int j = std::max(0, k - 2); j <= std::min(kRings, k + 2); ++j) {
+        const Extent& extent = extents[static_cast<std::size_t>(j)];
+        if (extent.count == 0) continue;
+        mean.middle_px += (extent.least + extent.most) / 2, mean.half_px += (extent.most - extent.least) / 2;
+        ++count;
+      }
+      if (count > 0) mean.middle_px /= count, mean.half_px /= count;
+      skirt.rings.push_back(mean);
+    }
+    depth_.skirt = std::move(skirt);
+  }
+
+  void addCapes() {
+    Plane8 mask = (parts_ == static_cast<std::uint8_t>(Part::kAppendix)).cast<std::uint8_t>();
+    if ((mask != 0).any()) depth_.capes = {std::move(mask), kCapeThickness};
   }
 
   void addLimb(const TemplateLimb& limb, int layer, const Build& trunk, double trunk_px) {
@@ -142,6 +198,7 @@ class DepthFinder {
   const SkeletonTemplate& body_plan_;
   const Silhouette& silhouette_;
   const std::vector<int>&far_, &cut_;
+  const Plane8& parts_;
   double aside_ = 0;    // share of the trunk's half depth
   double forward_ = 0;  // DepthBone::forward
   BodyDepth depth_;
@@ -150,8 +207,8 @@ class DepthFinder {
 }  // namespace
 
 BodyDepth bodyDepth(const Skeleton& skeleton, const SkeletonTemplate& body_plan, const Silhouette& silhouette,
-                    const std::vector<int>& far, const std::vector<int>& cut) {
-  return DepthFinder(skeleton, body_plan, silhouette, far, cut)();
+                    const std::vector<int>& far, const std::vector<int>& cut, const Plane8& parts) {
+  return DepthFinder(skeleton, body_plan, silhouette, far, cut, parts)();
 }
 
 }  // namespace skel

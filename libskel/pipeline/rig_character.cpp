@@ -185,7 +185,8 @@ InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawin
   std::vector<int> cut;
   for (const FigurePiece& piece : pieces) cut.push_back(piece.layer);
   inflate.body =
-      bodyDepth(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, drawing.layers.far, cut);
+      bodyDepth(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, drawing.layers.far,
+                cut, drawing.layers.part);
   inflate.head =
       headDisc(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, inflate.turned_rad);
   if (input.back) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "libskel/image/read_image.h"
+#include "libskel/layers/part_net.h"
 #include "libskel/mesh/inflate.h"
 #include "libskel/pipeline/rig_character.h"
 #include "tests/support/catch.h"
@@ -66,6 +67,71 @@ TEST_CASE("a chest is shallower than wide, a head is round, the neck between the
   for (double y = body; y < head; y += 0.01) neck = std::min(neck, slice(model.mesh, y, 2).length());
   CHECK(neck < 0.8f * skull);
   CHECK(neck < chest);
+}
+
+TEST_CASE("skirts are as round as they are wide, capes are thin, and only on who faces the viewer") {
+  const CapsuleFigure figure;
+  // A skirt around the legs, a wing beside the trunk, both as pixels of the figure.
+  Plane8 mask = capsuleMask(figure);
+  Skeleton skeleton = capsuleSkeleton(figure);
+  const auto joint = [&](const std::string& name) { return skeleton.joints[skeleton.index(name)].image; };
+  const Eigen::Vector2d pelvis = joint("pelvis"), knee = joint("left_knee"), body = joint("body");
+  Plane8 skirt = Plane8::Zero(mask.rows(), mask.cols()), wing = skirt;
+  const int half = 70;
+  skirt.block(int(pelvis.y()), int(pelvis.x()) - half, int(knee.y() - pelvis.y()), 2 * half)
+      .setConstant(static_cast<std::uint8_t>(Part::kSkirt));
+  wing.block(int(body.y()) - 30, int(body.x()), 60, 130).setConstant(static_cast<std::uint8_t>(Part::kAppendix));
+  mask = (skirt != 0 || wing != 0).select(Plane8::Constant(mask.rows(), mask.cols(), 255), mask);
+  const Silhouette silhouette = silhouetteFromMask(mask);
+  Image image(int(mask.cols()), int(mask.rows()));
+  const auto modelWith = [&](const Plane8& parts) {
+    InflateOptions options;
+    options.body = bodyDepth(skeleton, loadTemplate("biped"), silhouette, {}, {}, parts);
+    Model model{skeleton, inflate(image, silhouette, options)};
+    CHECK(checkMesh(model.mesh).problem == "");
+    return model;
+  };
+  const Model plain = modelWith({}), worn = modelWith(skirt.max(wing));
+  const double hem = plain.mesh.model_from_image({pelvis.x(), 0.2 * pelvis.y() + 0.8 * knee.y()}).y();
+  const float width = slice(worn.mesh, hem, 0, 0, 0.6).length();
+  CHECK(slice(plain.mesh, hem, 2).length() < 0.6f * width);
+  CHECK(slice(worn.mesh, hem, 2).length() == Approx(0.7f * width).epsilon(0.1));
+  const Eigen::Vector2d tip = plain.mesh.model_from_image(body + Eigen::Vector2d(95, 0));
+  const auto thick = [&](const Model& model) { return slice(model.mesh, tip.y(), 2, tip.x(), 0.05).length(); };
+  CHECK(thick(worn) < 0.6f * thick(plain));
+  const BodyDepth from_side = [&] {
+    skeleton.joints[skeleton.index("left_shoulder")].image = joint("right_shoulder");
+    return bodyDepth(skeleton, loadTemplate("biped"), silhouette, {}, {}, skirt.max(wing));
+  }();
+  CHECK_FALSE(from_side.skirt);
+  CHECK_FALSE(from_side.capes);
+  CHECK_FALSE(from_side.neck);
+}
+
+TEST_CASE("a neck that hair hides in front is narrow from the side") {
+  const CapsuleFigure figure;
+  Skeleton skeleton = capsuleSkeleton(figure);
+  const Eigen::Vector2d neck = skeleton.joints[skeleton.index("neck")].image,
+                        head = skeleton.joints[skeleton.index("head")].image;
+  Plane8 mask = capsuleMask(figure);
+  mask.block(int(head.y()), int(head.x()) - 60, int(neck.y() - head.y()) + 20, 120).setConstant(255);
+  const Silhouette silhouette = silhouetteFromMask(mask);
+  Image image(int(mask.cols()), int(mask.rows()));
+  InflateOptions options;
+  options.body = bodyDepth(skeleton, loadTemplate("biped"), silhouette);
+  REQUIRE(options.body.neck);
+  const auto narrowest = [&] {
+    const TriangleMesh mesh = inflate(image, silhouette, options);
+    CHECK(checkMesh(mesh).problem == "");
+    const double throat = mesh.model_from_image(options.body.neck->at).y();
+    return slice(mesh, throat, 2, mesh.model_from_image(neck).x()).length() /
+           slice(mesh, mesh.model_from_image(head).y(), 2, mesh.model_from_image(head).x()).length();
+  };
+  const float with = narrowest();
+  options.body.neck.reset();
+  const float without = narrowest();
+  CHECK(with < 0.75f);
+  CHECK(with < 0.85f * without);
 }
 
 TEST_CASE("the rim lies forward on who faces the viewer, in the middle on who is drawn from the side") {
