@@ -41,17 +41,17 @@ struct DepthNeck {
   double depth_px = 1;  // half
 };
 
-// A level of a skirt, px across it from the line that its top and `down` give.
-struct DepthRing {
+// A cross-section, px across from the line that its DepthSections give.
+struct DepthEllipse {
   double middle_px = 0, half_px = 0;
+  double round = 0;  // depth by width
 };
 
-// A skirt, gown or coat of who is drawn from the front.
-struct DepthSkirt {
+// Trunk and skirt of who is drawn from the front.
+struct DepthSections {
   Eigen::Vector2d top = Eigen::Vector2d::Zero(), down = Eigen::Vector2d::UnitY();  // image px; unit
-  double step_px = 1;  // from ring to ring
-  std::vector<DepthRing> rings;
-  double round = 1;  // depth by width
+  double step_px = 1;                                                              // from one to the next
+  std::vector<DepthEllipse> ellipses;
 };
 
 // Capes, wings and tails of who is drawn from the front.
@@ -64,7 +64,7 @@ struct BodyDepth {
   std::vector<DepthBone> bones;  // none: all of the body is as round as its outline
   std::vector<DepthFoot> feet;
   std::optional<DepthNeck> neck;
-  std::optional<DepthSkirt> skirt;
+  std::optional<DepthSections> sections;
   std::optional<DepthCapes> capes;
 };
 

@@ -127,7 +127,8 @@ class Head {
         side.rim = bands[std::size_t(i)].rim;
         side.color = commonest(double(plain.size()) > kPlain * double(all.size()) ? plain : all);
         side.face = alike(side.color, face);
-        side.outlined = double(bands[std::size_t(i)].plain.size()) > kPlain * double(bands[std::size_t(i)].all.size());
+        side.outlined =
+            double(bands[std::size_t(i)].plain.size()) > kPlain * double(bands[std::size_t(i)].all.size());
         rows_[std::size_t(i)][std::size_t(k)] = side;
       }
     }
@@ -160,7 +161,8 @@ class Head {
     const auto& [left, right] = rows_[std::size_t(i)];
     if (!left || !right || x < -left->rim || x > right->rim) return std::nullopt;
     const double from_left = x + left->rim, from_right = right->rim - x;
-    if (ink && std::min(from_left, from_right) < kDrawnRim && (from_left < from_right ? left : right)->outlined)
+    if (ink && std::min(from_left, from_right) < kDrawnRim &&
+        (from_left < from_right ? left : right)->outlined)
       return std::nullopt;
     const double share = (x + left->rim) / (left->rim + right->rim);
     // Hair and brims hang around a ball, lowest in the middle.
@@ -292,9 +294,8 @@ class Head {
 
   // A row in the colour of the nearest of some others.
   void repaint(int row, std::size_t k, const std::vector<int>& others) {
-    const int nearest =
-        *std::min_element(others.begin(), others.end(),
-                          [row](int a, int b) { return std::abs(a - row) < std::abs(b - row); });
+    const int nearest = *std::min_element(
+        others.begin(), others.end(), [row](int a, int b) { return std::abs(a - row) < std::abs(b - row); });
     Side& side = *rows_[std::size_t(row)][k];
     const Side& other = *rows_[std::size_t(nearest)][k];
     side.color = other.color, side.face = other.face;

@@ -11,6 +11,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/error.h"
+#include "libskel/mesh/cross_sections.h"
 #include "libskel/mesh/fill_hidden.h"
 #include "libskel/mesh/lay_over.h"
 #include "libskel/mesh/local_mean.h"
@@ -19,7 +20,6 @@
 #include "libskel/mesh/outline_band.h"
 #include "libskel/mesh/planar_mesh.h"
 #include "libskel/mesh/shoes.h"
-#include "libskel/mesh/skirt.h"
 #include "libskel/mesh/texture.h"
 #include "libskel/mesh/texture_atlas.h"
 #include "libskel/silhouette/outline.h"
@@ -316,7 +316,7 @@ BodyDepth depthOf(const BodyDepth& body, const std::vector<FigurePiece>& pieces,
     if (isOf(bone.layer, (bone.from + bone.to) / 2)) own.bones.push_back(bone);
   for (const DepthFoot& foot : body.feet)
     if (isOf(foot.layer, foot.foot)) own.feet.push_back(foot);
-  if (piece == 0) own.neck = body.neck, own.skirt = body.skirt, own.capes = body.capes;
+  if (piece == 0) own.neck = body.neck, own.sections = body.sections, own.capes = body.capes;
   return own;
 }
 
@@ -404,7 +404,8 @@ void giveDepth(const BodyDepth& body, bool own_back, double long_px, Sheet& shee
   const std::vector<double> none(band.size(), 0);
   // A back that shows no outline is round up to the rim.
   const std::vector<double> behind = own_back ? bandBehind(sheet) : band;
-  const Eigen::VectorXd plain = inflatedHeights(sheet.planar, depths, none);
+  Eigen::VectorXd plain = inflatedHeights(sheet.planar, depths, none);
+  if (body.sections) plain = plain.cwiseMax(leastHeights(sheet.planar, *body.sections));
   const double range_px = kAround * long_px;
   const Eigen::VectorXd plain_mean = localMean(sheet.planar, plain, range_px);
   const auto heights = [&](const std::vector<double>& flange) {
@@ -412,13 +413,6 @@ void giveDepth(const BodyDepth& body, bool own_back, double long_px, Sheet& shee
   };
   sheet.z.front = heights(band);
   sheet.z.back = behind == band ? sheet.z.front : heights(behind);
-  if (body.skirt) {
-    const Eigen::VectorXd skirt = skirtHeights(sheet.planar, *body.skirt);
-    for (int v = 0; v < sheet.inner(); ++v) {
-      if (band[v] == 0) sheet.z.front[v] = std::max(sheet.z.front[v], skirt[v]);
-      if (behind[v] == 0) sheet.z.back[v] = std::max(sheet.z.back[v], skirt[v]);
-    }
-  }
   if (body.neck) {
     const Eigen::VectorXd profile = neckProfile(sheet.planar, plain, *body.neck);
     sheet.z.front.array() *= profile.array();

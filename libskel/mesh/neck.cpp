@@ -7,7 +7,7 @@ namespace skel {
 namespace {
 
 constexpr double kThroatReach = 0.2;  // of the reach: where the deepest place is sought
-constexpr double kNeckAside = 0.6;   // of the width, beyond it: where the profile ends
+constexpr double kNeckAside = 0.6;    // of the width, beyond it: where the profile ends
 constexpr double kLeastNeck = 0.5;
 
 }  // namespace

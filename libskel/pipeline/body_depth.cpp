@@ -28,15 +28,16 @@ constexpr Build kSideChestBuild{2.5, 1.4};                               // of a
 constexpr Build kAnimalTrunkBuild{2, 1.05}, kAnimalHeadBuild{2.2, 1.2};  // drawn from the side, always
 constexpr double kForward = 0.5;     // DepthBone::forward of who faces the viewer; by eye, of .5 and .7
 constexpr double kLimbRadius = 0.4;  // at most, as a share of a bone's length: where it lies on the body
-// Of the head's radius: how far the throat lies below the middle of the head, how far it narrows, its half width and
-// its most half depth.
+// Of the head's radius: how far the throat lies below the middle of the head, how far it narrows, its half
+// width and its most half depth.
 constexpr double kChin = 1.15, kNeckReach = 0.7, kNeckWide = 0.9, kNeckDepth = 0.5;
 constexpr double kAside =
     0.4;  // of legs seen from the side, from the middle: share of the trunk's half depth
 
-constexpr double kLeastSkirt = 0.04;  // of the figure's area
-constexpr double kSkirtRound = 0.7;   // depth by width
-constexpr int kRings = 32;
+// DepthSections: how many, and how many to both sides are mixed; depth by width; most half depth, of the
+// trunk's radius; how far to one side it is one that swings, of its half width.
+constexpr int kSections = 40, kSectionsMixed = 2;
+constexpr double kTrunkRound = 0.62, kMostTrunk = 1.8, kAtSide = 0.4;
 constexpr double kCapeThickness = 0.4;
 
 class DepthFinder {
@@ -71,7 +72,7 @@ class DepthFinder {
             : in_one             ? kBallBuild
                                  : kHeadBuild);
     if (!body_plan_.from_side && !in_one && front > 0.5) addNeck(*neck, *head, head_px);
-    if (!body_plan_.from_side && front > 0.5) addSkirt((*pelvis - *neck).normalized()), addCapes();
+    if (!body_plan_.from_side && front > 0.5) addSections(*neck, *body, *pelvis, trunk_px), addCapes();
     for (std::size_t k = 0; k < body_plan_.limbs.size(); ++k)
       addLimb(body_plan_.limbs[k], static_cast<int>(k) + 1, trunk, trunk_px);
     if (const auto root = at("tail_root"), tail = at("tail"); root && tail)
@@ -112,42 +113,54 @@ class DepthFinder {
                    std::min(radius(chin), kNeckDepth * head_px)};
   }
 
-  void addSkirt(const Vector2d& down) {
-    const Vector2d across(-down.y(), down.x());
+  bool isTrunk(int y, int x) const {
+    const auto part = static_cast<Part>(parts_(y, x));
+    return silhouette_.mask(y, x) != 0 && (part == Part::kTrunk || part == Part::kSkirt);
+  }
+
+  // Of what is seen of trunk and skirt, from the neck to the hem.
+  void addSections(const Vector2d& neck, const Vector2d& body, const Vector2d& pelvis, double trunk_px) {
+    const Vector2d down = (pelvis - neck).normalized(), across(-down.y(), down.x());
     struct Extent {
       double least = std::numeric_limits<double>::infinity(), most = -least;
-      int count = 0;
     };
-    int size = 0;
-    double top = std::numeric_limits<double>::infinity(), bottom = -top;
+    const double top = neck.dot(down);
+    double bottom = top;
     const auto each = [&](const auto& visit) {
       for (int y = 0; y < parts_.rows(); ++y)
         for (int x = 0; x < parts_.cols(); ++x)
-          if (parts_(y, x) == static_cast<std::uint8_t>(Part::kSkirt)) visit(Vector2d(x, y));
+          if (const Vector2d p(x, y); isTrunk(y, x) && p.dot(down) >= top) visit(p);
     };
-    each([&](const Vector2d& p) { ++size, top = std::min(top, p.dot(down)), bottom = std::max(bottom, p.dot(down)); });
-    if (size < kLeastSkirt * static_cast<double>((silhouette_.mask != 0).count())) return;
-    const double step = (bottom - top) / kRings;
-    std::vector<Extent> extents(kRings + 1);
+    each([&](const Vector2d& p) { bottom = std::max(bottom, p.dot(down)); });
+    const double step = (bottom - top) / kSections, middle = pelvis.dot(across);
+    if (step < 0.5) return;
+    std::vector<Extent> extents(kSections + 1);
     each([&](const Vector2d& p) {
       Extent& extent = extents[static_cast<std::size_t>((p.dot(down) - top) / step)];
-      extent.least = std::min(extent.least, p.dot(across)), extent.most = std::max(extent.most, p.dot(across));
-      ++extent.count;
+      extent.least = std::min(extent.least, p.dot(across)),
+      extent.most = std::max(extent.most, p.dot(across));
     });
-    DepthSkirt skirt{top * down, down, step, {}, kSkirtRound};
-    for (int k = 0; k <= kRings; ++k) {
-      DepthRing mean;
+    DepthSections sections{top * down, down, step, {}};
+    for (int k = 0; k <= kSections; ++k) {
+      DepthEllipse mean;
       int count = 0;
-      for (int j = std::max(0, k - 2); j <= std::min(kRings, k + 2); ++j) {
+      for (int j = std::max(0, k - kSectionsMixed); j <= std::min(kSections, k + kSectionsMixed); ++j) {
         const Extent& extent = extents[static_cast<std::size_t>(j)];
-        if (extent.count == 0) continue;
+        if (extent.least > extent.most) continue;
         mean.middle_px += (extent.least + extent.most) / 2, mean.half_px += (extent.most - extent.least) / 2;
         ++count;
       }
-      if (count > 0) mean.middle_px /= count, mean.half_px /= count;
-      skirt.rings.push_back(mean);
+      if (count > 0) {
+        mean.middle_px /= count, mean.half_px /= count;
+        // Shoulders are flat, and so is what swings to one side.
+        const double below = k * step / std::max((body - neck).dot(down), step),
+                     aside = std::abs(mean.middle_px - middle) / std::max(mean.half_px, 1.);
+        mean.round = kTrunkRound * std::min(below, 1.) * std::clamp(2 - aside / kAtSide, 0., 1.);
+        mean.round = std::min(mean.round, kMostTrunk * trunk_px / std::max(mean.half_px, 1.));
+      }
+      sections.ellipses.push_back(mean);
     }
-    depth_.skirt = std::move(skirt);
+    depth_.sections = std::move(sections);
   }
 
   void addCapes() {

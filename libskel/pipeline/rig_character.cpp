@@ -184,9 +184,8 @@ InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawin
   inflate.turned_rad = drawing.recognition.turned_deg * std::numbers::pi / 180;
   std::vector<int> cut;
   for (const FigurePiece& piece : pieces) cut.push_back(piece.layer);
-  inflate.body =
-      bodyDepth(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, drawing.layers.far,
-                cut, drawing.layers.part);
+  inflate.body = bodyDepth(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette,
+                           drawing.layers.far, cut, drawing.layers.part);
   inflate.head =
       headDisc(drawing.recognition.skeleton, drawing.body_plan, drawing.silhouette, inflate.turned_rad);
   if (input.back) {
