@@ -26,6 +26,7 @@ constexpr double kEven = 0.25;       // rows as near as this have one colour
 constexpr double kPlain = 0.25;      // least share of it that is not ink, where ink is but the outline
 constexpr double kFace = 0.6;        // the disc whose commonest colour is the face's
 constexpr double kNape = -0.45;      // down to where hair reaches
+constexpr double kLeastHair = 0.1;   // a lower stripe is a line
 constexpr double kCheek = 0.3;       // share of a row below that a cheek takes of it
 constexpr double kDrawnRim = 0.2;    // behind the rim, where an outline may stay
 constexpr double kHang = 0.25;       // at the middle of a row, what lies so much higher at the rim
@@ -139,8 +140,6 @@ class Head {
       return;
     }
     close();
-    even();
-    if (rows_.empty()) return;
     leaveOutFeatures();
     dress();
     divide();
@@ -239,6 +238,28 @@ class Head {
     }
   }
 
+  // A row in the colour of the nearest of some others.
+  void repaint(int row, std::size_t k, const std::vector<int>& others) {
+    const int nearest = *std::min_element(
+        others.begin(), others.end(), [row](int a, int b) { return std::abs(a - row) < std::abs(b - row); });
+    Side& side = *rows_[std::size_t(row)][k];
+    const Side& other = *rows_[std::size_t(nearest)][k];
+    side.color = other.color, side.face = other.face;
+  }
+
+  // What lies between rows of the face, an eye or an ear, does not reach around to the back.
+  void leaveOutFeatures() {
+    for (const std::size_t k : {0, 1}) {
+      int above = -1;
+      for (int i = 0; i < int(rows_.size()); ++i) {
+        if (!rows_[std::size_t(i)][k] || !rows_[std::size_t(i)][k]->face) continue;
+        for (int j = above + 1; above >= 0 && j < i; ++j)
+          if (rows_[std::size_t(j)][k]) repaint(j, k, {above, i});
+        above = i;
+      }
+    }
+  }
+
   // Hair where there is some above, in the place of cheeks.
   void dress() {
     int upper = 0, covered = 0;
@@ -250,14 +271,25 @@ class Head {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       auto& [left, right] = rows_[i];
       if (!left || !right) continue;
-      if (!left->face || !right->face)
-        hair = left->face    ? right->color
-               : right->face ? left->color
-                             : Vector3f((left->color + right->color) / 2);
+      const bool at_left = isHair(i, 0), at_right = isHair(i, 1);
+      if (at_left || at_right)
+        hair = !at_left ? right->color : !at_right ? left->color : Vector3f((left->color + right->color) / 2);
       if (!hair || height(int(i)) < kNape) continue;
       for (Side* side : {&*left, &*right})
         if (side->face) side->color = *hair, side->face = false;
     }
+  }
+
+  // No line below a hat.
+  bool isHair(std::size_t row, std::size_t k) const {
+    const auto same = [&](std::size_t i) {
+      return rows_[i][k] && !rows_[i][k]->face && alike(rows_[i][k]->color, rows_[row][k]->color);
+    };
+    if (!same(row)) return false;
+    std::size_t begin = row, end = row + 1;
+    while (begin > 0 && same(begin - 1)) --begin;
+    while (end < rows_.size() && same(end)) ++end;
+    return double(end - begin) >= kLeastHair * kRowsPerRadius;
   }
 
   // Rows of one colour at one side.
@@ -288,29 +320,6 @@ class Head {
           if (color[k][std::size_t(i)] == stripe.color) own.push_back(i);
         for (int i = stripe.begin; i < stripe.end; ++i)
           if (color[k][std::size_t(i)] != stripe.color) repaint(i, k, own);
-      }
-    }
-  }
-
-  // A row in the colour of the nearest of some others.
-  void repaint(int row, std::size_t k, const std::vector<int>& others) {
-    const int nearest = *std::min_element(
-        others.begin(), others.end(), [row](int a, int b) { return std::abs(a - row) < std::abs(b - row); });
-    Side& side = *rows_[std::size_t(row)][k];
-    const Side& other = *rows_[std::size_t(nearest)][k];
-    side.color = other.color, side.face = other.face;
-  }
-
-  // What lies between stripes of the face, an eye or an ear, does not reach around to the back.
-  void leaveOutFeatures() {
-    for (const std::size_t k : {0, 1}) {
-      const auto isFace = [&](const Stripe& stripe) {
-        return rows_[std::size_t((stripe.begin + stripe.end) / 2)][k]->face;
-      };
-      for (std::size_t s = 1; s + 1 < stripes_[k].size(); ++s) {
-        const Stripe &above = stripes_[k][s - 1], &stripe = stripes_[k][s], &below = stripes_[k][s + 1];
-        if (isFace(stripe) || !isFace(above) || !isFace(below)) continue;
-        for (int i = stripe.begin; i < stripe.end; ++i) repaint(i, k, {above.end - 1, below.begin});
       }
     }
   }

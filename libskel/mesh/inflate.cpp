@@ -368,7 +368,7 @@ Eigen::VectorXd heightsBehind(const PlanarMesh& mesh, const std::vector<DepthThe
   Eigen::VectorXd z = inflatedHeights(mesh, depths, band);
   const Eigen::VectorXd mean = localMean(mesh, z, range_px);
   for (int v = 0; v < mesh.inner_count; ++v)
-    if (band[v] == 0) z[v] = std::max(z[v], std::min(z[v] * plain_mean[v] / mean[v], plain[v]));
+    if (band[v] == 0) z[v] = std::min(plain[v], z[v] * std::max(1., plain_mean[v] / mean[v]));
   return z;
 }
 
@@ -395,6 +395,20 @@ Eigen::VectorXd capesOf(const DepthCapes& capes, double range_px, const PlanarMe
   return localMean(mesh, share, range_px);
 }
 
+// z of the inner vertices of a body without an outline, px.
+Eigen::VectorXd plainHeights(const BodyDepth& body, const std::vector<DepthThere>& depths, double long_px,
+                             const PlanarMesh& mesh) {
+  constexpr double kCapeRange = 0.02;  // of the figure's long side
+  Eigen::VectorXd z = inflatedHeights(mesh, depths, std::vector<double>(depths.size(), 0));
+  if (body.sections) z = z.cwiseMax(leastHeights(mesh, *body.sections));
+  if (body.capes) {
+    const Eigen::VectorXd share = capesOf(*body.capes, kCapeRange * long_px, mesh);
+    z.array() *= 1 - (1 - body.capes->thickness) * share.head(mesh.inner_count).array();
+  }
+  if (body.neck) z.array() *= neckProfile(mesh, z, *body.neck).array();
+  return z;
+}
+
 // How thick it is, and where its points stand; sheet.middle must be known. `long_px`: the figure's long side.
 void giveDepth(const BodyDepth& body, bool own_back, double long_px, Sheet& sheet) {
   constexpr double kAround = 0.07;       // of the figure's long side: how far the depth of a part reaches
@@ -404,8 +418,7 @@ void giveDepth(const BodyDepth& body, bool own_back, double long_px, Sheet& shee
   const std::vector<double> none(band.size(), 0);
   // A back that shows no outline is round up to the rim.
   const std::vector<double> behind = own_back ? bandBehind(sheet) : band;
-  Eigen::VectorXd plain = inflatedHeights(sheet.planar, depths, none);
-  if (body.sections) plain = plain.cwiseMax(leastHeights(sheet.planar, *body.sections));
+  const Eigen::VectorXd plain = plainHeights(body, depths, long_px, sheet.planar);
   const double range_px = kAround * long_px;
   const Eigen::VectorXd plain_mean = localMean(sheet.planar, plain, range_px);
   const auto heights = [&](const std::vector<double>& flange) {
@@ -413,18 +426,6 @@ void giveDepth(const BodyDepth& body, bool own_back, double long_px, Sheet& shee
   };
   sheet.z.front = heights(band);
   sheet.z.back = behind == band ? sheet.z.front : heights(behind);
-  if (body.neck) {
-    const Eigen::VectorXd profile = neckProfile(sheet.planar, plain, *body.neck);
-    sheet.z.front.array() *= profile.array();
-    sheet.z.back.array() *= profile.array();
-  }
-  if (body.capes) {
-    constexpr double kCapeRange = 0.02;  // of the figure's long side
-    const Eigen::VectorXd share = capesOf(*body.capes, kCapeRange * long_px, sheet.planar);
-    const Eigen::ArrayXd thin = 1 - (1 - body.capes->thickness) * share.head(sheet.inner()).array();
-    sheet.z.front.array() *= thin;
-    sheet.z.back.array() *= thin;
-  }
   sheet.lip = lipOf(sheet.planar, band, behind);
   sheet.place = sheet.planar.vertices;
   if (own_back) {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kThroatReach = 0.2;  // of the reach: where the deepest place is sought
 constexpr double kNeckAside = 0.6;    // of the width, beyond it: where the profile ends
-constexpr double kLeastNeck = 0.5;
+constexpr double kLeastNeck = 0.55;
 
 }  // namespace
 

@@ -30,7 +30,7 @@ constexpr double kForward = 0.5;     // DepthBone::forward of who faces the view
 constexpr double kLimbRadius = 0.4;  // at most, as a share of a bone's length: where it lies on the body
 // Of the head's radius: how far the throat lies below the middle of the head, how far it narrows, its half
 // width and its most half depth.
-constexpr double kChin = 1.15, kNeckReach = 0.7, kNeckWide = 0.9, kNeckDepth = 0.5;
+constexpr double kChin = 1.15, kNeckReach = 0.75, kNeckWide = 0.9, kNeckDepth = 0.5;
 constexpr double kAside =
     0.4;  // of legs seen from the side, from the middle: share of the trunk's half depth
 
