@@ -108,6 +108,7 @@ class DepthFinder {
 
   void addNeck(const Vector2d& neck, const Vector2d& head, double head_px) {
     const Vector2d down = neck - head;
+    if (down.norm() < 1) return;
     const Vector2d chin = head + down.normalized() * std::min(kChin * head_px, down.norm());
     depth_.neck = {chin, -down.normalized(), kNeckReach * head_px, kNeckWide * head_px,
                    std::min(radius(chin), kNeckDepth * head_px)};

@@ -219,6 +219,15 @@ TEST_CASE("without bones a figure is as round as its outline, and without a head
   CHECK(depthAt({}, {10, 10}).most_px == 0);
 }
 
+TEST_CASE("a head that lies where the neck does has none") {
+  const CapsuleFigure figure;
+  const Silhouette silhouette = silhouetteFromMask(capsuleMask(figure));
+  Skeleton skeleton = capsuleSkeleton(figure);
+  CHECK(bodyDepth(skeleton, loadTemplate("biped"), silhouette).neck);
+  skeleton.joints[skeleton.index("neck")].image = skeleton.joints[skeleton.index("head")].image;
+  CHECK_FALSE(bodyDepth(skeleton, loadTemplate("biped"), silhouette).neck);
+}
+
 TEST_CASE("what lies beyond the flesh of all bones is thin") {
   DepthBone bone;
   bone.to = {100, 0};
