@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "libskel/layers/part_net.h"
+#include "libskel/pipeline/trunk_sections.h"
 #include "libskel/silhouette/outline.h"
 #include "libskel/skeleton/frontal.h"
 
@@ -27,6 +27,7 @@ constexpr double kNoNeck = 0.95, kInOne = 1.8;
 constexpr Build kSideChestBuild{2.5, 1.4};                               // of a person drawn from the side
 constexpr Build kAnimalTrunkBuild{2, 1.05}, kAnimalHeadBuild{2.2, 1.2};  // drawn from the side, always
 constexpr double kForward = 0.5;     // DepthBone::forward of who faces the viewer; by eye, of .5 and .7
+constexpr double kFacing = 0.5;      // frontal(), of who shows little of his side
 constexpr double kLimbRadius = 0.4;  // at most, as a share of a bone's length: where it lies on the body
 // Of the head's radius: how far the throat lies below the middle of the head, how far it narrows, its half
 // width and its most half depth.
@@ -34,10 +35,6 @@ constexpr double kChin = 1.15, kNeckReach = 0.75, kNeckWide = 0.9, kNeckDepth = 
 constexpr double kAside =
     0.4;  // of legs seen from the side, from the middle: share of the trunk's half depth
 
-// DepthSections: how many, and how many to both sides are mixed; depth by width; most half depth, of the
-// trunk's radius; how far to one side it is one that swings, of its half width.
-constexpr int kSections = 40, kSectionsMixed = 2;
-constexpr double kTrunkRound = 0.62, kMostTrunk = 1.8, kAtSide = 0.4;
 constexpr double kCapeThickness = 0.4;
 
 class DepthFinder {
@@ -71,8 +68,11 @@ class DepthFinder {
             body_plan_.from_side ? kAnimalHeadBuild
             : in_one             ? kBallBuild
                                  : kHeadBuild);
-    if (!body_plan_.from_side && !in_one && front > 0.5) addNeck(*neck, *head, head_px);
-    if (!body_plan_.from_side && front > 0.5) addSections(*neck, *body, *pelvis, trunk_px), addCapes();
+    if (!body_plan_.from_side && front > kFacing) {
+      if (!in_one) addNeck(*neck, *head, head_px);
+      depth_.sections = trunkSections(parts_, silhouette_.mask, {*neck, *body, *pelvis, trunk_px});
+      addCapes();
+    }
     for (std::size_t k = 0; k < body_plan_.limbs.size(); ++k)
       addLimb(body_plan_.limbs[k], static_cast<int>(k) + 1, trunk, trunk_px);
     if (const auto root = at("tail_root"), tail = at("tail"); root && tail)
@@ -114,59 +114,9 @@ class DepthFinder {
                    std::min(radius(chin), kNeckDepth * head_px)};
   }
 
-  bool isTrunk(int y, int x) const {
-    const auto part = static_cast<Part>(parts_(y, x));
-    return silhouette_.mask(y, x) != 0 && (part == Part::kTrunk || part == Part::kSkirt);
-  }
-
-  // Of what is seen of trunk and skirt, from the neck to the hem.
-  void addSections(const Vector2d& neck, const Vector2d& body, const Vector2d& pelvis, double trunk_px) {
-    const Vector2d down = (pelvis - neck).normalized(), across(-down.y(), down.x());
-    struct Extent {
-      double least = std::numeric_limits<double>::infinity(), most = -least;
-    };
-    const double top = neck.dot(down);
-    double bottom = top;
-    const auto each = [&](const auto& visit) {
-      for (int y = 0; y < parts_.rows(); ++y)
-        for (int x = 0; x < parts_.cols(); ++x)
-          if (const Vector2d p(x, y); isTrunk(y, x) && p.dot(down) >= top) visit(p);
-    };
-    each([&](const Vector2d& p) { bottom = std::max(bottom, p.dot(down)); });
-    const double step = (bottom - top) / kSections, middle = pelvis.dot(across);
-    if (step < 0.5) return;
-    std::vector<Extent> extents(kSections + 1);
-    each([&](const Vector2d& p) {
-      Extent& extent = extents[static_cast<std::size_t>((p.dot(down) - top) / step)];
-      extent.least = std::min(extent.least, p.dot(across)),
-      extent.most = std::max(extent.most, p.dot(across));
-    });
-    DepthSections sections{top * down, down, step, {}};
-    for (int k = 0; k <= kSections; ++k) {
-      DepthEllipse mean;
-      int count = 0;
-      for (int j = std::max(0, k - kSectionsMixed); j <= std::min(kSections, k + kSectionsMixed); ++j) {
-        const Extent& extent = extents[static_cast<std::size_t>(j)];
-        if (extent.least > extent.most) continue;
-        mean.middle_px += (extent.least + extent.most) / 2, mean.half_px += (extent.most - extent.least) / 2;
-        ++count;
-      }
-      if (count > 0) {
-        mean.middle_px /= count, mean.half_px /= count;
-        // Shoulders are flat, and so is what swings to one side.
-        const double below = k * step / std::max((body - neck).dot(down), step),
-                     aside = std::abs(mean.middle_px - middle) / std::max(mean.half_px, 1.);
-        mean.round = kTrunkRound * std::min(below, 1.) * std::clamp(2 - aside / kAtSide, 0., 1.);
-        mean.round = std::min(mean.round, kMostTrunk * trunk_px / std::max(mean.half_px, 1.));
-      }
-      sections.ellipses.push_back(mean);
-    }
-    depth_.sections = std::move(sections);
-  }
-
   void addCapes() {
-    Plane8 mask = (parts_ == static_cast<std::uint8_t>(Part::kAppendix)).cast<std::uint8_t>();
-    if ((mask != 0).any()) depth_.capes = {std::move(mask), kCapeThickness};
+    const auto is_cape = parts_ == static_cast<std::uint8_t>(Part::kAppendix);
+    if (is_cape.any()) depth_.capes = {is_cape.cast<std::uint8_t>(), kCapeThickness};
   }
 
   void addLimb(const TemplateLimb& limb, int layer, const Build& trunk, double trunk_px) {
