@@ -18,8 +18,9 @@ using Eigen::Vector2d;
 constexpr double kWidest = 0.045;   // of a line
 constexpr double kSpacing = 0.006;  // from sample to sample
 // inkLightness().
-constexpr double kDarkest = 150;                             // a line is darker
-constexpr double kContrast = 28;                             // and what it encloses lighter by this
+constexpr double kDarkest = 150;  // a line is darker,
+constexpr double kFaint = 60;     // or, in pink or yellow, by this much darker than what it encloses
+constexpr double kContrast = 28;  // and what it encloses lighter by this
 constexpr double kShareOfLight = 0.35, kLeastContrast = 15;  // or, where that is dark, by this share of it
 constexpr double kWhite = 215, kWhiteContrast = 90;  // or it is as light, and what it encloses so much darker
 // As shares of the widest: less is paper that shines through, more is a hood or a collar.
@@ -40,16 +41,14 @@ std::optional<double> lightnessAt(const Image& image, const Plane8& mask, const 
 constexpr double kStep = 0.5;  // px, from value to value
 
 // The width of a line whose values are below those of what it encloses, at most `reach` steps, px; 0: none.
-// `contrast`: the least difference, of the darkest and the lightest value.
-template <class Contrast>
-double lineWidth(const std::vector<double>& light, std::size_t reach, double darkest_ink,
-                 const Contrast& contrast) {
+// `is_line`: by the line's darkest value and the lightest of what it encloses.
+template <class IsLine>
+double lineWidth(const std::vector<double>& light, std::size_t reach, const IsLine& is_line) {
   // The outermost px may shine like paper; then comes ink.
   const auto darkest = std::min_element(
       light.begin(), light.begin() + static_cast<std::ptrdiff_t>(std::min(light.size(), reach / 2 + 2)));
-  if (*darkest > darkest_ink) return 0;
   const double lightest = *std::max_element(darkest, light.end());
-  if (lightest - *darkest < contrast(lightest)) return 0;
+  if (!is_line(*darkest, lightest)) return 0;
   const auto edge =
       std::find_if(darkest, light.end(), [&](double value) { return value >= 0.5 * (*darkest + lightest); });
   const auto width = static_cast<std::size_t>(edge - light.begin());
@@ -71,13 +70,16 @@ double lineWidth(const Image& image, const Plane8& mask, const Vector2d& p, cons
   }
   const auto reach = static_cast<std::size_t>(widest_px / kStep);
   if (light.size() < 4) return 0;
-  const double dark = lineWidth(light, reach, kDarkest, [](double lightest) {
-    return std::clamp(kShareOfLight * lightest, kLeastContrast, kContrast);
+  const double dark = lineWidth(light, reach, [](double darkest, double lightest) {
+    return darkest <= std::max(kDarkest, lightest - kFaint) &&
+           lightest - darkest >= std::clamp(kShareOfLight * lightest, kLeastContrast, kContrast);
   });
   // Paper shines through strokes of crayon: only what is wide can have a white outline.
   if (dark > 0 || light.size() < samples) return dark;
   for (double& value : light) value = 255 - value;
-  const double white = lineWidth(light, reach, 255 - kWhite, [](double) { return kWhiteContrast; });
+  const double white = lineWidth(light, reach, [](double darkest, double lightest) {
+    return darkest <= 255 - kWhite && lightest - darkest >= kWhiteContrast;
+  });
   return white >= kLeastWhite * widest_px && white <= kMostWhite * widest_px ? white : 0;
 }
 
