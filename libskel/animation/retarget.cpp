@@ -59,7 +59,7 @@ struct Retargeter {
   std::vector<BoneTurn> turns;          // canonical to drawn
   std::vector<double> swing;            // extra turn about z of a pointed joint and those below it, radians
   std::vector<Vector3d> raised;         // a bone whose swing grows as it points up; zero: swings always
-  std::vector<double> share_of_motion;  // 1: as the clip says, 0: the joint does not turn
+  std::vector<double> share_of_motion;  // 1: as the clip says, 0: the joint does not turn, 2: twice as far
   Quaterniond figure_from_clip = Quaterniond::Identity();  // about the vertical
   std::vector<Vector3d> bones;                             // of pointed joints, canonical
   std::vector<Vector3d> ahead, behind;  // what is added for each unit that it points at the viewer, or away
@@ -75,7 +75,7 @@ struct Retargeter {
     for (std::size_t j = 0; j < count; ++j) {
       const int parent = skeleton.joints[j].parent;
       Quaterniond& local = motion.locals[j] = canonical.rotations[j].cast<double>();
-      if (share_of_motion[j] < 1) local = Quaterniond::Identity().slerp(share_of_motion[j], local);
+      if (share_of_motion[j] != 1) local = Quaterniond::Identity().slerp(share_of_motion[j], local);
       if (figure_from_clip.w() != 1) local = figure_from_clip * local * figure_from_clip.conjugate();
       motion.globals[j] = parent < 0 ? local : motion.globals[parent] * local;
     }
@@ -285,6 +285,44 @@ void holdArms(Retargeter& retargeter, const FigureShape& shape, std::vector<doub
            kept, slack_rad);
 }
 
+// How far the joints go in the clip, rad, all together, if those that hold() finds go this share of it.
+double travelOf(const Clip& clip, const std::set<std::string>& joints, double held_share = 1) {
+  double sum = 0;
+  for (const JointTrack& track : clip.tracks)
+    if (joints.contains(track.joint))
+      for (std::size_t k = 1; k < track.rotations.size(); ++k)
+        sum += (track.slack_rad > 0 ? held_share : 1) *
+               double(track.rotations[k].angularDistance(track.rotations[k - 1]));
+  return sum;
+}
+double armTravel(const Clip& clip, const std::string& side, double held_share = 1) {
+  return travelOf(clip, {side + "shoulder", side + "elbow"}, held_share);
+}
+
+// Who can speak with neither arm, as holdArms() has it, does so with trunk and head: what they do of a
+// gesture grows, but no lean or nod beyond kFarthest_rad.
+void gestureWithoutArms(Retargeter& retargeter, const Clip& clip) {
+  constexpr double kFarthest_rad = 20 * kPi / 180;
+  constexpr double kGesture_rad = 6;  // of both arms together; steps are none, nor is breath
+  const Skeleton& skeleton = retargeter.skeleton;
+  const double arms = armTravel(clip, "left_") + armTravel(clip, "right_"),
+               legs = travelOf(clip, {"left_hip", "right_hip", "left_knee", "right_knee"});
+  double more = smoothStep(0.5, 0.8, arms / std::max(kGesture_rad, arms + legs));
+  for (const char* name : {"left_elbow", "right_elbow"}) {
+    const int elbow = skeleton.find(name);
+    more = std::min(more, elbow < 0 ? 0 : 1 - retargeter.share_of_motion[elbow]);
+  }
+  if (more <= 0) return;
+  for (const JointTrack& track : clip.tracks) {
+    if (track.joint != "body" && track.joint != "neck" && track.joint != "head") continue;
+    double farthest = 0;
+    for (const Eigen::Quaternionf& rotation : track.rotations)
+      farthest = std::max(farthest, double(Eigen::AngleAxisf(rotation).angle()));
+    if (const int joint = skeleton.find(track.joint); joint >= 0 && farthest > 0)
+      retargeter.share_of_motion[joint] = 1 + std::clamp(kFarthest_rad / farthest - 1, 0., more);
+  }
+}
+
 // Legs that are one piece, under a gown, take small steps, and those of one who sits none.
 double holdLegs(Retargeter& retargeter, const FigureShape& shape, const std::vector<FootContact>& contacts,
                 std::vector<double>& slack_rad) {
@@ -389,18 +427,6 @@ void turnIntoPicture(const FigureShape& shape, const Clip& clip, const RetargetO
       }
 }
 
-// How far the limb's joints go in the clip, rad, all together, if those that hold() finds go this share of
-// it.
-double motionOf(const Clip& clip, const std::string& side, double held_share = 1) {
-  double sum = 0;
-  for (const JointTrack& track : clip.tracks)
-    if (track.joint == side + "shoulder" || track.joint == side + "elbow")
-      for (std::size_t k = 1; k < track.rotations.size(); ++k)
-        sum += (track.slack_rad > 0 ? held_share : 1) *
-               double(track.rotations[k].angularDistance(track.rotations[k - 1]));
-  return sum;
-}
-
 // Instead of what the arm does, the trunk rocks from side to side, unless it bows as far anyway.
 Clip rocking(const Clip& clip, const Skeleton& skeleton, const std::string& side) {
   constexpr double kRock_rad = 16 * kPi / 180, kSwing_s = 0.75, kRate_hz = 30;
@@ -445,7 +471,8 @@ bool showsArm(const Skeleton& skeleton, const FigureShape& shape, const std::str
 std::string armThatCannot(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
   constexpr double kOneArm = 3;
   for (const std::string side : {"left_", "right_"})
-    if (motionOf(clip, side) > kOneArm * motionOf(clip, acrossFrom(side)) && !showsArm(skeleton, shape, side))
+    if (armTravel(clip, side) > kOneArm * armTravel(clip, acrossFrom(side)) &&
+        !showsArm(skeleton, shape, side))
       return side;
   return "";
 }
@@ -739,7 +766,7 @@ std::vector<std::string> armsThatStay(const Clip& clip, const Skeleton& skeleton
   if (isRelativeTo(clip, skeleton)) return {};
   const auto named = [](const std::string& side) { return side.substr(0, side.size() - 1) + " arm"; };
   const std::string quoted = '"' + clip.name + '"', cannot = armThatCannot(clip, skeleton, shape);
-  if (!cannot.empty() && motionOf(clip, cannot) > kMoves_rad) {
+  if (!cannot.empty() && armTravel(clip, cannot) > kMoves_rad) {
     const std::string stays = "the " + named(cannot) + " cannot be moved well and does not do " + quoted;
     if (showsArm(skeleton, shape, acrossFrom(cannot)))
       return {stays + "; the " + named(acrossFrom(cannot)) + " does"};
@@ -749,13 +776,13 @@ std::vector<std::string> armsThatStay(const Clip& clip, const Skeleton& skeleton
   // them.
   const auto follows = [&](const std::string& side, double kept, double least_share) {
     const int elbow = skeleton.find(side + "elbow");
-    return motionOf(clip, side, heldShare(kept)) >= least_share * motionOf(clip, side) &&
+    return armTravel(clip, side, heldShare(kept)) >= least_share * armTravel(clip, side) &&
            (shape.taken.empty() || shape.taken[elbow] >= kStump);
   };
   std::vector<std::string> stay;
   for (const std::string side : {"left_", "right_"})
     if (const double kept = keptArm(skeleton, shape, side);
-        motionOf(clip, side) > kMoves_rad && kept > kStays && !follows(side, kept, heldShare(kStays)))
+        armTravel(clip, side) > kMoves_rad && kept > kStays && !follows(side, kept, heldShare(kStays)))
       stay.push_back("the " + named(side) + " is one piece with the body and " +
                      (follows(side, kept, kInPart) ? "follows " + quoted + " only in part"
                                                    : "does not follow " + quoted));
@@ -814,6 +841,7 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
       slack_rad[j] *= std::abs(std::cos(shape.yaw_rad));
   }
   holdArms(retargeter, shape, slack_rad);
+  gestureWithoutArms(retargeter, clip);
   const double steps = holdLegs(retargeter, shape, clip.contacts, slack_rad);
   const double trunk_turn_rad = trunkTurn(skeleton, retargeter.upright, slack_rad);
   const std::vector<double> ground_rad = turnsOfGround(skeleton, canonical, trunk_turn_rad);

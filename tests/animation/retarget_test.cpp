@@ -1,7 +1,9 @@
 #include "libskel/animation/retarget.h"
 
 #include <limits>
+#include <map>
 #include <numbers>
+#include <string>
 
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/sample_pose.h"
@@ -392,6 +394,38 @@ TEST_CASE(
     return samplePose(greet, skeleton, 1.2f).rotations[std::size_t(skeleton.index("body"))];
   };
   CHECK(bow(*options.shape).angularDistance(bow(withFeet(skeleton))) < 0.05f);
+}
+
+TEST_CASE("who can move neither arm talks with trunk and head, and neither breathes nor walks the more") {
+  const Skeleton skeleton = figureSkeleton();
+  RetargetOptions options;
+  options.shape = withFeet(skeleton);
+  // How far the joint turns from how it was drawn, at most, rad.
+  const auto farthest = [&](const char* clip, const char* joint) {
+    const Clip retargeted = retargetToRest(clipNamed(builtinClips(), clip), skeleton, options);
+    float most = 0;
+    for (float time_s = 0; time_s < retargeted.duration_s(); time_s += 0.05f)
+      most = std::max(most, samplePose(retargeted, skeleton, time_s)
+                                .rotations[std::size_t(skeleton.index(joint))]
+                                .angularDistance(Eigen::Quaternionf::Identity()));
+    return most;
+  };
+  const auto grow = [&](const char* side) {
+    options.shape->joined[std::size_t(skeleton.index(std::string(side) + "_elbow"))] = 1;
+  };
+  const char* clips[] = {"talk", "greet", "idle", "walk"};
+  std::map<std::string, float> free, one, none;
+  for (const char* clip : clips) free[clip] = farthest(clip, "body");
+  grow("right");
+  for (const char* clip : clips) one[clip] = farthest(clip, "body");
+  grow("left");
+  for (const char* clip : clips) none[clip] = farthest(clip, "body");
+  CHECK(none["talk"] > 1.4f * free["talk"]);
+  CHECK(one["talk"] == Approx(free["talk"]).margin(0.01));
+  for (const char* clip : {"greet", "idle", "walk"}) {
+    CAPTURE(clip);
+    CHECK(none[clip] == Approx(free[clip]).margin(0.01));
+  }
 }
 
 TEST_CASE("limbs that point at the viewer turn into the picture aslant, as far as asked for") {
