@@ -154,8 +154,11 @@ TEST_CASE("a mask beside labels or a skeleton that name none was not learned fro
                                 findJointedDrawings(dir.path())[0].joints, loadTemplate("biped"));
   labels.mask.reset();
   std::filesystem::remove(dir.file("a.joints.json"));
-  SECTION("labels") { writeLabelFile(dir.file("a.labels.json"), labels); }
-  SECTION("a skeleton") {
+  const bool labelled = GENERATE(true, false);
+  CAPTURE(labelled);
+  if (labelled) {
+    writeLabelFile(dir.file("a.labels.json"), labels);
+  } else {
     SkeletonFile file;
     file.image_file = "a.png";
     file.image_width = labels.image_width;
