@@ -21,6 +21,7 @@
 #include "libskel/core/text.h"
 #include "libskel/image/named_drawings.h"
 #include "libskel/image/result_picture.h"
+#include "libskel/mended/renamed_pictures.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -112,6 +113,8 @@ ExitCode rigNamed(const InferOptions& options, const NamedDrawings& named) {
   refuseMissing(all);
   if (!options.quiet) {
     for (const std::string& note : notesOf(named))
+      std::fprintf(stderr, "skel-infer: note: %s\n", printable(note).c_str());
+    for (const std::string& note : renamedNotes(options.images))
       std::fprintf(stderr, "skel-infer: note: %s\n", printable(note).c_str());
     noteUnusedWeights(options);
   }

@@ -938,6 +938,23 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a picture that was renamed after its joints were placed left them behind without a word") {
+  const TempDir dir;
+  drawBoy(dir);
+  placeInLabels(dir, {300, 300});
+  const std::string renamed =
+      "note: ./boy.labels.json is of ./ben.png, which was called boy.png then: call it so again, and what "
+      "was "
+      "mended is taken up\n";
+  CHECK_THAT(infer(dir, ". --force").err, !Contains("which was called"));
+  fs::rename(dir.file("boy.png"), dir.file("ben.png"));
+  CHECK_THAT(infer(dir, ". --force").err, Contains(renamed));
+  // Another picture, and labels that are none.
+  writeFile(dir.file("ben.png"), encodePng(capsuleImage({.size = 500})));
+  writeFile(dir.file("torn.labels.json"), "{");
+  CHECK_THAT(infer(dir, ". --force").err, !Contains("which was called"));
+}
+
 TEST_CASE("of two folders with mended joints the first counts, and the line says which one does not") {
   const TempDir dir;
   writeFile(dir.file("in/boy.png"), readFile(kDrawing));
