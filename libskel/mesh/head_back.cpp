@@ -159,11 +159,13 @@ class Head {
     const int i = int(from_top);
     const auto& [left, right] = rows_[std::size_t(i)];
     if (!left || !right || x < -left->rim || x > right->rim) return std::nullopt;
+    const double width = left->rim + right->rim;
+    if (width <= 0) return std::nullopt;
     const double from_left = x + left->rim, from_right = right->rim - x;
     if (ink && std::min(from_left, from_right) < kDrawnRim &&
         (from_left < from_right ? left : right)->outlined)
       return std::nullopt;
-    const double share = (x + left->rim) / (left->rim + right->rim);
+    const double share = from_left / width;
     // Hair and brims hang around a ball, lowest in the middle.
     const double row = (kTop - t - kHang * 4 * share * (1 - share)) * kRowsPerRadius;
     const auto& [a, a_is_face] = seenFrom(0, row, share);
