@@ -112,10 +112,9 @@ ExitCode rigNamed(const InferOptions& options, const NamedDrawings& named) {
   }
   refuseMissing(all);
   if (!options.quiet) {
-    for (const std::string& note : notesOf(named))
-      std::fprintf(stderr, "skel-infer: note: %s\n", printable(note).c_str());
-    for (const std::string& note : renamedNotes(options.images))
-      std::fprintf(stderr, "skel-infer: note: %s\n", printable(note).c_str());
+    for (const auto& notes : {notesOf(named), renamedNotes(options.images)})
+      for (const std::string& note : notes)
+        std::fprintf(stderr, "skel-infer: note: %s\n", printable(note).c_str());
     noteUnusedWeights(options);
   }
   ensureFolders(options);

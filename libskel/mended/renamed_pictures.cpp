@@ -1,13 +1,12 @@
 #include "libskel/mended/renamed_pictures.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
-#include <string_view>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/folder_listing.h"
 #include "libskel/core/sha256.h"
 #include "libskel/labels/label_file.h"
 
@@ -22,27 +21,18 @@ struct Orphan {
 // Label files of pictures that are gone, by the hash of those. Opens none beside which a file of its stem
 // lies.
 std::map<std::string, Orphan> orphansIn(const fs::path& folder) {
-  std::vector<std::string> stems;  // of label files
-  std::set<std::string> others;
-  std::error_code failure;
-  for (fs::directory_iterator entry(folder.empty() ? "." : folder, failure), end; entry != end;
-       entry.increment(failure)) {
-    if (failure) break;
-    const std::string name = entry->path().filename().string();
-    if (name.ends_with(kLabelFileEnding))
-      stems.push_back(name.substr(0, name.size() - std::string_view(kLabelFileEnding).size()));
-    else
-      others.insert(fs::path(name).stem().string());
-  }
-  std::sort(stems.begin(), stems.end());
+  const std::vector<std::string> files = listFolder(folder.empty() ? "." : folder.string()).files;
+  std::set<std::string> looked_after;
+  for (const std::string& file : files) looked_after.insert(labelFileFor(file));
   std::map<std::string, Orphan> orphans;
-  for (const std::string& stem : stems) {
-    if (others.contains(stem)) continue;
-    const std::string file = (folder / (stem + kLabelFileEnding)).string();
+  for (const std::string& file : files) {
+    if (!file.ends_with(kLabelFileEnding) || looked_after.contains(file)) continue;
+    const std::string path = (folder / file).string();
     try {
-      const LabelFile labels = readLabelFile(file);
+      std::error_code failure;
+      const LabelFile labels = readLabelFile(path);
       if ((labels.hasPlacedJoint() || labels.mask) && !fs::exists(folder / labels.image.file, failure))
-        orphans.emplace(labels.image.sha256, Orphan{file, labels.image.file});
+        orphans.emplace(labels.image.sha256, Orphan{path, labels.image.file});
     } catch (const Error&) {
       // Whoever opens it is told.
     }

@@ -944,8 +944,7 @@ TEST_CASE("a picture that was renamed after its joints were placed left them beh
   placeInLabels(dir, {300, 300});
   const std::string renamed =
       "note: ./boy.labels.json is of ./ben.png, which was called boy.png then: call it so again, and what "
-      "was "
-      "mended is taken up\n";
+      "was mended is taken up\n";
   CHECK_THAT(infer(dir, ". --force").err, !Contains("which was called"));
   fs::rename(dir.file("boy.png"), dir.file("ben.png"));
   CHECK_THAT(infer(dir, ". --force").err, Contains(renamed));
