@@ -6,9 +6,11 @@
 #include <filesystem>
 
 #include "animator/pose_file.h"
+#include "libskel/animation/arm_abilities.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/keyframe_clip.h"
+#include "libskel/animation/pose_hash.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/animation/role_figure.h"
 #include "libskel/cli/number.h"
@@ -17,7 +19,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/text.h"
 #include "libskel/core/tool_command.h"
-#include "libskel/deform/figure_shape.h"
+#include "libskel/deform/measure_figure.h"
 #include "libskel/skeleton/joint_lookup.h"
 
 namespace skel {

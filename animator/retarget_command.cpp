@@ -10,7 +10,7 @@
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/clip_library.h"
-#include "libskel/animation/retarget.h"
+#include "libskel/animation/pose_hash.h"
 #include "libskel/cli/outputs.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "libskel/animation/retarget.h"
+#include "libskel/animation/bone_turn.h"
 
 namespace skel {
 

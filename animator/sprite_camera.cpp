@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "libskel/animation/role_figure.h"
-#include "libskel/deform/figure_shape.h"
+#include "libskel/deform/measure_figure.h"
 
 namespace skel {
 namespace {

@@ -7,7 +7,7 @@
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/clip_limits.h"
-#include "libskel/animation/retarget.h"
+#include "libskel/animation/pose_hash.h"
 #include "libskel/core/files.h"
 #include "libskel/draw/color.h"
 #include "libskel/export/formats.h"

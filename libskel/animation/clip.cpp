@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "libskel/core/smooth_step.h"
+
 namespace skel {
 
 float Clip::duration_s() const {
@@ -16,6 +18,11 @@ float Clip::duration_s() const {
     lastsUntil(track.scale_times_s);
   }
   return duration;
+}
+
+double canonicalShare(const Clip& clip, double time_s) {
+  if (clip.lead_s <= 0) return 1;
+  return smoothStep(std::min(time_s, clip.duration_s() - time_s) / clip.lead_s);
 }
 
 }  // namespace skel

@@ -81,4 +81,8 @@ struct Clip {
   bool operator==(const Clip&) const = default;
 };
 
+// How much of the drawn pose is taken back at `time_s`: 0 at the ends of a clip that starts from rest
+// (Clip::lead_s), else 1.
+double canonicalShare(const Clip& clip, double time_s);
+
 }  // namespace skel

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <unordered_set>
 
-#include "libskel/animation/retarget.h"
+#include "libskel/animation/bone_turn.h"
 #include "libskel/animation/shortest_turn.h"
 #include "libskel/skeleton/hanging.h"
 

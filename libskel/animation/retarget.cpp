@@ -7,16 +7,18 @@
 #include <set>
 #include <string>
 
+#include "libskel/animation/arm_abilities.h"
+#include "libskel/animation/bone_turn.h"
 #include "libskel/animation/check_clip.h"
 #include "libskel/animation/clip_limits.h"
 #include "libskel/animation/follow_through.h"
-#include "libskel/animation/mirror_clip.h"
 #include "libskel/animation/plant_feet.h"
+#include "libskel/animation/pose_hash.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/animation/shortest_turn.h"
+#include "libskel/animation/thin_keys.h"
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
-#include "libskel/core/sha256.h"
 #include "libskel/core/signed_angle.h"
 #include "libskel/core/smooth_step.h"
 #include "libskel/skeleton/check_skeleton.h"
@@ -24,7 +26,6 @@
 #include "libskel/skeleton/joint_lookup.h"
 
 namespace skel {
-
 namespace {
 
 using Eigen::Quaterniond;
@@ -39,17 +40,6 @@ constexpr double kWaddle_rad = 5;    // for each height that the clip sways, of 
 constexpr double kLeastLift = 0.12;  // of a step, in heights
 constexpr double kAsDrawn = 0.6;     // FootPlanting::as_drawn of feet that come towards the viewer
 constexpr double kShortSquat = 0.6;  // so much less deep squat legs that are one piece
-
-Quaterniond aboutZ(double angle_rad) { return Quaterniond(Eigen::AngleAxisd(angle_rad, Vector3d::UnitZ())); }
-
-double smoothStep(double from, double to, double x) { return skel::smoothStep((x - from) / (to - from)); }
-
-// How much of the drawn pose is taken back at `time_s`: 0 at the ends of a clip that starts from rest,
-// else 1.
-double canonicalShare(const Clip& clip, double time_s) {
-  if (clip.lead_s <= 0) return 1;
-  return skel::smoothStep(std::min(time_s, clip.duration_s() - time_s) / clip.lead_s);
-}
 
 // Moments of the clip on the drawn skeleton.
 struct Retargeter {
@@ -141,15 +131,6 @@ void checkContacts(const Clip& clip, const Skeleton& skeleton) {
   }
 }
 
-// The trunk's bones, and the head's.
-bool pointsUp(const Vector3d& canonical) { return canonical.y() > 0; }
-
-// To which side of the trunk the joint lies, when that is turned by -`lean_rad`: -1 or 1.
-double outwards(const Skeleton& skeleton, int joint, double lean_rad = 0) {
-  const Vector3d from_root = skeleton.joints[joint].position - skeleton.joints[0].position;
-  return (aboutZ(-lean_rad) * from_root).x() < 0 ? -1 : 1;
-}
-
 // How far the line from the root to the neck leans to the left of the vertical, rad, and by how much less
 // than straight the hips are, those of the straighter leg. Nothing of what has no neck or legs.
 struct Stance {
@@ -235,9 +216,6 @@ void giveSlack(const Skeleton& skeleton, const std::vector<double>& slack_rad,
   }
 }
 
-// How much of its motion is left to a joint that keeps the share `kept` of how it was drawn.
-double heldShare(double kept) { return 1 - 0.8 * kept; }
-
 // Lets the joints keep the share `kept` of how they were drawn, and move so much less.
 void hold(Retargeter& retargeter, std::initializer_list<int> joints, double kept,
           std::vector<double>& slack_rad) {
@@ -246,34 +224,6 @@ void hold(Retargeter& retargeter, std::initializer_list<int> joints, double kept
     slack_rad[joint] += kept * 2 * kPi;
     retargeter.share_of_motion[joint] = heldShare(kept);
   }
-}
-
-double joinedAt(const FigureShape& shape, int joint) {
-  return shape.joined.empty() ? 0 : shape.joined[joint];
-}
-
-// Legs of one who was drawn sitting or squatting lie on the body: no way to stand him up.
-bool isSeated(const Skeleton& skeleton, const FigureShape& shape) {
-  double straight = 0;
-  for (const std::string side : {"left_", "right_"}) {
-    const int hip = skeleton.find(side + "hip"), knee = skeleton.find(side + "knee"),
-              foot = skeleton.find(side + "foot");
-    if (hip < 0 || knee < 0 || foot < 0 || joinedAt(shape, foot) < 0.8) return false;
-    const Vector3d upper = skeleton.joints[knee].position - skeleton.joints[hip].position,
-                   lower = skeleton.joints[foot].position - skeleton.joints[knee].position;
-    straight += std::max(0.0, -(upper + lower).y()) / std::max(1e-9, upper.norm() + lower.norm()) / 2;
-  }
-  return straight < 0.75;
-}
-
-// How far the arm of this side stays as it was drawn, 0…1; 0 where there is none.
-double keptArm(const Skeleton& skeleton, const FigureShape& shape, const std::string& side) {
-  const int shoulder = skeleton.find(side + "shoulder"), elbow = skeleton.find(side + "elbow"),
-            hand = skeleton.find(side + "hand");
-  if (shoulder < 0 || elbow < 0 || hand < 0) return 0;
-  const double least = isSeated(skeleton, shape) ? 0.8 : 0;  // on the knees, or to lean on
-  const double joined = shape.joined.empty() ? isFolded(skeleton, elbow, hand) : shape.joined[elbow];
-  return std::max(least, smoothStep(0.45, kGrownArm, joined));
 }
 
 void holdArms(Retargeter& retargeter, const FigureShape& shape, std::vector<double>& slack_rad) {
@@ -285,34 +235,21 @@ void holdArms(Retargeter& retargeter, const FigureShape& shape, std::vector<doub
            kept, slack_rad);
 }
 
-// How far the joints go in the clip, rad, all together, if those that hold() finds go this share of it.
-double travelOf(const Clip& clip, const std::set<std::string>& joints, double held_share = 1) {
-  double sum = 0;
-  for (const JointTrack& track : clip.tracks)
-    if (joints.contains(track.joint))
-      for (std::size_t k = 1; k < track.rotations.size(); ++k)
-        sum += (track.slack_rad > 0 ? held_share : 1) *
-               double(track.rotations[k].angularDistance(track.rotations[k - 1]));
-  return sum;
-}
-double armTravel(const Clip& clip, const std::string& side, double held_share = 1) {
-  return travelOf(clip, {side + "shoulder", side + "elbow"}, held_share);
-}
-
 // Who can speak with neither arm, as holdArms() has it, does so with trunk and head: what they do of a
 // gesture grows, but no lean or nod beyond kFarthest_rad.
 void gestureWithoutArms(Retargeter& retargeter, const Clip& clip) {
   constexpr double kFarthest_rad = 20 * kPi / 180;
   constexpr double kGesture_rad = 6;  // of both arms together; steps are none, nor is breath
   const Skeleton& skeleton = retargeter.skeleton;
-  const double arms = armTravel(clip, "left_") + armTravel(clip, "right_"),
-               legs = travelOf(clip, {"left_hip", "right_hip", "left_knee", "right_knee"});
-  double more = smoothStep(0.5, 0.8, arms / std::max(kGesture_rad, arms + legs));
+  double more = 1;
   for (const char* name : {"left_elbow", "right_elbow"}) {
     const int elbow = skeleton.find(name);
     more = std::min(more, elbow < 0 ? 0 : 1 - retargeter.share_of_motion[elbow]);
   }
   if (more <= 0) return;
+  const double arms = armTravel(clip, "left_") + armTravel(clip, "right_"),
+               legs = travelOf(clip, {"left_hip", "right_hip", "left_knee", "right_knee"});
+  more = std::min(more, smoothStep(0.5, 0.8, arms / std::max(kGesture_rad, arms + legs)));
   for (const JointTrack& track : clip.tracks) {
     if (track.joint != "body" && track.joint != "neck" && track.joint != "head") continue;
     double farthest = 0;
@@ -427,65 +364,6 @@ void turnIntoPicture(const FigureShape& shape, const Clip& clip, const RetargetO
       }
 }
 
-// Instead of what the arm does, the trunk rocks from side to side, unless it bows as far anyway.
-Clip rocking(const Clip& clip, const Skeleton& skeleton, const std::string& side) {
-  constexpr double kRock_rad = 16 * kPi / 180, kSwing_s = 0.75, kRate_hz = 30;
-  Clip result = clip;
-  std::erase_if(result.tracks, [&](const JointTrack& track) {
-    return track.joint == side + "shoulder" || track.joint == side + "elbow" || track.joint == side + "hand";
-  });
-  const double duration_s = double(clip.duration_s());
-  const double keys = std::ceil(duration_s * kRate_hz),
-               swings = std::max(1.0, std::round(duration_s / kSwing_s));
-  checkMoments(clip, keys, skeleton.joints.size());
-  result.least_duration_s = clip.duration_s();
-  JointTrack rock;
-  rock.joint = "body";
-  double most_rad = 0;
-  for (double k = 0; k <= keys; ++k) {
-    const double time_s = duration_s * k / keys;
-    const Eigen::Quaternionf trunk =
-        samplePose(clip, skeleton, float(time_s)).rotations[skeleton.index("body")];
-    most_rad = std::max(most_rad, double(Eigen::AngleAxisf(trunk).angle()));
-    rock.times_s.push_back(float(time_s));
-    rock.rotations.push_back(
-        aboutZ(kRock_rad * canonicalShare(clip, time_s) * std::sin(2 * kPi * swings * k / keys))
-            .cast<float>());
-  }
-  if (most_rad > kRock_rad) return result;
-  std::erase_if(result.tracks, [](const JointTrack& track) { return track.joint == "body"; });
-  result.tracks.push_back(std::move(rock));
-  return result;
-}
-
-std::string acrossFrom(const std::string& side) { return side == "left_" ? "right_" : "left_"; }
-
-// Whether an arm shows what it does.
-bool showsArm(const Skeleton& skeleton, const FigureShape& shape, const std::string& side) {
-  const int elbow = skeleton.find(side + "elbow");
-  return elbow >= 0 && joinedAt(shape, elbow) < kGrownArm &&
-         (shape.taken.empty() || shape.taken[elbow] >= kStump);
-}
-
-// "left_" or "right_" where the clip is that arm's and this figure's does not show it; else empty.
-std::string armThatCannot(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
-  constexpr double kOneArm = 3;
-  for (const std::string side : {"left_", "right_"})
-    if (armTravel(clip, side) > kOneArm * armTravel(clip, acrossFrom(side)) &&
-        !showsArm(skeleton, shape, side))
-      return side;
-  return "";
-}
-
-// A clip that is one arm's, for a figure whose arm does not show it: by the other, if that shows it better,
-// or, if neither shows it, by the trunk.
-Clip asItCan(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
-  const std::string side = armThatCannot(clip, skeleton, shape);
-  if (side.empty()) return clip;
-  if (showsArm(skeleton, shape, acrossFrom(side))) return mirrored(clip);
-  return skeleton.find("body") >= 0 ? rocking(clip, skeleton, side) : clip;
-}
-
 // How long the legs are that the clip puts on the ground, m.
 double legLength(const Skeleton& skeleton, const std::vector<FootContact>& contacts) {
   double sum = 0;
@@ -558,57 +436,6 @@ double legShare(const Skeleton& skeleton, const std::vector<FootContact>& contac
   return std::min(1.3, legLength(skeleton, contacts) / (kOfHeight * height_m));
 }
 
-// Which poses are keys enough for the joints to stay within `tolerance_m` of the others: from each key as far
-// as that holds.
-std::vector<std::size_t> keysWithin(const Skeleton& skeleton, const std::vector<ModelPose>& poses,
-                                    double tolerance_m) {
-  constexpr std::size_t kFarthest = 10;
-  const std::size_t count = skeleton.joints.size();
-  std::vector<std::vector<Vector3d>> at;
-  std::vector<std::vector<Quaterniond>> locals;
-  for (const ModelPose& pose : poses) {
-    at.push_back(jointPositions(skeleton, pose));
-    locals.push_back(pose.globals);
-    for (std::size_t j = 0; j < count; ++j)
-      if (const int parent = skeleton.joints[j].parent; parent >= 0)
-        locals.back()[j] = pose.globals[std::size_t(parent)].conjugate() * pose.globals[j];
-  }
-  // Leaves do not show in the joints' places: how far a hand would be off at its tip.
-  constexpr double kTip_m = 0.1;
-  const double most_turn = std::tan(tolerance_m / kTip_m);  // of half the angle
-  const auto near = [&](std::size_t from, std::size_t to, std::size_t k) {
-    const double t = double(k - from) / double(to - from);
-    ModelPose between;
-    between.root_offset_m = (1 - t) * poses[from].root_offset_m + t * poses[to].root_offset_m;
-    between.globals.resize(count);
-    for (std::size_t j = 0; j < count; ++j) {
-      const Quaterniond local = locals[from][j].slerp(t, locals[to][j]);
-      const Quaterniond off = local * locals[k][j].conjugate();
-      if (off.vec().norm() > most_turn * std::abs(off.w())) return false;
-      const int parent = skeleton.joints[j].parent;
-      between.globals[j] = parent < 0 ? local : between.globals[std::size_t(parent)] * local;
-    }
-    const std::vector<Vector3d> places = jointPositions(skeleton, between);
-    for (std::size_t j = 0; j < count; ++j)
-      if (!((places[j] - at[k][j]).norm() <= tolerance_m)) return false;
-    return true;
-  };
-  std::vector<std::size_t> keys = {0};
-  while (keys.back() + 1 < poses.size()) {
-    const std::size_t from = keys.back();
-    std::size_t to = from + 1;
-    while (to + 1 < poses.size() && to + 1 <= from + kFarthest) {
-      // The middle is farthest off as a rule, and a jerk is at an end.
-      if (!near(from, to + 1, (from + to + 1) / 2) || !near(from, to + 1, to) ||
-          !near(from, to + 1, from + 1))
-        break;
-      ++to;
-    }
-    keys.push_back(to);
-  }
-  return keys;
-}
-
 // Seen from the front, the least turn of the joint's bone away from the trunk that keeps the part from `from`
 // to `to` of the bone from there to `end`, in its lengths, off the head at all `moments`.
 struct Clearing {
@@ -678,126 +505,7 @@ void swingClearOfHead(Retargeter& retargeter, const ClipMoments& moments,
   }
 }
 
-bool isRelativeTo(const Clip& clip, const Skeleton& skeleton) {
-  return !clip.rest_pose.empty() && clip.rest_pose == restPoseHash(skeleton) &&
-         std::all_of(clip.tracks.begin(), clip.tracks.end(),
-                     [&](const JointTrack& track) { return skeleton.find(track.joint) >= 0; });
-}
-
 }  // namespace
-
-std::vector<Vector3d> restBones(const Skeleton& skeleton) {
-  std::vector<Vector3d> bones(skeleton.joints.size(), Vector3d::Zero());
-  for (const Joint& child : skeleton.joints)
-    if (child.parent >= 0 && hangs(child) == hangs(skeleton.joints[child.parent]))
-      bones[child.parent] += child.position - skeleton.joints[child.parent].position;
-  for (std::size_t j = 0; j < bones.size(); ++j) {
-    const int parent = skeleton.joints[j].parent;
-    if (bones[j].norm() > 1e-9)
-      bones[j].normalize();
-    else
-      bones[j] = parent >= 0 ? bones[parent] : Vector3d::UnitY();
-  }
-  return bones;
-}
-
-Quaterniond BoneTurn::share(double weight) const {
-  return Quaterniond::Identity().slerp(weight, out_of_plane) * aboutZ(weight * angle_rad);
-}
-
-BoneTurn boneTurn(const Vector3d& canonical, const Vector3d& drawn, double near_angle_rad) {
-  const Vector2d from = canonical.head<2>(), to = drawn.head<2>();
-  BoneTurn turn;
-  turn.angle_rad = near_angle_rad;
-  if (from.norm() > 1e-3 && to.norm() > 1e-3) {
-    const double angle = signedAngle(from, to);
-    turn.angle_rad = angle - 2 * kPi * std::floor((angle - near_angle_rad + kPi) / (2 * kPi));
-  }
-  turn.out_of_plane = shortestTurn(aboutZ(turn.angle_rad) * canonical, drawn);
-  return turn;
-}
-
-std::vector<BoneTurn> turnsFromCanonical(const Skeleton& skeleton, const std::vector<Vector3d>& canonical,
-                                         const std::vector<double>& ground_rad) {
-  std::vector<BoneTurn> turns(skeleton.joints.size());
-  const std::vector<Vector3d> bones = restBones(skeleton);
-  for (std::size_t j = 0; j < turns.size(); ++j) {
-    if (canonical[j].isZero()) continue;
-    const int parent = skeleton.joints[j].parent;
-    // A limb's first bone may point anywhere but far across the body; the next ones bend from it by less than
-    // a half turn.
-    const double ground = ground_rad.empty() ? 0 : ground_rad[j];
-    double near = 0;
-    if (parent >= 0 && !canonical[parent].isZero() && pointsUp(canonical[parent]) == pointsUp(canonical[j]))
-      near = turns[parent].angle_rad;
-    else if (!pointsUp(canonical[j]))
-      near = ground + outwards(skeleton, int(j), ground) * kPi / 2;
-    turns[j] = boneTurn(canonical[j], bones[j], near);
-  }
-  return turns;
-}
-
-bool isFolded(const Skeleton& skeleton, int elbow, int hand) {
-  const Vector3d forearm = skeleton.joints[hand].position - skeleton.joints[elbow].position;
-  const double inwards = -outwards(skeleton, elbow) * forearm.x();
-  const double least = skeleton.joints[0].position.y() - 0.5 * forearm.norm();
-  return inwards > 0.5 * forearm.norm() && skeleton.joints[hand].position.y() > least &&
-         skeleton.joints[hand].position.y() < skeleton.joints[elbow].position.y() + 0.7 * forearm.norm();
-}
-
-double soleBelow(const FigureShape& shape, int foot, const Quaterniond& turn) {
-  double lowest = 0;
-  if (!shape.feet_m.empty())
-    for (const Vector3d& point : shape.feet_m[foot]) lowest = std::min(lowest, (turn * point).y());
-  return lowest;
-}
-
-FigureShape shapeOfBones(const Skeleton& skeleton) {
-  FigureShape shape;
-  const int head = skeleton.find("head");
-  if (skeleton.find("left_front_foot") >= 0 && head >= 0 &&
-      skeleton.joints[head].position.x() > skeleton.joints[0].position.x())
-    shape.yaw_rad = kPi;
-  return shape;
-}
-
-std::vector<std::string> armsThatStay(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
-  constexpr double kMoves_rad = 0.3, kStays = 0.5, kInPart = 1. / 3;
-  if (isRelativeTo(clip, skeleton)) return {};
-  const auto named = [](const std::string& side) { return side.substr(0, side.size() - 1) + " arm"; };
-  const std::string quoted = '"' + clip.name + '"', cannot = armThatCannot(clip, skeleton, shape);
-  if (!cannot.empty() && armTravel(clip, cannot) > kMoves_rad) {
-    const std::string stays = "the " + named(cannot) + " cannot be moved well and does not do " + quoted;
-    if (showsArm(skeleton, shape, acrossFrom(cannot)))
-      return {stays + "; the " + named(acrossFrom(cannot)) + " does"};
-    return {stays + (skeleton.find("body") >= 0 ? "; the trunk rocks" : "")};
-  }
-  // Bones of a clip that lets none stay where they were drawn turn all the way, and the flesh that hangs on
-  // them.
-  const auto follows = [&](const std::string& side, double kept, double least_share) {
-    const int elbow = skeleton.find(side + "elbow");
-    return armTravel(clip, side, heldShare(kept)) >= least_share * armTravel(clip, side) &&
-           (shape.taken.empty() || shape.taken[elbow] >= kStump);
-  };
-  std::vector<std::string> stay;
-  for (const std::string side : {"left_", "right_"})
-    if (const double kept = keptArm(skeleton, shape, side);
-        armTravel(clip, side) > kMoves_rad && kept > kStays && !follows(side, kept, heldShare(kStays)))
-      stay.push_back("the " + named(side) + " is one piece with the body and " +
-                     (follows(side, kept, kInPart) ? "follows " + quoted + " only in part"
-                                                   : "does not follow " + quoted));
-  return stay;
-}
-
-std::string restPoseHash(const Skeleton& skeleton) {
-  std::string text;
-  for (const Joint& joint : skeleton.joints) {
-    text += joint.name + "\n" + std::to_string(joint.parent);
-    for (const double place : joint.position) text += " " + std::to_string(std::lround(place * 1000));
-    text += "\n";
-  }
-  return sha256(text);
-}
 
 Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetOptions& options) {
   const std::size_t count = skeleton.joints.size();

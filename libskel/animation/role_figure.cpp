@@ -6,6 +6,7 @@
 
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/joint_roles.h"
+#include "libskel/animation/retarget.h"
 
 namespace skel {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "libskel/animation/retarget.h"
+#include "libskel/animation/figure_shape.h"
 
 namespace skel {
 

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "libskel/animation/retarget.h"
+#include "libskel/animation/clip.h"
+#include "libskel/animation/figure_shape.h"
 #include "libskel/mesh/triangle_mesh.h"
 #include "libskel/skeleton/skeleton.h"
 #include "libskel/skin/skin_weights.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <unordered_set>
 
-#include "libskel/animation/retarget.h"
+#include "libskel/animation/bone_turn.h"
 
 namespace skel {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "libskel/animation/retarget.h"
+#include "libskel/animation/bone_turn.h"
 #include "libskel/core/error.h"
 #include "libskel/deform/skin_vertices.h"
 

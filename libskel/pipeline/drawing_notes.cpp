@@ -2,10 +2,11 @@
 
 #include <map>
 
+#include "libskel/animation/arm_abilities.h"
 #include "libskel/core/file_names.h"
 #include "libskel/core/text.h"
 #include "libskel/core/tool_command.h"
-#include "libskel/deform/figure_shape.h"
+#include "libskel/deform/measure_figure.h"
 #include "libskel/deform/stretch.h"
 
 namespace skel {

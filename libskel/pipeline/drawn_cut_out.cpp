@@ -1,6 +1,6 @@
 #include "libskel/pipeline/drawn_cut_out.h"
 
-#include "libskel/deform/figure_shape.h"
+#include "libskel/deform/measure_figure.h"
 #include "libskel/pipeline/posed_character.h"
 #include "libskel/skeleton/hanging.h"
 

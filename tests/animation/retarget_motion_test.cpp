@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "libskel/animation/bone_turn.h"
 #include "libskel/animation/joint_roles.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/error.h"

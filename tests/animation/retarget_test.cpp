@@ -1,4 +1,6 @@
 #include "libskel/animation/retarget.h"
+#include "libskel/animation/arm_abilities.h"
+#include "libskel/animation/bone_turn.h"
 
 #include <limits>
 #include <map>

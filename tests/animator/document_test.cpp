@@ -9,6 +9,7 @@
 
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/clip_library.h"
+#include "libskel/animation/pose_hash.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/export/formats.h"

@@ -8,6 +8,7 @@
 #include "animator/rig_text.h"
 #include "libskel/animation/clip_file.h"
 #include "libskel/animation/clip_library.h"
+#include "libskel/animation/pose_hash.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/files.h"

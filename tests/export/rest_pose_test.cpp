@@ -1,5 +1,6 @@
 #include "libskel/export/rest_pose.h"
 
+#include "libskel/animation/bone_turn.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/core/error.h"

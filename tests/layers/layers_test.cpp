@@ -8,7 +8,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/segment.h"
-#include "libskel/deform/figure_shape.h"
+#include "libskel/deform/measure_figure.h"
 #include "libskel/image/mask_parts.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"

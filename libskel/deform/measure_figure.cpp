@@ -1,4 +1,4 @@
-#include "libskel/deform/figure_shape.h"
+#include "libskel/deform/measure_figure.h"
 
 #include <algorithm>
 #include <array>

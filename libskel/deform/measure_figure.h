@@ -1,7 +1,7 @@
 // What motions must know of the flesh around the bones.
 #pragma once
 
-#include "libskel/animation/retarget.h"
+#include "libskel/animation/figure_shape.h"
 #include "libskel/skin/skin_weights.h"
 
 namespace skel {
