@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <vector>
 
@@ -43,6 +44,7 @@ constexpr double kMostOf = 0.5;     // of the rim of what is the head's
 constexpr double kDown = 1.5, kUp = 3;
 constexpr double kBelowHair = 4;
 constexpr double kFromHatch = 10;  // half widths of a line: so much nearer is what is no hatching
+constexpr double kMirrored = 4;    // half widths of a line: so far stripes and hatching go on
 
 constexpr int kNeighbours[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 
@@ -333,7 +335,7 @@ class BackPainter {
     soften();
   }
 
-  Image paint(const Image& front) const {
+  Image paint(const Image& front, const Plane8& figure) const {
     Image back = front;
     const int shrink = small_.shrink;
     for (int i = 0; i < int(small_.figure.size()); ++i) {
@@ -343,6 +345,10 @@ class BackPainter {
         const Eigen::Vector3f own(p[0], p[1], p[2]);
         // likest() is no farther from it.
         if (kept_[i] && (filled_[i] - own).squaredNorm() <= kLikeArea * kLikeArea) return;
+        if (const std::uint8_t* there = kept_[i] ? nullptr : mirrored(i, x, y, front, figure)) {
+          std::copy_n(there, 3, p);
+          return;
+        }
         const Eigen::Vector3f color = kept_[i] ? likest(i % small_.width, i / small_.width, own)
                                                : filledAt((x + 0.5) / shrink - 0.5, (y + 0.5) / shrink - 0.5);
         // The grain of what stays stays; the edge of a line beside it does not.
@@ -548,6 +554,8 @@ class BackPainter {
   void fill() {
     filled_ = color_;
     source_ = area_;
+    origin_.resize(area_.size());
+    std::iota(origin_.begin(), origin_.end(), 0);
     const Eigen::Vector2d up = head_ ? head_->up : Eigen::Vector2d(0, -1);
     double costs[8];
     for (int k = 0; k < 8; ++k) {
@@ -587,6 +595,7 @@ class BackPainter {
         cost[j] = there;
         filled_[j] = filled_[i];
         source_[j] = source_[i];
+        origin_[j] = origin_[i];
         open.emplace(cost[j], j);
       }
     }
@@ -657,6 +666,18 @@ class BackPainter {
     }
   }
 
+  // The texel that lies as far on the other side of where px `i` takes its colour from, if that is hatching:
+  // stripes and strokes go on over what went at the rim. Nothing where there is none.
+  const std::uint8_t* mirrored(int i, int x, int y, const Image& front, const Plane8& figure) const {
+    const int from = origin_[i], shrink = small_.shrink;
+    if (!lines_.hatch[from] || (place(i) - place(from)).norm() > kMirrored * line_radius_) return nullptr;
+    const int u = (2 * (from % small_.width) + 1) * shrink - 1 - x,
+              v = (2 * (from / small_.width) + 1) * shrink - 1 - y;
+    if (u < 0 || v < 0 || u >= front.width || v >= front.height || figure(v, u) == 0) return nullptr;
+    const int there = small_.index(u / shrink, v / shrink);
+    return lines_.hatch[there] && kept_[there] ? front.pixel(u, v) : nullptr;
+  }
+
   // Of the colours around, so that edges are as sharp as they are drawn.
   Eigen::Vector3f likest(int x, int y, const Eigen::Vector3f& color) const {
     Eigen::Vector3f best = filled_[small_.index(x, y)];
@@ -696,6 +717,7 @@ class BackPainter {
   std::vector<char> core_;  // not at its area's edge
   std::vector<char> kept_;
   std::vector<int> source_;  // the area that a px takes its colour from
+  std::vector<int> origin_;  // and the px
   std::vector<char> drawn_;  // stays as it is drawn
 };
 
@@ -708,7 +730,7 @@ Image backColors(const Image& front, const Plane8& figure, const std::optional<H
   if (!(figure != 0).any()) return front;
   if (whole_px == 0) whole_px = std::max(front.width, front.height);
   const BackPainter painter(front, figure, around, head, whole_px);
-  Image back = painter.paint(front);
+  Image back = painter.paint(front, figure);
   if (head) paintBackOfHead(front, figure, *head, back);
   painter.goOn(figure, back);
   return back;

@@ -279,6 +279,24 @@ TEST_CASE("stripes of a shirt stay on the back") {
   CHECK(darkTexels(back) > 0.8 * darkTexels(image));
 }
 
+TEST_CASE("stripes of a shirt go on over its outline on the back, where they mixed to a grey band") {
+  Image image = outlinedBall(200, 80, 4);
+  const auto isInside = [](int x, int y, double radius) { return std::hypot(x - 99.5, y - 99.5) < radius; };
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x)
+      if (isInside(x, y, 76)) std::fill_n(image.pixel(x, y), 3, std::uint8_t(y % 10 < 5 ? 20 : 240));
+  const Image back = backColors(image, notWhite(image), std::nullopt);
+  int rim = 0, mixed = 0;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 200; ++x) {
+      if (!isInside(x, y, 79) || isInside(x, y, 76)) continue;
+      ++rim;
+      mixed += back.pixel(x, y)[0] > 80 && back.pixel(x, y)[0] < 180;
+    }
+  INFO(mixed << " of " << rim);
+  CHECK(mixed < 0.1 * rim);
+}
+
 // As compilers please, a coordinate was rounded to float before it was placed in the joined texture, or not.
 TEST_CASE(
     "one skin: where the back lies in the texture is told from the front's rounded place, to the last bit") {
