@@ -49,8 +49,7 @@ double bent(double angle_rad, double drawn_rad, bool is_elbow) {
   const double free = std::max(kBend_rad, std::abs(drawn_rad)), over = sharp - free;
   if (over <= 0) return angle_rad;
   const double held = free + kFold_rad * std::tanh(over / kFold_rad);
-  const double through =
-      is_elbow ? smoothStep((sharp - kThrough_rad) / (std::numbers::pi - kThrough_rad)) : 0;
+  const double through = is_elbow ? smoothStep(kThrough_rad, std::numbers::pi, sharp) : 0;
   return std::copysign(held + through * (sharp - held), angle_rad);
 }
 
@@ -115,7 +114,7 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
     const Vector2d before = bones[j].head<2>(), after = turned.head<2>();
     const double shown = std::min(before.norm(), after.norm());
     const double own = signedAngle(before, after);
-    double turn = smoothStep((shown - kStump) / (kSeen - kStump)) * wrapped(own - carried);
+    double turn = smoothStep(kStump, kSeen, shown) * wrapped(own - carried);
     if (bends[j] != Bend::kNone && joint.parent >= 0) {
       const double drawn = signedAngle(bones[parent].head<2>(), before);
       turn = bent(wrapped(drawn + turn), drawn, bends[j] == Bend::kElbow) - drawn;
