@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "libskel/animation/clip.h"
 #include "libskel/animation/figure_shape.h"
 
 namespace skel {
