@@ -47,11 +47,14 @@ Clip rocking(const Clip& clip, const Skeleton& skeleton, const std::string& side
 
 std::string acrossFrom(const std::string& side) { return side == "left_" ? "right_" : "left_"; }
 
+bool isStump(const FigureShape& shape, int elbow) {
+  return !shape.taken.empty() && shape.taken[elbow] < kStump;
+}
+
 // Whether an arm shows what it does.
 bool showsArm(const Skeleton& skeleton, const FigureShape& shape, const std::string& side) {
   const int elbow = skeleton.find(side + "elbow");
-  return elbow >= 0 && joinedAt(shape, elbow) < kGrownArm &&
-         (shape.taken.empty() || shape.taken[elbow] >= kStump);
+  return elbow >= 0 && joinedAt(shape, elbow) < kGrownArm && !isStump(shape, elbow);
 }
 
 // "left_" or "right_" where the clip is that arm's and this figure's does not show it; else empty.
@@ -111,9 +114,8 @@ std::vector<std::string> armsThatStay(const Clip& clip, const Skeleton& skeleton
   // Bones of a clip that lets none stay where they were drawn turn all the way, and the flesh that hangs on
   // them.
   const auto follows = [&](const std::string& side, double kept, double least_share) {
-    const int elbow = skeleton.find(side + "elbow");
     return armTravel(clip, side, heldShare(kept)) >= least_share * armTravel(clip, side) &&
-           (shape.taken.empty() || shape.taken[elbow] >= kStump);
+           !isStump(shape, skeleton.find(side + "elbow"));
   };
   std::vector<std::string> stay;
   for (const std::string side : {"left_", "right_"})

@@ -340,12 +340,13 @@ class BackPainter {
     const int shrink = small_.shrink;
     for (int i = 0; i < int(small_.figure.size()); ++i) {
       if (!small_.figure[i] || drawn_[i]) continue;
+      const bool goes_on = !kept_[i] && isBesideHatching(i);
       forTexels(i, back, [&](int x, int y) {
         std::uint8_t* p = back.pixel(x, y);
         const Eigen::Vector3f own(p[0], p[1], p[2]);
         // likest() is no farther from it.
         if (kept_[i] && (filled_[i] - own).squaredNorm() <= kLikeArea * kLikeArea) return;
-        if (const std::uint8_t* there = kept_[i] ? nullptr : mirrored(i, x, y, front, figure)) {
+        if (const std::uint8_t* there = goes_on ? mirrored(i, x, y, front, figure) : nullptr) {
           std::copy_n(there, 3, p);
           return;
         }
@@ -552,8 +553,6 @@ class BackPainter {
   // What went takes the nearest colour that stays, from the sides rather than from above, and from there
   // rather than from below. Colours come out of the areas' inside: their edges may be mixed with lines.
   void fill() {
-    filled_ = color_;
-    source_ = area_;
     origin_.resize(area_.size());
     std::iota(origin_.begin(), origin_.end(), 0);
     const Eigen::Vector2d up = head_ ? head_->up : Eigen::Vector2d(0, -1);
@@ -589,16 +588,16 @@ class BackPainter {
         const int j = small_.index(u, v);
         if (reached + costs[k] >= cost[j]) continue;  // it costs no less
         // Hair covers the skull, not the back.
-        const bool runs = source_[i] >= 0 && isOfHead(areas_[source_[i]]) && !nearHead(place(j));
+        const int area = sourceOf(i);
+        const bool runs = area >= 0 && isOfHead(areas_[area]) && !nearHead(place(j));
         const double there = reached + costs[k] * (runs ? kBelowHair : 1);
         if (there >= cost[j]) continue;
         cost[j] = there;
-        filled_[j] = filled_[i];
-        source_[j] = source_[i];
         origin_[j] = origin_[i];
         open.emplace(cost[j], j);
       }
     }
+    for (const int origin : origin_) filled_.push_back(color_[origin]);
   }
 
   // Hatching stays as it is drawn, and lines do where they are all there is (the limbs of a stick figure) and
@@ -639,12 +638,15 @@ class BackPainter {
     return color.minCoeff() > kPaper && color.maxCoeff() - color.minCoeff() < kPaperTint;
   }
 
+  // The area that a px takes its colour from; -1: none.
+  int sourceOf(int i) const { return area_[origin_[i]]; }
+
   // Whether parts of two areas meet near by.
   bool isBorder(int x, int y) const {
-    const int own = source_[small_.index(x, y)];
+    const int own = sourceOf(small_.index(x, y));
     for (int step = -line_radius_; step <= line_radius_; ++step)
       for (const auto& [u, v] : {std::pair{x + step, y}, {x, y + step}})
-        if (small_.holds(u, v) && source_[small_.index(u, v)] != own) return true;
+        if (small_.holds(u, v) && sourceOf(small_.index(u, v)) != own) return true;
     return false;
   }
 
@@ -666,11 +668,16 @@ class BackPainter {
     }
   }
 
+  // Whether the px takes its colour from hatching near by.
+  bool isBesideHatching(int i) const {
+    const int from = origin_[i];
+    return lines_.hatch[from] && (place(i) - place(from)).norm() <= kMirrored * line_radius_;
+  }
+
   // The texel that lies as far on the other side of where px `i` takes its colour from, if that is hatching:
   // stripes and strokes go on over what went at the rim. Nothing where there is none.
   const std::uint8_t* mirrored(int i, int x, int y, const Image& front, const Plane8& figure) const {
     const int from = origin_[i], shrink = small_.shrink;
-    if (!lines_.hatch[from] || (place(i) - place(from)).norm() > kMirrored * line_radius_) return nullptr;
     const int u = (2 * (from % small_.width) + 1) * shrink - 1 - x,
               v = (2 * (from / small_.width) + 1) * shrink - 1 - y;
     if (u < 0 || v < 0 || u >= front.width || v >= front.height || figure(v, u) == 0) return nullptr;
@@ -716,8 +723,7 @@ class BackPainter {
   std::vector<Area> areas_;
   std::vector<char> core_;  // not at its area's edge
   std::vector<char> kept_;
-  std::vector<int> source_;  // the area that a px takes its colour from
-  std::vector<int> origin_;  // and the px
+  std::vector<int> origin_;  // the px that a px takes its colour from
   std::vector<char> drawn_;  // stays as it is drawn
 };
 

@@ -1,12 +1,12 @@
 #include "libskel/animation/retarget.h"
-#include "libskel/animation/arm_abilities.h"
-#include "libskel/animation/bone_turn.h"
 
 #include <limits>
 #include <map>
 #include <numbers>
 #include <string>
 
+#include "libskel/animation/arm_abilities.h"
+#include "libskel/animation/bone_turn.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/error.h"
