@@ -1,6 +1,8 @@
 #include "libskel/deform/bound_stretch.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "libskel/animation/sample_pose.h"
 #include "libskel/deform/skin_vertices.h"
@@ -16,19 +18,18 @@ using Eigen::Index;
 using Eigen::RowVector3f;
 
 constexpr int kCandidateMoments = 16;  // of each clip, to choose from
-constexpr std::size_t kTelling = 56;   // of all clips
-constexpr float kAlike = 0.02f;        // squared, of turns: 6°; nearer moments stretch alike
-constexpr int kSweeps = 4;             // of smoothing between two looks at what is stretched
-constexpr int kRounds = 60;            // of such looks
+constexpr std::size_t kTelling = 96;   // of all clips
+constexpr float kAlike = 0.01f;        // squared, of turns: 4°; nearer moments stretch alike
+constexpr int kSweeps = 4;             // of diffusion between two looks at what is stretched
+constexpr int kRounds = 120;           // of such looks
 constexpr int kWiden = 5;              // after so many rounds, what moves reaches an edge farther
-constexpr int kPatience = 4;           // so many rounds without progress
-constexpr float kTorn = 0.011f;        // of all triangles, that a limb may stretch
-constexpr std::size_t kFew = 60;       // triangles that may ride rigidly without being seen
+constexpr float kStiffen = 1.2f;       // edges of what is stretched, a round
+constexpr float kStiffest = 1000;
+constexpr float kUprooted = 0.45f;  // of an arm's weight, given or taken: it takes the body along
 constexpr double kSpare =
     0.9;  // of the bound: between the moments that are looked at it may be a little more
 constexpr float kSame = 0.05f;     // weights that differ by less, in sum, stretch nothing but slivers
 constexpr float kSliver = 0.001f;  // and not even those
-constexpr int kSliverRounds = 20;  // of evening them out
 
 // Numbers at each moment, a row for each of some quantities; the last moment is repeated, so that rows are
 // whole lanes.
@@ -101,7 +102,7 @@ class Stretched {
   }
 
   // Those that any moment stretches too far, ascending; of those whose weights differ by `same` at least.
-  std::vector<int> all(const JointWeights& weights, float same = kSame) {
+  std::vector<int> all(const JointWeights& weights, float same) {
     std::vector<int> found;
     for (int t = 0; t < int(strains_.size()); ++t)
       if (isStretched(t, weights, same)) found.push_back(t);
@@ -109,7 +110,7 @@ class Stretched {
   }
 
   // The same of those at the vertices whose weights have changed.
-  std::vector<int> among(const std::vector<int>& changed, const JointWeights& weights, float same = kSame) {
+  std::vector<int> among(const std::vector<int>& changed, const JointWeights& weights, float same) {
     std::vector<char> is_near(strains_.size(), 0);
     for (const int v : changed) {
       is_posed_[std::size_t(v)] = 0;
@@ -206,15 +207,16 @@ class Stretched {
   std::vector<Carrier> carriers_;
 };
 
-// The four heaviest, with the sum 1.
-void keepFour(Eigen::Ref<Eigen::RowVectorXf> row) {
-  int count = int((row.array() > 0).count());
-  for (; count > 4; --count) {
-    Index least = -1;
-    for (Index j = 0; j < row.size(); ++j)
-      if (row[j] > 0 && (least < 0 || row[j] <= row[least])) least = j;
-    row[least] = 0;
+// So many of the heaviest, each less the next one's weight, with the sum 1: where a neighbour's order is
+// another one, weights still are alike.
+void keepHeaviest(int count, Eigen::Ref<Eigen::RowVectorXf> row) {
+  std::array<float, 5> heaviest{};
+  for (Index j = 0; j < row.size(); ++j) {
+    float weight = row[j];
+    for (int i = 0; i <= count; ++i)
+      if (weight > heaviest[std::size_t(i)]) std::swap(weight, heaviest[std::size_t(i)]);
   }
+  if (const float next = heaviest[std::size_t(count)]; next > 0) row = (row.array() - next).max(0.f);
   row = (row.array() < 1e-3f).select(0, row);
   row /= row.sum();
 }
@@ -240,129 +242,147 @@ std::vector<int> around(const TriangleMesh& mesh, const Edges& edges, const std:
   return vertices;
 }
 
-// Most of the way to the mean of the neighbours, all at once.
-void smoothRows(const Edges& edges, const std::vector<int>& vertices, JointWeights& rows) {
-  JointWeights smooth(Index(vertices.size()), rows.cols());
-  Eigen::RowVectorXf sum(rows.cols()), row(rows.cols());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const std::size_t v = std::size_t(vertices[i]);
-    sum.setZero();
-    const int begin = edges.first[v], end = edges.first[v + 1];
-    for (int k = begin; k < end; ++k) sum += rows.row(edges.to[std::size_t(k)]);
-    row = 0.25f * rows.row(Index(v)) + 0.75f / float(std::max(1, end - begin)) * sum;
-    keepFour(row);
-    smooth.row(Index(i)) = row;
+// Edges that pull a vertex towards its neighbours, in the order of Edges::to.
+class Springs {
+ public:
+  explicit Springs(const Edges& edges) : edges_(edges), stiffness_(edges.to.size(), 1) {}
+
+  void stiffen(const TriangleMesh& mesh, int triangle) {
+    for (int k = 0; k < 3; ++k)
+      for (const int step : {1, 2}) {
+        const auto v = std::size_t(mesh.triangles(triangle, k));
+        const auto end = edges_.to.begin() + edges_.first[v + 1];
+        const auto at = std::lower_bound(edges_.to.begin() + edges_.first[v], end,
+                                         mesh.triangles(triangle, (k + step) % 3));
+        float& stiffness = stiffness_[std::size_t(at - edges_.to.begin())];
+        stiffness = std::min(kStiffest, kStiffen * stiffness);
+      }
   }
-  for (std::size_t i = 0; i < vertices.size(); ++i) rows.row(vertices[i]) = smooth.row(Index(i));
-}
 
-// The triangle rides rigidly.
-void evenOut(const TriangleMesh& mesh, int triangle, JointWeights& rows) {
-  Eigen::RowVectorXf mean = Eigen::RowVectorXf::Zero(rows.cols());
-  for (int k = 0; k < 3; ++k) mean += rows.row(mesh.triangles(triangle, k));
-  mean /= 3;
-  keepFour(mean);
-  for (int k = 0; k < 3; ++k) rows.row(mesh.triangles(triangle, k)) = mean;
-}
-
-// An arm rides with what it hangs on where it takes part in much of what is stretched in a body of the mesh,
-// if it is one piece with the body (`joined`) or tears much of all. Returns the vertices that it moved,
-// ascending.
-std::vector<int> holdArms(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<int>& limbs,
-                          const std::vector<double>& joined, const std::vector<int>& stretched,
-                          JointWeights& rows) {
-  constexpr float kMuch = 0.1f;
-  const float torn = 3 * kTorn * float(mesh.triangles.rows());  // corners
-  std::vector<int> held;
-  const auto layerOf = [&](int v) { return mesh.layer.size() > 0 ? mesh.layer[v] : 0; };
-  for (int layer = 0; layer <= (mesh.layer.size() > 0 ? mesh.layer.maxCoeff() : 0); ++layer) {
-    Eigen::RowVectorXf shares = Eigen::RowVectorXf::Zero(rows.cols());  // of limbs
-    float all = 0;
-    for (const int t : stretched)
-      for (int k = 0; k < 3; ++k) {
-        const int v = mesh.triangles(t, k);
-        if (layerOf(v) != layer) continue;
-        for (Index j = 0; j < rows.cols(); ++j) {
-          if (const int limb = limbs[std::size_t(j)]; limb >= 0) shares[limb] += rows(v, j);
-        }
-        ++all;
-      }
-    for (int limb = 0; limb < int(rows.cols()); ++limb) {
-      if (!skeleton.joints[std::size_t(limb)].name.ends_with("hand") ||
-          (joined[std::size_t(limb)] < kGrownArm && shares[limb] < torn) || shares[limb] <= kMuch * all ||
-          shares[limb] >= 0.99f * all)
-        continue;
-      int root = limb;
-      while (limbs[std::size_t(skeleton.joints[std::size_t(root)].parent)] == limb)
-        root = skeleton.joints[std::size_t(root)].parent;
-      const int carrier = skeleton.joints[std::size_t(root)].parent;
-      for (int v = 0; v < int(rows.rows()); ++v) {
-        if (layerOf(v) != layer) continue;
-        float moved = 0;
-        for (int j = limb; j != carrier; j = skeleton.joints[std::size_t(j)].parent)
-          moved += rows(v, j), rows(v, j) = 0;
-        if (moved <= 0) continue;
-        rows(v, carrier) += moved;
-        held.push_back(v);
-      }
+  // Most of the way to the mean of the neighbours, all vertices at once.
+  void relax(const std::vector<int>& vertices, int max_influences, JointWeights& rows) const {
+    JointWeights relaxed(Index(vertices.size()), rows.cols());
+    Eigen::RowVectorXf pull(rows.cols());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const auto v = std::size_t(vertices[i]);
+      pull.setZero();
+      float all = 0;
+      for (auto k = std::size_t(edges_.first[v]); k < std::size_t(edges_.first[v + 1]); ++k)
+        pull += stiffness_[k] * rows.row(edges_.to[k]), all += stiffness_[k];
+      pull = 0.25f * rows.row(Index(v)) + 0.75f / all * pull;
+      keepHeaviest(max_influences, pull);
+      relaxed.row(Index(i)) = pull;
     }
+    for (std::size_t i = 0; i < vertices.size(); ++i) rows.row(vertices[i]) = relaxed.row(Index(i));
   }
-  std::sort(held.begin(), held.end());
-  held.erase(std::unique(held.begin(), held.end()), held.end());
-  return held;
+
+ private:
+  const Edges& edges_;
+  std::vector<float> stiffness_;
+};
+
+int layerOf(const TriangleMesh& mesh, Index v) { return mesh.layer.size() > 0 ? mesh.layer[v] : 0; }
+
+// From the hand up.
+std::vector<int> jointsOf(const Skeleton& skeleton, int hand) {
+  const std::vector<int> limbs = jointLimbs(skeleton);
+  std::vector<int> joints;
+  for (int joint = hand; joint >= 0 && limbs[std::size_t(joint)] == hand;
+       joint = skeleton.joints[std::size_t(joint)].parent)
+    joints.push_back(joint);
+  return joints;
+}
+
+// What hangs on an arm in a body of the mesh.
+class ArmShare {
+ public:
+  ArmShare(const TriangleMesh& mesh, const Skeleton& skeleton, const HeldArm& arm, const JointWeights& rows)
+      : arm_(arm), joints_(jointsOf(skeleton, arm.hand)) {
+    for (int v = 0; v < int(rows.rows()); ++v)
+      if (layerOf(mesh, v) == arm.layer)
+        vertices_.push_back(v), first_.push_back(at(v, rows)), all_ += first_.back();
+  }
+
+  const HeldArm& arm() const { return arm_; }
+
+  bool isUprooted(const JointWeights& rows) const {
+    float changed = 0;
+    for (std::size_t i = 0; i < vertices_.size(); ++i)
+      changed += std::abs(at(vertices_[i], rows) - first_[i]);
+    return changed > kUprooted * all_;
+  }
+
+ private:
+  float at(int v, const JointWeights& rows) const {
+    float sum = 0;
+    for (const int joint : joints_) sum += rows(v, joint);
+    return sum;
+  }
+
+  HeldArm arm_;
+  std::vector<int> joints_, vertices_;
+  std::vector<float> first_;  // of vertices_
+  float all_ = 0;
+};
+
+std::vector<ArmShare> armShares(const TriangleMesh& mesh, const Skeleton& skeleton,
+                                const JointWeights& rows) {
+  std::vector<ArmShare> shares;
+  for (int joint = 0; joint < int(skeleton.joints.size()); ++joint)
+    if (skeleton.joints[std::size_t(joint)].name.ends_with("hand"))
+      for (int layer = 0; layer <= (mesh.layer.size() > 0 ? mesh.layer.maxCoeff() : 0); ++layer)
+        shares.emplace_back(mesh, skeleton, HeldArm{joint, layer}, rows);
+  return shares;
 }
 
 }  // namespace
 
-StretchBound boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton,
-                          const std::vector<double>& joined, const std::vector<Clip>& clips,
-                          SkinWeights& weights) {
+StretchBound boundStretch(const TriangleMesh& mesh, const Skeleton& skeleton, const std::vector<Clip>& clips,
+                          int max_influences, SkinWeights& weights) {
   const int vertices = int(mesh.vertices.rows());
-  if (vertices == 0 || clips.empty()) return {};
+  if (vertices == 0 || clips.empty() || max_influences < 2) return {};
   JointWeights rows = unpackWeights(weights, int(skeleton.joints.size()));
   const std::vector<JointTransforms> moments = tellingMoments(mesh, skeleton, clips);
   if (moments.empty()) return {};
   Stretched stretched(mesh, byJoint(moments, skeleton.joints.size()));
-  std::vector<int> found = stretched.all(rows);
-  if (found.empty()) return {};
+  float same = kSame;
+  std::vector<int> found = stretched.all(rows, same);
   const Edges edges = edgesOf(vertices, mesh.triangles);
-  std::vector<char> changed(static_cast<std::size_t>(vertices), 0);
-  const std::vector<int> limbs = jointLimbs(skeleton);
-  std::size_t best = found.size();
-  int stalled = 0;
-  bool held_arms = false;
-  for (int round = 0; round < kRounds && !found.empty(); ++round) {
-    std::vector<int> moving = around(mesh, edges, found, 1 + round / kWiden);
-    for (int sweep = 0; sweep < kSweeps; ++sweep) smoothRows(edges, moving, rows);
+  Springs springs(edges);
+  const std::vector<ArmShare> arms = armShares(mesh, skeleton, rows);
+  std::vector<char> changed(std::size_t(vertices), 0);
+  StretchBound bound;
+  for (int round = 0; round < kRounds; ++round) {
+    if (found.empty() && same > kSliver) found = stretched.all(rows, same = kSliver);
+    if (found.empty()) break;
+    for (const int t : found) springs.stiffen(mesh, t);
+    const std::vector<int> moving = around(mesh, edges, found, 1 + round / kWiden);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) springs.relax(moving, max_influences, rows);
+    for (const int v : moving) changed[std::size_t(v)] = 1;
     // What is stretched lies at what has moved.
-    found = stretched.among(moving, rows);
-    for (const int v : moving) changed[std::size_t(v)] = 1;
-    if (found.size() < kFew) {
-      for (const int t : found) evenOut(mesh, t, rows);
-      found = stretched.among(around(mesh, edges, found, 0), rows);
-    }
-    stalled = 20 * found.size() < 19 * best ? 0 : stalled + 1;
-    best = std::min(best, found.size());
-    if (stalled < kPatience || found.size() < kFew) continue;
-    moving = holdArms(mesh, skeleton, limbs, joined, found, rows);
-    if (moving.empty()) break;
-    held_arms = true;
-    for (const int v : moving) changed[std::size_t(v)] = 1;
-    stretched.among(moving, rows);
-    found = stretched.all(rows);
-    best = found.size();
-    stalled = 0;
-  }
-  found = stretched.all(rows, kSliver);
-  for (int round = 0; round < kSliverRounds && !found.empty() && found.size() < kFew; ++round) {
-    const std::vector<int> moving = around(mesh, edges, found, 0);
-    for (const int t : found) evenOut(mesh, t, rows);
-    for (const int v : moving) changed[std::size_t(v)] = 1;
-    found = stretched.among(moving, rows, kSliver);
+    found = stretched.among(moving, rows, same);
+    for (const ArmShare& share : arms)
+      if (share.isUprooted(rows)) bound.uprooted.push_back(share.arm());
+    if (!bound.uprooted.empty()) return bound;
   }
   for (int v = 0; v < vertices; ++v)
     if (changed[std::size_t(v)]) packRow(rows, v, weights);
-  return {int(found.size()), held_arms};
+  bound.stretched = int(found.size());
+  return bound;
+}
+
+void holdArm(const TriangleMesh& mesh, const Skeleton& skeleton, const HeldArm& arm, SkinWeights& weights) {
+  const std::vector<int> joints = jointsOf(skeleton, arm.hand);
+  const int carrier = skeleton.joints[std::size_t(joints.back())].parent;
+  JointWeights rows = unpackWeights(weights, int(skeleton.joints.size()));
+  for (Index v = 0; v < rows.rows(); ++v) {
+    if (layerOf(mesh, v) != arm.layer) continue;
+    float moved = 0;
+    for (const int joint : joints) moved += rows(v, joint), rows(v, joint) = 0;
+    if (moved <= 0) continue;
+    rows(v, carrier) += moved;
+    packRow(rows, v, weights);
+  }
 }
 
 }  // namespace skel

@@ -226,13 +226,18 @@ std::vector<Clip> clipsOf(const RiggedCharacter& character, const std::vector<Cl
 // skel decide.
 BoundSkin boundSkin(const RiggedCharacter& character, const SkeletonTemplate& body_plan,
                     const RigOptions& options) {
-  BoundSkin skin{character.weights, {}, {}};
-  const FigureShape shape = measureFigure(character.mesh, character.weights, character.skeleton);
-  const std::vector<Clip> own = clipsFor(builtinClips(), body_plan);
-  std::vector<Clip> trying = clipsOf(character, own, shape, options);
-  const StretchBound stretch =
-      boundStretch(character.mesh, character.skeleton, shape.joined, trying, skin.weights);
-  if (!stretch.held_arms) skin.own = own, skin.own_fitted = std::move(trying);
+  BoundSkin skin;
+  skin.own = clipsFor(builtinClips(), body_plan);
+  SkinWeights weights = character.weights;
+  StretchBound stretch;
+  do {
+    for (const HeldArm& arm : stretch.uprooted) holdArm(character.mesh, character.skeleton, arm, weights);
+    skin.weights = weights;
+    skin.shape = measureFigure(character.mesh, weights, character.skeleton);
+    skin.own_fitted = clipsOf(character, skin.own, skin.shape, options);
+    stretch = boundStretch(character.mesh, character.skeleton, skin.own_fitted, options.skin.max_influences,
+                           skin.weights);
+  } while (!stretch.uprooted.empty());
   return skin;
 }
 
@@ -400,21 +405,20 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
   if (options.rest_pose != RestPose::kDrawn)
     drawing.character = stage("rest pose", [&] { return poseToRest(drawing.character, options.rest_pose); });
   if (last == LastStage::kModel) return drawing;
-  std::vector<Clip> own, own_fitted;
+  std::optional<BoundSkin> bound;
   if (inflated && !draft) {
-    BoundSkin bound =
-        stage("stretch", &M::bound,
-              {stage.of(&M::skinned), stage.of(RigPart::kRestPose), stage.of(RigPart::kRetargetOptions)},
-              [&] { return boundSkin(drawing.character, body_plan, options); });
-    drawing.character.weights = std::move(bound.weights);
-    own = std::move(bound.own), own_fitted = std::move(bound.own_fitted);
+    bound = stage("stretch", &M::bound,
+                  {stage.of(&M::skinned), stage.of(RigPart::kRestPose), stage.of(RigPart::kRetargetOptions)},
+                  [&] { return boundSkin(drawing.character, body_plan, options); });
+    drawing.character.weights = std::move(bound->weights);
   }
   drawing.clips = stage("clips", [&] {
-    if (!own.empty() && asked_clips == own) return std::move(own_fitted);
     if (asked_clips.empty()) return std::vector<Clip>();
+    if (bound && asked_clips == bound->own) return std::move(bound->own_fitted);
     const RiggedCharacter& character = drawing.character;
-    return clipsOf(character, asked_clips,
-                   measureFigure(character.mesh, character.weights, character.skeleton), options);
+    return clipsOf(
+        character, asked_clips,
+        bound ? bound->shape : measureFigure(character.mesh, character.weights, character.skeleton), options);
   });
   return drawing;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libskel/animation/clip.h"
+#include "libskel/animation/figure_shape.h"
 #include "libskel/mesh/front_view.h"
 #include "libskel/pipeline/rig_character.h"
 
@@ -70,7 +71,8 @@ struct FoundJoints {
 // Weights that clips do not stretch far.
 struct BoundSkin {
   SkinWeights weights;
-  std::vector<Clip> own, own_fitted;  // clips that come with skel, and as the figure does them; or neither
+  FigureShape shape;                  // as it was before weights went a longer way
+  std::vector<Clip> own, own_fitted;  // clips that come with skel, and as the figure does them
 };
 
 // The model's flesh on its bones.

@@ -14,35 +14,21 @@ namespace {
 constexpr int kColumns = 60, kRows = 6;
 constexpr float kEdge_m = 0.02f;
 
-// A sheet of so many squares.
-TriangleMesh sheet(int columns, int rows) {
+// A band along x, an arm on a trunk: "neck" moves what lies left of the shoulder, the arm the rest.
+TriangleMesh band() {
   TriangleMesh mesh;
-  mesh.vertices.resize((columns + 1) * (rows + 1), 3);
-  for (int x = 0; x <= columns; ++x)
-    for (int y = 0; y <= rows; ++y)
-      mesh.vertices.row(x * (rows + 1) + y) << kEdge_m * float(x), kEdge_m * float(y - rows / 2), 0;
-  mesh.triangles.resize(2 * columns * rows, 3);
+  mesh.vertices.resize((kColumns + 1) * (kRows + 1), 3);
+  for (int x = 0; x <= kColumns; ++x)
+    for (int y = 0; y <= kRows; ++y)
+      mesh.vertices.row(x * (kRows + 1) + y) << kEdge_m * float(x), kEdge_m * float(y - kRows / 2), 0;
+  mesh.triangles.resize(2 * kColumns * kRows, 3);
   Eigen::Index t = 0;
-  for (int x = 0; x < columns; ++x)
-    for (int y = 0; y < rows; ++y) {
-      const int a = x * (rows + 1) + y, b = a + rows + 1;
+  for (int x = 0; x < kColumns; ++x)
+    for (int y = 0; y < kRows; ++y) {
+      const int a = x * (kRows + 1) + y, b = a + kRows + 1;
       mesh.triangles.row(t++) << a, b, b + 1;
       mesh.triangles.row(t++) << a, b + 1, a + 1;
     }
-  return mesh;
-}
-
-// A band along x, an arm on a trunk: "neck" moves what lies left of the shoulder, the arm the rest.
-TriangleMesh band() { return sheet(kColumns, kRows); }
-
-// The band, and far from it a trunk so large that what the arm tears is little.
-TriangleMesh bandBesideTrunk() {
-  const TriangleMesh arm = band(), trunk = sheet(100, 100);
-  TriangleMesh mesh;
-  mesh.vertices.resize(arm.vertices.rows() + trunk.vertices.rows(), 3);
-  mesh.vertices << arm.vertices, trunk.vertices.rowwise() - Eigen::RowVector3f(10, 0, 0);
-  mesh.triangles.resize(arm.triangles.rows() + trunk.triangles.rows(), 3);
-  mesh.triangles << arm.triangles, trunk.triangles.array() + int(arm.vertices.rows());
   return mesh;
 }
 
@@ -97,8 +83,6 @@ double mostStretched(const TriangleMesh& mesh, const Skeleton& skeleton, const S
   return most;
 }
 
-const std::vector<double> kFree(6, 0);
-
 int atJoint(float x) { return x < 0.4f ? 1 : x < 0.7f ? 3 : 4; }
 
 }  // namespace
@@ -106,13 +90,13 @@ int atJoint(float x) { return x < 0.4f ? 1 : x < 0.7f ? 3 : 4; }
 TEST_CASE("a vertex that hangs on another limb is drawn out to a needle no more") {
   const TriangleMesh mesh = band();
   const Skeleton skeleton = armOnTrunk();
-  SkinWeights weights = weightsOf(mesh, [](float) { return 1; });
+  SkinWeights weights = weightsOf(mesh, atJoint);
   const Eigen::Index needle = 10 * (kRows + 1) + 3;
   weights.joints(needle, 0) = 4;
   const SkinWeights before = weights;
-  const Clip clip = lift("left_shoulder", 60);
-  REQUIRE(mostStretched(mesh, skeleton, weights, clip) > 10);
-  CHECK(boundStretch(mesh, skeleton, kFree, {clip}, weights).stretched == 0);
+  const Clip clip = lift("left_shoulder", 25);
+  REQUIRE(mostStretched(mesh, skeleton, weights, clip) > 3);
+  CHECK(boundStretch(mesh, skeleton, {clip}, 4, weights).stretched == 0);
   CHECK(mostStretched(mesh, skeleton, weights, clip) < kMostStretch);
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
     CHECK(weights.weights.row(v).sum() == Approx(1));
@@ -130,38 +114,59 @@ TEST_CASE("weights that change at once over one edge change over as much as the 
   SkinWeights weights = weightsOf(mesh, atJoint);
   const Clip clip = lift("left_elbow", 120);
   REQUIRE(mostStretched(mesh, skeleton, weights, clip) > kMostStretch);
-  CHECK(boundStretch(mesh, skeleton, kFree, {clip}, weights).stretched == 0);
+  CHECK(boundStretch(mesh, skeleton, {clip}, 4, weights).stretched == 0);
   CHECK(mostStretched(mesh, skeleton, weights, clip) < kMostStretch);
   // The ends still are what they were.
   CHECK(weights.weights(0, 0) == 1);
   CHECK(weights.joints(mesh.vertices.rows() - 1, 0) == 4);
 }
 
-TEST_CASE("an arm that is grown to the body or tears much rides with it, a free one keeps moving") {
+TEST_CASE("an arm that would take the body along is uprooted, one that gives little keeps moving") {
   const Skeleton skeleton = armOnTrunk();
+  const TriangleMesh mesh = band();
   const Clip clip = lift("left_shoulder", 170);
-  struct Bound {
-    bool held;
-    float of_arm;  // sum of its weights
-    double stretch;
-  };
-  const auto bound = [&](const TriangleMesh& mesh, const std::vector<double>& joined) {
-    // The band's far end is the body's, too: trunk, arm, trunk.
-    SkinWeights weights = weightsOf(mesh, [](float x) { return x > 0.4f && x < 0.6f ? 3 : 1; });
-    const bool held = boundStretch(mesh, skeleton, joined, {clip}, weights).held_arms;
-    float sum = 0;
-    for (Eigen::Index v = 0; v < weights.weights.rows(); ++v)
-      for (int k = 0; k < 4; ++k) sum += weights.joints(v, k) == 3 ? weights.weights(v, k) : 0;
-    return Bound{held, sum, mostStretched(mesh, skeleton, weights, clip)};
-  };
-  for (const Bound& rides : {bound(bandBesideTrunk(), {0, 0, 0, 1, 1, 1}), bound(band(), kFree)}) {
-    CHECK(rides.held);
-    CHECK(rides.of_arm == 0);
-    CHECK(rides.stretch < kMostStretch);
-  }
-  const Bound moves = bound(bandBesideTrunk(), kFree);
-  CHECK_FALSE(moves.held);
-  CHECK(moves.of_arm > 10);
+  // The band's far end is the body's, too.
+  SkinWeights grown = weightsOf(mesh, [](float x) { return x > 0.4f && x < 0.6f ? 3 : 1; });
+  const SkinWeights before = grown;
+  const StretchBound bound = boundStretch(mesh, skeleton, {clip}, 4, grown);
+  REQUIRE(bound.uprooted.size() == 1);
+  CHECK(skeleton.joints[std::size_t(bound.uprooted[0].hand)].name == "left_hand");
+  CHECK(bound.uprooted[0].layer == 0);
+  CHECK(grown.joints == before.joints);
+  CHECK(grown.weights == before.weights);
+  holdArm(mesh, skeleton, bound.uprooted[0], grown);
+  CHECK(grown.joints.col(0).isConstant(1));
+  CHECK(grown.weights.col(0).isOnes());
+  CHECK(boundStretch(mesh, skeleton, {clip}, 4, grown).uprooted.empty());
+
+  SkinWeights free = weightsOf(mesh, [](float x) { return x > 0.4f ? 3 : 1; });
+  const StretchBound gives = boundStretch(mesh, skeleton, {clip}, 4, free);
+  CHECK(gives.uprooted.empty());
+  CHECK(gives.stretched == 0);
+  CHECK(mostStretched(mesh, skeleton, free, clip) < kMostStretch);
+}
+
+TEST_CASE("an arm is held in one body of the mesh alone") {
+  TriangleMesh mesh = band();
+  const Skeleton skeleton = armOnTrunk();
+  mesh.layer = (mesh.vertices.col(0).array() > 0.8f).cast<int>();
+  SkinWeights weights = weightsOf(mesh, atJoint);
+  holdArm(mesh, skeleton, {skeleton.find("left_hand"), 0}, weights);
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
+    CHECK(weights.joints(v, 0) == (mesh.layer[v] == 0 ? 1 : 4));
+}
+
+TEST_CASE("no vertex gets more joints than asked for") {
+  const TriangleMesh mesh = band();
+  const Skeleton skeleton = armOnTrunk();
+  const std::vector<Clip> clips = {lift("left_shoulder", 100), lift("left_elbow", 120)};
+  const int most = GENERATE(1, 2, 3);
+  CAPTURE(most);
+  SkinWeights weights = weightsOf(mesh, [](float x) { return x < 0.4f ? 1 : x < 0.46f ? 3 : 4; });
+  const SkinWeights before = weights;
+  boundStretch(mesh, skeleton, clips, most, weights);
+  CHECK((weights.weights.array() > 0).rowwise().count().maxCoeff() == most);
+  CHECK((weights.weights == before.weights) == (most == 1));
 }
 
 TEST_CASE("what nothing stretches stays bit by bit") {
@@ -169,8 +174,8 @@ TEST_CASE("what nothing stretches stays bit by bit") {
   const Skeleton skeleton = armOnTrunk();
   SkinWeights weights = weightsOf(mesh, atJoint);
   const SkinWeights before = weights;
-  CHECK(boundStretch(mesh, skeleton, kFree, {lift("left_shoulder", 3)}, weights).stretched == 0);
-  CHECK(boundStretch(mesh, skeleton, kFree, {}, weights).stretched == 0);
+  CHECK(boundStretch(mesh, skeleton, {lift("left_shoulder", 3)}, 4, weights).stretched == 0);
+  CHECK(boundStretch(mesh, skeleton, {}, 4, weights).stretched == 0);
   CHECK(weights.joints == before.joints);
   CHECK(weights.weights == before.weights);
 }

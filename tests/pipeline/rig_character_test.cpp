@@ -150,6 +150,18 @@ TEST_CASE("a biped is 1.7 m high, an animal 1.2 m long or high, and both as high
   CHECK(model(boy, "biped", 0).back_uv.rows() > 0);
 }
 
+TEST_CASE("no vertex follows more joints than asked for, whatever the clips stretch") {
+  const int most = GENERATE(1, 2);
+  CAPTURE(most);
+  RigInput input;
+  input.image = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");
+  RigOptions options;
+  options.skin.max_influences = most;
+  const RiggedDrawing drawing = rigCharacter(std::move(input), options);
+  REQUIRE(drawing.found());
+  CHECK((drawing.character.weights.weights.array() > 0).rowwise().count().maxCoeff() == most);
+}
+
 TEST_CASE("a rig that stops after a stage has what the whole has up to there, and nothing more") {
   RigInput input;
   input.image = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");
