@@ -207,17 +207,24 @@ class Stretched {
   std::vector<Carrier> carriers_;
 };
 
-// So many of the heaviest, each less the next one's weight, with the sum 1: where a neighbour's order is
-// another one, weights still are alike.
+// So many of the heaviest, each less the next one's weight (nearly: all may be alike), with the sum 1. Where
+// a neighbour's order is another one, weights still are alike.
 void keepHeaviest(int count, Eigen::Ref<Eigen::RowVectorXf> row) {
-  std::array<float, 5> heaviest{};
+  std::array<float, 5> weights{};  // descending
+  std::array<Index, 5> joints{};
   for (Index j = 0; j < row.size(); ++j) {
     float weight = row[j];
-    for (int i = 0; i <= count; ++i)
-      if (weight > heaviest[std::size_t(i)]) std::swap(weight, heaviest[std::size_t(i)]);
+    Index joint = j;
+    for (std::size_t i = 0; i <= std::size_t(count) && weight > 0; ++i)
+      if (weight > weights[i]) std::swap(weight, weights[i]), std::swap(joint, joints[i]);
   }
-  if (const float next = heaviest[std::size_t(count)]; next > 0) row = (row.array() - next).max(0.f);
-  row = (row.array() < 1e-3f).select(0, row);
+  const float less = 0.99f * weights[std::size_t(count)];
+  float sum = 0;
+  for (std::size_t i = 0; i < std::size_t(count); ++i)
+    weights[i] = std::max(0.f, weights[i] - less), sum += weights[i];
+  row.setZero();
+  for (std::size_t i = 0; i < std::size_t(count); ++i)
+    if (weights[i] >= 1e-3f * sum) row[joints[i]] = weights[i];
   row /= row.sum();
 }
 

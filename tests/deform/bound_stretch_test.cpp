@@ -169,6 +169,20 @@ TEST_CASE("no vertex gets more joints than asked for") {
   CHECK((weights.weights == before.weights) == (most == 1));
 }
 
+TEST_CASE("a vertex that five joints carry alike keeps four of them") {
+  const TriangleMesh mesh = band();
+  const Skeleton skeleton = armOnTrunk();
+  // Two columns, each of which hangs on other joints, all alike; between them what both have is five.
+  SkinWeights weights = weightsOf(mesh, atJoint);
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
+    weights.weights.row(v).setConstant(0.25f);
+    weights.joints.row(v) << 0, 1, std::uint16_t(v % 2 ? 3 : 2), std::uint16_t(v % 2 ? 4 : 5);
+  }
+  boundStretch(mesh, skeleton, {lift("left_shoulder", 170)}, 4, weights);
+  CHECK(weights.weights.allFinite());
+  CHECK((weights.weights.rowwise().sum().array() - 1).abs().maxCoeff() < 1e-5f);
+}
+
 TEST_CASE("what nothing stretches stays bit by bit") {
   const TriangleMesh mesh = band();
   const Skeleton skeleton = armOnTrunk();
