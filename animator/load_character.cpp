@@ -26,6 +26,17 @@ namespace skel {
 namespace {
 namespace fs = std::filesystem;
 
+// Where skel-infer wrote what it has made of this figure, without endings; "": nowhere that is known.
+std::string resultsOf(const CharacterSource& source, int figure) {
+  if (source.results.empty()) return "";
+  const std::string results = (fs::path(source.results) / fs::path(source.path).stem()).string(),
+                    numbered = results + "-" + std::to_string(figure);
+  for (const std::string& one : {results, numbered})
+    if (const auto found = sourceOfSkeleton(one + kSkeletonFileEnding); found && found->number == figure)
+      return one;
+  return figure == 1 ? results : numbered;
+}
+
 }  // namespace
 
 void bindCharacterSource(CLI::App& app, CharacterSource& source) {
@@ -63,6 +74,14 @@ void bindCharacterOptions(CLI::App& app, CharacterSource& source) {
   app.add_option("--up", source.up, "The axis that points up in the skeleton's file")
       ->check(CLI::IsMember({"auto", "y", "z"}))
       ->capture_default_str();
+  app.add_option("--results", source.results,
+                 "Where skel-infer -o DIR wrote the results of a drawing: what was mended there is taken up, "
+                 "before what lies beside the drawing and in out/")
+      ->type_name("DIR")
+      ->check([](const std::string& dir) {
+        std::error_code unknown;
+        return fs::is_directory(dir, unknown) ? "" : dir + " is no folder";
+      });
   app.add_flag("--force", source.force, "Leave out what was mended by hand of a drawing");
 }
 
@@ -89,6 +108,7 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
   request.source = source.path;
   request.image_sha256 = sha256(bytes);
   request.figure = given ? figureOf(*given, source.skeleton, source.figure) : source.figure;
+  request.results = resultsOf(source, request.figure);
   request.skeleton = source.skeleton;
   request.takes_up = !source.force;
   RigInput input;

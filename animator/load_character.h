@@ -25,12 +25,13 @@ struct CharacterSource {
   // Of a model (.obj): see readRigModel(). Of a drawing: a .skeleton.json or .labels.json of it.
   std::string skeleton = {};
   std::string up = "auto";
-  bool upright = false;  // the figure of a drawing is not turned: try no other orientations
-  bool force = false;    // leave out what was mended by hand
+  bool upright = false;      // the figure of a drawing is not turned: try no other orientations
+  std::string results = {};  // of a drawing: a folder that skel-infer has written to; "": none
+  bool force = false;        // leave out what was mended by hand
 };
 // FILE, and the options of the next one.
 void bindCharacterSource(CLI::App& app, CharacterSource& source);
-// --template, --alpha, --figure, --upright, --skeleton, --up, --force.
+// --template, --alpha, --figure, --upright, --skeleton, --up, --results, --force.
 void bindCharacterOptions(CLI::App& app, CharacterSource& source);
 
 // By the ending of the source's name.

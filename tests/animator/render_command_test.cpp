@@ -214,6 +214,40 @@ TEST_CASE("films take up what is mended in out/ beside the drawing, and say what
   CHECK(note("--force").empty());
 }
 
+TEST_CASE("what was mended in a folder that -o of skel-infer named was left out of films and sheets") {
+  const TempDir dir;
+  writeFile(dir.file("in/boy.png"), readFile(kDrawing));
+  const std::string in_folder = "cd '" + dir.path() + "' && ";
+  const auto mend = [&](const std::string& results) {
+    const std::string path = dir.file(results + ".skeleton.json");
+    std::string text = readFile(path);
+    const std::size_t start = text.find("\"image\":[", text.find("\"name\":\"left_hand\"")) + 9;
+    writeFile(path, text.replace(start, text.find(',', start) - start, "420.5"));
+  };
+  const auto notes = [&](const std::string& options) {
+    const ToolRun run =
+        runTool(in_folder + "skel-animate render in/boy.png --clip wave --fps 4 --size 16 " + options);
+    CHECK(run.exit_code == 0);
+    return run.err;
+  };
+  const std::string taken_up = "in/boy.png: note: made by hand and taken up (--force leaves it out): ";
+  REQUIRE(runTool(in_folder + "skel-infer in/boy.png --formats json -o rigged").exit_code == 0);
+  mend("rigged/boy");
+  CHECK(notes("-o film.gif").empty());
+  CHECK(notes("--results rigged -o film.gif") == taken_up + "1 joint (rigged/boy.skeleton.json)\n");
+  CHECK(notes("--results rigged/ --sheet sheet.png") == taken_up + "1 joint (rigged/boy.skeleton.json)\n");
+  CHECK(notes("--results rigged --force -o film.gif").empty());
+  SECTION("of all figures of a drawing") {
+    REQUIRE(runTool(in_folder + "skel-infer in/boy.png --formats json --figure all -o all").exit_code == 0);
+    mend("all/boy-1");
+    CHECK(notes("--results all -o film.gif") == taken_up + "1 joint (all/boy-1.skeleton.json)\n");
+  }
+  SECTION("a folder that is not there is said") {
+    CHECK(render(kDrawing + " --clip wave -o " + dir.file("film.gif") + " --results " + dir.file("none"))
+              .exit_code == 1);
+  }
+}
+
 TEST_CASE("a film of a drawing says what skel-infer says of it, once for all films") {
   const TempDir dir;
   const std::string dog =
