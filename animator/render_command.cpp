@@ -165,7 +165,8 @@ struct Cast {
   std::string path;
   Performer performer;
   ExitCode code = ExitCode::kDone;  // of what it cannot do
-  bool unsure = false;              // something about the figure is unusual, or had to be guessed
+  bool rigged = false;              // in this run
+  bool unsure = false;              // something about that figure is unusual, or had to be guessed
 };
 
 // Whether the look of a drawing's film is left to skel: nothing is asked for that the flat look refuses or
@@ -199,10 +200,10 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path) {
                                whyNoRoles(file.character.skeleton));
   if (drawn) tell(*drawn, !chooses ? "" : flat ? ", look flat" : ", look solid", path, clips);
   noteWhatStays(options, file.character, path, clips, drawn ? std::vector<Clip>{} : file.clips);
-  const bool unsure = drawn && !drawn->warnings.empty();
+  const bool rigged = drawn.has_value(), unsure = rigged && !drawn->warnings.empty();
   std::optional<RiggedDrawing> shown;
   if (flat) shown = std::move(drawn->drawing);
-  return {path, {std::move(file), std::move(shown), clips}, left_out_code, unsure};
+  return {path, {std::move(file), std::move(shown), clips}, left_out_code, rigged, unsure};
 }
 
 // ", 2 to look at (a.png, b.png)"; nothing of none.
@@ -210,6 +211,22 @@ std::string counted(const std::vector<std::string>& paths, const std::string& wh
   constexpr std::size_t kMostNamed = 12;
   if (paths.empty()) return "";
   return ", " + std::to_string(paths.size()) + " " + what + " (" + firstFew(paths, kMostNamed) + ")";
+}
+
+struct Verdicts {
+  std::size_t fine = 0, loaded = 0;  // nothing is known of models that are only loaded
+  std::vector<std::string> unsure, failed;
+};
+
+// "4 characters: 1 fine, 1 to look at (a.png), 2 models"
+std::string summary(std::size_t all, const Verdicts& verdicts, const char* failed) {
+  std::string text = std::to_string(all) + " characters";
+  if (verdicts.loaded + verdicts.failed.size() < all)
+    text += ": " + std::to_string(verdicts.fine) + " fine" + counted(verdicts.unsure, "to look at") +
+            (verdicts.loaded == 0
+                 ? ""
+                 : ", " + std::to_string(verdicts.loaded) + (verdicts.loaded == 1 ? " model" : " models"));
+  return text + counted(verdicts.failed, failed);
 }
 
 // Whether `name` is that of a clip, after which no comma was written.
@@ -263,7 +280,7 @@ ExitCode runRender(const RenderCommandOptions& asked) {
   const CharacterRenderer renderer =
       options.sheet.output.empty() ? filmRenderer(options) : sheetRenderer(options);
   ExitCode code = ExitCode::kDone;
-  std::vector<std::string> unsure, failed;
+  Verdicts verdicts;
   // `work` returns the exit code of what it leaves out.
   const auto attempt = [&](const std::string& path, const auto& work) {
     ExitCode here = ExitCode::kDone;
@@ -275,13 +292,16 @@ ExitCode runRender(const RenderCommandOptions& asked) {
       const Error error = caughtError(path);
       complain(error);
       here = error.exitCode();
-      failed.push_back(path);
+      verdicts.failed.push_back(path);
     }
     if (code == ExitCode::kDone) code = here;
   };
   const auto render = [&](Cast one) {
     renderer.render(std::move(one.performer));
-    if (one.unsure) unsure.push_back(one.path);
+    if (one.unsure)
+      verdicts.unsure.push_back(one.path);
+    else
+      ++(one.rigged ? verdicts.fine : verdicts.loaded);
     return one.code;
   };
   std::vector<Cast> measured;
@@ -296,9 +316,9 @@ ExitCode runRender(const RenderCommandOptions& asked) {
   for (Cast& one : measured) attempt(one.path, [&] { return render(std::move(one)); });
   if (renderer.finish) renderer.finish();
   if (const std::size_t all = options.files.size(); all > 1)
-    std::printf("%zu characters: %zu fine%s%s\n", all, all - unsure.size() - failed.size(),
-                counted(unsure, "to look at").c_str(),
-                counted(failed, options.sheet.output.empty() ? "without a film" : "without a sheet").c_str());
+    std::printf(
+        "%s\n",
+        summary(all, verdicts, options.sheet.output.empty() ? "without a film" : "without a sheet").c_str());
   return code;
 }
 

@@ -248,6 +248,18 @@ TEST_CASE("what was mended in a folder that -o of skel-infer named was left out 
   }
 }
 
+TEST_CASE("models that are only loaded were said to be fine") {
+  const TempDir dir;
+  const std::string models = figureFile(dir, "a.glb") + " " + figureFile(dir, "b.glb") + " ",
+                    rest = " --fps 4 --size 16 --format gif -o " + dir.file("films/");
+  CHECK_THAT(render(models + "--clip nod" + rest).out, EndsWith("\n2 characters\n"));
+  CHECK_THAT(render(models + kDrawing + " --clip walk" + rest).out,
+             EndsWith("\n3 characters: 1 fine, 2 models\n"));
+  writeFile(dir.file("c.glb"), "no model");
+  CHECK_THAT(render(models + dir.file("c.glb") + " --clip nod" + rest).out,
+             EndsWith("\n3 characters, 1 without a film (" + dir.file("c.glb") + ")\n"));
+}
+
 TEST_CASE("a film of a drawing says what skel-infer says of it, once for all films") {
   const TempDir dir;
   const std::string dog =
