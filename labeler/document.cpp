@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "labeler/mask_brush.h"
+#include "labeler/mended_joints.h"
 #include "labeler/save_drawing.h"
 #include "libskel/animation/clip_library.h"
 #include "libskel/core/caught_error.h"
@@ -68,7 +69,7 @@ Document::Document(const std::string& path, DocumentOptions options)
     motion_.emplace(path, options_.body_plans);
     list(motion_->drawings());
     for (size_t i = 0; i < items_.size(); ++i) {
-      const PlacedJoints& joints = motion_->joints(static_cast<int>(i));
+      const DrawingJoints& joints = motion_->joints(static_cast<int>(i));
       items_[i].joints = {static_cast<int>(joints.size()), countFound(joints)};
     }
   } else {
@@ -86,15 +87,27 @@ Document::Document(const std::string& path, DocumentOptions options)
 
 bool Document::takeProgress(Item& item) {
   if (fs::exists(item.files.mask)) given_masks_.insert(item.files.mask);
-  if (motion_ || !fs::is_regular_file(item.files.labels)) return false;
+  if (motion_) return false;
   try {
-    const LabelFile labels = readLabelFile(item.files.labels);
-    item.classes = {static_cast<int>(labels.candidates.size()), countLabels(labels.labels)};
-    item.joints = jointsOf(labels, options_.body_plans);
-    item.has_shape = labels.mask || fs::exists(layersFile(item.files, 1));
-    const bool placed = item.joints.done > 0;
-    // Of a photo that was taken again nobody has looked at the joints.
-    if (placed && sha256(readFile(item.files.image)) != labels.image.sha256) item.joints.done = 0;
+    std::optional<LabelFile> labels;
+    if (fs::is_regular_file(item.files.labels)) {
+      labels = readLabelFile(item.files.labels);
+      item.classes = {static_cast<int>(labels->candidates.size()), countLabels(labels->labels)};
+      item.joints = jointsOf(*labels, options_.body_plans);
+      item.has_shape = labels->mask || fs::exists(layersFile(item.files, 1));
+    }
+    const bool placed = item.joints.done > 0, mended = !skeleton_ && isMendedBeside(item.files);
+    if (!placed && !mended) return false;
+    const std::string image_sha256 = sha256(readFile(item.files.image));
+    if (labels && image_sha256 != labels->image.sha256) {
+      // Of a photo that was taken again nobody has looked at the joints.
+      item.joints.done = 0;
+    } else if (const auto joints =
+                   mended ? mendedJointsBeside(item.files, labels, image_sha256, options_.body_plans)
+                          : std::nullopt) {
+      item.joints = progressOf(joints->joints, *joints->body_plan);
+      return true;
+    }
     return placed;
   } catch (const InputError& error) {
     item.problem = error.what();
@@ -354,6 +367,13 @@ void Document::takeMended() {
   message_ = labels_.take(*figure_, options_.body_plans, message_, state_);
   if (skeleton_) takeJoints(skeleton_->skeleton(), bodyPlan(), state_.joints);
   if (motion_) state_.joints = motion_->joints(current_);
+  if (const auto mended = editsJointsAlone() || changed
+                              ? std::nullopt
+                              : mendedJointsBeside(files, labels, image_sha256_, options_.body_plans)) {
+    setBodyPlan(mended->body_plan->name);
+    state_.joints = mended->joints;
+    plan_is_said_ = true;
+  }
   if (!motion_ && figure_->silhouette.found())
     state_.layers = painted_layers_.read(figure_->silhouette, bodyPlan());
   if (!changed) return;
@@ -529,7 +549,7 @@ void Document::takeJointsOfFrameBefore() {
   }
   const StepScope scope(*this);
   const Eigen::Vector2d high(image_.width - 1, image_.height - 1);
-  const PlacedJoints& before = motion_->joints(current_ - 1);
+  const DrawingJoints& before = motion_->joints(current_ - 1);
   for (size_t j = 0; j < before.size(); ++j) {
     auto& joint = state_.joints[j];
     if (!before[j] || (joint && joint->origin == JointOrigin::kEdited)) continue;

@@ -51,8 +51,12 @@ std::vector<DrawingFiles> findDrawings(const std::string& dir) {
   return drawings;
 }
 
+std::string skeletonBeside(const DrawingFiles& files) {
+  return fs::path(files.image).replace_extension().string() + kSkeletonFileEnding;
+}
+
 std::string planOfSkeletonBeside(const DrawingFiles& files, const std::string& image_sha256) {
-  const std::string path = fs::path(files.image).replace_extension().string() + kSkeletonFileEnding;
+  const std::string path = skeletonBeside(files);
   const std::optional<SkeletonSource> source = sourceOfSkeleton(path);
   return source && source->image_sha256 == image_sha256 ? templateOfSkeleton(readFile(path), path) : "";
 }

@@ -28,6 +28,8 @@ std::string layersFile(const DrawingFiles& files, int figure);
 // A mask that lies beside the drawing: <stem>.mask.png, or mask.png beside image.png and texture.png.
 std::optional<std::string> givenMask(const DrawingFiles& files);
 
+// <stem>.skeleton.json beside the drawing, whether it is there or not.
+std::string skeletonBeside(const DrawingFiles& files);
 // The body plan of <stem>.skeleton.json beside the drawing, if that was found in this picture; else "".
 std::string planOfSkeletonBeside(const DrawingFiles& files, const std::string& image_sha256);
 

@@ -27,7 +27,7 @@ void MotionDocument::checkSize(int frame, const Image& image, const std::string&
                     "frames[" + std::to_string(frame) + "].image");
 }
 
-void MotionDocument::write(int frame, const PlacedJoints& joints) {
+void MotionDocument::write(int frame, const DrawingJoints& joints) {
   file_.frames[static_cast<size_t>(frame)].joints = joints;
   replaceFile(path_, formatMotionFile(file_, body_plan_));
 }

@@ -17,11 +17,11 @@ class MotionDocument {
 
   const std::string& bodyPlan() const { return body_plan_.name; }
   std::vector<DrawingFiles> drawings() const;  // one a frame
-  const PlacedJoints& joints(int frame) const { return file_.frames[static_cast<size_t>(frame)].joints; }
+  const DrawingJoints& joints(int frame) const { return file_.frames[static_cast<size_t>(frame)].joints; }
   // Throws InputError if the frame does not mean this picture.
   void checkSize(int frame, const Image& image, const std::string& image_path) const;
   // Throws OutputError; the joints are kept.
-  void write(int frame, const PlacedJoints& joints);
+  void write(int frame, const DrawingJoints& joints);
 
  private:
   std::string path_;

@@ -13,7 +13,7 @@ const SkeletonTemplate* planOf(const LabelFile& labels, const BodyPlans& plans) 
   return otherPlanWith(names, plans).empty() ? &plans.front() : nullptr;
 }
 
-NamedJoints namedJoints(const PlacedJoints& joints, const SkeletonTemplate& body_plan) {
+NamedJoints namedJoints(const DrawingJoints& joints, const SkeletonTemplate& body_plan) {
   NamedJoints named;
   if (std::none_of(joints.begin(), joints.end(), [](const auto& joint) { return joint.has_value(); }))
     return named;
@@ -26,7 +26,7 @@ NamedJoints namedJoints(const PlacedJoints& joints, const SkeletonTemplate& body
   return named;
 }
 
-void takeJoints(const LabelFile& labels, const SkeletonTemplate& body_plan, PlacedJoints& joints) {
+void takeJoints(const LabelFile& labels, const SkeletonTemplate& body_plan, DrawingJoints& joints) {
   for (const auto& [name, place] : labels.joints)
     if (const int j = body_plan.find(name); j >= 0 && place)
       joints[static_cast<size_t>(j)] = PlacedJoint{*place, 1, JointOrigin::kEdited};
@@ -35,13 +35,13 @@ void takeJoints(const LabelFile& labels, const SkeletonTemplate& body_plan, Plac
       joints[static_cast<size_t>(j)]->origin = JointOrigin::kRecognized;
 }
 
-void takeJoints(const Skeleton& skeleton, const SkeletonTemplate& body_plan, PlacedJoints& joints) {
+void takeJoints(const Skeleton& skeleton, const SkeletonTemplate& body_plan, DrawingJoints& joints) {
   for (const Joint& joint : skeleton.joints)
     joints[static_cast<size_t>(body_plan.find(joint.name))] =
         PlacedJoint{joint.image, joint.confidence, joint.origin};
 }
 
-void placeJoints(const PlacedJoints& joints, const SkeletonTemplate& body_plan, Skeleton& skeleton) {
+void placeJoints(const DrawingJoints& joints, const SkeletonTemplate& body_plan, Skeleton& skeleton) {
   for (Joint& joint : skeleton.joints) {
     const auto& place = joints[static_cast<size_t>(body_plan.find(joint.name))];
     if (!place) continue;
@@ -51,7 +51,7 @@ void placeJoints(const PlacedJoints& joints, const SkeletonTemplate& body_plan, 
   }
 }
 
-void deriveMidpoints(PlacedJoints& joints, const SkeletonTemplate& body_plan) {
+void deriveMidpoints(DrawingJoints& joints, const SkeletonTemplate& body_plan) {
   for (size_t j = 0; j < joints.size(); ++j) {
     const auto& derived = body_plan.joints[j].derived;
     if (!derived || derived->rule != DerivationRule::kMidpoint) continue;
@@ -64,13 +64,13 @@ void deriveMidpoints(PlacedJoints& joints, const SkeletonTemplate& body_plan) {
   }
 }
 
-int countFound(const PlacedJoints& joints) {
+int countFound(const DrawingJoints& joints) {
   return static_cast<int>(std::count_if(joints.begin(), joints.end(), [](const auto& joint) {
     return joint && joint->origin != JointOrigin::kCompleted;
   }));
 }
 
-Progress progressOf(const PlacedJoints& joints, const SkeletonTemplate& body_plan) {
+Progress progressOf(const DrawingJoints& joints, const SkeletonTemplate& body_plan) {
   Progress progress;
   for (size_t j = 0; j < joints.size(); ++j) {
     if (!joints[j]) continue;
@@ -95,7 +95,7 @@ Progress jointsOf(const LabelFile& labels, const BodyPlans& plans) {
   return progress;
 }
 
-int jointAt(const PlacedJoints& joints, const Eigen::Vector2d& image_px, double radius_px) {
+int jointAt(const DrawingJoints& joints, const Eigen::Vector2d& image_px, double radius_px) {
   std::vector<std::optional<Eigen::Vector2d>> points;
   for (const auto& joint : joints)
     points.push_back(joint ? std::optional<Eigen::Vector2d>(joint->image) : std::nullopt);

@@ -25,7 +25,7 @@ void SkeletonDocument::checkSize(const Image& image, const std::string& image_pa
 
 void SkeletonDocument::write(const Content& content) const {
   SkeletonFile file = file_;
-  const PlacedJoints& joints = content.state.joints;
+  const DrawingJoints& joints = content.state.joints;
   placeJoints(joints, body_plan_, file.skeleton);
   for (Joint& joint : file.skeleton.joints) {
     const auto& place = joints[static_cast<size_t>(body_plan_.find(joint.name))];

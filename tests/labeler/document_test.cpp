@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
 
 #include "libskel/core/error.h"
@@ -890,6 +891,50 @@ TEST_CASE("a skeleton file: joints are edited in it, and no label file comes up"
 
   document.label({0}, JointClass::kBody);
   CHECK(fs::exists(dir.file("cap_boy.labels.json")));
+}
+
+TEST_CASE("a folder began without the joints that were placed in a skeleton file beside the drawing") {
+  const TempDir dir;
+  for (const char* name : {"Ada.png", "Rosa.png"}) fs::copy(kCharacters + "cap_boy.png", dir.file(name));
+  REQUIRE(runTool("cd '" + dir.path() + "' && skel-infer . -o . --formats json").exit_code == 0);
+  const int hand = loadTemplate("biped").find("left_hand");
+  const std::string path = dir.file("Rosa.skeleton.json");
+  const auto mend = [&](const Eigen::Vector2d& place) {
+    Document(path, documentOptions()).moveJoint(hand, place);
+  };
+  const auto shown = [&](const Document& document) { return document.state().joints[size_t(hand)]; };
+  mend({420, 300});
+  Document document(dir.path(), documentOptions());
+  CHECK(document.items()[1].joints.done == 1);
+  CHECK(document.items()[1].joints.parts == 14);
+  REQUIRE(document.go(1));
+  REQUIRE(shown(document));
+  CHECK(shown(document)->image == Eigen::Vector2d(420, 300));
+  CHECK(shown(document)->origin == JointOrigin::kEdited);
+  CHECK(document.item().joints.done == 1);
+  CHECK_FALSE(document.wantsJoints());
+  CHECK_FALSE(document.canUndo());
+  SECTION("all right keeps them") {
+    document.acceptJoints();
+    CHECK(document.item().joints.isWhole());
+    const LabelFile labels = readLabelFile(dir.file("Rosa.labels.json"));
+    CHECK(labels.isPlaced("left_hand"));
+    for (const auto& [name, place] : labels.joints)
+      if (name == "left_hand") CHECK(place == Eigen::Vector2d(420, 300));
+  }
+  SECTION("of two files that place a joint the one that was written later counts, as for skel-infer") {
+    document.moveJoint(hand, {430, 310});
+    CHECK(shown(Document(dir.file("Rosa.png"), documentOptions()))->image == Eigen::Vector2d(430, 310));
+    mend({410, 290});
+    fs::last_write_time(path, fs::last_write_time(dir.file("Rosa.labels.json")) + std::chrono::seconds(1));
+    CHECK(shown(Document(dir.file("Rosa.png"), documentOptions()))->image == Eigen::Vector2d(410, 290));
+  }
+  SECTION("those of a picture before are not taken") {
+    fs::copy(kCharacters + "runner.png", dir.file("Rosa.png"), fs::copy_options::overwrite_existing);
+    const Document other(dir.file("Rosa.png"), documentOptions());
+    CHECK(other.wantsJoints());
+    CHECK(other.items()[0].joints.done == 0);
+  }
 }
 
 TEST_CASE("a skeleton file of another picture is not edited") {
