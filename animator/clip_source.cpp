@@ -197,6 +197,12 @@ Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource
   return retargetToRest(commonPart(clip, character.skeleton).value_or(clip), character.skeleton, options);
 }
 
+ClipKeys madeFor(const Skeleton& skeleton, ClipKeys keys) {
+  keys.clip.rest_pose = restPoseHash(skeleton);
+  if (keys.clip.template_name.empty()) keys.clip.template_name = skeleton.template_name;
+  return keys;
+}
+
 RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& character,
                             const ClipSource& source) {
   return retargetMotion(readBvh(path), path, character.skeleton,

@@ -53,6 +53,10 @@ Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource
 RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& character,
                             const ClipSource& source = {});
 
+// To be written as a clip file of this character: it knows its rest pose and, where the clip names none, its
+// body plan.
+ClipKeys madeFor(const Skeleton& skeleton, ClipKeys keys);
+
 // A clip file for another body plan than the character's, whose joints this lacks.
 class OtherBodyPlan : public InputError {
  public:

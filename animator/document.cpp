@@ -654,10 +654,8 @@ bool AnimationDocument::saveClip(const std::string& path) {
       named.clip.name = name;
       given_names_.insert(name);  // saved under a second name it is a second clip
     }
-    ClipKeys written = named;
-    written.clip.rest_pose = restPoseHash(skeleton());
     takeSavedFrom(path);
-    save(path, kClipFileEnding, formatClipKeys(written));
+    save(path, kClipFileEnding, formatClipKeys(madeFor(skeleton(), named)));
     setSaved(path, {withEvenKeys(named)});
     files_[named.clip.name] = path;
     if (named.clip.name != clip()->name) {

@@ -90,11 +90,7 @@ ClipKeys keysOf(const Clip& clip, const RetargetCommandOptions& options, const C
 // What the output's name asks for.
 std::string encoded(const std::string& path, CharacterFile file, const ClipKeys& keys) {
   const Clip& clip = keys.clip;
-  if (path.ends_with(kClipFileEnding)) {
-    ClipKeys written = keys;
-    written.clip.rest_pose = restPoseHash(file.character.skeleton);
-    return formatClipKeys(written);
-  }
+  if (path.ends_with(kClipFileEnding)) return formatClipKeys(madeFor(file.character.skeleton, keys));
   if (path.ends_with(".bvh")) {
     const std::vector<Clip> clips = {clip};
     return exportBvh({file.character, clips, {stemOf(path)}})[0].bytes;
