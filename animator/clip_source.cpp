@@ -120,6 +120,13 @@ std::vector<Clip> clipLibrary(const ClipSource& source, std::vector<std::string>
   return clipsWithFolder(source.clips_dir, source.names, left_out);
 }
 
+std::string clipFileNamed(const std::string& name, const ClipSource& source) {
+  if (source.clips_dir.empty()) return "";
+  for (const std::string& path : filesBelow(source.clips_dir))
+    if (path.ends_with(kClipFileEnding) && clipNameIn(path) == name) return path;
+  return "";
+}
+
 std::vector<Clip> toldClipLibrary(const ClipSource& source) {
   std::vector<std::string> left_out;
   std::vector<Clip> library = clipLibrary(source, &left_out);

@@ -32,7 +32,9 @@ void bindClipSource(CLI::App& app, ClipSource& source);
 
 // Those that come with skel, and those of the folder. `left_out` (or null): which files of it are no clips.
 std::vector<Clip> clipLibrary(const ClipSource& source, std::vector<std::string>* left_out = nullptr);
-// The same, and says on stderr what is left out.
+// The clip file of the folder that is called so, whatever its clip is called; "": there is none.
+std::string clipFileNamed(const std::string& name, const ClipSource& source);
+// clipLibrary(), and says on stderr what is left out.
 std::vector<Clip> toldClipLibrary(const ClipSource& source);
 
 // Those of `library` that this character can do: by the names of its joints, or by their parts in it

@@ -14,6 +14,7 @@
 #include "libskel/animation/pose_hash.h"
 #include "libskel/core/caught_error.h"
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/text.h"
 #include "libskel/export/formats.h"
@@ -410,7 +411,6 @@ void AnimationDocument::newClip(const std::string& name, double duration_s) {
   const StepScope step(*this);
   std::string unique = name;
   for (int i = 2; hasClip(clips(), unique); ++i) unique = name + "-" + std::to_string(i);
-  given_names_.insert(unique);
   auto clips = std::make_shared<std::vector<Clip>>(*state_.clips);
   Clip clip;
   clip.name = unique;
@@ -449,6 +449,7 @@ void AnimationDocument::renameClip(const std::string& name) {
   ClipKeys edited = keys();
   Clip& changed = edited.clip;
   changed.name = name;
+  chosen_names_.insert(name);
   replaceKeys(edited);
   message_ = "the clip is called \"" + name + "\"";
 }
@@ -636,6 +637,12 @@ std::string AnimationDocument::fileOfClip() const {
   return "";
 }
 
+bool AnimationDocument::isFileOfClip(const std::string& path) const {
+  const auto known = files_.find(clip()->name);
+  const std::string file = known != files_.end() ? known->second : fileOfClip();
+  return !file.empty() && savedKey(file) == savedKey(path);
+}
+
 std::string AnimationDocument::fileForClip() const {
   if (std::string own = fileOfClip(); !own.empty()) return own;
   const auto loaded = clip() ? files_.find(clip()->name) : files_.end();
@@ -648,24 +655,21 @@ bool AnimationDocument::saveClip(const std::string& path) {
   return attempt([&] {
     if (!clip()) throw UsageError("there is no clip to save: choose one, or make a new one");
     const std::string name = clipNameIn(path);
-    const bool follows = given_names_.contains(clip()->name) && !name.empty() && name != clip()->name;
+    const bool other_name = !name.empty() && name != safeFileName(clip()->name) && !isFileOfClip(path);
+    const bool follows = other_name && !chosen_names_.contains(clip()->name) && !hasOtherClip(name);
     ClipKeys named = keys();
-    if (follows && !hasOtherClip(name)) {
-      named.clip.name = name;
-      given_names_.insert(name);  // saved under a second name it is a second clip
-    }
+    if (follows) named.clip.name = name;  // a second clip, then
     takeSavedFrom(path);
     save(path, kClipFileEnding, formatClipKeys(madeFor(skeleton(), named)));
     setSaved(path, {withEvenKeys(named)});
     files_[named.clip.name] = path;
-    if (named.clip.name != clip()->name) {
+    if (follows) {
       const StepScope step(*this);
       replaceKeys(named);
-    } else if (follows) {
-      return "saved " + path + "; the clip is still called \"" + named.clip.name +
-             "\", as there is another \"" + name + "\"";
     }
-    return "saved " + path;
+    if (!other_name) return "saved " + path;
+    return "saved " + path + "; the clip is " + (follows ? "now" : "still") + " called \"" + named.clip.name +
+           '"' + (hasOtherClip(name) ? ", as there is another \"" + name + '"' : "");
   });
 }
 

@@ -134,8 +134,9 @@ class AnimationDocument {
   // What saveClip() is offered: that, or, of a clip that was loaded from a file for others, one beside it
   // that is named after it and this character; "": the clip came from no file.
   std::string fileForClip() const;
-  // As it is for this character, which it is read back for key by key, with its ease. A clip that newClip()
-  // has named gets the file's name, if that is free; that is a step.
+  // As it is for this character, which it is read back for key by key, with its ease, and for its body plan.
+  // Saved under another name than its own it gets that, if it is free and nobody has chosen its own by
+  // renameClip(); that is a step.
   bool saveClip(const std::string& path);
   bool loadSkeleton(const std::string& path);  // the weights are computed anew
   bool saveSkeleton(const std::string& path);
@@ -169,6 +170,7 @@ class AnimationDocument {
   void keepEase(const std::string& before, const ClipKeys& keys);
   void takeEaseOfLibrary();  // of those of its clips that are there
   bool hasOtherClip(const std::string& name) const;
+  bool isFileOfClip(const std::string& path) const;  // that it was loaded from or saved to
   double snapped(double time_s) const;
   // A document of its kind is edited in place; nothing else that was read is written over, nor what another
   // program has made of it since. Throws OutputError.
@@ -195,7 +197,7 @@ class AnimationDocument {
   std::map<std::string, std::vector<Clip>> saved_;  // as files hold them, by their paths
   std::map<std::string, std::string> files_;  // of clips that loadClip() and saveClip() know, by their names
   std::optional<Pose> saved_pose_;            // the same of the last one
-  std::set<std::string> given_names_;         // by newClip(), or by saveClip() after the file
+  std::set<std::string> chosen_names_;        // by renameClip()
   FilesLeft on_disk_;
 };
 

@@ -395,8 +395,8 @@ TEST_CASE("a clip that eases comes back with its keys and its ease, and plays as
   CHECK(again.unsavedClips().empty());
   again.setTime(0.5);
   CHECK(again.anglesOf(head).x() == Approx(0.8 * (0.5 - 0.5 * std::cos(std::numbers::pi / 4))).margin(2e-3));
-  REQUIRE(again.saveClip(dir.file("saved.clip.json")));
-  CHECK(readFile(dir.file("saved.clip.json")) == text);
+  REQUIRE(again.saveClip(dir.file("saved/bow.clip.json")));
+  CHECK(readFile(dir.file("saved/bow.clip.json")) == text);
   const Clip played = readClipFile(dir.file("eased/bow.clip.json"));
   CHECK(again.clip()->tracks == played.tracks);
 
@@ -455,8 +455,8 @@ TEST_CASE("a clip of --clips-dir that eases is edited by its own keys, as one th
             clips.begin()));
     again.choose(again.skeleton().index("head"));
     CHECK(again.keyTimes() == std::vector<double>{0, 2});
-    REQUIRE(again.saveClip(dir.file("saved.clip.json")));
-    CHECK(readFile(dir.file("saved.clip.json")) == text);
+    REQUIRE(again.saveClip(dir.file("saved/bow.clip.json")));
+    CHECK(readFile(dir.file("saved/bow.clip.json")) == text);
   };
   isEdited();
   CHECK(again.unsavedClips().empty());
@@ -748,6 +748,27 @@ TEST_CASE("a clip is called as its file, unless somebody has named it, and names
   CHECK(document.clip()->name == "deep bow");
   REQUIRE(document.saveClip(dir.file("file.clip.json")));
   CHECK(readClipFile(dir.file("file.clip.json")).name == "deep bow");
+  CHECK_THAT(document.message(), EndsWith("file.clip.json; the clip is still called \"deep bow\""));
+}
+
+TEST_CASE("a clip of skel that was changed and saved as another file kept its name in that") {
+  const TempDir dir;
+  AnimationDocument document({.path = figureFile(dir)});
+  document.chooseClip(clipIndex(document, "wave"));
+  document.turnJoint(document.skeleton().index("head"), 0, 0.5);
+  document.setKey();
+  REQUIRE(document.saveClip(dir.file("wave2.clip.json")));
+  CHECK_THAT(document.message(), EndsWith("wave2.clip.json; the clip is now called \"wave2\""));
+  CHECK(readClipFile(dir.file("wave2.clip.json")).name == "wave2");
+  CHECK(document.clip()->name == "wave2");
+  CHECK(document.unsavedClips().empty());
+  // A file whose clip is called otherwise goes back as it is.
+  std::string text = readFile(dir.file("wave2.clip.json"));
+  text.replace(text.find("\"wave2\""), 7, "\"hello\"");
+  writeFile(dir.file("wave2.clip.json"), text);
+  REQUIRE(document.loadClip(dir.file("wave2.clip.json")));
+  REQUIRE(document.saveClip(dir.file("wave2.clip.json")));
+  CHECK(readClipFile(dir.file("wave2.clip.json")).name == "hello");
 }
 
 TEST_CASE("a clip that the window saved did not say for which body plan it is") {

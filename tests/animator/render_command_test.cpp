@@ -260,6 +260,18 @@ TEST_CASE("models that are only loaded were said to be fine") {
              EndsWith("\n3 characters, 1 without a film (" + dir.file("c.glb") + ")\n"));
 }
 
+TEST_CASE("a clip that is called otherwise than its file was said not to be there") {
+  const TempDir dir;
+  writeFile(dir.file("clips/wave2.clip.json"),
+            R"({"format": "skel-clip", "version": 1, "name": "hello",
+      "tracks": [{"joint": "head", "angles_deg": [[0, 0, 0, 0], [1, 9, 0, 0]]}]})");
+  const ToolRun run = render(figureFile(dir) + " --clip wave2 --clips-dir " + dir.file("clips") + " -o " +
+                             dir.file("film.gif"));
+  CHECK(run.exit_code == 1);
+  CHECK_THAT(run.err, EndsWith("there is no clip \"wave2\"; that of " + dir.file("clips/wave2.clip.json") +
+                               " is called \"hello\": ask for that, or change its \"name\"\n"));
+}
+
 TEST_CASE("a film of a drawing says what skel-infer says of it, once for all films") {
   const TempDir dir;
   const std::string dog =
