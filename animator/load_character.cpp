@@ -7,6 +7,7 @@
 
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_library.h"
+#include "libskel/animation/joint_roles.h"
 #include "libskel/cli/number.h"
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
@@ -213,9 +214,15 @@ Clip clipFor(const std::string& name_or_path, const RiggedCharacter& character,
       !file.empty() && !hasClip(library, name_or_path))
     throw UsageError("there is no clip \"" + name_or_path + "\"; that of " + file + " is called \"" +
                      readClipFile(file).name + "\": ask for that, or change its \"name\"");
+  const std::string why =
+      fitting.empty() ? "; no clip of skel fits it: " + whyNoRoles(character.skeleton) : "";
   std::erase_if(fitting, [&](const Clip& clip) { return hasClip(own_clips, clip.name); });
   fitting.insert(fitting.begin(), own_clips.begin(), own_clips.end());
-  return clipNamed(fitting, name_or_path);  // names those that there are
+  try {
+    return clipNamed(fitting, name_or_path);  // names those that there are
+  } catch (const UsageError& error) {
+    throw UsageError(error.what() + why);
+  }
 }
 
 }  // namespace skel

@@ -260,6 +260,20 @@ TEST_CASE("models that are only loaded were said to be fine") {
              EndsWith("\n3 characters, 1 without a film (" + dir.file("c.glb") + ")\n"));
 }
 
+TEST_CASE("why a model of few joints has no clip of skel was said by `list` alone") {
+  const TempDir dir;
+  RiggedCharacter stick = figure();
+  stick.skeleton.template_name.clear();
+  for (std::size_t j = 0; j < stick.skeleton.joints.size(); ++j)
+    stick.skeleton.joints[j].name = "bone" + std::to_string(j);
+  for (Joint& joint : stick.skeleton.joints) joint.parent = std::min(joint.parent, 0);
+  writeFile(dir.file("stick.glb"), encodeGlb(stick, {}));
+  const ToolRun run = render(dir.file("stick.glb") + " --clip walk -o " + dir.file("film.gif"));
+  CHECK(run.exit_code == 1);
+  CHECK_THAT(run.err, Contains("there is no clip \"walk\" for this body plan; no clip of skel fits it: "
+                               "neither the names of its joints nor their tree tell arms and legs"));
+}
+
 TEST_CASE("a clip that is called otherwise than its file was said not to be there") {
   const TempDir dir;
   writeFile(dir.file("clips/wave2.clip.json"),
