@@ -325,8 +325,8 @@ class AnimationWindow {
         &AnimationDocument::saveModel, std::move(then));
   }
   void askPose() {
-    ask({"Load a pose", "Load", "pose", suggestion(kPoseFileEnding), FileUse::kOpen, endsWith({".json"}),
-         kPoseFileEnding},
+    ask({"Load a pose", "Load", "pose", suggestion(kPoseFileEnding), FileUse::kOpen,
+         endsWith({kPoseFileEnding}), kPoseFileEnding},
         &AnimationDocument::loadPose);
   }
   void askSavePose(std::function<void()> then = {}) {
@@ -340,7 +340,7 @@ class AnimationWindow {
                           "clip",
                           suggestion(kClipFileEnding),
                           FileUse::kOpen,
-                          endsWith({".json", ".bvh"}),
+                          endsWith({kClipFileEnding, ".bvh"}),
                           kClipFileEnding};
     question.answer = [this](const std::string& path) {
       const auto load = [this, path] { return document_.loadClip(path); };

@@ -58,7 +58,11 @@ void FileDialog::ask(FileQuestion question) {
   } else {
     enter(folderAround(question_.suggestion));
     // "out/hero.glb" where there is no "out" yet.
-    if (saves()) name = fs::absolute(suggestion).lexically_relative(listing_.folder).string();
+    std::error_code unknown;
+    if (saves())
+      name = fs::absolute(suggestion).lexically_relative(listing_.folder).string();
+    else if (!fs::exists(suggestion, unknown))
+      name.clear();
   }
   setName(name);
   problem_.clear();

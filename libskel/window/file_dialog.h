@@ -21,7 +21,9 @@ enum class FileUse {
 struct FileQuestion {
   std::string title, button;  // "Save the pose", "Save"
   std::string kind;           // "pose": the next question of this kind begins where this one ended
-  std::string suggestion;     // a path; of the first question of its kind, where it begins
+  // A path; of the first question of its kind, where it begins: of one to open without the name of a file
+  // that is not there.
+  std::string suggestion;
   FileUse use = FileUse::kOpen;
   // Which names are shown, unless all are asked for; empty: all.
   std::function<bool(const std::string& name)> shows = {};
