@@ -14,12 +14,17 @@
 namespace skel {
 namespace {
 
+// "1 joint", "2 joints"
+std::string numbered(Eigen::Index count, const char* thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
 void printMesh(const TriangleMesh& mesh) {
   const MeshParts parts = meshParts(mesh, Welding(mesh.vertices));
   const Eigen::RowVector3f low = mesh.vertices.colwise().minCoeff(),
                            high = mesh.vertices.colwise().maxCoeff();
-  std::printf("mesh: %d vertices, %d triangles, %d part%s\n", static_cast<int>(mesh.vertices.rows()),
-              static_cast<int>(mesh.triangles.rows()), parts.count, parts.count == 1 ? "" : "s");
+  std::printf("mesh: %d vertices, %s, %s\n", static_cast<int>(mesh.vertices.rows()),
+              numbered(mesh.triangles.rows(), "triangle").c_str(), numbered(parts.count, "part").c_str());
   std::printf("size: %g m wide, %g m high, %g m deep, from y = %g\n", static_cast<double>(high[0] - low[0]),
               static_cast<double>(high[1] - low[1]), static_cast<double>(high[2] - low[2]),
               static_cast<double>(low[1]));
@@ -31,8 +36,8 @@ void printMesh(const TriangleMesh& mesh) {
 }
 
 void printSkeleton(const Skeleton& skeleton) {
-  std::printf("skeleton: %d joints, %d bones%s%s\n", static_cast<int>(skeleton.joints.size()),
-              boneCount(skeleton), skeleton.template_name.empty() ? "" : ", ",
+  std::printf("skeleton: %s, %s%s%s\n", numbered(Eigen::Index(skeleton.joints.size()), "joint").c_str(),
+              numbered(boneCount(skeleton), "bone").c_str(), skeleton.template_name.empty() ? "" : ", ",
               printable(skeleton.template_name).c_str());
   for (const auto& [j, spaces] : asTree(skeleton)) {
     const Eigen::Vector3d& at = skeleton.joints[j].position;
@@ -49,8 +54,8 @@ void printWeights(const SkinWeights& weights) {
     most = std::max(most, count);
     whole += count == 1;
   }
-  std::printf("weights: up to %d joints a vertex, %d vertices with one joint alone\n", most,
-              static_cast<int>(whole));
+  std::printf("weights: up to %s a vertex, %d %s with one joint alone\n", numbered(most, "joint").c_str(),
+              static_cast<int>(whole), whole == 1 ? "vertex" : "vertices");
 }
 
 }  // namespace
@@ -75,8 +80,9 @@ ExitCode runInfo(const InfoOptions& options) {
   printSkeleton(character.skeleton);
   if (character.weights.weights.rows() > 0) printWeights(character.weights);
   for (const Clip& clip : model.file.clips)
-    std::printf("clip: %s, %.2f s, moves %d joints\n", printable(clip.name).c_str(),
-                static_cast<double>(clip.duration_s()), static_cast<int>(clip.tracks.size()));
+    std::printf("clip: %s, %.2f s, moves %s\n", printable(clip.name).c_str(),
+                static_cast<double>(clip.duration_s()),
+                numbered(Eigen::Index(clip.tracks.size()), "joint").c_str());
   return ExitCode::kDone;
 }
 

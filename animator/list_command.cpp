@@ -13,8 +13,8 @@ namespace skel {
 namespace {
 
 void printClip(const Clip& clip, const char* note) {
-  std::printf("  %-12s %5.2f s  %2d joints  %s\n", printable(clip.name).c_str(), double(clip.duration_s()),
-              int(clip.tracks.size()), note);
+  std::printf("  %-12s %5.2f s  %2d joint%s  %s\n", printable(clip.name).c_str(), double(clip.duration_s()),
+              int(clip.tracks.size()), clip.tracks.size() == 1 ? " " : "s", note);
 }
 
 void printJoints(const Skeleton& skeleton) {

@@ -106,8 +106,9 @@ struct Films {
     const char* hint = !fs::is_directory(path)  ? ""
                        : options.format.empty() ? ", as PNG files (a film: -o NAME.mp4)"
                                                 : ", as PNG files";
-    std::printf("%s: %d frames of %dx%d, %.2f s of %s%s\n", printable(path).c_str(), frames, film.width,
-                film.height, frames / film.frame_rate, printable(what).c_str(), hint);
+    std::printf("%s: %d %s of %dx%d, %.2f s of %s%s\n", printable(path).c_str(), frames,
+                frames == 1 ? "frame" : "frames", film.width, film.height, frames / film.frame_rate,
+                printable(what).c_str(), hint);
   }
 
   void operator()(const Performer& performer) const {

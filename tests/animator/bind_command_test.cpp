@@ -125,6 +125,20 @@ TEST_CASE("the elk is bound, and its weights are saved and taken again") {
   CHECK(animate(dir, "info '" + kElk + "'").out.find("5 parts") != std::string::npos);
 }
 
+TEST_CASE("info said \"1 joints\"") {
+  const TempDir dir;
+  RiggedCharacter whole = figure();
+  whole.weights.weights.setZero();
+  whole.weights.weights.col(0).setOnes();
+  Clip nod;
+  nod.name = "nod";
+  nod.tracks = {{"head", {0, 1}, {Eigen::Quaternionf::Identity(), Eigen::Quaternionf(0.8f, 0.6f, 0, 0)}}};
+  writeFile(dir.file("whole.glb"), encodeGlb(whole, {nod}));
+  const std::string said = animate(dir, "info whole.glb").out;
+  CHECK(said.find("moves 1 joint\n") != std::string::npos);
+  CHECK(said.find("up to 1 joint a vertex") != std::string::npos);
+}
+
 TEST_CASE("info counts as many bones of a drawing's model as the window does") {
   const TempDir dir;
   figureFile(dir);

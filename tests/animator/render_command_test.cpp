@@ -260,6 +260,12 @@ TEST_CASE("models that are only loaded were said to be fine") {
              EndsWith("\n3 characters, 1 without a film (" + dir.file("c.glb") + ")\n"));
 }
 
+TEST_CASE("a film of one frame said \"1 frames\"") {
+  const TempDir dir;
+  CHECK_THAT(render(figureFile(dir) + " --clip nod --fps 1 --size 16 -o " + dir.file("film.gif")).out,
+             Contains(": 1 frame of 16x16, 1.00 s of \"nod\"\n"));
+}
+
 TEST_CASE("why a model of few joints has no clip of skel was said by `list` alone") {
   const TempDir dir;
   RiggedCharacter stick = figure();
