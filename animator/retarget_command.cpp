@@ -105,11 +105,12 @@ std::string encoded(const std::string& path, CharacterFile file, const ClipKeys&
 
 void bindRetargetOptions(CLI::App& app, RetargetCommandOptions& options) {
   app.add_option(
-         "MOTION", options.motion,
+         "MOTION", options.motions,
          "The motion: a .bvh of anybody's skeleton, a clip that comes with skel or lies in --clips-dir, by "
          "its name, or a clip file")
-      ->required();
-  app.add_option("--to", options.target, "The rigged character (.glb) that is to move so")
+      ->required()
+      ->type_name("TEXT");
+  app.add_option("--to", options.target, "The rigged character (.glb) that is to move so, one a run")
       ->required()
       ->type_name("FILE");
   app.add_option("-o,--output", options.output,
@@ -122,7 +123,11 @@ void bindRetargetOptions(CLI::App& app, RetargetCommandOptions& options) {
 }
 
 ExitCode runRetarget(const RetargetCommandOptions& asked) {
+  if (asked.motions.size() > 1)
+    throw UsageError(asked.motions.back() +
+                     ": is one too many: a run takes one motion, and one character by --to");
   RetargetCommandOptions options = asked;
+  options.motion = options.motions.front();
   const std::string path =
       options.output.empty() ? glbNamedAfter(options.motion, kWrittenByRetarget) : options.output;
   if (!path.ends_with(".glb") && !path.ends_with(".bvh") && !path.ends_with(kClipFileEnding))

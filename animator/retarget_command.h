@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "animator/clip_source.h"
 #include "libskel/core/error.h"
@@ -13,6 +14,7 @@ class App;
 namespace skel {
 
 struct RetargetCommandOptions {
+  std::vector<std::string> motions;  // as named: one more is refused
   std::string motion, target, output;
   std::string name;  // of the clip; empty: the motion's
   ClipSource clips;

@@ -195,6 +195,13 @@ TEST_CASE("retarget writes a character, a clip or a BVH, and says what it matche
   CHECK(cut.err.find("skel-animate: " + dir.file("cut.bvh") + ": line ") == 0);
 }
 
+TEST_CASE("a second model after --to was refused as an argument that was not expected") {
+  const TempDir dir;
+  const std::string model = figureFile(dir);
+  checkFails("retarget walk --to " + model + " b.glb -o " + dir.file("o.glb"), 1,
+             "b.glb: is one too many: a run takes one motion, and one character by --to");
+}
+
 TEST_CASE("retarget gave even keys for three that ease, to the same character, without a word") {
   const TempDir dir;
   const std::string glb = figureFile(dir), hello = dir.file("mine/hello.clip.json"),
