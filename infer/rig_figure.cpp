@@ -117,7 +117,12 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   file.confidence = drawing.recognition.confidence;
   file.missing = drawing.recognition.missing;
   file.warnings = withAdviceIfUpright(std::move(mended.warnings), "use --upright");
-  if (!mask.empty()) file.mask = {pathSeenFrom(skeleton_path, mask), mended.mask.sha256};
+  const auto asSeen = [&](SkeletonFile::Mask painted) {
+    painted.file = pathSeenFrom(skeleton_path, painted.file);
+    return painted;
+  };
+  if (!mask.empty()) file.mask = asSeen(mended.mask);
+  if (!mended.limbs.file.empty()) file.limbs = asSeen(mended.limbs);
   file.labels = mended.placed.labels;
   if (file.labels && !mended.files.labels.empty())
     file.labels->file = pathSeenFrom(skeleton_path, mended.files.labels);

@@ -49,6 +49,9 @@ void SkeletonDocument::write(const Content& content) const {
     file.mask->sha256 = mask->sha256;  // it may have changed since
   else
     file.mask = SkeletonFile::Mask{pathSeenFrom(path_, content.mask_path), mask->sha256};
+  // Whoever saves has looked at them.
+  for (auto* painted : {&file.mask, &file.limbs})
+    if (*painted) (*painted)->before = false;
   // What was said of joints before somebody moved them is stale.
   if (std::any_of(file.skeleton.joints.begin(), file.skeleton.joints.end(),
                   [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; }))

@@ -112,22 +112,34 @@ void leaveOutEarlier(MendedFiles& files, const MendRequest& request,
   const std::string mask_sha256 = found_mask ? sha256(readFile(files.mask)) : "";
   const std::optional<LabelFile> labels = labelsIn(found_labels ? files.labels : "");
   const bool are_of_mask = labels && found_mask && labels->mask && labels->mask->sha256 == mask_sha256;
+  const fs::path label_folder = fs::path(files.labels).parent_path();
   // Made for this picture in other colours: the run before has taken them up.
   const auto tookUpLabels = [&] {
-    if (!knows_picture || changed) return false;
+    if (!labels || !knows_picture || changed) return false;
     if (!labels->hasPlacedJoint()) return are_of_mask && result->mask && result->mask->sha256 == mask_sha256;
     return result->labels && result->labels->sha256 == sha256(readFile(files.labels));
   };
+  const bool took_up_labels = tookUpLabels();
   if (labels && !request.isOfPicture(labels->image.sha256) && (labels->mask || labels->hasPlacedJoint()) &&
-      !tookUpLabels()) {
+      !took_up_labels) {
     leaveOut(files.labels, files);
     if (are_of_mask) leaveOut(files.mask, files);
   }
-  // A person who has saved labels of the new picture has seen the mask on it.
-  const bool seen = are_of_mask && request.isOfPicture(labels->image.sha256);
-  files.mask_before = changed && found_mask && !files.mask.empty() && !seen && result->mask &&
-                      result->mask->sha256 == mask_sha256;
-  files.limbs_before = changed && !files.limbs.empty() && files.limbs != request.limbs;
+  // A person who has saved labels of the new picture has seen mask and limbs on it.
+  const bool seen = labels && request.isOfPicture(labels->image.sha256);
+  const auto isUsed = [](const std::optional<SkeletonFile::Mask>& used, const std::string& sha256) {
+    return used && used->sha256 == sha256;
+  };
+  files.mask_before = knows_picture && found_mask && !files.mask.empty() && !(seen && are_of_mask) &&
+                      isUsed(result->mask, mask_sha256) && (changed || result->mask->before);
+  if (files.limbs.empty() || files.limbs == request.limbs) return;
+  const bool used_limbs = knows_picture && isUsed(result->limbs, sha256(readFile(files.limbs)));
+  const bool beside_labels = labels && fs::path(files.limbs).parent_path() == label_folder;
+  if (beside_labels && !seen && !took_up_labels && (changed || !used_limbs))
+    leaveOut(files.limbs, files);
+  else
+    files.limbs_before =
+        !seen && (changed ? used_limbs || !result->limbs : used_limbs && result->limbs->before);
 }
 
 void leaveOutOtherSizes(MendedFiles& files, const MendRequest& request, const Image& image) {

@@ -39,7 +39,7 @@ SkeletonFile::Mask useMask(const MendRequest& request, const MendedFiles& mended
   if (input.mask->cols() != input.image.width || input.mask->rows() != input.image.height)
     throw InputError(path, "is a mask of " + sizeInPx(input.mask->cols(), input.mask->rows()) +
                                " px, the image has " + sizeInPx(input.image.width, input.image.height));
-  return {path, sha256(readFile(path))};
+  return {path, sha256(readFile(path)), mended.mask_before};
 }
 
 // Of the outline that the picture alone gives, "": none.
@@ -173,6 +173,8 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
     std::optional<LookAtOutputs> look;
     if (mended.painted_layers) look.emplace();
     input.layers = {readImage(mended.limbs), mended.limbs};
+    if (!look && mended.limbs != request.limbs)
+      result.limbs = {mended.limbs, sha256(readFile(mended.limbs)), mended.limbs_before};
   }
   if (!mended.back.empty()) input.back = {readImage(mended.back), mended.back};
 

@@ -30,6 +30,7 @@ struct MendedRig {
   MendedFiles files;                   // that were taken up
   PlacedJoints placed;
   SkeletonFile::Mask mask;           // that was used, a path as given; "": none
+  SkeletonFile::Mask limbs;          // SkeletonFile::limbs, the same
   std::string outline_sha256;        // of the figure
   std::string found_outline_sha256;  // where a mask was used and the run writes: SkeletonFile::foundOutline()
   std::vector<std::string> warnings;  // of the figure and its joints, a clause each

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kSkeletonVersion =
-    6;  // 3: without `found`, 4: without `found_sha256`, 5: without `labels.joints`
+    7;  // 3: without `found`, 4: without `found_sha256`, 5: without `labels.joints`, 6: without `limbs`
 constexpr std::size_t kMostWarnings = 100;  // all are shown, each once; skel gives a handful
 constexpr int kLongestImageSide_px = 1'000'000;
 constexpr double kUnmoved_px = 0.005;  // files keep hundredths of a pixel
@@ -54,9 +54,10 @@ Joint jointAt(const JsonValue& item, const SkeletonTemplate& body_plan, const Sk
   return joint;
 }
 
-SkeletonFile::Mask sourceAt(const JsonValue& given) {
-  given.allowOnly({"file", "sha256"});
-  return {given.at("file").asFileName(), given.at("sha256").asString()};
+SkeletonFile::Mask paintedAt(const JsonValue& given) {
+  given.allowOnly({"file", "sha256", "before"});
+  const auto before = given.find("before");
+  return {given.at("file").asFileName(), given.at("sha256").asString(), before && before->asBool()};
 }
 
 SkeletonFile::Labels labelsAt(const JsonValue& given, int image_width, int image_height) {
@@ -156,7 +157,13 @@ std::string formatSkeletonFile(const SkeletonFile& file) {
   const auto source = [](const auto& given) {
     return Json{{"file", jsonFromFileName(given.file)}, {"sha256", given.sha256}};
   };
-  root["mask"] = file.mask ? source(*file.mask) : Json(nullptr);
+  const auto painted = [&](const SkeletonFile::Mask& mask) {
+    Json json = source(mask);
+    if (mask.before) json["before"] = true;
+    return json;
+  };
+  root["mask"] = file.mask ? painted(*file.mask) : Json(nullptr);
+  if (file.limbs) root["limbs"] = painted(*file.limbs);
   if (file.labels) {
     root["labels"] = source(*file.labels);
     for (const auto& [name, place] : file.labels->joints)
@@ -199,7 +206,7 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
   const JsonValue root = document.root();
   root.checkFormat("skel-skeleton", kSkeletonVersion);
   root.allowOnly({"format", "version", "image", "figure", "template", "confidence", "missing", "warnings",
-                  "mask", "labels", "joints"});
+                  "mask", "limbs", "labels", "joints"});
   SkeletonFile file;
   const JsonValue image = root.at("image");
   image.allowOnly({"file", "width", "height", "sha256"});
@@ -212,7 +219,8 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
   file.confidence = root.at("confidence").asNumber(0, 1);
   file.missing = textsAt(root.at("missing"), body_plan.joints.size());
   file.warnings = textsAt(root.at("warnings"), kMostWarnings);
-  if (const JsonValue mask = root.at("mask"); !mask.isNull()) file.mask = sourceAt(mask);
+  if (const JsonValue mask = root.at("mask"); !mask.isNull()) file.mask = paintedAt(mask);
+  if (const auto limbs = root.find("limbs")) file.limbs = paintedAt(*limbs);
   if (const auto labels = root.find("labels"))
     file.labels = labelsAt(*labels, file.image_width, file.image_height);
   file.skeleton.template_name = body_plan.name;
@@ -246,7 +254,8 @@ SkeletonSource readSkeletonSource(const std::string& path) {
   source.image_width = image.at("width").asInt(1, kLongestImageSide_px);
   source.image_height = image.at("height").asInt(1, kLongestImageSide_px);
   if (const auto hash = image.find("sha256")) source.image_sha256 = hash->asString();
-  if (const JsonValue mask = root.at("mask"); !mask.isNull()) source.mask = sourceAt(mask);
+  if (const JsonValue mask = root.at("mask"); !mask.isNull()) source.mask = paintedAt(mask);
+  if (const auto limbs = root.find("limbs")) source.limbs = paintedAt(*limbs);
   if (const auto labels = root.find("labels"))
     source.labels = labelsAt(*labels, source.image_width, source.image_height);
   if (const auto json = root.find("figure")) {

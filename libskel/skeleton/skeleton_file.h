@@ -16,6 +16,7 @@ struct SkeletonFile {
   struct Mask {
     std::string file;
     std::string sha256;
+    bool before = false;  // it was there before the picture changed, and nobody has looked at it since
   };
   struct Labels {
     std::string file;
@@ -41,6 +42,7 @@ struct SkeletonFile {
   std::vector<std::string> missing;  // joints that were not found in the drawing
   std::vector<std::string> warnings;
   std::optional<Mask> mask;      // given or mended by hand
+  std::optional<Mask> limbs;     // painted by hand in a file of their own, which nobody has named
   std::optional<Labels> labels;  // whose joints, placed by a person, are among these
 
   // Of the outline that the picture alone gives; empty: not known.
@@ -75,7 +77,7 @@ struct SkeletonSource {
   std::string found_outline_sha256;       // SkeletonFile::foundOutline()
   int image_width = 0, image_height = 0;  // px
   int number = 1;                         // of the figure
-  std::optional<SkeletonFile::Mask> mask;
+  std::optional<SkeletonFile::Mask> mask, limbs;
   std::optional<SkeletonFile::Labels> labels;
 };
 

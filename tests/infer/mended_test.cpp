@@ -365,10 +365,15 @@ TEST_CASE("a mask that was there before the photo was taken again is taken up an
                .err.find("the mask was there before the picture changed: look at it (skel-label boy.png)") !=
            std::string::npos;
   };
-  SECTION("of the same size") {
+  SECTION("of the same size, in every run until it is painted anew or looked at: it was said once") {
     takeAgain(dir, "clown");
-    CHECK(said());
-    CHECK_FALSE(said());
+    for (int run = 1; run <= 3; ++run) CHECK(said());
+    if (GENERATE(true, false))
+      placeInLabels(dir, {300, 300}, "boy.mask.png");
+    else
+      fs::copy(SKEL_DATASETS "/characters/clown.mask.png", dir.file("boy.mask.png"),
+               fs::copy_options::overwrite_existing);
+    for (int run = 1; run <= 2; ++run) CHECK_FALSE(said());
   }
   SECTION("not one that was painted since") {
     takeAgain(dir, "clown");
@@ -390,6 +395,62 @@ TEST_CASE("a mask that was there before the photo was taken again is taken up an
           Contains("note: of another size than the picture, not taken up: boy.mask.png (of 600x600 px, "
                    "the picture has 500x500), boy.limbs.png (of 600x600 px, the picture has "
                    "500x500)\n"));
+  }
+}
+
+TEST_CASE(
+    "a photo that was taken again wore the limbs of the one before, from the second run on without a word") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png --formats layers -o plain").exit_code == 0);
+  fs::copy(dir.file("plain/boy.layers.png"), dir.file("boy.limbs.png"));
+  const std::string taken_up = "limbs (boy.limbs.png)\n";
+  SECTION("labels tell of which photo they are: they are left out until a person has looked at them") {
+    placeInLabels(dir, {420, 300});
+    CHECK_THAT(infer(dir, "boy.png").err, Contains(taken_up));
+    takeAgain(dir, "clown");
+    for (int run = 1; run <= 3; ++run) {
+      const ToolRun again = infer(dir, "boy.png");
+      CHECK_THAT(again.err, Contains(kEarlier) && Contains("boy.labels.json, boy.limbs.png\n"));
+      CHECK_THAT(again.err, !Contains("taken up (--force"));
+    }
+    placeInLabels(dir, {300, 300});
+    for (int run = 1; run <= 2; ++run)
+      CHECK_THAT(infer(dir, "boy.png").err, Contains(taken_up) && !Contains("one before"));
+  }
+  SECTION("without labels they are taken up and to be looked at, until they are painted anew or looked at") {
+    CHECK_THAT(infer(dir, "boy.png").err, Contains(taken_up) && !Contains("one before"));
+    takeAgain(dir, "clown");
+    for (int run = 1; run <= 3; ++run)
+      CHECK_THAT(infer(dir, "boy.png").err,
+                 Contains(taken_up) &&
+                     Contains("the picture has changed, the limbs may be painted for the one before: look at "
+                              "them (skel-label boy.png, key G)"));
+    if (GENERATE(true, false)) {
+      placeInLabels(dir, {300, 300});
+    } else {
+      REQUIRE(infer(dir, "boy.png --force --formats layers -o plain").exit_code == 0);
+      fs::copy(dir.file("plain/boy.layers.png"), dir.file("boy.limbs.png"),
+               fs::copy_options::overwrite_existing);
+    }
+    for (int run = 1; run <= 2; ++run)
+      CHECK_THAT(infer(dir, "boy.png").err, Contains(taken_up) && !Contains("one before"));
+  }
+}
+
+TEST_CASE("limbs stay with a sprite that got other colours, whatever labels beside them say") {
+  const TempDir dir;
+  drawSprite(dir);
+  REQUIRE(infer(dir, "boy.png --formats layers -o plain").exit_code == 0);
+  fs::copy(dir.file("plain/boy.layers.png"), dir.file("boy.limbs.png"));
+  placeInLabels(dir, {420, 300});
+  if (GENERATE(true, false)) takeBackInLabels(dir);
+  for (int time = 0; time <= 2; ++time) {
+    for (int run = 1; run <= 2; ++run)
+      CHECK_THAT(infer(dir, "boy.png --formats json").err, Contains("limbs (boy.limbs.png)\n") &&
+                                                               !Contains("one before") &&
+                                                               !Contains("earlier picture"));
+    recolor(dir);
   }
 }
 
