@@ -18,6 +18,7 @@
 #include "libskel/core/new_folders.h"
 #include "libskel/core/text.h"
 #include "libskel/image/named_drawings.h"
+#include "libskel/mended/renamed_pictures.h"
 #include "libskel/pipeline/drawing_notes.h"
 #include "libskel/video/video_writer.h"
 
@@ -245,8 +246,13 @@ void findDrawings(RenderCommandOptions& options) {
                        clips + path);
     }
   NamedDrawings named = drawingsOf(options.files);
-  for (const std::string& note : notesOf(named))
-    std::fprintf(stderr, "skel-animate: note: %s\n", printable(note).c_str());
+  std::vector<std::string> drawings = named.drawings;
+  std::erase_if(drawings, [](const std::string& file) { return !isDrawing({.path = file}); });
+  const auto renamed =
+      options.source.skeleton.empty() ? renamedNotes(drawings, "") : std::vector<std::string>();
+  for (const auto& notes : {notesOf(named), renamed})
+    for (const std::string& note : notes)
+      std::fprintf(stderr, "skel-animate: note: %s\n", printable(note).c_str());
   options.files = std::move(named.drawings);
 }
 

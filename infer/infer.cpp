@@ -112,7 +112,9 @@ ExitCode rigNamed(const InferOptions& options, const NamedDrawings& named) {
   }
   refuseMissing(all);
   if (!options.quiet) {
-    for (const auto& notes : {notesOf(named), renamedNotes(options.images)})
+    const auto renamed = options.skeleton_file.empty() ? renamedNotes(options.images, options.out_dir)
+                                                       : std::vector<std::string>();
+    for (const auto& notes : {notesOf(named), renamed})
       for (const std::string& note : notes)
         std::fprintf(stderr, "skel-infer: note: %s\n", printable(note).c_str());
     noteUnusedWeights(options);

@@ -276,17 +276,20 @@ std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path) {
   }
 }
 
-bool hasEditedJoint(const std::string& path) {
-  if (std::error_code unknown; !std::filesystem::exists(path, unknown)) return false;
+std::size_t editedJoints(const std::string& path) {
+  if (std::error_code unknown; !std::filesystem::exists(path, unknown)) return 0;
   const LookAtOutputs look;
   const JsonDocument document = JsonDocument::readFile(path);
   const auto joints = document.root().find("joints");
-  if (!joints) return false;
+  if (!joints) return 0;
+  std::size_t said = 0;
   JointPlaces places;
   for (const JsonValue& joint : joints->items()) {
     if (const auto origin = joint.find("origin");
-        origin && origin->isString() && origin->asString() == "edited")
-      return true;
+        origin && origin->isString() && origin->asString() == "edited") {
+      ++said;
+      continue;
+    }
     const auto at = numbersAt(joint, "image"), to = numbersAt(joint, "position");
     if (at.size() != 2 || to.size() != 3) continue;
     places.image.emplace_back(at[0], at[1]);
@@ -295,7 +298,7 @@ bool hasEditedJoint(const std::string& path) {
     if (const auto found = numbersAt(joint, "found"); found.size() == 2)
       places.found.back() = Eigen::Vector2d(found[0], found[1]);
   }
-  return !movedIn(places).empty();
+  return said + movedIn(places).size();
 }
 
 bool isSamePlace(const Eigen::Vector2d& place, const Eigen::Vector2d& other) {

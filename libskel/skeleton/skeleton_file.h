@@ -86,9 +86,10 @@ SkeletonSource readSkeletonSource(const std::string& path);
 // The same. Nothing where there is none, or none that can be read.
 std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path);
 
-// Whether a person has moved a joint in the skeleton file at `path`, said so or not. False where there is no
-// file.
-bool hasEditedJoint(const std::string& path);
+// How many joints a person has moved in the skeleton file at `path`, said so or not. None where there is no
+// file. Throws InputError: no JSON.
+std::size_t editedJoints(const std::string& path);
+inline bool hasEditedJoint(const std::string& path) { return editedJoints(path) > 0; }
 
 // Whether two files mean one place of a joint, px: skeleton files keep its hundredths.
 bool isSamePlace(const Eigen::Vector2d& place, const Eigen::Vector2d& other);

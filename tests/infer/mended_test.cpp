@@ -1009,10 +1009,36 @@ TEST_CASE("a picture that was renamed after its joints were placed left them beh
   CHECK_THAT(infer(dir, ". --force").err, !Contains("which was called"));
   fs::rename(dir.file("boy.png"), dir.file("ben.png"));
   CHECK_THAT(infer(dir, ". --force").err, Contains(renamed));
+  // Its results beside it, as with -o class.
+  writeFile(dir.file("boy.glb"), "a model");
+  CHECK_THAT(infer(dir, ". --force").err, Contains(renamed));
   // Another picture, and labels that are none.
   writeFile(dir.file("ben.png"), encodePng(capsuleImage({.size = 500})));
   writeFile(dir.file("torn.labels.json"), "{");
   CHECK_THAT(infer(dir, ". --force").err, !Contains("which was called"));
+}
+
+TEST_CASE(
+    "a picture that was renamed after joints of its skeleton were moved left them behind without a word") {
+  const TempDir dir;
+  writeFile(dir.file("in/boy.png"), readFile(kDrawing));
+  const auto [folder, options] = GENERATE(table<std::string, std::string>(
+      {{"out", ""}, {"in", " -o in"}, {"in/out", ""}, {"elsewhere", " -o elsewhere"}}));
+  CAPTURE(folder);
+  REQUIRE(infer(dir, "in/boy.png -o " + folder).exit_code == 0);
+  const std::string old_name = folder + "/boy.skeleton.json";
+  moveInFile(dir, "left_hand", "420.5", old_name);
+  fs::rename(dir.file("in/boy.png"), dir.file("in/ben.png"));
+  const std::string note =
+      "skel-infer: note: " + old_name +
+      " is of in/ben.png, 1 joint made by hand: call it ben.skeleton.json, or name it by "
+      "--skeleton\n";
+  for (int run = 1; run <= 2; ++run) CHECK_THAT(infer(dir, "in/ben.png" + options).err, Contains(note));
+  CHECK_THAT(infer(dir, "in/ben.png -o fresh --skeleton " + old_name).err, !Contains("made by hand: call"));
+  fs::rename(dir.file(old_name), dir.file(folder + "/ben.skeleton.json"));
+  const ToolRun run = infer(dir, "in/ben.png" + options);
+  CHECK_THAT(run.err, !Contains("made by hand: call") &&
+                          Contains(kTakenUp + std::string("1 joint (") + folder + "/ben.skeleton.json"));
 }
 
 TEST_CASE("of two folders with mended joints the first counts, and the line says which one does not") {
