@@ -19,26 +19,34 @@ namespace skel {
 namespace fs = std::filesystem;
 namespace {
 
-// Of all that a person has mended, and of where it lies, which notes name; but of a skeleton that is an
-// output of this run, which is known by the output's hash. "": there is nothing.
-std::string mendedHash(const InferOptions& options, const RigJob& job, const std::string& image_sha256) {
+// Of what a person has mended, and of where it lies, which notes name. "": there is nothing.
+struct MendedHash {
+  std::string of_done;    // without a skeleton that is an output of this run, which is known by its own hash
+  std::string of_failed;  // with that: a run that failed has no outputs
+  const std::string& of(const DrawingResult& result) const {
+    return result.error.empty() ? of_done : of_failed;
+  }
+};
+
+MendedHash mendedHash(const InferOptions& options, const RigJob& job, const std::string& image_sha256) {
   const LookAtOutputs look;  // a silhouette that was painted in place is one of them
-  std::string all;
+  std::string inputs, outputs;
   const FigureRange range = figuresAskedFor(options);
   for (int figure = range.first; figure <= range.last; ++figure) {
     const MendRequest request = mendRequest(options, job, figure, image_sha256);
     const MendedFiles files = mendedFiles(request);
     const bool is_output = writes(options, "json") && files.skeleton == request.results + kSkeletonFileEnding;
-    const auto add = [&](const char* what, const std::string& file) {
+    const auto add = [&](const char* what, const std::string& file, std::string& all) {
       if (!file.empty())
         all += std::to_string(figure) + what + sha256(readFile(file)) + " " +
                fs::path(file).lexically_normal().string() + "\n";
     };
-    if (!is_output) add(" skeleton ", files.skeleton);
-    add(" labels ", files.labels), add(" mask ", files.mask);
-    add(" limbs ", files.limbs), add(" back ", files.back);
+    add(" skeleton ", files.skeleton, is_output ? outputs : inputs);
+    add(" labels ", files.labels, inputs), add(" mask ", files.mask, inputs);
+    add(" limbs ", files.limbs, inputs), add(" back ", files.back, inputs);
   }
-  return all.empty() ? "" : sha256(all);
+  const auto hashOf = [](const std::string& all) { return all.empty() ? "" : sha256(all); };
+  return {hashOf(inputs), hashOf(inputs + outputs)};
 }
 
 // What an earlier run says. One that cannot be read says nothing: the drawing is done anew.
@@ -94,11 +102,13 @@ class Claim {
   TemporaryFile file_;
 };
 
-void readOnce(const InferOptions& options, RigJob& job, Origin& origin) {
+MendedHash readOnce(const InferOptions& options, RigJob& job, Origin& origin) {
   std::string bytes = readFile(job.source);
   origin.image = sha256(bytes);
-  origin.mended = mendedHash(options, job, origin.image);
+  MendedHash mended = mendedHash(options, job, origin.image);
+  origin.mended = mended.of_done;
   job.read = {std::move(bytes), origin.image};
+  return mended;
 }
 
 bool drawingDecided(ExitCode code) { return code == ExitCode::kDone || code == ExitCode::kInput; }
@@ -111,7 +121,8 @@ DrawingResult rigAndKeep(const InferOptions& options, const RigOptions& rig, Ori
   if (earlier && isAnother(earlier->source, job.source))
     throw InputError(job.source, "its results would take the place of those of " + earlier->source +
                                      "; rename one of the two, or delete " + path);
-  readOnce(options, job, origin);
+  const MendedHash mended = readOnce(options, job, origin);
+  if (earlier) origin.mended = mended.of(*earlier);
   if (options.resume && earlier && earlier->origin == origin && areThere(earlier->figures)) {
     DrawingResult kept = *earlier;
     if (!kept.problem.empty()) kept.error = job.source + ": " + kept.problem;
@@ -122,6 +133,7 @@ DrawingResult rigAndKeep(const InferOptions& options, const RigOptions& rig, Ori
     return kept;
   }
   DrawingResult result = rigDrawing(options, rig, job, progress);
+  origin.mended = mended.of(result);
   result.origin = std::move(origin);
   try {
     if (drawingDecided(result.code)) claim.write(formatResult(result, path) + "\n");

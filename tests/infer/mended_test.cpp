@@ -454,6 +454,39 @@ TEST_CASE("limbs stay with a sprite that got other colours, whatever labels besi
   }
 }
 
+TEST_CASE("a drawing whose mended skeleton was refused stayed refused with --resume after it was repaired") {
+  const TempDir dir;
+  drawBoy(dir);
+  const std::string line = "boy.png --resume --formats json";
+  REQUIRE(infer(dir, line).exit_code == 0);
+  const std::string found = readFile(dir.file(kSkeleton));
+  moveInFile(dir, "left_hand", "420.5");
+  const std::string mended = readFile(dir.file(kSkeleton));
+  std::string broken = mended;
+  broken.replace(broken.find("left_elbow"), 10, "left_elbo");
+  writeFile(dir.file(kSkeleton), broken);
+  for (int run = 1; run <= 2; ++run) {  // the second one is told what the first was
+    const ToolRun refused = infer(dir, line);
+    CHECK(refused.exit_code == 2);
+    CHECK_THAT(refused.err, Contains("is no joint of the template \"biped\""));
+  }
+  SECTION("repaired") {
+    writeFile(dir.file(kSkeleton), mended);
+    CHECK_THAT(infer(dir, line).err, Contains(kTakenUp + std::string("1 joint (out/boy.skeleton.json)\n")));
+    CHECK_THAT(infer(dir, line).out, Contains("done before"));
+    CHECK(placeIn(dir, "left_hand")[0] == 420.5);
+  }
+  SECTION("as it was") {
+    writeFile(dir.file(kSkeleton), found);
+    CHECK(infer(dir, line).exit_code == 0);
+  }
+  SECTION("gone") {
+    fs::remove(dir.file(kSkeleton));
+    CHECK(infer(dir, line).exit_code == 0);
+    CHECK(readFile(dir.file(kSkeleton)) == found);
+  }
+}
+
 TEST_CASE("joints that nobody moved stay where the edited skeleton file has them") {
   const TempDir dir;
   drawBoy(dir);
