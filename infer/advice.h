@@ -14,6 +14,10 @@ inline constexpr const char* kAdviceOnNothing =
     "Nothing was found on it. If something is drawn there, go over its lines with a felt pen and take the "
     "photo by day, from straight above.";
 
+// Of one that an earlier photo of this name was mended for.
+inline constexpr const char* kAdviceOnLeftOut =
+    "What you had mended of an earlier photo is left out. Look whether this one needs it, too.";
+
 // One sentence a warning of the file: what is unusual, and what helps. `mend_file`: what skel-label opens.
 std::vector<std::string> adviceOn(const RiggedDrawing& drawing, const SkeletonFile& file,
                                   const std::string& mend_file);

@@ -6,6 +6,7 @@
 #include "embedded/report_css.h"
 #include "infer/advice.h"
 #include "libskel/core/json_names.h"
+#include "libskel/core/text.h"
 
 namespace skel {
 namespace {
@@ -161,7 +162,10 @@ std::string reportPage(const std::vector<DrawingResult>& drawings) {
              "</li>\n";
     };
     if (!card.fine()) (card.again() ? again : card.figure ? look_at : not_used) += line(reasonsFor(card));
-    if (card.figure && !card.figure->left_out.empty()) left_out += line(card.figure->left_out);
+    std::vector<std::string> mended;
+    if (card.figure)
+      for (const Note& note : card.figure->left_out) mended.push_back(note.what);
+    if (!mended.empty()) left_out += line(joined(mended));
   }
   const bool of_figures = cards.size() > drawings.size();
   const auto countedCards = [of_figures](std::size_t count) {

@@ -161,8 +161,9 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   if (const auto note = otherPlanNote(mended.files, rig)) result.notes.push_back(*note);
   for (const auto& note : {earlierNote(mended.files, kept), otherSizeNote(mended.files, kept)}) {
     if (!note) continue;
-    result.notes.push_back(*note);
-    result.left_out += (result.left_out.empty() ? "" : ", ") + note->what;
+    result.left_out.push_back(*note);
+    result.reasons.push_back(note->text);
+    if (result.verdict == Verdict::kFine) result.verdict = Verdict::kLookAt;
   }
   for (const auto& note : {kept_layers, kept_model})
     if (note) result.notes.push_back(*note);
@@ -170,6 +171,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
     if (note) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
     result.advice = adviceOn(drawing, file, result.mend_file);
+    if (!result.left_out.empty()) result.advice.push_back(kAdviceOnLeftOut);
     result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front());
   }
   result.times = drawing.times;

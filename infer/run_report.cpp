@@ -48,12 +48,17 @@ void printJson(const DrawingResult& drawing) {
   std::fflush(stdout);
 }
 
+// With --quiet only what was mended and is left out.
 void sayNotes(const InferOptions& options, const DrawingResult& drawing) {
   for (const FigureResult& figure : drawing.figures) {
     const auto say = [&](const Note& note) {
       std::fprintf(stderr, "%s%s: note: %s\n", printable(drawing.source).c_str(),
                    numberOf(options, figure).c_str(), printable(noteText(note, figure.mend_file)).c_str());
     };
+    if (options.quiet) {
+      for (const Note& note : figure.left_out) say(note);
+      continue;
+    }
     for (const std::string& reason : figure.reasons) say({reason});
     for (const Note& note : figure.notes) say(note);
   }
@@ -77,7 +82,7 @@ void RunReport::add(DrawingResult drawing) {
     return;
   }
   ++drawings_;
-  if (!options_.quiet && !options_.json_lines && !many_) sayNotes(options_, drawing);
+  if (options_.quiet || (!options_.json_lines && !many_)) sayNotes(options_, drawing);
   if (!drawing.error.empty()) std::fprintf(stderr, "skel-infer: %s\n", drawing.error.c_str());
   if (code_ == ExitCode::kDone) code_ = drawing.code;
   if (many_) table_.add(drawing);

@@ -20,6 +20,7 @@
 using namespace skel;
 namespace fs = std::filesystem;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 
 namespace {
 
@@ -452,6 +453,19 @@ TEST_CASE("limbs stay with a sprite that got other colours, whatever labels besi
                                                                !Contains("earlier picture"));
     recolor(dir);
   }
+}
+
+TEST_CASE("option --quiet, and warnings in --json, said nothing of joints that the new photo drops") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png").exit_code == 0);
+  moveInFile(dir, "left_hand", "300.5");
+  takeAgain(dir, "clown");
+  const std::string dropped = kEarlier + std::string("boy.skeleton.json (now boy.skeleton.old.json; ");
+  const ToolRun run = infer(dir, "boy.png --quiet --json");
+  CHECK_THAT(run.err, StartsWith("boy.png: note: " + dropped));
+  CHECK_THAT(run.out, Contains("\"verdict\":\"look at\",\"warnings\":[\"" + dropped));
+  CHECK(infer(dir, "boy.png --quiet").err.empty());
 }
 
 TEST_CASE("a drawing whose mended skeleton was refused stayed refused with --resume after it was repaired") {

@@ -137,6 +137,7 @@ TEST_CASE("what was mended of an earlier photo and is left out was not said on t
   std::filesystem::copy(SKEL_DATASETS "/characters/clown.png", photo,
                         std::filesystem::copy_options::overwrite_existing);
   CHECK_THAT(report(), Contains(kTitle) &&
+                           Contains(">Jörg</a> What you had mended of an earlier photo is left out. ") &&
                            Contains(">Jörg</a> Jörg.skeleton.json (now Jörg.skeleton.old.json; --skeleton "
                                     "class/Jörg.skeleton.old.json takes it up)</li>"));
 }
