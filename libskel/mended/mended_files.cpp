@@ -209,7 +209,7 @@ MendedFiles mendedFiles(const MendRequest& request) {
       offer(files.labels, labels, sameBytes, files);
     if (place.results.empty() || (place.is_beside && annotated && !place.is_own)) continue;
     if (const std::string skeleton = place.results + kSkeletonFileEnding;
-        no_skeleton && hasEditedJoint(skeleton))
+        no_skeleton && (hasEditedJoint(skeleton) || hasUnknownJoint(skeleton)))
       offerResult(files.skeleton, skeleton, place, haveSameJoints, files);
     if (const std::string silhouette = place.results + ".silhouette.png";
         no_skeleton && no_mask && first && isPaintedSilhouette(silhouette, place))

@@ -11,6 +11,7 @@
 #include "libskel/core/input_guard.h"
 #include "libskel/core/json.h"
 #include "libskel/core/json_names.h"
+#include "libskel/skeleton/body_plans.h"
 #include "libskel/skeleton/joint_json.h"
 #include "libskel/skeleton/mark_placed.h"
 #include "libskel/skeleton/moved_joints.h"
@@ -299,6 +300,21 @@ std::size_t editedJoints(const std::string& path) {
       places.found.back() = Eigen::Vector2d(found[0], found[1]);
   }
   return said + movedIn(places).size();
+}
+
+bool hasUnknownJoint(const std::string& path) {
+  static const BodyPlans plans = bodyPlans("auto");
+  if (std::error_code unknown; !std::filesystem::exists(path, unknown)) return false;
+  const LookAtOutputs look;
+  const JsonDocument document = JsonDocument::readFile(path);
+  const auto body_plan = document.root().find("template"), joints = document.root().find("joints");
+  if (!body_plan || !body_plan->isString() || !joints) return false;
+  const SkeletonTemplate* plan = findPlan(body_plan->asString(), plans);
+  if (!plan) return false;
+  for (const JsonValue& joint : joints->items())
+    if (const auto name = joint.find("name"); name && name->isString() && plan->find(name->asString()) < 0)
+      return true;
+  return false;
 }
 
 bool isSamePlace(const Eigen::Vector2d& place, const Eigen::Vector2d& other) {

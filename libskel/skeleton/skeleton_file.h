@@ -91,6 +91,10 @@ std::optional<SkeletonSource> sourceOfSkeleton(const std::string& path);
 std::size_t editedJoints(const std::string& path);
 inline bool hasEditedJoint(const std::string& path) { return editedJoints(path) > 0; }
 
+// Whether it has a joint that its template, biped or quadruped, has not: somebody has mistyped a name. False
+// where there is no file. Throws InputError: no JSON.
+bool hasUnknownJoint(const std::string& path);
+
 // Whether two files mean one place of a joint, px: skeleton files keep its hundredths.
 bool isSamePlace(const Eigen::Vector2d& place, const Eigen::Vector2d& other);
 

@@ -501,6 +501,20 @@ TEST_CASE("a drawing whose mended skeleton was refused stayed refused with --res
   }
 }
 
+TEST_CASE("a skeleton file with a mistyped joint was written over without a word where none was moved") {
+  const TempDir dir;
+  drawBoy(dir);
+  REQUIRE(infer(dir, "boy.png --formats json").exit_code == 0);
+  std::string mistyped = readFile(dir.file(kSkeleton));
+  mistyped.replace(mistyped.find("left_elbow"), 10, "left_elbo");
+  writeFile(dir.file(kSkeleton), mistyped);
+  const ToolRun run = infer(dir, "boy.png --formats json");
+  CHECK(run.exit_code == 2);
+  CHECK_THAT(run.err, Contains("out/boy.skeleton.json: ") && Contains("\"left_elbo\" is no joint"));
+  CHECK(readFile(dir.file(kSkeleton)) == mistyped);
+  CHECK(infer(dir, "boy.png --formats json --force").exit_code == 0);
+}
+
 TEST_CASE("joints that nobody moved stay where the edited skeleton file has them") {
   const TempDir dir;
   drawBoy(dir);
