@@ -7,9 +7,11 @@
 #include <system_error>
 
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/foreign_files.h"
 #include "libskel/core/natural_order.h"
 #include "libskel/core/text.h"
+#include "libskel/image/animated_picture.h"
 #include "libskel/image/result_picture.h"
 #include "libskel/image/sprite_sheet_file.h"
 
@@ -33,6 +35,12 @@ bool isDrawing(const fs::directory_entry& entry) {
          !entry.is_other(unknown) && !isTexture(entry.path()) && atlasBeside(entry.path().string()).empty();
 }
 
+bool isFilm(const fs::directory_entry& entry) {
+  const std::string ending = endingOf(entry.path().string());
+  return (ending == ".gif" || ending == ".webp") && isDrawing(entry) &&
+         isAnimatedPicture(entry.path().string());
+}
+
 // Not of a hidden folder, nor of one that skel-infer has made of a drawing.
 bool holdsDrawings(const fs::path& folder) {
   if (folder.filename().string().starts_with('.') || fs::exists(folder / "char_cfg.yaml")) return false;
@@ -43,23 +51,29 @@ bool holdsDrawings(const fs::path& folder) {
 }
 
 std::vector<std::string> drawingsIn(const fs::path& dir, NamedDrawings& found) {
-  std::vector<std::string> names, passed_over;
+  std::vector<std::string> names, passed_over, films;
   std::error_code failure;
   for (fs::directory_iterator entry(dir, failure), end; !failure && entry != end; entry.increment(failure)) {
     const fs::path& path = entry->path();
     std::error_code unknown;
     if (isDocument(path)) passed_over.push_back(path.string());
-    if (isDrawing(*entry)) names.push_back(path.filename().string());
+    if (isFilm(*entry))
+      films.push_back(path.string());
+    else if (isDrawing(*entry))
+      names.push_back(path.filename().string());
     if (entry->is_directory(unknown) && holdsDrawings(path)) found.folders.push_back(path.string());
   }
   if (failure) throw InputError(dir.string(), "cannot be read: " + failure.message());
   std::sort(passed_over.begin(), passed_over.end(), comesBefore);
   if (names.empty() && !passed_over.empty())
     throw InputError(passed_over.front(), howToConvert(passed_over.front()));
+  std::sort(films.begin(), films.end(), comesBefore);
+  found.films.insert(found.films.end(), films.begin(), films.end());
   found.documents.insert(found.documents.end(), passed_over.begin(), passed_over.end());
   if (names.empty())
     throw InputError(dir.string(), "holds no drawing (" + std::string(kPictureEndings) +
-                                       "); folders in it are not looked into");
+                                       "); folders in it are not looked into" +
+                                       (films.empty() ? "" : ", and films are none"));
   passOverConverted(names);
   std::sort(names.begin(), names.end(), comesBefore);
   for (std::string& name : names) name = (dir / name).string();
@@ -133,6 +147,9 @@ std::vector<std::string> notesOf(const NamedDrawings& named) {
   // A PDF is no picture, but somebody may wait for its pages.
   for (const std::string& file : named.documents)
     notes.push_back(file + " " + howToConvert(file) + "; passed over");
+  if (!named.films.empty())
+    notes.push_back("films, no drawings, passed over (one that is named is taken by its first frame): " +
+                    joined(named.films));
   if (const std::size_t count = named.folders.size(); count > 0)
     notes.push_back(std::to_string(count) + (count == 1 ? " folder" : " folders") +
                     " in there with drawings, not looked into; name " + (count == 1 ? "it" : "them") +

@@ -78,6 +78,27 @@ TEST_CASE("a folder stands for its drawings in natural order, and what is no dra
   }
 }
 
+TEST_CASE("films in a folder of drawings were rigged as drawings") {
+  const TempDir dir;
+  using namespace std::string_literals;
+  const std::string start = "GIF89a\1\0\1\0\x80\0\0\0\0\0\xFF\xFF\xFF"s,
+                    for_ever = "!\xFF\x0BNETSCAPE2.0\3\1\0\0\0"s, frame = ",\0\0\0\0\1\0\1\0\0\2\2\x44\1\0"s;
+  writeFile(dir.file("class/kid.png"), figure());
+  writeFile(dir.file("class/still.gif"), start + for_ever + frame + ";");
+  writeFile(dir.file("class/walk.gif"), start + for_ever + frame + frame + ";");
+  const ToolRun run = infer(dir, "class --formats json");
+  CHECK(reported(run.out) == "class/kid.png ");
+  CHECK_THAT(run.err, Contains("class/still.gif: ") && Contains("2 drawings: "));
+  CHECK_THAT(run.err,
+             Contains("note: films, no drawings, passed over (one that is named is taken by its first "
+                      "frame): class/walk.gif\n"));
+  CHECK_THAT(infer(dir, "class/walk.gif").err, Contains("skel-infer: class/walk.gif: "));
+  fs::remove(dir.file("class/kid.png"));
+  fs::remove(dir.file("class/still.gif"));
+  CHECK_THAT(infer(dir, "class").err,
+             Contains("class: holds no drawing") && Contains(", and films are none"));
+}
+
 TEST_CASE("results are told from drawings among 200,000 names in time") {
   std::vector<std::string> names;
   for (int i = 0; i < 100'000; ++i) {
