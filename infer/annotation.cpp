@@ -12,6 +12,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/labels/moved_in_skeleton.h"
 #include "libskel/skeleton/body_plans.h"
 #include "libskel/skeleton/skeleton_file.h"
 
@@ -112,6 +113,7 @@ MeasuredDrawing fromLabels(const std::string& path) {
   if (const auto mask = maskOf(path, labels)) drawing.mask = silhouetteOf(image, mask).mask;
   for (const auto& [name, place] : labels.joints)
     if (labels.isPlaced(name)) drawing.joints.emplace(name, place);
+  if (const auto moved = movedInSkeleton(path, labels)) drawing.overruled_skeleton = moved->file;
   return drawing;
 }
 
@@ -202,6 +204,8 @@ MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& 
     drawing.side_view = readView(annotation) == "side";
   }
   if (labels && !overrule(joints, *labels).empty()) drawing.overruled = label_file;
+  if (labels && !annotated)
+    if (const auto moved = movedInSkeleton(label_file, *labels)) drawing.overruled_skeleton = moved->file;
   drawing.joints.insert(joints.begin(), joints.end());
   return drawing;
 }

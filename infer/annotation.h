@@ -25,6 +25,7 @@ struct MeasuredDrawing {
       joints;               // image px; empty: not annotated; null: not visible
   std::string joints_file;  // which names them; a label file where there is no other
   std::string overruled;    // the label file that places joints elsewhere than the joints file; "": none
+  std::string overruled_skeleton;  // without a joints file, the skeleton file that places them elsewhere
 };
 
 // All below `root`, sorted. Throws InputError if there are none.

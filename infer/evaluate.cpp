@@ -24,6 +24,7 @@
 #include "libskel/image/write_image.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/coco_of_others.h"
+#include "libskel/labels/moved_in_skeleton.h"
 #include "libskel/recognition/calibration.h"
 #include "libskel/skeleton/body_plans.h"
 
@@ -39,6 +40,7 @@ struct Row {
   std::string reason;                // why nothing was found
   std::string other_plan;            // whose joints it has; "": those of the one that is measured
   std::string overruled;             // see MeasuredDrawing
+  std::string overruled_skeleton;    // the same
   std::vector<std::string> outside;  // joints
   bool lacks_mask = false;           // which --given-mask would hand over
   std::optional<Error> failure;
@@ -63,6 +65,7 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
   row.name = nameOfDrawing(options.dir, id);
   row.annotated = !truth.joints.empty();
   row.overruled = truth.overruled;
+  row.overruled_skeleton = truth.overruled_skeleton;
   row.counts = !options.opaque || (row.annotated && !isTransparent(truth.image));
   if (row.counts) row.other_plan = otherPlanOf(truth, rig.body_plan);
   if (!row.counts || !row.other_plan.empty()) return row;
@@ -193,10 +196,14 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     throw InputError(options.dir,
                      "holds no annotated drawing whose silhouette has to be found (--opaque): nothing to "
                      "measure");
-  std::vector<std::string> overruled;
-  for (const Row& row : all)
+  std::vector<std::string> overruled, overruled_skeletons;
+  for (const Row& row : all) {
     if (!row.overruled.empty()) overruled.push_back(row.overruled);
+    if (!row.overruled_skeleton.empty()) overruled_skeletons.push_back(row.overruled_skeleton);
+  }
   if (!overruled.empty()) std::fprintf(stderr, "skel-infer: note: %s\n", overruledNote(overruled).c_str());
+  if (!overruled_skeletons.empty())
+    std::fprintf(stderr, "skel-infer: note: %s\n", movedInSkeletonNote(overruled_skeletons).c_str());
   std::vector<std::string> without_mask;
   for (const Row& row : all)
     if (row.lacks_mask) without_mask.push_back(row.name);

@@ -19,6 +19,7 @@
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/labels/label_folder.h"
+#include "libskel/labels/moved_in_skeleton.h"
 #include "libskel/labels/twins.h"
 
 namespace skel {
@@ -45,13 +46,19 @@ void checkJointNames(const std::string& path, const LabelFile& labels, const Ske
       lines.push_back(path + ": joints." + name + ": is no joint of the template " + body_plan.name);
 }
 
-void checkJointsFile(const std::string& path, const LabelFile& labels, std::vector<std::string>& lines) {
-  const auto joints_file = jointsFileBeside(besideLabelFile(path, labels.image.file));
-  if (!joints_file || !labels.hasPlacedJoint()) return;
-  NamedJoints joints = readJointsFile(*joints_file);
-  if (const auto moved = overrule(joints, labels); !moved.empty())
-    lines.push_back(path + ": joints: " + joined(moved) + " placed elsewhere than in " + *joints_file +
-                    ", which does not count: mend or remove that");
+void checkOtherJoints(const std::string& path, const LabelFile& labels, std::vector<std::string>& lines) {
+  if (!labels.hasPlacedJoint()) return;
+  const auto name = [&](const std::vector<std::string>& moved, const std::string& file, const char* remedy) {
+    lines.push_back(path + ": joints: " + joined(moved) + " placed elsewhere than in " + file +
+                    ", which does not count: " + remedy);
+  };
+  if (const auto joints_file = jointsFileBeside(besideLabelFile(path, labels.image.file))) {
+    NamedJoints joints = readJointsFile(*joints_file);
+    if (const auto moved = overrule(joints, labels); !moved.empty())
+      name(moved, *joints_file, "mend or remove that");
+  } else if (const auto moved = movedInSkeleton(path, labels)) {
+    name(moved->joints, moved->file, "take it by skel-label import --force, or mend that");
+  }
 }
 
 void checkMask(const std::string& path, const LabelFile& labels, const SkeletonTemplate& body_plan,
@@ -161,7 +168,7 @@ std::vector<std::string> checkLabels(const std::string& dir, const BodyPlans& pl
     try {
       const LabelFile labels = readLabelFile(path);
       checkJointNames(path, labels, planOf(labels.joints, plans), lines);
-      checkJointsFile(path, labels, lines);
+      checkOtherJoints(path, labels, lines);
       checkFigure(path, labels, labelledFigure(path, labels), lines);
       checkMask(path, labels, planOf(labels.joints, plans), lines);
     } catch (const InputError& error) {

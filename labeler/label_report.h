@@ -10,8 +10,9 @@
 namespace skel {
 
 // One line each, with file and JSON path: all that checkLabelFolder() finds, candidates that are not those of
-// picture and mask, joints that the template does not have, masks beside which joints lie. Throws InputError:
-// no label files.
+// picture and mask, joints that the template does not have, or that a joints or skeleton file beside them has
+// elsewhere, masks beside which joints lie; and joints files that cannot be read. Throws InputError: no label
+// files.
 std::vector<std::string> checkLabels(const std::string& dir, const BodyPlans& plans);
 
 // Of label files whose pictures are the same, twinsSaid().

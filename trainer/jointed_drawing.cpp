@@ -15,6 +15,7 @@
 #include "libskel/core/text.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
+#include "libskel/labels/moved_in_skeleton.h"
 #include "libskel/skeleton/body_plans.h"
 #include "libskel/skeleton/skeleton_file.h"
 
@@ -79,7 +80,7 @@ std::vector<JointedDrawing> findJointedDrawings(const std::string& dir) {
     const std::string path = drawing.joints_file, image = fs::path(drawing.image).lexically_normal().string();
     if (by_image.try_emplace(image, std::move(drawing)).second) check(path, file);
   };
-  std::vector<std::string> overruled;
+  std::vector<std::string> overruled, overruled_skeletons;
   for (const AnnotatedImage& files : findAnnotatedImages(dir)) {
     JointedDrawing drawing{files.image, files.mask, files.joints, readJointsFile(files.joints),
                            readView(files.joints) == "side"};
@@ -101,8 +102,13 @@ std::vector<JointedDrawing> findJointedDrawings(const std::string& dir) {
       skipped.emplace(fs::path(besideLabelFile(path, file.image.file)).lexically_normal().string(), path);
       continue;
     }
-    add(fromLabels(path, file), file);
+    JointedDrawing drawing = fromLabels(path, file);
+    if (!jointsFileBeside(drawing.image))
+      if (const auto moved = movedInSkeleton(path, file)) overruled_skeletons.push_back(moved->file);
+    add(std::move(drawing), file);
   }
+  if (!overruled_skeletons.empty())
+    std::fprintf(stderr, "skel-train: note: %s\n", movedInSkeletonNote(overruled_skeletons).c_str());
   for (const std::string& path : all) {
     if (!path.ends_with(kSkeletonFileEnding)) continue;
     if (!hasEditedJoint(path)) {

@@ -23,8 +23,9 @@ struct JointedDrawing {
 // All below `dir`, at any depth, sorted by the image's path: annotated ones (see findAnnotatedImages), and
 // label files and skeleton files in which a person has placed a joint. Of several files that speak of
 // one image the first of these kinds counts, but what a person has placed in a label file counts before a
-// joints file beside it; where the two differ, a line says so. Throws InputError if there are none, one
-// cannot be read, or a picture or mask has changed since its label file or skeleton file was written.
+// joints or skeleton file beside it; where the two differ, a line says so. Throws InputError if there are
+// none, one cannot be read, or a picture or mask has changed since its label file or skeleton file was
+// written.
 std::vector<JointedDrawing> findJointedDrawings(const std::string& dir);
 // Of several folders, one after the other.
 std::vector<JointedDrawing> findJointedDrawings(const std::vector<std::string>& dirs);

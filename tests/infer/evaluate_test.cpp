@@ -8,6 +8,7 @@
 #include "libskel/core/json.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/skeleton/skeleton_file.h"
 #include "libskel/skeleton/template.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
@@ -408,3 +409,30 @@ TEST_CASE("evaluate offered --template auto, which it refuses") {
   CHECK(help.out.find("biped, quadruped, or a .json file") != std::string::npos);
   CHECK(help.out.find("auto") == std::string::npos);
 }
+
+TEST_CASE("evaluate said nothing of joints that were mended in a skeleton file after it had been imported") {
+  const skel::TempDir dir;
+  std::filesystem::copy_file(SKEL_DATASETS "/characters/cap_boy.png", dir.file("cap_boy.png"));
+  const std::string infer =
+                        "skel-infer '" + dir.file("cap_boy.png") + "' --formats json -o '" + dir.path() + "'",
+                    evaluate = "skel-infer evaluate '" + dir.path() + "'";
+  REQUIRE(skel::runTool(infer).exit_code == 0);
+  const std::string path = dir.file("cap_boy.skeleton.json");
+  skel::SkeletonFile file = skel::readSkeletonFile(path, skel::loadTemplate("biped"));
+  for (skel::Joint& joint : file.skeleton.joints) joint.origin = skel::JointOrigin::kEdited;
+  skel::writeFile(path, skel::formatSkeletonFile(file));
+  skel::NamedJoints joints;
+  for (const skel::Joint& joint : file.skeleton.joints) joints.emplace_back(joint.name, joint.image);
+  skel::writeLabelFile(
+      dir.file("cap_boy.labels.json"),
+      skel::labelImage(dir.file("cap_boy.png"), std::nullopt, joints, skel::loadTemplate("biped")));
+  CHECK(skel::runTool(evaluate).err.empty());
+  file.skeleton.joints[std::size_t(file.skeleton.index("left_foot"))].image.y() -= 50;
+  skel::writeFile(path, skel::formatSkeletonFile(file));
+  const auto run = skel::runTool(evaluate);
+  CHECK(run.exit_code == 0);
+  CHECK(run.err == "skel-infer: note: " + path +
+                       " places joints elsewhere than the label file beside it; the label file counts "
+                       "(skel-label import --force takes the skeleton's)\n");
+}
+

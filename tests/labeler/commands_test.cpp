@@ -691,6 +691,20 @@ TEST_CASE("check names joints that a person has placed elsewhere than a joints f
   CHECK(label(dir, "check .").exit_code == 0);
 }
 
+TEST_CASE("check said nothing of joints that were mended in a skeleton file after it had been imported") {
+  const TempDir dir;
+  importedBoy(dir);
+  CHECK(label(dir, "check .").err.empty());
+  writeSkeleton(dir, "cap_boy", 310);
+  const ToolRun run = label(dir, "check .");
+  CHECK(run.exit_code == 2);
+  CHECK(run.err ==
+        "skel-label: ./cap_boy.labels.json: joints: head placed elsewhere than in ./cap_boy.skeleton.json, "
+        "which does not count: take it by skel-label import --force, or mend that\n");
+  REQUIRE(label(dir, "import . --force").exit_code == 0);
+  CHECK(label(dir, "check .").out == "no inconsistencies\n");
+}
+
 TEST_CASE("check said nothing of a picture that occurs twice") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());

@@ -6,9 +6,11 @@
 
 #include "libskel/core/files.h"
 #include "libskel/jointnet/joint_net.h"
+#include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/layers/part_net.h"
 #include "libskel/silhouette/page_net.h"
+#include "libskel/skeleton/skeleton_file.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
 #include "tests/support/temp_dir.h"
@@ -275,6 +277,36 @@ TEST_CASE("nets of two kinds have no mean") {
                              "joint-net-pass-1.bin' -o '" + dir.file("none.bin") + "'");
   CHECK(parts.exit_code == 2);
   CHECK_FALSE(std::filesystem::exists(dir.file("none.bin")));
+}
+
+TEST_CASE("joints that were mended in a skeleton file after it had been imported were left without a word") {
+  const TempDir dir;
+  const std::string image = dir.file("cap_boy.png"), path = dir.file("cap_boy.skeleton.json"),
+                    drawing = SKEL_DATASETS "/characters/cap_boy";
+  std::filesystem::copy_file(drawing + ".png", image);
+  const LabelFile labels =
+      labelImage(image, std::nullopt, readJointsFile(drawing + ".joints.json"), loadTemplate("biped"));
+  writeLabelFile(labelFileFor(image), labels);
+  SkeletonFile file;
+  file.image_file = "cap_boy.png";
+  file.image_sha256 = labels.image.sha256;
+  file.image_width = labels.image_width;
+  file.image_height = labels.image_height;
+  file.skeleton = presetSkeleton(loadTemplate("biped"), {150, 50}, {450, 550});
+  for (const auto& [name, place] : labels.joints) {
+    Joint& joint = file.skeleton.joints[std::size_t(file.skeleton.index(name))];
+    joint.image = *place;
+    joint.origin = JointOrigin::kEdited;
+  }
+  writeFile(path, formatSkeletonFile(file));
+  const std::string train = "skel-train joints --steps 1 --batch 4 --figures 64 --validation 1 -o " +
+                            dir.file("net.bin") + " --drawings " + dir.path();
+  CHECK(runTool(train).err.empty());
+  file.skeleton.joints[std::size_t(file.skeleton.index("left_foot"))].image.y() -= 50;
+  writeFile(path, formatSkeletonFile(file));
+  CHECK(runTool(train).err == "skel-train: note: " + path +
+                                  " places joints elsewhere than the label file beside it; the label file "
+                                  "counts (skel-label import --force takes the skeleton's)\n");
 }
 
 }  // namespace
