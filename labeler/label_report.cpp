@@ -125,6 +125,22 @@ void finishSaves(const std::vector<std::string>& files) {
   }
 }
 
+// Joints files that count, as no label file beside their picture has placed joints.
+void checkJointsFiles(const std::string& dir, const BodyPlans& plans, std::vector<std::string>& lines) {
+  const OnInputError add = [&](const InputError& error) { lines.emplace_back(error.what()); };
+  for (const AnnotatedImage& drawing : findAnnotatedImages(dir, add)) {
+    try {
+      if (fs::is_regular_file(labelFileFor(drawing.image)) &&
+          (!findProblems(labelFileFor(drawing.image)).empty() || placedLabelsBeside(drawing.image)))
+        continue;
+      const NamedJoints joints = readJointsFile(drawing.joints);
+      ensureJointsOf(planOf(joints, plans), joints, drawing.joints);
+    } catch (const InputError& error) {
+      add(error);
+    }
+  }
+}
+
 // Calls `use(path, labels, figure)` for each label file that has nothing wrong; `on_error` is told of the
 // others, of those of another body plan in one line.
 template <class Use>
@@ -175,6 +191,7 @@ std::vector<std::string> checkLabels(const std::string& dir, const BodyPlans& pl
       lines.emplace_back(path + ": " + error.what());
     }
   }
+  checkJointsFiles(dir, plans, lines);
   return lines;
 }
 

@@ -705,6 +705,17 @@ TEST_CASE("check said nothing of joints that were mended in a skeleton file afte
   CHECK(label(dir, "check .").out == "no inconsistencies\n");
 }
 
+TEST_CASE("check did not see a broken joints file beside a picture without labels") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  copyCharacter("box_robot", dir.path());
+  writeFile(dir.file("box_robot.joints.json"), "{\"joints\": {\"head\": [1]}}");
+  const ToolRun run = label(dir, "check .");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.err, "skel-label: ./box_robot.joints.json: joints.head: "));
+}
+
 TEST_CASE("check said nothing of a picture that occurs twice") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());
