@@ -34,9 +34,14 @@ Verdict verdictOf(LastStage last, const RiggedDrawing& drawing, const SkeletonFi
   return file.warnings.empty() ? Verdict::kFine : Verdict::kLookAt;
 }
 
-// Of clips that were asked for, and of limbs.
+// Of nets and clips that were asked for, and of limbs.
 std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, const RiggedDrawing& drawing) {
   std::vector<Note> notes;
+  if (rig.joint_net && rig.recognizer == Recognizer::kTree && looksForJoints(rig.last) &&
+      drawing.body_plan.name != rig.body_plan.name)
+    notes.push_back({"the joints of this " + drawing.body_plan.name +
+                     " come from the net that is built in: the one of --joint-net finds those of a " +
+                     rig.body_plan.name});
   for (const std::string& name : options.clips)
     if (name != "none" && rig.last == LastStage::kClips && !hasClip(drawing.clips, name)) {
       const std::string meant = meantClip(name, clipsFor(builtinClips(), drawing.body_plan));

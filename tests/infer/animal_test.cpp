@@ -139,3 +139,14 @@ TEST_CASE("the joints of an animal keep their names where others are asked for, 
   CHECK(contains(run.err, "note: the joints keep their names: --names mixamo is for bipeds"));
   CHECK_FALSE(contains(readFile(dir.file("crayon_pig.glb")), "mixamorig"));
 }
+
+TEST_CASE("a net of joints that was not used, as the drawing shows an animal, was not said") {
+  const TempDir dir;
+  const std::string net = " --formats json --joint-net '" SKEL_SOURCE_DIR "/weights/joint_net.bin' -o '" +
+                          dir.path() + "'",
+                    said =
+                        "note: the joints of this quadruped come from the net that is built in: the one of "
+                        "--joint-net finds those of a biped";
+  CHECK(contains(infer("'" + kAnimals + "/walking_dog.png'" + net).err, said));
+  CHECK_FALSE(contains(infer("'" + kAnimals + "/../characters/cap_boy.png'" + net).err, "--joint-net"));
+}
