@@ -93,6 +93,7 @@ function(skel_tool name)
   set_target_properties(${name} PROPERTIES NOT_FUZZED ON)
   if(name MATCHES "^skel-") # not the tools of the tests
     install(TARGETS ${name} COMPONENT skel)
+    add_dependencies(skel-installed ${name})
   endif()
 endfunction()
 

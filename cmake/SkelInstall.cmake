@@ -8,7 +8,12 @@ set(skel_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/skel)
 
 add_library(skel INTERFACE)
 add_library(skel::skel ALIAS skel)
+add_custom_target(skel-installed) # all that cmake --install takes, without the tests; skel_tool() adds the tools
+if(TARGET skel_imgcodecs)
+  add_dependencies(skel-installed skel_imgcodecs)
+endif()
 foreach(room ${SKEL_LIBRARY_ROOMS})
+  add_dependencies(skel-installed skel_${room})
   add_library(skel::${room} ALIAS skel_${room})
   set_target_properties(skel_${room} PROPERTIES EXPORT_NAME ${room})
   target_link_libraries(skel INTERFACE skel_${room})

@@ -231,14 +231,19 @@ void bindLearning(py::module_& module) {
               scores[score.name] = {score.right, score.samples};
             return scores;
           },
-          "By name: right candidates, and all.");
+          "By name: right candidates, and all.")
+      .def("__repr__", [](const Evaluation& e) {
+        return "<skel.Evaluation: accuracy " + std::to_string(e.accuracy()) + ", " +
+               std::to_string(e.characters.size()) + " characters>";
+      });
 
   py::class_<Trained>(module, "Training", "A net, and how it was learned.")
       .def_readonly("net", &Trained::net)
       .def_property_readonly(
-          "epochs", [](const Trained& t) { return t.training.epochs; }, "That the net took.")
+          "epochs", [](const Trained& t) { return t.training.epochs; },
+          "That the net took: the one of the least loss is kept.")
       .def_property_readonly(
-          "loss", [](const Trained& t) { return t.training.loss; }, "Mean squared error, at last.")
+          "loss", [](const Trained& t) { return t.training.loss; }, "Mean squared error of the net.")
       .def_property_readonly(
           "losses", [](const Trained& t) { return t.training.training_curve; },
           "Mean squared error by epoch.")
@@ -246,7 +251,11 @@ void bindLearning(py::module_& module) {
           "validation_losses", [](const Trained& t) { return t.training.validation_curve; },
           "The same on characters held out by `validation`; empty if none were.")
       .def_readonly("evaluation", &Trained::evaluation,
-                    "By folds, on characters that were left out; None without folds.");
+                    "By folds, on characters that were left out; None without folds.")
+      .def("__repr__", [](const Trained& t) {
+        return "<skel.Training: " + std::to_string(t.training.epochs) + " epochs, loss " +
+               std::to_string(t.training.loss) + ">";
+      });
 
   module.def("train", &train, py::arg("characters"), py::kw_only(), py::arg("folds") = 10,
              py::arg("epochs") = 400, py::arg("restarts") = 4, py::arg("validation") = 0.,

@@ -440,6 +440,7 @@ class TestLearning(unittest.TestCase):
         self.assertEqual(evaluation.confusion.sum(), sum(len(c.labels) for c in self.characters.characters))
         self.assertAlmostEqual(evaluation.accuracy, np.trace(evaluation.confusion) / evaluation.confusion.sum())
         self.assertEqual(len(evaluation.characters), len(self.characters))
+        self.assertRegex(repr(evaluation), r"<skel.Evaluation: accuracy 0\.\d+, \d+ characters>")
 
     def test_own_arrays_are_learned_from(self) -> None:
         random = np.random.default_rng(1)
@@ -449,6 +450,7 @@ class TestLearning(unittest.TestCase):
         training = skel.train(made, folds=0, epochs=200, generated=0, restarts=1)
         self.assertGreater(skel.evaluate(training.net, made).accuracy, 0.9)
         self.assertIsNone(training.evaluation)
+        self.assertRegex(repr(training), r"<skel.Training: \d+ epochs, loss 0\.\d+>")
         for bad in [[("a", features * 9, labels)], [("a", features, labels[1:])], [("a", features, labels + 4)], []]:
             with self.assertRaises(skel.UsageError):
                 skel.LabelledSet(bad)  # type: ignore[arg-type]
