@@ -129,7 +129,7 @@ void bindLimbTrainingOptions(CLI::App& command, LimbTrainingOptions& options) {
 
 ExitCode runLimbTraining(const LimbTrainingOptions& options) {
   Hands hands = readHands(options.hands, options.first_hand);
-  auto files = drawingsWithShapes(options.drawings, options.shapes);
+  auto files = drawingsWithShapes(findJointedDrawings(options.drawings), options.shapes);
   std::erase_if(files,
                 [&](const auto& file) { return hands.learned.contains(drawingName(file.first.image)); });
   if (files.empty()) throw UsageError("there are no drawings with shapes to learn from");

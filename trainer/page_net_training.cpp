@@ -11,6 +11,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
+#include "libskel/core/text.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "libskel/silhouette/page_net.h"
@@ -218,6 +219,8 @@ ExitCode runPageTraining(const PageTrainingOptions& options) {
     loss = 0;
     counted = 0;
   }
+  bar.clear();
+  std::printf("wrote %s\n", printable(options.output).c_str());
   return ExitCode::kDone;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "libskel/core/files.h"
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
+#include "libskel/core/text.h"
 #include "libskel/image/write_image.h"
 #include "libskel/layers/part_net.h"
 #include "libskel/silhouette/working_colors.h"
@@ -36,9 +38,11 @@ enum PartStream : std::uint64_t {
   kValidationPartStream = 1ull << 48
 };
 
-std::vector<PartSample> readSamples(const std::vector<std::string>& folders, const std::string& shapes,
+// Throws InputError where none of them has parts.
+std::vector<PartSample> readSamples(const std::vector<JointedDrawing>& drawings, const std::string& shapes,
                                     int threads) {
-  const auto files = drawingsWithShapes(folders, shapes);
+  if (drawings.empty()) return {};
+  const auto files = drawingsWithShapes(drawings, shapes);
   std::vector<std::optional<PartSample>> read(files.size());
   parallelFor(files.size(), threads, [&](std::size_t i) {
     if (const auto whole = readPartSample(files[i].first, files[i].second)) read[i] = smallPartSample(*whole);
@@ -46,12 +50,17 @@ std::vector<PartSample> readSamples(const std::vector<std::string>& folders, con
   std::vector<PartSample> samples;
   for (auto& sample : read)
     if (sample) samples.push_back(std::move(*sample));
-  std::printf("%zu of %zu drawings have parts\n", samples.size(), files.size());
+  if (samples.empty())
+    throw InputError(shapes, "0 of " + std::to_string(drawings.size()) +
+                                 " drawings have parts: nothing to learn from, or to measure by "
+                                 "(script/shape-maps writes their shapes)");
+  std::printf("%zu of %zu drawings have parts\n", samples.size(), drawings.size());
   std::fflush(stdout);
   return samples;
 }
 
-MadeBy madePartsBy(const PartTrainingOptions& options) {
+MadeBy madePartsBy(const PartTrainingOptions& options, const std::vector<JointedDrawing>& drawings,
+                   const std::vector<JointedDrawing>& held_out) {
   MadeBy made_by{{options.steps}, {}};
   made_by.add("skel-train", "parts");
   made_by.add("--start", contentOfFile(options.start));
@@ -60,14 +69,13 @@ MadeBy madePartsBy(const PartTrainingOptions& options) {
   made_by.add("--rate", options.peak_rate);
   made_by.add("--averaging", options.averaging);
   std::vector<std::string> shapes;
-  for (const auto& [option, folders] :
-       {std::pair{"--drawings", &options.drawings}, std::pair{"--held-out", &options.held_out}}) {
-    std::vector<JointedDrawing> drawings;
-    for (auto& [drawing, file] : drawingsWithShapes(*folders, options.shapes)) {
-      drawings.push_back(std::move(drawing));
+  for (const auto& [option, all] : {std::pair{"--drawings", &drawings}, std::pair{"--held-out", &held_out}}) {
+    std::vector<JointedDrawing> with_shapes;
+    for (auto& [drawing, file] : drawingsWithShapes(*all, options.shapes)) {
+      with_shapes.push_back(std::move(drawing));
       shapes.push_back(std::move(file));
     }
-    made_by.add(option, contentOf(drawings));
+    made_by.add(option, contentOf(with_shapes));
   }
   made_by.add("--shapes", contentOfFiles(shapes));
   made_by.add("--drawn", options.drawn_share);
@@ -163,6 +171,14 @@ PartReport validate(const PartNet& net, const std::vector<Lesson>& lessons, int 
   return all;
 }
 
+// "-": there is nothing that it is the mean of.
+template <class Count>
+std::string shownOf(Count count, double mean, const char* format) {
+  char text[32];
+  std::snprintf(text, sizeof text, format, mean);
+  return count > 0 ? text : "-";
+}
+
 cv::Vec3b partColour(int part) {
   constexpr std::array<std::array<int, 3>, kPartCount> kColours = {{{150, 150, 150},
                                                                     {230, 230, 120},
@@ -221,7 +237,7 @@ void writeSheet(const PartTrainingOptions& options, const std::vector<PartSample
 void writeTruth(const PartTrainingOptions& options) {
   constexpr double kMostly = .75, kDrawn = .5;
   constexpr int kLeastBorder = 30, kContrast = 30;
-  const auto files = drawingsWithShapes(options.held_out, options.shapes);
+  const auto files = drawingsWithShapes(findJointedDrawings(options.held_out), options.shapes);
   if (files.empty()) throw UsageError("--truth: no drawing of --held-out has shapes in --shapes");
   parallelFor(files.size(), options.threads, [&](std::size_t i) {
     const JointedDrawing& drawing = files[i].first;
@@ -334,14 +350,16 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
     writeTruth(options);
     return ExitCode::kDone;
   }
-  const std::vector<PartSample> drawings = readSamples(options.drawings, options.shapes, options.threads);
+  const std::vector<JointedDrawing> named = findJointedDrawings(options.drawings);
+  const std::vector<PartSample> drawings = readSamples(named, options.shapes, options.threads);
   if (!options.sheet.empty()) {
     writeSheet(options, drawings);
     return ExitCode::kDone;
   }
   if (options.output.empty()) throw UsageError("-o is missing: the weights file to write");
   std::vector<Lesson> validation;
-  for (const PartSample& sample : readSamples(options.held_out, options.shapes, options.threads)) {
+  const std::vector<JointedDrawing> held_out = findJointedDrawings(options.held_out);
+  for (const PartSample& sample : readSamples(held_out, options.shapes, options.threads)) {
     Rng rng(options.seed, kValidationPartStream + validation.size());
     Lesson& l = validation.emplace_back();
     l.sample = fittedPartSample(sample);
@@ -363,7 +381,7 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
   schedule.averaging = options.averaging;
   schedule.threads = options.threads;
   ConvNetTrainer trainer(net, schedule);
-  MadeBy made_by = madePartsBy(options);
+  MadeBy made_by = madePartsBy(options, named, held_out);
   goOnFrom(options.checkpoint, made_by, trainer);
   std::vector<Lesson> lessons(static_cast<std::size_t>(options.batch));
   ProgressBar bar("training", static_cast<std::size_t>(options.steps));
@@ -403,16 +421,20 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
     if (trainer.steps() % options.report_every != 0 && !trainer.done()) continue;
     const PartReport r = write();
     bar.clear();
-    std::printf("step %lld  loss %.4f  validation: loss %.4f  limbs %.4f  before %.3f of %d  parts",
-                static_cast<long long>(trainer.steps()), loss / counted, r.loss, r.limbs,
-                r.before_right / std::max(1., double(r.before_count)), r.before_count);
+    std::printf(
+        "step %lld  loss %.4f  validation: loss %s  limbs %s  before %s of %d  parts",
+        static_cast<long long>(trainer.steps()), loss / counted,
+        shownOf(validation.size(), r.loss, "%.4f").c_str(), shownOf(r.limb_count, r.limbs, "%.4f").c_str(),
+        shownOf(r.before_count, double(r.before_right) / r.before_count, "%.3f").c_str(), r.before_count);
     for (std::size_t k = 0; k < kPartCount; ++k)
-      std::printf(" %.3f", double(r.both[k]) / double(std::max<std::int64_t>(1, r.either[k])));
+      std::printf(" %s", shownOf(r.either[k], double(r.both[k]) / double(r.either[k]), "%.3f").c_str());
     std::printf("\n");
     std::fflush(stdout);
     loss = 0;
     counted = 0;
   }
+  bar.clear();
+  std::printf("wrote %s\n", printable(options.output).c_str());
   return ExitCode::kDone;
 }
 

@@ -159,10 +159,12 @@ std::array<int, 4> limbsBefore(const PartSample& sample) {
 }
 
 std::vector<std::pair<JointedDrawing, std::string>> drawingsWithShapes(
-    const std::vector<std::string>& folders, const std::string& shapes) {
+    const std::vector<JointedDrawing>& drawings, const std::string& shapes) {
   std::vector<std::pair<JointedDrawing, std::string>> files;
-  if (folders.empty()) return files;
-  for (const JointedDrawing& drawing : findJointedDrawings(folders))
+  if (drawings.empty()) return files;
+  if (shapes.empty()) throw UsageError("--shapes is missing: the folder that script/shape-maps has written");
+  if (!fs::is_directory(shapes)) throw InputError(shapes, "is no folder; script/shape-maps makes it");
+  for (const JointedDrawing& drawing : drawings)
     if (const std::string file = shapesOf(drawing.image, shapes); !file.empty())
       files.emplace_back(drawing, file);
   return files;

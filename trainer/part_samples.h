@@ -34,9 +34,10 @@ struct PartSample {
 // this and on some that.
 std::array<int, 4> limbsBefore(const PartSample& sample);
 
-// Those of the folders whose shapes script/shape-maps has written to a folder, with the file of these.
+// Those whose shapes script/shape-maps has written to a folder, with the file of these. Throws InputError:
+// there is no such folder.
 std::vector<std::pair<JointedDrawing, std::string>> drawingsWithShapes(
-    const std::vector<std::string>& folders, const std::string& shapes);
+    const std::vector<JointedDrawing>& drawings, const std::string& shapes);
 
 // A drawing with its shapes, of the picture's size; nothing if its parts are
 // doubtful. Throws InputError.

@@ -412,3 +412,26 @@ TEST_CASE("classes were learned from animals among people without a word") {
         "of "
         "all\n");
 }
+TEST_CASE("a training of parts went on without any drawing that has parts") {
+  const TempDir dir;
+  for (const char* end : {".png", ".mask.png", ".joints.json"})
+    std::filesystem::copy_file(SKEL_DATASETS "/characters/cap_boy" + std::string(end),
+                               dir.file("cap_boy") + end);
+  const std::string train = "parts --steps 1 --batch 4 -o " + dir.file("p.bin"),
+                    drawings = " --drawings " + dir.path() + " --shapes " + dir.file("shapes");
+  const ToolRun no_folder = run(train + drawings);
+  CHECK(no_folder.exit_code == 2);
+  CHECK(no_folder.err ==
+        "skel-train: " + dir.file("shapes") + ": is no folder; script/shape-maps makes it\n");
+  std::filesystem::create_directories(dir.file("shapes"));
+  const ToolRun no_parts = run(train + drawings);
+  CHECK(no_parts.exit_code == 2);
+  CHECK(no_parts.err.starts_with("skel-train: " + dir.file("shapes") + ": 0 of 1 drawings have parts: "));
+  CHECK(run(train + " --drawings " + dir.path()).exit_code == 1);
+  CHECK_FALSE(std::filesystem::exists(dir.file("p.bin")));
+
+  const ToolRun without = run(train);
+  CHECK(without.exit_code == 0);
+  CHECK(without.out.find("validation: loss -  limbs -  before - of 0  parts - - ") != std::string::npos);
+  CHECK(without.out.ends_with("wrote " + dir.file("p.bin") + "\n"));
+}
