@@ -92,7 +92,7 @@ void bindWeightsOptions(CLI::App& app, WeightsOptions& options) {
   app.add_option("-o,--output", options.output,
                  "The .weights.json to write; without: out/<model>.weights.json")
       ->type_name("FILE")
-      ->check(outputFile());
+      ->check(outputFile("skel-skin"));
 }
 
 ExitCode runWeights(const WeightsOptions& options) {

@@ -117,7 +117,7 @@ void bindRetargetOptions(CLI::App& app, RetargetCommandOptions& options) {
                  "What to write: the character with the motion among its clips (.glb), or the motion alone "
                  "(.clip.json, .bvh); without: out/<motion>.glb")
       ->type_name("FILE")
-      ->check(outputFile());
+      ->check(outputFile("skel-clip"));
   app.add_option("--name", options.name, "Of the clip; without: that of the motion");
   bindClipSource(app, options.clips);
 }

@@ -200,7 +200,7 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
   CLI::App* motion_of = command("motion", "Find the joints in every frame of a video (a folder of pictures)",
                                 [&] { return motion(options); });
   motion_of->add_option("-o,--output", options.output, "File (default: out/<folder>.motion.json)")
-      ->check(outputFile());
+      ->check(outputFile("skel-motion"));
   motion_of->add_option("--frame-rate", options.frame_rate, "Frames a second")
       ->check(numberIn(kMinFrameRate, kMaxFrameRate))
       ->capture_default_str();

@@ -111,7 +111,7 @@ void bindKeypoints(CLI::App& app, KeypointsCommandOptions& options) {
   bindFilmPath(app, options.find.film);
   app.add_option("-o,--output", options.find.output, "The motion file (default: out/<film>.motion.json)")
       ->type_name("FILE")
-      ->check(outputFile());
+      ->check(outputFile("skel-motion"));
   app.add_option("--action", options.find.action, "Its class: walk, run, jump, ...");
   bindThreshold(app, options.find.threshold);
   bindLoop(app, options.find.loop);
@@ -139,7 +139,7 @@ void bindFit(CLI::App& app, FitOptions& options) {
   app.add_option("-o,--output", options.output, "The .style.json")
       ->type_name("FILE")
       ->capture_default_str()
-      ->check(outputFile());
+      ->check(outputFile("skel-style"));
   bindCoding(app, options.coding);
   app.add_option("--ridge", options.semantic.ridge, "Of the semantic term")
       ->check(numberIn(1e-12, 1e6))
@@ -153,7 +153,7 @@ void bindTransfer(CLI::App& app, TransferCommandOptions& options) {
   app.add_option("-o,--output", options.output, "The motion file to write")
       ->type_name("FILE")
       ->capture_default_str()
-      ->check(outputFile());
+      ->check(outputFile("skel-motion"));
   bindStyle(app, options.request);
 }
 
@@ -167,7 +167,7 @@ void bindRender(CLI::App& app, RenderOptions2D& options) {
       ->check(outputFile());
   app.add_option("--to-clip", options.to_clip, "A .clip.json for 3D characters, to be played by skel-animate")
       ->type_name("FILE")
-      ->check(outputFile());
+      ->check(outputFile("skel-clip"));
   bindLoop(app, options.loop);
   bindPerform(app, options.perform);
 }

@@ -3,6 +3,7 @@
 #include "libskel/cli/outputs.h"
 #include "libskel/core/files.h"
 #include "libskel/core/net_format.h"
+#include "libskel/core/own_format.h"
 #include "libskel/jointnet/joint_net.h"
 #include "libskel/layers/part_net.h"
 #include "libskel/silhouette/page_net.h"
@@ -17,7 +18,7 @@ void bindAverageNetsOptions(CLI::App& command, AverageNetsOptions& options) {
       ->type_name("FILE");
   command.add_option("-o,--output", options.output, "Weights file to write")
       ->capture_default_str()
-      ->check(outputFile());
+      ->check(outputFile(kAnyFormat));
 }
 
 namespace {
@@ -34,7 +35,8 @@ bool areAlike(const Net&, const Net&) {
 template <typename Parse, typename Format>
 void writeMean(const AverageNetsOptions& options, std::string_view kind, const Parse& parse,
                const Format& format) {
-  ensureWritableNet(options.output, kind);
+  ensureWritableFile(options.output);
+  keepOtherFormats(options.output, kind);
   const std::vector<std::string>& files = options.nets;
   const auto read = [&](const std::string& file) { return parse(readFile(file), file); };
   auto mean = read(files.front());

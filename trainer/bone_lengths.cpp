@@ -58,11 +58,11 @@ void bindBoneLengthsOptions(CLI::App& command, BoneLengthsOptions& options) {
       ->type_name("DIR")
       ->take_all();
   command.add_option("-o,--output", options.output, "Weights file to write (default: that of the net)")
-      ->check(outputFile());
+      ->check(outputFile("skel-joint-net"));
 }
 
 ExitCode runBoneLengths(const BoneLengthsOptions& options) {
-  if (!options.output.empty()) ensureWritableNet(options.output, "skel-joint-net");
+  if (!options.output.empty()) ensureWritableFile(options.output);
   JointNet net = parseJointNet(readFile(options.net), options.net);
   const NetJoints joints = netJoints(net.joints, loadTemplate(net.body_plan));
   const std::vector<JointedDrawing> drawings = findJointedDrawings(options.drawings);

@@ -144,7 +144,8 @@ void bindConfidenceTrainingOptions(CLI::App& command, ConfidenceTrainingOptions&
   command
       .add_option("--first-hand", options.first_hand, "Drawings of the hands before this one are left out")
       ->type_name("NAME");
-  command.add_option("-o,--output", options.output, "Weights file to write")->check(outputFile());
+  command.add_option("-o,--output", options.output, "Weights file to write")
+      ->check(outputFile("skel-confidence"));
   command.add_option("--table", options.table, "Writes what is learned from, one line a figure or joint")
       ->type_name("FILE")
       ->check(outputFile());
@@ -165,7 +166,7 @@ ExitCode runConfidenceTraining(const ConfidenceTrainingOptions& options) {
   for (const auto& [plan, list] : drawings)
     for (const JointedDrawing& drawing : list) images.push_back(drawing.image);
   uniteTwins(images, options.output.empty() ? 0 : options.folds, hands);
-  if (!options.output.empty()) ensureWritableNet(options.output, "skel-confidence");
+  if (!options.output.empty()) ensureWritableFile(options.output);
   if (!options.table.empty()) ensureWritableFile(options.table);
   std::vector<ConfidenceSample> samples;
   for (const std::string& table : options.tables)

@@ -257,7 +257,7 @@ class Training {
     std::vector<JointedDrawing> drawings = findJointedDrawings(options.drawings, body_plan),
                                 rehearsed = findJointedDrawings(options.rehearsed, body_plan);
     made_by_ = madeJointsBy(options, schedule_, net_, drawings, rehearsed);
-    ensureWritableNet(options.output, "skel-joint-net");
+    ensureWritableFile(options.output);
     goOnFrom(options.checkpoint, made_by_, trainer_);
     if (!drawings.empty()) {
       splitOff(drawings);
@@ -512,14 +512,14 @@ void bindJointTrainingOptions(CLI::App& command, JointTrainingOptions& options) 
       ->capture_default_str();
   command.add_option("-o,--output", options.output, "Weights file to write")
       ->capture_default_str()
-      ->check(outputFile());
+      ->check(outputFile("skel-joint-net"));
   command
       .add_option(
           "--start", options.start,
           "Net to go on from, with drawings of your own: few steps, a low rate, every fifth drawing measures")
       ->type_name("FILE");
   command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report")
-      ->check(outputFile());
+      ->check(outputFile(kAnyFormat));
   command
       .add_option("--hourglasses", options.hourglasses,
                   "Of the net, one behind another; what the net of --start lacks of them is added")

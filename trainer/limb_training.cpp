@@ -123,7 +123,7 @@ void bindLimbTrainingOptions(CLI::App& command, LimbTrainingOptions& options) {
       ->type_name("NAME");
   command.add_option("-o,--output", options.output, "Weights file to write")
       ->capture_default_str()
-      ->check(outputFile());
+      ->check(outputFile("skel-limb-net"));
   bindLearningOptions(command, options);
 }
 
@@ -136,7 +136,7 @@ ExitCode runLimbTraining(const LimbTrainingOptions& options) {
   std::vector<std::string> images;
   for (const auto& [drawing, shapes] : files) images.push_back(drawing.image);
   uniteTwins(images, options.folds, hands);
-  ensureWritableNet(options.output, "skel-limb-net");
+  ensureWritableFile(options.output);
   std::vector<std::vector<Case>> of_drawing(files.size());
   parallelFor(files.size(), options.threads,
               [&](std::size_t i) { of_drawing[i] = limbsOf(files[i].first, files[i].second); });

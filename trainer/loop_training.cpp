@@ -60,9 +60,8 @@ ExitCode runLoopTraining(const PageCaseOptions& options) {
   LogisticFitOptions fit;
   fit.hidden = 16;
   fit.steps = 6000;
-  const LearnedFromPages learned =
-      learnFromPages(options, "skel-loop-net", loopsOn, printOpened,
-                     "no figure encloses anything that nothing is drawn on", fit);
+  const LearnedFromPages learned = learnFromPages(
+      options, loopsOn, printOpened, "no figure encloses anything that nothing is drawn on", fit);
   writeFile(options.output, formatLoopNet({learned.net, "skel-train loops " + learned.provenance}));
   std::printf("wrote %s\n", printable(options.output).c_str());
   return ExitCode::kDone;

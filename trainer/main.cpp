@@ -49,12 +49,12 @@ int main(int argc, char** argv) {
   silhouette_training.output = "out/silhouette_confidence.json";
   CLI::App* silhouettes = app.add_subcommand(
       "silhouettes", "Learns how sure one may be of a silhouette that was found on a page");
-  skel::bindPageCaseOptions(*silhouettes, silhouette_training);
+  skel::bindPageCaseOptions(*silhouettes, silhouette_training, "skel-silhouette-confidence");
   skel::PageCaseOptions loop_training;
   loop_training.output = "out/loop_net.json";
   CLI::App* loops =
       app.add_subcommand("loops", "Learns which of what a figure's lines enclose is the ground behind it");
-  skel::bindPageCaseOptions(*loops, loop_training);
+  skel::bindPageCaseOptions(*loops, loop_training, "skel-loop-net");
   skel::LimbTrainingOptions limb_training;
   CLI::App* limbs = app.add_subcommand("limbs", "Learns whether what was found of a limb is one");
   skel::bindLimbTrainingOptions(*limbs, limb_training);

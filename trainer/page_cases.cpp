@@ -40,19 +40,19 @@ std::vector<Case> casesOnPages(const std::vector<AnnotatedImage>& drawings, cons
 
 }  // namespace
 
-void bindPageCaseOptions(CLI::App& command, PageCaseOptions& options) {
+void bindPageCaseOptions(CLI::App& command, PageCaseOptions& options, const std::string& format) {
   command.add_option("drawings", options.drawings, "Drawings with masks, which are put on pages")
       ->type_name("DIR")
       ->required();
   command.add_option("-o,--output", options.output, "Weights file to write")
       ->capture_default_str()
-      ->check(outputFile());
+      ->check(outputFile(format));
   bindLearningOptions(command, options);
 }
 
-LearnedFromPages learnFromPages(const PageCaseOptions& options, std::string_view format,
-                                const CasesOfPage& cases, const PrintForecasts& print,
-                                const std::string& none, const LogisticFitOptions& fit) {
+LearnedFromPages learnFromPages(const PageCaseOptions& options, const CasesOfPage& cases,
+                                const PrintForecasts& print, const std::string& none,
+                                const LogisticFitOptions& fit) {
   std::vector<AnnotatedImage> drawings;
   for (const std::string& folder : options.drawings) {
     const std::size_t before = drawings.size();
@@ -65,7 +65,7 @@ LearnedFromPages learnFromPages(const PageCaseOptions& options, std::string_view
   std::vector<std::string> images;
   for (const AnnotatedImage& drawing : drawings) images.push_back(drawing.image);
   uniteTwins(images, options.folds, hands);
-  ensureWritableNet(options.output, format);
+  ensureWritableFile(options.output);
   const std::vector<Case> found = casesOnPages(drawings, options, cases);
   if (found.empty()) throw UsageError(none);
   return {learnFromCases(found, hands, options, print, fit),

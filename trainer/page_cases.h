@@ -17,19 +17,20 @@ struct PageCaseOptions : LearningOptions {
   std::string output;
 };
 
-void bindPageCaseOptions(CLI::App& command, PageCaseOptions& options);
+// `format`: of the net that is to be written.
+void bindPageCaseOptions(CLI::App& command, PageCaseOptions& options, const std::string& format);
 
 // The cases of one page; their group and drawing are filled in by whoever asks.
 using CasesOfPage = std::function<std::vector<Case>(const HardPage& page)>;
 
 // learnFromCases() with each drawing in each circumstance, the group. `none`: what is said if there is no
-// case; `format`: of the net that is to be written.
+// case.
 struct LearnedFromPages {
   LogisticNet net;
   std::string provenance;  // "225 drawings, seed 1"
 };
-LearnedFromPages learnFromPages(const PageCaseOptions& options, std::string_view format,
-                                const CasesOfPage& cases, const PrintForecasts& print,
-                                const std::string& none, const LogisticFitOptions& fit = {});
+LearnedFromPages learnFromPages(const PageCaseOptions& options, const CasesOfPage& cases,
+                                const PrintForecasts& print, const std::string& none,
+                                const LogisticFitOptions& fit = {});
 
 }  // namespace skel

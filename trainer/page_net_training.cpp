@@ -116,10 +116,10 @@ void writeSheet(const PageTrainingOptions& options, const PageOptions& page_opti
 void bindPageTrainingOptions(CLI::App& command, PageTrainingOptions& options) {
   command.add_option("-o,--output", options.output, "Weights file to write")
       ->capture_default_str()
-      ->check(outputFile());
+      ->check(outputFile("skel-page-net"));
   command.add_option("--start", options.start, "Net to go on from")->type_name("FILE");
   command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report")
-      ->check(outputFile());
+      ->check(outputFile(kAnyFormat));
   command.add_option("--sheet", options.sheet, "Picture of generated pages to write, instead of training")
       ->type_name("FILE")
       ->check(outputFile());
@@ -166,7 +166,7 @@ ExitCode runPageTraining(const PageTrainingOptions& options) {
   } else {
     net = parsePageNet(readFile(options.start), options.start);
   }
-  ensureWritableNet(options.output, "skel-page-net");
+  ensureWritableFile(options.output);
   ConvNetSchedule schedule;
   schedule.steps = options.steps;
   schedule.batch = options.batch;

@@ -290,10 +290,11 @@ void writeTruth(const PartTrainingOptions& options) {
 }  // namespace
 
 void bindPartTrainingOptions(CLI::App& command, PartTrainingOptions& options) {
-  command.add_option("-o,--output", options.output, "Weights file to write")->check(outputFile());
+  command.add_option("-o,--output", options.output, "Weights file to write")
+      ->check(outputFile("skel-part-net"));
   command.add_option("--start", options.start, "Net to go on from")->type_name("FILE");
   command.add_option("--checkpoint", options.checkpoint, "File to go on from, and to write at each report")
-      ->check(outputFile());
+      ->check(outputFile(kAnyFormat));
   command
       .add_option("--sheet", options.sheet,
                   "Picture of samples to write, instead of training; with --start what that net says of them")
@@ -373,7 +374,7 @@ ExitCode runPartTraining(const PartTrainingOptions& options) {
   } else {
     net = parsePartNet(readFile(options.start), options.start);
   }
-  ensureWritableNet(options.output, "skel-part-net");
+  ensureWritableFile(options.output);
   ConvNetSchedule schedule;
   schedule.steps = options.steps;
   schedule.batch = options.batch;

@@ -36,8 +36,8 @@ void printNamed(const std::string& title, const std::vector<Forecast>& forecasts
 }  // namespace
 
 ExitCode runSilhouetteTraining(const PageCaseOptions& options) {
-  const LearnedFromPages learned = learnFromPages(options, "skel-silhouette-confidence", maskOn, printNamed,
-                                                  "no page is so hard that the page net was asked");
+  const LearnedFromPages learned =
+      learnFromPages(options, maskOn, printNamed, "no page is so hard that the page net was asked");
   writeFile(options.output,
             formatSilhouetteConfidence({learned.net, "skel-train silhouettes " + learned.provenance}));
   std::printf("wrote %s\n", printable(options.output).c_str());

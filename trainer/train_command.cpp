@@ -173,7 +173,7 @@ void bindTrainOptions(CLI::App& app, TrainOptions& options) {
       ->type_name("DIR");
   app.add_option("-o,--output", options.output, "The weights file to write")
       ->type_name("FILE")
-      ->check(outputFile());
+      ->check(outputFile("skel-weights"));
   app.add_option("--layers", options.layers, "Sizes of the layers")->capture_default_str();
   addChoice(app, "--method", training.method, kMethods, "How the net is trained");
   app.add_option("--batch", training.optimizer.batch, "gradient: samples a step; 0: all of them; 1: online")
@@ -260,7 +260,7 @@ ExitCode runTrain(const TrainOptions& given) {
   const Characters characters = pointersTo(set.characters);
   const std::size_t pictures = byPicture(characters).size();
   checkCounts(options, characters.size(), pictures);
-  ensureWritableNet(options.output, "skel-weights");
+  ensureWritableFile(options.output);
   if (!options.json.empty()) ensureWritableFile(options.json);
   keepCocoOfOthers(options.json, "name another file by --json");
   if (!options.report.empty()) ensureWritableFolder(options.report);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "libskel/core/error.h"
+#include "libskel/core/own_format.h"
 
 namespace skel {
 
@@ -27,15 +28,8 @@ std::string netFormatName(std::string_view format) {
 }
 
 std::string netFormatOf(std::string_view bytes) {
-  constexpr std::size_t kHeader = 4096;
-  constexpr std::string_view kKey = "\"format\"";
-  const std::string_view header = bytes.substr(0, kHeader);
-  const std::size_t key = header.find(kKey);
-  if (key == header.npos) return {};
-  const std::size_t first = header.find('"', key + kKey.size());
-  if (first == header.npos) return {};
-  const std::string_view found = header.substr(first + 1, header.find('"', first + 1) - first - 1);
-  return netFormatName(found).empty() ? std::string() : std::string(found);
+  const std::string found = ownFormatOf(bytes);
+  return netFormatName(found).empty() ? std::string() : found;
 }
 
 void checkNetFormat(std::string_view bytes, const std::string& file, std::string_view format) {

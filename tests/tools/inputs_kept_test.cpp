@@ -151,3 +151,19 @@ TEST_CASE("joints annotated beside the drawings of a set were written over by wh
     for (const char* joints : {"C/cap_boy.joints.json", "C/alien.joints.json"})
       keeps(dir, joints, command + std::string(joints));
 }
+
+TEST_CASE("a file of skel's own is not replaced by one of another kind") {
+  const TempDir dir;
+  writeFigure(dir.file("cat.png"));
+  done(dir, "skel-infer cat.png -o . --formats json");
+  const std::string skeleton = readFile(dir.file("cat.skeleton.json")),
+                    there =
+                        "cat.skeleton.json: is a file of format \"skel-skeleton\", and would be replaced by ";
+  refused(dir, "skel-animate weights cat.png -o cat.skeleton.json", 4,
+          there + "a file of format \"skel-skin\"; name another output");
+  refused(dir, "skel-label export . --csv -o cat.skeleton.json", 4,
+          there + "something else; name another output");
+  refused(dir, "skel-infer evaluate . --json cat.skeleton.json", 4,
+          there + "something else; name another output");
+  CHECK(readFile(dir.file("cat.skeleton.json")) == skeleton);
+}

@@ -332,7 +332,7 @@ TEST_CASE("a net is not replaced by one of another kind, but by one of its own")
   CHECK(refused.exit_code == 4);
   CHECK(refused.err.find(
             "net.bin: is a net that finds joints (--joint-net), and would be replaced by weights that "
-            "tell candidates apart (--weights); name another file by -o\n") != std::string::npos);
+            "tell candidates apart (--weights); name another output\n") != std::string::npos);
   CHECK(readFile(net) == bytes);
   writeFile(net, readFile(SKEL_SOURCE_DIR "/weights/default.json"));
   CHECK(run(dir.path() + " -o " + net + kQuick).exit_code == 0);
@@ -412,6 +412,25 @@ TEST_CASE("classes were learned from animals among people without a word") {
         "of "
         "all\n");
 }
+
+TEST_CASE("a label file is not replaced by weights") {
+  const TempDir dir;
+  fill(dir);
+  const std::string labels = dir.file("c0.labels.json"), before = readFile(labels);
+  for (const std::string& command :
+       {dir.path() + kQuick, std::string("joints --steps 1 --validation 1"), std::string("pages --steps 1"),
+        std::string("average " SKEL_SOURCE_DIR "/weights/page_net.bin " SKEL_SOURCE_DIR
+                    "/weights/page_net.bin")}) {
+    INFO(command);
+    const ToolRun refused = run(command + " -o " + labels);
+    CHECK(refused.exit_code == 4);
+    CHECK(
+        refused.err.find("c0.labels.json: is a file of format \"skel-labels\", and would be replaced by ") !=
+        std::string::npos);
+    CHECK(readFile(labels) == before);
+  }
+}
+
 TEST_CASE("a training of parts went on without any drawing that has parts") {
   const TempDir dir;
   for (const char* end : {".png", ".mask.png", ".joints.json"})
