@@ -9,9 +9,11 @@
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/core/json.h"
+#include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/labels/label_folder.h"
 #include "libskel/labels/moved_in_skeleton.h"
 #include "libskel/skeleton/body_plans.h"
 #include "libskel/skeleton/skeleton_file.h"
@@ -110,6 +112,7 @@ MeasuredDrawing fromLabels(const std::string& path) {
   MeasuredDrawing drawing;
   drawing.joints_file = path;
   drawing.image = readImage(image);
+  drawing.image_sha256 = labels.image.sha256;
   if (const auto mask = maskOf(path, labels)) drawing.mask = silhouetteOf(image, mask).mask;
   for (const auto& [name, place] : labels.joints)
     if (labels.isPlaced(name)) drawing.joints.emplace(name, place);
@@ -145,6 +148,14 @@ std::vector<std::string> findDrawings(const std::string& root) {
     throw InputError(root, "is one drawing as a folder with an image.png and " + name +
                                " in it another of that name; rename one of them");
   return {ids.begin(), ids.end()};
+}
+
+std::string unmeasuredAmong(const std::string& root) {
+  return picturesWithout("joint that a person has placed", root, [](const std::string& image) {
+    const std::string labels = labelFileFor(image);
+    return fs::path(image).filename() == "image.png" || jointsFileBeside(image) ||
+           (fs::is_regular_file(labels) && holdsPlacedJoint(labels));
+  });
 }
 
 std::string nameOfDrawing(const std::string& root, const std::string& id) {
@@ -188,6 +199,7 @@ MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& 
   MeasuredDrawing drawing;
   drawing.id = id;
   drawing.image = readImage(image);
+  drawing.image_sha256 = sha256(readFile(image));
   if (fs::exists(mask)) {
     drawing.mask = readMask(mask);
     if (drawing.mask->cols() != drawing.image.width || drawing.mask->rows() != drawing.image.height)

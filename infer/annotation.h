@@ -19,6 +19,7 @@ namespace skel {
 struct MeasuredDrawing {
   std::string id;  // folder or name relative to the set's; "": the set is the folder of one drawing
   Image image;
+  std::string image_sha256;    // of its file's bytes
   std::optional<Plane8> mask;  // none: the silhouette is not measured
   bool side_view = false;
   std::map<std::string, std::optional<Eigen::Vector2d>>
@@ -30,6 +31,8 @@ struct MeasuredDrawing {
 
 // All below `root`, sorted. Throws InputError if there are none.
 std::vector<std::string> findDrawings(const std::string& root);
+// picturesWithout() joints that a person has placed.
+std::string unmeasuredAmong(const std::string& root);
 // Notes all files that readMeasuredDrawing() may read (input_guard.h).
 void noteMeasuredFiles(const std::string& root, const std::string& id);
 MeasuredDrawing readMeasuredDrawing(const std::string& root, const std::string& id);

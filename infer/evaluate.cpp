@@ -25,6 +25,7 @@
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/coco_of_others.h"
 #include "libskel/labels/moved_in_skeleton.h"
+#include "libskel/labels/twins.h"
 #include "libskel/recognition/calibration.h"
 #include "libskel/skeleton/body_plans.h"
 
@@ -37,12 +38,14 @@ struct Row {
   std::string name;
   bool annotated = false, counts = true, found = false;
   Score score;
-  std::string reason;                // why nothing was found
-  std::string other_plan;            // whose joints it has; "": those of the one that is measured
-  std::string overruled;             // see MeasuredDrawing
-  std::string overruled_skeleton;    // the same
-  std::vector<std::string> outside;  // joints
-  bool lacks_mask = false;           // which --given-mask would hand over
+  std::string reason;                         // why nothing was found
+  std::string other_plan;                     // whose joints it has; "": those of the one that is measured
+  std::string overruled, overruled_skeleton;  // see MeasuredDrawing
+  std::vector<std::string> outside;           // joints
+  bool lacks_mask = false;                    // which --given-mask would hand over
+  std::string image_sha256;
+  NamedJoints joints;    // that are true
+  double figure_px = 0;  // its long side
   std::optional<Error> failure;
 };
 
@@ -78,7 +81,10 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
   if (options.given_mask) input.mask = truth.mask;  // without one it has to be found
   row.lacks_mask = options.given_mask && !truth.mask;
   const RiggedDrawing drawing = rigCharacter(std::move(input), rig);
+  row.image_sha256 = truth.image_sha256;
+  row.joints.assign(truth.joints.begin(), truth.joints.end());
   row.found = drawing.found();
+  if (row.found) row.figure_px = kWorkingGridSize / drawing.silhouette.grid.scale;
   row.reason = drawing.silhouette.reason;
   if (row.annotated)
     row.score = score(truth, drawing.found() ? &drawing.recognition : nullptr, drawing.silhouette.mask,
@@ -91,6 +97,19 @@ Row evaluateDrawing(const EvaluateOptions& options, const RigOptions& rig, const
     writeFile(overlayFile(options, row.name), encodePng(picture));
   }
   return row;
+}
+
+// Of drawings that are one picture, and whose joints are not the same.
+std::string apartSaid(const std::vector<Row>& rows) {
+  std::vector<std::string> names, sha256s;
+  std::vector<NamedJoints> joints;
+  for (const Row& row : rows) {
+    names.push_back(row.name);
+    sha256s.push_back(row.image_sha256);
+    joints.push_back(row.joints);
+  }
+  const std::string apart = twinJointsSaid(sha256s, joints, [&](std::size_t i) { return rows[i].figure_px; });
+  return apart.empty() ? "" : twinsSaid("drawings", names, sha256s) + apart;
 }
 
 using Figure = std::optional<double>;  // none: there is nothing to measure by
@@ -218,6 +237,8 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     std::fprintf(stderr,
                  "skel-infer: note: joints that lie outside of the picture, measured as they are: %s\n",
                  printable(firstAndMore(outside)).c_str());
+  for (const std::string& note : {apartSaid(all), unmeasuredAmong(options.dir)})
+    if (!note.empty()) std::fprintf(stderr, "skel-infer: note: %s\n", printable(note).c_str());
   std::map<std::string, std::vector<std::string>> of_other_plans;
   for (const Row& row : all)
     if (!row.other_plan.empty()) of_other_plans[row.other_plan].push_back(row.name);

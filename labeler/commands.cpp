@@ -99,8 +99,8 @@ ExitCode motion(const LabelerOptions& options) {
 ExitCode check(const LabelerOptions& options) {
   const std::vector<std::string> lines = checkLabels(options.dir, bodyPlans(options.body_plan));
   for (const std::string& line : lines) std::fprintf(stderr, "skel-label: %s\n", messageLine(line).c_str());
-  if (const std::string twins = twinsAmong(options.dir); !twins.empty())
-    std::fprintf(stderr, "skel-label: note: %s\n", twins.c_str());
+  for (const std::string& note : {twinsAmong(options.dir), unlabelledAmong(options.dir)})
+    if (!note.empty()) std::fprintf(stderr, "skel-label: note: %s\n", note.c_str());
   if (lines.empty()) print("no inconsistencies\n");
   return lines.empty() ? ExitCode::kDone : ExitCode::kInput;
 }

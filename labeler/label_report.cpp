@@ -196,17 +196,33 @@ std::vector<std::string> checkLabels(const std::string& dir, const BodyPlans& pl
 }
 
 std::string twinsAmong(const std::string& dir) {
-  std::vector<std::string> names, sha256s;
+  std::vector<std::string> paths, names, sha256s;
+  std::vector<NamedJoints> joints;
   for (const std::string& path : labelFiles(dir)) {
     try {
       const LabelFile labels = readLabelFile(path);
+      paths.push_back(path);
       names.push_back(nameBelow(dir, besideLabelFile(path, labels.image.file)));
       sha256s.push_back(labels.image.sha256);
+      joints.push_back(labels.joints);
+      std::erase_if(joints.back(), [&](const auto& joint) { return !labels.isPlaced(joint.first); });
     } catch (const InputError&) {
       // checkLabels() says it.
     }
   }
-  return twinsSaid("drawings", names, sha256s);
+  const auto figure_px = [&](std::size_t i) {
+    try {
+      return kWorkingGridSize / labelledFigure(paths[i], readLabelFile(paths[i])).grid.scale;
+    } catch (const InputError&) {
+      return 0.;
+    }
+  };
+  return twinsSaid("drawings", names, sha256s) + twinJointsSaid(sha256s, joints, figure_px);
+}
+
+std::string unlabelledAmong(const std::string& dir) {
+  return picturesWithout("labels", dir,
+                         [](const std::string& image) { return fs::is_regular_file(labelFileFor(image)); });
 }
 
 std::string labelStats(const std::string& dir) {

@@ -15,8 +15,11 @@ namespace skel {
 // files.
 std::vector<std::string> checkLabels(const std::string& dir, const BodyPlans& plans);
 
-// Of label files whose pictures are the same, twinsSaid().
+// Of label files whose pictures are the same, twinsSaid() and twinJointsSaid().
 std::string twinsAmong(const std::string& dir);
+
+// picturesWithout() labels.
+std::string unlabelledAmong(const std::string& dir);
 
 // Counts of drawings, candidates and labels, of every class, of joints and masks, as text. Throws InputError.
 std::string labelStats(const std::string& dir);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 
 #include "libskel/classifier/weights_file.h"
@@ -155,6 +156,14 @@ void noteAnimals(const LabelledSet& set) {
         animals.size(), set.characters.size(), firstFew(animals).c_str());
 }
 
+void noteUnlabelled(const std::string& dir) {
+  const auto has = [](const std::string& image) {
+    return std::filesystem::is_regular_file(labelFileFor(image));
+  };
+  if (const std::string without = picturesWithout("labels", dir, has); !without.empty())
+    std::fprintf(stderr, "skel-train: note: %s: not learned from\n", without.c_str());
+}
+
 void noteTwins(const LabelledSet& set) {
   std::vector<std::string> names, pictures;
   for (const LabelledCharacter& character : set.characters) {
@@ -264,6 +273,7 @@ ExitCode runTrain(const TrainOptions& given) {
   if (!options.json.empty()) ensureWritableFile(options.json);
   keepCocoOfOthers(options.json, "name another file by --json");
   if (!options.report.empty()) ensureWritableFolder(options.report);
+  if (options.candidates == CandidateMethod::kMaxima) noteUnlabelled(options.dir);
   noteAnimals(set);
   const int folds = options.leave_one_out ? static_cast<int>(pictures) : options.folds;
   if (folds > 1 || options.draws > 0 || training.validation > 0) noteTwins(set);

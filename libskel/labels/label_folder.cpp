@@ -7,8 +7,10 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/core/foreign_files.h"
 #include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
+#include "libskel/image/result_picture.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/skeleton/body_plans.h"
 #include "libskel/skeleton/skeleton_file.h"
@@ -206,6 +208,19 @@ std::vector<std::string> findLabelFiles(const std::string& dir) {
   noteJointsFiles(files);
   std::erase_if(files, [](const std::string& file) { return !file.ends_with(kLabelFileEnding); });
   return files;
+}
+
+std::string picturesWithout(const std::string& what, const std::string& dir,
+                            const std::function<bool(const std::string& image)>& has) {
+  std::vector<std::string> pictures = filesBelow(dir), without;
+  std::erase_if(pictures,
+                [](const std::string& file) { return !isDrawingName(fs::path(file).filename().string()); });
+  passOverConverted(pictures);
+  for (const std::string& picture : pictures)
+    if (!has(picture)) without.push_back(nameBelow(dir, picture));
+  if (without.empty()) return "";
+  return std::to_string(without.size()) + " of " + std::to_string(pictures.size()) + " pictures have no " +
+         what + " (" + firstFew(without) + ")";
 }
 
 std::vector<std::string> checkLabelFolder(const std::string& dir) {

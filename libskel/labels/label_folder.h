@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,11 @@ void ensureEveryClass(const std::string& name, const LabelledSet& set);
 // Label files below `dir`, at any depth, sorted by path. Throws InputError: no such folder, one that
 // cannot be read; OverwriteError: a skeleton file or joints file there is an output (noteSkeletonFiles()).
 std::vector<std::string> findLabelFiles(const std::string& dir);
+
+// "2 of 9 pictures have no labels (a.png, ...)": of those below `dir` that a person may have drawn, if `has`
+// does not hold for some; else "".
+std::string picturesWithout(const std::string& what, const std::string& dir,
+                            const std::function<bool(const std::string& image)>& has);
 
 // Every inconsistency of all label files below `dir`, one line each; none: all is well.
 // Candidates without a label are not one: label files may be in the making.

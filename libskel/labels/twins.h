@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
+
+#include "libskel/labels/label_file.h"
 
 namespace skel {
 
@@ -15,5 +18,11 @@ std::vector<std::vector<std::size_t>> groupedByPicture(const std::vector<std::st
 // `things`: what they are called, by `names`.
 std::string twinsSaid(const std::string& things, const std::vector<std::string>& names,
                       const std::vector<std::string>& sha256s);
+
+// What is to be said behind that: ", their joints lie up to .08 of the figure apart"; "": not by .01.
+// `joints`: that people have placed in each of them; `figure_px`: the long side of one's figure, 0 where it
+// is not known.
+std::string twinJointsSaid(const std::vector<std::string>& sha256s, const std::vector<NamedJoints>& joints,
+                           const std::function<double(std::size_t)>& figure_px);
 
 }  // namespace skel

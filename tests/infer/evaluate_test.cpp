@@ -436,3 +436,23 @@ TEST_CASE("evaluate said nothing of joints that were mended in a skeleton file a
                        "(skel-label import --force takes the skeleton's)\n");
 }
 
+TEST_CASE("evaluate says how far joints lie apart that two have placed in one picture, and what has none") {
+  const skel::TempDir dir;
+  copyCapBoy(dir);
+  std::filesystem::copy_file(SKEL_DATASETS "/characters/ninja.png", dir.file("ninja.png"));
+  std::filesystem::copy_file(dir.file("cap_boy.png"), dir.file("again.png"));
+  skel::NamedJoints joints = skel::readJointsFile(dir.file("cap_boy.joints.json"));
+  std::string text = "{\"joints\": {";
+  for (const auto& [name, place] : joints)
+    if (place)
+      text += (text.ends_with("{") ? "\"" : ", \"") + name + "\": [" + std::to_string(place->x()) + ", " +
+              std::to_string(place->y() + (name == "left_hand" ? 60 : 0)) + "]";
+  skel::writeFile(dir.file("again.joints.json"), text + "}}");
+  const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "'");
+  CAPTURE(run.err);
+  CHECK(run.exit_code == 0);
+  CHECK(run.err.find("note: 2 drawings are one picture (again, cap_boy), their joints lie up to .1") !=
+        std::string::npos);
+  CHECK(run.err.find("note: 1 of 3 pictures have no joint that a person has placed (ninja.png)\n") !=
+        std::string::npos);
+}

@@ -716,6 +716,16 @@ TEST_CASE("check did not see a broken joints file beside a picture without label
   CHECK(contains(run.err, "skel-label: ./box_robot.joints.json: joints.head: "));
 }
 
+TEST_CASE("check says which pictures have no labels") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  copyCharacter("box_robot", dir.path());
+  const ToolRun run = label(dir, "check .");
+  CHECK(run.exit_code == 0);
+  CHECK(run.err == "skel-label: note: 1 of 2 pictures have no labels (box_robot.png)\n");
+}
+
 TEST_CASE("check said nothing of a picture that occurs twice") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());
@@ -726,7 +736,18 @@ TEST_CASE("check said nothing of a picture that occurs twice") {
   const ToolRun run = label(dir, "check .");
   CHECK(run.exit_code == 0);
   CHECK(run.out == "no inconsistencies\n");
-  CHECK(run.err == "skel-label: note: 2 drawings are one picture (b/again.png, cap_boy.png)\n");
+  const std::string twins = "skel-label: note: 2 drawings are one picture (b/again.png, cap_boy.png)";
+  CHECK(run.err == twins + "\n");
+
+  const std::string path = dir.file("b/again.labels.json");
+  LabelFile labels = readLabelFile(path);
+  for (auto& [name, place] : labels.joints)
+    if (name == "left_hand") place->y() += 40;
+  writeLabelFile(path, labels);
+  fs::remove(dir.file("b/again.joints.json"));
+  const std::string apart = label(dir, "check .").err;
+  CHECK(apart.starts_with(twins + ", their joints lie up to .0"));
+  CHECK(apart.ends_with(" of the figure apart\n"));
 }
 
 TEST_CASE("an inverted mask, and that of a part of the figure, were imported and checked without a word") {

@@ -431,6 +431,15 @@ TEST_CASE("a label file is not replaced by weights") {
   }
 }
 
+TEST_CASE("skel-train says which pictures have no labels") {
+  const TempDir dir;
+  fill(dir);
+  writeFile(dir.file("new.png"), "picture");
+  const ToolRun train = run(dir.path() + " -o " + dir.file("w.json") + kQuick);
+  CHECK(train.exit_code == 0);
+  CHECK(train.err == "skel-train: note: 1 of 7 pictures have no labels (new.png): not learned from\n");
+}
+
 TEST_CASE("a training of parts went on without any drawing that has parts") {
   const TempDir dir;
   for (const char* end : {".png", ".mask.png", ".joints.json"})
