@@ -37,7 +37,10 @@ void restore(const std::string& checkpoint, MadeBy& made_by, ConvNetTrainer& tra
   }
   ensureSame(*was, made_by, checkpoint);
   const std::size_t line = bytes.find('\n');
-  trainer.restore(line == std::string::npos ? "" : bytes.substr(line + 1), checkpoint);
+  const std::string state = line == std::string::npos ? "" : bytes.substr(line + 1);
+  if (state.size() < trainer.checkpoint().size())
+    throw InputError(checkpoint, "is cut off: remove it to start anew");
+  trainer.restore(state, checkpoint);
   const int steps = made_by.steps.back();
   made_by.steps = was->steps;
   if (steps != made_by.steps.back()) made_by.steps.push_back(steps);
