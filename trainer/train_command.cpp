@@ -317,7 +317,8 @@ ExitCode runTrain(const TrainOptions& given) {
   writeFile(options.output, formatWeights(weights));
   if (!options.json.empty()) writeFile(options.json, formatEvaluation(evaluation));
   if (!options.report.empty()) writeReport(options.report, result, evaluation);
-  std::printf("wrote %s (%d epochs)\n", printable(options.output).c_str(), result.epochs);
+  std::printf("wrote %s (of the least loss: after %d of %zu epochs)\n", printable(options.output).c_str(),
+              result.epochs, result.training_curve.size());
   return ExitCode::kDone;
 }
 

@@ -26,7 +26,9 @@ struct TrainingOptions {
 
 struct Training {
   Mlp mlp;
-  int epochs = 0;                       // that the kept weights took
+  // That the kept weights took, those of the least loss. An epoch tells the loss of what it begins with: what
+  // the last one makes is not judged.
+  int epochs = 0;
   double loss = 0;                      // mean squared error, on the held-out characters if there are any
   std::vector<float> training_curve;    // mean squared error by epoch, of the training that was kept
   std::vector<float> validation_curve;  // the same on the held-out characters; may be empty

@@ -440,6 +440,16 @@ TEST_CASE("skel-train says which pictures have no labels") {
   CHECK(train.err == "skel-train: note: 1 of 7 pictures have no labels (new.png): not learned from\n");
 }
 
+TEST_CASE(
+    "skel-train says of how many epochs the weights are that it keeps: those after the last are unjudged") {
+  const TempDir dir;
+  fill(dir);
+  const ToolRun train = run(dir.path() + " -o " + dir.file("w.json") + kQuick);
+  const int epochs = readWeights(dir.file("w.json")).provenance.epochs;
+  CHECK(train.out.ends_with("wrote " + dir.file("w.json") + " (of the least loss: after " +
+                            std::to_string(epochs) + " of 80 epochs)\n"));
+}
+
 TEST_CASE("a training of parts went on without any drawing that has parts") {
   const TempDir dir;
   for (const char* end : {".png", ".mask.png", ".joints.json"})
