@@ -6,6 +6,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/parallel.h"
+#include "libskel/core/progress.h"
 #include "libskel/deform/skin_vertices.h"
 #include "libskel/draw/render_mesh.h"
 #include "libskel/image/read_image.h"
@@ -233,8 +234,11 @@ std::vector<PosableDrawing> posableDrawings(const std::vector<JointedDrawing>& d
                                             const std::vector<std::string>& names,
                                             const SkeletonTemplate& body_plan, int threads) {
   std::vector<PosableDrawing> out(drawings.size());
-  parallelFor(drawings.size(), threads,
-              [&](std::size_t i) { out[i] = posable(drawings[i], names, body_plan); });
+  ProgressBar bar("preparing drawings", drawings.size());
+  parallelFor(drawings.size(), threads, [&](std::size_t i) {
+    out[i] = posable(drawings[i], names, body_plan);
+    bar.advance();
+  });
   return out;
 }
 
