@@ -20,6 +20,7 @@
 #include "libskel/core/text.h"
 #include "libskel/core/tool_command.h"
 #include "libskel/deform/measure_figure.h"
+#include "libskel/skeleton/hanging.h"
 #include "libskel/skeleton/joint_lookup.h"
 
 namespace skel {
@@ -153,7 +154,7 @@ std::string whyUnfit(const Clip& clip, const RiggedCharacter& character) {
     return fault;
   const JointLookup joints(character.skeleton);
   const auto lacks = [&](const std::string& joint) {
-    return joints.find(joint) < 0 && !(figure && figure->skeleton.find(joint) >= 0);
+    return joints.find(joint) < 0 && !isHangingName(joint) && !(figure && figure->skeleton.find(joint) >= 0);
   };
   const std::string body_plan = bodyPlanOf(character.skeleton);
   const bool is_other = isForOther(clip, character.skeleton);
@@ -188,7 +189,8 @@ std::vector<std::string> whatStays(const Clip& clip, const RiggedCharacter& char
     clauses.push_back(std::move(arm));
   std::vector<std::string> lacking;
   for (const JointTrack& track : clip.tracks)
-    if (skeleton.find(track.joint) < 0) lacking.push_back('"' + track.joint + '"');
+    if (skeleton.find(track.joint) < 0 && !isHangingName(track.joint))
+      lacking.push_back('"' + track.joint + '"');
   if (!lacking.empty())
     clauses.push_back("the clip \"" + clip.name + "\" plays without " + joined(lacking) +
                       ", which this character lacks");

@@ -154,6 +154,7 @@ void bindTransfer(CLI::App& app, TransferCommandOptions& options) {
       ->type_name("FILE")
       ->capture_default_str()
       ->check(outputFile("skel-motion"));
+  app.add_flag("--force", options.force, "Also over joints that were placed by hand");
   bindStyle(app, options.request);
 }
 

@@ -60,6 +60,7 @@ struct StyleRequest {
 struct TransferCommandOptions {
   std::string content, style, output = "out/transfer.motion.json";
   StyleRequest request;
+  bool force = false;
 };
 void bindTransfer(CLI::App& app, TransferCommandOptions& options);
 ExitCode runTransfer(const TransferCommandOptions& options);

@@ -24,6 +24,7 @@ void sayTransferNotes(const MotionTransferReport& report, const std::string& fil
 }
 
 ExitCode runTransfer(const TransferCommandOptions& options) {
+  if (!options.force) requireNoEdits(options.output, loadTemplate("biped"));
   const std::vector<NamedMotion> content = readMotions(options.content), style = readMotions(options.style);
   const MotionTransferReport report = transferMotion(content, style, transferOptions(options.request));
   writeFile(options.output, formatMotionFile(report.motion, loadTemplate("biped")));

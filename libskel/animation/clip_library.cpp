@@ -28,8 +28,9 @@ template <class Target>
 bool fitsTarget(const Clip& clip, const std::string& template_name, const Target& target) {
   const auto has_joint = [&](const std::string& joint) { return target.find(joint) >= 0; };
   const bool moves_all =
-      std::all_of(clip.tracks.begin(), clip.tracks.end(),
-                  [&](const JointTrack& track) { return has_joint(track.joint); }) &&
+      std::all_of(
+          clip.tracks.begin(), clip.tracks.end(),
+          [&](const JointTrack& track) { return has_joint(track.joint) || isHangingName(track.joint); }) &&
       std::all_of(clip.contacts.begin(), clip.contacts.end(),
                   [&](const FootContact& contact) { return endsLimb(target, contact.joint); });
   if (!moves_all || clip.template_name.empty() || clip.template_name == template_name) return moves_all;
@@ -63,9 +64,7 @@ std::string faultFor(const Clip& clip, const Target& target, const std::string& 
     if (clip.template_name.empty() || clip.template_name == name)
       for (const TemplateJoint& joint : loadTemplate(name).joints) known.push_back(joint.name);
   const auto isKnown = [&](const std::string& joint) {
-    Joint named;
-    named.name = joint;
-    return hangs(named) || std::find(known.begin(), known.end(), joint) != known.end();
+    return isHangingName(joint) || std::find(known.begin(), known.end(), joint) != known.end();
   };
   const auto lacks = [&](const std::string& joint) {
     const std::string meant = nearestWord(joint, known);

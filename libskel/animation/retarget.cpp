@@ -517,7 +517,11 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
     return as_it_is;
   }
   const FigureShape shape = options.shape ? *options.shape : shapeOfBones(skeleton);
-  const Clip clip = asItCan(asked, skeleton, shape);
+  Clip clip = asItCan(asked, skeleton, shape);
+  // Of what hangs on another figure.
+  std::erase_if(clip.tracks, [&](const JointTrack& track) {
+    return isHangingName(track.joint) && skeleton.find(track.joint) < 0;
+  });
   Quaterniond figure_from_clip = Quaterniond::Identity();
   if (clip.frame == ClipFrame::kBody && shape.yaw_rad != 0)
     figure_from_clip = Quaterniond(Eigen::AngleAxisd(shape.yaw_rad, Vector3d::UnitY()));

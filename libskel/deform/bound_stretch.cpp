@@ -209,7 +209,7 @@ class Stretched {
 
 // So many of the heaviest, each less the next one's weight (nearly: all may be alike), with the sum 1. Where
 // a neighbour's order is another one, weights still are alike.
-void keepHeaviest(int count, Eigen::Ref<Eigen::RowVectorXf> row) {
+void limitInfluences(int count, Eigen::Ref<Eigen::RowVectorXf> row) {
   std::array<float, 5> weights{};  // descending
   std::array<Index, 5> joints{};
   for (Index j = 0; j < row.size(); ++j) {
@@ -277,7 +277,7 @@ class Springs {
       for (auto k = std::size_t(edges_.first[v]); k < std::size_t(edges_.first[v + 1]); ++k)
         pull += stiffness_[k] * rows.row(edges_.to[k]), all += stiffness_[k];
       pull = 0.25f * rows.row(Index(v)) + 0.75f / all * pull;
-      keepHeaviest(max_influences, pull);
+      limitInfluences(max_influences, pull);
       relaxed.row(Index(i)) = pull;
     }
     for (std::size_t i = 0; i < vertices.size(); ++i) rows.row(vertices[i]) = relaxed.row(Index(i));

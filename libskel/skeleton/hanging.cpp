@@ -14,7 +14,9 @@ std::string hangingJointName(const std::string& what, int link) {
   return std::string(kHanging) + what + "_" + std::to_string(link);
 }
 
-bool hangs(const Joint& joint) { return joint.name.starts_with(kHanging); }
+bool isHangingName(std::string_view joint) { return joint.starts_with(kHanging); }
+
+bool hangs(const Joint& joint) { return isHangingName(joint.name); }
 
 int carrierOf(const Skeleton& skeleton, int joint) {
   const auto at = [&](int j) -> const Joint& { return skeleton.joints[static_cast<std::size_t>(j)]; };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "libskel/skeleton/skeleton.h"
 
@@ -10,6 +11,7 @@ namespace skel {
 
 // "hanging_skirt_1": of the chain `what`, the `link`-th joint from where it hangs, from 1 on.
 std::string hangingJointName(const std::string& what, int link);
+bool isHangingName(std::string_view joint);
 bool hangs(const Joint& joint);
 
 // The joint that it hangs on, through all of its chain; `joint` itself if it does not hang.

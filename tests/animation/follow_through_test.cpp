@@ -1,10 +1,12 @@
 // What hangs on a figure moves a little behind it.
 #include "libskel/animation/follow_through.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "libskel/animation/clip_library.h"
+#include "libskel/animation/pose_hash.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/skeleton/hanging.h"
@@ -131,4 +133,23 @@ TEST_CASE("a clip that turns what hangs has its way") {
   }
   CHECK(upper > 0.05f);
   CHECK(lower < 1e-3f);
+}
+
+TEST_CASE("a clip that was made where something hangs turned all of a figure without it otherwise") {
+  const Skeleton with = withSkirt(), bare = figureSkeleton();
+  Clip made = retargetToRest(clipNamed(builtinClips(), "walk"), with);
+  made.rest_pose = restPoseHash(with);
+  REQUIRE(std::any_of(made.tracks.begin(), made.tracks.end(),
+                      [](const JointTrack& track) { return isHangingName(track.joint); }));
+  Clip without = made;
+  std::erase_if(without.tracks, [](const JointTrack& track) { return isHangingName(track.joint); });
+  CHECK(fits(made, bare));
+  const Clip a = retargetToRest(made, bare), b = retargetToRest(without, bare);
+  CHECK(a.tracks.size() == b.tracks.size());
+  for (int k = 0; k < 10; ++k) {
+    const Pose one = samplePose(a, bare, a.duration_s() * float(k) / 10),
+               other = samplePose(b, bare, a.duration_s() * float(k) / 10);
+    for (std::size_t j = 0; j < bare.joints.size(); ++j)
+      CHECK(one.rotations[j].angularDistance(other.rotations[j]) < 1e-3f);
+  }
 }

@@ -378,6 +378,26 @@ TEST_CASE("of a motion of thousands of frames some are looked at, and too many a
              Contains("10001 frames, of which 10000 are factored"));
 }
 
+TEST_CASE("a transfer replaced a motion that was mended by hand without a word") {
+  const TempDir dir;
+  const std::string walk = film(dir, "walk");
+  done("keypoints " + walk + " -o " + dir.file("walk.motion.json"));
+  const std::string transfer = "transfer --content " + dir.file("walk.motion.json") + " --style " +
+                               dir.file("walk.motion.json") + " -o " + dir.file("new.motion.json");
+  done(transfer);
+  const SkeletonTemplate plan = loadTemplate("biped");
+  MotionFile motion = readMotionFile(dir.file("new.motion.json"), plan);
+  motion.frames[0].joints[0]->origin = JointOrigin::kEdited;
+  writeFile(dir.file("new.motion.json"), formatMotionFile(motion, plan));
+  const std::string mended = readFile(dir.file("new.motion.json"));
+  const ToolRun refused = style(transfer);
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.err, Contains("new.motion.json: holds joints that were edited by hand"));
+  CHECK(readFile(dir.file("new.motion.json")) == mended);
+  done(transfer + " --force");
+  CHECK(readFile(dir.file("new.motion.json")) != mended);
+}
+
 TEST_CASE("a transfer whose feet are out of step, or whose limbs stay, says so") {
   MotionTransferReport report;
   report.phase_correlation = .95;
