@@ -151,8 +151,12 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
     sub->parse_complete_callback([&run, action] { run = action; });
     return sub;
   };
-  command("candidates", "Make an empty label file for every picture that has none",
-          [&] { return report(makeLabelFiles(options.dir, complaints())); });
+  command("candidates", "Make an empty label file for every picture that has none", [&] {
+    const ImportCounts counts = makeLabelFiles(options.dir, complaints());
+    for (const std::string& note : counts.renamed)
+      std::fprintf(stderr, "skel-label: note: %s\n", printable(note).c_str());
+    return report(counts);
+  });
   CLI::App* import = command(
       "import",
       "Make label files from annotations: char_cfg.yaml, joints.json, "

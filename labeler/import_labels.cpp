@@ -18,6 +18,7 @@
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/labels/label_folder.h"
+#include "libskel/mended/renamed_pictures.h"
 #include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
@@ -330,7 +331,11 @@ ImportCounts makeLabelFiles(const std::string& dir, const OnError& on_error) {
     writeLabelFile(files.labels, labelImage(files.image, givenMask(files), {}, body_plan));
     return true;
   };
-  forEach(findDrawings(dir), "candidates", on_error, make, counts);
+  const std::vector<DrawingFiles> drawings = findDrawings(dir);
+  std::vector<std::string> pictures;
+  for (const DrawingFiles& drawing : drawings) pictures.push_back(drawing.image);
+  counts.renamed = renamedNotes(pictures, "");
+  forEach(drawings, "candidates", on_error, make, counts);
   return counts;
 }
 

@@ -36,6 +36,7 @@ struct ImportCounts {
   std::size_t without_class = 0;         // candidates of these
   std::map<std::string, std::set<std::string>> unknown_joints;  // by annotation: names of none that is known
   std::vector<std::string> outside_mask;                        // of those made: jointsOutsideMask()
+  std::vector<std::string> renamed;                             // renamedNotes() on the pictures
   std::set<std::string> passed_over;     // files that we have exported, beside what they were made of
   std::set<std::string> folders;         // that those made lie in
   ExitCode exit_code = ExitCode::kDone;  // of the first failure

@@ -1,5 +1,6 @@
 #include "libskel/mended/renamed_pictures.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -102,6 +103,21 @@ class OrphanedSkeletons {
   std::size_t opened_ = 0;
 };
 
+// Labels as skel-label candidates makes them are none; those that cannot be read may be anything.
+bool hasLabels(const std::string& picture) {
+  const std::string path = labelFileFor(picture);
+  std::error_code failure;
+  if (!fs::exists(path, failure)) return false;
+  try {
+    const LabelFile file = readLabelFile(path);
+    const auto is_given = [](const auto& label) { return label.has_value(); };
+    return file.hasPlacedJoint() || file.mask ||
+           std::any_of(file.labels.begin(), file.labels.end(), is_given);
+  } catch (const Error&) {
+    return true;
+  }
+}
+
 // Nothing is said where a person has mended the picture under its new name.
 bool isMended(const std::string& picture, const std::string& picture_sha256, const std::string& out_dir) {
   MendRequest request;
@@ -156,7 +172,7 @@ std::vector<std::string> renamedNotes(const std::vector<std::string>& drawings, 
     if (labels.empty() && of_skeletons.empty()) continue;
     for (const std::string& picture : there.pictures) {
       std::error_code failure;
-      if (!fs::is_regular_file(picture, failure) || fs::exists(labelFileFor(picture), failure)) continue;
+      if (!fs::is_regular_file(picture, failure) || hasLabels(picture)) continue;
       try {
         const std::string hash = sha256(readFile(picture));
         if (const auto orphan = labels.find(hash); orphan != labels.end())

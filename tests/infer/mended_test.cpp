@@ -1073,6 +1073,17 @@ TEST_CASE("a picture that was renamed after its joints were placed left them beh
   // Its results beside it, as with -o class.
   writeFile(dir.file("boy.glb"), "a model");
   CHECK_THAT(infer(dir, ". --force").err, Contains(renamed));
+  SECTION("empty labels as skel-label candidates makes them") {
+    writeLabelFile(dir.file("ben.labels.json"),
+                   labelImage(dir.file("ben.png"), std::nullopt, {}, loadTemplate("biped")));
+    CHECK_THAT(infer(dir, ". --force").err, Contains(renamed));
+  }
+  SECTION("classes that somebody has given") {
+    LabelFile labels = labelImage(dir.file("ben.png"), std::nullopt, {}, loadTemplate("biped"));
+    labels.labels.front() = JointClass::kHead;
+    writeLabelFile(dir.file("ben.labels.json"), labels);
+    CHECK_THAT(infer(dir, ". --force").err, !Contains("which was called"));
+  }
   // Another picture, and labels that are none.
   writeFile(dir.file("ben.png"), encodePng(capsuleImage({.size = 500})));
   writeFile(dir.file("torn.labels.json"), "{");

@@ -159,6 +159,19 @@ TEST_CASE("candidates: empty label files where there are none, at any depth") {
   CHECK(run.out == "0 label files made, 2 kept as they were, 1 failed\n");
 }
 
+TEST_CASE("candidates made an empty label file for a renamed picture without a word of its labels") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  CHECK(label(dir, "candidates .").err.empty());
+  fs::rename(dir.file("cap_boy.png"), dir.file("ben.png"));
+  for (int time = 0; time < 2; ++time)
+    CHECK(
+        label(dir, "candidates .").err ==
+        "skel-label: note: ./cap_boy.labels.json is of ./ben.png, which was called cap_boy.png then: call it "
+        "so again, and what was mended is taken up\n");
+}
+
 TEST_CASE("a photo in HEIC was no reason to refuse the folder that holds its converted picture, too") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.file("class"), false);
