@@ -119,8 +119,8 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
       std::move(rig.drawing), withAdviceIfUpright(std::move(rig.warnings), "use --upright"), {}};
   for (const auto& note :
        {mendedNote(rig.files, request, rig.placed), contradictionNote(rig.files, rig.placed),
-        otherPlanNote(rig.files, options), earlierNote(rig.files), otherSizeNote(rig.files),
-        fitsAgainNote(rig.files), keptLayersNote(rig.files, request)})
+        otherPlanNote(rig.files, options), unknownJointNote(rig.files), earlierNote(rig.files),
+        otherSizeNote(rig.files), fitsAgainNote(rig.files), keptLayersNote(rig.files, request)})
     if (note) result.mended.push_back(*note);
   return result;
 }

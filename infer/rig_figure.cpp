@@ -164,6 +164,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
     result.notes.push_back(*note);
   if (const auto note = otherFigureNote(mended.files)) result.notes.push_back(*note);
   if (const auto note = otherPlanNote(mended.files, rig)) result.notes.push_back(*note);
+  if (const auto note = unknownJointNote(mended.files)) result.notes.push_back(*note);
   for (const auto& note : {earlierNote(mended.files, kept), otherSizeNote(mended.files, kept)}) {
     if (!note) continue;
     result.left_out.push_back(*note);

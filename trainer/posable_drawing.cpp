@@ -23,6 +23,14 @@ constexpr double kLayer_m = 0.25;   // arms and legs before the body or behind i
 constexpr int kLeastVertices = 20;  // of a limb that is given to another drawing
 constexpr int kPictureSize = 400;   // px of the rendered drawing, before its box is cut out
 
+// Maybe what is missing by another name.
+std::string butUnknown(const JointedDrawing& drawing, const SkeletonTemplate& body_plan) {
+  for (const auto& [name, place] : drawing.joints)
+    if (body_plan.find(name) < 0)
+      return ", but \"" + name + "\", which is no joint of the template " + body_plan.name;
+  return "";
+}
+
 PosableDrawing posable(const JointedDrawing& drawing, const std::vector<std::string>& names,
                        const SkeletonTemplate& body_plan) {
   const Image image = readImage(drawing.image);
@@ -34,8 +42,9 @@ PosableDrawing posable(const JointedDrawing& drawing, const std::vector<std::str
     const auto found = std::find_if(drawing.joints.begin(), drawing.joints.end(),
                                     [&](const auto& joint) { return joint.first == name; });
     if (found == drawing.joints.end())
-      throw InputError(drawing.joints_file,
-                       "joints: has no \"" + name + "\"; training needs all, null where one cannot be seen");
+      throw InputError(drawing.joints_file, "joints: has no \"" + name + "\"" +
+                                                butUnknown(drawing, body_plan) +
+                                                "; training needs all, null where one cannot be seen");
     out.joints.push_back(skeleton.index(name));
     out.unknown.push_back(!found->second);
     if (!found->second) continue;

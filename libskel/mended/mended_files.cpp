@@ -118,6 +118,8 @@ std::string planOfLabels(const LabelFile& labels, const std::string& path, const
   const std::vector<std::string> names = jointNames(labels.joints);
   const BodyPlans plans = plansOf(rig);
   const SkeletonTemplate* plan = planWith(names, plans);
+  if (const std::string unknown = unknownJointAmong(names, plans); !unknown.empty())
+    throw InputError(path, unknown + "; mend its name, or name its template by --template");
   if (!plan)
     throw InputError(path, "has joints that are none of the template \"" + rig.body_plan.name +
                                "\"; name theirs by --template");
@@ -346,6 +348,10 @@ void leaveOutOtherPlans(MendedFiles& files, const MendRequest& request, const Ri
   const LabelFile labels = readLabelFile(files.labels);
   const std::vector<std::string> names = jointNames(labels.joints);
   if (!labels.hasPlacedJoint() || planWith(names, plans)) return;
+  if (const std::string unknown = unknownJointAmong(names, plans); !unknown.empty()) {
+    files.unknown_joint = std::exchange(files.labels, "") + ": " + unknown;
+    return;
+  }
   files.other_plan_name = otherPlanWith(names, plans);
   files.other_plan.push_back(std::exchange(files.labels, ""));
 }
@@ -359,6 +365,14 @@ std::optional<Note> otherPlanNote(const MendedFiles& files, const RigOptions& ri
                      : "joints placed by hand are a " + theirs + "'s, a " + rig.body_plan.name +
                            "'s are asked for: left out (--template " + theirs + ", or auto, takes them up)";
   return Note{shared + ": " + joined(files.other_plan), shared, joined(files.other_plan)};
+}
+
+std::optional<Note> unknownJointNote(const MendedFiles& files) {
+  if (files.unknown_joint.empty()) return std::nullopt;
+  const std::string shared =
+      "joints placed by hand are left out, as one is of no body plan (mend its name, or name its template by "
+      "--template)";
+  return Note{shared + ": " + files.unknown_joint, shared, files.unknown_joint};
 }
 
 RigOptions forBodyPlan(const RigOptions& rig, const std::string& body_plan) {

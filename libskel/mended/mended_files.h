@@ -51,6 +51,7 @@ struct MendedFiles {
   std::vector<std::string> other_figure;  // made for another one than the largest, where all are rigged
   std::vector<std::string> other_plan;    // of another body plan than is asked for: not among those above
   std::string other_plan_name;            // "": none that skel brings along
+  std::string unknown_joint;              // of labels, of no body plan: with file and place; else ""
 
   // A photo that was taken again has the name of the one before.
   std::optional<SkeletonSource> earlier_result;  // what was found in that one
@@ -96,11 +97,13 @@ void leaveOutOtherFigures(MendedFiles& files, const MendRequest& request, const 
 std::optional<Note> otherFigureNote(const MendedFiles& files);
 
 // Moves a skeleton and labels that nobody named, and whose joints are of none of the options' body plans,
-// from their place in `files` to `other_plan`. Throws InputError: the skeleton lies where the run writes.
+// from their place in `files` to `other_plan`; labels with a joint of no plan at all to `unknown_joint`.
+// Throws InputError: the skeleton lies where the run writes.
 void leaveOutOtherPlans(MendedFiles& files, const MendRequest& request, const RigOptions& rig);
 
 // How they are taken up; nothing where none were left out.
 std::optional<Note> otherPlanNote(const MendedFiles& files, const RigOptions& rig);
+std::optional<Note> unknownJointNote(const MendedFiles& files);
 
 // Of skeleton and labels. What the skeleton has from labels goes where it has gone, or been moved, in those.
 // Where both place a joint, each elsewhere, or are of different body plans, the file

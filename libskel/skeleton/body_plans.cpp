@@ -34,6 +34,23 @@ std::string otherPlanWith(const std::vector<std::string>& joints, const BodyPlan
   return "";
 }
 
+std::string unknownJointAmong(const std::vector<std::string>& joints, const BodyPlans& plans) {
+  const auto has = [](const SkeletonTemplate& plan, const std::string& name) { return plan.find(name) >= 0; };
+  BodyPlans all = plans;
+  for (const std::string& name : builtinTemplates()) all.push_back(loadTemplate(name));
+  const auto unknown = std::find_if(joints.begin(), joints.end(), [&](const std::string& name) {
+    return std::none_of(all.begin(), all.end(), [&](const auto& plan) { return has(plan, name); });
+  });
+  if (unknown == joints.end()) return "";
+  const auto known = [&](const SkeletonTemplate& plan) {
+    return std::count_if(joints.begin(), joints.end(), [&](const auto& name) { return has(plan, name); });
+  };
+  const auto nearest = std::max_element(plans.begin(), plans.end(), [&](const auto& plan, const auto& other) {
+    return known(plan) < known(other);
+  });
+  return "joints." + *unknown + ": is no joint of the template " + nearest->name;
+}
+
 std::string otherPlanSaid(const std::vector<std::string>& names, std::size_t drawings,
                           const std::string& theirs, const std::string& asked_for) {
   return std::to_string(names.size()) + " of " + std::to_string(drawings) + " drawings (" + names.front() +

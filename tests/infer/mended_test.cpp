@@ -1196,6 +1196,25 @@ TEST_CASE("when the picture from before is back, a line names the skeleton that 
   CHECK(infer(dir, "boy.png").err.find("fits this picture") == std::string::npos);
 }
 
+TEST_CASE("a mistyped joint in labels was said to be of another body plan, to be named by --template") {
+  const TempDir dir;
+  drawBoy(dir);
+  placeInLabels(dir, {300, 300});
+  std::string text = readFile(dir.file("boy.labels.json"));
+  writeFile(dir.file("boy.labels.json"), text.replace(text.find("\"left_hand\""), 11, "\"left_hnad\""));
+  const std::string what = "boy.labels.json: joints.left_hnad: is no joint of the template biped";
+  ToolRun run = infer(dir, "boy.png --formats json");
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.err,
+                 "joints placed by hand are left out, as one is of no body plan (mend its name, or name "
+                 "its template by --template): " +
+                     what + "\n"));
+  CHECK_FALSE(contains(run.err, "another body plan"));
+  run = infer(dir, "boy.png --formats json -o other --skeleton boy.labels.json");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.err, what + "; mend its name"));
+}
+
 TEST_CASE("labels of another body plan than the nets see ended the run with an error that named no file") {
   const TempDir dir;
   const std::string horse = SKEL_SOURCE_DIR "/datasets/unseen/animals/an3_kid_stick_horse.png";

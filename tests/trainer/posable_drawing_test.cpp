@@ -103,6 +103,17 @@ TEST_CASE("drawings to be posed need all joints") {
             ": joints: has no \"left_knee\"; training needs all, null where one cannot be seen");
 }
 
+TEST_CASE("of a mistyped joint only the one that is missing was named") {
+  const TempDir dir;
+  write(dir);
+  std::string text = readFile(dir.file("a.joints.json"));
+  writeFile(dir.file("a.joints.json"), text.replace(text.find("left_knee"), 9, "left_knie"));
+  CHECK(complaint(dir) == dir.file("a.joints.json") +
+                              ": joints: has no \"left_knee\", but \"left_knie\", which is no joint of the "
+                              "template biped; training "
+                              "needs all, null where one cannot be seen");
+}
+
 TEST_CASE("a joint that cannot be seen is completed and not learned") {
   const TempDir dir;
   write(dir, "", "left_knee");
