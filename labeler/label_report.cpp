@@ -46,6 +46,16 @@ void checkJointNames(const std::string& path, const LabelFile& labels, const Ske
       lines.push_back(path + ": joints." + name + ": is no joint of the template " + body_plan.name);
 }
 
+// Joints that the joints file has elsewhere; none of one that cannot be read, as checkJointsFiles() says.
+std::vector<std::string> movedFromJointsFile(const std::string& joints_file, const LabelFile& labels) {
+  try {
+    NamedJoints joints = readJointsFile(joints_file);
+    return overrule(joints, labels);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 void checkOtherJoints(const std::string& path, const LabelFile& labels, std::vector<std::string>& lines) {
   if (!labels.hasPlacedJoint()) return;
   const auto name = [&](const std::vector<std::string>& moved, const std::string& file, const char* remedy) {
@@ -53,8 +63,7 @@ void checkOtherJoints(const std::string& path, const LabelFile& labels, std::vec
                     ", which does not count: " + remedy);
   };
   if (const auto joints_file = jointsFileBeside(besideLabelFile(path, labels.image.file))) {
-    NamedJoints joints = readJointsFile(*joints_file);
-    if (const auto moved = overrule(joints, labels); !moved.empty())
+    if (const auto moved = movedFromJointsFile(*joints_file, labels); !moved.empty())
       name(moved, *joints_file, "mend or remove that");
   } else if (const auto moved = movedInSkeleton(path, labels)) {
     name(moved->joints, moved->file, "take it by skel-label import --force, or mend that");
@@ -125,14 +134,11 @@ void finishSaves(const std::vector<std::string>& files) {
   }
 }
 
-// Joints files that count, as no label file beside their picture has placed joints.
+// Also those beside label files: whoever reads those reads them, too.
 void checkJointsFiles(const std::string& dir, const BodyPlans& plans, std::vector<std::string>& lines) {
   const OnInputError add = [&](const InputError& error) { lines.emplace_back(error.what()); };
   for (const AnnotatedImage& drawing : findAnnotatedImages(dir, add)) {
     try {
-      if (fs::is_regular_file(labelFileFor(drawing.image)) &&
-          (!findProblems(labelFileFor(drawing.image)).empty() || placedLabelsBeside(drawing.image)))
-        continue;
       const NamedJoints joints = readJointsFile(drawing.joints);
       ensureJointsOf(planOf(joints, plans), joints, drawing.joints);
     } catch (const InputError& error) {

@@ -729,6 +729,22 @@ TEST_CASE("check did not see a broken joints file beside a picture without label
   CHECK(contains(run.err, "skel-label: ./box_robot.joints.json: joints.head: "));
 }
 
+TEST_CASE("check did not see a mistyped or broken joints file beside labels") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  REQUIRE(label(dir, "import .").exit_code == 0);
+  const std::string joints = dir.file("cap_boy.joints.json");
+  replaceIn(joints, "\"left_hand\"", "\"left_hnad\"");
+  ToolRun run = label(dir, "check .");
+  CHECK(run.exit_code == 2);
+  CHECK(run.err == "skel-label: ./cap_boy.joints.json: joints.left_hnad: is no joint of the template biped\n");
+  writeFile(joints, "{");
+  run = label(dir, "check .");
+  CHECK(run.exit_code == 2);
+  CHECK(run.err.starts_with("skel-label: ./cap_boy.joints.json: "));
+  CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+}
+
 TEST_CASE("check says which pictures have no labels") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());
