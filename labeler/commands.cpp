@@ -122,6 +122,8 @@ ExitCode exportLabels(const LabelerOptions& options) {
   if (text.empty()) return code;
   writeFile(output, text);
   print(printable(output) + "\n");
+  for (const std::string& note : overruledAmong(options.dir))
+    std::fprintf(stderr, "skel-label: note: %s\n", note.c_str());
   return code;
 }
 

@@ -56,18 +56,29 @@ std::vector<std::string> movedFromJointsFile(const std::string& joints_file, con
   }
 }
 
-void checkOtherJoints(const std::string& path, const LabelFile& labels, std::vector<std::string>& lines) {
-  if (!labels.hasPlacedJoint()) return;
-  const auto name = [&](const std::vector<std::string>& moved, const std::string& file, const char* remedy) {
-    lines.push_back(path + ": joints: " + joined(moved) + " placed elsewhere than in " + file +
-                    ", which does not count: " + remedy);
-  };
+// Beside labels, of a file that does not count.
+struct OtherJoints {
+  std::string file;
+  std::vector<std::string> joints;
+  bool of_skeleton = false;
+};
+
+std::optional<OtherJoints> otherJointsBeside(const std::string& path, const LabelFile& labels) {
+  if (!labels.hasPlacedJoint()) return std::nullopt;
   if (const auto joints_file = jointsFileBeside(besideLabelFile(path, labels.image.file))) {
-    if (const auto moved = movedFromJointsFile(*joints_file, labels); !moved.empty())
-      name(moved, *joints_file, "mend or remove that");
-  } else if (const auto moved = movedInSkeleton(path, labels)) {
-    name(moved->joints, moved->file, "take it by skel-label import --force, or mend that");
+    std::vector<std::string> moved = movedFromJointsFile(*joints_file, labels);
+    return moved.empty() ? std::nullopt : std::optional(OtherJoints{*joints_file, std::move(moved), false});
   }
+  if (const auto moved = movedInSkeleton(path, labels)) return OtherJoints{moved->file, moved->joints, true};
+  return std::nullopt;
+}
+
+void checkOtherJoints(const std::string& path, const LabelFile& labels, std::vector<std::string>& lines) {
+  if (const auto other = otherJointsBeside(path, labels))
+    lines.push_back(
+        path + ": joints: " + joined(other->joints) + " placed elsewhere than in " + other->file +
+        ", which does not count: " +
+        (other->of_skeleton ? "take it by skel-label import --force, or mend that" : "mend or remove that"));
 }
 
 void checkMask(const std::string& path, const LabelFile& labels, const SkeletonTemplate& body_plan,
@@ -229,6 +240,25 @@ std::string twinsAmong(const std::string& dir) {
 std::string unlabelledAmong(const std::string& dir) {
   return picturesWithout("labels", dir,
                          [](const std::string& image) { return fs::is_regular_file(labelFileFor(image)); });
+}
+
+std::vector<std::string> overruledAmong(const std::string& dir) {
+  std::vector<std::string> label_files, skeleton_files, notes;
+  for (const std::string& path : labelFiles(dir)) {
+    try {
+      const auto other = otherJointsBeside(path, readLabelFile(path));
+      if (!other) continue;
+      if (other->of_skeleton)
+        skeleton_files.push_back(other->file);
+      else
+        label_files.push_back(path);
+    } catch (const InputError&) {
+      // It is not exported, and a line says why.
+    }
+  }
+  if (!label_files.empty()) notes.push_back(overruledNote(label_files));
+  if (!skeleton_files.empty()) notes.push_back(movedInSkeletonNote(skeleton_files));
+  return notes;
 }
 
 std::string labelStats(const std::string& dir) {

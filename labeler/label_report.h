@@ -21,6 +21,9 @@ std::string twinsAmong(const std::string& dir);
 // picturesWithout() labels.
 std::string unlabelledAmong(const std::string& dir);
 
+// overruledNote() and movedInSkeletonNote(), each if there is a file to name.
+std::vector<std::string> overruledAmong(const std::string& dir);
+
 // Counts of drawings, candidates and labels, of every class, of joints and masks, as text. Throws InputError.
 std::string labelStats(const std::string& dir);
 

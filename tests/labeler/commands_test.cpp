@@ -737,7 +737,8 @@ TEST_CASE("check did not see a mistyped or broken joints file beside labels") {
   replaceIn(joints, "\"left_hand\"", "\"left_hnad\"");
   ToolRun run = label(dir, "check .");
   CHECK(run.exit_code == 2);
-  CHECK(run.err == "skel-label: ./cap_boy.joints.json: joints.left_hnad: is no joint of the template biped\n");
+  CHECK(run.err ==
+        "skel-label: ./cap_boy.joints.json: joints.left_hnad: is no joint of the template biped\n");
   writeFile(joints, "{");
   run = label(dir, "check .");
   CHECK(run.exit_code == 2);
@@ -920,6 +921,30 @@ TEST_CASE("export leaves out what check complains about and drawings of another 
     CHECK(label(dir, "export . -o out --template quadruped --" + format).exit_code == 0);
   }
   CHECK(contains(readFile(dir.file("out")), "\"name\": \"quadruped\""));
+}
+
+TEST_CASE("export said nothing of files beside the labels that place joints elsewhere") {
+  const TempDir dir;
+  importedBoy(dir);
+  for (const std::string format : {"csv", "coco"}) {
+    INFO(format);
+    writeSkeleton(dir, "cap_boy", 300);
+    CHECK(label(dir, "export . -o out --" + format).err.empty());
+    writeSkeleton(dir, "cap_boy", 310);
+    const ToolRun run = label(dir, "export . -o out --" + format);
+    CHECK(run.exit_code == 0);
+    CHECK(run.err ==
+          "skel-label: note: ./cap_boy.skeleton.json places joints elsewhere than the label file beside it; "
+          "the "
+          "label file counts (skel-label import --force takes the skeleton's)\n");
+  }
+  const double x = headOf(dir.file("cap_boy.labels.json")) + 5;
+  writeFile(dir.file("cap_boy.joints.json"), "{\"joints\": {\"head\": [" + std::to_string(x) + ", 100]}}");
+  const ToolRun run = label(dir, "export . -o out --coco");
+  CHECK(run.exit_code == 0);
+  CHECK(run.err ==
+        "skel-label: note: ./cap_boy.labels.json places joints elsewhere than the joints file beside it; the "
+        "label file counts\n");
 }
 
 TEST_CASE("people and animals of one folder are checked, exported and imported each by its body plan") {
