@@ -81,6 +81,12 @@ void checkOtherJoints(const std::string& path, const LabelFile& labels, std::vec
         (other->of_skeleton ? "take it by skel-label import --force, or mend that" : "mend or remove that"));
 }
 
+void checkRecognized(const std::string& path, const LabelFile& labels, std::vector<std::string>& lines) {
+  if (const auto moved = movedButRecognized(path, labels); !moved.empty())
+    lines.push_back(path + ": joints: " + joined(moved) + " moved, but still called recognized: take " +
+                    (moved.size() == 1 ? "it" : "them") + " out of \"recognized\"");
+}
+
 void checkMask(const std::string& path, const LabelFile& labels, const SkeletonTemplate& body_plan,
                std::vector<std::string>& lines) {
   const std::optional<std::string> mask = maskOf(path, labels);
@@ -202,6 +208,7 @@ std::vector<std::string> checkLabels(const std::string& dir, const BodyPlans& pl
       const LabelFile labels = readLabelFile(path);
       checkJointNames(path, labels, planOf(labels.joints, plans), lines);
       checkOtherJoints(path, labels, lines);
+      checkRecognized(path, labels, lines);
       checkFigure(path, labels, labelledFigure(path, labels), lines);
       checkMask(path, labels, planOf(labels.joints, plans), lines);
     } catch (const InputError& error) {

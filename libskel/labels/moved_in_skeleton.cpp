@@ -32,21 +32,61 @@ std::vector<std::string> movedJoints(const SkeletonFile& file, const LabelFile& 
   return moved;
 }
 
+std::string skeletonBesideLabels(const std::string& label_file, const LabelFile& labels) {
+  return fs::path(besideLabelFile(label_file, labels.image.file)).replace_extension().string() +
+         kSkeletonFileEnding;
+}
+
+// Nothing where it is not of this very picture and its first figure. Throws InputError.
+std::optional<SkeletonFile> readSkeletonOf(const std::string& path, const LabelFile& labels) {
+  const std::string text = readFile(path);
+  SkeletonFile file = parseSkeletonFile(text, path, loadTemplate(templateOfSkeleton(text, path)));
+  if (file.figure.number != 1 || file.image_sha256 != labels.image.sha256) return std::nullopt;
+  return file;
+}
+
+bool haveSameMask(const SkeletonFile& file, const LabelFile& labels) {
+  return file.mask.has_value() == labels.mask.has_value() &&
+         (!file.mask || file.mask->sha256 == labels.mask->sha256);
+}
+
 }  // namespace
 
 std::optional<MovedInSkeleton> movedInSkeleton(const std::string& label_file, const LabelFile& labels) {
-  const std::string path =
-      fs::path(besideLabelFile(label_file, labels.image.file)).replace_extension().string() +
-      kSkeletonFileEnding;
+  const std::string path = skeletonBesideLabels(label_file, labels);
   try {
     if (!hasEditedJoint(path)) return std::nullopt;
-    const std::string text = readFile(path);
-    const SkeletonFile file = parseSkeletonFile(text, path, loadTemplate(templateOfSkeleton(text, path)));
-    if (file.figure.number != 1 || file.image_sha256 != labels.image.sha256) return std::nullopt;
-    std::vector<std::string> moved = movedJoints(file, labels);
+    const auto file = readSkeletonOf(path, labels);
+    if (!file) return std::nullopt;
+    std::vector<std::string> moved = movedJoints(*file, labels);
     return moved.empty() ? std::nullopt : std::optional(MovedInSkeleton{path, std::move(moved)});
   } catch (const InputError&) {
     return std::nullopt;  // whoever takes its joints says what is wrong with it
+  }
+}
+
+std::vector<std::string> movedButRecognized(const std::string& label_file, const LabelFile& labels) {
+  const std::string path = skeletonBesideLabels(label_file, labels);
+  std::error_code unknown;
+  if (labels.recognized.empty() || !fs::is_regular_file(path, unknown)) return {};
+  try {
+    const auto file = readSkeletonOf(path, labels);
+    if (!file || !haveSameMask(*file, labels) || hasEditedJoint(path)) return {};
+    std::vector<std::string> moved;
+    std::size_t unmoved = 0;
+    for (const auto& [name, place] : labels.joints) {
+      const int j = file->skeleton.find(name);
+      if (!place || labels.isPlaced(name) || j < 0) continue;
+      const Joint& found = file->skeleton.joints[static_cast<std::size_t>(j)];
+      if (found.origin == JointOrigin::kDerived) continue;
+      if (isSamePlace(*place, found.image))
+        ++unmoved;
+      else
+        moved.push_back(name);
+    }
+    return moved.size() < unmoved ? moved : std::vector<std::string>();
+  } catch (const InputError&) {
+    return {};  // as above
   }
 }
 

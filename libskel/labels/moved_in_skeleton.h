@@ -18,6 +18,11 @@ struct MovedInSkeleton {
 // Nothing where there is no such joint, or no skeleton file of this very picture and its first figure.
 std::optional<MovedInSkeleton> movedInSkeleton(const std::string& label_file, const LabelFile& labels);
 
+// Joints that count as found, but lie elsewhere than the skeleton file beside has found them: somebody has
+// moved them in the label file. None where a person has placed joints in the skeleton, by which the others
+// are found, or where most lie elsewhere: the labels were not found with it.
+std::vector<std::string> movedButRecognized(const std::string& label_file, const LabelFile& labels);
+
 // One line about skeleton files that do not count for that.
 std::string movedInSkeletonNote(const std::vector<std::string>& skeleton_files);
 

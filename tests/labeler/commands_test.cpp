@@ -718,6 +718,41 @@ TEST_CASE("check said nothing of joints that were mended in a skeleton file afte
   CHECK(label(dir, "check .").out == "no inconsistencies\n");
 }
 
+TEST_CASE("check did not see that a joint was moved in a label file that calls it recognized") {
+  const TempDir dir;
+  const std::string path = importedBoy(dir), skeleton = dir.file("cap_boy.skeleton.json");
+  SkeletonFile found = readSkeletonFile(skeleton, loadTemplate("biped"));
+  for (Joint& joint : found.skeleton.joints) joint.origin = JointOrigin::kRecognized;
+  writeFile(skeleton, formatSkeletonFile(found));
+  REQUIRE(label(dir, "import . --force").exit_code == 0);
+  CHECK(label(dir, "check .").out == "no inconsistencies\n");
+  LabelFile labels = readLabelFile(path);
+  const LabelFile good = labels;
+  for (auto& [name, place] : labels.joints)
+    if (name == "left_hand") place->x() += 30;
+  writeLabelFile(path, labels);
+  const ToolRun run = label(dir, "check .");
+  CHECK(run.exit_code == 2);
+  CHECK(run.err ==
+        "skel-label: ./cap_boy.labels.json: joints: left_hand moved, but still called recognized: take it "
+        "out of "
+        "\"recognized\"\n");
+  std::erase(labels.recognized, "left_hand");
+  writeLabelFile(path, labels);
+  CHECK(label(dir, "check .").exit_code == 0);
+
+  SECTION("another net has found them all elsewhere") {
+    labels = good;
+    for (auto& joint : labels.joints) joint.second->x() += 3;
+    writeLabelFile(path, labels);
+    CHECK(label(dir, "check .").exit_code == 0);
+  }
+  SECTION("the skeleton was found with a joint that a person has placed") {
+    writeSkeleton(dir, "cap_boy", 300);
+    CHECK_FALSE(contains(label(dir, "check .").err, "recognized"));
+  }
+}
+
 TEST_CASE("check did not see a broken joints file beside a picture without labels") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());
