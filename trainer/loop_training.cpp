@@ -63,7 +63,8 @@ ExitCode runLoopTraining(const PageCaseOptions& options) {
   const LearnedFromPages learned = learnFromPages(
       options, loopsOn, printOpened, "no figure encloses anything that nothing is drawn on", fit);
   writeFile(options.output, formatLoopNet({learned.net, "skel-train loops " + learned.provenance}));
-  std::printf("wrote %s\n", printable(options.output).c_str());
+  std::printf("wrote %s (used once it replaces weights/loop_net.json and skel is built anew)\n",
+              printable(options.output).c_str());
   return ExitCode::kDone;
 }
 

@@ -220,7 +220,8 @@ ExitCode runPageTraining(const PageTrainingOptions& options) {
     counted = 0;
   }
   bar.clear();
-  std::printf("wrote %s\n", printable(options.output).c_str());
+  std::printf("wrote %s (used once it replaces weights/page_net.bin and skel is built anew)\n",
+              printable(options.output).c_str());
   return ExitCode::kDone;
 }
 
