@@ -30,6 +30,8 @@ namespace fs = std::filesystem;
 // Where skel-infer wrote what it has made of this figure, without endings; "": nowhere that is known.
 std::string resultsOf(const CharacterSource& source, int figure) {
   if (source.results.empty()) return "";
+  if (std::error_code unknown; !fs::is_directory(source.results, unknown))
+    throw InputError(source.results, "is no folder");
   const std::string results = (fs::path(source.results) / fs::path(source.path).stem()).string(),
                     numbered = results + "-" + std::to_string(figure);
   for (const std::string& one : {results, numbered})
@@ -78,11 +80,7 @@ void bindCharacterOptions(CLI::App& app, CharacterSource& source) {
   app.add_option("--results", source.results,
                  "Where skel-infer -o DIR wrote the results of a drawing: what was mended there is taken up, "
                  "before what lies beside the drawing and in out/")
-      ->type_name("DIR")
-      ->check([](const std::string& dir) {
-        std::error_code unknown;
-        return fs::is_directory(dir, unknown) ? "" : dir + " is no folder";
-      });
+      ->type_name("DIR");
   app.add_flag("--force", source.force, "Leave out what was mended by hand of a drawing");
 }
 

@@ -381,7 +381,7 @@ TEST_CASE("of a motion of thousands of frames some are looked at, and too many a
 TEST_CASE("a transfer replaced a motion that was mended by hand without a word") {
   const TempDir dir;
   const std::string walk = film(dir, "walk");
-  done("keypoints " + walk + " -o " + dir.file("walk.motion.json"));
+  done("keypoints " + walk + " --fps 10 -o " + dir.file("walk.motion.json"));
   const std::string transfer = "transfer --content " + dir.file("walk.motion.json") + " --style " +
                                dir.file("walk.motion.json") + " -o " + dir.file("new.motion.json");
   done(transfer);

@@ -122,11 +122,14 @@ TEST_CASE("weights and pictures that skel-train and skel-label are given are kep
       fs::copy_file(from, dir.file(std::string("set/") + name));
   fs::copy_file(SKEL_SOURCE_DIR "/weights/default.json", dir.file("w.json"));
   keeps(dir, "w.json", "skel-train evaluate set --weights w.json --json w.json");
-  keeps(dir, "set/cap_boy.labels.json",
-        "skel-train evaluate set --weights w.json --json set/cap_boy.labels.json");
   keeps(dir, "set/cap_boy.png", "skel-label motion set -o set/cap_boy.png --force");
   keeps(dir, "set/cap_boy.png", "skel-label export set --csv -o set/cap_boy.png");
-  keeps(dir, "set/cap_boy.labels.json", "skel-label export set --csv -o set/cap_boy.labels.json");
+  const std::string labels = readFile(dir.file("set/cap_boy.labels.json"));
+  for (const char* command :
+       {"skel-train evaluate set --weights w.json --json ", "skel-label export set --csv -o "})
+    refused(dir, command + std::string("set/cap_boy.labels.json"), 4,
+            "set/cap_boy.labels.json: is a file of format \"skel-labels\"");
+  CHECK(readFile(dir.file("set/cap_boy.labels.json")) == labels);
 }
 
 TEST_CASE("skeletons beside the drawings of a set were written over by what was made of the set") {
