@@ -138,7 +138,8 @@ std::string noteOnSkeleton(const Orphan& skeleton, const std::string& picture) {
   const std::string number = name.starts_with(was + "-") ? name.substr(was.size()) : kSkeletonFileEnding;
   return skeleton.file + " is of " + picture + ", " + std::to_string(skeleton.joints) +
          (skeleton.joints == 1 ? " joint" : " joints") + " made by hand: call it " +
-         fs::path(picture).stem().string() + number + ", or name it by --skeleton";
+         fs::path(picture).stem().string() + number +
+         ", in the place of one that is there, or name it by --skeleton";
 }
 
 }  // namespace

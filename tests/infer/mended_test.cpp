@@ -1103,8 +1103,8 @@ TEST_CASE(
   fs::rename(dir.file("in/boy.png"), dir.file("in/ben.png"));
   const std::string note =
       "skel-infer: note: " + old_name +
-      " is of in/ben.png, 1 joint made by hand: call it ben.skeleton.json, or name it by "
-      "--skeleton\n";
+      " is of in/ben.png, 1 joint made by hand: call it ben.skeleton.json, in the place of one that is "
+      "there, or name it by --skeleton\n";
   for (int run = 1; run <= 2; ++run) CHECK_THAT(infer(dir, "in/ben.png" + options).err, Contains(note));
   CHECK_THAT(infer(dir, "in/ben.png -o fresh --skeleton " + old_name).err, !Contains("made by hand: call"));
   fs::rename(dir.file(old_name), dir.file(folder + "/ben.skeleton.json"));
