@@ -111,14 +111,17 @@ ExitCode rigNamed(const InferOptions& options, const NamedDrawings& named) {
     if (rig.otherwise) noteResults(options, job, rig.otherwise->clips);
   }
   refuseMissing(all);
-  if (!options.quiet) {
-    const auto renamed = options.skeleton_file.empty() ? renamedNotes(options.images, options.out_dir)
-                                                       : std::vector<std::string>();
-    for (const auto& notes : {notesOf(named), renamed})
-      for (const std::string& note : notes)
-        std::fprintf(stderr, "skel-infer: note: %s\n", printable(note).c_str());
-    noteUnusedWeights(options);
+  NamedDrawings told = named;
+  if (options.quiet) {
+    told = {};
+    told.folders = named.folders;
   }
+  const auto renamed = options.skeleton_file.empty() ? renamedNotes(options.images, options.out_dir)
+                                                     : std::vector<std::string>();
+  for (const auto& notes : {notesOf(told), renamed})
+    for (const std::string& note : notes)
+      std::fprintf(stderr, "skel-infer: note: %s\n", printable(note).c_str());
+  if (!options.quiet) noteUnusedWeights(options);
   ensureFolders(options);
   const Origin run = originOfRun(options);
   if (all.size() > 1 && !options.quiet) sayHowToGoOn(options);

@@ -1106,6 +1106,7 @@ TEST_CASE(
       " is of in/ben.png, 1 joint made by hand: call it ben.skeleton.json, in the place of one that is "
       "there, or name it by --skeleton\n";
   for (int run = 1; run <= 2; ++run) CHECK_THAT(infer(dir, "in/ben.png" + options).err, Contains(note));
+  CHECK(infer(dir, "in/ben.png --quiet" + options).err == note);
   CHECK_THAT(infer(dir, "in/ben.png -o fresh --skeleton " + old_name).err, !Contains("made by hand: call"));
   fs::rename(dir.file(old_name), dir.file(folder + "/ben.skeleton.json"));
   const ToolRun run = infer(dir, "in/ben.png" + options);
