@@ -38,8 +38,8 @@ struct FigureResult {
   std::vector<std::string> reasons;  // of the verdict
   std::vector<Note> notes;           // of what is no reason to doubt the figure
   std::vector<std::string> advice;   // the reasons in a teacher's words
-  std::vector<Note> left_out;  // files mended for an earlier picture of this name, of `reasons`; not kept
-  ReportPictures pictures;     // if a report is wanted
+  std::vector<Note> left_out;        // mended of a picture of this name, of `reasons`; not kept
+  ReportPictures pictures;           // if a report is wanted
   std::vector<StageTime> times;
 };
 

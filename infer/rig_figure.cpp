@@ -165,15 +165,14 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   if (const auto note = otherFigureNote(mended.files)) result.notes.push_back(*note);
   if (const auto note = otherPlanNote(mended.files, rig)) result.notes.push_back(*note);
   if (const auto note = unknownJointNote(mended.files)) result.notes.push_back(*note);
-  for (const auto& note : {earlierNote(mended.files, kept), otherSizeNote(mended.files, kept)}) {
+  for (const auto& note :
+       {earlierNote(mended.files, kept), otherSizeNote(mended.files, kept), fitsAgainNote(mended.files)}) {
     if (!note) continue;
     result.left_out.push_back(*note);
     result.reasons.push_back(note->text);
     if (result.verdict == Verdict::kFine) result.verdict = Verdict::kLookAt;
   }
-  for (const auto& note : {kept_layers, kept_model})
-    if (note) result.notes.push_back(*note);
-  for (const auto& note : {fitsAgainNote(mended.files), keptLayersNote(mended.files, request)})
+  for (const auto& note : {kept_layers, kept_model, keptLayersNote(mended.files, request)})
     if (note) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
     result.advice = adviceOn(drawing, file, result.mend_file);

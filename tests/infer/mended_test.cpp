@@ -1190,6 +1190,10 @@ TEST_CASE("when the picture from before is back, a line names the skeleton that 
   drawBoy(dir);
   for (const char* folder : {"out", "fresh"})
     CHECK_THAT(infer(dir, std::string("boy.png -o ") + folder).err, Contains(kFits));
+  const std::string sentence = "mended for this very picture before it changed, and not taken up by itself: ";
+  const ToolRun quiet = infer(dir, "boy.png --quiet --json");
+  CHECK(quiet.err == "boy.png: note: " + sentence + kFits);
+  CHECK_THAT(quiet.out, Contains("\"verdict\":\"look at\",\"warnings\":[\"" + sentence));
   CHECK(infer(dir, "boy.png --force").err.find("fits this picture") == std::string::npos);
   const ToolRun back = infer(dir, "boy.png --skeleton out/boy.skeleton.old.json");
   CHECK(back.exit_code == 0);
