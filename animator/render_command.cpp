@@ -248,8 +248,8 @@ void findDrawings(RenderCommandOptions& options) {
   NamedDrawings named = drawingsOf(options.files);
   std::vector<std::string> drawings = named.drawings;
   std::erase_if(drawings, [](const std::string& file) { return !isDrawing({.path = file}); });
-  const auto renamed =
-      options.source.skeleton.empty() ? renamedNotes(drawings, "") : std::vector<std::string>();
+  const auto renamed = options.source.skeleton.empty() ? renamedNotes(drawings, options.source.results)
+                                                       : std::vector<std::string>();
   for (const auto& notes : {notesOf(named), renamed})
     for (const std::string& note : notes)
       std::fprintf(stderr, "skel-animate: note: %s\n", printable(note).c_str());

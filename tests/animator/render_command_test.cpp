@@ -242,6 +242,15 @@ TEST_CASE("what was mended in a folder that -o of skel-infer named was left out 
     mend("all/boy-1");
     CHECK(notes("--results all -o film.gif") == taken_up + "1 joint (all/boy-1.skeleton.json)\n");
   }
+  SECTION("of a drawing that got another name since") {
+    fs::rename(dir.file("rigged/boy.skeleton.json"), dir.file("rigged/ben.skeleton.json"));
+    std::string text = readFile(dir.file("rigged/ben.skeleton.json"));
+    writeFile(dir.file("rigged/ben.skeleton.json"),
+              text.replace(text.find("../in/boy.png"), 13, "../in/ben.png"));
+    CHECK(notes("--results rigged -o film.gif") ==
+          "skel-animate: note: rigged/ben.skeleton.json is of in/boy.png, 1 joint made by hand: call it "
+          "boy.skeleton.json, in the place of one that is there, or name it by --skeleton\n");
+  }
   SECTION("a folder that is not there is said") {
     CHECK(render(kDrawing + " --clip wave -o " + dir.file("film.gif") + " --results " + dir.file("none"))
               .exit_code == 1);
