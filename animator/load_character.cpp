@@ -27,17 +27,22 @@ namespace skel {
 namespace {
 namespace fs = std::filesystem;
 
-// Where skel-infer wrote what it has made of this figure, without endings; "": nowhere that is known.
+// Where skel-infer wrote what it has made of this figure, without endings; "": nowhere that is known. Of a
+// list it keeps the folders.
 std::string resultsOf(const CharacterSource& source, int figure) {
   if (source.results.empty()) return "";
   if (std::error_code unknown; !fs::is_directory(source.results, unknown))
     throw InputError(source.results, "is no folder");
-  const std::string results = (fs::path(source.results) / fs::path(source.path).stem()).string(),
-                    numbered = results + "-" + std::to_string(figure);
-  for (const std::string& one : {results, numbered})
-    if (const auto found = sourceOfSkeleton(one + kSkeletonFileEnding); found && found->number == figure)
-      return one;
-  return figure == 1 ? results : numbered;
+  const fs::path folder = source.results, drawing = fs::path(source.path).lexically_normal();
+  const std::string results = (folder / drawing.stem()).string(), number = "-" + std::to_string(figure);
+  std::vector<std::string> places = {results};
+  if (drawing.is_relative() && *drawing.begin() != "..")
+    places.push_back((folder / drawing.parent_path() / drawing.stem()).string());
+  for (const std::string& place : places)
+    for (const std::string& one : {place, place + number})
+      if (const auto found = sourceOfSkeleton(one + kSkeletonFileEnding); found && found->number == figure)
+        return one;
+  return figure == 1 ? results : results + number;
 }
 
 }  // namespace

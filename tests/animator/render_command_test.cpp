@@ -242,6 +242,12 @@ TEST_CASE("what was mended in a folder that -o of skel-infer named was left out 
     mend("all/boy-1");
     CHECK(notes("--results all -o film.gif") == taken_up + "1 joint (all/boy-1.skeleton.json)\n");
   }
+  SECTION("of a list, whose folders it keeps") {
+    writeFile(dir.file("list"), "in/boy.png\n");
+    REQUIRE(runTool(in_folder + "skel-infer --from list --formats json -o listed").exit_code == 0);
+    mend("listed/in/boy");
+    CHECK(notes("--results listed -o film.gif") == taken_up + "1 joint (listed/in/boy.skeleton.json)\n");
+  }
   SECTION("of a drawing that got another name since") {
     fs::rename(dir.file("rigged/boy.skeleton.json"), dir.file("rigged/ben.skeleton.json"));
     std::string text = readFile(dir.file("rigged/ben.skeleton.json"));
