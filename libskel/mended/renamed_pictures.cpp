@@ -23,6 +23,7 @@ constexpr std::size_t kMostOpened = 1000;  // skeleton files: a folder of result
 struct Orphan {
   std::string file, picture;  // path; name of the picture that is gone
   std::size_t joints = 0;     // of a skeleton, made by hand
+  std::string mask = {};      // that a skeleton without such joints names; path
 };
 using Orphans = std::map<std::string, Orphan>;  // by the hash of the picture
 
@@ -88,9 +89,13 @@ class OrphanedSkeletons {
         std::error_code failure;
         const SkeletonSource source = readSkeletonSource(path);
         if (source.image_sha256.empty() || fs::exists(folder / source.image_file, failure)) continue;
-        if (const std::size_t joints = editedJoints(path); joints > 0)
-          orphans.emplace(source.image_sha256,
-                          Orphan{path, fs::path(source.image_file).filename().string(), joints});
+        Orphan orphan{path, fs::path(source.image_file).filename().string(), editedJoints(path)};
+        if (orphan.joints == 0 && source.mask)
+          if (const fs::path mask = (folder / source.mask->file).lexically_normal();
+              fs::exists(mask, failure))
+            orphan.mask = mask.string();
+        if (orphan.joints > 0 || !orphan.mask.empty())
+          orphans.emplace(source.image_sha256, std::move(orphan));
       } catch (const Error&) {
         // Whoever opens it is told.
       }
@@ -124,7 +129,8 @@ bool isMended(const std::string& picture, const std::string& picture_sha256, con
   request.source = picture;
   request.image_sha256 = picture_sha256;
   if (!out_dir.empty()) request.results = out_dir + "/" + fs::path(picture).stem().string();
-  return !mendedFiles(request).skeleton.empty();
+  const MendedFiles files = mendedFiles(request);
+  return !files.skeleton.empty() || !files.mask.empty();
 }
 
 std::string noteOnLabels(const Orphan& labels, const std::string& picture) {
@@ -133,6 +139,9 @@ std::string noteOnLabels(const Orphan& labels, const std::string& picture) {
 }
 
 std::string noteOnSkeleton(const Orphan& skeleton, const std::string& picture) {
+  if (!skeleton.mask.empty())
+    return skeleton.mask + " was made for " + picture + ", which was called " + skeleton.picture +
+           " then: call it so again, or the mask " + fs::path(picture).stem().string() + ".mask.png";
   const std::string was = fs::path(skeleton.picture).stem().string(),
                     name = fs::path(skeleton.file).filename().string();
   const std::string number = name.starts_with(was + "-") ? name.substr(was.size()) : kSkeletonFileEnding;
@@ -179,7 +188,8 @@ std::vector<std::string> renamedNotes(const std::vector<std::string>& drawings, 
         if (const auto orphan = labels.find(hash); orphan != labels.end())
           notes.push_back(noteOnLabels(orphan->second, picture));
         else if (const auto skeleton = of_skeletons.find(hash);
-                 skeleton != of_skeletons.end() && !isMended(picture, hash, out_dir))
+                 skeleton != of_skeletons.end() && skeleton->second.picture != fs::path(picture).filename() &&
+                 !isMended(picture, hash, out_dir))
           notes.push_back(noteOnSkeleton(skeleton->second, picture));
       } catch (const Error&) {
         // The drawing's own line says so.

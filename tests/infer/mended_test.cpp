@@ -1114,6 +1114,21 @@ TEST_CASE(
                           Contains(kTakenUp + std::string("1 joint (") + folder + "/ben.skeleton.json"));
 }
 
+TEST_CASE("a picture that was renamed left the mask of a paint program behind without a word") {
+  const TempDir dir;
+  writeFile(dir.file("in/boy.png"), readFile(kDrawing));
+  REQUIRE(infer(dir, "in/boy.png -o out").exit_code == 0);
+  fs::copy(dir.file("out/boy.silhouette.png"), dir.file("in/boy.mask.png"));
+  REQUIRE(infer(dir, "in/boy.png -o out").exit_code == 0);
+  fs::rename(dir.file("in/boy.png"), dir.file("in/ben.png"));
+  const std::string note =
+      "in/boy.mask.png was made for in/ben.png, which was called boy.png then: call it so again, or the mask "
+      "ben.mask.png\n";
+  CHECK_THAT(infer(dir, "in/ben.png -o out").err, Contains(note));
+  fs::rename(dir.file("in/boy.mask.png"), dir.file("in/ben.mask.png"));
+  CHECK_THAT(infer(dir, "in/ben.png -o out").err, !Contains("was made for") && Contains("in/ben.mask.png"));
+}
+
 TEST_CASE("of two folders with mended joints the first counts, and the line says which one does not") {
   const TempDir dir;
   writeFile(dir.file("in/boy.png"), readFile(kDrawing));
