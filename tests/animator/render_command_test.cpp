@@ -258,8 +258,10 @@ TEST_CASE("what was mended in a folder that -o of skel-infer named was left out 
           "boy.skeleton.json, in the place of one that is there, or name it by --skeleton\n");
   }
   SECTION("a folder that is not there is said") {
-    CHECK(render(kDrawing + " --clip wave -o " + dir.file("film.gif") + " --results " + dir.file("none"))
-              .exit_code == 1);
+    const ToolRun run =
+        render(kDrawing + " --clip wave -o " + dir.file("film.gif") + " --results " + dir.file("none"));
+    CHECK(run.exit_code == 2);
+    CHECK_THAT(run.err, Contains("none: is no folder"));
   }
 }
 
