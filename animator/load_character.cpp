@@ -213,10 +213,10 @@ Clip clipFor(const std::string& name_or_path, const RiggedCharacter& character,
             clip.name == name_or_path && isOwn(clip) ? whyUnfit(clip, character) : std::string();
         !fault.empty())
       throw UsageError("the clip \"" + clip.name + "\" " + fault);
-  if (const std::string file = clipFileNamed(name_or_path, source);
-      !file.empty() && !hasClip(library, name_or_path))
-    throw UsageError("there is no clip \"" + name_or_path + "\"; that of " + file + " is called \"" +
-                     readClipFile(file).name + "\": ask for that, or change its \"name\"");
+  if (!hasClip(library, name_or_path))
+    if (const std::string file = clipFileNamed(name_or_path, source); !file.empty())
+      throw UsageError("there is no clip \"" + name_or_path + "\"; that of " + file + " is called \"" +
+                       readClipFile(file).name + "\": ask for that, or change its \"name\"");
   const std::string why =
       fitting.empty() ? "; no clip of skel fits it: " + whyNoRoles(character.skeleton) : "";
   std::erase_if(fitting, [&](const Clip& clip) { return hasClip(own_clips, clip.name); });
