@@ -113,6 +113,8 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
   request.image_sha256 = sha256(bytes);
   request.figure = given ? figureOf(*given, source.skeleton, source.figure) : source.figure;
   request.results = resultsOf(source, request.figure);
+  request.out_dir = source.results;
+  request.former_names = source.former_names;
   request.skeleton = source.skeleton;
   request.takes_up = !source.force;
   RigInput input;

@@ -1,6 +1,7 @@
 // What the commands can be given as a character and as a motion.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ class App;
 
 namespace skel {
 
+class FormerNames;
+
 struct CharacterSource {
   std::string path;                  // a .glb, a drawing, or a model with a skeleton of its own
   std::string body_plan = "auto";    // of a drawing
@@ -28,6 +31,7 @@ struct CharacterSource {
   bool upright = false;      // the figure of a drawing is not turned: try no other orientations
   std::string results = {};  // of a drawing: a folder that skel-infer has written to; "": none
   bool force = false;        // leave out what was mended by hand
+  std::shared_ptr<FormerNames> former_names = {};  // of a run over many drawings
 };
 // FILE, and the options of the next one.
 void bindCharacterSource(CLI::App& app, CharacterSource& source);

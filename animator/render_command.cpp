@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 
 #include "animator/flat_figure.h"
@@ -18,7 +19,7 @@
 #include "libskel/core/new_folders.h"
 #include "libskel/core/text.h"
 #include "libskel/image/named_drawings.h"
-#include "libskel/mended/renamed_pictures.h"
+#include "libskel/mended/former_names.h"
 #include "libskel/pipeline/drawing_notes.h"
 #include "libskel/video/video_writer.h"
 
@@ -246,13 +247,8 @@ void findDrawings(RenderCommandOptions& options) {
                        clips + path);
     }
   NamedDrawings named = drawingsOf(options.files);
-  std::vector<std::string> drawings = named.drawings;
-  std::erase_if(drawings, [](const std::string& file) { return !isDrawing({.path = file}); });
-  const auto renamed = options.source.skeleton.empty() ? renamedNotes(drawings, options.source.results)
-                                                       : std::vector<std::string>();
-  for (const auto& notes : {notesOf(named), renamed})
-    for (const std::string& note : notes)
-      std::fprintf(stderr, "skel-animate: note: %s\n", printable(note).c_str());
+  for (const std::string& note : notesOf(named))
+    std::fprintf(stderr, "skel-animate: note: %s\n", printable(note).c_str());
   options.files = std::move(named.drawings);
 }
 
@@ -274,6 +270,7 @@ ExitCode runRender(const RenderCommandOptions& asked) {
         "gives them hard edges)");
   if (std::find(options.clips.begin(), options.clips.end(), kAllClips) == options.clips.end())
     options.library.names = options.clips;
+  options.source.former_names = std::make_shared<FormerNames>();
   toldClipLibrary(options.library);
   findDrawings(options);
   if (options.files.size() > 1 && options.sheet.output.empty() && !options.output.empty() &&

@@ -21,7 +21,6 @@
 #include "libskel/core/text.h"
 #include "libskel/image/named_drawings.h"
 #include "libskel/image/result_picture.h"
-#include "libskel/mended/renamed_pictures.h"
 
 namespace skel {
 namespace fs = std::filesystem;
@@ -32,9 +31,11 @@ constexpr const char* kStandardInput = "/dev/stdin";
 std::vector<RigJob> jobsOf(const InferOptions& options) {
   std::vector<std::string> sources = options.images;
   if (sources.empty()) sources.push_back(options.model_file);
+  const auto former_names = std::make_shared<FormerNames>();
   std::vector<RigJob> jobs;
   for (const std::string& source : sources)
-    jobs.push_back({source, options.name.empty() ? fs::path(source).stem().string() : options.name, {}});
+    jobs.push_back(
+        {source, options.name.empty() ? fs::path(source).stem().string() : options.name, {}, former_names});
   std::vector<std::string> stems;
   for (const RigJob& job : jobs) stems.push_back(job.stem);
   if (const auto clash = nameClash(sources, stems)) {
@@ -116,11 +117,8 @@ ExitCode rigNamed(const InferOptions& options, const NamedDrawings& named) {
     told = {};
     told.folders = named.folders;
   }
-  const auto renamed = options.skeleton_file.empty() ? renamedNotes(options.images, options.out_dir)
-                                                     : std::vector<std::string>();
-  for (const auto& notes : {notesOf(told), renamed})
-    for (const std::string& note : notes)
-      std::fprintf(stderr, "skel-infer: note: %s\n", printable(note).c_str());
+  for (const std::string& note : notesOf(told))
+    std::fprintf(stderr, "skel-infer: note: %s\n", printable(note).c_str());
   if (!options.quiet) noteUnusedWeights(options);
   ensureFolders(options);
   const Origin run = originOfRun(options);
@@ -181,13 +179,14 @@ ExitCode rigList(const InferOptions& options) {
   const Origin run = originOfRun(options);
   if (!options.quiet) sayHowToGoOn(options);
   RunReport report(options, rig, true);
+  const auto former_names = std::make_shared<FormerNames>();
   {
     ProgressBar progress("rigging", options.quiet ? 0 : list.length(), !options.quiet);
     rigInOrder(
         options.jobs, progress, report,
         [&](RigJob& job) {
           const auto path = list.next();
-          if (path) job = {*path, "", {}};
+          if (path) job = {*path, "", {}, former_names};
           return path.has_value();
         },
         [&](const RigJob& job) { return rigListed(options, rig, run, out_dir, job, progress); });

@@ -211,6 +211,8 @@ MendRequest mendRequest(const InferOptions& options, const RigJob& job, int figu
   request.source = job.source;
   request.image_sha256 = image_sha256;
   request.results = options.out_dir + "/" + stemOf(options, job, figure);
+  request.out_dir = options.out_dir;
+  request.former_names = job.former_names;
   request.figure = figure;
   request.is_one_of_all = options.figure == "all";
   request.skeleton = options.skeleton_file;

@@ -1,12 +1,14 @@
 // One drawing of a command line: rigged figure by figure, its files written.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "infer/figure_result.h"
 #include "infer/infer_options.h"
 #include "libskel/core/progress.h"
+#include "libskel/mended/former_names.h"
 #include "libskel/mended/mended_files.h"
 
 namespace skel {
@@ -21,6 +23,7 @@ struct RigJob {
   std::string source;             // the file that complaints name
   std::string stem;               // of the outputs, below --out
   std::optional<FileBytes> read;  // what is in it, where that is known
+  std::shared_ptr<FormerNames> former_names = {};  // shared by all jobs of a run
 };
 
 // Notes all files that rigDrawing() may write (input_guard.h), so that an input among them is told of before

@@ -155,7 +155,7 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
   };
   command("candidates", "Make an empty label file for every picture that has none", [&] {
     const ImportCounts counts = makeLabelFiles(options.dir, complaints());
-    for (const std::string& note : counts.renamed)
+    for (const std::string& note : counts.former)
       std::fprintf(stderr, "skel-label: note: %s\n", printable(note).c_str());
     return report(counts);
   });

@@ -77,7 +77,8 @@ Document::Document(const std::string& path, DocumentOptions options)
     list({drawingFiles(path, fs::path(path).filename().string())});
   }
   bool placed_joints = false;
-  for (Item& item : items_) placed_joints = takeProgress(item) || placed_joints;
+  FormerNames names;
+  for (Item& item : items_) placed_joints = takeProgress(item, names) || placed_joints;
   const bool labelled =
       std::any_of(items_.begin(), items_.end(), [](const Item& item) { return item.classes.done > 0; });
   const bool joints = editsJointsAlone() || placed_joints || !labelled;
@@ -85,25 +86,27 @@ Document::Document(const std::string& path, DocumentOptions options)
   loadFirst();
 }
 
-bool Document::takeProgress(Item& item) {
+bool Document::takeProgress(Item& item, FormerNames& names) {
   if (fs::exists(item.files.mask)) given_masks_.insert(item.files.mask);
   if (motion_) return false;
   try {
-    std::optional<LabelFile> labels;
-    if (fs::is_regular_file(item.files.labels)) {
-      labels = readLabelFile(item.files.labels);
+    const bool may_be_renamed = names.hasLabelsAlone(fs::path(item.files.image).parent_path());
+    std::string image_sha256 = may_be_renamed ? sha256(readFile(item.files.image)) : "";
+    const LabelDocument document(item.files, image_sha256, names);
+    const std::optional<LabelFile>& labels = document.opened();
+    if (labels) {
       item.classes = {static_cast<int>(labels->candidates.size()), countLabels(labels->labels)};
       item.joints = jointsOf(*labels, options_.body_plans);
       item.has_shape = labels->mask || fs::exists(layersFile(item.files, 1));
     }
     const bool placed = item.joints.done > 0, mended = !skeleton_ && isMendedBeside(item.files);
     if (!placed && !mended) return false;
-    const std::string image_sha256 = sha256(readFile(item.files.image));
+    if (!may_be_renamed) image_sha256 = sha256(readFile(item.files.image));
     if (labels && image_sha256 != labels->image.sha256) {
       // Of a photo that was taken again nobody has looked at the joints.
       item.joints.done = 0;
     } else if (const auto joints =
-                   mended ? mendedJointsBeside(item.files, labels, image_sha256, options_.body_plans)
+                   mended ? mendedJointsBeside(item.files, document, image_sha256, options_.body_plans)
                           : std::nullopt) {
       item.joints = progressOf(joints->joints, *joints->body_plan);
       return true;
@@ -126,13 +129,14 @@ int Document::lookAgain() {
   }
   const int before = current_;
   size_t added = 0;
+  FormerNames names;
   for (DrawingFiles& files : drawings) {
     const auto place = std::lower_bound(
         items_.begin(), items_.end(), files.name,
         [](const Item& item, const std::string& name) { return comesBefore(item.files.name, name); });
     if (place != items_.end() && place->files.name == files.name) continue;
     const auto at = static_cast<int>(place - items_.begin());
-    takeProgress(*items_.insert(place, {std::move(files), {}, {}, false, {}}));
+    takeProgress(*items_.insert(place, {std::move(files), {}, {}, false, {}}), names);
     if (at <= current_) ++current_;
     history_.forEach([at](Step& step) { step.item += at <= step.item; });
     ++added;
@@ -216,7 +220,8 @@ void Document::loadDrawing() {
   if (motion_) motion_->checkSize(current_, image_, files.image);
 
   state_.image_sha256 = image_sha256_ = sha256(bytes);
-  labels_ = LabelDocument(files);
+  FormerNames names;
+  labels_ = LabelDocument(files, image_sha256_, names);
   takeMended();
   saved_ = state_;
 }
@@ -355,6 +360,7 @@ void Document::takeMended() {
     message_ = masks_.openOf(*skeleton_, image_);
   } else if (labels && labels->mask) {
     message_ = masks_.openOf(*labels, image_);
+    if (labels_.isOfFormerName()) masks_.takeDrawingsName();
   } else if (const auto given = givenMask(files)) {
     if (labels)
       message_ =
@@ -369,7 +375,7 @@ void Document::takeMended() {
   if (motion_) state_.joints = motion_->joints(current_);
   if (const auto mended = editsJointsAlone() || changed
                               ? std::nullopt
-                              : mendedJointsBeside(files, labels, image_sha256_, options_.body_plans)) {
+                              : mendedJointsBeside(files, labels_, image_sha256_, options_.body_plans)) {
     setBodyPlan(mended->body_plan->name);
     state_.joints = mended->joints;
     plan_is_said_ = true;

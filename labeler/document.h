@@ -180,7 +180,7 @@ class Document {
 
   Item& mutableItem() { return items_[static_cast<size_t>(current_)]; }
   // From the files of an item that is new in the list. Whether a person has placed joints in it.
-  bool takeProgress(Item& item);
+  bool takeProgress(Item& item, FormerNames& names);
   void loadFirst();  // unfinished that can be read
   void load(int item);
   void clear();

@@ -18,7 +18,7 @@
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/labels/label_folder.h"
-#include "libskel/mended/renamed_pictures.h"
+#include "libskel/mended/former_names.h"
 #include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
@@ -326,15 +326,27 @@ ImportCounts importLabels(const std::string& path, const BodyPlans& plans, const
 ImportCounts makeLabelFiles(const std::string& dir, const OnError& on_error) {
   ImportCounts counts;
   const SkeletonTemplate body_plan = loadTemplate("biped");
+  FormerNames names;
+  const auto formerOf = [&](const DrawingFiles& files) {
+    if (!names.hasLabelsAlone(fs::path(files.image).parent_path())) return std::string();
+    return formerLabels(files.image, sha256(readFile(files.image)), names);
+  };
   const auto make = [&](const DrawingFiles& files) {
-    if (fs::exists(files.labels)) return false;
-    writeLabelFile(files.labels, labelImage(files.image, givenMask(files), {}, body_plan));
-    return true;
+    const bool is_there = fs::exists(files.labels);
+    if (is_there && !readLabelFile(files.labels).isBlank()) return false;
+    const std::string former = formerOf(files);
+    if (!former.empty()) {
+      LabelFile labels = readLabelFile(former);
+      counts.former.push_back(files.labels + ": as in " + fs::path(former).filename().string() +
+                              ", made when the picture was called " + labels.image.file);
+      labels.image.file = fs::path(files.image).filename().string();
+      writeLabelFile(files.labels, labels);
+    } else if (!is_there) {
+      writeLabelFile(files.labels, labelImage(files.image, givenMask(files), {}, body_plan));
+    }
+    return !former.empty() || !is_there;
   };
   const std::vector<DrawingFiles> drawings = findDrawings(dir);
-  std::vector<std::string> pictures;
-  for (const DrawingFiles& drawing : drawings) pictures.push_back(drawing.image);
-  counts.renamed = renamedNotes(pictures, "");
   forEach(drawings, "candidates", on_error, make, counts);
   return counts;
 }

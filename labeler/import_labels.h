@@ -36,7 +36,7 @@ struct ImportCounts {
   std::size_t without_class = 0;         // candidates of these
   std::map<std::string, std::set<std::string>> unknown_joints;  // by annotation: names of none that is known
   std::vector<std::string> outside_mask;                        // of those made: jointsOutsideMask()
-  std::vector<std::string> renamed;                             // renamedNotes() on the pictures
+  std::vector<std::string> former;                              // of those made: as which file, in a sentence
   std::set<std::string> passed_over;     // files that we have exported, beside what they were made of
   std::set<std::string> folders;         // that those made lie in
   ExitCode exit_code = ExitCode::kDone;  // of the first failure
@@ -51,7 +51,8 @@ using OnError = std::function<void(const Error&)>;
 ImportCounts importLabels(const std::string& path, const BodyPlans& plans, const ImportOptions& options,
                           const OnError& on_error);
 
-// A label file without labels for every drawing below `dir` that has none.
+// A label file without labels for every drawing below `dir` that has none, with those that were made when it had
+// another name where there are such.
 ImportCounts makeLabelFiles(const std::string& dir, const OnError& on_error);
 
 }  // namespace skel

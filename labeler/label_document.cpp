@@ -7,6 +7,7 @@
 #include "libskel/labels/annotated_image.h"
 
 namespace skel {
+namespace fs = std::filesystem;
 namespace {
 
 std::string leftOut(const LabelFile& labels, const BodyPlans& plans) {
@@ -17,14 +18,22 @@ std::string leftOut(const LabelFile& labels, const BodyPlans& plans) {
 
 }  // namespace
 
-LabelDocument::LabelDocument(DrawingFiles files) : files_(std::move(files)) {
-  if (std::filesystem::is_regular_file(files_.labels)) opened_ = readLabelFile(files_.labels);
+LabelDocument::LabelDocument(DrawingFiles files, const std::string& image_sha256, FormerNames& names)
+    : files_(std::move(files)), path_(files_.labels) {
+  const fs::path folder = fs::path(files_.image).parent_path();
+  if (fs::is_regular_file(path_)) opened_ = readLabelFile(path_);
+  if ((opened_ && !opened_->isBlank()) || !names.hasLabelsAlone(folder)) return;
+  const std::string former = formerLabels(files_.image, image_sha256, names);
+  if (!former.empty()) opened_ = readLabelFile(path_ = former);
 }
 
 std::string LabelDocument::take(const Figure& figure, const BodyPlans& plans, std::string said,
                                 DrawingState& state) const {
   state.labels.resize(figure.centers_px.size());
   if (!opened_) return said;
+  if (isOfFormerName() && said.empty())
+    said = "as in " + fs::path(path_).filename().string() + ", made when the picture was called " +
+           opened_->image.file;
   if (const SkeletonTemplate* plan = planOf(*opened_, plans))
     takeJoints(*opened_, *plan, state.joints);
   else if (opened_->hasPlacedJoint())

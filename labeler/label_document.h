@@ -8,16 +8,21 @@
 #include "labeler/figure.h"
 #include "labeler/mask_document.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/mended/former_names.h"
 
 namespace skel {
 
 class LabelDocument {
  public:
   LabelDocument() = default;
-  // Reads the file, if there is one. Throws InputError.
-  explicit LabelDocument(DrawingFiles files);
+  // Reads the file. Where there is none, or a blank one, that which was made for the picture of that hash when
+  // it had another name, if there is one. Throws InputError.
+  LabelDocument(DrawingFiles files, const std::string& image_sha256, FormerNames& names);
 
   const std::optional<LabelFile>& opened() const { return opened_; }
+  // The file that was opened.
+  const std::string& path() const { return path_; }
+  bool isOfFormerName() const { return path_ != files_.labels; }
   // Of the file that was opened, the labels of this figure's candidates and the joints. Says what is odd
   // about them, or nothing; joints of other body plans are left out. `said`: what has been said before.
   std::string take(const Figure& figure, const BodyPlans& plans, std::string said, DrawingState& state) const;
@@ -27,6 +32,7 @@ class LabelDocument {
 
  private:
   DrawingFiles files_;
+  std::string path_;
   std::optional<LabelFile> opened_;
 };
 

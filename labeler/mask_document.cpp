@@ -38,6 +38,14 @@ void MaskDocument::open(const std::string& path, const Image& image) {
   opened_ = saved_ = readMaskVersion(path, image);
 }
 
+void MaskDocument::takeDrawingsName() {
+  if (!opened_ || fs::exists(files_.mask)) return;
+  auto mask = std::make_shared<MaskVersion>(*opened_);
+  mask->file = fs::path(files_.mask).filename().string();
+  opened_ = mask;
+  saved_ = nullptr;
+}
+
 void MaskDocument::write(const std::shared_ptr<const MaskVersion>& mask, const LabelFile& labels) {
   // One that does not fit this picture was not opened.
   if (earlier_ && !opened_) keepAside(files_.mask);

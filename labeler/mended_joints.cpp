@@ -22,9 +22,10 @@ bool isMendedBeside(const DrawingFiles& files) {
 }
 
 std::optional<MendedJoints> mendedJointsBeside(const DrawingFiles& files,
-                                               const std::optional<LabelFile>& labels,
+                                               const LabelDocument& document,
                                                const std::string& image_sha256, const BodyPlans& plans) {
   if (!isMendedBeside(files)) return std::nullopt;
+  const std::optional<LabelFile>& labels = document.opened();
   const std::string path = skeletonBeside(files);
   const SkeletonSource source = readSkeletonSource(path);
   if (source.image_sha256 != image_sha256 || source.number != 1) return std::nullopt;
@@ -37,7 +38,7 @@ std::optional<MendedJoints> mendedJointsBeside(const DrawingFiles& files,
   request.image_sha256 = image_sha256;
   MendedFiles mended;
   mended.skeleton = path;
-  if (labels && mayPlace(*labels, image_sha256, plans)) mended.labels = files.labels;
+  if (labels && mayPlace(*labels, image_sha256, plans)) mended.labels = document.path();
   RigOptions rig;
   rig.body_plan = plans.front();
   if (plans.size() > 1) rig.otherwise = {plans[1], {}};

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "labeler/drawing_list.h"
+#include "labeler/label_document.h"
 #include "labeler/placed_joints.h"
-#include "libskel/labels/label_file.h"
 #include "libskel/skeleton/body_plans.h"
 
 namespace skel {
@@ -23,7 +23,7 @@ struct MendedJoints {
 // of the label file, which of them are placed, and where, by the rule of skel-infer
 // (libskel/mended/mended_files.h). Nothing where none is left that a person has placed.
 std::optional<MendedJoints> mendedJointsBeside(const DrawingFiles& files,
-                                               const std::optional<LabelFile>& labels,
+                                               const LabelDocument& labels,
                                                const std::string& image_sha256, const BodyPlans& plans);
 
 }  // namespace skel

@@ -217,6 +217,11 @@ bool LabelFile::hasPlacedJoint() const {
   return std::any_of(joints.begin(), joints.end(), [&](const auto& joint) { return isPlaced(joint.first); });
 }
 
+bool LabelFile::isBlank() const {
+  return !hasPlacedJoint() && !mask &&
+         std::none_of(labels.begin(), labels.end(), [](const auto& label) { return label.has_value(); });
+}
+
 std::string labelFileFor(const std::string& image) {
   return std::filesystem::path(image).replace_extension().string() + kLabelFileEnding;
 }

@@ -35,6 +35,8 @@ struct LabelFile {
   // Whether a person has placed the joint of that name, or any.
   bool isPlaced(const std::string& joint) const;
   bool hasPlacedJoint() const;
+  // As `skel-label candidates` makes them: no person has placed, painted or labelled anything.
+  bool isBlank() const;
 };
 
 inline constexpr const char* kLabelFileEnding = ".labels.json";

@@ -9,12 +9,13 @@
 
 namespace skel {
 namespace fs = std::filesystem;
-namespace {
 
-fs::path whole(const fs::path& folder) {
+fs::path wholePath(const fs::path& path) {
   std::error_code unknown;
-  return fs::weakly_canonical(fs::absolute(folder, unknown), unknown);
+  return fs::weakly_canonical(fs::absolute(path, unknown), unknown);
 }
+
+namespace {
 
 // By its path, or by its name where results were moved and the path leads nowhere.
 bool isOfDrawing(const SkeletonSource& result, const std::string& results, const std::string& drawing) {
@@ -50,7 +51,7 @@ MendPlace placeIn(const fs::path& folder, const MendRequest& request) {
   for (const std::string& number : {std::string(), "-" + std::to_string(request.figure)}) {
     MendPlace numbered = place;
     numbered.results = place.made + number;
-    if (!request.results.empty() && whole(numbered.results) == whole(request.results)) continue;
+    if (!request.results.empty() && wholePath(numbered.results) == wholePath(request.results)) continue;
     numbered.result = resultAt(numbered.results + kSkeletonFileEnding);
     if (!numbered.result || numbered.result->number != request.figure) continue;
     judge(numbered, request);
@@ -76,13 +77,13 @@ std::vector<MendPlace> mendPlaces(const MendRequest& request) {
     places.push_back(own);
   }
   for (const fs::path& folder : {beside, beside / "out", fs::path("out")}) {
-    const fs::path path = whole(folder);
+    const fs::path path = wholePath(folder);
     if (std::find(seen.begin(), seen.end(), path) != seen.end()) continue;
     seen.push_back(path);
     places.push_back(placeIn(folder, request));
   }
   for (MendPlace& place : places)
-    place.is_beside = whole(fs::path(place.made).parent_path()) == whole(beside);
+    place.is_beside = wholePath(fs::path(place.made).parent_path()) == wholePath(beside);
   return places;
 }
 

@@ -1,6 +1,7 @@
 // The folders in which what a person has mended of a drawing is looked for: one rule for all tools.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 namespace skel {
 
 struct MendRequest;
+
+// As it is reached from the root, without links as far as it is there.
+std::filesystem::path wholePath(const std::filesystem::path& path);
 
 // Paths are without their endings.
 struct MendPlace {

@@ -15,6 +15,7 @@
 #include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/mended/earlier_picture.h"
+#include "libskel/mended/former_names.h"
 #include "libskel/mended/mend_places.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/silhouette/outline.h"
@@ -45,6 +46,11 @@ bool areOfPicture(const std::string& labels, const MendRequest& request) {
   } catch (const InputError&) {
     return false;
   }
+}
+
+// Beside it lies what to learn from or to measure by, which nobody has mended.
+bool isAnnotated(const std::string& drawing) {
+  return fs::exists(fs::path(drawing).replace_extension(".joints.json"));
 }
 
 bool sameBytes(const std::string& path, const std::string& other_path) {
@@ -105,6 +111,64 @@ bool arePaintedLayers(const std::string& path, const MendPlace& place, int figur
     return false;
   const LookAtOutputs look;
   return !isAsSealed(readFile(path));
+}
+
+// False of labels that cannot be read: they may hold anything.
+bool areBlank(const std::string& labels) {
+  try {
+    return readLabelFile(labels).isBlank();
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+// What `file` names as the mask or the limbs that it was made with, if that is there and the same still.
+template <class Source>
+std::string namedBy(const std::string& file, const std::optional<Source>& source) {
+  if (!source) return "";
+  const fs::path named = fs::path(file).parent_path() / source->file;
+  const std::string path = (source->file.find('/') == std::string::npos ? named : named.lexically_normal()).string();
+  return !ifThere(path).empty() && sha256(readFile(path)) == source->sha256 ? path : "";
+}
+
+// What was made for the picture when it had another name, of each kind of which there is nothing under this
+// one.
+void takeFormer(MendedFiles& files, const MendRequest& request, const std::vector<MendPlace>& places) {
+  const bool first = request.figure == 1, annotated = isAnnotated(request.source);
+  const bool finds_mask = first && request.mask.empty() && request.skeleton.empty();
+  const std::string number = first ? "" : "-" + std::to_string(request.figure);
+  for (const FormerPlace& former : formerPlaces(request, places)) {
+    const MendPlace& place = former.place;
+    if (place.is_beside && annotated) continue;
+    const auto take = [&](std::string& taken, const std::string& path) {
+      if (!taken.empty() || ifThere(path).empty()) return;
+      taken = path;
+      if (former.name != fs::path(request.source).filename()) files.former_name[path] = former.name;
+    };
+    const std::string skeleton = place.results + kSkeletonFileEnding;
+    const SkeletonSource result = place.result.value_or(SkeletonSource());
+    if (request.skeleton.empty() && place.result && hasEditedJoint(skeleton)) take(files.skeleton, skeleton);
+    if (request.skeleton.empty() && first && !former.labels.empty()) {
+      if (!files.labels.empty() && areBlank(files.labels)) files.labels.clear();
+      take(files.labels, former.labels);
+    }
+    if (finds_mask) {
+      if (!former.labels.empty())
+        take(files.mask, namedBy(former.labels, readLabelFile(former.labels).mask));
+      take(files.mask, namedBy(skeleton, result.mask));
+      if (const std::string silhouette = place.results + ".silhouette.png";
+          isPaintedSilhouette(silhouette, place))
+        take(files.mask, silhouette);
+    }
+    if (request.finds_limbs) {
+      if (!former.labels.empty()) take(files.limbs, place.made + number + ".limbs.png");
+      take(files.limbs, namedBy(skeleton, result.limbs));
+      if (const std::string layers = place.results + ".layers.png";
+          place.result && arePaintedLayers(layers, place, request.figure))
+        take(files.limbs, layers);
+    }
+    if (request.finds_back && first) take(files.back, backIn(place));
+  }
 }
 
 BodyPlans plansOf(const RigOptions& rig) {
@@ -191,7 +255,7 @@ MendedFiles mendedFiles(const MendRequest& request) {
   if (!request.takes_up) return files;
 
   const bool first = request.figure == 1;
-  const bool annotated = fs::exists(fs::path(request.source).replace_extension(".joints.json"));
+  const bool annotated = isAnnotated(request.source);
   const bool no_skeleton = request.skeleton.empty(), no_mask = request.mask.empty();
   const std::string number = request.figure > 1 ? "-" + std::to_string(request.figure) : "";
   const std::vector<MendPlace> places = mendPlaces(request);
@@ -231,6 +295,7 @@ MendedFiles mendedFiles(const MendRequest& request) {
     files.painted_layers = files.limbs.empty();
     offer(files.limbs, painted_layers, sameBytes, files);
   }
+  takeFormer(files, request, places);
   if (no_skeleton && files.skeleton.empty()) files.fits_again = earlierThatFits(places, request);
   if (request.finds_limbs && files.limbs.empty() && (files.earlier_result || !files.fits_again.empty()))
     files.kept_layers = earlierLayers(places);
@@ -403,6 +468,9 @@ std::optional<Note> mendedNote(const MendedFiles& files, const MendRequest& requ
   // "limbs (boy.limbs.png)"
   const auto add = [&](const std::string& name, const std::vector<std::string>& from) {
     std::string text = name + " (" + joined(from);
+    for (const std::string& file : from)
+      if (const auto former = files.former_name.find(file); former != files.former_name.end())
+        text += ", made when the picture was called " + former->second;
     for (const MendedFiles::PassedOver& other : files.passed_over)
       if (std::find(from.begin(), from.end(), other.for_file) != from.end())
         text += "; not " + other.file + ", which differs";

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,12 +16,16 @@
 
 namespace skel {
 
+class FormerNames;
+
 // A figure of a drawing, and what the user has named for it. Paths; "": there is none.
 struct MendRequest {
   std::string source;                 // the drawing
   std::string image_sha256;           // of its bytes
   std::string recolored_sha256 = {};  // of a picture before with the very same figure; "": none is known
   std::string results;                // where this run writes, without endings; "": nowhere
+  std::string out_dir = {};           // the folder of all its results; "": that of these
+  std::shared_ptr<FormerNames> former_names = {};  // of a run over many drawings; looked for where there is none
   int figure = 1;                     // 1 is the largest
   bool is_one_of_all = false;         // all figures of the drawing are rigged
   std::string skeleton;               // a .skeleton.json as it stands, or all joints of a .labels.json
@@ -48,6 +53,8 @@ struct MendedFiles {
   };
   std::vector<PassedOver> passed_over;
 
+  std::map<std::string, std::string> former_name;  // of the picture, by a file that was made for it then
+
   std::vector<std::string> other_figure;  // made for another one than the largest, where all are rigged
   std::vector<std::string> other_plan;    // of another body plan than is asked for: not among those above
   std::string other_plan_name;            // "": none that skel brings along
@@ -69,7 +76,8 @@ struct MendedFiles {
 // an edited skeleton, a silhouette that is not outlined as its skeleton file says, or was that file's mask
 // already, layers with other pixels than they were written with (sealed_png.h); <source's stem>.mask.png,
 // .labels.json, .limbs.png and .back.png (mask and labels of the first figure), elsewhere than beside the
-// drawing where they, or the result there, name its picture. Beside a drawing with <stem>.joints.json nothing
+// drawing where they, or the result there, name its picture; where there is none of a kind, what was made for
+// the picture under another name (former_names.h). Beside a drawing with <stem>.joints.json nothing
 // is looked for: that is annotated, not mended. What was made for another picture than the request's is left
 // out (earlier_picture.h).
 MendedFiles mendedFiles(const MendRequest& request);

@@ -254,8 +254,7 @@ TEST_CASE("what was mended in a folder that -o of skel-infer named was left out 
     writeFile(dir.file("rigged/ben.skeleton.json"),
               text.replace(text.find("../in/boy.png"), 13, "../in/ben.png"));
     CHECK(notes("--results rigged -o film.gif") ==
-          "skel-animate: note: rigged/ben.skeleton.json is of in/boy.png, 1 joint made by hand: call it "
-          "boy.skeleton.json, in the place of one that is there, or name it by --skeleton\n");
+          taken_up + "1 joint (rigged/ben.skeleton.json, made when the picture was called ben.png)\n");
   }
   SECTION("a folder that is not there is said") {
     const ToolRun run =

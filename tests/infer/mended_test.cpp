@@ -1060,38 +1060,68 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a picture that was renamed after its joints were placed left them behind without a word") {
+TEST_CASE("a picture that was renamed after it was labelled left joints, mask and limbs behind") {
   const TempDir dir;
   drawBoy(dir);
-  placeInLabels(dir, {300, 300});
-  const std::string renamed =
-      "note: ./boy.labels.json is of ./ben.png, which was called boy.png then: call it so again, and what "
-      "was mended is taken up\n";
-  CHECK_THAT(infer(dir, ". --force").err, !Contains("which was called"));
+  writeFile(dir.file("boy.mask.png"), paintedMask(dir));
+  placeInLabels(dir, {300, 300}, "boy.mask.png");
+  REQUIRE(infer(dir, "boy.png --formats json,layers").exit_code == 0);
+  fs::copy(dir.file("out/boy.layers.png"), dir.file("boy.limbs.png"));
+  REQUIRE(infer(dir, "boy.png --formats glb,json -o before").exit_code == 0);
+  fs::remove_all(dir.file("out"));
   fs::rename(dir.file("boy.png"), dir.file("ben.png"));
-  CHECK_THAT(infer(dir, ". --force").err, Contains(renamed));
-  // Its results beside it, as with -o class.
-  writeFile(dir.file("boy.glb"), "a model");
-  CHECK_THAT(infer(dir, ". --force").err, Contains(renamed));
-  SECTION("empty labels as skel-label candidates makes them") {
+  const auto taken = [](const std::string& folder) {
+    const auto made = [&](const std::string& what, const std::string& file) {
+      return what + " (" + folder + file + ", made when the picture was called boy.png)";
+    };
+    return kTakenUp + made("1 joint", "boy.labels.json") + ", " + made("mask", "boy.mask.png") + ", " +
+           made("limbs", "boy.limbs.png");
+  };
+  const auto isAsBefore = [&](const std::string& results) {
+    const std::string before = readFile(dir.file("before/boy.glb"));
+    return readFile(dir.file(results + ".glb")).size() == before.size() &&
+           placeIn(dir, "left_hand", results + ".skeleton.json") == std::vector<double>{300, 300};
+  };
+  SECTION("alone") {
+    for (int run = 1; run <= 2; ++run) {
+      CHECK_THAT(infer(dir, "ben.png").err, Contains(taken("")));
+      CHECK(isAsBefore("out/ben"));
+    }
+    CHECK_THAT(infer(dir, "ben.png --force").err, !Contains("by hand"));
+  }
+  SECTION("in its folder, with results beside it") {
+    CHECK_THAT(infer(dir, ". -o .").err, Contains(taken("./")));
+    CHECK(isAsBefore("ben"));
+  }
+  SECTION("in a list") {
+    writeFile(dir.file("list"), "ben.png\n");
+    CHECK_THAT(infer(dir, "--from list").err, Contains("ben.png (1 joint (boy.labels.json, made when"));
+    CHECK(isAsBefore("out/ben"));
+  }
+  SECTION("with blank labels of its own, as skel-label candidates makes them") {
     writeLabelFile(dir.file("ben.labels.json"),
                    labelImage(dir.file("ben.png"), std::nullopt, {}, loadTemplate("biped")));
-    CHECK_THAT(infer(dir, ". --force").err, Contains(renamed));
+    CHECK_THAT(infer(dir, "ben.png").err, Contains(taken("")));
   }
-  SECTION("classes that somebody has given") {
+  SECTION("with labels of its own") {
     LabelFile labels = labelImage(dir.file("ben.png"), std::nullopt, {}, loadTemplate("biped"));
     labels.labels.front() = JointClass::kHead;
     writeLabelFile(dir.file("ben.labels.json"), labels);
-    CHECK_THAT(infer(dir, ". --force").err, !Contains("which was called"));
+    CHECK_THAT(infer(dir, "ben.png").err, !Contains("1 joint (boy.labels.json"));
   }
-  // Another picture, and labels that are none.
-  writeFile(dir.file("ben.png"), encodePng(capsuleImage({.size = 500})));
-  writeFile(dir.file("torn.labels.json"), "{");
-  CHECK_THAT(infer(dir, ". --force").err, !Contains("which was called"));
+  SECTION("another picture, and labels that are none") {
+    takeAgain(dir, "clown");
+    fs::rename(dir.file("boy.png"), dir.file("ben.png"));
+    writeFile(dir.file("torn.labels.json"), "{");
+    CHECK_THAT(infer(dir, "ben.png").err, !Contains("by hand"));
+  }
+  SECTION("the picture of that name is there, too") {
+    fs::copy(dir.file("ben.png"), dir.file("boy.png"));
+    CHECK_THAT(infer(dir, "ben.png").err, !Contains("by hand"));
+  }
 }
 
-TEST_CASE(
-    "a picture that was renamed after joints of its skeleton were moved left them behind without a word") {
+TEST_CASE("a picture that was renamed or moved after joints of its skeleton were moved left them behind") {
   const TempDir dir;
   writeFile(dir.file("in/boy.png"), readFile(kDrawing));
   const auto [folder, options] = GENERATE(table<std::string, std::string>(
@@ -1100,18 +1130,36 @@ TEST_CASE(
   REQUIRE(infer(dir, "in/boy.png -o " + folder).exit_code == 0);
   const std::string old_name = folder + "/boy.skeleton.json";
   moveInFile(dir, "left_hand", "420.5", old_name);
-  fs::rename(dir.file("in/boy.png"), dir.file("in/ben.png"));
-  const std::string note =
-      "skel-infer: note: " + old_name +
-      " is of in/ben.png, 1 joint made by hand: call it ben.skeleton.json, in the place of one that is "
-      "there, or name it by --skeleton\n";
-  for (int run = 1; run <= 2; ++run) CHECK_THAT(infer(dir, "in/ben.png" + options).err, Contains(note));
-  CHECK(infer(dir, "in/ben.png --quiet" + options).err == note);
-  CHECK_THAT(infer(dir, "in/ben.png -o fresh --skeleton " + old_name).err, !Contains("made by hand: call"));
-  fs::rename(dir.file(old_name), dir.file(folder + "/ben.skeleton.json"));
-  const ToolRun run = infer(dir, "in/ben.png" + options);
-  CHECK_THAT(run.err, !Contains("made by hand: call") &&
-                          Contains(kTakenUp + std::string("1 joint (") + folder + "/ben.skeleton.json"));
+  const std::string made = kTakenUp + std::string("1 joint (") + old_name;
+  SECTION("renamed: the next run has them under the new name") {
+    fs::rename(dir.file("in/boy.png"), dir.file("in/ben.png"));
+    CHECK_THAT(infer(dir, "in/ben.png" + options).err,
+               Contains(made + ", made when the picture was called boy.png)\n"));
+    const std::string results = options.empty() ? "out" : folder;
+    CHECK(placeIn(dir, "left_hand", results + "/ben.skeleton.json")[0] == 420.5);
+    CHECK_THAT(infer(dir, "in/ben.png" + options).err,
+               Contains(kTakenUp + std::string("1 joint (") + results + "/ben.skeleton.json)\n"));
+    CHECK(placeIn(dir, "left_hand", old_name)[0] == 420.5);
+  }
+  SECTION("moved, its results elsewhere") {
+    if (folder != "out" && folder != "elsewhere") return;
+    fs::create_directory(dir.file("class"));
+    fs::rename(dir.file("in/boy.png"), dir.file("class/ben.png"));
+    CHECK_THAT(infer(dir, "class/ben.png" + options).err,
+               Contains(made + ", made when the picture was called boy.png)\n"));
+  }
+}
+
+TEST_CASE("joints that were moved in the results of a folder were not found in a run over a list, nor back") {
+  const TempDir dir;
+  writeFile(dir.file("in/boy.png"), readFile(kDrawing));
+  writeFile(dir.file("list"), "in/boy.png\n");
+  const auto [first, then, results] = GENERATE(table<std::string, std::string, std::string>(
+      {{"in", "--from list", "made/boy"}, {"--from list", "in", "made/in/boy"}}));
+  REQUIRE(infer(dir, first + " -o made").exit_code == 0);
+  moveInFile(dir, "left_hand", "420.5", results + ".skeleton.json");
+  const std::string joint = "1 joint (" + results + ".skeleton.json)";
+  CHECK_THAT(infer(dir, then + " -o made").err, Contains("made by hand and taken up") && Contains(joint));
 }
 
 TEST_CASE("a picture that was renamed left the mask of a paint program behind without a word") {
@@ -1121,12 +1169,10 @@ TEST_CASE("a picture that was renamed left the mask of a paint program behind wi
   fs::copy(dir.file("out/boy.silhouette.png"), dir.file("in/boy.mask.png"));
   REQUIRE(infer(dir, "in/boy.png -o out").exit_code == 0);
   fs::rename(dir.file("in/boy.png"), dir.file("in/ben.png"));
-  const std::string note =
-      "in/boy.mask.png was made for in/ben.png, which was called boy.png then: call it so again, or the mask "
-      "ben.mask.png\n";
-  CHECK_THAT(infer(dir, "in/ben.png -o out").err, Contains(note));
+  CHECK_THAT(infer(dir, "in/ben.png -o out").err,
+             Contains("mask (in/boy.mask.png, made when the picture was called boy.png)"));
   fs::rename(dir.file("in/boy.mask.png"), dir.file("in/ben.mask.png"));
-  CHECK_THAT(infer(dir, "in/ben.png -o out").err, !Contains("was made for") && Contains("in/ben.mask.png"));
+  CHECK_THAT(infer(dir, "in/ben.png -o out").err, Contains("mask (in/ben.mask.png)"));
 }
 
 TEST_CASE("of two folders with mended joints the first counts, and the line says which one does not") {

@@ -178,6 +178,32 @@ TEST_CASE("what was saved is what a new document finds") {
   }
 }
 
+TEST_CASE("a picture that was renamed after it was labelled was opened without its labels and its mask") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  const auto head = static_cast<size_t>(loadTemplate("biped").find("head"));
+  {
+    Document document(dir.path(), documentOptions());
+    document.rig();
+    document.moveJoint(int(head), {301.25, 150.5});
+    document.label({0}, JointClass::kHand);
+    document.paintMask({300, 100}, {330, 60}, 12, true);
+  }
+  const std::string mask = readFile(dir.file("cap_boy.mask.png"));
+  fs::rename(dir.file("cap_boy.png"), dir.file("ben.png"));
+  Document document(dir.path(), documentOptions());
+  CHECK(document.message() == "as in cap_boy.labels.json, made when the picture was called cap_boy.png");
+  CHECK(document.item().joints.done == 1);
+  CHECK(document.state().joints[head]->image == Eigen::Vector2d(301.25, 150.5));
+  CHECK(document.state().labels[0] == JointClass::kHand);
+  CHECK_FALSE(fs::exists(dir.file("ben.labels.json")));
+  document.label({1}, JointClass::kHead);
+  CHECK(findProblems(dir.file("ben.labels.json")).empty());
+  CHECK(readFile(dir.file("ben.mask.png")) == mask);
+  CHECK(readFile(dir.file("cap_boy.mask.png")) == mask);
+  CHECK(Document(dir.path(), documentOptions()).message().empty());
+}
+
 TEST_CASE("joints that were found, not placed, are found anew after reopening") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());

@@ -1,0 +1,173 @@
+#include "libskel/mended/former_names.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/folder_listing.h"
+#include "libskel/core/input_guard.h"
+#include "libskel/image/result_picture.h"
+#include "libskel/labels/label_file.h"
+#include "libskel/mended/mended_files.h"
+
+namespace skel {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMostOpened = 10'000;  // files of a folder: one of results may hold any number
+constexpr std::size_t kHashLength = 64;
+
+bool isLabels(const std::string& file) { return file.ends_with(kLabelFileEnding); }
+
+// All runs of hexadecimal digits that are as long as a hash.
+std::vector<std::string> hashesIn(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::vector<std::string> hashes;
+  for (std::size_t at = text.find('"'); at != text.npos; at = text.find('"', at + 1)) {
+    const std::size_t end = at + 1 + kHashLength;
+    if (end < text.size() && text[end] == '"' &&
+        text.substr(at + 1, kHashLength).find_first_not_of(kDigits) == text.npos)
+      hashes.emplace_back(text.substr(at + 1, kHashLength));
+  }
+  return hashes;
+}
+
+// Nothing of a file that cannot be read: whoever opens it by its name is told.
+template <class Read>
+auto readOrNothing(const Read& read) -> std::optional<decltype(read())> {
+  try {
+    return read();
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+bool isGoneOrThis(const fs::path& named, const std::string& drawing) {
+  std::error_code failure;
+  return !fs::exists(named, failure) || fs::equivalent(named, drawing, failure);
+}
+
+FormerPlace& placeNamed(const fs::path& made, const std::string& picture, std::vector<FormerPlace>& places) {
+  for (FormerPlace& there : places)
+    if (there.place.made == made) return there;
+  FormerPlace place;
+  place.place.made = made.string();
+  place.place.is_of_picture = true;
+  place.name = picture;
+  places.push_back(std::move(place));
+  return places.back();
+}
+
+void addLabels(const std::string& path, const MendRequest& request, std::vector<FormerPlace>& places) {
+  const auto labels = readOrNothing([&] { return readLabelFile(path); });
+  if (!labels || labels->image.sha256 != request.image_sha256) return;
+  const fs::path folder = fs::path(path).parent_path();
+  if (!isGoneOrThis(folder / labels->image.file, request.source)) return;
+  const std::string made = path.substr(0, path.size() - std::string_view(kLabelFileEnding).size());
+  placeNamed(made, labels->image.file, places).labels = path;
+}
+
+void addSkeleton(const std::string& path, const MendRequest& request, std::vector<FormerPlace>& places) {
+  const std::optional<SkeletonSource> source = sourceOfSkeleton(path);
+  if (!source || source->image_sha256 != request.image_sha256 || source->number != request.figure) return;
+  const fs::path folder = fs::path(path).parent_path(), picture = source->image_file;
+  if (!isGoneOrThis(folder / picture, request.source)) return;
+  MendPlace& place = placeNamed(folder / picture.stem(), picture.filename().string(), places).place;
+  if (place.result) return;
+  place.results = path.substr(0, path.size() - std::string_view(kSkeletonFileEnding).size());
+  place.result = source;
+}
+
+std::vector<fs::path> foldersOf(const MendRequest& request) {
+  std::vector<fs::path> folders;
+  const fs::path drawing = fs::path(request.source).lexically_normal(), beside = drawing.parent_path();
+  if (!request.results.empty()) folders.push_back(fs::path(request.results).parent_path());
+  if (!request.out_dir.empty()) {
+    folders.emplace_back(request.out_dir);
+    if (beside.is_relative() && !beside.empty() && *beside.begin() != "..")
+      folders.push_back(request.out_dir / beside);
+  }
+  folders.insert(folders.end(), {beside, beside / "out", "out"});
+  std::set<fs::path> seen;
+  std::erase_if(folders, [&](const fs::path& folder) { return !seen.insert(wholePath(folder)).second; });
+  return folders;
+}
+
+}  // namespace
+
+const FormerNames::Folder& FormerNames::lookInto(const fs::path& folder) {
+  const auto [known, is_new] = folders_.try_emplace(wholePath(folder));
+  Folder& here = known->second;
+  if (!is_new) return here;
+  const auto isOurs = [](const std::string& name) {
+    return isLabels(name) || name.ends_with(kSkeletonFileEnding) || isDrawingName(name);
+  };
+  std::vector<std::string> files = listFolder(folder.empty() ? "." : folder.string(), isOurs).files;
+  std::set<std::string> of_drawings;
+  std::erase_if(files, [&](const std::string& name) {
+    return isDrawingName(name) && of_drawings.insert(labelFileFor(name)).second;
+  });
+  files.resize(std::min(files.size(), kMostOpened));
+  const LookAtOutputs look;
+  for (const std::string& name : files) {
+    here.labels_alone |= isLabels(name) && !of_drawings.contains(name);
+    if (const auto text = readOrNothing([&] { return readFile((folder / name).string()); }))
+      for (const std::string& hash : hashesIn(*text)) here.by_hash.emplace(hash, name);
+  }
+  return here;
+}
+
+std::vector<std::string> FormerNames::filesWith(const std::string& sha256, const fs::path& folder) {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> found;
+  for (auto [file, end] = lookInto(folder).by_hash.equal_range(sha256); file != end; ++file)
+    if (std::find(found.begin(), found.end(), file->second) == found.end()) found.push_back(file->second);
+  return found;
+}
+
+bool FormerNames::hasLabelsAlone(const fs::path& folder) {
+  const std::lock_guard lock(mutex_);
+  return lookInto(folder).labels_alone;
+}
+
+std::string formerLabels(const std::string& drawing, const std::string& image_sha256, FormerNames& names) {
+  const fs::path folder = fs::path(drawing).parent_path();
+  for (const std::string& name : names.filesWith(image_sha256, folder)) {
+    const std::string path = (folder / name).string();
+    if (!isLabels(name) || path == labelFileFor(drawing)) continue;
+    const auto labels = readOrNothing([&] { return readLabelFile(path); });
+    if (labels && labels->image.sha256 == image_sha256 && !labels->isBlank() &&
+        isGoneOrThis(folder / labels->image.file, drawing))
+      return path;
+  }
+  return "";
+}
+
+std::vector<FormerPlace> formerPlaces(const MendRequest& request, const std::vector<MendPlace>& places) {
+  FormerNames own_names;
+  FormerNames& names = request.former_names ? *request.former_names : own_names;
+  const auto isKnown = [&](const fs::path& made) {
+    return std::any_of(places.begin(), places.end(),
+                       [&](const MendPlace& place) { return wholePath(place.made) == wholePath(made); });
+  };
+  std::vector<FormerPlace> all;
+  const fs::path beside = fs::path(request.source).parent_path();
+  for (const fs::path& folder : foldersOf(request)) {
+    std::vector<FormerPlace> here;
+    for (const std::string& name : names.filesWith(request.image_sha256, folder)) {
+      const std::string path = (folder / name).string();
+      isLabels(name) ? addLabels(path, request, here) : addSkeleton(path, request, here);
+    }
+    for (FormerPlace& place : here) {
+      if (isKnown(place.place.made)) continue;
+      place.place.is_beside = wholePath(folder) == wholePath(beside);
+      all.push_back(std::move(place));
+    }
+  }
+  return all;
+}
+
+}  // namespace skel
