@@ -17,7 +17,7 @@
 #include "libskel/core/tool_command.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/sprite_sheet_file.h"
-#include "libskel/mended/earlier_picture.h"
+#include "libskel/mended/mend_places.h"
 #include "libskel/mended/rig_mended.h"
 #include "libskel/pipeline/drawing_notes.h"
 #include "libskel/pipeline/rig_drawing.h"
@@ -27,23 +27,6 @@ namespace skel {
 namespace {
 namespace fs = std::filesystem;
 
-// Where skel-infer wrote what it has made of this figure, without endings; "": nowhere that is known. Of a
-// list it keeps the folders.
-std::string resultsOf(const CharacterSource& source, int figure) {
-  if (source.results.empty()) return "";
-  if (std::error_code unknown; !fs::is_directory(source.results, unknown))
-    throw InputError(source.results, "is no folder");
-  const fs::path folder = source.results, drawing = fs::path(source.path).lexically_normal();
-  const std::string results = (folder / drawing.stem()).string(), number = "-" + std::to_string(figure);
-  std::vector<std::string> places = {results};
-  if (drawing.is_relative() && *drawing.begin() != "..")
-    places.push_back((folder / drawing.parent_path() / drawing.stem()).string());
-  for (const std::string& place : places)
-    for (const std::string& one : {place, place + number})
-      if (const auto found = sourceOfSkeleton(one + kSkeletonFileEnding); found && found->number == figure)
-        return one;
-  return figure == 1 ? results : results + number;
-}
 
 }  // namespace
 
@@ -112,7 +95,7 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
   request.source = source.path;
   request.image_sha256 = sha256(bytes);
   request.figure = given ? figureOf(*given, source.skeleton, source.figure) : source.figure;
-  request.results = resultsOf(source, request.figure);
+  request.results = resultsIn(source.results, source.path, request.figure);
   request.out_dir = source.results;
   request.former_names = source.former_names;
   request.skeleton = source.skeleton;
@@ -122,11 +105,7 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
   MendedRig rig = rigMended(request, options, std::move(input), given);
   DrawnCharacter result{
       std::move(rig.drawing), withAdviceIfUpright(std::move(rig.warnings), "use --upright"), {}};
-  for (const auto& note :
-       {mendedNote(rig.files, request, rig.placed), contradictionNote(rig.files, rig.placed),
-        otherPlanNote(rig.files, options), unknownJointNote(rig.files), earlierNote(rig.files),
-        otherSizeNote(rig.files), fitsAgainNote(rig.files), keptLayersNote(rig.files, request)})
-    if (note) result.mended.push_back(*note);
+  result.mended = mendedNotes(rig, request, options);
   return result;
 }
 

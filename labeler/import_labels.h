@@ -51,8 +51,8 @@ using OnError = std::function<void(const Error&)>;
 ImportCounts importLabels(const std::string& path, const BodyPlans& plans, const ImportOptions& options,
                           const OnError& on_error);
 
-// A label file without labels for every drawing below `dir` that has none, with those that were made when it had
-// another name where there are such.
+// A label file without labels for every drawing below `dir` that has none, with those that were made when it
+// had another name where there are such.
 ImportCounts makeLabelFiles(const std::string& dir, const OnError& on_error);
 
 }  // namespace skel

@@ -25,7 +25,8 @@ class MaskDocument {
   // What lies there was made for a picture before this one: it, and what is made of it, is given another name
   // (keepAside()) when the drawing has no such mask any more.
   void areOfEarlierPicture() { earlier_ = true; }
-  // The drawing has another name than when its mask was made: that is saved under this one, unless one lies there.
+  // The drawing has another name than when its mask was made: that is saved under this one, unless one lies
+  // there.
   void takeDrawingsName();
 
   const std::shared_ptr<const MaskVersion>& opened() const { return opened_; }

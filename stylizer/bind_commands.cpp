@@ -79,6 +79,11 @@ void bindStyle(CLI::App& app, StyleRequest& request) {
 }
 
 void bindPerform(CLI::App& app, PerformRequest& request) {
+  app.add_option(
+         "--results", request.mended.results,
+         "Where skel-infer -o DIR wrote the results of the drawing: what was mended there is taken up, "
+         "before what lies beside the drawing and in out/")
+      ->type_name("DIR");
   app.add_option("--order", request.order,
                  "The figure's parts, back to front: left_leg, right_leg, body, left_arm, right_arm, with "
                  "commas (default: as they are drawn)")
@@ -171,6 +176,7 @@ void bindRender(CLI::App& app, RenderOptions2D& options) {
       ->check(outputFile("skel-clip"));
   bindLoop(app, options.loop);
   bindPerform(app, options.perform);
+  app.add_flag("--force", options.perform.mended.force, "Leave out what was mended by hand of the drawing");
 }
 
 void bindInspect(CLI::App& app, InspectOptions& options) {
@@ -197,7 +203,8 @@ void bindMake(CLI::App& app, MakeOptions& options) {
                  "A folder for what lies between; what is there already of these films is taken (default: "
                  "<output>.work)")
       ->type_name("DIR");
-  app.add_flag("--force", options.force, "Make everything anew, also over joints placed by hand");
+  app.add_flag("--force", options.force,
+               "Make everything anew, also over joints placed by hand, of the films and of the drawing");
   bindFilm(app, options.film);
   bindStyle(app, options.request);
   bindPerform(app, options.perform);

@@ -7,6 +7,7 @@
 #include "libskel/core/error.h"
 #include "libskel/style/semantics.h"
 #include "stylizer/find_keypoints.h"
+#include "stylizer/performer.h"
 #include "stylizer/puppet_film.h"
 #include "stylizer/transfer_motion.h"
 
@@ -67,7 +68,8 @@ ExitCode runTransfer(const TransferCommandOptions& options);
 
 // How a drawing performs, as `render` and `make` are asked.
 struct PerformRequest {
-  std::string order;  // of parts, with commas
+  MendedSource mended;  // of a drawing
+  std::string order;    // of parts, with commas
   std::string background = "white";
   int size_px = 480;
   double frame_rate = 0;  // 1/s; 0: the motion's

@@ -82,6 +82,7 @@ ExitCode runMake(const MakeOptions& given) {
   const SkeletonTemplate plan = loadTemplate("biped");
   const MotionSource content_source = lookAt(options.content, "content", options);
   const MotionSource style_source = lookAt(options.style, "style", options);
+  options.perform.mended.force = options.force;
   const Stage stage = setStage(options.character, options.perform, options.output);
   const NamedMotion content = motionOf(content_source);
   const NamedMotion style = motionOf(style_source);

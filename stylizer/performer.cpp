@@ -5,8 +5,13 @@
 #include <utility>
 
 #include "libskel/core/error.h"
+#include "libskel/core/files.h"
+#include "libskel/core/sha256.h"
 #include "libskel/draw/render_mesh.h"
+#include "libskel/image/read_image.h"
 #include "libskel/import/read_character.h"
+#include "libskel/mended/mend_places.h"
+#include "libskel/mended/rig_mended.h"
 #include "libskel/pipeline/drawing_notes.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/skeleton/hanging.h"
@@ -52,21 +57,49 @@ Performer seenFromTheFront(const std::string& path) {
   return performer;
 }
 
-}  // namespace
+struct Rigged {
+  RiggedDrawing drawing;
+  std::vector<std::string> warnings;
+  std::vector<Note> notes;
+};
 
-Performer readPerformer(const std::string& path) {
-  if (path.ends_with(".glb")) return seenFromTheFront(path);
+Rigged rigPerformer(const std::string& path, const MendedSource& mended) {
   RigOptions options = rigOptionsWithoutClips("auto");
   options.last = LastStage::kModel;
-  RiggedDrawing drawing = rigDrawing(path, options);
+  if (path.ends_with(kSkeletonFileEnding)) {
+    RiggedDrawing drawing = rigDrawing(path, options);
+    std::vector<std::string> warnings = figureNotes(drawing);
+    return {std::move(drawing), std::move(warnings), {}};
+  }
+  const std::string bytes = readFile(path);
+  MendRequest request;
+  request.source = path;
+  request.image_sha256 = sha256(bytes);
+  request.results = resultsIn(mended.results, path, request.figure);
+  request.out_dir = mended.results;
+  request.takes_up = !mended.force;
+  RigInput input;
+  input.image = decodeImage(bytes, path);
+  MendedRig rig = rigMended(request, options, std::move(input), {});
+  std::vector<Note> notes = mendedNotes(rig, request, options);
+  return {std::move(rig.drawing), std::move(rig.warnings), std::move(notes)};
+}
+
+}  // namespace
+
+Performer readPerformer(const std::string& path, const MendedSource& mended) {
+  if (path.ends_with(".glb")) return seenFromTheFront(path);
+  Rigged rigged = rigPerformer(path, mended);
+  RiggedDrawing& drawing = rigged.drawing;
   if (drawing.body_plan.name != "biped")
     throw InputError(path,
                      "is a " + drawing.body_plan.name +
                          "'s figure, and these motions are a person's; if it is a person, give its joints "
                          "instead: the .skeleton.json that skel-infer --template biped writes");
   Performer performer;
-  performer.notes =
-      withAdviceIfUpright(figureNotes(drawing), "give the .skeleton.json that skel-infer --upright writes");
+  performer.notes = withAdviceIfUpright(std::move(rigged.warnings),
+                                        "give the .skeleton.json that skel-infer --upright writes");
+  for (const Note& note : rigged.notes) performer.notes.push_back(noteText(note, path));
   for (const Note& note : limbNotes(drawing, {})) performer.notes.push_back(noteText(note, path));
   performer.model_from_image = drawing.character.mesh.model_from_image;
   performer.skeleton = withoutHanging(drawing.character.skeleton);

@@ -22,8 +22,15 @@ struct Performer {
   std::vector<std::string> notes;  // a clause each, for the user
 };
 
-// A drawing, which is rigged first, the .skeleton.json of one, or a .glb with the biped's joints. Throws
-// InputError, also for a figure that fits another body plan: films show people's motions.
-Performer readPerformer(const std::string& path);
+// Of a drawing, what a person has mended.
+struct MendedSource {
+  std::string results = {};  // a folder that skel-infer has written to; "": none
+  bool force = false;        // leave it out
+};
+
+// A drawing, which is rigged first as skel-infer does (libskel/mended/mend_places.h), the .skeleton.json of
+// one, or a .glb with the biped's joints. Throws InputError, also for a figure that fits another body plan:
+// films show people's motions.
+Performer readPerformer(const std::string& path, const MendedSource& mended = {});
 
 }  // namespace skel

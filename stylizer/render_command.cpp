@@ -30,7 +30,7 @@ Stage setStage(const std::string& character, const PerformRequest& request, cons
   std::istringstream parts(request.order);
   for (std::string part; std::getline(parts, part, ',');) order.push_back(part);
   FilmBackground background = readBackground(request.background);
-  Performer performer = readPerformer(character);
+  Performer performer = readPerformer(character, request.mended);
   if (background.keep && character.ends_with(".glb")) {
     performer.notes.push_back("a model has no background to keep");
     background = {false, keepsTransparency(output) ? kClear : kWhite, {}};

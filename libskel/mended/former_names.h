@@ -1,5 +1,5 @@
-// A picture that got another name, or another folder, after it was mended: label and skeleton files tell by its
-// hash that they are its.
+// A picture that got another name, or another folder, after it was mended: label and skeleton files tell by
+// its hash that they are its.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,8 @@ namespace skel {
 // Looks into each folder once, when it is first asked about. Several threads may ask.
 class FormerNames {
  public:
-  // Label and skeleton files in `folder`, of the first 10,000 there, that have that hash somewhere in them. In
-  // natural order.
+  // Label and skeleton files in `folder`, of the first 10,000 there, that have that hash somewhere in them.
+  // In natural order.
   std::vector<std::string> filesWith(const std::string& sha256, const std::filesystem::path& folder);
   // Whether one of them is a label file beside which no picture of its name lies.
   bool hasLabelsAlone(const std::filesystem::path& folder);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/input_guard.h"
 #include "libskel/mended/mended_files.h"
@@ -85,6 +86,21 @@ std::vector<MendPlace> mendPlaces(const MendRequest& request) {
   for (MendPlace& place : places)
     place.is_beside = wholePath(fs::path(place.made).parent_path()) == wholePath(beside);
   return places;
+}
+
+std::string resultsIn(const std::string& folder, const std::string& drawing, int figure) {
+  if (folder.empty()) return "";
+  if (std::error_code unknown; !fs::is_directory(folder, unknown)) throw InputError(folder, "is no folder");
+  const fs::path name = fs::path(drawing).lexically_normal();
+  const std::string results = (folder / name.stem()).string(), number = "-" + std::to_string(figure);
+  std::vector<std::string> places = {results};
+  if (name.is_relative() && *name.begin() != "..")
+    places.push_back((folder / name.parent_path() / name.stem()).string());
+  for (const std::string& place : places)
+    for (const std::string& one : {place, place + number})
+      if (const auto found = sourceOfSkeleton(one + kSkeletonFileEnding); found && found->number == figure)
+        return one;
+  return figure == 1 ? results : results + number;
 }
 
 }  // namespace skel

@@ -32,4 +32,9 @@ struct MendPlace {
 // of ours there cannot be read.
 std::vector<MendPlace> mendPlaces(const MendRequest& request);
 
+// Where a run of skel-infer with `-o folder` wrote what it has made of the figure of the drawing, without
+// endings; of a list it keeps the folders. `folder`: "": nowhere, as the result. Throws InputError: no
+// folder.
+std::string resultsIn(const std::string& folder, const std::string& drawing, int figure);
+
 }  // namespace skel

@@ -127,7 +127,8 @@ template <class Source>
 std::string namedBy(const std::string& file, const std::optional<Source>& source) {
   if (!source) return "";
   const fs::path named = fs::path(file).parent_path() / source->file;
-  const std::string path = (source->file.find('/') == std::string::npos ? named : named.lexically_normal()).string();
+  const std::string path =
+      (source->file.find('/') == std::string::npos ? named : named.lexically_normal()).string();
   return !ifThere(path).empty() && sha256(readFile(path)) == source->sha256 ? path : "";
 }
 
@@ -153,8 +154,7 @@ void takeFormer(MendedFiles& files, const MendRequest& request, const std::vecto
       take(files.labels, former.labels);
     }
     if (finds_mask) {
-      if (!former.labels.empty())
-        take(files.mask, namedBy(former.labels, readLabelFile(former.labels).mask));
+      if (!former.labels.empty()) take(files.mask, namedBy(former.labels, readLabelFile(former.labels).mask));
       take(files.mask, namedBy(skeleton, result.mask));
       if (const std::string silhouette = place.results + ".silhouette.png";
           isPaintedSilhouette(silhouette, place))

@@ -25,10 +25,11 @@ struct MendRequest {
   std::string recolored_sha256 = {};  // of a picture before with the very same figure; "": none is known
   std::string results;                // where this run writes, without endings; "": nowhere
   std::string out_dir = {};           // the folder of all its results; "": that of these
-  std::shared_ptr<FormerNames> former_names = {};  // of a run over many drawings; looked for where there is none
-  int figure = 1;                     // 1 is the largest
-  bool is_one_of_all = false;         // all figures of the drawing are rigged
-  std::string skeleton;               // a .skeleton.json as it stands, or all joints of a .labels.json
+  std::shared_ptr<FormerNames> former_names =
+      {};                      // of a run over many drawings; looked for where there is none
+  int figure = 1;              // 1 is the largest
+  bool is_one_of_all = false;  // all figures of the drawing are rigged
+  std::string skeleton;        // a .skeleton.json as it stands, or all joints of a .labels.json
   std::string mask, limbs, back;
   bool finds_limbs = true, finds_back = true;  // where none are named
   bool takes_up = true;                        // what nobody has named

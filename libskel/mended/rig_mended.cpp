@@ -208,4 +208,14 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
   return result;
 }
 
+std::vector<Note> mendedNotes(const MendedRig& rig, const MendRequest& request, const RigOptions& options) {
+  std::vector<Note> notes;
+  for (const auto& note :
+       {mendedNote(rig.files, request, rig.placed), contradictionNote(rig.files, rig.placed),
+        otherPlanNote(rig.files, options), unknownJointNote(rig.files), earlierNote(rig.files),
+        otherSizeNote(rig.files), fitsAgainNote(rig.files), keptLayersNote(rig.files, request)})
+    if (note) notes.push_back(*note);
+  return notes;
+}
+
 }  // namespace skel

@@ -41,6 +41,9 @@ struct MendedRig {
 MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput input,
                     const std::optional<SkeletonFile>& given);
 
+// What a person has made for the figure, taken up or left out; nothing of what a run keeps of its results.
+std::vector<Note> mendedNotes(const MendedRig& rig, const MendRequest& request, const RigOptions& options);
+
 bool hasPlacedJoint(const Skeleton& skeleton);
 
 }  // namespace skel

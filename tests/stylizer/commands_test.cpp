@@ -209,6 +209,32 @@ TEST_CASE("of films whose motions were there already make ignored --fps without 
   CHECK_THAT(again.err, Contains(walk + ": note: a film says itself how many frames a second it has"));
 }
 
+TEST_CASE("what was mended of a drawing was left out of its films in another style") {
+  const TempDir dir;
+  writeFile(dir.file("in/boy.png"), readFile(kDrawing));
+  writeFile(dir.file("a.motion.json"), motionText(3, 1, 3));
+  const std::string in_folder = "cd '" + dir.path() + "' && ", skeleton = "rigged/boy.skeleton.json";
+  REQUIRE(runTool(in_folder + "skel-infer in/boy.png --formats json -o rigged").exit_code == 0);
+  std::string text = readFile(dir.file(skeleton));
+  const std::size_t start = text.find("\"image\":[", text.find("\"name\":\"left_hand\"")) + 9;
+  writeFile(dir.file(skeleton), text.replace(start, text.find(',', start) - start, "420.5"));
+  const auto film = [&](const std::string& options) {
+    const ToolRun run = runTool(in_folder +
+                                "skel-style render --character in/boy.png --motion a.motion.json "
+                                "--size 64 -o film.gif " +
+                                options);
+    CHECK(run.exit_code == 0);
+    CHECK(run.err == (options == "--results rigged"
+                          ? "in/boy.png: note: made by hand and taken up (--force leaves it out): 1 joint (" +
+                                skeleton + ")\n"
+                          : ""));
+    return readFile(dir.file("film.gif"));
+  };
+  const std::string found = film("");
+  CHECK(film("--results rigged") != found);
+  CHECK(film("--results rigged --force") == found);
+}
+
 TEST_CASE("the background of a model, which has none, was black where it was to be kept") {
   const TempDir dir;
   REQUIRE(runTool("skel-infer " + kDrawing + " -o " + dir.path() + " --formats glb --clips none").exit_code ==
