@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "animator/glb_output.h"
 #include "animator/load_character.h"
@@ -67,6 +68,22 @@ std::string savedKey(const std::string& path) { return fs::absolute(path).lexica
 bool sameTurn(const Eigen::Quaternionf& a, const Eigen::Quaternionf& b) {
   constexpr double kSame = 5e-4;  // rad
   return a.cast<double>().normalized().angularDistance(b.cast<double>().normalized()) < kSame;
+}
+
+std::size_t countTimes(const Clip& clip) {
+  std::set<float> times(clip.root_times_s.begin(), clip.root_times_s.end());
+  for (const JointTrack& track : clip.tracks) times.insert(track.times_s.begin(), track.times_s.end());
+  return times.size();
+}
+
+// What to say where the clip of the file has become another one of more keys; or "".
+std::string moreKeys(const std::string& path, const Clip& loaded) {
+  if (!path.ends_with(kClipFileEnding)) return "";
+  const Clip held = readClipFile(path);
+  const std::size_t before = countTimes(held), now = countTimes(loaded);
+  if (held.rest_pose.empty() || now <= before) return "";
+  return "; its keys at " + std::to_string(before) + " moments are at " + std::to_string(now) +
+         " here, as it is not for this character's rest pose";
 }
 
 }  // namespace
@@ -594,6 +611,7 @@ bool AnimationDocument::loadClip(const std::string& path) {
     const std::optional<ClipKeys> eased = easedKeysOf(path, skeleton());
     if (eased) clip = withEvenKeys(*eased);
     const bool loses_ease = !eased && easedKeysIn(path);
+    const std::string more_keys = loses_ease || eased ? "" : moreKeys(path, clip);
     on_disk_.note(path);
     setSaved(path, {clip});
     files_[clip.name] = path;
@@ -612,7 +630,8 @@ bool AnimationDocument::loadClip(const std::string& path) {
     state_.time_s = 0;
     takePoseFromClip();
     return "loaded " + path +
-           (loses_ease ? "; its ease is even keys here, as it is not for this character's rest pose" : "");
+           (loses_ease ? "; its ease is even keys here, as it is not for this character's rest pose"
+                       : more_keys);
   });
 }
 

@@ -408,6 +408,9 @@ TEST_CASE("a clip that eases comes back with its keys and its ease, and plays as
   REQUIRE(on_other.loadClip(dir.file("eased/bow.clip.json")));
   CHECK_THAT(on_other.message(), EndsWith("; its ease is even keys here, as it is not for this character's "
                                           "rest pose"));
+  REQUIRE(on_other.loadClip(path));
+  CHECK_THAT(on_other.message(), Contains("; its keys at 2 moments are at ") &&
+                                     EndsWith(" here, as it is not for this character's rest pose"));
 
   // A model has the even keys that the clip plays by.
   REQUIRE(again.saveModel(dir.file("saved.glb")));
