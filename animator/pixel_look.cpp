@@ -8,6 +8,7 @@
 #include <map>
 
 #include "libskel/core/check.h"
+#include "libskel/core/error.h"
 #include "libskel/core/parallel.h"
 #include "libskel/draw/oklab.h"
 #include "libskel/video/palette.h"
@@ -43,6 +44,16 @@ std::map<int, Seen> seenIn(const std::vector<Image>& pictures) {
   return seen;
 }
 
+void paint(std::vector<Image>& pictures, const std::map<int, Seen>& seen, const std::vector<Color>& palette) {
+  for (Image& picture : pictures)
+    for (Eigen::Index i = 0; i < picture.rgba.rows(); ++i) {
+      std::uint8_t* p = picture.rgba.data() + 4 * i;
+      if (p[3] == 0) continue;
+      const Color color = palette[std::size_t(seen.at(keyOf(p)).nearest)];
+      p[0] = color.r, p[1] = color.g, p[2] = color.b;
+    }
+}
+
 }  // namespace
 
 Image pixelated(const Image& large, int factor) {
@@ -76,6 +87,26 @@ Image pixelated(const Image& large, int factor) {
   return small;
 }
 
+std::vector<Color> paletteOf(const Image& picture, const std::string& path) {
+  constexpr std::size_t kMost = 256;
+  const std::map<int, Seen> seen = seenIn({picture});
+  if (seen.empty()) throw InputError(path, "is all clear: a palette is a picture that has its colours");
+  if (seen.size() > kMost)
+    throw InputError(path, "has " + std::to_string(seen.size()) + " colours, a palette at most " +
+                               std::to_string(kMost) + "; take a picture that has its colours alone");
+  std::vector<Color> palette;
+  for (const auto& [key, one] : seen) palette.push_back(colorOf(key));
+  return palette;
+}
+
+void takeColors(std::vector<Image>& pictures, const std::vector<Color>& palette) {
+  std::map<int, Seen> seen = seenIn(pictures);
+  std::vector<Eigen::Vector3f> labs;
+  for (const Color& color : palette) labs.push_back(oklabFromSrgb(color));
+  for (auto& [key, one] : seen) one.nearest = nearestOf(labs, one.lab);
+  paint(pictures, seen, palette);
+}
+
 void reduceColors(std::vector<Image>& pictures, int colors) {
   constexpr int kRounds = 24;
   std::map<int, Seen> seen = seenIn(pictures);
@@ -99,13 +130,7 @@ void reduceColors(std::vector<Image>& pictures, int colors) {
   }
   std::vector<Color> srgb;
   for (const Eigen::Vector3f& lab : palette) srgb.push_back(srgbFromOklab(lab));
-  for (Image& picture : pictures)
-    for (Eigen::Index i = 0; i < picture.rgba.rows(); ++i) {
-      std::uint8_t* p = picture.rgba.data() + 4 * i;
-      if (p[3] == 0) continue;
-      const Color color = srgb[std::size_t(seen.at(keyOf(p)).nearest)];
-      p[0] = color.r, p[1] = color.g, p[2] = color.b;
-    }
+  paint(pictures, seen, srgb);
 }
 
 void addOutline(Image& picture, Color color) {

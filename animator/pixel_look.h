@@ -1,6 +1,7 @@
 // Pictures as pixel artists draw them: few colours, hard edges, an outline of one pixel.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "libskel/draw/color.h"
@@ -12,6 +13,12 @@ namespace skel {
 // in the one of its colours that is nearest to all of them. Nothing is mixed. The sides of `large` are
 // multiples of `factor`.
 Image pixelated(const Image& large, int factor);
+
+// Of what can be seen in a picture, at most 256. Throws InputError: none, or more.
+std::vector<Color> paletteOf(const Image& picture, const std::string& path);
+
+// What can be seen gets the nearest of these colours.
+void takeColors(std::vector<Image>& pictures, const std::vector<Color>& palette);
 
 // What can be seen gets at most `colors` (1…256) different colours, the same ones in all pictures.
 void reduceColors(std::vector<Image>& pictures, int colors);

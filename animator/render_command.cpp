@@ -21,6 +21,7 @@
 #include "libskel/image/named_drawings.h"
 #include "libskel/mended/former_names.h"
 #include "libskel/pipeline/drawing_notes.h"
+#include "libskel/skeleton/mark_placed.h"
 #include "libskel/video/video_writer.h"
 
 namespace skel {
@@ -31,8 +32,10 @@ namespace fs = std::filesystem;
 void tell(const DrawnCharacter& drawn, const char* look, const std::string& path,
           const std::vector<Clip>& clips) {
   const RiggedDrawing& drawing = drawn.drawing;
-  std::printf("%s: %s, confidence %.2f%s\n", printable(path).c_str(), drawing.body_plan.name.c_str(),
-              drawing.recognition.confidence, look);
+  char sure[32];
+  std::snprintf(sure, sizeof sure, "confidence %.2f", drawing.recognition.confidence);
+  std::printf("%s: %s, %s%s\n", printable(path).c_str(), drawing.body_plan.name.c_str(),
+              allPlaced(drawing.recognition.skeleton) ? "joints placed by hand" : sure, look);
   std::vector<Note> notes;
   for (const std::string& warning : drawn.warnings) notes.push_back({warning});
   for (Note& note : limbNotes(drawing, clips)) notes.push_back(std::move(note));

@@ -45,8 +45,13 @@ CLI::Option* bindSheetOptions(CLI::App& app, CLI::Option* film, SheetOptions& op
   add(app.add_flag("--trim", options.trim, "What is clear around a frame is cut off, frames lie close"));
   CLI::Option* pixels =
       add(app.add_flag("--pixels", options.pixels, "As pixel artists draw: no mixed colours, hard edges"));
-  add(app.add_option("--palette", options.palette, "Of so many colours at most, in the whole sheet")
-          ->check(zeroOrNumberIn(2, 256)))
+  add(app.add_option("--palette", options.palette,
+                     "Of so many colours at most, in the whole sheet, or those of a picture, such as a sheet "
+                     "that is there")
+          ->type_name("N|PICTURE")
+          ->check(
+              [](std::string text) { return isCount(text) ? zeroOrNumberIn(2, 256)(text) : std::string(); })
+          ->check(pickedFiles()))  // it may be made again
       ->needs(pixels);
   add(app.add_flag("--outline", options.outline, "A dark line of one pixel around the figure"))
       ->needs(pixels);

@@ -19,6 +19,11 @@ namespace skel {
 // Among the names of clips: all that the character can do.
 inline constexpr std::string_view kAllClips = "all";
 
+// Of digits alone.
+inline bool isCount(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+}
+
 struct SheetOptions {
   std::string output;  // empty: films instead
   int directions = 1;
@@ -28,7 +33,7 @@ struct SheetOptions {
   std::string like;             // the .json of a sheet whose cell and scale are taken; or ""
   std::string atlas = "array";  // hash, aseprite
   bool pixels = false, outline = false;
-  int palette = 0;  // colours; 0: as many as there are
+  std::string palette;  // how many colours, or a picture that has them; "": as many as there are
 };
 
 struct RenderCommandOptions {

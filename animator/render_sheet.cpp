@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "animator/film.h"
 #include "animator/in_place.h"
@@ -22,6 +23,7 @@
 #include "libskel/core/progress.h"
 #include "libskel/core/text.h"
 #include "libskel/draw/canvas.h"
+#include "libskel/image/read_image.h"
 #include "libskel/image/sprite_sheet_file.h"
 #include "libskel/image/write_image.h"
 
@@ -40,7 +42,15 @@ struct Sheets {
   std::optional<SpriteCell> like;  // of --like
   PictureSize size;
   bool in_folder;
-  SpriteExtent shared = {};  // of --same-scale
+  // Of --same-scale: what each character reaches.
+  struct Measured {
+    std::string name;
+    SpriteExtent extent;
+  };
+  std::vector<Measured> measured = {};
+  bool scale_is_told = false;
+  int most_colors = 0;         // 0: as many as there are
+  std::vector<Color> palette;  // the colours, where they are known
 
   explicit Sheets(const RenderCommandOptions& asked)
       : options(asked),
@@ -57,6 +67,12 @@ struct Sheets {
     if (!in_folder && options.files.size() > 1)
       throw UsageError(path + " must be a folder (a name that ends with /): there are several drawings");
     checkSheetSize({}, {size.width, size.height}, SpritePacking::kEven);
+    if (isCount(options.sheet.palette)) {
+      most_colors = std::stoi(options.sheet.palette);
+    } else if (!options.sheet.palette.empty()) {
+      const LookAtOutputs it_may_be_made_again;
+      palette = paletteOf(readImage(options.sheet.palette), options.sheet.palette);
+    }
     if (!in_folder) noteSheet(path);
     ensureWritableFolderOf(path);
   }
@@ -162,7 +178,64 @@ struct Sheets {
   void measure(const CharacterFile& file, const std::vector<Clip>& asked) {
     std::vector<Clip> clips;
     for (const Clip& clip : asked) clips.push_back(inPlace(clip, file.character).clip);
-    shared = shared.with(extentOf(file, std::move(clips)));
+    measured.push_back({file.name, extentOf(file, std::move(clips))});
+  }
+
+  SpriteCamera cameraFor(const SpriteExtent& extent) const {
+    return spriteCamera(extent, options.pitch_deg, size.width, size.height, options.sheet.outline ? 2 : 1);
+  }
+
+  SpriteExtent sharedExtent(std::size_t without = std::string::npos) const {
+    SpriteExtent extent;
+    for (std::size_t i = 0; i < measured.size(); ++i)
+      if (i != without) extent = extent.with(measured[i].extent);
+    return extent;
+  }
+
+  // One character that makes the sheets of several others much smaller.
+  void tellWhoSetsScale(double px_per_m) const {
+    constexpr double kMuch = 1.05;
+    double most = 0;
+    std::string name;
+    for (std::size_t i = 0; measured.size() > 2 && i < measured.size(); ++i)
+      if (const double without = cameraFor(sharedExtent(i)).cell.px_per_m; without > most)
+        most = without, name = measured[i].name;
+    if (most > kMuch * px_per_m)
+      std::fprintf(stderr,
+                   "skel-animate: note: %s reaches farthest and sets the scale of all: a metre is %.1f px, "
+                   "without it %.1f\n",
+                   printable(name).c_str(), px_per_m, most);
+  }
+
+  // A sheet that is about to be written over and has another scale: its frames are kept for --like.
+  static void keepOtherScale(const std::string& atlas, const SpriteCell& cell) {
+    constexpr double kSame = 1e-3;
+    std::error_code unknown;
+    if (!fs::is_regular_file(atlas, unknown)) return;
+    const LookAtOutputs look;
+    SpriteCell before;
+    try {
+      before = readSpriteCell(atlas);
+    } catch (const InputError&) {
+      return;  // of a version that did not tell
+    }
+    if (before.width != cell.width || before.height != cell.height || before.pitch_deg != cell.pitch_deg ||
+        std::abs(before.px_per_m - cell.px_per_m) < kSame * cell.px_per_m)
+      return;
+    std::string kept;
+    for (int number = 1; kept.empty() || fs::exists(kept, unknown); ++number)
+      kept = numberedName(fs::path(atlas).replace_extension(".old").string(), ".json", number);
+    writeFile(kept, readFile(atlas));
+    std::fprintf(stderr,
+                 "skel-animate: note: a metre is %.1f px now, in the sheets before it was %.1f; --like %s "
+                 "makes sheets at that scale again\n",
+                 cell.px_per_m, before.px_per_m, shellWord(kept).c_str());
+  }
+
+  void tellScale(const std::string& atlas, const SpriteCell& cell) {
+    if (!options.sheet.same_scale || std::exchange(scale_is_told, true)) return;
+    tellWhoSetsScale(cell.px_per_m);
+    keepOtherScale(atlas, cell);
   }
 
   // Of the clip that reaches farthest.
@@ -185,7 +258,7 @@ struct Sheets {
                    farthest.where, printable(name).c_str());
   }
 
-  void write(CharacterFile file, const std::vector<Clip>& asked) const {
+  void write(CharacterFile file, const std::vector<Clip>& asked) {
     const std::string path = pathOf(file);
     const RiggedCharacter& character = file.character;
     const std::vector<SpriteDirection> directions = directionsOf(character);
@@ -198,10 +271,10 @@ struct Sheets {
                      printable(file.name).c_str(), printable(clip.name).c_str(), moved.way_m);
       clips.push_back(std::move(moved.clip));
     }
-    const SpriteExtent extent = options.sheet.same_scale ? shared : extentOf(file, clips);
-    const SpriteCamera camera = like ? spriteCamera(*like)
-                                     : spriteCamera(extent, options.pitch_deg, size.width, size.height,
-                                                    options.sheet.outline ? 2 : 1);
+    const SpriteCamera camera = like                       ? spriteCamera(*like)
+                                : options.sheet.same_scale ? cameraFor(sharedExtent())
+                                                           : cameraFor(extentOf(file, clips));
+    tellScale(atlasOf(path), camera.cell);
     if (like) noteBeyondCell(file, clips, directions);
     const SpritePacking packing = options.sheet.trim ? SpritePacking::kTrimmed : SpritePacking::kEven;
     const std::vector<SpriteTag> tags = tagsOf(clips, directions, camera.cell, packing);
@@ -232,7 +305,10 @@ struct Sheets {
         bar.advance();
       });
     }
-    if (options.sheet.palette > 0) reduceColors(images, options.sheet.palette);
+    if (!palette.empty())
+      takeColors(images, palette);
+    else if (most_colors > 0)
+      reduceColors(images, most_colors);
     if (options.sheet.outline) {
       const Color dark = darkestColor(images);
       for (Image& image : images) addOutline(image, dark);

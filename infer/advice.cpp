@@ -61,7 +61,8 @@ std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawin
            ". A likely place was taken; look whether the figure moves as it should.";
   if (starts("the picture shows "))
     return "There are " + std::to_string(drawing.silhouette.figure_count) +
-           " figures in the picture; the largest was taken. --figure 2 takes the next, --figure all each.";
+           " figures in the picture; the largest was taken (skel-infer takes the next one with --figure 2, "
+           "and each with --figure all).";
   if (starts("the figure is turned by "))
     return "The figure was taken to be turned by " + std::to_string(file.figure.turned_deg) + " degrees.";
   if (warning.ends_with(kLookAtMask) && !starts("the mask was there"))

@@ -26,7 +26,8 @@ std::vector<std::pair<std::string, std::vector<std::string>>> notesOf(const Figu
 
 }  // namespace
 
-void ClassTable::add(Lines& all, const std::string& sentence, const std::string& name) const {
+void ClassTable::add(Lines& all, const std::string& sentence, const std::string& name,
+                     const std::string& mend_file) const {
   const auto known = all.places.find(sentence);
   if (known == all.places.end() && most_names_ > 0 && all.lines.size() == kMostSentences) {
     ++all.others;
@@ -35,7 +36,7 @@ void ClassTable::add(Lines& all, const std::string& sentence, const std::string&
   const std::size_t place = known == all.places.end() ? all.lines.size() : known->second;
   if (known == all.places.end()) {
     all.places.emplace(sentence, place);
-    all.lines.push_back({sentence, {}, 0});
+    all.lines.push_back({sentence, {}, mend_file, 0});
   }
   Line& line = all.lines[place];
   ++line.count;
@@ -55,9 +56,10 @@ void ClassTable::add(const DrawingResult& drawing) {
         shellWord(drawing.source) + (numbered_ ? " (figure " + std::to_string(figure.number) + ")" : "");
     const bool again = figure.verdict == Verdict::kRetake, look = figure.verdict == Verdict::kLookAt;
     ++(again ? to_retake_ : look ? to_look_at_ : fine_);
-    for (const std::string& reason : figure.reasons) add(again ? retake_ : look_at_, reason, name);
+    for (const std::string& reason : figure.reasons)
+      add(again ? retake_ : look_at_, reason, name, figure.mend_file);
     for (const auto& [sentence, own] : notesOf(figure))
-      add(notes_, sentence, name + (own.empty() ? "" : " (" + joined(own) + ")"));
+      add(notes_, sentence, name + (own.empty() ? "" : " (" + joined(own) + ")"), figure.mend_file);
   }
 }
 
@@ -80,7 +82,9 @@ std::string ClassTable::text() const {
   count(failed_, " without a result");
   if (kept_ > 0) table += "; " + std::to_string(kept_) + (numbered_ ? " drawings" : "") + " done before";
   table += "\n";
-  const auto said = [](const Line& line) { return noteText({line.sentence}, "FILE"); };
+  const auto said = [](const Line& line) {
+    return noteText({line.sentence}, line.count == 1 && !line.mend_file.empty() ? line.mend_file : "FILE");
+  };
   for (const Line& line : retake_.lines) table += "retake " + namesOf(line, " ") + ": " + said(line) + "\n";
   for (const Line& line : look_at_.lines) table += "look at " + namesOf(line, " ") + ": " + said(line) + "\n";
   for (const Line& line : notes_.lines) table += "note: " + said(line) + ": " + namesOf(line, ", ") + "\n";

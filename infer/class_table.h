@@ -28,6 +28,7 @@ class ClassTable {
   struct Line {
     std::string sentence;
     std::vector<std::string> names;
+    std::string mend_file;  // of the first
     std::size_t count = 0;
   };
   struct Lines {
@@ -36,7 +37,8 @@ class ClassTable {
     std::size_t others = 0;
   };
 
-  void add(Lines& lines, const std::string& sentence, const std::string& name) const;
+  void add(Lines& lines, const std::string& sentence, const std::string& name,
+           const std::string& mend_file = "") const;
   std::string namesOf(const Line& line, const char* between) const;
 
   bool numbered_;

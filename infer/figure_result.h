@@ -61,6 +61,7 @@ struct DrawingResult {
   std::string problem;         // the same without the file's name, where the drawing itself is to blame
   bool nothing_found = false;  // which is that the picture shows no figure
   std::string picture;         // the same drawing's, if a report is wanted: data: address
+  std::string image_sha256;    // of its bytes; "": none was needed, or it could not be read
   Origin origin;
   bool opened = false;    // its picture could be read, or none was needed
   bool kept = false;      // an earlier run has done it

@@ -25,12 +25,14 @@ namespace {
 
 bool looksForJoints(LastStage last) { return last >= LastStage::kJoints; }
 
+// Whoever has cut a figure out has drawn it, or painted it: no photo can be taken again.
 Verdict verdictOf(LastStage last, const RiggedDrawing& drawing, const SkeletonFile& file) {
   constexpr double kRecognized = .5;
   const Silhouette& silhouette = drawing.silhouette;
   const bool guessed =
       looksForJoints(last) && drawing.recognition.likeness < kRecognized && !hasPlacedJoint(file.skeleton);
-  if (guessed || silhouette.is_sheet || !silhouette.cut_sides.empty()) return Verdict::kRetake;
+  if (guessed || silhouette.is_sheet || !silhouette.cut_sides.empty())
+    return silhouette.clear_around ? Verdict::kLookAt : Verdict::kRetake;
   return file.warnings.empty() ? Verdict::kFine : Verdict::kLookAt;
 }
 
@@ -176,7 +178,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
     if (note) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
     result.advice = adviceOn(drawing, file, result.mend_file);
-    if (!result.left_out.empty()) result.advice.push_back(kAdviceOnLeftOut);
+    if (!result.left_out.empty()) result.advice.push_back(noteText({kAdviceOnLeftOut}, result.mend_file));
     result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front());
   }
   result.times = drawing.times;
@@ -291,6 +293,7 @@ DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, con
     takeError(result);
   }
   result.opened = open || !result.figures.empty();
+  if (open) result.image_sha256 = open->image_sha256;
   progress.advance(left);
   return result;
 }

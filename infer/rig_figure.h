@@ -20,9 +20,9 @@ struct FileBytes {
 
 // A drawing, and where it goes.
 struct RigJob {
-  std::string source;             // the file that complaints name
-  std::string stem;               // of the outputs, below --out
-  std::optional<FileBytes> read;  // what is in it, where that is known
+  std::string source;                              // the file that complaints name
+  std::string stem;                                // of the outputs, below --out
+  std::optional<FileBytes> read;                   // what is in it, where that is known
   std::shared_ptr<FormerNames> former_names = {};  // shared by all jobs of a run
 };
 

@@ -5,6 +5,7 @@
 
 #include "infer/report_page.h"
 #include "infer/result_file.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/text.h"
 
@@ -20,6 +21,8 @@ std::string numberOf(const InferOptions& options, const FigureResult& figure) {
 // What is said of joints, if any were looked for.
 std::string jointsText(const FigureResult& figure, bool tells_plan) {
   if (!figure.confidence) return "";
+  if (figure.all_placed)
+    return std::string("  joints placed by hand") + (tells_plan ? "  " + figure.body_plan : "");
   char text[32];
   std::snprintf(text, sizeof text, "  confidence %.2f", *figure.confidence);
   return text + (tells_plan ? "  " + figure.body_plan : "");
@@ -73,6 +76,7 @@ RunReport::RunReport(const InferOptions& options, const RigOptions& rig, bool ma
       table_(options.figure == "all", options.list_file.empty() ? 0 : kMostNames) {}
 
 void RunReport::add(DrawingResult drawing) {
+  if (options_.list_file.empty()) noteTwin(drawing);
   if (options_.json_lines)
     printJson(drawing);
   else if (!options_.quiet)
@@ -88,6 +92,15 @@ void RunReport::add(DrawingResult drawing) {
   if (many_) table_.add(drawing);
   any_opened_ = any_opened_ || drawing.opened;
   if (!options_.report_file.empty()) shown_.push_back(std::move(drawing));
+}
+
+void RunReport::noteTwin(DrawingResult& drawing) {
+  if (drawing.image_sha256.empty()) return;
+  const auto [first, is_new] = drawings_by_hash_.emplace(drawing.image_sha256, drawing.source);
+  if (is_new || first->second == drawing.source || drawing.figures.empty()) return;
+  const std::string what = "as " + shellWord(first->second);
+  drawing.figures.front().notes.push_back(
+      {"the very same picture " + what, "the very same picture twice", what});
 }
 
 ExitCode RunReport::end() {

@@ -1,6 +1,7 @@
 // What a run says of its drawings: of each when it is done, of all at the end.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,14 @@ class RunReport {
   ExitCode end();
 
  private:
+  // A note on a picture that was there already, byte for byte.
+  void noteTwin(DrawingResult& drawing);
+
   const InferOptions& options_;
   bool tells_plan_, many_;
   ClassTable table_;
-  std::vector<DrawingResult> shown_;  // on the page
+  std::vector<DrawingResult> shown_;                     // on the page
+  std::map<std::string, std::string> drawings_by_hash_;  // the first of each
   std::size_t left_out_ = 0;
   std::size_t drawings_ = 0;
   bool any_opened_ = false;

@@ -160,18 +160,20 @@ std::optional<LabelFile> labelsBefore(const std::string& label_path, const std::
   return labels.image.sha256 == sha256(peek(image_path)) ? std::optional(std::move(labels)) : std::nullopt;
 }
 
-// Takes over the classes of `before` that its own joints do not explain, for candidates that are still there;
-// returns how many.
+// Takes over the classes of `before` that its own joints do not explain, also that there is none among
+// others, for candidates that are still there; returns how many.
 int keepClasses(LabelFile& labels, const LabelFile& before, const LabelFile& by_joints_before) {
   int kept = 0;
-  for (std::size_t i = 0; i < labels.candidates.size(); ++i) {
+  const bool labelled = std::any_of(before.labels.begin(), before.labels.end(),
+                                    [](const auto& label) { return label.has_value(); });
+  for (std::size_t i = 0; labelled && i < labels.candidates.size(); ++i) {
     const JointCandidate& at = labels.candidates[i];
     const auto same = std::find_if(
         before.candidates.begin(), before.candidates.end(),
         [&](const auto& other) { return other.x == at.x && other.y == at.y && other.radius == at.radius; });
     if (same == before.candidates.end()) continue;
     const auto& label = before.labels[std::size_t(same - before.candidates.begin())];
-    if (!label || label == by_joints_before.labels[i] || label == labels.labels[i]) continue;
+    if (label == by_joints_before.labels[i] || label == labels.labels[i]) continue;
     labels.labels[i] = label;
     ++kept;
   }

@@ -199,9 +199,10 @@ std::vector<std::string> transferNotes(const MotionTransferReport& report) {
   char number[16];
   std::snprintf(number, sizeof number, "%.2f", report.phase_correlation);
   if (report.steps && report.phase_correlation < kInStep)
-    notes.push_back(std::string("the feet do not keep the content's time (phase correlation ") + number +
-                    "): in one of the two, left and right are probably taken for each other; look at them by "
-                    "skel-style inspect, mend joints by skel-label");
+    notes.push_back(
+        std::string("the feet do not keep the content's time (phase correlation ") + number +
+        "): in one of the two, left and right are probably taken for each other; a film of more frames a "
+        "second may tell, else look at them by skel-style inspect, and mend joints by skel-label");
   for (const std::string& joint : report.still)
     notes.push_back(joint + " hardly moves, though it does in both");
   return notes;

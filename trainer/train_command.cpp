@@ -70,8 +70,16 @@ std::vector<int> parseLayers(const std::string& text) {
   return sizes;
 }
 
+void sayLeftOut(const LabelledSet& set) {
+  for (const std::string& note : set.leftOut())
+    std::fprintf(stderr, "skel-train: note: %s\n", printable(note).c_str());
+}
+
 LabelledSet readSet(const std::string& dir, CandidateMethod method) {
-  return method == CandidateMethod::kMaxima ? readLabelledSet(dir) : labelAnnotatedImages(dir, {method});
+  LabelledSet set =
+      method == CandidateMethod::kMaxima ? readLabelledSet(dir) : labelAnnotatedImages(dir, {method});
+  sayLeftOut(set);
+  return set;
 }
 
 // The options that decide over the weights, or over what their accuracy is measured on, and are not at their
@@ -342,6 +350,7 @@ ExitCode runEvaluateWeights(const EvaluateWeightsOptions& options) {
   const LabelledSet set = options.candidates == CandidateMethod::kMaxima
                               ? readMeasuredSet(options.dir, leave_out)
                               : labelAnnotatedImages(options.dir, {options.candidates}, leave_out);
+  sayLeftOut(set);
   const Mlp mlp = options.weights.empty() ? defaultMlp() : readMlp(options.weights);
   Evaluation evaluation;
   {

@@ -20,14 +20,19 @@ using Eigen::Vector3d;
 // the picture says nothing.
 constexpr double kStump = 0.15, kSeen = 0.45;
 
-// The joint that each joint's bone leads to: towards the head, where there is a way, else the first one. -1:
-// it has none.
-std::vector<int> boneEnds(const Skeleton& skeleton, const SkeletonTemplate& body_plan) {
+// Of each joint, whether it is the head or carries it.
+std::vector<bool> wayToHead(const Skeleton& skeleton, const SkeletonTemplate& body_plan) {
   std::vector<bool> to_head(skeleton.joints.size(), false);
   if (body_plan.head >= 0)
     for (int j = skeleton.find(body_plan.joints[std::size_t(body_plan.head)].name); j >= 0;
          j = skeleton.joints[std::size_t(j)].parent)
       to_head[std::size_t(j)] = true;
+  return to_head;
+}
+
+// The joint that each joint's bone leads to: towards the head, where there is a way, else the first one. -1:
+// it has none.
+std::vector<int> boneEnds(const Skeleton& skeleton, const std::vector<bool>& to_head) {
   std::vector<int> ends(skeleton.joints.size(), -1);
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
     if (const int parent = skeleton.joints[j].parent; parent >= 0)
@@ -91,7 +96,8 @@ Vector2d FlatPose::moved(std::size_t joint, const Vector2d& p) const {
 FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
                   const JointTransforms& posed_from_rest) {
   const std::size_t count = skeleton.joints.size();
-  const std::vector<int> ends = boneEnds(skeleton, body_plan);
+  const std::vector<bool> to_head = wayToHead(skeleton, body_plan);
+  const std::vector<int> ends = boneEnds(skeleton, to_head);
   const std::vector<Eigen::Vector3f> posed = posedJoints(skeleton, posed_from_rest);
 
   enum class Bend { kNone, kKnee, kElbow };
@@ -106,8 +112,11 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
     const Joint& joint = skeleton.joints[j];
     const std::size_t parent = std::size_t(std::max(0, joint.parent));
     const int end = ends[j];
-    const Vector3d along =
+    Vector3d along =
         end >= 0 ? Vector3d(skeleton.joints[std::size_t(end)].position - joint.position) : bones[parent];
+    // Trunk and head lie in the picture, however deep their joints are in the model: who turns the head to
+    // the side does not roll it.
+    if (to_head[j]) along.z() = 0;
     bones[j] = along.norm() > 1e-9 ? Vector3d(along.normalized()) : Vector3d::UnitY();
     const Vector3d turned = posed_from_rest[j].linear().cast<double>() * bones[j];
     const double carried = joint.parent < 0 ? 0 : pose.turn_rad[parent];
@@ -131,7 +140,7 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
 
 FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan, std::vector<Vector2d> places) {
   SKEL_CHECK_EQ(places.size(), skeleton.joints.size());
-  const std::vector<int> ends = boneEnds(skeleton, body_plan);
+  const std::vector<int> ends = boneEnds(skeleton, wayToHead(skeleton, body_plan));
   FlatPose pose;
   pose.place = std::move(places);
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {

@@ -10,6 +10,7 @@
 #include "libskel/core/foreign_files.h"
 #include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
+#include "libskel/core/tool_command.h"
 #include "libskel/image/result_picture.h"
 #include "libskel/labels/annotated_image.h"
 #include "libskel/skeleton/body_plans.h"
@@ -46,15 +47,6 @@ LabelledCharacter characterOf(const std::string& name, const LabelFile& labels) 
     }
   character.features.conservativeResize(kept, Eigen::NoChange);
   return character;
-}
-
-void checkAllLabelled(const std::string& path, const LabelFile& labels) {
-  const auto open = std::find(labels.labels.begin(), labels.labels.end(), std::nullopt);
-  if (open != labels.labels.end())
-    throw InputError(
-        path, "candidates[" + std::to_string(open - labels.labels.begin()) +
-                  "].label: is null; label every candidate (skel-label import does it by placed joints "
-                  "where none is labelled)");
 }
 
 template <class Step>
@@ -139,11 +131,16 @@ std::string addLabelFiles(const std::string& dir, const std::vector<std::string>
       throw InputError(path, gridComplaint(path, labels, first_path, grid_size).substr(path.size() + 2));
     }
     const std::string name = nameBelow(dir, path);
-    checkAllLabelled(path, labels);
-    set.characters.push_back(characterOf(name, labels));
+    LabelledCharacter character = characterOf(name, labels);
+    hashed += name + " " + sha256(readFile(path)) + "\n";
+    if (character.labels.empty() && !labels.labels.empty()) {
+      set.without_class.push_back(path);
+      return;
+    }
+    set.unlabelled += int(labels.labels.size() - character.labels.size());
+    set.characters.push_back(std::move(character));
     const SkeletonTemplate* plan = planWith(jointNames(labels.joints), plans);
     if (plan && !labels.joints.empty()) set.characters.back().body_plan = plan->name;
-    hashed += name + " " + sha256(readFile(path)) + "\n";
   };
   for (const std::string& path : files) attempt(on_error, [&] { take(path); });
   return hashed;
@@ -175,6 +172,10 @@ std::string addAnnotated(const std::string& dir, const std::vector<JointedImage>
 }
 
 void ensureSamples(const std::string& dir, const LabelledSet& set) {
+  if (set.characters.empty() && !set.without_class.empty())
+    throw InputError(dir, "no candidate has a class; place joints, or confirm those that were found, and `" +
+                              toolCommand("skel-label") + " import " + shellWord(dir) +
+                              "` gives them classes, or give them by hand (skel-label, key C)");
   if (set.characters.empty()) throw InputError(dir, "no drawing is left");
   if (set.sampleCount() == 0) throw InputError(dir, "no candidate has a class");
 }
@@ -192,6 +193,19 @@ std::array<int, kJointClassCount> LabelledSet::classCounts() const {
   for (const LabelledCharacter& character : characters)
     for (const JointClass label : character.labels) ++counts[static_cast<std::size_t>(label)];
   return counts;
+}
+
+std::vector<std::string> LabelledSet::leftOut() const {
+  std::vector<std::string> said;
+  if (!without_class.empty())
+    said.push_back(std::to_string(without_class.size()) +
+                   (without_class.size() == 1 ? " drawing" : " drawings") +
+                   " without a class of any candidate, left out: " + firstFew(without_class) +
+                   " (skel-label import gives classes by joints that a person has placed or confirmed)");
+  if (unlabelled > 0)
+    said.push_back(std::to_string(unlabelled) + (unlabelled == 1 ? " candidate" : " candidates") +
+                   " without a class left out");
+  return said;
 }
 
 void ensureEveryClass(const std::string& name, const LabelledSet& set) {

@@ -22,11 +22,15 @@ struct LabelledCharacter {
 
 struct LabelledSet {
   std::vector<LabelledCharacter> characters;  // sorted by name
+  int unlabelled = 0;                         // candidates without a class, which are left out
+  std::vector<std::string> without_class{};   // label files none of whose candidates has one: left out
   // Over names and bytes of all label files, which hold the hashes of their images and masks in turn.
   std::string sha256;
 
   int sampleCount() const;
   std::array<int, kJointClassCount> classCounts() const;
+  // Sentences that say what was left out.
+  std::vector<std::string> leftOut() const;
 };
 
 // What a net is to learn needs all four classes; what it is measured by does not. Throws InputError(name).
@@ -46,7 +50,7 @@ std::string picturesWithout(const std::string& what, const std::string& dir,
 std::vector<std::string> checkLabelFolder(const std::string& dir);
 
 // Throws InputError that names file, JSON path and reason: whatever checkLabelFolder() finds, no label files
-// at all, a candidate without label, no candidates. With `on_error` a drawing of which that is true is left
+// at all, no candidate with a class. With `on_error` a drawing of which that is true is left
 // out; what is thrown then is that none is left.
 LabelledSet readLabelledSet(const std::string& dir, const OnInputError& on_error = {});
 

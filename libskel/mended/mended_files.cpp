@@ -490,7 +490,7 @@ std::optional<Note> mendedNote(const MendedFiles& files, const MendRequest& requ
   addFound("limbs", files.limbs, request.limbs);
   addFound("back", files.back, request.back);
   if (what.empty()) return std::nullopt;
-  const std::string shared = "made by hand and taken up (--force leaves it out)";
+  const std::string shared = "made by hand and taken up";
   return Note{shared + ": " + joined(what), shared, joined(what)};
 }
 

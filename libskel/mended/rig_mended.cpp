@@ -13,7 +13,7 @@
 #include "libskel/labels/label_file.h"
 #include "libskel/mended/earlier_picture.h"
 #include "libskel/pipeline/rig_drawing.h"
-#include "libskel/recognition/tree_recognition.h"
+#include "libskel/recognition/joint_note.h"
 #include "libskel/silhouette/outline.h"
 #include "libskel/skeleton/outside_figure.h"
 

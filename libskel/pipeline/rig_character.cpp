@@ -21,6 +21,7 @@
 #include "libskel/recognition/complete_skeleton.h"
 #include "libskel/recognition/paper_recognizer.h"
 #include "libskel/recognition/silhouette_confidence.h"
+#include "libskel/recognition/joint_note.h"
 #include "libskel/recognition/tree_recognition.h"
 #include "libskel/silhouette/even_light.h"
 #include "libskel/silhouette/line_art.h"

@@ -8,6 +8,7 @@
 #include "libskel/core/check.h"
 #include "libskel/core/segment.h"
 #include "libskel/recognition/complete_skeleton.h"
+#include "libskel/recognition/joint_note.h"
 
 namespace skel {
 namespace {
@@ -211,7 +212,10 @@ Recognition recognizeByRules(const Silhouette& silhouette, const CandidateSet& c
     confidence += joint.confidence;
     ++recognized;
   }
-  recognition.confidence = recognition.likeness = confidence / recognized;
+  recognition.confidence = confidence / recognized;
+  recognition.likeness = 1;  // the rules take whatever they are given for a figure
+  if (const std::string note = jointNote(recognition, body_plan.name); !note.empty())
+    recognition.warnings.push_back(note);
   completeSkeleton(recognition.skeleton, found, body_plan, silhouette);
   return recognition;
 }

@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "libskel/core/check.h"
-#include "libskel/core/text.h"
 #include "libskel/jointnet/figure_look.h"
 #include "libskel/recognition/complete_skeleton.h"
 #include "libskel/recognition/confidence_model.h"
+#include "libskel/recognition/joint_note.h"
 
 namespace skel {
 namespace {
@@ -25,27 +25,8 @@ double shareCutOff(const Plane8& mask, const WorkingGrid& grid) {
 
 constexpr double kCutOff = 0.25;   // share that says that the figure goes on beyond the border
 constexpr double kNotWhole = 0.4;  // the most that such a figure can have
-constexpr double kHardlyOne =
-    0.5;  // likeness below which it is said that this is hardly a figure of the body plan
-
-// What a person should know of the joints; "" if nothing.
-std::string jointNote(const Recognition& recognition, const std::string& body_plan) {
-  const std::string missing = joined(recognition.missing);
-  if (recognition.likeness < kHardlyOne)
-    return "this hardly looks like one whole " + body_plan +
-           (missing.empty() ? "" : "; not found: " + missing);
-  if (recognition.confidence < 0.5)
-    return "some joints may be wrong, look at them" + (missing.empty() ? "" : "; not found: " + missing);
-  return missingNote(recognition.missing);
-}
 
 }  // namespace
-
-std::string missingNote(const std::vector<std::string>& missing) {
-  return missing.empty() ? ""
-                         : "not found: " + joined(missing) + " (placed where " +
-                               (missing.size() == 1 ? "it probably is)" : "they probably are)");
-}
 
 Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,
                             const SkeletonTemplate& body_plan, const JointNet& net,

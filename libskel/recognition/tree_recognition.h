@@ -17,9 +17,6 @@ namespace skel {
 // figure suggests, more likely wrong than right.
 inline constexpr double kFoundConfidence = 0.5;
 
-// What a person should know of joints that were not found; "": all were.
-std::string missingNote(const std::vector<std::string>& missing);
-
 // `silhouette` must be found and belong to `image`, whose inner lines show limbs before the body. `body_plan`
 // must have the joints that the net knows; throws UsageError otherwise.
 Recognition recognizeByTree(const Image& image, const Silhouette& silhouette,

@@ -113,7 +113,7 @@ TEST_CASE("what a person has mended of a drawing is taken up in films, as skel-i
     CHECK(run.err == (note.empty() ? "" : "boy.png: note: " + note + "\n"));
     return readFile(dir.file("film.gif"));
   };
-  const std::string taken_up = "made by hand and taken up (--force leaves it out): ";
+  const std::string taken_up = "made by hand and taken up: ";
   const std::string drawn = film("", "");
 
   SECTION("joints that were placed and limbs that were painted, beside the drawing") {
@@ -207,8 +207,8 @@ TEST_CASE("films take up what is mended in out/ beside the drawing, and say what
     const std::size_t start = text.find("\"image\":[", text.find("\"name\":\"left_hand\"")) + 9;
     text.replace(start, text.find(',', start) - start, folder == "out" ? "420.5" : "410.5");
     writeFile(path, text);
-    CHECK(note("") == "in/boy.png: note: made by hand and taken up (--force leaves it out): 1 joint (" +
-                          folder + "/boy.skeleton.json" +
+    CHECK(note("") == "in/boy.png: note: made by hand and taken up: 1 joint (" + folder +
+                          "/boy.skeleton.json" +
                           (folder == "out" ? "" : "; not out/boy.skeleton.json, which differs") + ")\n");
   }
   CHECK(note("--force").empty());
@@ -230,7 +230,7 @@ TEST_CASE("what was mended in a folder that -o of skel-infer named was left out 
     CHECK(run.exit_code == 0);
     return run.err;
   };
-  const std::string taken_up = "in/boy.png: note: made by hand and taken up (--force leaves it out): ";
+  const std::string taken_up = "in/boy.png: note: made by hand and taken up: ";
   REQUIRE(runTool(in_folder + "skel-infer in/boy.png --formats json -o rigged").exit_code == 0);
   mend("rigged/boy");
   CHECK(notes("-o film.gif").empty());

@@ -1,5 +1,6 @@
 #include "animator/sprite_sheet.h"
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "libskel/draw/canvas.h"
 #include "libskel/draw/oklab.h"
 #include "libskel/image/read_image.h"
+#include "libskel/image/write_image.h"
 #include "tests/animator/figure_file.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
@@ -337,6 +339,35 @@ TEST_CASE("a sheet of skel that was named for a drawing was rigged, as one of it
   }
 }
 
+TEST_CASE("one drawing changed the scale of all sheets, of those that were there too, without a word") {
+  const TempDir dir;
+  for (const char* name : {"ann.png", "ben.png"}) writeFile(dir.file(name), readFile(kDrawing));
+  const auto sheets = [&](const std::string& drawings) {
+    const ToolRun run = runTool("cd '" + dir.path() + "' && skel-animate render " + drawings +
+                                " --clips idle --frames 1 --size 48 --same-scale --sheet sheets/");
+    CHECK(run.exit_code == 0);
+    return run.err;
+  };
+  const auto pxPerM = [&](const std::string& atlas) {
+    return Json::parse(readFile(dir.file("sheets/" + atlas)))["meta"]["skel"]["pxPerM"].get<double>();
+  };
+  CHECK(sheets("ann.png ben.png") == "");
+  const double before = pxPerM("ann.json");
+  CHECK(sheets("ann.png ben.png") == "");
+  // Another one, who lies.
+  Image boy = readImage(kDrawing), lying(boy.height, boy.width);
+  for (int y = 0; y < boy.height; ++y)
+    for (int x = 0; x < boy.width; ++x) std::copy_n(boy.pixel(x, y), 4, lying.pixel(y, boy.width - 1 - x));
+  writeFile(dir.file("cat.png"), encodePng(lying));
+  const std::string said = sheets("ann.png ben.png cat.png --upright");
+  CHECK_THAT(said,
+             Contains("skel-animate: note: cat reaches farthest and sets the scale of all: a metre is "));
+  CHECK_THAT(said,
+             Contains(" in the sheets before it was ") && Contains("; --like sheets/ann.old.json makes"));
+  CHECK(pxPerM("ann.json") < before);
+  CHECK(pxPerM("ann.old.json") == before);
+}
+
 TEST_CASE("masks, limbs and backs beside drawings, and sheets of them, were given sheets of their own") {
   const TempDir dir;
   const std::string made = " --clip idle --frames 1 --size 24 --same-scale --sheet ";
@@ -474,6 +505,34 @@ TEST_CASE("few colours stand for many, small things keep theirs, and the same on
   const std::vector<Image> before = pictures;
   reduceColors(pictures, 3);
   CHECK((pictures[1].rgba == before[1].rgba).all());
+}
+
+TEST_CASE("a sheet takes the colours of a picture, such as a sheet of the day before") {
+  const TempDir dir;
+  Image colors(4, 1);
+  const std::array<std::uint8_t, 12> kThree = {20, 20, 40, 200, 160, 120, 250, 250, 240};
+  for (int x = 0; x < 3; ++x) {
+    std::copy_n(kThree.data() + 3 * x, 3, colors.pixel(x, 0));
+    colors.pixel(x, 0)[3] = 255;
+  }
+  writeFile(dir.file("three.png"), encodePng(colors));
+  const std::string made = kDrawing + " --clips idle --frames 2 --size 32 --pixels --outline --palette ";
+  const auto render = [&](const std::string& palette, const std::string& sheet) {
+    return runTool("skel-animate render " + made + palette + " --sheet " + dir.file(sheet));
+  };
+  const Sheet sheet = sheetOf(dir, made + dir.file("three.png"));
+  std::set<int> seen, given;
+  for (int x = 0; x < 3; ++x) given.insert(keyOf(colors.pixel(x, 0)));
+  for (Eigen::Index i = 0; i < sheet.image.rgba.rows(); ++i)
+    if (const std::uint8_t* p = sheet.image.rgba.data() + 4 * i; p[3] > 0) seen.insert(keyOf(p));
+  CHECK(seen == given);
+  // It may be the very sheet that is made anew.
+  CHECK(render(dir.file("sheet.png"), "sheet.png").exit_code == 0);
+  CHECK((readImage(dir.file("sheet.png")).rgba == sheet.image.rgba).all());
+  const ToolRun photo = render(kDrawing, "other.png");
+  CHECK(photo.exit_code == 2);
+  CHECK_THAT(photo.err, Contains(" colours, a palette at most 256"));
+  CHECK_THAT(render("300", "other.png").err, Contains("--palette"));
 }
 
 TEST_CASE("OKLab gives back every colour that sRGB has") {

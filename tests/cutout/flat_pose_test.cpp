@@ -134,3 +134,17 @@ TEST_CASE("a bone that points at the viewer goes with the one that carries it") 
     CHECK(std::abs(pose.turn_rad[shoulder]) < 0.01);
   }
 }
+
+TEST_CASE("a head that was turned to the side rolled to the shoulder, as its bone leads into the depth") {
+  RiggedDrawing drawing = rigged("characters/cap_boy.png", "biped");
+  Skeleton& skeleton = drawing.character.skeleton;
+  const std::size_t head = std::size_t(skeleton.index("head")), top = std::size_t(skeleton.index("head_top"));
+  skeleton.joints[top].position = skeleton.joints[head].position + Eigen::Vector3d(0, 0.05, 0.056);
+  std::vector<Eigen::Quaternionf> turns(skeleton.joints.size(), Eigen::Quaternionf::Identity());
+  const auto rollOf = [&](const Eigen::Vector3f& axis) {
+    turns[head] = Eigen::AngleAxisf(0.47f, axis);
+    return flatPose(skeleton, drawing.body_plan, posedFromRest(skeleton, turns)).turn_rad[head];
+  };
+  CHECK(std::abs(rollOf(Eigen::Vector3f::UnitY())) < 0.01);
+  CHECK(rollOf(Eigen::Vector3f::UnitZ()) == Approx(0.47).margin(1e-3));
+}

@@ -79,6 +79,15 @@ TEST_CASE("a folder stands for its drawings in natural order, and what is no dra
   }
 }
 
+TEST_CASE("a photo that lay in a class under two names was rigged twice without a word") {
+  const TempDir dir;
+  for (const char* name : {"Ben.png", "Finn.png"})
+    writeFile(dir.file(std::string("class/") + name), figure());
+  writeFile(dir.file("class/Mia.png"), encodePng(capsuleImage({.size = 200})));
+  CHECK_THAT(infer(dir, "class --formats json").err,
+             Contains("note: the very same picture twice: class/Finn.png (as class/Ben.png)\n"));
+}
+
 TEST_CASE("films in a folder of drawings were rigged as drawings") {
   const TempDir dir;
   using namespace std::string_literals;

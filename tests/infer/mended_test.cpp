@@ -130,7 +130,7 @@ std::string paintedMask(const TempDir& dir) {
 }
 
 constexpr const char* kEarlier = "mended for an earlier picture of this name, not taken up for this one: ";
-constexpr const char* kTakenUp = "made by hand and taken up (--force leaves it out): ";
+constexpr const char* kTakenUp = "made by hand and taken up: ";
 
 }  // namespace
 
@@ -570,7 +570,7 @@ TEST_CASE("joints that a person has all placed are sure, and the report says who
   }
   writeLabelFile(dir.file("boy.labels.json"), labels);
   for (int time = 0; time < 2; ++time) {
-    CHECK_THAT(infer(dir, "boy.png --report report.html").out, Contains("confidence 1.00"));
+    CHECK_THAT(infer(dir, "boy.png --report report.html").out, Contains("  joints placed by hand  biped"));
     const std::string html = readFile(dir.file("report.html"));
     CHECK_THAT(html, Contains("a person has placed the joints"));
     CHECK(html.find("sure of the joints") == std::string::npos);
@@ -1292,7 +1292,7 @@ TEST_CASE("labels of another body plan than the nets see ended the run with an e
   writeLabelFile(dir.file("Noah.labels.json"), labels);
   ToolRun run = infer(dir, "Noah.png --formats json");
   CHECK(run.exit_code == 0);
-  CHECK(contains(run.err, "taken up (--force leaves it out): 1 joint (Noah.labels.json)"));
+  CHECK(contains(run.err, "taken up: 1 joint (Noah.labels.json)"));
   CHECK(readSkeletonFile(dir.file("out/Noah.skeleton.json"), loadTemplate("biped")).labels);
 
   run = infer(dir, "Noah.png --formats json -o other --template quadruped");

@@ -105,8 +105,7 @@ TEST_CASE("a mask, and joints, that were mended of the largest figure were dropp
   writeFile(dir.file("page.mask.png"), encodePng(mask));
   ToolRun run = infer(dir, "page.png -o mended --figure all --formats json,silhouette");
   CHECK(run.exit_code == 0);
-  CHECK(contains(run.err,
-                 "figure 1: note: made by hand and taken up (--force leaves it out): mask (page.mask.png)"));
+  CHECK(contains(run.err, "figure 1: note: made by hand and taken up: mask (page.mask.png)"));
   CHECK(topOf(readMask(dir.file("mended/page-1.silhouette.png"))) == top + 8);
   CHECK(readFile(dir.file("mended/page-2.silhouette.png")) ==
         readFile(dir.file("found/page-2.silhouette.png")));

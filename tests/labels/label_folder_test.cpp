@@ -87,11 +87,21 @@ TEST_CASE("sets that cannot be trained on are refused") {
   LabelFile labels = fourClasses("a.png");
   labels.labels[2].reset();
   put(dir, "a", labels);
-  CHECK(complaint(dir) ==
-        "/a.labels.json: candidates[2].label: is null; label every candidate (skel-label import "
-        "does it by placed joints where none is labelled)");
+  CHECK(readLabelledSet(dir.path()).sampleCount() == 3);
+  CHECK(readLabelledSet(dir.path()).leftOut() ==
+        std::vector<std::string>{"1 candidate without a class left out"});
   CHECK(checkLabelFolder(dir.path()).empty());  // still in the making
 
+  labels.labels.assign(labels.labels.size(), std::nullopt);
+  put(dir, "a", labels);
+  CHECK_THAT(complaint(dir), Catch::Matchers::StartsWith(": no candidate has a class; place joints, or "));
+  put(dir, "b", fourClasses("b.png"));
+  CHECK(readLabelledSet(dir.path()).characters.size() == 1);
+  CHECK_THAT(readLabelledSet(dir.path()).leftOut().front(),
+             Catch::Matchers::StartsWith("1 drawing without a class of any candidate, left out: "));
+  std::filesystem::remove(dir.file("b.labels.json"));
+
+  labels = fourClasses("a.png");
   labels.labels[2] = JointClass::kHead;
   put(dir, "a", labels);
   CHECK_THROWS_WITH(ensureEveryClass("set", readLabelledSet(dir.path())),

@@ -225,8 +225,7 @@ TEST_CASE("what was mended of a drawing was left out of its films in another sty
                                 options);
     CHECK(run.exit_code == 0);
     CHECK(run.err == (options == "--results rigged"
-                          ? "in/boy.png: note: made by hand and taken up (--force leaves it out): 1 joint (" +
-                                skeleton + ")\n"
+                          ? "in/boy.png: note: made by hand and taken up: 1 joint (" + skeleton + ")\n"
                           : ""));
     return readFile(dir.file("film.gif"));
   };

@@ -1,0 +1,20 @@
+// What a person should know of joints that were found, or not.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libskel/recognition/recognition.h"
+
+namespace skel {
+
+// Likeness below which it is said that this is hardly a figure of the body plan.
+inline constexpr double kHardlyOne = 0.5;
+
+// Of joints that were not found; "": all were.
+std::string missingNote(const std::vector<std::string>& missing);
+
+// Of all; "": nothing.
+std::string jointNote(const Recognition& recognition, const std::string& body_plan);
+
+}  // namespace skel
