@@ -27,7 +27,6 @@ namespace skel {
 namespace {
 namespace fs = std::filesystem;
 
-
 }  // namespace
 
 void bindCharacterSource(CLI::App& app, CharacterSource& source) {

@@ -153,12 +153,12 @@ void noteUnusedWeights(const InferOptions& options) {
         "skel-infer: note: the recognizer \"paper\" has no use for a net of joints; --joint-net needs "
         "--recognizer tree\n");
   const auto& formats = options.formats;
-  if (options.weights_file.empty() || options.recognizer == "paper" ||
+  if (options.weights_file.empty() || options.recognizer == "paper" || !options.trace_dir.empty() ||
       std::find(formats.begin(), formats.end(), "features") != formats.end())
     return;
   std::fprintf(stderr,
                "skel-infer: note: the joints come from the recognizer \"%s\", which has a net of its own; "
-               "--weights needs --recognizer paper or --formats features\n",
+               "--weights needs --recognizer paper, --formats features or --trace\n",
                options.recognizer.c_str());
 }
 

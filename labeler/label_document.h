@@ -15,8 +15,8 @@ namespace skel {
 class LabelDocument {
  public:
   LabelDocument() = default;
-  // Reads the file. Where there is none, or a blank one, that which was made for the picture of that hash when
-  // it had another name, if there is one. Throws InputError.
+  // Reads the file. Where there is none, or a blank one, that which was made for the picture of that hash
+  // when it had another name, if there is one. Throws InputError.
   LabelDocument(DrawingFiles files, const std::string& image_sha256, FormerNames& names);
 
   const std::optional<LabelFile>& opened() const { return opened_; }

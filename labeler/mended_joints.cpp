@@ -21,8 +21,7 @@ bool isMendedBeside(const DrawingFiles& files) {
   return sourceOfSkeleton(path) && hasEditedJoint(path);
 }
 
-std::optional<MendedJoints> mendedJointsBeside(const DrawingFiles& files,
-                                               const LabelDocument& document,
+std::optional<MendedJoints> mendedJointsBeside(const DrawingFiles& files, const LabelDocument& document,
                                                const std::string& image_sha256, const BodyPlans& plans) {
   if (!isMendedBeside(files)) return std::nullopt;
   const std::optional<LabelFile>& labels = document.opened();

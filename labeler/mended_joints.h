@@ -22,8 +22,7 @@ struct MendedJoints {
 // Where isMendedBeside(), of the first figure and found in this very picture: the joints of that skeleton and
 // of the label file, which of them are placed, and where, by the rule of skel-infer
 // (libskel/mended/mended_files.h). Nothing where none is left that a person has placed.
-std::optional<MendedJoints> mendedJointsBeside(const DrawingFiles& files,
-                                               const LabelDocument& labels,
+std::optional<MendedJoints> mendedJointsBeside(const DrawingFiles& files, const LabelDocument& labels,
                                                const std::string& image_sha256, const BodyPlans& plans);
 
 }  // namespace skel

@@ -236,7 +236,8 @@ void bindTrainOptions(CLI::App& app, TrainOptions& options) {
       ->check(numberIn(0, 100'000))
       ->capture_default_str();
   addChoice(app, "--candidates", options.candidates, kCandidateMethods,
-            "strict, discs: not those of the label files, but found anew and labelled from *.joints.json");
+            "strict, discs: not those of the label files, but found anew and labelled by joints (of label "
+            "files, *.joints.json)");
   app.add_option("--seed", training.seed, "Same data, seed and options: same bytes")
       ->check(numberIn(0, 2'000'000'000))
       ->capture_default_str();

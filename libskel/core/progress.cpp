@@ -82,9 +82,12 @@ void ProgressBar::draw() {
 std::string progressLine(const std::string& title, std::size_t done, std::size_t total, double elapsed_s,
                          const std::string& note) {
   const std::string line = title + ": " + std::to_string(done);
-  const std::string time = total == 0 ? " in " + clockTime(elapsed_s)
-                                      : " of " + std::to_string(total) + ", " +
-                                            clockTime(left_s(done, total, elapsed_s)) + " left";
+  std::string time = " in " + clockTime(elapsed_s);
+  if (total > 0) {
+    time = " of " + std::to_string(total);
+    // What comes before the first step may have taken longer than all steps will.
+    if (done > 1 || total == 1) time += ", " + clockTime(left_s(done, total, elapsed_s)) + " left";
+  }
   return line + time + (note.empty() ? "" : ", " + note);
 }
 

@@ -9,6 +9,7 @@ TEST_CASE("a line of progress says how far it is, and how long it still takes") 
   CHECK(progressLine("rigging", 12, 24, 70, "") == "rigging: 12 of 24, 1:10 left");
   CHECK(progressLine("training", 100, 3000, 60, "loss 0.31") ==
         "training: 100 of 3000, 29:00 left, loss 0.31");
+  CHECK(progressLine("training", 1, 40, 120, "") == "training: 1 of 40");
   CHECK(progressLine("rigging", 24, 24, 70, "") == "rigging: 24 of 24, 0:00 left");
 }
 

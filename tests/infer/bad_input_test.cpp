@@ -168,7 +168,7 @@ TEST_CASE("weights that decide nothing are said to") {
   const TempDir dir;
   writeFile(dir.file("a.png"), readFile(kDrawing));
   const std::string weights = " --weights " SKEL_SOURCE_DIR "/weights/default.json";
-  const std::string note = "--weights needs --recognizer paper or --formats features";
+  const std::string note = "--weights needs --recognizer paper, --formats features or --trace";
   const auto says = [&](const std::string& arguments) {
     const ToolRun run = infer(dir, "a.png" + weights + arguments);
     CHECK(run.exit_code == 0);
