@@ -107,13 +107,15 @@ const FormerNames::Folder& FormerNames::lookInto(const fs::path& folder) {
   };
   std::vector<std::string> files = listFolder(folder.empty() ? "." : folder.string(), isOurs).files;
   std::set<std::string> of_drawings;
-  std::erase_if(files, [&](const std::string& name) {
-    return isDrawingName(name) && of_drawings.insert(labelFileFor(name)).second;
-  });
+  for (const std::string& name : files)
+    if (isDrawingName(name))
+      of_drawings.insert({labelFileFor(name), fs::path(name).stem().string() + kSkeletonFileEnding});
+  std::erase_if(files,
+                [&](const std::string& name) { return isDrawingName(name) || of_drawings.contains(name); });
   files.resize(std::min(files.size(), kMostOpened));
   const LookAtOutputs look;
   for (const std::string& name : files) {
-    here.labels_alone |= isLabels(name) && !of_drawings.contains(name);
+    here.labels_alone |= isLabels(name);
     if (const auto text = readOrNothing([&] { return readFile((folder / name).string()); }))
       for (const std::string& hash : hashesIn(*text)) here.by_hash.emplace(hash, name);
   }

@@ -15,10 +15,10 @@ namespace skel {
 // Looks into each folder once, when it is first asked about. Several threads may ask.
 class FormerNames {
  public:
-  // Label and skeleton files in `folder`, of the first 10,000 there, that have that hash somewhere in them.
-  // In natural order.
+  // Label and skeleton files in `folder` beside which no picture of their name lies, of the first 10,000 of
+  // these, that have that hash somewhere in them. In natural order.
   std::vector<std::string> filesWith(const std::string& sha256, const std::filesystem::path& folder);
-  // Whether one of them is a label file beside which no picture of its name lies.
+  // Whether one of them is a label file.
   bool hasLabelsAlone(const std::filesystem::path& folder);
 
  private:
