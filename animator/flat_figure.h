@@ -1,6 +1,7 @@
 // A drawing that performs clips as it was drawn: a cut-out in the picture plane.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "animator/film.h"
@@ -13,6 +14,10 @@ namespace skel {
 // Whether films of it look better as it was drawn than as a model: by eye (docs/looks.md) those of people do,
 // unless their joints are a guess. Then more is torn than a model shows.
 bool looksBetterFlat(const RiggedDrawing& drawing);
+
+// A clause for each arm that is cut out and of whose upper half next to nothing is drawn, as behind the head:
+// as it was drawn, what is seen of it comes off the body.
+std::vector<std::string> flatWarnings(const RiggedDrawing& drawing);
 
 class FlatFigure {
  public:

@@ -111,9 +111,11 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
 CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& clips, std::string* note) {
   if (isDrawing(source)) {
     DrawnCharacter drawn = rigDrawing(source, clips);
-    if (note)
-      for (const Note& mended : drawn.mended)
-        *note += (note->empty() ? source.path + ": note: " : "; ") + noteText(mended, source.path);
+    std::vector<Note> notes;
+    for (const std::string& warning : drawn.warnings) notes.push_back({warning});
+    notes.insert(notes.end(), drawn.mended.begin(), drawn.mended.end());
+    for (const Note& one : notes)
+      if (note) *note += (note->empty() ? source.path + ": note: " : "; ") + noteText(one, source.path);
     return {std::move(drawn.drawing.character), std::move(drawn.drawing.clips), stemOf(source.path)};
   }
   if (const std::string remedy = howToConvert(source.path); !remedy.empty())

@@ -51,7 +51,7 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
 
 // A drawing is rigged first, with the motions of skel that fit it, a model bound. Throws InputError: cannot
 // be read, no figure in the drawing, a model without a skeleton, an ending that is no character's. `note` (or
-// null): DrawnCharacter::mended or RigModel::warning, for the user; may be empty.
+// null): DrawnCharacter::warnings and ::mended or RigModel::warning, for the user; may be empty.
 CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& clips = {},
                             std::string* note = nullptr);
 

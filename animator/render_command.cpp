@@ -191,6 +191,8 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path) {
   const bool chooses = drawn && choosesLook(options);
   const bool flat = chooses ? looksBetterFlat(drawn->drawing) : options.look == "flat";
   options.library.flat = flat;
+  if (flat && drawn)
+    for (std::string& warning : flatWarnings(drawn->drawing)) drawn->warnings.push_back(std::move(warning));
   if (flat && !drawn)
     throw UsageError(path + " is no drawing (.png, .jpg, ...), which alone can move as it was drawn");
   std::string note;

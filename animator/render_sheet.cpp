@@ -322,9 +322,12 @@ struct Sheets {
     writeFile(path, encodePng(sheet.picture, 9));
     writeFile(atlasOf(path),
               formatAtlas(sprites, tags, camera.cell, sheet, form, fs::path(path).filename().string()));
-    std::printf("%s: %zu %s of %dx%d, %zu %s, %dx%d px\n", printable(path).c_str(), sprites.size(),
+    const std::string drawn =
+        directions.size() > 1 ? "; taken for drawn " + drawnFrom(character) : std::string();
+    std::printf("%s: %zu %s of %dx%d, %zu %s, %dx%d px%s\n", printable(path).c_str(), sprites.size(),
                 sprites.size() == 1 ? "frame" : "frames", size.width, size.height, tags.size(),
-                tags.size() == 1 ? "animation" : "animations", sheet.picture.width, sheet.picture.height);
+                tags.size() == 1 ? "animation" : "animations", sheet.picture.width, sheet.picture.height,
+                drawn.c_str());
   }
 };
 

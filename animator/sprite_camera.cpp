@@ -53,6 +53,16 @@ std::vector<SpriteDirection> spriteDirections(const RiggedCharacter& character, 
   return directions;
 }
 
+std::string drawnFrom(const RiggedCharacter& character) {
+  const double yaw = std::remainder(looksAt(character), 2 * kPi), off = std::abs(yaw);
+  const std::string side = yaw < 0 ? "left" : "right";
+  return off < kPi / 8       ? "from the front"
+         : off > 7 * kPi / 8 ? "from behind"
+         : off < 3 * kPi / 8 ? "half from the front, looking " + side
+         : off > 5 * kPi / 8 ? "half from behind, looking " + side
+                             : "looking " + side;
+}
+
 SpriteExtent SpriteExtent::with(const SpriteExtent& other) const {
   return {std::max(aside, other.aside), std::min(low, other.low), std::max(high, other.high)};
 }

@@ -273,7 +273,7 @@ Score score(const MeasuredDrawing& truth, const Recognition* recognition, const 
     guesses[joint.name] = {joint.image, joint.confidence};
   if (truth.side_view) swapPairsThatFitBetter(truth, body_plan, guesses);
 
-  double sum = 0, worst = -1;
+  double sum = 0, worst = 0;
   int within05 = 0, within10 = 0, within15 = 0, ends = 0, right_ends = 0, guessed = 0, inside = 0;
   for (const std::string& name : scored) {
     const auto guess = guesses.find(name);

@@ -56,7 +56,7 @@ struct Score {
   std::optional<double> iou;                    // of the silhouette; neither without a true mask
   int annotated = 0, sure = 0, sure_right = 0;  // joints; of confidence >= 0.8; of those within 0.10 L
   double confidence = 0, likeness = 0;
-  std::string worst_joint;
+  std::string worst_joint;  // "": none is off
 };
 
 // Of the joints that `body_plan` does not derive. `recognition` null: nothing was found.

@@ -263,13 +263,21 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
     std::printf("%-34s  %6.2f %6.2f %6.3f %6.0f %s %s %s  %s\n", printable(row.name).c_str(), s.pck05,
                 s.pck10, s.error, s.usable, shown(s.limbs, 2, 5).c_str(), shown(s.inside, 2, 6).c_str(),
                 shown(s.iou, 2, 5).c_str(),
-                row.found ? s.worst_joint.c_str() : ("no skeleton: " + row.reason).c_str());
+                !row.found              ? ("no skeleton: " + row.reason).c_str()
+                : s.worst_joint.empty() ? "-"
+                                        : s.worst_joint.c_str());
     json["characters"][jsonFromFileName(row.name)] = {
-        {"pck05", s.pck05},         {"pck10", s.pck10},
-        {"error", s.error},         {"usable", s.usable},
-        {"limbs", jsonOf(s.limbs)}, {"inside", jsonOf(s.inside)},
-        {"iou", jsonOf(s.iou)},     {"confidence", s.confidence},
-        {"likeness", s.likeness},   {"worst_joint", s.worst_joint}};
+        {"joints", s.annotated},
+        {"pck05", s.pck05},
+        {"pck10", s.pck10},
+        {"error", s.error},
+        {"usable", s.usable},
+        {"limbs", jsonOf(s.limbs)},
+        {"inside", jsonOf(s.inside)},
+        {"iou", jsonOf(s.iou)},
+        {"confidence", s.confidence},
+        {"likeness", s.likeness},
+        {"worst_joint", s.worst_joint.empty() ? Json() : Json(s.worst_joint)}};
   }
   for (const Row& row : hard)
     std::printf(
@@ -314,6 +322,8 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
         {"whole_figures", mean(rows, whole)},
         {"confidence_auc", both_kinds ? Figure(areaUnderRoc(forecasts)) : std::nullopt},
         {"confidence_error", calibrationError(forecasts)}};
+    json["mean"]["characters"] = rows.size();
+    json["mean"]["joints"] = int(annotated);
     for (const auto& [key, value] : figures) json["mean"][key] = jsonOf(value);
     const auto figure = [&](std::string_view key, int decimals = 3) {
       const auto at =

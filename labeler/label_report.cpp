@@ -76,9 +76,12 @@ std::optional<OtherJoints> otherJointsBeside(const std::string& path, const Labe
 void checkOtherJoints(const std::string& path, const LabelFile& labels, std::vector<std::string>& lines) {
   if (const auto other = otherJointsBeside(path, labels))
     lines.push_back(
-        path + ": joints: " + joined(other->joints) + " placed elsewhere than in " + other->file +
-        ", which does not count: " +
-        (other->of_skeleton ? "take it by skel-label import --force, or mend that" : "mend or remove that"));
+        path + ": joints: " + joined(other->joints) +
+        (other->of_skeleton
+             ? " set by hand in " + other->file +
+                   ", and not so here; that does not count: take it by skel-label import --force, or "
+                   "mend it"
+             : " placed elsewhere than in " + other->file + ", which does not count: mend or remove that"));
 }
 
 void checkRecognized(const std::string& path, const LabelFile& labels, std::vector<std::string>& lines) {

@@ -33,8 +33,9 @@ struct MotionOptions {
 // looking where it was drawn to look; ways are scaled by the length of the legs, and its feet come as near to
 // the ground as theirs. Of a motion whose joints are all named like the target's the axes are turned as the
 // target's are; if then its rest pose is the target's, in any length, it is the target's own and comes back
-// as it is, and if not, its turns are taken as they are. Else joints are matched by findJointRoles(). Throws
-// InputError (of `file`) if that finds no arms and legs on either side.
+// as it is, and if not, trunk and head take its turns as they are, and limbs point where its limbs do. Else
+// joints are matched by findJointRoles(). Throws InputError (of `file`) if that finds no arms and legs on
+// either side.
 RetargetedMotion retargetMotion(const BvhMotion& motion, const std::string& file, const Skeleton& target,
                                 const FigureShape& shape, const MotionOptions& options = {});
 

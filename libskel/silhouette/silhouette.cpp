@@ -151,7 +151,8 @@ AlphaMask alphaMask(const Image& image, std::optional<double> least = std::nullo
   return out;
 }
 
-// Whether more of the figure than its edges can be seen through, and not all of it.
+// Whether more of the figure than its edges can be seen through, and not all of it; holes that are filled are
+// none of it.
 bool muchIsSoft(const Image& image, const Plane8& mask) {
   constexpr double kSoft = 0.9;   // of the most opaque pixel
   constexpr double kMuch = 0.05;  // of the figure
@@ -159,8 +160,10 @@ bool muchIsSoft(const Image& image, const Plane8& mask) {
   const double strongest = image.rgba.col(3).maxCoeff();
   Plane8 soft(mask.rows(), mask.cols());
   for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      soft(y, x) = mask(y, x) && image.pixel(x, y)[3] < kSoft * strongest ? 255 : 0;
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t alpha = image.pixel(x, y)[3];
+      soft(y, x) = mask(y, x) && alpha > 0 && alpha < kSoft * strongest ? 255 : 0;
+    }
   cv::Mat inner;
   cv::erode(viewOf(soft), inner, cv::Mat::ones(2 * kEdge + 1, 2 * kEdge + 1, CV_8U));
   return double(cv::countNonZero(inner)) > kMuch * double((mask != 0).count());

@@ -719,8 +719,8 @@ TEST_CASE("check said nothing of joints that were mended in a skeleton file afte
   const ToolRun run = label(dir, "check .");
   CHECK(run.exit_code == 2);
   CHECK(run.err ==
-        "skel-label: ./cap_boy.labels.json: joints: head placed elsewhere than in ./cap_boy.skeleton.json, "
-        "which does not count: take it by skel-label import --force, or mend that\n");
+        "skel-label: ./cap_boy.labels.json: joints: head set by hand in ./cap_boy.skeleton.json, and not so "
+        "here; that does not count: take it by skel-label import --force, or mend it\n");
   REQUIRE(label(dir, "import . --force").exit_code == 0);
   CHECK(label(dir, "check .").out == "no inconsistencies\n");
 }

@@ -323,6 +323,21 @@ TEST_CASE(
   CHECK_FALSE(needsPaper(image, stick_figure.mask));
 }
 
+TEST_CASE("a hole that is filled was taken for a part of the figure that can be seen through") {
+  Image ring = paint(300, 400, [](double, double) { return Color{200, 30, 90}; });
+  for (int y = 0; y < 400; ++y)
+    for (int x = 0; x < 300; ++x) {
+      const double r = std::hypot(x - 150, y - 200);
+      ring.pixel(x, y)[3] = r < 120 && r > 60 ? 255 : 0;
+    }
+  SilhouetteOptions options;
+  options.fill_holes = true;
+  const Silhouette filled = extractSilhouette(ring, options);
+  REQUIRE(filled.found());
+  CHECK(filled.mask(200, 150) != 0);
+  CHECK(filled.warnings.empty());
+}
+
 TEST_CASE("a soft glow belongs to the figure unless --alpha leaves it out, and is told of") {
   Image image = paint(300, 400, [](double, double) { return Color{200, 30, 90}; });
   const Plane8 mask = maskOf(kPerson, 300, 400);
