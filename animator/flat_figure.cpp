@@ -3,6 +3,7 @@
 #include "libskel/core/parallel.h"
 #include "libskel/draw/draw_skeleton.h"
 #include "libskel/pipeline/drawn_cut_out.h"
+#include "libskel/pipeline/posed_character.h"
 
 namespace skel {
 namespace {
@@ -53,6 +54,23 @@ std::vector<std::string> flatWarnings(const RiggedDrawing& drawing) {
           "the " + limbName(drawing.body_plan, limb) +
           " is drawn in part alone and may come off the body: look at the film, or take --look solid");
   return warnings;
+}
+
+std::optional<std::string> unseenTurn(const RiggedDrawing& drawing, const Clip& clip) {
+  constexpr double kMuch_rad = 0.25;
+  const Skeleton& skeleton = drawing.character.skeleton;
+  const int head = skeleton.find("head"), body = skeleton.find("body");
+  if (head < 0 || body < 0) return std::nullopt;
+  for (int i = 0; i < kFlatMoments; ++i) {
+    const JointTransforms pose =
+        posedAt(drawing.character, clip, double(clip.duration_s()) * i / kFlatMoments);
+    const Eigen::Vector3f ahead = pose[std::size_t(body)].linear().transpose() *
+                                  pose[std::size_t(head)].linear() * Eigen::Vector3f::UnitZ();
+    if (std::abs(std::atan2(double(ahead.x()), double(ahead.z()))) > kMuch_rad)
+      return "\"" + clip.name +
+             "\" turns the head aside, which the flat look does not show; --look solid does";
+  }
+  return std::nullopt;
 }
 
 FlatFigure::FlatFigure(const RiggedDrawing& drawing) : drawing_(drawing), cut_out_(cutOutOf(drawing)) {}

@@ -1,6 +1,7 @@
 // A drawing that performs clips as it was drawn: a cut-out in the picture plane.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ bool looksBetterFlat(const RiggedDrawing& drawing);
 // A clause for each arm that is cut out and of whose upper half next to nothing is drawn, as behind the head:
 // as it was drawn, what is seen of it comes off the body.
 std::vector<std::string> flatWarnings(const RiggedDrawing& drawing);
+
+// A clause where the clip turns the head aside, which a drawing seen from one side does not show.
+std::optional<std::string> unseenTurn(const RiggedDrawing& drawing, const Clip& clip);
 
 class FlatFigure {
  public:

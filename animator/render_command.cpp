@@ -206,6 +206,10 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path) {
     throw InputError(path, "can do no clip: it has none, and none that come with skel fit its joints: " +
                                whyNoRoles(file.character.skeleton));
   if (drawn) tell(*drawn, !chooses ? "" : flat ? ", look flat" : ", look solid", path, clips);
+  for (const Clip& clip : clips)
+    if (flat && !hasClip(builtinClips(), clip.name))
+      if (const auto turn = unseenTurn(drawn->drawing, clip))
+        std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(*turn).c_str());
   noteWhatStays(options, file.character, path, clips, drawn ? std::vector<Clip>{} : file.clips);
   const bool rigged = drawn.has_value(), unsure = rigged && !drawn->warnings.empty();
   std::optional<RiggedDrawing> shown;

@@ -48,7 +48,7 @@ struct Sheets {
     SpriteExtent extent;
   };
   std::vector<Measured> measured = {};
-  bool scale_is_told = false;
+  bool who_is_told = false, other_is_kept = false;
   int most_colors = 0;         // 0: as many as there are
   std::vector<Color> palette;  // the colours, where they are known
 
@@ -207,35 +207,47 @@ struct Sheets {
                    printable(name).c_str(), px_per_m, most);
   }
 
-  // A sheet that is about to be written over and has another scale: its frames are kept for --like.
-  static void keepOtherScale(const std::string& atlas, const SpriteCell& cell) {
-    constexpr double kSame = 1e-3;
+  // The cell of a sheet that is about to be written over; nothing of one that does not tell.
+  static std::optional<SpriteCell> cellBefore(const std::string& atlas) {
     std::error_code unknown;
-    if (!fs::is_regular_file(atlas, unknown)) return;
+    if (!fs::is_regular_file(atlas, unknown)) return std::nullopt;
     const LookAtOutputs look;
-    SpriteCell before;
     try {
-      before = readSpriteCell(atlas);
+      return readSpriteCell(atlas);
     } catch (const InputError&) {
-      return;  // of a version that did not tell
+      return std::nullopt;
     }
+  }
+
+  // Where that has another scale its frames are kept, for --like. Returns whether it has.
+  static bool keepOtherScale(const std::string& atlas, const SpriteCell& before, const SpriteCell& cell) {
+    constexpr double kSame = 1e-3;
     if (before.width != cell.width || before.height != cell.height || before.pitch_deg != cell.pitch_deg ||
         std::abs(before.px_per_m - cell.px_per_m) < kSame * cell.px_per_m)
-      return;
+      return false;
     std::string kept;
-    for (int number = 1; kept.empty() || fs::exists(kept, unknown); ++number)
+    std::error_code unknown;
+    for (int number = 1; kept.empty() || fs::exists(fs::symlink_status(kept, unknown)); ++number)
       kept = numberedName(fs::path(atlas).replace_extension(".old").string(), ".json", number);
+    const LookAtOutputs look;
     writeFile(kept, readFile(atlas));
     std::fprintf(stderr,
                  "skel-animate: note: a metre is %.1f px now, in the sheets before it was %.1f; --like %s "
                  "makes sheets at that scale again\n",
                  cell.px_per_m, before.px_per_m, shellWord(kept).c_str());
+    return true;
   }
 
-  void tellScale(const std::string& atlas, const SpriteCell& cell) {
-    if (!options.sheet.same_scale || std::exchange(scale_is_told, true)) return;
-    tellWhoSetsScale(cell.px_per_m);
-    keepOtherScale(atlas, cell);
+  // What differs from the sheet that is about to be written over.
+  void tellOf(const std::string& atlas, const SpriteCell& cell, const std::string& name) {
+    if (options.sheet.same_scale && !std::exchange(who_is_told, true)) tellWhoSetsScale(cell.px_per_m);
+    const std::optional<SpriteCell> before = cellBefore(atlas);
+    if (!before) return;
+    if (options.sheet.same_scale && !other_is_kept) other_is_kept = keepOtherScale(atlas, *before, cell);
+    if (before->angle_deg != cell.angle_deg)
+      std::fprintf(stderr, "%s: note: the sheet before was turned by --angle %s, this one by %s\n",
+                   printable(name).c_str(), degreesText(before->angle_deg).c_str(),
+                   degreesText(cell.angle_deg).c_str());
   }
 
   // Of the clip that reaches farthest.
@@ -271,13 +283,14 @@ struct Sheets {
                      printable(file.name).c_str(), printable(clip.name).c_str(), moved.way_m);
       clips.push_back(std::move(moved.clip));
     }
-    const SpriteCamera camera = like                       ? spriteCamera(*like)
-                                : options.sheet.same_scale ? cameraFor(sharedExtent())
-                                                           : cameraFor(extentOf(file, clips));
-    tellScale(atlasOf(path), camera.cell);
+    SpriteCamera camera = like                       ? spriteCamera(*like)
+                          : options.sheet.same_scale ? cameraFor(sharedExtent())
+                                                     : cameraFor(extentOf(file, clips));
+    camera.cell.angle_deg = options.angle_deg;
     if (like) noteBeyondCell(file, clips, directions);
     const SpritePacking packing = options.sheet.trim ? SpritePacking::kTrimmed : SpritePacking::kEven;
     const std::vector<SpriteTag> tags = tagsOf(clips, directions, camera.cell, packing);
+    tellOf(atlasOf(path), camera.cell, file.name);
     struct Moment {
       const Clip* clip;
       double time_s;

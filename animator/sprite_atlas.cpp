@@ -52,6 +52,8 @@ std::string formatAtlas(const std::vector<Sprite>& sprites, const std::vector<Sp
                     {"bounds", boxOf({0, 0, cell.width, cell.height})},
                     {"pivot", {{"x", cell.pivot_x}, {"y", cell.pivot_y}}}};
   const Json slice = {{"name", "ground"}, {"color", "#0000ffff"}, {"keys", Json::array({key})}};
+  Json view = {{"pxPerM", cell.px_per_m}, {"pitchDeg", cell.pitch_deg}};
+  if (cell.angle_deg != 0) view["angleDeg"] = cell.angle_deg;
   const Json atlas = {{"frames", std::move(frames)},
                       {"meta",
                        {{"app", kAtlasApp},
@@ -62,7 +64,7 @@ std::string formatAtlas(const std::vector<Sprite>& sprites, const std::vector<Sp
                         {"scale", "1"},
                         {"frameTags", std::move(frame_tags)},
                         {"slices", Json::array({slice})},
-                        {"skel", {{"pxPerM", cell.px_per_m}, {"pitchDeg", cell.pitch_deg}}}}}};
+                        {"skel", std::move(view)}}}};
   return atlas.dump(1) + "\n";
 }
 
@@ -88,6 +90,7 @@ SpriteCell readSpriteCell(const std::string& path) {
   cell.pivot_y = pivot.at("y").asInt(-kLongestCell_px, kLongestCell_px);
   cell.px_per_m = view->at("pxPerM").asNumber(1e-6, 1e6);
   cell.pitch_deg = view->at("pitchDeg").asNumber(-89, 89);
+  if (const auto angle = view->find("angleDeg")) cell.angle_deg = angle->asNumber(-1e6, 1e6);
   return cell;
 }
 

@@ -26,6 +26,7 @@ struct SpriteCell {
   int width = 0, height = 0;           // px
   int pivot_x = 0, pivot_y = 0;        // px from the left and from the top: below the figure, on the ground
   double px_per_m = 0, pitch_deg = 0;  // how large figures are, and from how far above they are seen
+  double angle_deg = 0;                // that all sides are turned by
 };
 
 struct Box {

@@ -25,7 +25,7 @@ namespace {
 
 bool looksForJoints(LastStage last) { return last >= LastStage::kJoints; }
 
-// Whoever has cut a figure out has drawn it, or painted it: no photo can be taken again.
+// A picture that is clear around its figure is no photo, which could be taken again.
 Verdict verdictOf(LastStage last, const RiggedDrawing& drawing, const SkeletonFile& file) {
   constexpr double kRecognized = .5;
   const Silhouette& silhouette = drawing.silhouette;

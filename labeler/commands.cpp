@@ -153,12 +153,14 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
     sub->parse_complete_callback([&run, action] { run = action; });
     return sub;
   };
-  command("candidates", "Make an empty label file for every picture that has none", [&] {
-    const ImportCounts counts = makeLabelFiles(options.dir, complaints());
-    for (const std::string& note : counts.former)
-      std::fprintf(stderr, "skel-label: note: %s\n", printable(note).c_str());
-    return report(counts);
-  });
+  command("candidates",
+          "Make an empty label file for every picture that has none; one that was renamed gets its labels",
+          [&] {
+            const ImportCounts counts = makeLabelFiles(options.dir, complaints());
+            for (const std::string& note : counts.former)
+              std::fprintf(stderr, "skel-label: note: %s\n", printable(note).c_str());
+            return report(counts);
+          });
   CLI::App* import = command(
       "import",
       "Make label files from annotations: char_cfg.yaml, joints.json, "
@@ -189,6 +191,10 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
                 std::to_string(counts.joints_found) + " found" +
                 (counts.classes_kept > 0
                      ? "; classes set by hand and kept: " + std::to_string(counts.classes_kept)
+                     : "") +
+                (counts.classes_dropped > 0
+                     ? "; classes dropped with candidates that the figure has no longer: " +
+                           std::to_string(counts.classes_dropped)
                      : "") +
                 "\nwritten into " + namesOf(counts.folders) + "\n");
         return code;

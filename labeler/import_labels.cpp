@@ -160,24 +160,50 @@ std::optional<LabelFile> labelsBefore(const std::string& label_path, const std::
   return labels.image.sha256 == sha256(peek(image_path)) ? std::optional(std::move(labels)) : std::nullopt;
 }
 
+// False of one that cannot be read, which stays.
+bool isBlank(const std::string& label_file) {
+  try {
+    return readLabelFile(label_file).isBlank();
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 // Takes over the classes of `before` that its own joints do not explain, also that there is none among
 // others, for candidates that are still there; returns how many.
 int keepClasses(LabelFile& labels, const LabelFile& before, const LabelFile& by_joints_before) {
   int kept = 0;
-  const bool labelled = std::any_of(before.labels.begin(), before.labels.end(),
-                                    [](const auto& label) { return label.has_value(); });
-  for (std::size_t i = 0; labelled && i < labels.candidates.size(); ++i) {
+  const auto open = std::count(before.labels.begin(), before.labels.end(), std::nullopt);
+  const bool labelled = 2 * open < std::ptrdiff_t(before.labels.size());  // else the rest is to come
+  for (std::size_t i = 0; i < labels.candidates.size(); ++i) {
     const JointCandidate& at = labels.candidates[i];
     const auto same = std::find_if(
         before.candidates.begin(), before.candidates.end(),
         [&](const auto& other) { return other.x == at.x && other.y == at.y && other.radius == at.radius; });
     if (same == before.candidates.end()) continue;
     const auto& label = before.labels[std::size_t(same - before.candidates.begin())];
-    if (label == by_joints_before.labels[i] || label == labels.labels[i]) continue;
+    if ((!label && !labelled) || label == by_joints_before.labels[i] || label == labels.labels[i]) continue;
     labels.labels[i] = label;
     ++kept;
   }
   return kept;
+}
+
+// Classes of candidates of `before` that are gone, where the nearest one that is there has another.
+int droppedClasses(const LabelFile& labels, const LabelFile& before) {
+  int dropped = 0;
+  for (std::size_t i = 0; i < before.candidates.size(); ++i) {
+    const JointCandidate& at = before.candidates[i];
+    const auto distance = [&](const JointCandidate& other) {
+      return std::hypot(other.x - at.x, other.y - at.y) + std::abs(other.radius - at.radius);
+    };
+    const auto nearest =
+        std::min_element(labels.candidates.begin(), labels.candidates.end(),
+                         [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+    if (!before.labels[i] || nearest == labels.candidates.end() || distance(*nearest) == 0) continue;
+    dropped += before.labels[i] != labels.labels[std::size_t(nearest - labels.candidates.begin())];
+  }
+  return dropped;
 }
 
 // Whether a label file was made.
@@ -208,10 +234,12 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
     writeNew(*mask, encodePng(maskFromPolygons(drawing.mask_polygons, image.width, image.height)), options);
   }
   LabelFile labels = labelImage(image_path, mask, drawing.joints, body_plan, {}, drawing.recognized);
-  if (before)
+  if (before) {
     counts.classes_kept += keepClasses(
         labels, *before,
         labelImage(image_path, mask, before->joints, planOf(before->joints, plans), {}, before->recognized));
+    counts.classes_dropped += droppedClasses(labels, *before);
+  }
   writeLabelFile(label_path, labels);
   countJoints(labels, body_plan, counts);
   countMissing(label_path, labels, body_plan, counts);
@@ -276,6 +304,7 @@ void labelByPlacedJoints(const std::string& dir, const BodyPlans& plans, bool fo
       if (hasNone(labels) && !gets_mask) continue;
       const LabelFile by_joints = labels;
       counts.classes_kept += keepClasses(labels, before, by_joints);
+      counts.classes_dropped += droppedClasses(labels, before);
       writeLabelFile(path, labels);
       ++(gets_mask ? counts.masks_taken : counts.labelled);
     } catch (const InputError& error) {
@@ -335,7 +364,7 @@ ImportCounts makeLabelFiles(const std::string& dir, const OnError& on_error) {
   };
   const auto make = [&](const DrawingFiles& files) {
     const bool is_there = fs::exists(files.labels);
-    if (is_there && !readLabelFile(files.labels).isBlank()) return false;
+    if (is_there && !isBlank(files.labels)) return false;
     const std::string former = formerOf(files);
     if (!former.empty()) {
       LabelFile labels = readLabelFile(former);

@@ -31,6 +31,7 @@ struct ImportCounts {
   int labelled = 0;      // label files without any class whose candidates got theirs by their placed joints
   int masks_taken = 0;   // label files made anew by a mask beside their picture, without an annotation
   int classes_kept = 0;  // in those made: of a label file before, set by hand
+  int classes_dropped = 0;  // of candidates that are no longer there, where the nearest has another class
   std::vector<std::string> lacking;      // of those made: without a place for some joint
   std::set<std::string> missing_joints;  // of these
   std::size_t without_class = 0;         // candidates of these

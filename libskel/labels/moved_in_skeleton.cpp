@@ -71,14 +71,14 @@ std::vector<std::string> movedButRecognized(const std::string& label_file, const
   if (labels.recognized.empty() || !fs::is_regular_file(path, unknown)) return {};
   try {
     const auto file = readSkeletonOf(path, labels);
-    if (!file || !haveSameMask(*file, labels) || hasEditedJoint(path)) return {};
+    if (!file || !haveSameMask(*file, labels)) return {};
     std::vector<std::string> moved;
     std::size_t unmoved = 0;
     for (const auto& [name, place] : labels.joints) {
       const int j = file->skeleton.find(name);
       if (!place || labels.isPlaced(name) || j < 0) continue;
       const Joint& found = file->skeleton.joints[static_cast<std::size_t>(j)];
-      if (found.origin == JointOrigin::kDerived) continue;
+      if (found.origin == JointOrigin::kDerived || found.origin == JointOrigin::kEdited) continue;
       if (isSamePlace(*place, found.image))
         ++unmoved;
       else

@@ -19,8 +19,7 @@ struct MovedInSkeleton {
 std::optional<MovedInSkeleton> movedInSkeleton(const std::string& label_file, const LabelFile& labels);
 
 // Joints that count as found, but lie elsewhere than the skeleton file beside has found them: somebody has
-// moved them in the label file. None where a person has placed joints in the skeleton, by which the others
-// are found, or where most lie elsewhere: the labels were not found with it.
+// moved them in the label file. None where most lie elsewhere: the labels were not found with it.
 std::vector<std::string> movedButRecognized(const std::string& label_file, const LabelFile& labels);
 
 // One line about skeleton files that do not count for that.

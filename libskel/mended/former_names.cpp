@@ -22,7 +22,7 @@ constexpr std::size_t kHashLength = 64;
 
 bool isLabels(const std::string& file) { return file.ends_with(kLabelFileEnding); }
 
-// All runs of hexadecimal digits that are as long as a hash.
+// All quoted runs of hexadecimal digits that are as long as a hash.
 std::vector<std::string> hashesIn(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::vector<std::string> hashes;
@@ -108,8 +108,7 @@ const FormerNames::Folder& FormerNames::lookInto(const fs::path& folder) {
   std::vector<std::string> files = listFolder(folder.empty() ? "." : folder.string(), isOurs).files;
   std::set<std::string> of_drawings;
   for (const std::string& name : files)
-    if (isDrawingName(name))
-      of_drawings.insert({labelFileFor(name), fs::path(name).stem().string() + kSkeletonFileEnding});
+    if (isDrawingName(name)) of_drawings.insert(labelFileFor(name));
   std::erase_if(files,
                 [&](const std::string& name) { return isDrawingName(name) || of_drawings.contains(name); });
   files.resize(std::min(files.size(), kMostOpened));

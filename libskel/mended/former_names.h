@@ -15,8 +15,8 @@ namespace skel {
 // Looks into each folder once, when it is first asked about. Several threads may ask.
 class FormerNames {
  public:
-  // Label and skeleton files in `folder` beside which no picture of their name lies, of the first 10,000 of
-  // these, that have that hash somewhere in them. In natural order.
+  // Skeleton files in `folder`, and label files beside which no picture of their name lies, of the first
+  // 10,000 of these, that have that hash somewhere in them. In natural order.
   std::vector<std::string> filesWith(const std::string& sha256, const std::filesystem::path& folder);
   // Whether one of them is a label file.
   bool hasLabelsAlone(const std::filesystem::path& folder);
@@ -32,7 +32,7 @@ class FormerNames {
   std::map<std::filesystem::path, Folder> folders_;
 };
 
-// A place under a name that the picture had. One of `results`, `labels` is none where there is no such file.
+// A place under a name that the picture had: with a result, labels, or both.
 struct FormerPlace {
   MendPlace place;     // is_of_picture
   std::string labels;  // of this picture; ""

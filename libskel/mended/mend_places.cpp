@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 fs::path wholePath(const fs::path& path) {
   std::error_code unknown;
-  return fs::weakly_canonical(fs::absolute(path, unknown), unknown);
+  return fs::weakly_canonical(fs::absolute(path.empty() ? "." : path, unknown), unknown);
 }
 
 namespace {

@@ -129,45 +129,72 @@ std::string namedBy(const std::string& file, const std::optional<Source>& source
   const fs::path named = fs::path(file).parent_path() / source->file;
   const std::string path =
       (source->file.find('/') == std::string::npos ? named : named.lexically_normal()).string();
+  const LookAtOutputs look;
   return !ifThere(path).empty() && sha256(readFile(path)) == source->sha256 ? path : "";
 }
 
+bool isWrittenLater(const std::string& path, const std::string& other_path) {
+  std::error_code unknown;
+  return fs::last_write_time(path, unknown) > fs::last_write_time(other_path, unknown);
+}
+
+// What labels and result under the picture's own name name, wherever that lies.
+void takeNamed(MendedFiles& files, const MendRequest& request, const std::string& own_skeleton,
+               const std::optional<SkeletonSource>& own) {
+  const bool finds_mask = request.figure == 1 && request.mask.empty() && request.skeleton.empty();
+  if (finds_mask && files.mask.empty() && !files.labels.empty() && areOfPicture(files.labels, request))
+    files.mask = namedBy(files.labels, readLabelFile(files.labels).mask);
+  if (!own || !request.isOfPicture(own->image_sha256)) return;
+  if (finds_mask && files.mask.empty()) files.mask = namedBy(own_skeleton, own->mask);
+  if (request.finds_limbs && files.limbs.empty()) files.limbs = namedBy(own_skeleton, own->limbs);
+}
+
 // What was made for the picture when it had another name, of each kind of which there is nothing under this
-// one.
+// one. What a run under this name, or labels of it, have taken up or left out since does not count.
 void takeFormer(MendedFiles& files, const MendRequest& request, const std::vector<MendPlace>& places) {
-  const bool first = request.figure == 1, annotated = isAnnotated(request.source);
+  const bool first = request.figure == 1;
   const bool finds_mask = first && request.mask.empty() && request.skeleton.empty();
   const std::string number = first ? "" : "-" + std::to_string(request.figure);
+  const MendPlace* own =
+      !places.empty() && places.front().is_own && places.front().is_of_picture ? &places.front() : nullptr;
+  const std::string own_skeleton = own ? own->results + kSkeletonFileEnding : "";
+  takeNamed(files, request, own_skeleton, own ? own->result : std::nullopt);
+  const bool own_labels = !files.labels.empty() && !areBlank(files.labels);
   for (const FormerPlace& former : formerPlaces(request, places)) {
     const MendPlace& place = former.place;
-    if (place.is_beside && annotated) continue;
+    if (place.is_beside && isAnnotated(request.source)) continue;
     const auto take = [&](std::string& taken, const std::string& path) {
       if (!taken.empty() || ifThere(path).empty()) return;
       taken = path;
       if (former.name != fs::path(request.source).filename()) files.former_name[path] = former.name;
     };
+    if (request.finds_back && first) take(files.back, backIn(place));
     const std::string skeleton = place.results + kSkeletonFileEnding;
-    const SkeletonSource result = place.result.value_or(SkeletonSource());
-    if (request.skeleton.empty() && place.result && hasEditedJoint(skeleton)) take(files.skeleton, skeleton);
-    if (request.skeleton.empty() && first && !former.labels.empty()) {
+    const bool counts = place.result && !(own && isWrittenLater(own_skeleton, skeleton));
+    const SkeletonSource result = counts ? *place.result : SkeletonSource();
+    const std::string labels =
+        own_labels || (own && !former.labels.empty() && isWrittenLater(own_skeleton, former.labels))
+            ? ""
+            : former.labels;
+    if (request.skeleton.empty() && counts && hasEditedJoint(skeleton)) take(files.skeleton, skeleton);
+    if (request.skeleton.empty() && first && !labels.empty() && !areBlank(labels)) {
       if (!files.labels.empty() && areBlank(files.labels)) files.labels.clear();
-      take(files.labels, former.labels);
+      take(files.labels, labels);
     }
-    if (finds_mask) {
-      if (!former.labels.empty()) take(files.mask, namedBy(former.labels, readLabelFile(former.labels).mask));
-      take(files.mask, namedBy(skeleton, result.mask));
+    if (finds_mask && !own_labels) {
+      if (!labels.empty()) take(files.mask, namedBy(labels, readLabelFile(labels).mask));
+      if (counts) take(files.mask, namedBy(skeleton, result.mask));
       if (const std::string silhouette = place.results + ".silhouette.png";
-          isPaintedSilhouette(silhouette, place))
+          counts && isPaintedSilhouette(silhouette, place))
         take(files.mask, silhouette);
     }
     if (request.finds_limbs) {
-      if (!former.labels.empty()) take(files.limbs, place.made + number + ".limbs.png");
-      take(files.limbs, namedBy(skeleton, result.limbs));
+      if (!labels.empty()) take(files.limbs, place.made + number + ".limbs.png");
+      if (counts) take(files.limbs, namedBy(skeleton, result.limbs));
       if (const std::string layers = place.results + ".layers.png";
-          place.result && arePaintedLayers(layers, place, request.figure))
+          counts && arePaintedLayers(layers, place, request.figure))
         take(files.limbs, layers);
     }
-    if (request.finds_back && first) take(files.back, backIn(place));
   }
 }
 
@@ -237,11 +264,6 @@ PlacedJoints jointsOfLabels(const std::string& path, bool named, const std::stri
       rig.otherwise && !file.joints.empty() && planWith(jointNames(file.joints), plansOf(rig));
   if (!placed.joints.empty() || may_tell_plan) placed.body_plan = planOfLabels(file, path, rig);
   return placed;
-}
-
-bool isWrittenLater(const std::string& path, const std::string& other_path) {
-  std::error_code unknown;
-  return fs::last_write_time(path, unknown) > fs::last_write_time(other_path, unknown);
 }
 
 }  // namespace

@@ -25,8 +25,8 @@ namespace {
 // its own.
 SkeletonFile::Mask useMask(const MendRequest& request, const MendedFiles& mended,
                            const std::optional<SkeletonFile>& given, RigInput& input) {
-  std::optional<LookAtOutputs> look;
-  if (mended.painted_silhouette) look.emplace();
+  std::optional<LookAtOutputs> look;  // a result that was painted in place, of this name or another
+  if (mended.mask != request.mask) look.emplace();
   std::string path = mended.mask;
   if (path.empty() && given && given->mask) {
     path = (fs::path(request.skeleton).parent_path() / given->mask->file).string();
@@ -62,8 +62,10 @@ MendRequest knowingRecolored(MendRequest request, const SkeletonSource& earlier,
 void checkJoints(const Skeleton& skeleton, const std::string& file, int figure, const Plane8& mask) {
   const Joint* stray = jointFarOutside(skeleton, mask);
   if (!stray) return;
-  throw InputError(file, "joint \"" + stray->name + "\" lies far outside figure " + std::to_string(figure) +
-                             " of the drawing; place it on the figure, or take the skeleton of this one");
+  throw InputError(file,
+                   "joint \"" + stray->name + "\" lies far outside figure " + std::to_string(figure) +
+                       " of the drawing; place it on the figure, or take the skeleton of this one; where the "
+                       "figure lacks a part, mend its mask (skel-label, key M)");
 }
 
 constexpr const char* kOutlineChanged =
@@ -171,9 +173,9 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
     result.found_outline_sha256 = foundOutline(figures, input.image, silhouette.figure);
   if (!mended.limbs.empty()) {
     std::optional<LookAtOutputs> look;
-    if (mended.painted_layers) look.emplace();
+    if (mended.limbs != request.limbs) look.emplace();
     input.layers = {readImage(mended.limbs), mended.limbs};
-    if (!look && mended.limbs != request.limbs)
+    if (!mended.painted_layers && mended.limbs != request.limbs)
       result.limbs = {mended.limbs, sha256(readFile(mended.limbs)), mended.limbs_before};
   }
   if (!mended.back.empty()) input.back = {readImage(mended.back), mended.back};

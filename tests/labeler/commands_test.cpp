@@ -760,6 +760,38 @@ TEST_CASE("check did not see that a joint was moved in a label file that calls i
   }
 }
 
+TEST_CASE("check did not see a joint that was moved where another one of the drawing had been placed") {
+  const TempDir dir;
+  const std::string path = importedBoy(dir), skeleton = dir.file("cap_boy.skeleton.json");
+  // One that somebody has called right where it was found.
+  std::string text = readFile(skeleton);
+  const std::size_t at = text.find("\"origin\"", text.find("\"right_hand\""));
+  writeFile(skeleton, text.replace(at, text.find_first_of(",}", at) - at, "\"origin\":\"edited\""));
+  REQUIRE(label(dir, "import . --force").exit_code == 0);
+  LabelFile labels = readLabelFile(path);
+  REQUIRE_FALSE(labels.isPlaced("left_hand"));
+  REQUIRE(labels.hasPlacedJoint());
+  for (auto& [name, place] : labels.joints)
+    if (name == "left_hand") place->x() += 30;
+  writeLabelFile(path, labels);
+  CHECK(contains(label(dir, "check .").err, "joints: left_hand moved, but still called recognized"));
+}
+
+TEST_CASE("joints beside a figure that lacks its legs passed check, and skel-infer said to move them") {
+  const TempDir dir;
+  const std::string path = importedBoy(dir);
+  LabelFile labels = readLabelFile(path);
+  for (auto& [name, place] : labels.joints)
+    if (name == "left_foot") *place = {2, 2};
+  std::erase(labels.recognized, "left_foot");
+  writeLabelFile(path, labels);
+  const ToolRun run = label(dir, "check .");
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.err,
+                 "joints.left_foot: lies far outside of the figure; place it on the figure, or, where "
+                 "that lacks a part, mend its mask (skel-label, key M)\n"));
+}
+
 TEST_CASE("check did not see a broken joints file beside a picture without labels") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path());
