@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "libskel/core/error.h"
+#include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/foreign_files.h"
 #include "libskel/core/sha256.h"
