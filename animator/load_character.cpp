@@ -24,10 +24,7 @@
 #include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
-namespace {
 namespace fs = std::filesystem;
-
-}  // namespace
 
 void bindCharacterSource(CLI::App& app, CharacterSource& source) {
   app.add_option(

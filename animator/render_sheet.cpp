@@ -225,10 +225,7 @@ struct Sheets {
     if (before.width != cell.width || before.height != cell.height || before.pitch_deg != cell.pitch_deg ||
         std::abs(before.px_per_m - cell.px_per_m) < kSame * cell.px_per_m)
       return false;
-    std::string kept;
-    std::error_code unknown;
-    for (int number = 1; kept.empty() || fs::exists(fs::symlink_status(kept, unknown)); ++number)
-      kept = numberedName(fs::path(atlas).replace_extension(".old").string(), ".json", number);
+    const std::string kept = freeNumberedName(fs::path(atlas).replace_extension(".old").string(), ".json");
     const LookAtOutputs look;
     writeFile(kept, readFile(atlas));
     std::fprintf(stderr,

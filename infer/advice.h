@@ -17,8 +17,7 @@ inline constexpr const char* kAdviceOnNothing =
 // Of one that an earlier photo of this name was mended for.
 inline constexpr const char* kAdviceOnLeftOut =
     "What you had mended of an earlier photo is left out. Look at this one, skel-label FILE: Shift R finds "
-    "all "
-    "anew, Enter says that what is there fits.";
+    "all anew, Enter says that what is there fits.";
 
 // One sentence a warning of the file: what is unusual, and what helps. `mend_file`: what skel-label opens.
 std::vector<std::string> adviceOn(const RiggedDrawing& drawing, const SkeletonFile& file,

@@ -22,10 +22,8 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
 
 // From `path` to <start>, a number where that is taken, <end>; returns what it is called now.
 std::string keepAs(const std::string& path, const std::string& start, const std::string& end) {
-  const auto named = [&](int number) { return numberedName(start, end, number); };
-  std::string kept = named(1);
+  const std::string kept = freeNumberedName(start, end);
   std::error_code failure;
-  for (int number = 2; fs::exists(fs::symlink_status(kept, failure)); ++number) kept = named(number);
   fs::rename(path, kept, failure);
   if (failure) throw OutputError(path, "cannot be kept as " + kept + ": " + failure.message());
   return kept;

@@ -90,8 +90,11 @@ bool Document::takeProgress(Item& item, FormerNames& names) {
   if (fs::exists(item.files.mask)) given_masks_.insert(item.files.mask);
   if (motion_) return false;
   try {
-    const bool may_be_renamed = names.hasLabelsAlone(fs::path(item.files.image).parent_path());
-    std::string image_sha256 = may_be_renamed ? sha256(readFile(item.files.image)) : "";
+    std::string hash;
+    const auto image_sha256 = [&] {
+      if (hash.empty()) hash = sha256(readFile(item.files.image));
+      return hash;
+    };
     const LabelDocument document(item.files, image_sha256, names);
     const std::optional<LabelFile>& labels = document.opened();
     if (labels) {
@@ -101,12 +104,11 @@ bool Document::takeProgress(Item& item, FormerNames& names) {
     }
     const bool placed = item.joints.done > 0, mended = !skeleton_ && isMendedBeside(item.files);
     if (!placed && !mended) return false;
-    if (!may_be_renamed) image_sha256 = sha256(readFile(item.files.image));
-    if (labels && image_sha256 != labels->image.sha256) {
+    if (labels && image_sha256() != labels->image.sha256) {
       // Of a photo that was taken again nobody has looked at the joints.
       item.joints.done = 0;
     } else if (const auto joints =
-                   mended ? mendedJointsBeside(item.files, document, image_sha256, options_.body_plans)
+                   mended ? mendedJointsBeside(item.files, document, image_sha256(), options_.body_plans)
                           : std::nullopt) {
       item.joints = progressOf(joints->joints, *joints->body_plan);
       return true;
@@ -221,7 +223,8 @@ void Document::loadDrawing() {
 
   state_.image_sha256 = image_sha256_ = sha256(bytes);
   FormerNames names;
-  labels_ = LabelDocument(files, image_sha256_, names);
+  labels_ = LabelDocument(
+      files, [this] { return image_sha256_; }, names);
   takeMended();
   saved_ = state_;
 }

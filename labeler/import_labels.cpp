@@ -160,15 +160,6 @@ std::optional<LabelFile> labelsBefore(const std::string& label_path, const std::
   return labels.image.sha256 == sha256(peek(image_path)) ? std::optional(std::move(labels)) : std::nullopt;
 }
 
-// False of one that cannot be read, which stays.
-bool isBlank(const std::string& label_file) {
-  try {
-    return readLabelFile(label_file).isBlank();
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
 // Takes over the classes of `before` that its own joints do not explain, also that there is none among
 // others, for candidates that are still there; returns how many.
 int keepClasses(LabelFile& labels, const LabelFile& before, const LabelFile& by_joints_before) {
@@ -364,7 +355,7 @@ ImportCounts makeLabelFiles(const std::string& dir, const OnError& on_error) {
   };
   const auto make = [&](const DrawingFiles& files) {
     const bool is_there = fs::exists(files.labels);
-    if (is_there && !isBlank(files.labels)) return false;
+    if (is_there && !isBlankLabelFile(files.labels)) return false;
     const std::string former = formerOf(files);
     if (!former.empty()) {
       LabelFile labels = readLabelFile(former);

@@ -18,12 +18,13 @@ std::string leftOut(const LabelFile& labels, const BodyPlans& plans) {
 
 }  // namespace
 
-LabelDocument::LabelDocument(DrawingFiles files, const std::string& image_sha256, FormerNames& names)
+LabelDocument::LabelDocument(DrawingFiles files, const std::function<std::string()>& image_sha256,
+                             FormerNames& names)
     : files_(std::move(files)), path_(files_.labels) {
   const fs::path folder = fs::path(files_.image).parent_path();
   if (fs::is_regular_file(path_)) opened_ = readLabelFile(path_);
   if ((opened_ && !opened_->isBlank()) || !names.hasLabelsAlone(folder)) return;
-  const std::string former = formerLabels(files_.image, image_sha256, names);
+  const std::string former = formerLabels(files_.image, image_sha256(), names);
   if (!former.empty()) opened_ = readLabelFile(path_ = former);
 }
 

@@ -1,6 +1,7 @@
 // The label file of a drawing.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -15,9 +16,9 @@ namespace skel {
 class LabelDocument {
  public:
   LabelDocument() = default;
-  // Reads the file. Where there is none, or a blank one, that which was made for the picture of that hash
-  // when it had another name, if there is one. Throws InputError.
-  LabelDocument(DrawingFiles files, const std::string& image_sha256, FormerNames& names);
+  // Reads the file. Where there is none, or a blank one, that which was made for the picture of that hash,
+  // which is asked for then alone, when it had another name, if there is one. Throws InputError.
+  LabelDocument(DrawingFiles files, const std::function<std::string()>& image_sha256, FormerNames& names);
 
   const std::optional<LabelFile>& opened() const { return opened_; }
   // The file that was opened.

@@ -61,6 +61,14 @@ std::string numberedName(const std::string& start, const std::string& end, int n
   return start + (number > 1 ? "-" + std::to_string(number) : "") + end;
 }
 
+std::string freeNumberedName(const std::string& start, const std::string& end) {
+  std::error_code unknown;
+  for (int number = 1;; ++number) {
+    std::string path = numberedName(start, end, number);
+    if (!fs::exists(fs::symlink_status(path, unknown))) return path;
+  }
+}
+
 std::string shellWord(const std::string& path) {
   const auto plain = [](unsigned char c) {
     return std::isalnum(c) || c >= 0x80 || std::string_view("/._-+,:@%=").find(char(c)) != std::string::npos;

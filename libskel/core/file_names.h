@@ -25,6 +25,8 @@ std::string endingOf(const std::string& path);
 
 // `start`, from the second on a number, `end`: boy.old.png, boy.old-2.png.
 std::string numberedName(const std::string& start, const std::string& end, int number);
+// The first of these paths at which nothing lies.
+std::string freeNumberedName(const std::string& start, const std::string& end);
 
 // A path as one word of a shell's line: in quotes where it needs them; what is not printed as bash writes it
 // ($'\x1b').

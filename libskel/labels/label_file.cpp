@@ -267,6 +267,14 @@ void ensureUnchanged(const std::string& path, const LabelFile& labels) {
   if (labels.mask) checkSource(path, "mask", *labels.mask);
 }
 
+bool isBlankLabelFile(const std::string& path) {
+  try {
+    return readLabelFile(path).isBlank();
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 std::string formatLabelFile(const LabelFile& labels) {
   SKEL_CHECK_EQ(labels.candidates.size(), labels.labels.size());
   const auto quote = [](const std::string& text) {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,11 +41,14 @@ struct LabelFile {
 };
 
 inline constexpr const char* kLabelFileEnding = ".labels.json";
+inline bool isLabelFile(std::string_view path) { return path.ends_with(kLabelFileEnding); }
 // "dir/knight.png" → "dir/knight.labels.json".
 std::string labelFileFor(const std::string& image);
 
 // Throws InputError with the first of findProblems' complaints that lie in the file itself.
 LabelFile readLabelFile(const std::string& path);
+// LabelFile::isBlank(). False of one that cannot be read, which may hold anything.
+bool isBlankLabelFile(const std::string& path);
 // The same labels give the same bytes.
 std::string formatLabelFile(const LabelFile& labels);
 // At any moment `path` holds the old labels or the new ones. Throws OutputError.

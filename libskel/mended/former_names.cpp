@@ -20,8 +20,6 @@ namespace {
 constexpr std::size_t kMostOpened = 10'000;  // files of a folder: one of results may hold any number
 constexpr std::size_t kHashLength = 64;
 
-bool isLabels(const std::string& file) { return file.ends_with(kLabelFileEnding); }
-
 // All quoted runs of hexadecimal digits that are as long as a hash.
 std::vector<std::string> hashesIn(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdef";
@@ -61,11 +59,19 @@ FormerPlace& placeNamed(const fs::path& made, const std::string& picture, std::v
   return places.back();
 }
 
+// Of the picture of that hash, which is gone under the name that they know, or is the drawing.
+std::optional<LabelFile> labelsOf(const std::string& image_sha256, const std::string& drawing,
+                                  const std::string& path) {
+  std::optional<LabelFile> labels = readOrNothing([&] { return readLabelFile(path); });
+  if (!labels || labels->image.sha256 != image_sha256 ||
+      !isGoneOrThis(fs::path(path).parent_path() / labels->image.file, drawing))
+    return std::nullopt;
+  return labels;
+}
+
 void addLabels(const std::string& path, const MendRequest& request, std::vector<FormerPlace>& places) {
-  const auto labels = readOrNothing([&] { return readLabelFile(path); });
-  if (!labels || labels->image.sha256 != request.image_sha256) return;
-  const fs::path folder = fs::path(path).parent_path();
-  if (!isGoneOrThis(folder / labels->image.file, request.source)) return;
+  const auto labels = labelsOf(request.image_sha256, request.source, path);
+  if (!labels) return;
   const std::string made = path.substr(0, path.size() - std::string_view(kLabelFileEnding).size());
   placeNamed(made, labels->image.file, places).labels = path;
 }
@@ -87,8 +93,7 @@ std::vector<fs::path> foldersOf(const MendRequest& request) {
   if (!request.results.empty()) folders.push_back(fs::path(request.results).parent_path());
   if (!request.out_dir.empty()) {
     folders.emplace_back(request.out_dir);
-    if (beside.is_relative() && !beside.empty() && *beside.begin() != "..")
-      folders.push_back(request.out_dir / beside);
+    if (const auto kept = keptFolder(request.out_dir, request.source)) folders.push_back(*kept);
   }
   folders.insert(folders.end(), {beside, beside / "out", "out"});
   std::set<fs::path> seen;
@@ -103,7 +108,7 @@ const FormerNames::Folder& FormerNames::lookInto(const fs::path& folder) {
   Folder& here = known->second;
   if (!is_new) return here;
   const auto isOurs = [](const std::string& name) {
-    return isLabels(name) || name.ends_with(kSkeletonFileEnding) || isDrawingName(name);
+    return isLabelFile(name) || name.ends_with(kSkeletonFileEnding) || isDrawingName(name);
   };
   std::vector<std::string> files = listFolder(folder.empty() ? "." : folder.string(), isOurs).files;
   std::set<std::string> of_drawings;
@@ -114,7 +119,7 @@ const FormerNames::Folder& FormerNames::lookInto(const fs::path& folder) {
   files.resize(std::min(files.size(), kMostOpened));
   const LookAtOutputs look;
   for (const std::string& name : files) {
-    here.labels_alone |= isLabels(name);
+    here.labels_alone |= isLabelFile(name);
     if (const auto text = readOrNothing([&] { return readFile((folder / name).string()); }))
       for (const std::string& hash : hashesIn(*text)) here.by_hash.emplace(hash, name);
   }
@@ -138,11 +143,8 @@ std::string formerLabels(const std::string& drawing, const std::string& image_sh
   const fs::path folder = fs::path(drawing).parent_path();
   for (const std::string& name : names.filesWith(image_sha256, folder)) {
     const std::string path = (folder / name).string();
-    if (!isLabels(name) || path == labelFileFor(drawing)) continue;
-    const auto labels = readOrNothing([&] { return readLabelFile(path); });
-    if (labels && labels->image.sha256 == image_sha256 && !labels->isBlank() &&
-        isGoneOrThis(folder / labels->image.file, drawing))
-      return path;
+    if (!isLabelFile(name) || path == labelFileFor(drawing)) continue;
+    if (const auto labels = labelsOf(image_sha256, drawing, path); labels && !labels->isBlank()) return path;
   }
   return "";
 }
@@ -160,7 +162,10 @@ std::vector<FormerPlace> formerPlaces(const MendRequest& request, const std::vec
     std::vector<FormerPlace> here;
     for (const std::string& name : names.filesWith(request.image_sha256, folder)) {
       const std::string path = (folder / name).string();
-      isLabels(name) ? addLabels(path, request, here) : addSkeleton(path, request, here);
+      if (isLabelFile(name))
+        addLabels(path, request, here);
+      else
+        addSkeleton(path, request, here);
     }
     for (FormerPlace& place : here) {
       if (isKnown(place.place.made)) continue;

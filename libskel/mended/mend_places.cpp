@@ -88,14 +88,19 @@ std::vector<MendPlace> mendPlaces(const MendRequest& request) {
   return places;
 }
 
+std::optional<fs::path> keptFolder(const std::string& folder, const std::string& drawing) {
+  const fs::path name = fs::path(drawing).lexically_normal();
+  if (!name.has_parent_path() || !name.is_relative() || *name.begin() == "..") return std::nullopt;
+  return folder / name.parent_path();
+}
+
 std::string resultsIn(const std::string& folder, const std::string& drawing, int figure) {
   if (folder.empty()) return "";
   if (std::error_code unknown; !fs::is_directory(folder, unknown)) throw InputError(folder, "is no folder");
   const fs::path name = fs::path(drawing).lexically_normal();
   const std::string results = (folder / name.stem()).string(), number = "-" + std::to_string(figure);
   std::vector<std::string> places = {results};
-  if (name.is_relative() && *name.begin() != "..")
-    places.push_back((folder / name.parent_path() / name.stem()).string());
+  if (const auto kept = keptFolder(folder, drawing)) places.push_back((*kept / name.stem()).string());
   for (const std::string& place : places)
     for (const std::string& one : {place, place + number})
       if (const auto found = sourceOfSkeleton(one + kSkeletonFileEnding); found && found->number == figure)

@@ -32,6 +32,10 @@ struct MendPlace {
 // of ours there cannot be read.
 std::vector<MendPlace> mendPlaces(const MendRequest& request);
 
+// Below `folder`, where a run over a list keeps the folder of the drawing; nothing where it has none, is
+// named from the root or leads out of where the run was made.
+std::optional<std::filesystem::path> keptFolder(const std::string& folder, const std::string& drawing);
+
 // Where a run of skel-infer with `-o folder` wrote what it has made of the figure of the drawing, without
 // endings; of a list it keeps the folders. `folder`: "": nowhere, as the result. Throws InputError: no
 // folder.

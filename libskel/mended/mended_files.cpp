@@ -25,8 +25,6 @@ namespace skel {
 namespace fs = std::filesystem;
 namespace {
 
-bool isLabelFile(const std::string& path) { return path.ends_with(kLabelFileEnding); }
-
 std::string ifThere(const std::string& path) {
   std::error_code unknown;
   return fs::is_regular_file(path, unknown) ? path : "";
@@ -113,15 +111,6 @@ bool arePaintedLayers(const std::string& path, const MendPlace& place, int figur
   return !isAsSealed(readFile(path));
 }
 
-// False of labels that cannot be read: they may hold anything.
-bool areBlank(const std::string& labels) {
-  try {
-    return readLabelFile(labels).isBlank();
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
 // What `file` names as the mask or the limbs that it was made with, if that is there and the same still.
 template <class Source>
 std::string namedBy(const std::string& file, const std::optional<Source>& source) {
@@ -159,7 +148,7 @@ void takeFormer(MendedFiles& files, const MendRequest& request, const std::vecto
       !places.empty() && places.front().is_own && places.front().is_of_picture ? &places.front() : nullptr;
   const std::string own_skeleton = own ? own->results + kSkeletonFileEnding : "";
   takeNamed(files, request, own_skeleton, own ? own->result : std::nullopt);
-  const bool own_labels = !files.labels.empty() && !areBlank(files.labels);
+  const bool own_labels = !files.labels.empty() && !isBlankLabelFile(files.labels);
   for (const FormerPlace& former : formerPlaces(request, places)) {
     const MendPlace& place = former.place;
     if (place.is_beside && isAnnotated(request.source)) continue;
@@ -177,8 +166,8 @@ void takeFormer(MendedFiles& files, const MendRequest& request, const std::vecto
             ? ""
             : former.labels;
     if (request.skeleton.empty() && counts && hasEditedJoint(skeleton)) take(files.skeleton, skeleton);
-    if (request.skeleton.empty() && first && !labels.empty() && !areBlank(labels)) {
-      if (!files.labels.empty() && areBlank(files.labels)) files.labels.clear();
+    if (request.skeleton.empty() && first && !labels.empty() && !isBlankLabelFile(labels)) {
+      if (!files.labels.empty() && isBlankLabelFile(files.labels)) files.labels.clear();
       take(files.labels, labels);
     }
     if (finds_mask && !own_labels) {
