@@ -175,25 +175,34 @@ std::string whyUnfit(const Clip& clip, const RiggedCharacter& character) {
   return "";
 }
 
-std::vector<std::string> whatStays(const Clip& clip, const RiggedCharacter& character) {
+std::vector<std::string> whatStays(const std::vector<Clip>& clips, const RiggedCharacter& character) {
   std::vector<std::string> clauses;
-  if (isForOther(clip, character.skeleton))
-    clauses.push_back("is a " + bodyPlanOf(character.skeleton) + ", the clip \"" + clip.name +
-                      "\" is for a " + clip.template_name);
-  const std::optional<RoleFigure> figure = partsFor(clip, character.skeleton);
-  const Skeleton& skeleton = figure ? figure->skeleton : character.skeleton;
-  for (std::string& arm :
-       armsThatStay(clip, skeleton,
-                    figure ? measureByRoles(character, *figure)
-                           : measureFigure(character.mesh, character.weights, character.skeleton)))
-    clauses.push_back(std::move(arm));
-  std::vector<std::string> lacking;
-  for (const JointTrack& track : clip.tracks)
-    if (skeleton.find(track.joint) < 0 && !isHangingName(track.joint))
-      lacking.push_back('"' + track.joint + '"');
-  if (!lacking.empty())
-    clauses.push_back("the clip \"" + clip.name + "\" plays without " + joined(lacking) +
-                      ", which this character lacks");
+  std::optional<RoleFigure> figure;
+  std::vector<Clip> by_names, by_parts;
+  for (const Clip& clip : clips) {
+    if (isForOther(clip, character.skeleton))
+      clauses.push_back("is a " + bodyPlanOf(character.skeleton) + ", the clip \"" + clip.name +
+                        "\" is for a " + clip.template_name);
+    std::optional<RoleFigure> parts = partsFor(clip, character.skeleton);
+    const Skeleton& skeleton = parts ? parts->skeleton : character.skeleton;
+    std::vector<std::string> lacking;
+    for (const JointTrack& track : clip.tracks)
+      if (skeleton.find(track.joint) < 0 && !isHangingName(track.joint))
+        lacking.push_back('"' + track.joint + '"');
+    if (!lacking.empty())
+      clauses.push_back("the clip \"" + clip.name + "\" plays without " + joined(lacking) +
+                        ", which this character lacks");
+    (parts ? by_parts : by_names).push_back(clip);
+    if (parts) figure = std::move(parts);
+  }
+  const auto addArms = [&](std::vector<std::string> arms) {
+    clauses.insert(clauses.end(), arms.begin(), arms.end());
+  };
+  if (!by_names.empty())
+    addArms(armsThatStay(by_names, character.skeleton,
+                         measureFigure(character.mesh, character.weights, character.skeleton)));
+  if (!by_parts.empty())
+    addArms(armsThatStay(by_parts, figure->skeleton, measureByRoles(character, *figure)));
   return clauses;
 }
 
@@ -251,6 +260,8 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
           "the joints of " + path +
           " are matched by the shape of the tree, which may be wrong, as their names "
           "tell too little (skel-animate retarget says what was matched)");
+    if (notes)
+      for (std::string& arm : motion.arms_that_stay) notes->of_character.push_back(std::move(arm));
     return std::move(motion.clip);
   }
   if (ending == ".glb" || ending == ".GLB")
@@ -272,7 +283,7 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
       if (isForOther(clip, character.skeleton)) throw OtherBodyPlan(path, fault);
       throw InputError(path, fault);
     }
-  if (notes) notes->of_character = whatStays(clip, character);
+  if (notes) notes->of_character = whatStays({clip}, character);
   return fitted(clip, character, source);
 }
 

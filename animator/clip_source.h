@@ -44,9 +44,9 @@ std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharact
 // What is wrong with a clip that the character cannot do, a clause after the clip's name; "": none can tell.
 std::string whyUnfit(const Clip& clip, const RiggedCharacter& character);
 
-// What the character does not do of a clip that fits it and is for the canonical pose: a clause an arm, and
-// one for the joints that it lacks; first, that the clip is for another body plan.
-std::vector<std::string> whatStays(const Clip& clip, const RiggedCharacter& character);
+// What the character does not do of clips that fit it and are for the canonical pose, in clauses: that one is
+// for another body plan, or for joints that it lacks, and which arms stay (armsThatStay()).
+std::vector<std::string> whatStays(const std::vector<Clip>& clips, const RiggedCharacter& character);
 
 // Made for the canonical pose; the result is for the character's rest pose.
 Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource& source = {});

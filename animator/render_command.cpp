@@ -65,14 +65,18 @@ void sayWhatStays(const std::vector<std::string>& clauses, const std::string& pa
     std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(clause).c_str());
 }
 
-// Of the user's own clips among these that come from the library, not from the character's file (`filed`).
+// Of those clips that come from the library, not from the character's file (`filed`) or one of their own.
 void noteWhatStays(const RenderCommandOptions& options, const RiggedCharacter& character,
                    const std::string& path, const std::vector<Clip>& clips, const std::vector<Clip>& filed) {
-  if (options.library.clips_dir.empty()) return;
-  for (const Clip& clip : clipsFor(clipLibrary(options.library), character)) {
-    if (!isOwn(clip) || !hasClip(clips, clip.name) || hasClip(filed, clip.name)) continue;
-    sayWhatStays(whatStays(clip, character), path);
-  }
+  const auto isNamed = [&](const std::string& name) {
+    return std::find(options.clips.begin(), options.clips.end(), name) != options.clips.end();
+  };
+  std::vector<Clip> of_library = clipsFor(clipLibrary(options.library), character);
+  std::erase_if(of_library, [&](const Clip& clip) {
+    return !hasClip(clips, clip.name) || hasClip(filed, clip.name) ||
+           !(isNamed(clip.name) || isNamed(std::string(kAllClips)));
+  });
+  sayWhatStays(whatStays(of_library, character), path);
 }
 
 struct AskedClips {
@@ -176,10 +180,11 @@ struct Cast {
 
 // Whether the look of a drawing's film is left to skel: nothing is asked for that the flat look refuses or
 // takes no notice of.
-bool choosesLook(const RenderCommandOptions& options) {
+bool choosesLook(const RenderCommandOptions& options, const std::string& path) {
   const RenderCommandOptions otherwise;
-  return options.look == "auto" && options.sheet.output.empty() && !needsModel(options) &&
-         options.pitch_deg == otherwise.pitch_deg && options.blend == otherwise.blend;
+  return options.look == "auto" && options.sheet.output.empty() &&
+         !needsModel(options, options.angles(stemOf(path))) && options.pitch_deg == otherwise.pitch_deg &&
+         options.blend == otherwise.blend;
 }
 
 Cast cast(const RenderCommandOptions& asked, const std::string& path) {
@@ -188,7 +193,7 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path) {
   source.path = path;
   std::optional<DrawnCharacter> drawn;
   if (isDrawing(source)) drawn = rigDrawing(source, options.library);
-  const bool chooses = drawn && choosesLook(options);
+  const bool chooses = drawn && choosesLook(options, path);
   const bool flat = chooses ? looksBetterFlat(drawn->drawing) : options.look == "flat";
   options.library.flat = flat;
   if (flat && drawn)
@@ -267,6 +272,10 @@ void checkFiles(const RenderCommandOptions& options) {
       throw UsageError("--skeleton FILE is of one drawing, " + std::to_string(options.files.size()) +
                        " characters are named; give them one at a time");
   if (!options.together) checkNames(options.files);
+  for (const auto& [name, angle_deg] : options.angles.of)
+    if (std::none_of(options.files.begin(), options.files.end(),
+                     [&name = name](const std::string& path) { return stemOf(path) == name; }))
+      throw UsageError("--angle: no drawing of this run is called \"" + name + '"');
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "animator/render_films.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -75,7 +76,10 @@ struct Films {
 
   explicit Films(const RenderCommandOptions& asked)
       : options(asked), names(filmNames(asked)), film(filmOptions(asked)) {
-    if (options.look == "flat" && needsModel(options))
+    const bool turned = std::any_of(options.files.begin(), options.files.end(), [&](const std::string& path) {
+      return options.angles(stemOf(path)) != 0;
+    });
+    if (options.look == "flat" && needsModel(options, turned ? 1 : 0))
       throw UsageError(
           "--look flat shows the drawing as it was drawn: leave out --angle, --wireframe, --translucent and "
           "--show-weights");

@@ -1,6 +1,7 @@
 // What `skel-animate render` can be asked for.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,6 +37,17 @@ struct SheetOptions {
   std::string palette;  // how many colours, or a picture that has them; "": as many as there are
 };
 
+// From where characters are seen, about the vertical, degrees.
+struct ViewAngles {
+  double of_others = 0;
+  std::map<std::string, double> of = {};  // of single ones, by the name of their file, without ending
+
+  double operator()(const std::string& name) const {
+    const auto own = of.find(name);
+    return own == of.end() ? of_others : own->second;
+  }
+};
+
 struct RenderCommandOptions {
   std::vector<std::string> files;
   CharacterSource source;  // of each of them, but for its path
@@ -49,7 +61,8 @@ struct RenderCommandOptions {
   std::optional<double> frame_rate;  // 30 of films, 12 of sheets
   double duration_s = 0;
   std::string size;  // empty: 512x512 of films, 64x64 of sheets
-  double angle_deg = 0, pitch_deg = 5;
+  ViewAngles angles;
+  double pitch_deg = 5;
   std::string look = "auto";  // solid: the model; flat: the drawing itself; auto: looksBetterFlat()
   std::string background = "white";
   std::string frame = "auto";  // clip or clips: what the camera shows all of
@@ -62,8 +75,8 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options);
 
 bool manyClips(const RenderCommandOptions& options);
 
-// Whether something is asked for that the flat look does not have.
-bool needsModel(const RenderCommandOptions& options);
+// Whether something is asked for that the flat look does not have, of a character that is seen from there.
+bool needsModel(const RenderCommandOptions& options, double angle_deg);
 
 // For --format, the default first.
 std::vector<std::string> filmFormats();

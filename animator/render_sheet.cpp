@@ -158,10 +158,10 @@ struct Sheets {
 
   double pitch_rad() const { return options.pitch_deg * std::numbers::pi / 180; }
 
-  std::vector<SpriteDirection> directionsOf(const RiggedCharacter& character) const {
-    std::vector<SpriteDirection> directions = spriteDirections(character, options.sheet.directions);
+  std::vector<SpriteDirection> directionsOf(const CharacterFile& file) const {
+    std::vector<SpriteDirection> directions = spriteDirections(file.character, options.sheet.directions);
     for (SpriteDirection& direction : directions)
-      direction.yaw_rad += options.angle_deg * std::numbers::pi / 180;
+      direction.yaw_rad += options.angles(file.name) * std::numbers::pi / 180;
     return directions;
   }
 
@@ -171,7 +171,7 @@ struct Sheets {
       addLibrary(file, options.library);
       for (const Clip& clip : file.clips) framed.push_back(inPlace(clip, file.character).clip);
     }
-    return spriteExtent(file.character, outermostPoints(file.character, framed), directionsOf(file.character),
+    return spriteExtent(file.character, outermostPoints(file.character, framed), directionsOf(file),
                         pitch_rad());
   }
 
@@ -241,10 +241,12 @@ struct Sheets {
     const std::optional<SpriteCell> before = cellBefore(atlas);
     if (!before) return;
     if (options.sheet.same_scale && !other_is_kept) other_is_kept = keepOtherScale(atlas, *before, cell);
-    if (before->angle_deg != cell.angle_deg)
-      std::fprintf(stderr, "%s: note: the sheet before was turned by --angle %s, this one by %s\n",
-                   printable(name).c_str(), degreesText(before->angle_deg).c_str(),
-                   degreesText(cell.angle_deg).c_str());
+    if (const std::string now = degreesText(cell.angle_deg), then = degreesText(before->angle_deg);
+        now != then)
+      std::fprintf(stderr,
+                   "%s: note: the sheet before was turned by --angle %s, this one by %s; --angle %s turns it "
+                   "as before\n",
+                   printable(name).c_str(), then.c_str(), now.c_str(), shellWord(name + "=" + then).c_str());
   }
 
   // Of the clip that reaches farthest.
@@ -270,7 +272,7 @@ struct Sheets {
   void write(CharacterFile file, const std::vector<Clip>& asked) {
     const std::string path = pathOf(file);
     const RiggedCharacter& character = file.character;
-    const std::vector<SpriteDirection> directions = directionsOf(character);
+    const std::vector<SpriteDirection> directions = directionsOf(file);
     std::vector<Clip> clips;
     for (const Clip& clip : asked) {
       InPlace moved = inPlace(clip, character);
@@ -283,7 +285,7 @@ struct Sheets {
     SpriteCamera camera = like                       ? spriteCamera(*like)
                           : options.sheet.same_scale ? cameraFor(sharedExtent())
                                                      : cameraFor(extentOf(file, clips));
-    camera.cell.angle_deg = options.angle_deg;
+    camera.cell.angle_deg = options.angles(file.name);
     if (like) noteBeyondCell(file, clips, directions);
     const SpritePacking packing = options.sheet.trim ? SpritePacking::kTrimmed : SpritePacking::kEven;
     const std::vector<SpriteTag> tags = tagsOf(clips, directions, camera.cell, packing);

@@ -40,8 +40,9 @@ MomentPainter Stage::painterOf(const Clip& clip, const FilmOptions& film) const 
     };
   }
   const RiggedCharacter& character = performer_.file.character;
-  const Camera camera = filmCamera(character, shown, options_.angle_deg * std::numbers::pi / 180,
-                                   options_.pitch_deg * std::numbers::pi / 180, width_over_height);
+  const Camera camera =
+      filmCamera(character, shown, options_.angles(performer_.file.name) * std::numbers::pi / 180,
+                 options_.pitch_deg * std::numbers::pi / 180, width_over_height);
   Look look = film.look;
   look.weights_of = weights_of_;
   return [this, clip, film, camera, look](double time_s) {

@@ -391,11 +391,17 @@ void CanvasView::drawSkeleton(ImDrawList* list) {
     const float r = is_touched ? 1.4f * kJoint_px : kJoint_px;
     list->AddCircleFilled(p, r + 2, imColor(kWhite), 32);
     list->AddCircleFilled(p, r, imColor(sideColor(document_.bodyPlan().joints[j].name)), 32);
-    // What a person has not placed yet is hollow.
+    // What a person has not placed yet is hollow, with a question mark where it was not found either.
+    const bool guessed = joints[j]->origin == JointOrigin::kCompleted;
     if (joints[j]->origin != JointOrigin::kEdited) list->AddCircleFilled(p, r - 4, imColor(kWhite), 32);
+    if (guessed) {
+      const ImVec2 size = ImGui::CalcTextSize("?");
+      list->AddText({p.x - size.x / 2, p.y - size.y / 2}, imColor(kInk), "?");
+    }
     if (!is_touched) continue;
     std::string name = document_.bodyPlan().joints[j].name;
     std::replace(name.begin(), name.end(), '_', ' ');
+    if (guessed) name += ": not found, a likely place";
     const ImVec2 size = ImGui::CalcTextSize(name.c_str());
     const ImVec2 at{p.x + 18, p.y - size.y - 12};
     list->AddRectFilled({at.x - 8, at.y - 4}, {at.x + size.x + 8, at.y + size.y + 4},

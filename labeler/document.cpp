@@ -129,6 +129,7 @@ int Document::lookAgain() {
     message_ = error.what();
     return 0;
   }
+  for (Item& item : items_) item.doubts.reset();
   const int before = current_;
   size_t added = 0;
   FormerNames names;
@@ -156,6 +157,13 @@ void Document::loadFirst() {
     if (!first) first = i;
   }
   load(first.value_or(0));
+}
+
+const std::vector<std::string>& Document::doubts(int item) {
+  Item& looked_at = items_.at(static_cast<size_t>(item));
+  if (!looked_at.doubts)
+    looked_at.doubts = editsJointsAlone() ? std::vector<std::string>() : doubtsOf(looked_at.files);
+  return *looked_at.doubts;
 }
 
 bool Document::go(int item) {

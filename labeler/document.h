@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "labeler/describe_step.h"
+#include "labeler/doubts.h"
 #include "labeler/drawing_list.h"
 #include "labeler/drawing_state.h"
 #include "labeler/figure.h"
@@ -40,9 +41,10 @@ struct Item {
   // Joints that do not follow from others, and those placed by hand; of a skeleton file and of a frame of a
   // motion all joints, and those that were found or placed.
   Progress joints;
-  Progress classes;        // candidates, and those that have a label
-  bool has_shape = false;  // a mask or limbs before the body were mended by hand
-  std::string problem;     // why it cannot be labelled; else empty
+  Progress classes;                                     // candidates, and those that have a label
+  bool has_shape = false;                               // a mask or limbs before the body were mended by hand
+  std::string problem;                                  // why it cannot be labelled; else empty
+  std::optional<std::vector<std::string>> doubts = {};  // doubtsOf(); nothing: not looked for yet
 
   const Progress& of(Subject subject) const { return subject == Subject::kJoints ? joints : classes; }
 };
@@ -75,6 +77,8 @@ class Document {
   int lookAgain();
   // Where the last session has left off: classes if candidates have labels and no joint was placed.
   Subject subject() const { return subject_; }
+  // doubtsOf() the item, looked for when first asked for.
+  const std::vector<std::string>& doubts(int item);
   // False, and stays, where there is no such item or the last step is not on the disk.
   bool go(int item);
 

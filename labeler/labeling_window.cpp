@@ -58,6 +58,7 @@ constexpr KeyHelp kHelp[] = {
     {"Ctrl Y  Ctrl Shift Z", "redo"},
     {"Page Up  Page Down", "previous, next drawing; so do the arrow keys"},
     {"U", "next unfinished drawing"},
+    {"W", "next one of these that the last run of skel-infer was unsure of"},
     {"Wheel  +  -  F", "zoom; fit the drawing into the view"},
     {"Middle or right drag", "move the drawing; in mask the middle one alone"},
     {"H  ?  F1", "this help; Esc closes it"},
@@ -131,7 +132,7 @@ class LabelingWindow {
     ImGui::End();
     if (help_) drawHelp();
     if (closes_) return NextFrame::kClose;
-    return moving || wants_joints || opened_ ? NextFrame::kAtOnce : NextFrame::kOnInput;
+    return moving || wants_joints || looks_for_doubts_ || opened_ ? NextFrame::kAtOnce : NextFrame::kOnInput;
   }
 
   // Asks first where a step would be lost.
@@ -202,6 +203,7 @@ class LabelingWindow {
     if (pressed(key::kPageDown, true) || pressed(key::kRight, true) || pressed(key::kDown, true)) go(+1);
     if (pressed(key::kPageUp, true) || pressed(key::kLeft, true) || pressed(key::kUp, true)) go(-1);
     if (pressed(key::kU)) goToUnfinished();
+    if (pressed(key::kW)) goToDoubted();
   }
 
   void undo() {
@@ -322,6 +324,16 @@ class LabelingWindow {
     }
   }
 
+  void goToDoubted() {
+    const int count = static_cast<int>(document_.items().size());
+    for (int by = 1; by <= count; ++by) {
+      const int item = (document_.current() + by) % count;
+      if (!document_.items()[static_cast<size_t>(item)].of(subject()).isWhole() &&
+          !document_.doubts(item).empty())
+        return goTo(item);
+    }
+  }
+
   void drawList(float height) {
     const auto& items = document_.items();
     const auto done = static_cast<int>(std::count_if(
@@ -338,6 +350,7 @@ class LabelingWindow {
       if (row < top || row + kRowHeight > top + view) ImGui::SetScrollY(std::max(0.f, row - view / 2));
       scroll_to_current_ = false;
     }
+    looks_for_doubts_ = false;
     while (clipper.Step())
       for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) drawRow(i);
     ImGui::EndChild();
@@ -346,6 +359,13 @@ class LabelingWindow {
     ImGui::SameLine();
     if (ImGui::Button("Next", {half, kButtonHeight})) go(+1);
     ImGui::EndChild();
+  }
+
+  // One row a frame is looked at: pictures are read for it.
+  bool isDoubted(int index) {
+    const Item& item = document_.items()[static_cast<size_t>(index)];
+    if (item.doubts) return !item.doubts->empty();
+    return !std::exchange(looks_for_doubts_, true) && !document_.doubts(index).empty();
   }
 
   std::string stateOf(const Item& item) const {
@@ -362,7 +382,12 @@ class LabelingWindow {
     ImGui::PushID(index);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     if (ImGui::Selectable("##row", index == document_.current(), 0, {0, kRowHeight})) goTo(index);
-    if (ImGui::IsItemHovered()) tip((item.files.name + "\n" + stateOf(item)).c_str());
+    const bool doubted = item.problem.empty() && !progress.isWhole() && isDoubted(index);
+    if (ImGui::IsItemHovered()) {
+      std::string text = item.files.name + "\n" + stateOf(item);
+      for (std::size_t i = 0; doubted && i < item.doubts->size(); ++i) text += "\n" + (*item.doubts)[i];
+      tip(text.c_str());
+    }
     ImDrawList* list = ImGui::GetWindowDrawList();
     const ImVec2 c{corner.x + 16, corner.y + kRowHeight / 2};
     if (!item.problem.empty()) {
@@ -374,8 +399,13 @@ class LabelingWindow {
       const ImVec2 tick[] = {{c.x - 4.5f, c.y}, {c.x - 1, c.y + 3.5f}, {c.x + 4.5f, c.y - 3.5f}};
       list->AddPolyline(tick, 3, IM_COL32_WHITE, 0, 2.5f);
     } else {
-      list->AddCircle(c, 8, IM_COL32(170, 178, 192, 255), 24, 2.5f);
-      if (item.has_shape) list->AddCircleFilled(c, 3.5f, IM_COL32(38, 160, 84, 255));
+      if (doubted) {
+        list->AddCircleFilled(c, 8, IM_COL32(240, 160, 30, 255));
+        const ImVec2 size = ImGui::CalcTextSize("?");
+        list->AddText({c.x - size.x / 2, c.y - size.y / 2}, IM_COL32_WHITE, "?");
+      }
+      list->AddCircle(c, 8, doubted ? IM_COL32(240, 160, 30, 255) : IM_COL32(170, 178, 192, 255), 24, 2.5f);
+      if (item.has_shape && !doubted) list->AddCircleFilled(c, 3.5f, IM_COL32(38, 160, 84, 255));
       if (progress.done > 0) {
         const float share = static_cast<float>(progress.done) / static_cast<float>(progress.parts);
         list->PathArcTo(c, 8, -1.5708f, -1.5708f + 6.2832f * share, 24);
@@ -626,7 +656,8 @@ class LabelingWindow {
   Tool class_tool_ = Tool::kTouch;  // the last one used
   int seen_ = -1;                   // the last drawing whose joints were wanted
   bool help_ = false;
-  bool losing_ = false;  // asks whether the last step may be lost
+  bool losing_ = false;            // asks whether the last step may be lost
+  bool looks_for_doubts_ = false;  // there are rows of which it is not known yet
   bool closes_ = false;
   bool scroll_to_current_ = true;
 };

@@ -10,6 +10,7 @@
 #include "libskel/animation/pose_hash.h"
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/smooth_step.h"
+#include "libskel/core/text.h"
 
 namespace skel {
 namespace {
@@ -67,6 +68,42 @@ std::string armThatCannot(const Clip& clip, const Skeleton& skeleton, const Figu
   return "";
 }
 
+// What is to be said of an arm, before the name of the clip and after it.
+struct ArmStay {
+  std::string before, after;
+  bool operator==(const ArmStay&) const = default;
+};
+
+std::vector<ArmStay> staysIn(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
+  constexpr double kMoves_rad = 1, kStays = 0.5, kInPart = 1. / 3;
+  if (isRelativeTo(clip, skeleton)) return {};
+  const auto named = [](const std::string& side) { return side.substr(0, side.size() - 1) + " arm"; };
+  const std::string cannot = armThatCannot(clip, skeleton, shape);
+  if (!cannot.empty() && armTravel(clip, cannot) > kMoves_rad) {
+    const std::string other = acrossFrom(cannot);
+    return {{"the " + named(cannot) + " cannot be moved well and does not do ",
+             showsArm(skeleton, shape, other) ? "; the " + named(other) + " does"
+             : skeleton.find("body") >= 0     ? "; the trunk rocks"
+                                              : ""}};
+  }
+  // Bones of a clip that lets none stay where they were drawn turn all the way, and the flesh that hangs on
+  // them.
+  const auto follows = [&](const std::string& side, double kept, double least_share) {
+    return armTravel(clip, side, heldShare(kept)) >= least_share * armTravel(clip, side) &&
+           !isStump(shape, skeleton.find(side + "elbow"));
+  };
+  std::vector<ArmStay> stays;
+  for (const std::string side : {"left_", "right_"})
+    if (const double kept = keptArm(skeleton, shape, side);
+        armTravel(clip, side) > kMoves_rad && kept > kStays && !follows(side, kept, heldShare(kStays))) {
+      const bool in_part = follows(side, kept, kInPart);
+      stays.push_back({"the " + named(side) + " is one piece with the body and " +
+                           (in_part ? "follows " : "does not follow "),
+                       in_part ? " only in part" : ""});
+    }
+  return stays;
+}
+
 }  // namespace
 
 double keptArm(const Skeleton& skeleton, const FigureShape& shape, const std::string& side) {
@@ -100,31 +137,21 @@ Clip asItCan(const Clip& clip, const Skeleton& skeleton, const FigureShape& shap
   return skeleton.find("body") >= 0 ? rocking(clip, skeleton, side) : clip;
 }
 
-std::vector<std::string> armsThatStay(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape) {
-  constexpr double kMoves_rad = 0.3, kStays = 0.5, kInPart = 1. / 3;
-  if (isRelativeTo(clip, skeleton)) return {};
-  const auto named = [](const std::string& side) { return side.substr(0, side.size() - 1) + " arm"; };
-  const std::string quoted = '"' + clip.name + '"', cannot = armThatCannot(clip, skeleton, shape);
-  if (!cannot.empty() && armTravel(clip, cannot) > kMoves_rad) {
-    const std::string stays = "the " + named(cannot) + " cannot be moved well and does not do " + quoted;
-    if (showsArm(skeleton, shape, acrossFrom(cannot)))
-      return {stays + "; the " + named(acrossFrom(cannot)) + " does"};
-    return {stays + (skeleton.find("body") >= 0 ? "; the trunk rocks" : "")};
-  }
-  // Bones of a clip that lets none stay where they were drawn turn all the way, and the flesh that hangs on
-  // them.
-  const auto follows = [&](const std::string& side, double kept, double least_share) {
-    return armTravel(clip, side, heldShare(kept)) >= least_share * armTravel(clip, side) &&
-           !isStump(shape, skeleton.find(side + "elbow"));
-  };
-  std::vector<std::string> stay;
-  for (const std::string side : {"left_", "right_"})
-    if (const double kept = keptArm(skeleton, shape, side);
-        armTravel(clip, side) > kMoves_rad && kept > kStays && !follows(side, kept, heldShare(kStays)))
-      stay.push_back("the " + named(side) + " is one piece with the body and " +
-                     (follows(side, kept, kInPart) ? "follows " + quoted + " only in part"
-                                                   : "does not follow " + quoted));
-  return stay;
+std::vector<std::string> armsThatStay(std::span<const Clip> clips, const Skeleton& skeleton,
+                                      const FigureShape& shape) {
+  std::vector<ArmStay> stays;
+  std::vector<std::vector<std::string>> names;  // of clips, quoted, for each
+  for (const Clip& clip : clips)
+    for (ArmStay& stay : staysIn(clip, skeleton, shape)) {
+      const auto same = std::find(stays.begin(), stays.end(), stay);
+      const auto at = std::size_t(same - stays.begin());
+      if (same == stays.end()) stays.push_back(std::move(stay)), names.emplace_back();
+      names[at].push_back('"' + clip.name + '"');
+    }
+  std::vector<std::string> clauses;
+  for (std::size_t i = 0; i < stays.size(); ++i)
+    clauses.push_back(stays[i].before + joined(names[i]) + stays[i].after);
+  return clauses;
 }
 
 }  // namespace skel

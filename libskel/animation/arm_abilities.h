@@ -2,6 +2,7 @@
 #pragma once
 
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,10 @@
 
 namespace skel {
 
-// What the figure's arms do not do of the clip, which is for the canonical pose: a clause an arm, for the
-// user.
-std::vector<std::string> armsThatStay(const Clip& clip, const Skeleton& skeleton, const FigureShape& shape);
+// What the figure's arms do not do of the clips that are for the canonical pose, for the user: one clause for
+// all clips of which the same is to be said.
+std::vector<std::string> armsThatStay(std::span<const Clip> clips, const Skeleton& skeleton,
+                                      const FigureShape& shape);
 
 // Of arms, sides are "left_" and "right_".
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "libskel/animation/arm_abilities.h"
 #include "libskel/animation/joint_roles.h"
 #include "libskel/animation/plant_feet.h"
 #include "libskel/animation/sample_pose.h"
@@ -578,6 +579,7 @@ RetargetedMotion retargetMotion(const BvhMotion& given, const std::string& file,
   options.into_picture = mapping.same_names ? 0 : asked.into_picture;
   options.aslant = true;
   options.thin_keys = false;
+  result.arms_that_stay = armsThatStay({&clip, 1}, target, shape);
   result.clip = retargetToRest(clip, target, options);
   standOnGround(source, !mapping.same_names, target, shape, scale, result.clip);
   checkFinite(result.clip);

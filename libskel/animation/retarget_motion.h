@@ -19,6 +19,7 @@ struct JointMatch {
 struct RetargetedMotion {
   Clip clip;  // relative to the target's rest pose
   JointMatch match;
+  std::vector<std::string> arms_that_stay;  // armsThatStay()
 };
 
 struct MotionOptions {

@@ -87,9 +87,8 @@ std::vector<Note> armNotes(const RiggedCharacter& character, const std::vector<C
   std::vector<Note> notes;
   if (clips.empty()) return notes;
   const FigureShape shape = measureFigure(character.mesh, character.weights, character.skeleton);
-  for (const Clip& clip : clips)
-    for (std::string& clause : armsThatStay(clip, character.skeleton, shape))
-      notes.push_back({std::move(clause)});
+  for (std::string& clause : armsThatStay(clips, character.skeleton, shape))
+    notes.push_back({std::move(clause)});
   return notes;
 }
 

@@ -265,6 +265,7 @@ SkeletonSource readSkeletonSource(const std::string& path) {
     source.found_outline_sha256 = source.mask ? figure.found_sha256 : figure.sha256;
     source.number = figure.number;
   }
+  if (const auto warnings = root.find("warnings")) source.warnings = textsAt(*warnings, kMostWarnings);
   return source;
 }
 

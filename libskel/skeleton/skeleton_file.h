@@ -79,6 +79,7 @@ struct SkeletonSource {
   int number = 1;                         // of the figure
   std::optional<SkeletonFile::Mask> mask, limbs;
   std::optional<SkeletonFile::Labels> labels;
+  std::vector<std::string> warnings;  // of what was found
 };
 
 // Of the skeleton file at `path`. Throws InputError.

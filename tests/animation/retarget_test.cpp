@@ -601,24 +601,24 @@ TEST_CASE(
   FigureShape shape = shapeOfBones(skeleton);
   shape.joined.assign(skeleton.joints.size(), 0);
   shape.taken.assign(skeleton.joints.size(), 1);
-  CHECK(armsThatStay(walk, skeleton, shape).empty());
-  CHECK(armsThatStay(wave, skeleton, shape).empty());
+  const auto staying = [&](const Clip& clip) { return armsThatStay({&clip, 1}, skeleton, shape); };
+  CHECK(staying(walk).empty());
+  CHECK(staying(wave).empty());
   for (const char* joint : {"left_shoulder", "left_elbow", "left_hand"})
     shape.joined[skeleton.index(joint)] = 1;
-  CHECK(armsThatStay(walk, skeleton, shape) ==
+  CHECK(staying(walk) ==
         std::vector<std::string>{"the left arm is one piece with the body and does not follow \"walk\""});
   // One that is not all one piece with it moves by more than a third.
   shape.joined[skeleton.index("left_elbow")] = kGrownArm - 0.07F;
-  CHECK(
-      armsThatStay(walk, skeleton, shape) ==
-      std::vector<std::string>{"the left arm is one piece with the body and follows \"walk\" only in part"});
+  CHECK(staying(walk) == std::vector<std::string>{
+                             "the left arm is one piece with the body and follows \"walk\" only in part"});
   shape.joined[skeleton.index("left_elbow")] = 1;
   // One whose bones must turn takes the flesh along that hangs on them, if there is any.
   Clip swing = walk;
   for (JointTrack& track : swing.tracks) track.slack_rad = 0;
-  CHECK(armsThatStay(swing, skeleton, shape).empty());
+  CHECK(staying(swing).empty());
   shape.taken[skeleton.index("left_elbow")] = 0.3;
-  CHECK(armsThatStay(swing, skeleton, shape).size() == 1);
+  CHECK(staying(swing).size() == 1);
   shape.taken[skeleton.index("left_elbow")] = 1;
   Clip left = wave;
   for (JointTrack& track : left.tracks)
@@ -627,7 +627,7 @@ TEST_CASE(
         track.joint = std::string("left_") + part;
       else if (track.joint == std::string("left_") + part)
         track.joint = std::string("right_") + part;
-  const auto said = armsThatStay(left, skeleton, shape), other = armsThatStay(wave, skeleton, shape);
+  const auto said = staying(left), other = staying(wave);
   const std::string cannot = "the left arm cannot be moved well and does not do \"wave\"; the right arm does";
   CHECK(std::count(said.begin(), said.end(), cannot) + std::count(other.begin(), other.end(), cannot) == 1);
 }

@@ -454,8 +454,8 @@ TEST_CASE("a clip with a misspelt joint is no film, and the joint is named") {
   for (const std::string& file : filesBelow(dir.file("films"))) CHECK(file.find("flop") == file.npos);
 }
 
-TEST_CASE("a clip of one's own that an arm cannot do is named with the arm") {
-  const TempDir dir;
+// With arms that are one piece with the body.
+std::string grownFigureFile(const TempDir& dir) {
   RiggedCharacter grown = figure();
   const int body = grown.skeleton.find("body");
   for (const char* joint :
@@ -464,6 +464,12 @@ TEST_CASE("a clip of one's own that an arm cannot do is named with the arm") {
                                .select(std::uint16_t(body), grown.weights.joints.array());
   const std::string model = dir.file("grown.glb");
   writeFile(model, encodeGlb(grown, {}));
+  return model;
+}
+
+TEST_CASE("a clip of one's own that an arm cannot do is named with the arm") {
+  const TempDir dir;
+  const std::string model = grownFigureFile(dir);
   writeFile(dir.file("clips/attack.clip.json"),
             R"({"format": "skel-clip", "version": 1, "name": "attack", "template": "biped", "tracks": [
       {"joint": "left_shoulder", "bone": [0, -1, 0], "angles_deg": [[0, 0, 0, 0], [1, 0, 0, 90]]},
@@ -477,7 +483,21 @@ TEST_CASE("a clip of one's own that an arm cannot do is named with the arm") {
       CHECK_THAT(run.err, Contains(model + ": note: the " + std::string(arm) +
                                    " arm is one piece with the body and does not follow \"attack\""));
   }
-  CHECK(render(model + " --clips walk" + film).err == "");
+}
+
+TEST_CASE("a motion that arms cannot do was named of clip files, not of BVH files and not of skel's own") {
+  const TempDir dir;
+  const std::string model = grownFigureFile(dir),
+                    films = " --fps 4 --size 16 --format gif -o " + dir.file("films/");
+  const std::string piece = model + ": note: the left arm is one piece with the body and does not follow ";
+  const ToolRun own = render(model + " --clips walk,cheer,idle" + films);
+  CHECK(own.exit_code == 0);
+  CHECK_THAT(own.err, Contains(piece + "\"walk\", \"cheer\"\n"));
+  const ToolRun wave = render(model + " --clips wave" + films);
+  CHECK_THAT(wave.err, Contains(" arm cannot be moved well and does not do \"wave\"; the trunk rocks\n"));
+  const std::string recorded = SKEL_SOURCE_DIR "/tests/data/motions/mixamo.bvh";
+  CHECK_THAT(render(model + " --clips " + recorded + films).err, Contains(" arm "));
+  CHECK(render(figureFile(dir) + " --clips walk,cheer," + recorded + films).err == "");
 }
 
 TEST_CASE("a broken clip file beside the one that is used is one note, an unknown template is said") {

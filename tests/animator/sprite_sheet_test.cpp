@@ -346,9 +346,39 @@ TEST_CASE("a sheet that was turned by --angle was turned back by the next run wi
       kDrawing + " --clips idle --frames 1 --size 24 --directions 4 --sheet " + dir.file("a.png");
   CHECK(render(made + " --angle 270").err == "");
   CHECK(Json::parse(readFile(dir.file("a.json")))["meta"]["skel"]["angleDeg"] == 270);
-  CHECK(render(made).err == "cap_boy: note: the sheet before was turned by --angle 270, this one by 0\n");
+  CHECK(render(made).err ==
+        "cap_boy: note: the sheet before was turned by --angle 270, this one by 0; --angle cap_boy=270 "
+        "turns it as before\n");
   CHECK_FALSE(Json::parse(readFile(dir.file("a.json")))["meta"]["skel"].contains("angleDeg"));
   CHECK(render(made).err == "");
+}
+
+TEST_CASE("of sheets of several drawings, one alone is turned") {
+  const TempDir dir;
+  for (const char* name : {"ann.png", "ben.png"}) writeFile(dir.file(name), readFile(kDrawing));
+  const std::string made = dir.file("ann.png") + " " + dir.file("ben.png") +
+                           " --clips idle --frames 1 --size 24 --directions 4 --sheet " + dir.file("s/");
+  const auto angleOf = [&](const char* name) {
+    const Json skel = Json::parse(readFile(dir.file(std::string("s/") + name + ".json")))["meta"]["skel"];
+    return skel.contains("angleDeg") ? skel["angleDeg"].get<double>() : 0;
+  };
+  REQUIRE(render(made + " --angle ben=-90").exit_code == 0);
+  CHECK(angleOf("ann") == 0);
+  CHECK(angleOf("ben") == -90);
+  CHECK(readFile(dir.file("s/ann.png")) != readFile(dir.file("s/ben.png")));
+  REQUIRE(render(made + " --angle 20,ben=-90,ann=30").exit_code == 0);
+  CHECK(angleOf("ann") == 30);
+  CHECK(angleOf("ben") == -90);
+  REQUIRE(render(made + " --angle ben=30 --angle 30").exit_code == 0);
+  CHECK(readFile(dir.file("s/ann.png")) == readFile(dir.file("s/ben.png")));
+  for (const auto& [angle, problem] :
+       {std::pair("cat=90", "--angle: no drawing of this run is called \"cat\""),
+        std::pair("ben=nan", "--angle: Value nan not in range [-360 - 360]"),
+        std::pair("ben=", "--angle: Value  not in range [-360 - 360]")}) {
+    const ToolRun run = render(made + " --angle " + angle);
+    CHECK(run.exit_code == 1);
+    CHECK(run.err == "skel-animate: " + std::string(problem) + "\n");
+  }
 }
 
 TEST_CASE("one drawing changed the scale of all sheets, of those that were there too, without a word") {

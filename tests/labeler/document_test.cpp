@@ -842,6 +842,26 @@ TEST_CASE("a step in the window overwrote what a script had written into the lab
   }
 }
 
+TEST_CASE("what the last run was unsure of is known of a picture, not of one that took its name since") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path(), false);
+  copyCharacter("runner", dir.path(), false);
+  SkeletonFile file;
+  file.image_file = "../cap_boy.png";
+  file.image_sha256 = sha256(readFile(dir.file("cap_boy.png")));
+  file.image_width = file.image_height = 600;
+  file.skeleton = presetSkeleton(loadTemplate("biped"), {150, 50}, {450, 550});
+  file.warnings = {"some joints may be wrong, look at them"};
+  writeFile(dir.file("out/cap_boy.skeleton.json"), formatSkeletonFile(file));
+  Document document(dir.path(), documentOptions());
+  REQUIRE(document.items().size() == 2);
+  CHECK(document.doubts(0) == file.warnings);
+  CHECK(document.doubts(1).empty());
+  writeFile(dir.file("cap_boy.png"), readFile(dir.file("runner.png")));
+  document.lookAgain();
+  CHECK(document.doubts(0).empty());
+}
+
 TEST_CASE("a step in the window overwrote what a script had written into the skeleton file meanwhile") {
   const TempDir dir;
   fs::copy(kCharacters + "cap_boy.png", dir.file("cap_boy.png"));
