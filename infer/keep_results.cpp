@@ -127,6 +127,7 @@ DrawingResult rigAndKeep(const InferOptions& options, const RigOptions& rig, Ori
     DrawingResult kept = *earlier;
     if (!kept.problem.empty()) kept.error = job.source + ": " + kept.problem;
     kept.source = job.source;
+    kept.image_sha256 = origin.image;
     kept.kept = true;
     for (FigureResult& figure : kept.figures) figure.mend_file = fileToMend(options, job, figure.number);
     progress.advance();

@@ -48,7 +48,7 @@ void CanvasView::zoomAround(const ImVec2& screen, double factor) {
 }
 
 void CanvasView::growBrush(double factor) {
-  brush_screen_px_ = std::clamp(brush_screen_px_ * factor, 2.0, 300.0);
+  brush_screen_px_ = std::clamp(brush_screen_px_ * factor, kLeastBrush_px, kMostBrush_px);
 }
 
 void CanvasView::select(int candidate) {

@@ -15,6 +15,7 @@ namespace skel {
 // The last three are for the candidates' classes.
 enum class Tool { kJoints, kMask, kLimbs, kTouch, kBrush, kLasso };
 inline constexpr int kToolCount = 6;
+inline constexpr double kLeastBrush_px = 2, kMostBrush_px = 300;  // screen, radius
 
 class CanvasView {
  public:
@@ -26,6 +27,7 @@ class CanvasView {
   void fit() { fitted_ = false; }
   void zoom(double factor) { zoomAround(view_center_, factor); }
   void growBrush(double factor);
+  double& brushRadius() { return brush_screen_px_; }  // screen px
   // The candidate that keys speak of: what the mouse touched last, or what was chosen by select().
   int selected() const { return selected_; }
   bool chosen() const { return selected_ >= 0 && !touched_; }  // by select()
@@ -34,6 +36,8 @@ class CanvasView {
   void followMoved(int places) {
     if (shown_item_ >= 0) shown_item_ += places;
   }
+  // While a stroke is painted or a joint dragged.
+  bool isDrawing() const { return stroke_ || dragged_joint_ >= 0; }
   // Ends a stroke that has not ended yet, so that other steps can follow.
   void cancel();
 
@@ -80,7 +84,7 @@ class CanvasView {
   bool fitted_ = false;
   double zoom_ = 1;                                      // screen px per image px
   Eigen::Vector2d middle_px_ = Eigen::Vector2d::Zero();  // image point in the middle of the view
-  double brush_screen_px_ = 26;
+  double brush_screen_px_ = 26;                          // radius
 
   int selected_ = -1;
   bool touched_ = false;  // by the mouse, not by select()

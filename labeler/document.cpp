@@ -745,28 +745,45 @@ void Document::takeModel() {
   for (size_t j = 0; j < state_.joints.size(); ++j)
     if (state_.joints[j] && state_.joints[j]->origin == JointOrigin::kEdited)
       input.placed.emplace_back(bodyPlan().joints[j].name, state_.joints[j]->image);
-  try {
-    rig_.setInput(std::move(input));
-    rig_.setOptions(rigOptions());
-    std::shared_ptr<const RiggedDrawing> rigged = rig_.rigged();
-    if (!rigged->found()) {
-      message_ = rigged->silhouette.reason;
-      return;
-    }
-    rigged_ = std::move(rigged);
-  } catch (...) {
-    message_ = caughtError(item().files.image).what();
-    return;
-  }
+  if (!build(std::move(input))) return;
   if (rigged_->body_plan.name != state_.body_plan) setBodyPlan(rigged_->body_plan.name);
   takeJoints(rigged_->recognition.skeleton, bodyPlan(), state_.joints);
-  if (!state_.layers) found_layers_ = std::make_shared<LayerMap>(rigged_->layers);
   const std::vector<std::string>& missing = rigged_->recognition.missing;
   message_ = "rigged";
   if (!missing.empty()) message_ += ": look at " + missing.front();
   if (missing.size() == 2) message_ += " and " + missing.back();
   if (missing.size() > 2) message_ += " and " + std::to_string(missing.size() - 1) + " other joints";
   std::replace(message_.begin(), message_.end(), '_', ' ');
+}
+
+bool Document::build(RigInput input) {
+  try {
+    rig_.setInput(std::move(input));
+    rig_.setOptions(rigOptions());
+    std::shared_ptr<const RiggedDrawing> rigged = rig_.rigged();
+    if (!rigged->found()) {
+      message_ = rigged->silhouette.reason;
+      return false;
+    }
+    rigged_ = std::move(rigged);
+  } catch (...) {
+    message_ = caughtError(item().files.image).what();
+    return false;
+  }
+  if (!state_.layers) found_layers_ = std::make_shared<LayerMap>(rigged_->layers);
+  return true;
+}
+
+void Document::rigAsItIs() {
+  if (image_.empty()) return;
+  RigInput input = rigInput();
+  for (size_t j = 0; j < state_.joints.size(); ++j) {
+    const TemplateJoint& joint = bodyPlan().joints[j];
+    if (!state_.joints[j]) return;
+    if (!joint.derived || state_.joints[j]->origin == JointOrigin::kEdited)
+      input.placed.emplace_back(joint.name, state_.joints[j]->image);
+  }
+  build(std::move(input));
 }
 
 template <class Travel>

@@ -143,7 +143,10 @@ class Document {
   // Recognises the joints anew, but for those that a person has placed, and builds the model. Says why where
   // that cannot be done.
   void rig();
-  // The model of the last rig(), until picture, mask, joints or painted limbs change; else null.
+  // Builds the model of the joints as they are, all of which are known. No step.
+  void rigAsItIs();
+  // The model of the last rig() or rigAsItIs(), until picture, mask, joints or painted limbs change; else
+  // null.
   const std::shared_ptr<const RiggedDrawing>& rigged() const { return rigged_; }
 
   void beginStep();
@@ -205,6 +208,7 @@ class Document {
   bool dropOutdatedSteps();
   // Says why where it does not.
   void takeModel();
+  bool build(RigInput input);                 // the same, of the model alone
   void setBodyPlan(const std::string& name);  // with no joints
   // Of the files of a drawing, if they say it; "" where they do not, or say one that is not asked for.
   std::string planOfFiles() const;

@@ -122,6 +122,7 @@ class LabelingWindow {
     drawTools();
     const ImVec2 corner = ImGui::GetCursorPos();
     canvas_.draw();
+    keepModel();
     if (document_.image().empty()) drawProblem(corner);
     ImGui::EndChild();
     ImGui::SameLine();
@@ -148,6 +149,7 @@ class LabelingWindow {
     if (moved == 0) return;
     canvas_.followMoved(moved);
     if (seen_ >= 0) seen_ += moved;
+    if (modelled_ >= 0) modelled_ += moved;
     scroll_to_current_ = true;
   }
 
@@ -243,6 +245,17 @@ class LabelingWindow {
     canvas_.cancel();
     forget ? document_.rigAnew() : document_.rig();
     preview_.play();
+  }
+
+  // Whoever has seen the model sees what a joint or a limb makes of it.
+  void keepModel() {
+    if (document_.rigged()) {
+      modelled_ = document_.current();
+    } else if (modelled_ == document_.current() && !canvas_.isDrawing() &&
+               (canvas_.tool == Tool::kJoints || canvas_.tool == Tool::kLimbs)) {
+      document_.rigAsItIs();
+      if (!document_.rigged()) modelled_ = -1;
+    }
   }
 
   void askOpen() {
@@ -506,6 +519,14 @@ class LabelingWindow {
     button("Animal", "quadruped");
   }
 
+  void drawBrushSize(float width) {
+    constexpr double kLeast = kLeastBrush_px, kMost = kMostBrush_px;
+    ImGui::SetNextItemWidth(width);
+    ImGui::SliderScalar("##brush", ImGuiDataType_Double, &canvas_.brushRadius(), &kLeast, &kMost,
+                        "brush %.0f px", ImGuiSliderFlags_Logarithmic);
+    tip("Its radius on the screen  (keys [ and ])");
+  }
+
   void drawMask(float width) {
     const float half = (width - 8) / 2;
     if (colorButton("Add", {half, kButtonHeight}, {30, 140, 60}, canvas_.mask_adds)) canvas_.mask_adds = true;
@@ -514,6 +535,7 @@ class LabelingWindow {
     if (colorButton("Erase", {half, kButtonHeight}, {210, 50, 40}, !canvas_.mask_adds))
       canvas_.mask_adds = false;
     tip("With the left button; the right one adds  (key X)");
+    drawBrushSize(width);
     enabledButton(
         "Right as it is", {width, kButtonHeight}, document_.figure().silhouette.found(),
         [&] { acceptMask(); }, "Keep it, and do not ask again  (key Enter)");
@@ -538,6 +560,7 @@ class LabelingWindow {
         canvas_.layer_brush = brushes[b];
       if (name.find(',') != std::string::npos) tip(name.c_str());
     }
+    drawBrushSize(width);
     enabledButton(
         "Limbs from the picture", {width, kButtonHeight}, document_.state().layers != nullptr,
         [&] {
@@ -655,6 +678,7 @@ class LabelingWindow {
   std::unique_ptr<Document> opened_;
   Tool class_tool_ = Tool::kTouch;  // the last one used
   int seen_ = -1;                   // the last drawing whose joints were wanted
+  int modelled_ = -1;               // the last drawing whose model was shown
   bool help_ = false;
   bool losing_ = false;            // asks whether the last step may be lost
   bool looks_for_doubts_ = false;  // there are rows of which it is not known yet

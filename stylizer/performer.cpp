@@ -88,6 +88,9 @@ Rigged rigPerformer(const std::string& path, const MendedSource& mended) {
 }  // namespace
 
 Performer readPerformer(const std::string& path, const MendedSource& mended) {
+  if (!mended.results.empty() && (path.ends_with(".glb") || path.ends_with(kSkeletonFileEnding)))
+    throw UsageError("--results is of a drawing, whose mended joints are looked for there; " + path +
+                     " has its own: leave --results out");
   if (path.ends_with(".glb")) return seenFromTheFront(path);
   Rigged rigged = rigPerformer(path, mended);
   RiggedDrawing& drawing = rigged.drawing;

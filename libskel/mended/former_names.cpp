@@ -87,6 +87,16 @@ void addSkeleton(const std::string& path, const MendRequest& request, std::vecto
   place.result = source;
 }
 
+// When a person or a run wrote there last.
+fs::file_time_type lastWritten(const FormerPlace& former) {
+  fs::file_time_type last = fs::file_time_type::min();
+  for (const std::string& path : {former.place.results + kSkeletonFileEnding, former.labels}) {
+    std::error_code not_there;
+    if (const auto time = fs::last_write_time(path, not_there); !not_there) last = std::max(last, time);
+  }
+  return last;
+}
+
 std::vector<fs::path> foldersOf(const MendRequest& request) {
   std::vector<fs::path> folders;
   const fs::path drawing = fs::path(request.source).lexically_normal(), beside = drawing.parent_path();
@@ -167,6 +177,9 @@ std::vector<FormerPlace> formerPlaces(const MendRequest& request, const std::vec
       else
         addSkeleton(path, request, here);
     }
+    std::stable_sort(here.begin(), here.end(), [](const FormerPlace& a, const FormerPlace& b) {
+      return lastWritten(a) > lastWritten(b);
+    });
     for (FormerPlace& place : here) {
       if (isKnown(place.place.made)) continue;
       place.place.is_beside = wholePath(folder) == wholePath(beside);

@@ -40,7 +40,8 @@ struct FormerPlace {
 };
 
 // Those whose picture is gone under that name, or is this one: in the folders of mendPlaces(), `places`, and
-// below request.out_dir, where a run that named its drawings otherwise may have written.
+// below request.out_dir, where a run that named its drawings otherwise may have written. Of a folder those
+// that were written last come first.
 std::vector<FormerPlace> formerPlaces(const MendRequest& request, const std::vector<MendPlace>& places);
 
 // A label file beside the drawing of that hash, made when it was called otherwise, and not blank; "": none.

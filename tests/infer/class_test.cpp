@@ -86,6 +86,8 @@ TEST_CASE("a photo that lay in a class under two names was rigged twice without 
   writeFile(dir.file("class/Mia.png"), encodePng(capsuleImage({.size = 200})));
   CHECK_THAT(infer(dir, "class --formats json").err,
              Contains("note: the very same picture twice: class/Finn.png (as class/Ben.png)\n"));
+  CHECK_THAT(infer(dir, "class --formats json --resume").err,
+             Contains("note: the very same picture twice: class/Finn.png (as class/Ben.png)\n"));
 }
 
 TEST_CASE("films in a folder of drawings were rigged as drawings") {

@@ -1,4 +1,5 @@
 // What a person has mended is taken up by the next run by itself, and what skel wrote is not taken for it.
+#include <chrono>
 #include <filesystem>
 #include <map>
 
@@ -1143,6 +1144,25 @@ TEST_CASE("a picture that was renamed after joints of its skeleton were moved le
   CHECK_THAT(infer(dir, "in/ben.png" + options).err,
              Contains(kTakenUp + std::string("1 joint (") + results + "/ben.skeleton.json)\n"));
   CHECK(placeIn(dir, "left_hand", old_name)[0] == 420.5);
+}
+
+TEST_CASE("of two former names of a picture the first in the alphabet counted, not what was mended last") {
+  const TempDir dir;
+  for (const auto& [name, place] : {std::pair("ann", "420.5"), std::pair("zoe", "430.5")}) {
+    const std::string picture = std::string("in/") + name + ".png";
+    writeFile(dir.file(picture), readFile(kDrawing));
+    REQUIRE(infer(dir, picture).exit_code == 0);
+    moveInFile(dir, "left_hand", place, std::string("out/") + name + ".skeleton.json");
+    fs::remove(dir.file(picture));
+  }
+  writeFile(dir.file("in/ben.png"), readFile(kDrawing));
+  const auto [newer, older] = GENERATE(table<std::string, std::string>({{"ann", "zoe"}, {"zoe", "ann"}}));
+  const auto now = fs::file_time_type::clock::now();
+  fs::last_write_time(dir.file("out/" + newer + ".skeleton.json"), now);
+  fs::last_write_time(dir.file("out/" + older + ".skeleton.json"), now - std::chrono::hours(1));
+  CHECK_THAT(infer(dir, "in/ben.png").err,
+             Contains("1 joint (out/" + newer + ".skeleton.json, made when the picture was called " + newer +
+                      ".png)\n"));
 }
 
 TEST_CASE(

@@ -842,6 +842,34 @@ TEST_CASE("a step in the window overwrote what a script had written into the lab
   }
 }
 
+TEST_CASE("a joint that is dragged in the window is seen in the model, and no other joint moves") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.file("cap_boy.png"), documentOptions());
+  document.rigAsItIs();
+  CHECK_FALSE(document.rigged());  // no joint is known yet
+  document.rig();
+  REQUIRE(document.rigged());
+  const auto hand = static_cast<size_t>(document.bodyPlan().find("left_hand"));
+  const DrawingJoints before = document.state().joints;
+  document.moveJoint(static_cast<int>(hand), before[hand]->image + Eigen::Vector2d(-30, 20));
+  const DrawingJoints moved = document.state().joints;
+  CHECK_FALSE(document.rigged());
+  document.rigAsItIs();
+  REQUIRE(document.rigged());
+  CHECK(document.state().joints == moved);
+  const Skeleton& skeleton = document.rigged()->recognition.skeleton;
+  for (size_t j = 0; j < moved.size(); ++j) {
+    const TemplateJoint& joint = document.bodyPlan().joints[j];
+    if (joint.derived) continue;
+    const Eigen::Vector2d shown = skeleton.joints[static_cast<size_t>(skeleton.index(joint.name))].image;
+    CHECK((shown - moved[j]->image).norm() < 0.01);
+    CHECK((j == hand || moved[j]->image == before[j]->image));
+  }
+  REQUIRE(document.undo());
+  CHECK(document.state().joints == before);
+}
+
 TEST_CASE("what the last run was unsure of is known of a picture, not of one that took its name since") {
   const TempDir dir;
   copyCharacter("cap_boy", dir.path(), false);

@@ -232,6 +232,11 @@ TEST_CASE("what was mended of a drawing was left out of its films in another sty
   const std::string found = film("");
   CHECK(film("--results rigged") != found);
   CHECK(film("--results rigged --force") == found);
+  const ToolRun own = runTool(in_folder + "skel-style render --character " + skeleton +
+                              " --motion a.motion.json --size 64 -o film.gif --results rigged");
+  CHECK(own.exit_code == 1);
+  CHECK(own.err == "skel-style: --results is of a drawing, whose mended joints are looked for there; " +
+                       skeleton + " has its own: leave --results out\n");
 }
 
 TEST_CASE("the background of a model, which has none, was black where it was to be kept") {
