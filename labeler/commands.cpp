@@ -70,6 +70,15 @@ std::string namesOf(const std::set<std::string>& folders) {
   return joined(names) + (more > 0 ? " and " + std::to_string(more) + " more folders" : "");
 }
 
+void noteWithoutLimb(const ImportCounts& counts) {
+  for (const auto& [limb, files] : counts.without_limb)
+    std::fprintf(stderr,
+                 "skel-label: note: %s: no candidate is of the class %s, though all joints of %s are placed: "
+                 "where it does not lie before the body, look at the mask\n",
+                 firstAndMore(files).c_str(), kJointClassNames[static_cast<std::size_t>(limb)],
+                 limb == JointClass::kHand ? "an arm" : "a leg");
+}
+
 Mlp mlpOf(const LabelerOptions& options) {
   return options.weights.empty() ? defaultMlp() : readMlp(options.weights);
 }
@@ -186,6 +195,7 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
         noteUnknownJoints(counts);
         if (!counts.outside_mask.empty())
           std::fprintf(stderr, "skel-label: note: %s\n", firstAndMore(counts.outside_mask).c_str());
+        noteWithoutLimb(counts);
         if (counts.made > 0)
           print(std::to_string(counts.joints_placed) + " joints placed, " +
                 std::to_string(counts.joints_found) + " found" +

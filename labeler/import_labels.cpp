@@ -197,6 +197,19 @@ int droppedClasses(const LabelFile& labels, const LabelFile& before) {
   return dropped;
 }
 
+// What the labels say that can hardly be of this figure.
+void countOutside(const std::string& label_path, const LabelFile& labels,
+                  const std::optional<std::string>& mask, const SkeletonTemplate& body_plan,
+                  ImportCounts& counts) {
+  std::string outside = mask ? jointsOutsideMask(labels, body_plan, *mask) : "";
+  if (outside.empty() && labels.hasPlacedJoint())
+    outside = jointFarOutsideFigure(labels,
+                                    silhouetteOf(besideLabelFile(label_path, labels.image.file), mask).mask);
+  if (!outside.empty()) counts.outside_mask.push_back(label_path + ": " + outside);
+  if (const auto limb = classWithoutCandidate(labels, body_plan))
+    counts.without_limb[*limb].push_back(label_path);
+}
+
 // Whether a label file was made.
 bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, const BodyPlans& plans,
                    const ImportOptions& options, ImportCounts& counts) {
@@ -234,9 +247,7 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
   writeLabelFile(label_path, labels);
   countJoints(labels, body_plan, counts);
   countMissing(label_path, labels, body_plan, counts);
-  if (mask)
-    if (const std::string outside = jointsOutsideMask(labels, body_plan, *mask); !outside.empty())
-      counts.outside_mask.push_back(label_path + ": " + outside);
+  countOutside(label_path, labels, mask, body_plan, counts);
   const std::string folder = fs::path(label_path).lexically_normal().parent_path().string();
   counts.folders.insert(folder.empty() ? "." : folder);
   return true;

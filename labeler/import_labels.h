@@ -36,7 +36,9 @@ struct ImportCounts {
   std::set<std::string> missing_joints;  // of these
   std::size_t without_class = 0;         // candidates of these
   std::map<std::string, std::set<std::string>> unknown_joints;  // by annotation: names of none that is known
-  std::vector<std::string> outside_mask;                        // of those made: jointsOutsideMask()
+  std::vector<std::string> outside_mask;                        // of those made: jointsOutsideMask(), or
+                                                                // jointFarOutsideFigure()
+  std::map<JointClass, std::vector<std::string>> without_limb;  // of those made: classWithoutCandidate()
   std::vector<std::string> former;                              // of those made: as which file, in a sentence
   std::set<std::string> passed_over;     // files that we have exported, beside what they were made of
   std::set<std::string> folders;         // that those made lie in

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "libskel/image/read_image.h"
+#include "libskel/skeleton/outside_figure.h"
 
 namespace skel {
 namespace {
@@ -50,6 +51,38 @@ std::string jointsOutsideMask(const LabelFile& labels, const SkeletonTemplate& b
   if (outside < kFewestOutside || outside <= kMostOutside * known) return "";
   return std::to_string(outside) + " of " + std::to_string(known) + " joints lie outside the mask " +
          std::filesystem::path(mask_path).filename().string();
+}
+
+std::string jointFarOutsideFigure(const LabelFile& labels, const Plane8& mask) {
+  Skeleton placed;
+  for (const auto& [name, place] : labels.joints) {
+    if (!place || !labels.isPlaced(name)) continue;
+    Joint& joint = placed.joints.emplace_back();
+    joint.name = name;
+    joint.image = *place;
+  }
+  const Joint* far = jointFarOutside(placed, mask);
+  return far ? "joints." + far->name +
+                   ": lies far outside of the figure; place it on the figure, or, where that lacks a part, "
+                   "mend its mask (skel-label, key M)"
+             : "";
+}
+
+std::optional<JointClass> classWithoutCandidate(const LabelFile& labels, const SkeletonTemplate& body_plan) {
+  const auto isPlaced = [&](int joint) {
+    const std::string& name = body_plan.joints[static_cast<size_t>(joint)].name;
+    return labels.isPlaced(name) && std::any_of(labels.joints.begin(), labels.joints.end(),
+                                                [&](const auto& j) { return j.first == name && j.second; });
+  };
+  for (const TemplateLimb& limb : body_plan.limbs) {
+    const auto isOther = [&](const std::optional<JointClass>& label) {
+      return label && *label != limb.limb_class;
+    };
+    if (std::all_of(limb.joints.begin(), limb.joints.end(), isPlaced) &&
+        std::all_of(labels.labels.begin(), labels.labels.end(), isOther))
+      return limb.limb_class;
+  }
+  return std::nullopt;
 }
 
 }  // namespace skel

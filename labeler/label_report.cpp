@@ -21,7 +21,6 @@
 #include "libskel/labels/label_folder.h"
 #include "libskel/labels/moved_in_skeleton.h"
 #include "libskel/labels/twins.h"
-#include "libskel/skeleton/outside_figure.h"
 
 namespace skel {
 namespace {
@@ -97,23 +96,6 @@ void checkMask(const std::string& path, const LabelFile& labels, const SkeletonT
   if (!mask) return;
   if (const std::string outside = jointsOutsideMask(labels, body_plan, *mask); !outside.empty())
     lines.push_back(path + ": mask: " + outside);
-}
-
-// By such a joint skel-infer rigs nothing, and candidates get the classes of what is not there.
-void checkOnFigure(const std::string& path, const LabelFile& labels, const Plane8& mask,
-                   std::vector<std::string>& lines) {
-  Skeleton placed;
-  for (const auto& [name, place] : labels.joints) {
-    if (!place || !labels.isPlaced(name)) continue;
-    Joint& joint = placed.joints.emplace_back();
-    joint.name = name;
-    joint.image = *place;
-  }
-  if (const Joint* far = jointFarOutside(placed, mask))
-    lines.push_back(
-        path + ": joints." + far->name +
-        ": lies far outside of the figure; place it on the figure, or, where that lacks a part, mend "
-        "its mask (skel-label, key M)");
 }
 
 void checkFigure(const std::string& path, const LabelFile& labels, const Silhouette& silhouette,
@@ -232,7 +214,8 @@ std::vector<std::string> checkLabels(const std::string& dir, const BodyPlans& pl
       checkRecognized(path, labels, lines);
       const Silhouette figure = labelledFigure(path, labels);
       checkFigure(path, labels, figure, lines);
-      checkOnFigure(path, labels, figure.mask, lines);
+      if (const std::string far = jointFarOutsideFigure(labels, figure.mask); !far.empty())
+        lines.push_back(path + ": " + far);
       checkMask(path, labels, planOf(labels.joints, plans), lines);
     } catch (const InputError& error) {
       lines.emplace_back(path + ": " + error.what());

@@ -14,6 +14,9 @@ inline constexpr double kHardlyOne = 0.5;
 // Of joints that were not found; "": all were.
 std::string missingNote(const std::vector<std::string>& missing);
 
+// Where that is not all.
+std::string doubtNote(const std::vector<std::string>& missing);
+
 // Of all; "": nothing.
 std::string jointNote(const Recognition& recognition, const std::string& body_plan);
 

@@ -214,8 +214,7 @@ Recognition recognizeByRules(const Silhouette& silhouette, const CandidateSet& c
   }
   recognition.confidence = confidence / recognized;
   recognition.likeness = 1;  // the rules take whatever they are given for a figure
-  if (const std::string note = jointNote(recognition, body_plan.name); !note.empty())
-    recognition.warnings.push_back(note);
+  recognition.warnings.push_back(doubtNote(recognition.missing));  // they don't tell how sure they are
   completeSkeleton(recognition.skeleton, found, body_plan, silhouette);
   return recognition;
 }
