@@ -25,6 +25,9 @@ namespace skel {
 namespace {
 namespace fs = std::filesystem;
 
+// Without "..", as far as that goes.
+std::string shownPath(const std::string& path) { return fs::path(path).lexically_normal().string(); }
+
 // Keys nearer than this are one.
 constexpr double kSameTime_s = 1e-3;
 
@@ -581,7 +584,7 @@ bool AnimationDocument::saveModel(const std::string& path) {
     options.generator = kWrittenByView;
     save(path, ".glb", encodeGlb(character(), clips, options));
     setSaved(path, clips);
-    return "saved " + path;
+    return "saved " + shownPath(path);
   });
 }
 
@@ -601,7 +604,7 @@ bool AnimationDocument::savePose(const std::string& path) {
   return attempt([&] {
     save(path, kPoseFileEnding, formatPose(state_.pose, skeleton()));
     saved_pose_ = state_.pose;
-    return "saved " + path;
+    return "saved " + shownPath(path);
   });
 }
 
@@ -686,9 +689,9 @@ bool AnimationDocument::saveClip(const std::string& path) {
       const StepScope step(*this);
       replaceKeys(named);
     }
-    if (!other_name) return "saved " + path;
-    return "saved " + path + "; the clip is " + (follows ? "now" : "still") + " called \"" + named.clip.name +
-           '"' + (hasOtherClip(name) ? ", as there is another \"" + name + '"' : "");
+    if (!other_name) return "saved " + shownPath(path);
+    return "saved " + shownPath(path) + "; the clip is " + (follows ? "now" : "still") + " called \"" +
+           named.clip.name + '"' + (hasOtherClip(name) ? ", as there is another \"" + name + '"' : "");
   });
 }
 
@@ -717,7 +720,7 @@ bool AnimationDocument::loadSkeleton(const std::string& path) {
 bool AnimationDocument::saveSkeleton(const std::string& path) {
   return attempt([&] {
     save(path, ".json", formatRig(skeleton()));
-    return "saved " + path;
+    return "saved " + shownPath(path);
   });
 }
 
@@ -735,7 +738,7 @@ bool AnimationDocument::loadWeights(const std::string& path) {
 bool AnimationDocument::saveWeights(const std::string& path) {
   return attempt([&] {
     save(path, ".weights.json", exportWeights({character(), clips(), {}}).front().bytes);
-    return "saved " + path;
+    return "saved " + shownPath(path);
   });
 }
 

@@ -27,7 +27,7 @@ void printMesh(const TriangleMesh& mesh) {
               numbered(mesh.triangles.rows(), "triangle").c_str(), numbered(parts.count, "part").c_str());
   std::printf("size: %g m wide, %g m high, %g m deep, from y = %g\n", static_cast<double>(high[0] - low[0]),
               static_cast<double>(high[1] - low[1]), static_cast<double>(high[2] - low[2]),
-              static_cast<double>(low[1]));
+              static_cast<double>(low[1]) + 0.0);  // not "-0"
   if (mesh.texture.empty()) {
     std::printf("texture: none\n");
   } else {

@@ -54,6 +54,10 @@ void bindCharacterOptions(CLI::App& app, CharacterSource& source) {
       ->capture_default_str();
   app.add_flag("--upright", source.upright,
                "The figure of a drawing is not turned: try no other orientations");
+  addNamedNumbers(
+      app, "--height", source.heights, zeroOrNumberIn(1e-3, 1e3),
+      "Of a drawing's model as it is drawn, m; of several, NAME=METRES is of one alone, with commas "
+      "in between: 1.7,dwarf=1.2 (default: 1.7, or 1.2 from end to end of an animal)");
   app.add_option("--skeleton", source.skeleton,
                  "The skeleton of a model (see skel-animate bind), or of a drawing: its .skeleton.json or "
                  ".labels.json, mended")
@@ -85,6 +89,7 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
   options.into_picture = clips.into_picture;
   options.silhouette.alpha = source.alpha;
   options.upright = source.upright;
+  options.height_m = source.heights(stemOf(source.path));
   const std::optional<SkeletonFile> given = givenSkeleton(source.skeleton, options);
   const std::string bytes = readFile(source.path);
   MendRequest request;
@@ -117,6 +122,8 @@ CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& cli
   }
   if (const std::string remedy = howToConvert(source.path); !remedy.empty())
     throw InputError(source.path, remedy);
+  if (source.heights(stemOf(source.path)) != 0)
+    throw UsageError("--height is of drawings; " + source.path + " has its own height: leave --height out");
   const bool rigged = endingOf(source.path) == ".glb";
   if (rigged && source.skeleton.empty()) return readGlb(source.path);
   if (!rigged && !fs::exists(source.path)) throw InputError(source.path, "does not exist");
@@ -196,8 +203,9 @@ Clip clipFor(const std::string& name_or_path, const RiggedCharacter& character,
     if (const std::string file = clipFileNamed(name_or_path, source); !file.empty())
       throw UsageError("there is no clip \"" + name_or_path + "\"; that of " + file + " is called \"" +
                        readClipFile(file).name + "\": ask for that, or change its \"name\"");
-  const std::string why =
-      fitting.empty() ? "; no clip of skel fits it: " + whyNoRoles(character.skeleton) : "";
+  std::string why = fitting.empty() ? "; no clip of skel fits it: " + whyNoRoles(character.skeleton) : "";
+  if (!source.clips_dir.empty() && !hasClip(library, name_or_path))
+    why += "; no clip file in " + source.clips_dir + " is called so";
   std::erase_if(fitting, [&](const Clip& clip) { return hasClip(own_clips, clip.name); });
   fitting.insert(fitting.begin(), own_clips.begin(), own_clips.end());
   try {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "animator/clip_source.h"
+#include "libskel/cli/named_numbers.h"
 #include "libskel/core/error.h"
 #include "libskel/import/read_character.h"
 #include "libskel/pipeline/drawing_notes.h"
@@ -28,14 +29,15 @@ struct CharacterSource {
   // Of a model (.obj): see readRigModel(). Of a drawing: a .skeleton.json or .labels.json of it.
   std::string skeleton = {};
   std::string up = "auto";
-  bool upright = false;      // the figure of a drawing is not turned: try no other orientations
-  std::string results = {};  // of a drawing: a folder that skel-infer has written to; "": none
-  bool force = false;        // leave out what was mended by hand
+  bool upright = false;       // the figure of a drawing is not turned: try no other orientations
+  NamedNumbers heights = {};  // of drawings, m; 0: the body plan's own
+  std::string results = {};   // of a drawing: a folder that skel-infer has written to; "": none
+  bool force = false;         // leave out what was mended by hand
   std::shared_ptr<FormerNames> former_names = {};  // of a run over many drawings
 };
 // FILE, and the options of the next one.
 void bindCharacterSource(CLI::App& app, CharacterSource& source);
-// --template, --alpha, --figure, --upright, --skeleton, --up, --results, --force.
+// --template, --alpha, --figure, --upright, --height, --skeleton, --up, --results, --force.
 void bindCharacterOptions(CLI::App& app, CharacterSource& source);
 
 // By the ending of the source's name.

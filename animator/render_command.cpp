@@ -272,10 +272,10 @@ void checkFiles(const RenderCommandOptions& options) {
       throw UsageError("--skeleton FILE is of one drawing, " + std::to_string(options.files.size()) +
                        " characters are named; give them one at a time");
   if (!options.together) checkNames(options.files);
-  for (const auto& [name, angle_deg] : options.angles.of)
-    if (std::none_of(options.files.begin(), options.files.end(),
-                     [&name = name](const std::string& path) { return stemOf(path) == name; }))
-      throw UsageError("--angle: no drawing of this run is called \"" + name + '"');
+  std::vector<std::string> names;
+  for (const std::string& path : options.files) names.push_back(stemOf(path));
+  requireNamed(options.angles, "--angle", names);
+  requireNamed(options.source.heights, "--height", names);
 }
 
 }  // namespace

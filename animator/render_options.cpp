@@ -58,35 +58,6 @@ CLI::Option* bindSheetOptions(CLI::App& app, CLI::Option* film, SheetOptions& op
   return sheet;
 }
 
-// Degrees, of all, or NAME=DEGREES.
-struct AngleWord {
-  std::string name, degrees;
-
-  explicit AngleWord(const std::string& word) {
-    const std::size_t equals = word.rfind('=');
-    if (equals != word.npos) name = word.substr(0, equals);
-    degrees = equals == word.npos ? word : word.substr(equals + 1);
-  }
-};
-
-CLI::Validator angleWord() {
-  return CLI::Validator(
-      [](const std::string& word) {
-        std::string degrees = AngleWord(word).degrees;
-        return numberIn(-360.0, 360.0)(degrees);
-      },
-      "", kNumberCheck);
-}
-
-ViewAngles anglesOf(const std::vector<std::string>& words) {
-  ViewAngles angles;
-  for (const std::string& text : words) {
-    const AngleWord word(text);
-    (word.name.empty() ? angles.of_others : angles.of[word.name]) = std::stod(word.degrees);
-  }
-  return angles;
-}
-
 }  // namespace
 
 void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
@@ -141,15 +112,10 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
   app.add_option("--size", options.size,
                  "WIDTHxHEIGHT, or one number for both, px (default: 512, of a film of several drawings "
                  "1920x1080, of a sheet's frames 64)");
-  app.add_option_function<std::vector<std::string>>(
-         "--angle", [&options](const std::vector<std::string>& words) { options.angles = anglesOf(words); },
-         "From where it is seen: 0 from the front, 90 from its left, degrees; of several, NAME=DEGREES is of "
-         "one alone, with commas in between: 0,cat=90 (default: 0)")
-      ->delimiter(',')
-      ->transform(withoutBlanks())
-      ->check(angleWord())
-      ->allow_extra_args(false)
-      ->type_name("DEGREES");
+  addNamedNumbers(
+      app, "--angle", options.angles, numberIn(-360.0, 360.0),
+      "From where it is seen: 0 from the front, 90 from its left, degrees; of several, NAME=DEGREES "
+      "is of one alone, with commas in between: 0,cat=90 (default: 0)");
   app.add_option("--pitch", options.pitch_deg, "How far from above, degrees")
       ->check(numberIn(-89.0, 89.0))
       ->capture_default_str();

@@ -1,7 +1,6 @@
 // What `skel-animate render` can be asked for.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "animator/load_character.h"
+#include "libskel/cli/named_numbers.h"
 #include "libskel/scene/mesh_painter.h"
 
 namespace CLI {
@@ -37,17 +37,6 @@ struct SheetOptions {
   std::string palette;  // how many colours, or a picture that has them; "": as many as there are
 };
 
-// From where characters are seen, about the vertical, degrees.
-struct ViewAngles {
-  double of_others = 0;
-  std::map<std::string, double> of = {};  // of single ones, by the name of their file, without ending
-
-  double operator()(const std::string& name) const {
-    const auto own = of.find(name);
-    return own == of.end() ? of_others : own->second;
-  }
-};
-
 struct RenderCommandOptions {
   std::vector<std::string> files;
   CharacterSource source;  // of each of them, but for its path
@@ -60,8 +49,8 @@ struct RenderCommandOptions {
   SheetOptions sheet;
   std::optional<double> frame_rate;  // 30 of films, 12 of sheets
   double duration_s = 0;
-  std::string size;  // empty: 512x512 of films, 64x64 of sheets
-  ViewAngles angles;
+  std::string size;     // empty: 512x512 of films, 64x64 of sheets
+  NamedNumbers angles;  // from where characters are seen, about the vertical, degrees
   double pitch_deg = 5;
   std::string look = "auto";  // solid: the model; flat: the drawing itself; auto: looksBetterFlat()
   std::string background = "white";

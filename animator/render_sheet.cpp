@@ -26,6 +26,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/image/sprite_sheet_file.h"
 #include "libskel/image/write_image.h"
+#include "libskel/pipeline/facing.h"
 
 namespace skel {
 namespace {
@@ -235,6 +236,16 @@ struct Sheets {
     return true;
   }
 
+  // "looking left (if it looks at you: --angle cat=90)"
+  std::string toldFrom(const CharacterFile& file) const {
+    const double facing_rad = facing(file.character);
+    const std::string drawn = drawnFrom(facing_rad);
+    if (drawn == drawnFrom(0) || options.angles(file.name) != 0) return drawn;
+    const long back_deg = std::lround(-facing_rad * 180 / std::numbers::pi);
+    return drawn + " (if it looks at you: --angle " + shellWord(file.name + "=" + std::to_string(back_deg)) +
+           ")";
+  }
+
   // What differs from the sheet that is about to be written over.
   void tellOf(const std::string& atlas, const SpriteCell& cell, const std::string& name) {
     if (options.sheet.same_scale && !std::exchange(who_is_told, true)) tellWhoSetsScale(cell.px_per_m);
@@ -334,8 +345,7 @@ struct Sheets {
     writeFile(path, encodePng(sheet.picture, 9));
     writeFile(atlasOf(path),
               formatAtlas(sprites, tags, camera.cell, sheet, form, fs::path(path).filename().string()));
-    const std::string drawn =
-        directions.size() > 1 ? "; taken for drawn " + drawnFrom(character) : std::string();
+    const std::string drawn = directions.size() > 1 ? "; taken for drawn " + toldFrom(file) : std::string();
     std::printf("%s: %zu %s of %dx%d, %zu %s, %dx%d px%s\n", printable(path).c_str(), sprites.size(),
                 sprites.size() == 1 ? "frame" : "frames", size.width, size.height, tags.size(),
                 tags.size() == 1 ? "animation" : "animations", sheet.picture.width, sheet.picture.height,

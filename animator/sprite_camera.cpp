@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "libskel/animation/role_figure.h"
-#include "libskel/deform/measure_figure.h"
+#include "libskel/pipeline/facing.h"
 
 namespace skel {
 namespace {
@@ -16,21 +15,6 @@ constexpr double kPi = std::numbers::pi;
 // Clockwise on a map.
 constexpr std::array<const char*, 16> kNames = {"s", "ssw", "sw", "wsw", "w", "wnw", "nw", "nnw",
                                                 "n", "nne", "ne", "ene", "e", "ese", "se", "sse"};
-
-// About the vertical: 0 at the viewer (+z), positive to +x.
-double looksAt(const RiggedCharacter& character) {
-  constexpr double kAnimal = -kPi / 2;
-  const Skeleton& skeleton = character.skeleton;
-  const bool biped = skeleton.find("left_foot") >= 0, animal = skeleton.find("left_front_foot") >= 0;
-  if (biped || animal)
-    return measureFigure(character.mesh, character.weights, skeleton).yaw_rad + (animal ? kAnimal : 0);
-  const std::optional<RoleFigure> figure = roleFigure(skeleton);
-  if (!figure) return 0;
-  const bool quadruped = figure->skeleton.find("left_front_foot") >= 0;
-  const Eigen::Vector3d ours(quadruped ? -1 : 0, 0, quadruped ? 0 : 1),
-      front = figure->to_ours.inverse() * ours;
-  return std::atan2(front.x(), front.z());
-}
 
 // On the ground, below the middle of the joints.
 Eigen::Vector3d groundPoint(const RiggedCharacter& character) {
@@ -45,22 +29,12 @@ Eigen::Vector3d groundPoint(const RiggedCharacter& character) {
 
 std::vector<SpriteDirection> spriteDirections(const RiggedCharacter& character, int count) {
   if (count == 1) return {{"", 0}};
-  const double front = looksAt(character);
+  const double front = facing(character);
   const int step = 16 / count, first = count == 2 ? 4 : 0;
   std::vector<SpriteDirection> directions;
   for (int i = first; i < first + 16; i += step)
     directions.push_back({kNames[std::size_t(i)], front + 2 * kPi * i / 16});
   return directions;
-}
-
-std::string drawnFrom(const RiggedCharacter& character) {
-  const double yaw = std::remainder(looksAt(character), 2 * kPi), off = std::abs(yaw);
-  const std::string side = yaw < 0 ? "left" : "right";
-  return off < kPi / 8       ? "from the front"
-         : off > 7 * kPi / 8 ? "from behind"
-         : off < 3 * kPi / 8 ? "half from the front, looking " + side
-         : off > 5 * kPi / 8 ? "half from behind, looking " + side
-                             : "looking " + side;
 }
 
 SpriteExtent SpriteExtent::with(const SpriteExtent& other) const {

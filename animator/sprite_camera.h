@@ -20,9 +20,6 @@ struct SpriteDirection {
 // "s", where the figure looks at the viewer.
 std::vector<SpriteDirection> spriteDirections(const RiggedCharacter& character, int count);
 
-// How the figure was drawn as far as skel can tell, for the user: "from the front", "looking left".
-std::string drawnFrom(const RiggedCharacter& character);
-
 // How far a figure reaches in the picture from the point on the ground that it turns about, m.
 struct SpriteExtent {
   double aside = 1e-6, low = 0, high = 1e-6;

@@ -29,7 +29,8 @@ std::string sentence(std::string clause) {
 }
 
 // One of the warnings. What nobody has other words for stays as it is.
-std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawing, const SkeletonFile& file) {
+std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawing, const SkeletonFile& file,
+                         bool plan_is_chosen) {
   constexpr std::size_t kMostNamed = 5;  // joints: whoever reads of more learns nothing
   constexpr std::string_view kLookAtMask = ": look at the mask (skel-label FILE)";
   const bool photo = drawing.silhouette.evidence.has_value();  // or another page that is not tidy
@@ -45,14 +46,18 @@ std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawin
            (file.missing.empty() || file.missing.size() > kMostNamed
                 ? ""
                 : "; not seen: " + listed(file.missing)) +
-           (photo ? ". Take the photo by day, from straight above, without shadows; go over lines that are "
-                    "thin or faint with a felt pen."
-                  : ". Head, body, arms and legs are told best where they are apart; skel-label FILE mends "
-                    "what is wrong.");
+           (plan_is_chosen && drawing.body_plan.name == "quadruped"
+                ? ". It was taken for an animal on four legs; if it is none, choose Person (skel-label "
+                  "FILE), and mend there what else is wrong. "
+                : ". skel-label FILE mends what is wrong. ") +
+           (photo ? "If the photo is dim or blurred, take it again: by day, from straight above, without "
+                    "shadows; go over lines that are thin or faint with a felt pen."
+                  : "Head, body, arms and legs are told best where they are apart.");
   if (starts("some joints may be wrong"))
     return "Some joints may be wrong" +
            (file.missing.empty() ? "" : ", most likely " + listed(file.missing)) +
-           ". Look how the figure moves; skel-label FILE mends joints. " +
+           ". Look how the figure moves; skel-label FILE mends joints, and the mask (key M) if a part of the "
+           "figure is missing or something is stuck to it. " +
            (photo ? "If a shadow lies across the figure, take the photo without it; limbs that are apart are "
                     "found better."
                   : "Limbs that are apart are found better.");
@@ -75,10 +80,10 @@ std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawin
 }  // namespace
 
 std::vector<std::string> adviceOn(const RiggedDrawing& drawing, const SkeletonFile& file,
-                                  const std::string& mend_file) {
+                                  const std::string& mend_file, bool plan_is_chosen) {
   std::vector<std::string> advice;
   for (const std::string& warning : file.warnings)
-    advice.push_back(noteText({inOtherWords(warning, drawing, file)}, mend_file));
+    advice.push_back(noteText({inOtherWords(warning, drawing, file, plan_is_chosen)}, mend_file));
   return advice;
 }
 

@@ -19,8 +19,9 @@ inline constexpr const char* kAdviceOnLeftOut =
     "What you had mended of an earlier photo is left out. Look at this one, skel-label FILE: Shift R finds "
     "all anew, Enter says that what is there fits.";
 
-// One sentence a warning of the file: what is unusual, and what helps. `mend_file`: what skel-label opens.
+// One sentence a warning of the file: what is unusual, and what helps. `mend_file`: what skel-label opens;
+// `plan_is_chosen`: nets have chosen the body plan.
 std::vector<std::string> adviceOn(const RiggedDrawing& drawing, const SkeletonFile& file,
-                                  const std::string& mend_file);
+                                  const std::string& mend_file, bool plan_is_chosen);
 
 }  // namespace skel

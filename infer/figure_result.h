@@ -31,6 +31,7 @@ struct FigureResult {
   std::vector<WrittenFile> outputs;
   std::optional<double> confidence;  // in the joints, if any were looked for
   std::string body_plan;
+  std::optional<double> facing_deg;  // of the model, where there is one: facing()
   std::vector<std::string> missing;  // joints that were not found
   long placed = 0;                   // joints that a person has placed
   bool all_placed = false;           // those that do not follow from others

@@ -130,11 +130,11 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
       "--layers", options.layers,
       "Limbs drawn over the body: auto (each a body of its own), off (all one skin), or a layer map\n"
       "(written by --formats layers) to go on from");
-  app.add_option(
-         "--height", options.height_m,
-         "Of the model as it is drawn, raised arms and hat included, m; 0: 1.7, or 1.2 from end to end "
-         "of an animal")
-      ->check(zeroOrNumberIn(1e-3, 1e3));
+  addNamedNumbers(
+      app, "--height", options.heights, zeroOrNumberIn(1e-3, 1e3),
+      "Of the model as it is drawn, raised arms and hat included, m; of several drawings NAME=METRES "
+      "is of one alone, with commas in between: 1.7,dwarf=1.2 (default: 1.7, or 1.2 from end to end "
+      "of an animal)");
   app.add_option("--figure", options.figure, "Which figure of the drawing: 1 is the largest; or all");
   app.add_option("--mesh-spacing", options.mesh_spacing_px,
                  "Distance of mesh vertices where the figure is 128 px long; 0: chosen")

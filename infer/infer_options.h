@@ -9,6 +9,7 @@
 
 #include "libskel/animation/retarget.h"
 #include "libskel/cli/joint_options.h"
+#include "libskel/cli/named_numbers.h"
 #include "libskel/core/error.h"
 
 namespace skel {
@@ -37,7 +38,7 @@ struct InferOptions {
   JointOptions joints;
   std::string back;             // "same", "plain", a picture, or nothing: the body plan's own
   std::string layers = "auto";  // "auto", "off", or a picture
-  double height_m = 0;          // 0: the body plan's own
+  NamedNumbers heights;         // m; 0: the body plan's own
   std::string figure = "1";     // a number, or "all"
   double mesh_spacing_px = 0;
   std::vector<std::string> formats = {"glb", "json", "overlay", "silhouette"};

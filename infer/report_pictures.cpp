@@ -1,5 +1,6 @@
 #include "infer/report_pictures.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -83,6 +84,24 @@ FilmSheet filmSheet(const RiggedDrawing& drawing, const Clip& clip) {
   return film;
 }
 
+// With a margin.
+Image aroundFigure(const Image& image, const Plane8& mask) {
+  constexpr double kMargin = 0.12;  // of the figure's long side
+  Eigen::AlignedBox2i box;
+  for (int y = 0; y < mask.rows(); ++y)
+    for (int x = 0; x < mask.cols(); ++x)
+      if (mask(y, x) != 0) box.extend(Eigen::Vector2i(x, y));
+  if (box.isEmpty()) return image;
+  const int margin = int(std::lround(kMargin * (box.sizes().maxCoeff() + 1)));
+  const Eigen::Vector2i low = (box.min().array() - margin).max(0),
+                        high =
+                            (box.max().array() + margin + 1).min(Eigen::Array2i(image.width, image.height));
+  Image part(high.x() - low.x(), high.y() - low.y());
+  for (int y = 0; y < part.height; ++y)
+    std::copy_n(image.pixel(low.x(), low.y() + y), 4 * std::size_t(part.width), part.pixel(0, y));
+  return part;
+}
+
 }  // namespace
 
 std::string reportPicture(const Image& drawing) {
@@ -91,9 +110,10 @@ std::string reportPicture(const Image& drawing) {
   return dataAddress(fitted(paper, kDrawingWidth, kDrawingHeight));
 }
 
-ReportPictures reportPictures(const RiggedDrawing& drawing, const std::string& clip) {
+ReportPictures reportPictures(const RiggedDrawing& drawing, const std::string& clip, bool figure_alone) {
   ReportPictures pictures;
-  pictures.drawing = reportPicture(drawing.image);
+  pictures.drawing =
+      reportPicture(figure_alone ? aroundFigure(drawing.image, drawing.silhouette.mask) : drawing.image);
   if (const Clip* shown = shownClip(drawing.clips, clip)) pictures.film = filmSheet(drawing, *shown);
   return pictures;
 }

@@ -23,6 +23,7 @@ struct ReportPictures {
 // Of the drawing alone: data: address.
 std::string reportPicture(const Image& drawing);
 // `clip`: the one that is shown, where the character has it; else its dance, its walk, or its first.
-ReportPictures reportPictures(const RiggedDrawing& drawing, const std::string& clip);
+// `figure_alone`: of the drawing what lies around the figure is left out, such as the table around the sheet.
+ReportPictures reportPictures(const RiggedDrawing& drawing, const std::string& clip, bool figure_alone);
 
 }  // namespace skel

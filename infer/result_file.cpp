@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "skel-result";
-constexpr int kVersion = 2;  // 1: without `nothing_found`
+constexpr int kVersion = 3;  // 2: without `facing_deg`; 1: also without `nothing_found`
 
 const std::map<Verdict, std::string> kVerdictNames = {
     {Verdict::kFine, "fine"}, {Verdict::kLookAt, "look at"}, {Verdict::kRetake, "retake"}};
@@ -48,15 +48,13 @@ Json figureJson(const FigureResult& figure, const std::string& beside) {
     outputs.push_back(
         {{"file", pathFrom(beside, file.path)}, {"bytes", file.bytes}, {"sha256", file.sha256}});
   for (const StageTime& time : figure.times) times[time.stage] = time.time_s * 1e3;
-  return {{"number", figure.number},
-          {"template", figure.body_plan},
-          {"confidence", figure.confidence.value_or(0)},
-          {"missing", figure.missing},
-          {"verdict", kVerdictNames.at(figure.verdict)},
-          {"warnings", figure.reasons},
-          {"notes", notes},
-          {"outputs", outputs},
-          {"times_ms", times}};
+  Json facing = nullptr;
+  if (figure.facing_deg) facing = *figure.facing_deg;
+  return {{"number", figure.number},    {"template", figure.body_plan},
+          {"facing_deg", facing},       {"confidence", figure.confidence.value_or(0)},
+          {"missing", figure.missing},  {"verdict", kVerdictNames.at(figure.verdict)},
+          {"warnings", figure.reasons}, {"notes", notes},
+          {"outputs", outputs},         {"times_ms", times}};
 }
 
 std::vector<std::string> textsOf(const JsonValue& array) {
@@ -66,11 +64,13 @@ std::vector<std::string> textsOf(const JsonValue& array) {
 }
 
 FigureResult figureOf(const JsonValue& json, const fs::path& folder) {
-  json.allowOnly(
-      {"number", "template", "confidence", "missing", "verdict", "warnings", "notes", "outputs", "times_ms"});
+  json.allowOnly({"number", "template", "facing_deg", "confidence", "missing", "verdict", "warnings", "notes",
+                  "outputs", "times_ms"});
   FigureResult figure;
   figure.number = json.at("number").asInt(1, 9999);
   figure.body_plan = json.at("template").asString();
+  if (const auto facing = json.find("facing_deg"); facing && !facing->isNull())
+    figure.facing_deg = facing->asNumber(-180, 180);
   figure.confidence = json.at("confidence").asNumber(0, 1);
   figure.missing = textsOf(json.at("missing"));
   figure.reasons = textsOf(json.at("warnings"));

@@ -1,8 +1,10 @@
 #include "infer/rig_figure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 
 #include "infer/advice.h"
 #include "infer/keep_earlier.h"
@@ -15,6 +17,7 @@
 #include "libskel/mended/rig_mended.h"
 #include "libskel/mesh/read_mesh.h"
 #include "libskel/pipeline/drawing_notes.h"
+#include "libskel/pipeline/facing.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/pipeline/trace.h"
 #include "libskel/skeleton/mark_placed.h"
@@ -154,6 +157,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   result.mend_file = fileToMend(options, job, figure);
   if (looksForJoints(mended.last)) result.confidence = file.confidence;
   result.body_plan = drawing.body_plan.name;
+  if (mended.last >= LastStage::kModel)
+    result.facing_deg = std::round(facing(drawing.character) * 180 / std::numbers::pi);
   result.missing = file.missing;
   result.placed = std::count_if(file.skeleton.joints.begin(), file.skeleton.joints.end(),
                                 [](const Joint& joint) { return joint.origin == JointOrigin::kEdited; });
@@ -177,9 +182,10 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   for (const auto& note : {kept_layers, kept_model, keptLayersNote(mended.files, request)})
     if (note) result.notes.push_back(*note);
   if (!options.report_file.empty()) {
-    result.advice = adviceOn(drawing, file, result.mend_file);
+    result.advice = adviceOn(drawing, file, result.mend_file, rig.otherwise.has_value());
     if (!result.left_out.empty()) result.advice.push_back(noteText({kAdviceOnLeftOut}, result.mend_file));
-    result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front());
+    result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front(),
+                                     result.verdict == Verdict::kFine);
   }
   result.times = drawing.times;
   results.push_back(std::move(result));
@@ -271,6 +277,11 @@ void takeError(DrawingResult& result) {
 
 DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, const RigJob& job,
                          ProgressBar& progress) {
+  if (const double height_m = options.heights(job.stem); height_m != rig.height_m) {
+    RigOptions own = rig;
+    own.height_m = height_m;
+    return rigDrawing(options, own, job, progress);
+  }
   DrawingResult result;
   result.source = job.source;
   std::size_t left = 1;  // figures

@@ -126,7 +126,7 @@ RigOptions rigOptions(const InferOptions& options) {
   rig.inflate.spacing_px = options.mesh_spacing_px;
   if (options.back == "same") rig.back = Back::kSame;
   if (options.back == "plain") rig.back = Back::kPlain;
-  rig.height_m = options.height_m;
+  rig.height_m = options.heights.of_others;
   rig.layers = options.layers != "off";
   rig.into_picture = options.into_picture;
   rig.rest_pose = kRestPoseNames.at(options.rest_pose);

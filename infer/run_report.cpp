@@ -1,6 +1,7 @@
 #include "infer/run_report.h"
 
 #include <cstdio>
+#include <numbers>
 #include <utility>
 
 #include "infer/report_page.h"
@@ -8,6 +9,7 @@
 #include "libskel/core/file_names.h"
 #include "libskel/core/files.h"
 #include "libskel/core/text.h"
+#include "libskel/pipeline/facing.h"
 
 namespace skel {
 namespace {
@@ -21,11 +23,13 @@ std::string numberOf(const InferOptions& options, const FigureResult& figure) {
 // What is said of joints, if any were looked for.
 std::string jointsText(const FigureResult& figure, bool tells_plan) {
   if (!figure.confidence) return "";
-  if (figure.all_placed)
-    return std::string("  joints placed by hand") + (tells_plan ? "  " + figure.body_plan : "");
-  char text[32];
-  std::snprintf(text, sizeof text, "  confidence %.2f", *figure.confidence);
-  return text + (tells_plan ? "  " + figure.body_plan : "");
+  char sure[32] = "  joints placed by hand";
+  if (!figure.all_placed) std::snprintf(sure, sizeof sure, "  confidence %.2f", *figure.confidence);
+  std::string text = sure;
+  if (!tells_plan) return text;
+  text += "  " + figure.body_plan;
+  const std::string drawn = drawnFrom(figure.facing_deg.value_or(0) * std::numbers::pi / 180);
+  return drawn == drawnFrom(0) ? text : text + ", " + drawn;
 }
 
 void print(const InferOptions& options, bool tells_plan, const DrawingResult& drawing) {

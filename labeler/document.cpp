@@ -855,6 +855,7 @@ void Document::save() {
     writeFiles();
     saved_ = state_;
     save_problem_.clear();
+    mutableItem().doubts.reset();
   } catch (...) {
     save_problem_ = caughtError(item().files.image).what();
   }

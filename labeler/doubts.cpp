@@ -1,5 +1,7 @@
 #include "labeler/doubts.h"
 
+#include <filesystem>
+
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/core/sha256.h"
@@ -7,6 +9,20 @@
 #include "libskel/mended/mended_files.h"
 
 namespace skel {
+namespace fs = std::filesystem;
+namespace {
+
+bool isMendedSince(const DrawingFiles& files, const std::string& result) {
+  std::error_code not_there;
+  const auto made = fs::last_write_time(result, not_there);
+  for (const std::string& file : {files.labels, files.mask, layersFile(files, 1)}) {
+    const auto mended = fs::last_write_time(file, not_there);
+    if (!not_there && mended > made) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 std::vector<std::string> doubtsOf(const DrawingFiles& files) {
   try {
@@ -14,7 +30,9 @@ std::vector<std::string> doubtsOf(const DrawingFiles& files) {
     request.source = files.image;
     request.image_sha256 = sha256(readFile(files.image));
     for (const MendPlace& place : mendPlaces(request))
-      if (place.is_of_picture) return place.result->warnings;
+      if (place.is_of_picture)
+        return isMendedSince(files, place.results + kSkeletonFileEnding) ? std::vector<std::string>()
+                                                                         : place.result->warnings;
   } catch (const InputError&) {
   }
   return {};

@@ -288,7 +288,8 @@ class LabelingWindow {
 
   void acceptJoints() {
     canvas_.cancel();
-    if (document_.acceptJoints()) goToUnfinished();
+    const bool doubted = !document_.doubts(document_.current()).empty();
+    if (document_.acceptJoints() && !(doubted && goToDoubted())) goToUnfinished();
   }
 
   void acceptMask() { canvas_.cancel(), document_.acceptMask(); }
@@ -337,14 +338,18 @@ class LabelingWindow {
     }
   }
 
-  void goToDoubted() {
+  // False where there is none.
+  bool goToDoubted() {
     const int count = static_cast<int>(document_.items().size());
     for (int by = 1; by <= count; ++by) {
       const int item = (document_.current() + by) % count;
       if (!document_.items()[static_cast<size_t>(item)].of(subject()).isWhole() &&
-          !document_.doubts(item).empty())
-        return goTo(item);
+          !document_.doubts(item).empty()) {
+        goTo(item);
+        return true;
+      }
     }
+    return false;
   }
 
   void drawList(float height) {

@@ -73,11 +73,9 @@ int countFound(const DrawingJoints& joints) {
 Progress progressOf(const DrawingJoints& joints, const SkeletonTemplate& body_plan) {
   Progress progress;
   for (size_t j = 0; j < joints.size(); ++j) {
-    if (!joints[j]) continue;
-    const bool placed = joints[j]->origin == JointOrigin::kEdited;
-    if (body_plan.joints[j].derived && !placed) continue;
+    if (!joints[j] || body_plan.joints[j].derived) continue;
     ++progress.parts;
-    progress.done += placed;
+    progress.done += joints[j]->origin == JointOrigin::kEdited;
   }
   return progress;
 }

@@ -187,7 +187,11 @@ ExitCode runInspect(const InspectOptions& options) {
       {heatPicture(distances(compared, pictures, poses), side, side), "distance between frames"},
       {heatPicture(style.activations, 2 * side, side), "components over time"}};
   std::vector<Panel> rows;
-  if (!key_panels.empty()) rows.push_back({montage(key_panels, {.columns = 6}), "key frames"});
+  if (!key_panels.empty())
+    rows.push_back({montage(key_panels, {.columns = 6}),
+                    shown.size() == keys.size() ? "key frames"
+                                                : std::to_string(shown.size()) + " of " +
+                                                      std::to_string(keys.size()) + " key frames"});
   rows.push_back({montage(maps), ""});
   rows.push_back({montage(basis_panels, {.columns = 8}), "mean pose with each component at its most"});
   writeFile(options.output, encodePng(montage(rows, {.columns = 1})));

@@ -13,6 +13,8 @@
 #include "libskel/draw/oklab.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
+#include "libskel/import/read_character.h"
+#include "libskel/pipeline/posed_character.h"
 #include "tests/animator/figure_file.h"
 #include "tests/support/catch.h"
 #include "tests/support/run_tool.h"
@@ -371,14 +373,41 @@ TEST_CASE("of sheets of several drawings, one alone is turned") {
   CHECK(angleOf("ben") == -90);
   REQUIRE(render(made + " --angle ben=30 --angle 30").exit_code == 0);
   CHECK(readFile(dir.file("s/ann.png")) == readFile(dir.file("s/ben.png")));
-  for (const auto& [angle, problem] :
-       {std::pair("cat=90", "--angle: no drawing of this run is called \"cat\""),
-        std::pair("ben=nan", "--angle: Value nan not in range [-360 - 360]"),
-        std::pair("ben=", "--angle: Value  not in range [-360 - 360]")}) {
+  for (const auto& [angle, problem] : {std::pair("cat=90", "--angle: no file of this run is called \"cat\""),
+                                       std::pair("ben=nan", "--angle: Value nan not in range [-360 - 360]"),
+                                       std::pair("ben=", "--angle: Value  not in range [-360 - 360]")}) {
     const ToolRun run = render(made + " --angle " + angle);
     CHECK(run.exit_code == 1);
     CHECK(run.err == "skel-animate: " + std::string(problem) + "\n");
   }
+}
+
+TEST_CASE("of several drawings, one alone gets another height") {
+  const TempDir dir;
+  for (const char* name : {"ann.png", "ben.png"}) writeFile(dir.file(name), readFile(kDrawing));
+  const std::string drawings = dir.file("ann.png") + " " + dir.file("ben.png");
+  const auto scaleOf = [&](const char* name) {
+    return Json::parse(readFile(dir.file(std::string("s/") + name + ".json")))["meta"]["skel"]["pxPerM"]
+        .get<double>();
+  };
+  const std::string made = drawings + " --clips idle --frames 1 --size 24 --sheet " + dir.file("s/");
+  REQUIRE(render(made + " --height 1,ben=2").exit_code == 0);
+  CHECK(scaleOf("ann") > 1.9 * scaleOf("ben"));
+  const ToolRun unknown = render(made + " --height cat=2");
+  CHECK(unknown.exit_code == 1);
+  CHECK(unknown.err == "skel-animate: --height: no file of this run is called \"cat\"\n");
+  REQUIRE(
+      runTool("skel-infer " + drawings + " --clips none --height ben=2 -o " + dir.file("out")).exit_code ==
+      0);
+  const auto modelHeight = [&](const char* name) {
+    return heightOf(readGlb(dir.file(std::string("out/") + name + ".glb")).character);
+  };
+  CHECK(modelHeight("ann") == Approx(1.7).margin(0.01));
+  CHECK(modelHeight("ben") == Approx(2).margin(0.01));
+  const ToolRun model = render(dir.file("out/ann.glb") + " --clips idle --height 2 -o " + dir.file("a.gif"));
+  CHECK(model.exit_code == 1);
+  CHECK(model.err == "skel-animate: --height is of drawings; " + dir.file("out/ann.glb") +
+                         " has its own height: leave --height out\n");
 }
 
 TEST_CASE("one drawing changed the scale of all sheets, of those that were there too, without a word") {

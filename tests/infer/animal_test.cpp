@@ -47,7 +47,7 @@ TEST_CASE("the body plan is the one that the figure fits, unless one is named") 
                             "/../characters/cap_boy.png' --clips wave,gallop -o '" + dir.path() + "'");
   CHECK(run.exit_code == 0);
   CHECK(contains(run.out, "walking_dog.glb  confidence 0.9"));
-  CHECK(contains(run.out, "  quadruped\n"));
+  CHECK(contains(run.out, "  quadruped, looking left\n"));
   CHECK(contains(run.out, "  biped\n"));
   CHECK(contains(run.err, "note: there is no clip \"wave\" for a quadruped: left out: "));
   CHECK(contains(run.err, "note: there is no clip \"gallop\" for a biped, but \"run\": left out: "));
@@ -57,7 +57,7 @@ TEST_CASE("the body plan is the one that the figure fits, unless one is named") 
   const ToolRun again = infer("'" + kAnimals + "/walking_dog.png' --skeleton '" +
                               dir.file("walking_dog.skeleton.json") + "' -o '" + dir.file("again") + "'");
   CHECK(again.exit_code == 0);
-  CHECK(contains(again.out, "  quadruped\n"));
+  CHECK(contains(again.out, "  quadruped, looking left\n"));
   CHECK(readFile(dir.file("again/walking_dog.glb")).find("\"gallop\"") != std::string::npos);
 
   const ToolRun named =
@@ -149,4 +149,19 @@ TEST_CASE("a net of joints that was not used, as the drawing shows an animal, wa
                         "--joint-net finds those of a biped";
   CHECK(contains(infer("'" + kAnimals + "/walking_dog.png'" + net).err, said));
   CHECK_FALSE(contains(infer("'" + kAnimals + "/../characters/cap_boy.png'" + net).err, "--joint-net"));
+}
+
+TEST_CASE("a model that looks to the side, and not to +z, was written without a word") {
+  const TempDir dir;
+  const ToolRun run =
+      infer("'" + kAnimals + "/walking_dog.png' '" + kAnimals + "/../characters/side_zombie.png' '" +
+            kAnimals + "/../characters/cap_boy.png' --json -o '" + dir.path() + "'");
+  REQUIRE(run.exit_code == 0);
+  for (const char* said :
+       {"\"template\":\"quadruped\",\"facing_deg\":-90.0", "\"template\":\"biped\",\"facing_deg\":-90.0",
+        "\"template\":\"biped\",\"facing_deg\":0.0"})
+    CHECK(contains(run.out, said));
+  const ToolRun silhouette =
+      infer("'" + kAnimals + "/walking_dog.png' --formats silhouette --json -o '" + dir.path() + "'");
+  CHECK(contains(silhouette.out, "\"facing_deg\":null"));
 }

@@ -151,7 +151,7 @@ TEST_CASE("advice fits the picture: of light and pen it speaks for photos alone,
   SkeletonFile file;
   const auto advice = [&](const char* warning) {
     file.warnings = {warning};
-    return adviceOn(drawing, file, "class/Eva B.png").front();
+    return adviceOn(drawing, file, "class/Eva B.png", true).front();
   };
   const char* const warnings[] = {"this hardly looks like one whole biped",
                                   "some joints may be wrong, look at them",
@@ -163,8 +163,11 @@ TEST_CASE("advice fits the picture: of light and pen it speaks for photos alone,
     CHECK_THAT(tidy, Contains("skel-label 'class/Eva B.png'"));
     CHECK_THAT(tidy, !Contains("felt pen") && !Contains("shadow"));
     drawing.silhouette.evidence.emplace();
-    CHECK_THAT(advice(warning), Contains("shadow"));
+    CHECK_THAT(advice(warning), Contains("shadow") && Contains("skel-label 'class/Eva B.png'"));
+    CHECK_THAT(advice(warning), !Contains("Person"));
   }
+  drawing.body_plan.name = "quadruped";
+  CHECK_THAT(advice(warnings[0]), Contains("choose Person ("));
 }
 
 TEST_CASE("the report of all figures counted them as drawings") {

@@ -885,6 +885,9 @@ TEST_CASE("what the last run was unsure of is known of a picture, not of one tha
   REQUIRE(document.items().size() == 2);
   CHECK(document.doubts(0) == file.warnings);
   CHECK(document.doubts(1).empty());
+  document.moveJoint(document.bodyPlan().find("head"), {310, 150});
+  CHECK(document.doubts(document.current()).empty());
+  REQUIRE(document.undo());
   writeFile(dir.file("cap_boy.png"), readFile(dir.file("runner.png")));
   document.lookAgain();
   CHECK(document.doubts(0).empty());

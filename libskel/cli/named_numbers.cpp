@@ -1,0 +1,52 @@
+#include "libskel/cli/named_numbers.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "libskel/cli/names.h"
+#include "libskel/cli/number.h"
+#include "libskel/core/error.h"
+
+namespace skel {
+namespace {
+
+struct Word {
+  std::string name, number;  // without a name it is of all
+
+  explicit Word(const std::string& text) {
+    const std::size_t equals = text.rfind('=');
+    if (equals != text.npos) name = text.substr(0, equals);
+    number = equals == text.npos ? text : text.substr(equals + 1);
+  }
+};
+
+}  // namespace
+
+CLI::Option* addNamedNumbers(CLI::App& app, const std::string& option, NamedNumbers& numbers,
+                             const CLI::Validator& check, const std::string& description) {
+  const auto take = [&numbers](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      const Word word(text);
+      (word.name.empty() ? numbers.of_others : numbers.of[word.name]) = std::stod(word.number);
+    }
+  };
+  const auto isNumber = [check](const std::string& text) {
+    std::string number = Word(text).number;
+    return check(number);
+  };
+  return app.add_option_function<std::vector<std::string>>(option, take, description)
+      ->delimiter(',')
+      ->transform(withoutBlanks())
+      ->check(CLI::Validator(isNumber, "", kNumberCheck))
+      ->allow_extra_args(false)
+      ->type_name("NUMBER");
+}
+
+void requireNamed(const NamedNumbers& numbers, const std::string& option,
+                  const std::vector<std::string>& names) {
+  for (const auto& [name, number] : numbers.of)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw UsageError(option + ": no file of this run is called \"" + name + '"');
+}
+
+}  // namespace skel
