@@ -31,8 +31,7 @@ std::string sentence(std::string clause) {
 // One of the warnings. What nobody has other words for stays as it is.
 std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawing, const SkeletonFile& file,
                          bool plan_is_chosen) {
-  constexpr std::size_t kMostNamed = 5;  // joints: whoever reads of more learns nothing
-  constexpr std::string_view kLookAtMask = ": look at the mask (skel-label FILE)";
+  constexpr std::size_t kMostNamed = 5;                        // joints: whoever reads of more learns nothing
   const bool photo = drawing.silhouette.evidence.has_value();  // or another page that is not tidy
   const auto starts = [&](const char* words) { return warning.starts_with(words); };
   if (starts("the sheet itself"))

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "libskel/pipeline/rig_character.h"
 #include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
+
+// How warnings of a silhouette end.
+inline constexpr std::string_view kLookAtMask = ": look at the mask (skel-label FILE)";
 
 // Of a picture that shows no figure.
 inline constexpr const char* kAdviceOnNothing =

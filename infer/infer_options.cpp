@@ -142,7 +142,12 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--formats", options.formats, "What to write: " + formatNames())
       ->delimiter(',')
       ->check(CLI::IsMember(allFormats()));
-  app.add_option("--trace", options.trace_dir, "Folder for a picture of every stage")
+  app.add_option("--trace", options.trace_dir,
+                 "Folder in which each drawing gets one with a picture of every stage")
+      ->check([](const std::string& name) {
+        return name.starts_with('-') ? "needs the name of a folder" : std::string();
+      })
+      ->type_name("FOLDER")
       ->always_capture_default(false);
   app.add_option("--report", options.report_file,
                  "A page of HTML that shows each drawing beside its moving figure, and what to take again")

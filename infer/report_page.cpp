@@ -93,7 +93,7 @@ std::string film(const Card& card) {
 }
 
 std::string verdictChip(const Card& card) {
-  if (card.again()) return "<span class=\"chip again\">take again</span>";
+  if (card.again()) return "<span class=\"chip again\">mend or retake</span>";
   if (!card.figure) return "<span class=\"chip look\">no figure</span>";
   return card.fine() ? "<span class=\"chip fine\">fine</span>"
                      : "<span class=\"chip look\">look at it</span>";
@@ -180,7 +180,7 @@ std::string reportPage(const std::vector<DrawingResult>& drawings) {
   if (choose) heading += "<span class=\"good\">" + countedCards(fine) + "</span>";
   std::string summary = std::to_string(fine) + " fine";
   if (look > 0) summary += ", " + std::to_string(look) + " to look at";
-  if (retake > 0) summary += ", " + std::to_string(retake) + " to take again";
+  if (retake > 0) summary += ", " + std::to_string(retake) + " to mend or take again";
   if (without > 0) summary += ", " + std::to_string(without) + " without a figure";
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
@@ -194,7 +194,7 @@ std::string reportPage(const std::vector<DrawingResult>& drawings) {
       (choose ? "<input type=\"checkbox\" id=\"good\">" : "") + "\n<header><h1>" + heading + "</h1><p>" +
       summary + "</p><label for=\"still\">stand still</label><label for=\"pictures\">pictures alone</label>" +
       (choose ? "<label for=\"good\">only the good ones</label>" : "") + "</header>\n";
-  html += listHtml("again", "Photos to take again", again) +
+  html += listHtml("again", "Mend these, or take the photo again", again) +
           listHtml("look", "Drawings to look at", look_at) +
           listHtml("look", "Files without a figure", not_used) +
           listHtml("look", "What was mended of an earlier photo, and is left out", left_out);

@@ -67,6 +67,14 @@ std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, co
   return notes;
 }
 
+// A mask is of the first figure of a picture.
+void adviseWithoutMask(std::vector<std::string>& warnings) {
+  for (std::string& warning : warnings)
+    if (warning.ends_with(kLookAtMask))
+      warning.replace(warning.size() - kLookAtMask.size(), kLookAtMask.size(),
+                      ": if so, cut the picture down to this figure, whose mask can then be mended");
+}
+
 // A drawing whose figures are rigged one after the other.
 struct OpenDrawing {
   OpenDrawing(const RigJob& job, const SilhouetteOptions& silhouette) : figures(silhouette) {
@@ -127,6 +135,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   file.confidence = drawing.recognition.confidence;
   file.missing = drawing.recognition.missing;
   file.warnings = withAdviceIfUpright(std::move(mended.warnings), "use --upright");
+  if (figure > 1) adviseWithoutMask(file.warnings);
   const auto asSeen = [&](SkeletonFile::Mask painted) {
     painted.file = pathSeenFrom(skeleton_path, painted.file);
     return painted;
@@ -149,8 +158,7 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   if (!options.trace_dir.empty()) {
     const bool given_mask = !mask.empty() || isModelAlone(options);
     writeTrace(drawing, given_mask ? SilhouetteSteps{} : silhouetteSteps(drawing.image),
-               options.images.size() > 1 || options.figure == "all" ? options.trace_dir + "/" + stem
-                                                                    : options.trace_dir);
+               options.trace_dir + "/" + stem);
   }
 
   result.number = figure;

@@ -590,9 +590,16 @@ bool Document::replaceMask(std::shared_ptr<const MaskVersion> mask) {
   return true;
 }
 
+bool Document::mayHaveMask() {
+  if (figureNumber() == 1) return true;
+  message_ = "a mask is of the first figure of a picture, this is figure " + std::to_string(figureNumber()) +
+             ": cut the picture down to it, and mend that";
+  return false;
+}
+
 void Document::paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px,
                          bool add) {
-  if (image_.empty()) return;
+  if (image_.empty() || !mayHaveMask()) return;
   const StepScope scope(*this);
   auto mask = std::make_shared<MaskVersion>();
   if (state_.mask)
@@ -603,11 +610,13 @@ void Document::paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& 
     mask->pixels = Plane8::Zero(image_.height, image_.width);
   mask->file = fs::path(item().files.mask).filename().string();
   if (!paintLine(mask->pixels, from_px, to_px, radius_px, add ? 255 : 0)) return;
-  if (replaceMask(std::move(mask))) message_ = add ? "added to the figure" : "erased from the figure";
+  if (replaceMask(std::move(mask)))
+    message_ = std::string(add ? "added to the figure" : "erased from the figure") +
+               "; R finds the joints anew that you have not placed";
 }
 
 void Document::acceptMask() {
-  if (image_.empty() || !figure_->silhouette.found()) return;
+  if (image_.empty() || !figure_->silhouette.found() || !mayHaveMask()) return;
   if (isOfEarlierPicture()) {
     acceptJoints();
     return;

@@ -231,6 +231,8 @@ class Document {
   // SkeletonFile::foundOutline() of the picture that the state was made for.
   std::string foundOutline();
   int figureNumber() const { return skeleton_ ? skeleton_->figureNumber() : 1; }
+  // Says why where a mask cannot be this figure's.
+  bool mayHaveMask();
   bool editsJointsAlone() const { return skeleton_ || motion_; }
   void forgetRig();  // mask or joints have changed
   RigInput rigInput() const;

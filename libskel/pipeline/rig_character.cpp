@@ -16,6 +16,7 @@
 #include "libskel/mesh/front_view.h"
 #include "libskel/pipeline/body_depth.h"
 #include "libskel/pipeline/check_rig.h"
+#include "libskel/pipeline/folded_arms.h"
 #include "libskel/pipeline/rig_memory.h"
 #include "libskel/pipeline/worn_parts.h"
 #include "libskel/recognition/complete_skeleton.h"
@@ -389,6 +390,7 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
     skinned.weights =
         computeSkinWeights(mesh, skinned.skeleton, options.skin_method, options.skin, joint_layers);
     if (inflated) {
+      foldArms(skinned.skeleton, body_plan, skinned.weights);
       carryWornParts(mesh, body_plan, drawing.layers, skinned.skeleton, skinned.weights);
       const double yaw_rad = figureYaw(mesh, skinned.weights, skinned.skeleton);
       partLimbsInDepth(mesh, skinned.skeleton, skinned.weights, body_plan, yaw_rad, drawing.layers.far);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/check.h"
@@ -221,6 +222,12 @@ void writeTrace(const RiggedDrawing& drawing, const SilhouetteSteps& steps, cons
   const auto write = [&](const char* name, const Image& picture) {
     writeFile(dir + "/" + name, encodePng(picture));
   };
+  // Of a run before, which may have needed steps that this one does not.
+  for (const char* step : {"2-sheet.png", "2-unruled.png", "2-even-light.png", "2-page-net.png",
+                           "2-pieces.png", "6-layers.png"}) {
+    std::error_code not_there;
+    std::filesystem::remove(std::filesystem::path(dir) / step, not_there);
+  }
   write("1-drawing.png", onPaper(drawing.image));
   if (!steps.sheet.empty()) write("2-sheet.png", steps.sheet);
   if (!steps.unruled.empty()) write("2-unruled.png", steps.unruled);
@@ -233,7 +240,7 @@ void writeTrace(const RiggedDrawing& drawing, const SilhouetteSteps& steps, cons
   write("3-distance.png", distance);
   write("4-candidates.png", candidatesPicture(drawing));
   Image skeleton = onPaper(drawing.image, std::max(drawing.image.width, drawing.image.height));
-  drawSkeleton(skeleton, drawing.character.skeleton);
+  drawSkeleton(skeleton, drawing.recognition.skeleton);
   write("5-skeleton.png", fitted(skeleton, kPictureSize, kPictureSize));
   if (drawing.layers.any())
     write("6-layers.png", onPaper(layerPicture(drawing.layers, drawing.silhouette.mask)));

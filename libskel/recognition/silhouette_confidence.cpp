@@ -24,6 +24,12 @@ std::string placeIn(const WorkingGrid& grid, const Eigen::Array4d& box) {
   return column == 1 ? text + " part" : text;
 }
 
+std::optional<std::string> enclosedDoubt(const Silhouette& silhouette) {
+  constexpr double kMuch = .04;  // of the figure
+  if (!silhouette.enclosed || silhouette.enclosed->share <= kMuch) return std::nullopt;
+  return "what its lines enclose may be ground (" + placeIn(silhouette.grid, silhouette.enclosed->box) + ")";
+}
+
 }  // namespace
 
 double SilhouetteConfidence::of(const MaskEvidence& evidence) const {
@@ -32,15 +38,16 @@ double SilhouetteConfidence::of(const MaskEvidence& evidence) const {
 
 std::optional<std::string> silhouetteDoubt(const Silhouette& silhouette,
                                            const SilhouetteConfidence& confidence) {
-  if (!silhouette.evidence || silhouette.is_sheet || confidence.of(*silhouette.evidence) >= .5)
-    return std::nullopt;
+  if (silhouette.is_sheet) return std::nullopt;
+  if (!silhouette.evidence || confidence.of(*silhouette.evidence) >= .5) return enclosedDoubt(silhouette);
   const MaskEvidence& evidence = *silhouette.evidence;
   const auto input = [&](std::string_view name) {
     return evidence.inputs[std::find(kMaskInputs.begin(), kMaskInputs.end(), name) - kMaskInputs.begin()];
   };
   if (evidence.doubtful && input("largest not seen") >= input("largest not taken"))
     return "something may be stuck to the figure (" + placeIn(silhouette.grid, *evidence.doubtful) + ")";
-  if (input("largest not taken") > input("largest not seen")) return "a part of the figure may be missing";
+  if (evidence.missing && input("largest not taken") > input("largest not seen"))
+    return "a part of the figure may be missing (" + placeIn(silhouette.grid, *evidence.missing) + ")";
   return "the outline of the figure may be wrong";
 }
 

@@ -20,7 +20,7 @@ struct SilhouetteConfidence {
 };
 
 // Where to look in a mask that is probably wrong, in one clause for people; nothing where it is probably
-// right or where there is no evidence (Silhouette::evidence).
+// right or where there is no evidence (Silhouette::evidence, ::enclosed).
 std::optional<std::string> silhouetteDoubt(const Silhouette& silhouette,
                                            const SilhouetteConfidence& confidence);
 

@@ -113,6 +113,18 @@ void openLoops(const std::vector<Loop>& loops, const LoopNet& net, cv::Mat& figu
   }
 }
 
+cv::Mat chanceOfGround(const std::vector<Loop>& loops, const LoopNet& net, const cv::Mat& figure) {
+  constexpr double kPerhaps = 0.2;
+  cv::Mat chance;
+  for (const Loop& loop : loops) {
+    const double ground = net.net.probability(loop.inputs);
+    if (ground <= kPerhaps || ground > kSurelyGround) continue;
+    if (chance.empty()) chance = cv::Mat::zeros(figure.size(), CV_8U);
+    for (const int pixel : loop.pixels) chance.data[pixel] = cv::saturate_cast<std::uint8_t>(255 * ground);
+  }
+  return chance;
+}
+
 LoopNet parseLoopNet(std::string_view text, const std::string& file) {
   LogisticNetFile parsed = parseLogisticNetFile(text, file, kLoopFormat, loopInputs());
   return {std::move(parsed.net), std::move(parsed.provenance)};

@@ -57,6 +57,10 @@ struct LoopNet {
 inline constexpr double kSurelyGround = 0.9;
 void openLoops(const std::vector<Loop>& loops, const LoopNet& net, cv::Mat& figure);
 
+// How probably what stays is ground all the same, of 255, where that is more than a fifth; 8-bit, of the
+// figure's size. Empty: nowhere.
+cv::Mat chanceOfGround(const std::vector<Loop>& loops, const LoopNet& net, const cv::Mat& figure);
+
 // Files of format "skel-loop-net". Throws InputError.
 LoopNet parseLoopNet(std::string_view text, const std::string& file);
 std::string formatLoopNet(const LoopNet& net);

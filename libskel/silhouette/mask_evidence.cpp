@@ -65,19 +65,21 @@ MaskEvidence evidenceOfMask(const Plane8& mask, const SeenPage& page) {
     at_border += cv::countNonZero(side);
 
   MaskEvidence out;
-  const Component doubtful = largestPiece(not_seen);
+  const Component doubtful = largestPiece(not_seen), missing = largestPiece(not_taken);
   out.inputs.resize(static_cast<Eigen::Index>(kMaskInputs.size()));
   const auto damped = [](double share) { return std::log10(share + 1e-3); };
   out.inputs << both / std::max(1e-9, area + seen - both), damped(cv::countNonZero(not_seen) / area),
-      damped(doubtful.area / area), damped(cv::countNonZero(not_taken) / area),
-      damped(largestPiece(not_taken).area / area), sumOver(figure), sumOver(around),
-      damped(cv::sum(undecided)[0] / area), damped(area / static_cast<double>(figure.total())),
-      cv::countNonZero(edge) / std::sqrt(area), at_border / (2. * (figure.cols + figure.rows)), page.sheet,
-      page.ruled, page.soft;
-  if (doubtful.area > 0) {
-    const double x = double(mask.cols()) / figure.cols, y = double(mask.rows()) / figure.rows;
-    out.doubtful = {doubtful.x * x, doubtful.y * y, doubtful.width * x, doubtful.height * y};
-  }
+      damped(doubtful.area / area), damped(cv::countNonZero(not_taken) / area), damped(missing.area / area),
+      sumOver(figure), sumOver(around), damped(cv::sum(undecided)[0] / area),
+      damped(area / static_cast<double>(figure.total())), cv::countNonZero(edge) / std::sqrt(area),
+      at_border / (2. * (figure.cols + figure.rows)), page.sheet, page.ruled, page.soft;
+  const double x = double(mask.cols()) / figure.cols, y = double(mask.rows()) / figure.rows;
+  const auto boxOf = [&](const Component& piece) -> std::optional<Eigen::Array4d> {
+    if (piece.area == 0) return std::nullopt;
+    return Eigen::Array4d(piece.x * x, piece.y * y, piece.width * x, piece.height * y);
+  };
+  out.doubtful = boxOf(doubtful);
+  out.missing = boxOf(missing);
   return out;
 }
 

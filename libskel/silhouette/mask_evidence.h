@@ -28,6 +28,7 @@ struct MaskEvidence {
   // The largest piece of the mask that the net does not see as figure, as a box in px of the picture:
   // x, y, width, height; empty if there is none.
   std::optional<Eigen::Array4d> doubtful;
+  std::optional<Eigen::Array4d> missing;  // the same of what the net sees as figure beside the mask
 };
 
 // `mask`: 255 on the figure, of the picture.

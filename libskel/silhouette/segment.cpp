@@ -276,6 +276,12 @@ Segmentation segment(const Image& image, const PageNet* page_net, bool keep_step
     if (sheet) cv::warpPerspective(probability, seen, page_from_picture, rgb.size(), cv::INTER_LINEAR);
     lookInto(loops, drawn.figures, seen);
     openLoops(loops, builtInLoopNet(), figures);
+    if (cv::Mat chance = chanceOfGround(loops, builtInLoopNet(), figures); !chance.empty()) {
+      if (sheet)
+        cv::warpPerspective(chance, chance, page_from_picture, picture.size(),
+                            cv::INTER_NEAREST | cv::WARP_INVERSE_MAP);
+      out.enclosed = Eigen::Map<Plane8>(chance.data, chance.rows, chance.cols);
+    }
   }
   if (sheet) {
     cv::warpPerspective(figures, figures, page_from_picture, picture.size(),

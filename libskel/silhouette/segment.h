@@ -20,8 +20,9 @@ struct Segmentation {
   std::string reason;             // why it is empty, where it is
   std::optional<SeenPage> seen;   // of pages that are not tidy
   std::vector<RuledLine> ruling;  // of the paper, image px
+  Plane8 enclosed;                // chanceOfGround(), of workingRgb() (working_colors.h); empty: nowhere
   SilhouetteSteps steps;          // only if they are to be kept
-  std::vector<Loop> loops;        // the same; pixels of workingRgb() (working_colors.h)
+  std::vector<Loop> loops;        // the same; pixels of workingRgb()
 };
 
 // Works for drawings on paper (also photographed in uneven light), line art whose white fills open to the

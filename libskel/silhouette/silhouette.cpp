@@ -65,6 +65,7 @@ struct Cut {
   std::string reason;  // why there are none
   std::optional<SeenPage> seen = std::nullopt;
   std::optional<std::vector<RuledLine>> ruling = std::nullopt;
+  Plane8 enclosed = {};  // Segmentation::enclosed
 };
 
 Cut cutOut(const Plane8& foreground, int min_long_side, const PieceOptions& pieces = {}) {
@@ -75,7 +76,8 @@ Cut cutOut(const Plane8& foreground, int min_long_side, const PieceOptions& piec
           false,
           "",
           std::nullopt,
-          std::nullopt};
+          std::nullopt,
+          {}};
   if (cut.figures.empty())
     cut.reason =
         (foreground != 0).any() ? "what is drawn is too small to be a figure" : "the picture is blank";
@@ -108,6 +110,7 @@ Silhouette finish(const Cut& cut, const SilhouetteOptions& options) {
   if (!out.cut_sides.empty())
     out.warnings.push_back("the figure is cut by the border of the picture (" + out.cut_sides + ")");
   if (cut.seen) out.evidence = evidenceOfMask(out.mask, *cut.seen);
+  if (cut.enclosed.size() > 0) out.enclosed = enclosedGround(out.mask, cut.enclosed);
   out.ruling = cut.ruling;
   out.outline = traceOutline(out.mask);
   out.grid = gridOver(out.mask);
@@ -185,6 +188,7 @@ Cut cutOffPaper(const Image& image, const SilhouetteOptions& options) {
   Cut cut = cutOut(segmentation.foreground, leastLongSide(image), piecesOnPaper());
   cut.seen = segmentation.seen;
   cut.ruling = segmentation.ruling;
+  cut.enclosed = segmentation.enclosed;
   return cut;
 }
 
@@ -212,6 +216,11 @@ Cut cutOfLines(const Image& image, const SilhouetteOptions& options) {
   Cut cut = cutOut(segmentation.foreground.block(margin, margin, image.height, image.width),
                    leastLongSide(image), piecesOnPaper());
   cut.clear_around = true;
+  if (const Plane8& enclosed = segmentation.enclosed; enclosed.size() > 0) {
+    const double scale = double(enclosed.cols()) / (image.width + 2 * margin);
+    const auto scaled = [scale](int px) { return static_cast<Eigen::Index>(std::lround(scale * px)); };
+    cut.enclosed = enclosed.block(scaled(margin), scaled(margin), scaled(image.height), scaled(image.width));
+  }
   return cut;
 }
 

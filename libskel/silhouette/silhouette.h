@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libskel/image/image.h"
+#include "libskel/silhouette/enclosed_ground.h"
 #include "libskel/silhouette/mask_evidence.h"
 #include "libskel/silhouette/ruling.h"
 
@@ -46,7 +47,8 @@ struct Silhouette {
   std::string cut_sides;      // of the picture, by which the figure is cut: "left, bottom"
   bool is_sheet = false;      // the sheet itself was probably taken for the figure
 
-  std::optional<MaskEvidence> evidence;  // of pages that are not tidy
+  std::optional<MaskEvidence> evidence;    // of pages that are not tidy
+  std::optional<EnclosedGround> enclosed;  // of opaque pictures
   // Of the paper, image px; nothing where it was not looked for: the mask was given, or alpha tells it.
   std::optional<std::vector<RuledLine>> ruling;
 

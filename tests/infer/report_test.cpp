@@ -38,7 +38,7 @@ TEST_CASE("the report shows each drawing beside its moving figure, and what to t
   const TempDir dir;
   const std::string html = reportOf(dir);
   CHECK_THAT(html, Contains("<h1><span class=\"all\">3 drawings</span>"));
-  CHECK_THAT(html, Contains(", 1 to take again, 1 without a figure<"));
+  CHECK_THAT(html, Contains(", 1 to mend or take again, 1 without a figure<"));
   CHECK(countIn(html, "<article ") == 3);
   CHECK(countIn(html, "class=\"drawing\"") == 2);
   CHECK(countIn(html, "class=\"film\"") == 2);
@@ -68,7 +68,7 @@ TEST_CASE("the report lists on top what to look at, one line a child, and says a
                         std::filesystem::copy_options::overwrite_existing);
   const ToolRun run = infer(dir, "class -o class --formats json --report class/report.html");
   const std::string html = readFile(dir.file("class/report.html"));
-  const size_t retake = html.find("<h2>Photos to take again</h2>"),
+  const size_t retake = html.find("<h2>Mend these, or take the photo again</h2>"),
                look = html.find("<h2>Drawings to look at</h2>");
   REQUIRE(retake < look);
   REQUIRE(look < html.find("<main>"));
@@ -108,7 +108,7 @@ TEST_CASE("a blank sheet had neither picture nor advice, and files to convert we
     REQUIRE(at != html.npos);
     return html.substr(at, html.find(end, at) - at);
   };
-  const std::string again = partFrom("<h2>Photos to take again</h2>", "</section>");
+  const std::string again = partFrom("<h2>Mend these, or take the photo again</h2>", "</section>");
   CHECK(countIn(again, "<li>") == 1);
   CHECK_THAT(again, Contains(">Blank</a> Nothing was found on it. "));
   const std::string not_used = partFrom("<h2>Files without a figure</h2>", "</section>");
@@ -116,7 +116,7 @@ TEST_CASE("a blank sheet had neither picture nor advice, and files to convert we
   CHECK_THAT(not_used, Contains(">Eva</a> is a HEIC picture; convert it by <code>heif-convert class/Eva.heic "
                                 "class/Eva.png</code> (Debian"));
   const std::string card = partFrom("<h2>Blank</h2>", "</article>");
-  CHECK_THAT(card, Contains(">take again</span>") && Contains("class=\"drawing\"") &&
+  CHECK_THAT(card, Contains(">mend or retake</span>") && Contains("class=\"drawing\"") &&
                        Contains("Nothing was found on it. "));
   // Beside the pictures alone, those that are shown are counted.
   CHECK_THAT(html,

@@ -284,16 +284,29 @@ TEST_CASE("*.png in the folder of the results does not rig overlays and silhouet
   CHECK(contains(none.err, "none of the images is a drawing"));
 }
 
-TEST_CASE("trace pictures show the steps that the picture needed") {
+TEST_CASE("trace pictures show the steps that the picture needed, and none of a run before") {
   const TempDir dir;
   const std::string drawing = SKEL_DATASETS "/characters/kid_floating_head.png",
                     mask = SKEL_DATASETS "/characters/kid_floating_head.mask.png";
-  REQUIRE(infer(dir, drawing + " --formats json --trace seen").exit_code == 0);
+  REQUIRE(infer(dir, drawing + " --formats json --trace t").exit_code == 0);
   for (const char* name : {"2-page-net.png", "2-pieces.png", "7-depth.png"})
-    CHECK(fs::exists(dir.file(std::string("seen/") + name)));
-  CHECK_FALSE(fs::exists(dir.file("seen/2-sheet.png")));
-  REQUIRE(infer(dir, drawing + " --formats json --trace given --mask " + mask).exit_code == 0);
-  CHECK_FALSE(fs::exists(dir.file("given/2-page-net.png")));
+    CHECK(fs::exists(dir.file(std::string("t/kid_floating_head/") + name)));
+  CHECK_FALSE(fs::exists(dir.file("t/kid_floating_head/2-sheet.png")));
+  REQUIRE(infer(dir, drawing + " --formats json --trace t --mask " + mask).exit_code == 0);
+  CHECK_FALSE(fs::exists(dir.file("t/kid_floating_head/2-page-net.png")));
+}
+
+TEST_CASE("traces of two drawings, one after the other, were mixed in one folder") {
+  const TempDir dir;
+  for (const char* name : {"cap_boy", "clown"})
+    REQUIRE(infer(dir, SKEL_DATASETS "/characters/" + std::string(name) + ".png --formats json --trace t")
+                .exit_code == 0);
+  CHECK(fs::exists(dir.file("t/cap_boy/summary.png")));
+  CHECK(fs::exists(dir.file("t/clown/summary.png")));
+  CHECK_FALSE(fs::exists(dir.file("t/summary.png")));
+  const ToolRun swallowed = infer(dir, SKEL_DATASETS "/characters/clown.png --trace -o out");
+  CHECK(swallowed.exit_code == 1);
+  CHECK(swallowed.err == "skel-infer: --trace: needs the name of a folder\n");
 }
 
 TEST_CASE("option --version names the version and the hashes of the nets") {

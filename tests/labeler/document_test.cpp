@@ -776,6 +776,13 @@ TEST_CASE("each figure of a picture has painted limbs of its own") {
   document.paintLayer({left + 300, 300}, {left + 310, 300}, 5, limbBrush(2));
   CHECK(fs::exists(dir.file("page-2.limbs.png")));
   CHECK_FALSE(fs::exists(dir.file("page.limbs.png")));
+  // What was said of its mask became the mask of the first figure.
+  document.acceptMask();
+  document.paintMask({left + 300, 300}, {left + 310, 300}, 5, false);
+  CHECK(document.message() ==
+        "a mask is of the first figure of a picture, this is figure 2: cut the picture down to it, and mend "
+        "that");
+  CHECK_FALSE(fs::exists(dir.file("page.mask.png")));
 }
 
 TEST_CASE("a layer map that cannot be read is not written over") {
