@@ -52,9 +52,27 @@ std::vector<Eigen::Index> outermostVertices(const RiggedCharacter& character) {
 
 }  // namespace
 
+namespace {
+
+// One after the other its last pose is its first.
+bool comesBack(const Clip& clip) {
+  constexpr float kSame_rad = 0.01F, kSame = 1e-3F;  // of the height
+  if (clip.loops) return true;
+  for (const JointTrack& track : clip.tracks)
+    if (!track.rotations.empty() &&
+        track.rotations.front().angularDistance(track.rotations.back()) > kSame_rad)
+      return false;
+  return clip.root_translations.empty() ||
+         (clip.root_translations.front() - clip.root_translations.back()).norm() < kSame;
+}
+
+}  // namespace
+
 int frameCount(const Clip& clip, const FilmOptions& options) {
-  const double duration_s = options.duration_s > 0 ? options.duration_s : double(clip.duration_s());
-  return std::max(1, int(std::lround(duration_s * options.frame_rate)));
+  const bool once = options.duration_s == 0;
+  const double duration_s = once ? double(clip.duration_s()) : options.duration_s;
+  const int count = std::max(1, int(std::lround(duration_s * options.frame_rate)));
+  return once && !comesBack(clip) ? count + 1 : count;
 }
 
 Eigen::MatrixX3f outermostPoints(const RiggedCharacter& character, const std::vector<Clip>& clips) {

@@ -1,5 +1,7 @@
 #include "animator/flat_figure.h"
 
+#include <algorithm>
+
 #include "libskel/core/parallel.h"
 #include "libskel/draw/draw_skeleton.h"
 #include "libskel/pipeline/drawn_cut_out.h"
@@ -92,6 +94,15 @@ Camera FlatFigure::camera(const std::vector<Clip>& clips, double width_over_heig
     all.bottomRows(moment.rows()) << moment.cast<float>(), Eigen::VectorXf::Zero(moment.rows());
   }
   return framingCamera(all, 0, 0, width_over_height);
+}
+
+double FlatFigure::tornBy(const Clip& clip) const {
+  std::vector<double> torn(kFlatMoments);
+  parallelFor(torn.size(), 0, [&](std::size_t i) {
+    const double time_s = double(clip.duration_s()) * double(i) / kFlatMoments;
+    torn[i] = tornShare(cut_out_, posedSheets(cut_out_, flatPoseAt(drawing_, clip, time_s)));
+  });
+  return *std::max_element(torn.begin(), torn.end());
 }
 
 CutOutPainter FlatFigure::painterFor(const Camera& camera, int height) const {

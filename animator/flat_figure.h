@@ -36,6 +36,8 @@ class FlatFigure {
   Image paint(const Clip& clip, double time_s, const Camera& camera, const CutOutPainter& painter,
               const FilmOptions& options) const;
   CutOutPainter painterFor(const Camera& camera, int height) const;
+  // The greatest share of the drawing that the clip tears (tornShare()).
+  double tornBy(const Clip& clip) const;
   // No more painters are made. The drawing's own pictures are not needed from its construction on.
   void forgetPictures();
 

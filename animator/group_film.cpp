@@ -55,6 +55,7 @@ void GroupFilm::add(Performer performer) {
   Cell& cell = cells_.emplace_back(Cell{std::move(performer), nullptr, {}});
   try {
     cell.stage = std::make_unique<Stage>(options_, cell.performer);
+    cell.stage->sayTorn(cell.performer.clips.front());
     cell.paint = cell.stage->painterOf(cell.performer.clips.front(), in_cell);
   } catch (...) {
     cells_.pop_back();

@@ -127,6 +127,7 @@ struct Films {
       const MomentPainter paint = stage.painterOf(clip, film);
       write(paths[i], '"' + clip.name + '"', frameCount(clip, film), stage.isConcurrent(),
             [&](int frame) { return paint(frame / film.frame_rate); });
+      stage.sayTorn(clip);
     }
   }
 

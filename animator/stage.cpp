@@ -1,8 +1,10 @@
 #include "animator/stage.h"
 
+#include <cstdio>
 #include <numbers>
 
 #include "libskel/core/error.h"
+#include "libskel/core/text.h"
 
 namespace skel {
 
@@ -48,6 +50,16 @@ MomentPainter Stage::painterOf(const Clip& clip, const FilmOptions& film) const 
   return [this, clip, film, camera, look](double time_s) {
     return scene_->paint(posedAt(scene_->character(), clip, time_s), camera, film.width, film.height, look);
   };
+}
+
+void Stage::sayTorn(const Clip& clip) const {
+  constexpr double kMuch = 0.03;
+  const double torn = flat_ ? flat_->tornBy(clip) : 0;
+  if (torn > kMuch)
+    std::fprintf(stderr,
+                 "%s: note: \"%s\" tears %.1f %% of the drawing at most: look at the film, or take --look "
+                 "solid\n",
+                 printable(performer_.file.name).c_str(), printable(clip.name).c_str(), 100 * torn);
 }
 
 }  // namespace skel

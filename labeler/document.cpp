@@ -29,10 +29,10 @@ std::string counted(size_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-// The one that it plays.
+// The one that it plays: all limbs move in it, so that one that comes off is seen.
 std::vector<Clip> clipsOfPreview(const SkeletonTemplate& body_plan) {
   for (const Clip& clip : clipsFor(builtinClips(), body_plan))
-    if (clip.name == "wave" || clip.name == "wag") return {clip};
+    if (clip.name == "dance" || clip.name == "wag") return {clip};
   return {};
 }
 

@@ -50,6 +50,20 @@ TEST_CASE("a film has the clip's frames in their order, and repeats it") {
   }
 }
 
+TEST_CASE("the last pose of a motion that does not come back to its first was in no frame") {
+  FilmOptions options = small();
+  Clip clip = nodClip();
+  const int count = frameCount(clip, options);
+  clip.tracks.front().rotations.back() =
+      Eigen::Quaternionf(Eigen::AngleAxisf(0.5F, Eigen::Vector3f::UnitX()));
+  CHECK(frameCount(clip, options) == count + 1);
+  clip.loops = true;
+  CHECK(frameCount(clip, options) == count);
+  clip.loops = false;
+  options.duration_s = 2.5;
+  CHECK(frameCount(clip, options) == 50);
+}
+
 TEST_CASE("what goes wrong in a writer comes out of the film") {
   class Full : public VideoWriter {
     void add(const Image&) override { throw std::runtime_error("full"); }
