@@ -50,29 +50,38 @@ std::vector<Eigen::Index> outermostVertices(const RiggedCharacter& character) {
   return {outermost.begin(), outermost.end()};
 }
 
-}  // namespace
-
-namespace {
-
-// One after the other its last pose is its first.
+// Ends in the pose that it begins in, so that it may be played again and again.
 bool comesBack(const Clip& clip) {
-  constexpr float kSame_rad = 0.01F, kSame = 1e-3F;  // of the height
+  constexpr float kSame_rad = 0.01F, kSame = 1e-3F;  // of the height, of a size; m
   if (clip.loops) return true;
+  const auto apart = [](const auto& values) {
+    return !values.empty() && (values.front() - values.back()).norm() > kSame;
+  };
   for (const JointTrack& track : clip.tracks)
-    if (!track.rotations.empty() &&
-        track.rotations.front().angularDistance(track.rotations.back()) > kSame_rad)
+    if ((!track.rotations.empty() &&
+         track.rotations.front().angularDistance(track.rotations.back()) > kSame_rad) ||
+        apart(track.translations_m) || apart(track.scales))
       return false;
-  return clip.root_translations.empty() ||
-         (clip.root_translations.front() - clip.root_translations.back()).norm() < kSame;
+  return !apart(clip.root_translations);
+}
+
+bool showsItsEnd(const Clip& clip, const FilmOptions& options) {
+  return options.duration_s == 0 && !comesBack(clip);
 }
 
 }  // namespace
 
 int frameCount(const Clip& clip, const FilmOptions& options) {
-  const bool once = options.duration_s == 0;
-  const double duration_s = once ? double(clip.duration_s()) : options.duration_s;
+  const double duration_s = options.duration_s > 0 ? options.duration_s : double(clip.duration_s());
   const int count = std::max(1, int(std::lround(duration_s * options.frame_rate)));
-  return once && !comesBack(clip) ? count + 1 : count;
+  return showsItsEnd(clip, options) ? count + 1 : count;
+}
+
+double timeOf(int frame, const Clip& clip, const FilmOptions& options) {
+  const double time_s = frame / options.frame_rate;
+  return showsItsEnd(clip, options) && frame < frameCount(clip, options)
+             ? std::min(time_s, double(clip.duration_s()))
+             : time_s;
 }
 
 Eigen::MatrixX3f outermostPoints(const RiggedCharacter& character, const std::vector<Clip>& clips) {
@@ -122,7 +131,7 @@ void writeFrames(int count, bool concurrent, const std::function<Image(int)>& pa
 void writeFilm(const Scene& scene, const Clip& clip, const Camera& camera, const FilmOptions& options,
                VideoWriter& video, const std::function<void()>& on_frame) {
   const auto paint = [&](int frame) {
-    return scene.paint(posedAt(scene.character(), clip, frame / options.frame_rate), camera, options.width,
+    return scene.paint(posedAt(scene.character(), clip, timeOf(frame, clip, options)), camera, options.width,
                        options.height, options.look);
   };
   writeFrames(frameCount(clip, options), scene.isConcurrent(), paint, video, on_frame);

@@ -18,8 +18,11 @@ struct FilmOptions {
   Look look;
 };
 
-// Whole frames, at least one. The last one comes a frame before the end, so that films that loop do not stop.
+// Whole frames, at least one. The last one comes a frame before the end, so that films that loop do not stop;
+// of a clip that is played once and does not end in its first pose, at its end.
 int frameCount(const Clip& clip, const FilmOptions& options);
+// The moment that a frame shows, of the clip played again and again.
+double timeOf(int frame, const Clip& clip, const FilmOptions& options);
 
 // Points that show where the figure ends: in the rest pose and at 32 moments of each clip; of clips that make
 // too many points, at fewer.

@@ -99,7 +99,7 @@ Camera FlatFigure::camera(const std::vector<Clip>& clips, double width_over_heig
 double FlatFigure::tornBy(const Clip& clip) const {
   std::vector<double> torn(kFlatMoments);
   parallelFor(torn.size(), 0, [&](std::size_t i) {
-    const double time_s = double(clip.duration_s()) * double(i) / kFlatMoments;
+    const double time_s = double(clip.duration_s()) * double(i) / (kFlatMoments - 1);
     torn[i] = tornShare(cut_out_, posedSheets(cut_out_, flatPoseAt(drawing_, clip, time_s)));
   });
   return *std::max_element(torn.begin(), torn.end());

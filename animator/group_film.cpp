@@ -91,7 +91,8 @@ Image GroupFilm::paint(int frame) const {
   Image image = paintBackground(film_.look, film_.width, film_.height);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Eigen::Vector2i corner = cornerOf(i);
-    blit(image, cells_[i].paint(frame / film_.frame_rate), corner.x(), corner.y());
+    blit(image, cells_[i].paint(timeOf(frame, cells_[i].performer.clips.front(), film_)), corner.x(),
+         corner.y());
     if (name_px_ > 0)
       drawName(image, cells_[i].performer.file.name, corner.x() + grid_.width / 2.0,
                corner.y() + grid_.height - name_px_ / 2, 0.95 * grid_.width, name_px_, inkOn(film_.look));

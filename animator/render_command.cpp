@@ -191,6 +191,9 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path) {
   RenderCommandOptions options = asked;
   CharacterSource& source = options.source;
   source.path = path;
+  const bool of_drawings = std::any_of(asked.files.begin(), asked.files.end(),
+                                       [](const std::string& file) { return isDrawing({.path = file}); });
+  if (of_drawings && !isDrawing(source)) source.heights.of_others = 0;  // of these alone
   std::optional<DrawnCharacter> drawn;
   if (isDrawing(source)) drawn = rigDrawing(source, options.library);
   const bool chooses = drawn && choosesLook(options, path);

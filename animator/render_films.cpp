@@ -126,7 +126,7 @@ struct Films {
       const Clip& clip = performer.clips[i];
       const MomentPainter paint = stage.painterOf(clip, film);
       write(paths[i], '"' + clip.name + '"', frameCount(clip, film), stage.isConcurrent(),
-            [&](int frame) { return paint(frame / film.frame_rate); });
+            [&](int frame) { return paint(timeOf(frame, clip, film)); });
       stage.sayTorn(clip);
     }
   }

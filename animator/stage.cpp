@@ -57,7 +57,7 @@ void Stage::sayTorn(const Clip& clip) const {
   const double torn = flat_ ? flat_->tornBy(clip) : 0;
   if (torn > kMuch)
     std::fprintf(stderr,
-                 "%s: note: \"%s\" tears %.1f %% of the drawing at most: look at the film, or take --look "
+                 "%s: note: \"%s\" tears up to %.1f %% of the drawing: look at the film, or take --look "
                  "solid\n",
                  printable(performer_.file.name).c_str(), printable(clip.name).c_str(), 100 * torn);
 }

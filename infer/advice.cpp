@@ -31,7 +31,8 @@ std::string sentence(std::string clause) {
 // One of the warnings. What nobody has other words for stays as it is.
 std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawing, const SkeletonFile& file,
                          bool plan_is_chosen) {
-  constexpr std::size_t kMostNamed = 5;                        // joints: whoever reads of more learns nothing
+  constexpr std::size_t kMostNamed = 5;        // joints: whoever reads of more learns nothing
+  const bool first = file.figure.number == 1;  // of the picture: others have no mask of their own
   const bool photo = drawing.silhouette.evidence.has_value();  // or another page that is not tidy
   const auto starts = [&](const char* words) { return warning.starts_with(words); };
   if (starts("the sheet itself"))
@@ -45,7 +46,7 @@ std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawin
            (file.missing.empty() || file.missing.size() > kMostNamed
                 ? ""
                 : "; not seen: " + listed(file.missing)) +
-           (plan_is_chosen && drawing.body_plan.name == "quadruped"
+           (plan_is_chosen && first && drawing.body_plan.name == "quadruped"
                 ? ". It was taken for an animal on four legs; if it is none, choose Person (skel-label "
                   "FILE), and mend there what else is wrong. "
                 : ". skel-label FILE mends what is wrong. ") +
@@ -55,8 +56,9 @@ std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawin
   if (starts("some joints may be wrong"))
     return "Some joints may be wrong" +
            (file.missing.empty() ? "" : ", most likely " + listed(file.missing)) +
-           ". Look how the figure moves; skel-label FILE mends joints, and the mask (key M) if a part of the "
-           "figure is missing or something is stuck to it. " +
+           ". Look how the figure moves; skel-label FILE mends joints" +
+           (first ? ", and the mask (key M) if a part of the figure is missing or something is stuck to it. "
+                  : ". ") +
            (photo ? "If a shadow lies across the figure, take the photo without it; limbs that are apart are "
                     "found better."
                   : "Limbs that are apart are found better.");
@@ -69,6 +71,9 @@ std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawin
            "and each with --figure all).";
   if (starts("the figure is turned by "))
     return "The figure was taken to be turned by " + std::to_string(file.figure.turned_deg) + " degrees.";
+  if (starts("what its lines enclose"))
+    return sentence(warning.substr(0, warning.find(':'))) +
+           " If it is, erase it from the mask: skel-label FILE, key M.";
   if (warning.ends_with(kLookAtMask) && !starts("the mask was there"))
     return "Not sure where the figure ends: " + warning.substr(0, warning.size() - kLookAtMask.size()) +
            (photo ? ". Take away shadows and what touches it, or mend the mask: skel-label FILE, key M."

@@ -282,6 +282,7 @@ Score score(const MeasuredDrawing& truth, const Recognition* recognition, const 
     if (t == truth.joints.end() || !t->second) continue;
     const double error = guess == guesses.end() ? 1 : (guess->second.point - *t->second).norm() / size;
     sum += error;
+    result.taken_over += guess != guesses.end() && isSamePlace(guess->second.point, *t->second);
     within05 += error <= 0.05;
     within10 += error <= 0.10;
     within15 += error <= 0.15;

@@ -55,6 +55,7 @@ struct Score {
   std::optional<double> inside;                 // share of found joints on the true mask, 2 px of slack
   std::optional<double> iou;                    // of the silhouette; neither without a true mask
   int annotated = 0, sure = 0, sure_right = 0;  // joints; of confidence >= 0.8; of those within 0.10 L
+  int taken_over = 0;                           // joints that are annotated exactly where they are found
   double confidence = 0, likeness = 0;
   std::string worst_joint;  // "": none is off
 };

@@ -344,6 +344,13 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
         figure("sure_precision").c_str(), figure("confident_figures", 2).c_str(),
         figure("whole_figures", 2).c_str(), figure("confidence_auc").c_str(),
         figure("confidence_error").c_str());
+    constexpr double kMany = 0.1;
+    if (const double same = sum(&Score::taken_over); same > kMany * annotated)
+      std::fprintf(
+          stderr,
+          "skel-infer: note: %.0f of %.0f joints are annotated exactly where they are found now: taken "
+          "over from such a run, they flatter it\n",
+          same, annotated);
   }
   if (!hard.empty()) {
     const auto refused = std::count_if(hard.begin(), hard.end(), [](const Row& row) { return !row.found; });

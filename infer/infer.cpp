@@ -105,9 +105,9 @@ void rigInOrder(int threads, ProgressBar& progress, RunReport& report, const Nex
 
 ExitCode rigNamed(const InferOptions& options, const NamedDrawings& named) {
   const std::vector<RigJob> all = jobsOf(options);
-  std::vector<std::string> stems;
-  for (const RigJob& job : all) stems.push_back(job.stem);
-  requireNamed(options.heights, "--height", stems);
+  std::vector<std::string> names;
+  for (const RigJob& job : all) names.push_back(fs::path(job.source).stem().string());
+  requireNamed(options.heights, "--height", names);
   const RigOptions rig = rigOptions(options);
   for (const RigJob& job : all) noteInput(job.source);
   for (const RigJob& job : all) {

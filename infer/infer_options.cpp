@@ -32,6 +32,10 @@ void checkListUsage(const InferOptions& options) {
   if (!options.trace_dir.empty())
     throw UsageError("--trace draws every stage and does not go with " + many +
                      "; name the drawings to look into");
+  if (list && !options.heights.of.empty())
+    throw UsageError(
+        "--height NAME=METRES names one drawing, and a list may hold any number of that name: "
+        "give those drawings, or one height for all");
   if (isModelAlone(options)) throw UsageError("--resume goes with drawings, not with --model alone");
 }
 
@@ -149,8 +153,9 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
       })
       ->type_name("FOLDER")
       ->always_capture_default(false);
-  app.add_option("--report", options.report_file,
-                 "A page of HTML that shows each drawing beside its moving figure, and what to take again")
+  app.add_option(
+         "--report", options.report_file,
+         "A page of HTML that shows each drawing beside its moving figure, and what to mend or take again")
       ->type_name("FILE")
       ->always_capture_default(false)
       ->check(outputFile());

@@ -285,7 +285,8 @@ void takeError(DrawingResult& result) {
 
 DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, const RigJob& job,
                          ProgressBar& progress) {
-  if (const double height_m = options.heights(job.stem); height_m != rig.height_m) {
+  if (const double height_m = options.heights(fs::path(job.source).stem().string());
+      height_m != rig.height_m) {
     RigOptions own = rig;
     own.height_m = height_m;
     return rigDrawing(options, own, job, progress);

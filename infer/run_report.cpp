@@ -25,11 +25,9 @@ std::string jointsText(const FigureResult& figure, bool tells_plan) {
   if (!figure.confidence) return "";
   char sure[32] = "  joints placed by hand";
   if (!figure.all_placed) std::snprintf(sure, sizeof sure, "  confidence %.2f", *figure.confidence);
-  std::string text = sure;
-  if (!tells_plan) return text;
-  text += "  " + figure.body_plan;
-  const std::string drawn = drawnFrom(figure.facing_deg.value_or(0) * std::numbers::pi / 180);
-  return drawn == drawnFrom(0) ? text : text + ", " + drawn;
+  const std::string drawn = drawnFrom(figure.facing_deg.value_or(0) * std::numbers::pi / 180),
+                    plan = tells_plan ? "  " + figure.body_plan : "";
+  return sure + plan + (drawn == drawnFrom(0) ? "" : (tells_plan ? ", " : "  ") + drawn);
 }
 
 void print(const InferOptions& options, bool tells_plan, const DrawingResult& drawing) {

@@ -72,11 +72,11 @@ std::string namesOf(const std::set<std::string>& folders) {
 
 void noteWithoutLimb(const ImportCounts& counts) {
   for (const auto& [limb, files] : counts.without_limb)
-    std::fprintf(stderr,
-                 "skel-label: note: %s: no candidate is of the class %s, though all joints of %s are placed: "
-                 "where it does not lie before the body, look at the mask\n",
-                 firstAndMore(files).c_str(), kJointClassNames[static_cast<std::size_t>(limb)],
-                 limb == JointClass::kHand ? "an arm" : "a leg");
+    std::fprintf(
+        stderr,
+        "skel-label: note: %s: no candidate is of the class %s, though all joints of such a limb are "
+        "placed: where it does not lie before the body, look at the mask\n",
+        firstAndMore(files).c_str(), kJointClassNames[static_cast<std::size_t>(limb)]);
 }
 
 Mlp mlpOf(const LabelerOptions& options) {

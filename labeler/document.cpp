@@ -129,7 +129,6 @@ int Document::lookAgain() {
     message_ = error.what();
     return 0;
   }
-  for (Item& item : items_) item.doubts.reset();
   const int before = current_;
   size_t added = 0;
   FormerNames names;
@@ -157,6 +156,10 @@ void Document::loadFirst() {
     if (!first) first = i;
   }
   load(first.value_or(0));
+}
+
+void Document::forgetDoubts() {
+  for (Item& item : items_) item.doubts.reset();
 }
 
 const std::vector<std::string>& Document::doubts(int item) {
@@ -591,7 +594,7 @@ bool Document::replaceMask(std::shared_ptr<const MaskVersion> mask) {
 }
 
 bool Document::mayHaveMask() {
-  if (figureNumber() == 1) return true;
+  if (figureNumber() == 1 || state_.mask) return true;
   message_ = "a mask is of the first figure of a picture, this is figure " + std::to_string(figureNumber()) +
              ": cut the picture down to it, and mend that";
   return false;
@@ -676,13 +679,7 @@ void Document::findLimbs() {
   if (layers()) return;
   auto found = std::make_shared<LayerMap>();
   try {
-    RigInput input = rigInput();
-    if (std::all_of(state_.joints.begin(), state_.joints.end(),
-                    [](const auto& j) { return j.has_value(); })) {
-      input.skeleton = presetSkeleton(bodyPlan(), {0, 0}, {1, 1});
-      placeJoints(state_.joints, bodyPlan(), *input.skeleton);
-    }
-    rig_.setInput(std::move(input));
+    rig_.setInput(knowsAllJoints() ? inputWithJoints() : rigInput());
     rig_.setOptions(rigOptions());
     *found = rig_.layers();
   } catch (...) {
@@ -784,15 +781,20 @@ bool Document::build(RigInput input) {
 }
 
 void Document::rigAsItIs() {
-  if (image_.empty()) return;
+  if (image_.empty() || !knowsAllJoints()) return;
+  build(inputWithJoints());
+}
+
+bool Document::knowsAllJoints() const {
+  return std::all_of(state_.joints.begin(), state_.joints.end(),
+                     [](const auto& joint) { return joint.has_value(); });
+}
+
+RigInput Document::inputWithJoints() const {
   RigInput input = rigInput();
-  for (size_t j = 0; j < state_.joints.size(); ++j) {
-    const TemplateJoint& joint = bodyPlan().joints[j];
-    if (!state_.joints[j]) return;
-    if (!joint.derived || state_.joints[j]->origin == JointOrigin::kEdited)
-      input.placed.emplace_back(joint.name, state_.joints[j]->image);
-  }
-  build(std::move(input));
+  input.skeleton = presetSkeleton(bodyPlan(), {0, 0}, {1, 1});
+  placeJoints(state_.joints, bodyPlan(), *input.skeleton);
+  return input;
 }
 
 template <class Travel>

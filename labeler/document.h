@@ -79,6 +79,8 @@ class Document {
   Subject subject() const { return subject_; }
   // doubtsOf() the item, looked for when first asked for.
   const std::vector<std::string>& doubts(int item);
+  // Somebody may have run skel-infer.
+  void forgetDoubts();
   // False, and stays, where there is no such item or the last step is not on the disk.
   bool go(int item);
 
@@ -236,6 +238,8 @@ class Document {
   bool editsJointsAlone() const { return skeleton_ || motion_; }
   void forgetRig();  // mask or joints have changed
   RigInput rigInput() const;
+  bool knowsAllJoints() const;
+  RigInput inputWithJoints() const;  // as they are, all of which are known
   RigOptions rigOptions() const;
   bool letsNetsChoose() const;  // the body plan
   void count();

@@ -1,5 +1,6 @@
 #include "labeler/doubts.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "libskel/core/error.h"
@@ -28,11 +29,13 @@ std::vector<std::string> doubtsOf(const DrawingFiles& files) {
   try {
     MendRequest request;
     request.source = files.image;
-    request.image_sha256 = sha256(readFile(files.image));
-    for (const MendPlace& place : mendPlaces(request))
-      if (place.is_of_picture)
-        return isMendedSince(files, place.results + kSkeletonFileEnding) ? std::vector<std::string>()
-                                                                         : place.result->warnings;
+    const std::vector<MendPlace> places = mendPlaces(request);
+    const auto found = std::find_if(places.begin(), places.end(),
+                                    [](const MendPlace& place) { return place.result.has_value(); });
+    if (found == places.end() || found->result->image_sha256 != sha256(readFile(files.image)) ||
+        isMendedSince(files, found->results + kSkeletonFileEnding))
+      return {};
+    return found->result->warnings;
   } catch (const InputError&) {
   }
   return {};

@@ -74,6 +74,7 @@ std::optional<JointClass> classWithoutCandidate(const LabelFile& labels, const S
     return labels.isPlaced(name) && std::any_of(labels.joints.begin(), labels.joints.end(),
                                                 [&](const auto& j) { return j.first == name && j.second; });
   };
+  if (labels.labels.empty()) return std::nullopt;
   for (const TemplateLimb& limb : body_plan.limbs) {
     const auto isOther = [&](const std::optional<JointClass>& label) {
       return label && *label != limb.limb_class;

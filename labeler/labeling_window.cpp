@@ -12,6 +12,7 @@
 #include "libskel/core/caught_error.h"
 #include "libskel/draw/color.h"
 #include "libskel/image/result_picture.h"
+#include "libskel/pipeline/drawing_notes.h"
 #include "libskel/skeleton/motion_file.h"
 #include "libskel/skeleton/skeleton_file.h"
 #include "libskel/window/file_dialog.h"
@@ -103,6 +104,8 @@ class LabelingWindow {
   NextFrame frame() {
     if (!ImGui::GetIO().WantTextInput && !dialog_.isOpen() && !losing_) keys();
     // A drawing is seen before its joints are looked for.
+    if (std::exchange(opened_item_, document_.current()) != document_.current())
+      came_doubted_ = !document_.doubts(document_.current()).empty();
     const bool wants_joints = canvas_.tool == Tool::kJoints && document_.wantsJoints();
     if (wants_joints && std::exchange(seen_, document_.current()) == document_.current())
       document_.findJoints();
@@ -143,20 +146,26 @@ class LabelingWindow {
     return !losing_;
   }
 
-  // For pictures that have come into the folder.
+  // For pictures that have come into the folder, and results.
   void lookAgain() {
-    const int moved = document_.lookAgain();
-    if (moved == 0) return;
-    canvas_.followMoved(moved);
-    if (seen_ >= 0) seen_ += moved;
-    if (modelled_ >= 0) modelled_ += moved;
-    scroll_to_current_ = true;
+    document_.forgetDoubts();
+    lookForPictures();
   }
 
   // What is to be shown instead; null: nothing else.
   std::unique_ptr<Document> takeOpened() { return std::move(opened_); }
 
  private:
+  void lookForPictures() {
+    const int moved = document_.lookAgain();
+    if (moved == 0) return;
+    canvas_.followMoved(moved);
+    if (seen_ >= 0) seen_ += moved;
+    if (modelled_ >= 0) modelled_ += moved;
+    if (opened_item_ >= 0) opened_item_ += moved;
+    scroll_to_current_ = true;
+  }
+
   Subject subject() const {
     return static_cast<int>(canvas_.tool) < kFirstClassTool ? Subject::kJoints : Subject::kClasses;
   }
@@ -288,8 +297,7 @@ class LabelingWindow {
 
   void acceptJoints() {
     canvas_.cancel();
-    const bool doubted = !document_.doubts(document_.current()).empty();
-    if (document_.acceptJoints() && !(doubted && goToDoubted())) goToUnfinished();
+    if (document_.acceptJoints() && !(came_doubted_ && goToDoubted())) goToUnfinished();
   }
 
   void acceptMask() { canvas_.cancel(), document_.acceptMask(); }
@@ -321,7 +329,7 @@ class LabelingWindow {
   }
 
   void go(int by) {
-    lookAgain();
+    lookForPictures();
     goTo(document_.current() + by);
   }
 
@@ -403,7 +411,8 @@ class LabelingWindow {
     const bool doubted = item.problem.empty() && !progress.isWhole() && isDoubted(index);
     if (ImGui::IsItemHovered()) {
       std::string text = item.files.name + "\n" + stateOf(item);
-      for (std::size_t i = 0; doubted && i < item.doubts->size(); ++i) text += "\n" + (*item.doubts)[i];
+      for (std::size_t i = 0; doubted && i < item.doubts->size(); ++i)
+        text += "\n" + noteText({(*item.doubts)[i]}, item.files.image);
       tip(text.c_str());
     }
     ImDrawList* list = ImGui::GetWindowDrawList();
@@ -684,6 +693,8 @@ class LabelingWindow {
   Tool class_tool_ = Tool::kTouch;  // the last one used
   int seen_ = -1;                   // the last drawing whose joints were wanted
   int modelled_ = -1;               // the last drawing whose model was shown
+  int opened_item_ = -1;            // the last drawing that was current
+  bool came_doubted_ = false;       // the run was unsure of it
   bool help_ = false;
   bool losing_ = false;            // asks whether the last step may be lost
   bool looks_for_doubts_ = false;  // there are rows of which it is not known yet

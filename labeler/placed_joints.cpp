@@ -73,9 +73,11 @@ int countFound(const DrawingJoints& joints) {
 Progress progressOf(const DrawingJoints& joints, const SkeletonTemplate& body_plan) {
   Progress progress;
   for (size_t j = 0; j < joints.size(); ++j) {
-    if (!joints[j] || body_plan.joints[j].derived) continue;
+    if (!joints[j]) continue;
+    const bool placed = joints[j]->origin == JointOrigin::kEdited;
+    if (body_plan.joints[j].derived && !placed) continue;
     ++progress.parts;
-    progress.done += joints[j]->origin == JointOrigin::kEdited;
+    progress.done += placed;
   }
   return progress;
 }

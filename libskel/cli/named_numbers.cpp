@@ -27,10 +27,12 @@ CLI::Option* addNamedNumbers(CLI::App& app, const std::string& option, NamedNumb
   const auto take = [&numbers](const std::vector<std::string>& texts) {
     for (const std::string& text : texts) {
       const Word word(text);
-      (word.name.empty() ? numbers.of_others : numbers.of[word.name]) = std::stod(word.number);
+      double& number = word.name.empty() ? numbers.of_others : numbers.of[word.name];
+      CLI::detail::lexical_cast(word.number, number);
     }
   };
   const auto isNumber = [check](const std::string& text) {
+    if (text.starts_with('=')) return "\"" + text + "\" names no file before =";
     std::string number = Word(text).number;
     return check(number);
   };
@@ -39,7 +41,7 @@ CLI::Option* addNamedNumbers(CLI::App& app, const std::string& option, NamedNumb
       ->transform(withoutBlanks())
       ->check(CLI::Validator(isNumber, "", kNumberCheck))
       ->allow_extra_args(false)
-      ->type_name("NUMBER");
+      ->type_name("FLOAT,NAME=FLOAT");
 }
 
 void requireNamed(const NamedNumbers& numbers, const std::string& option,

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
@@ -90,11 +91,21 @@ void addSkeleton(const std::string& path, const MendRequest& request, std::vecto
 // When a person or a run wrote there last.
 fs::file_time_type lastWritten(const FormerPlace& former) {
   fs::file_time_type last = fs::file_time_type::min();
-  for (const std::string& path : {former.place.results + kSkeletonFileEnding, former.labels}) {
+  const auto look = [&](const std::string& path) {
     std::error_code not_there;
     if (const auto time = fs::last_write_time(path, not_there); !not_there) last = std::max(last, time);
-  }
+  };
+  if (!former.place.results.empty()) look(former.place.results + kSkeletonFileEnding);
+  if (!former.labels.empty()) look(former.labels);
   return last;
+}
+
+void sortNewestFirst(std::vector<FormerPlace>& places) {
+  std::vector<std::pair<fs::file_time_type, FormerPlace>> dated;
+  for (FormerPlace& place : places) dated.emplace_back(lastWritten(place), std::move(place));
+  std::stable_sort(dated.begin(), dated.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = std::move(dated[i].second);
 }
 
 std::vector<fs::path> foldersOf(const MendRequest& request) {
@@ -177,9 +188,7 @@ std::vector<FormerPlace> formerPlaces(const MendRequest& request, const std::vec
       else
         addSkeleton(path, request, here);
     }
-    std::stable_sort(here.begin(), here.end(), [](const FormerPlace& a, const FormerPlace& b) {
-      return lastWritten(a) > lastWritten(b);
-    });
+    sortNewestFirst(here);
     for (FormerPlace& place : here) {
       if (isKnown(place.place.made)) continue;
       place.place.is_beside = wholePath(folder) == wholePath(beside);

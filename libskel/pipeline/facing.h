@@ -7,7 +7,7 @@
 
 namespace skel {
 
-// About the vertical, rad, in (-pi, pi]: 0 to the viewer (+z), positive to +x, as far as skel can tell.
+// About the vertical, rad, in [-pi, pi]: 0 to the viewer (+z), positive to +x, as far as skel can tell.
 double facing(const RiggedCharacter& character);
 
 // For the user: "from the front", "looking left".

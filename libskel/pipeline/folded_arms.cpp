@@ -54,7 +54,8 @@ void foldArms(const Skeleton& skeleton, const SkeletonTemplate& body_plan, SkinW
     std::array<int, 3> arm;
     for (std::size_t k = 0; k < 3; ++k)
       arm[k] = skeleton.find(body_plan.joints[std::size_t(limb.joints[k])].name);
-    if (isFolded(skeleton, arm)) moveWeights(arm, weights);
+    if (std::find(arm.begin(), arm.end(), -1) == arm.end() && isFolded(skeleton, arm))
+      moveWeights(arm, weights);
   }
 }
 

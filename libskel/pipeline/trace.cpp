@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "libskel/animation/sample_pose.h"
 #include "libskel/core/check.h"
 #include "libskel/core/files.h"
+#include "libskel/core/input_guard.h"
 #include "libskel/deform/skin_vertices.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/draw/draw_skeleton.h"
@@ -219,15 +221,11 @@ Image summary(const RiggedDrawing& drawing, const Image& skeleton) {
 
 void writeTrace(const RiggedDrawing& drawing, const SilhouetteSteps& steps, const std::string& dir) {
   SKEL_CHECK(drawing.found());
+  std::set<std::string> written;
   const auto write = [&](const char* name, const Image& picture) {
     writeFile(dir + "/" + name, encodePng(picture));
+    written.insert(name);
   };
-  // Of a run before, which may have needed steps that this one does not.
-  for (const char* step : {"2-sheet.png", "2-unruled.png", "2-even-light.png", "2-page-net.png",
-                           "2-pieces.png", "6-layers.png"}) {
-    std::error_code not_there;
-    std::filesystem::remove(std::filesystem::path(dir) / step, not_there);
-  }
   write("1-drawing.png", onPaper(drawing.image));
   if (!steps.sheet.empty()) write("2-sheet.png", steps.sheet);
   if (!steps.unruled.empty()) write("2-unruled.png", steps.unruled);
@@ -250,6 +248,13 @@ void writeTrace(const RiggedDrawing& drawing, const SilhouetteSteps& steps, cons
   write("8-posed.png", clipsPicture(drawing));
   write("sides.png", sides(drawing));
   write("summary.png", summary(drawing, skeleton));
+  // Of a run before, which needed steps that this one does not.
+  for (const char* step :
+       {"2-sheet.png", "2-unruled.png", "2-even-light.png", "2-page-net.png", "2-pieces.png", "6-layers.png"})
+    if (const std::string path = dir + "/" + step; !written.contains(step) && std::filesystem::exists(path)) {
+      noteOutput(path);
+      std::filesystem::remove(path);
+    }
 }
 
 }  // namespace skel

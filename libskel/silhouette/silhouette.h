@@ -48,7 +48,7 @@ struct Silhouette {
   bool is_sheet = false;      // the sheet itself was probably taken for the figure
 
   std::optional<MaskEvidence> evidence;    // of pages that are not tidy
-  std::optional<EnclosedGround> enclosed;  // of opaque pictures
+  std::optional<EnclosedGround> enclosed;  // of pictures whose figure lines and colours tell
   // Of the paper, image px; nothing where it was not looked for: the mask was given, or alpha tells it.
   std::optional<std::vector<RuledLine>> ruling;
 

@@ -57,6 +57,17 @@ TEST_CASE("the last pose of a motion that does not come back to its first was in
   clip.tracks.front().rotations.back() =
       Eigen::Quaternionf(Eigen::AngleAxisf(0.5F, Eigen::Vector3f::UnitX()));
   CHECK(frameCount(clip, options) == count + 1);
+  CHECK(timeOf(count, clip, options) == double(clip.duration_s()));
+  CHECK(timeOf(count - 1, clip, options) < double(clip.duration_s()));
+  for (JointTrack& track : clip.tracks)
+    for (float& time_s : track.times_s) time_s *= 0.9F;  // 0.9 s is no whole number of frames in binary
+  options.frame_rate = 30;
+  const int last = frameCount(clip, options) - 1;
+  CHECK(last == 27);
+  CHECK(timeOf(last, clip, options) == double(clip.duration_s()));
+  options.frame_rate = 20;
+  for (JointTrack& track : clip.tracks)
+    for (float& time_s : track.times_s) time_s /= 0.9F;
   clip.loops = true;
   CHECK(frameCount(clip, options) == count);
   clip.loops = false;

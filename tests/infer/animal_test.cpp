@@ -161,6 +161,8 @@ TEST_CASE("a model that looks to the side, and not to +z, was written without a 
        {"\"template\":\"quadruped\",\"facing_deg\":-90.0", "\"template\":\"biped\",\"facing_deg\":-90.0",
         "\"template\":\"biped\",\"facing_deg\":0.0"})
     CHECK(contains(run.out, said));
+  CHECK(contains(infer("'" + kAnimals + "/walking_dog.png' --template quadruped -o '" + dir.path() + "'").out,
+                 "  looking left\n"));
   const ToolRun silhouette =
       infer("'" + kAnimals + "/walking_dog.png' --formats silhouette --json -o '" + dir.path() + "'");
   CHECK(contains(silhouette.out, "\"facing_deg\":null"));

@@ -68,6 +68,23 @@ TEST_CASE("evaluate draws what it found and writes the figures") {
   CHECK_FALSE(figures.root().at("characters").at("cap_boy").at("worst_joint").asString().empty());
 }
 
+TEST_CASE("joints that were taken over from what is measured gave it full marks without a word") {
+  const skel::TempDir dir;
+  const std::string drawing = dir.file("cap_boy.png"), mask = dir.file("cap_boy.mask.png");
+  std::filesystem::copy_file(SKEL_DATASETS "/characters/cap_boy.png", drawing);
+  std::filesystem::copy_file(SKEL_DATASETS "/characters/cap_boy.mask.png", mask);
+  REQUIRE(skel::runTool("skel-infer '" + drawing + "' --formats json -o '" + dir.path() + "'").exit_code ==
+          0);
+  std::string text = skel::readFile(dir.file("cap_boy.skeleton.json"));
+  for (const std::string found = "\"recognized\""; text.find(found) != std::string::npos;)
+    text.replace(text.find(found), found.size(), "\"edited\"");
+  skel::writeFile(dir.file("cap_boy.skeleton.json"), text);
+  REQUIRE(skel::runTool("skel-label import '" + dir.path() + "'").exit_code == 0);
+  const auto run = skel::runTool("skel-infer evaluate '" + dir.path() + "' --given-mask");
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.err, Catch::Matchers::Contains("joints are annotated exactly where they are found now"));
+}
+
 TEST_CASE("evaluate refuses a joint that lies in no picture: its error was no number of JSON") {
   const skel::TempDir dir;
   for (const char* end : {".png", ".mask.png"})

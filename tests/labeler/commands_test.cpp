@@ -609,6 +609,18 @@ TEST_CASE("import: joints and outline of a COCO file were taken for a picture of
   CHECK(fs::exists(dir.file("round/cap_boy.labels.json")));
 }
 
+TEST_CASE("import gave no candidate the class of arms that are placed, and said nothing") {
+  const TempDir dir;
+  for (const char* ending : {".png", ".mask.png", ".joints.json"})
+    fs::copy_file(SKEL_SOURCE_DIR "/datasets/characters/sumo" + std::string(ending),
+                  dir.file("sumo" + std::string(ending)));
+  const ToolRun run = runTool("skel-label import '" + dir.path() + "'");
+  CHECK(run.exit_code == 0);
+  CHECK(
+      run.err.find("sumo.labels.json: no candidate is of the class hand, though all joints of such a limb") !=
+      std::string::npos);
+}
+
 TEST_CASE("import: a drawing that was renamed with its skeleton is complained of by the skeleton's name") {
   const TempDir dir;
   fs::copy(kCharacters + "cap_boy.png", dir.file("boy.png"));

@@ -896,7 +896,7 @@ TEST_CASE("what the last run was unsure of is known of a picture, not of one tha
   CHECK(document.doubts(document.current()).empty());
   REQUIRE(document.undo());
   writeFile(dir.file("cap_boy.png"), readFile(dir.file("runner.png")));
-  document.lookAgain();
+  document.forgetDoubts();
   CHECK(document.doubts(0).empty());
 }
 

@@ -90,7 +90,7 @@ TEST_CASE("a house grown onto the figure is named with its place, and a missing 
   Plane8 missing = c.figure;
   missing.block(40, 20, 50, 40).setZero();
   CHECK(silhouetteDoubt(found(missing, c.seen), confidence).value_or("") ==
-        "a part of the figure may be missing (left)");
+        "a part of the figure may be missing (lower part)");
   confidence.net.bias = -30;
   CHECK(silhouetteDoubt(found(c.figure, c.seen), confidence).value_or("") ==
         "the outline of the figure may be wrong");
@@ -119,16 +119,16 @@ TEST_CASE("what lines enclose was taken for the figure without a word where it m
   silhouette.evidence.reset();
   Plane8 chance = Plane8::Zero(c.figure.rows() / 2, c.figure.cols() / 2);
   CHECK(!enclosedGround(c.figure, chance));
-  chance.topLeftCorner(20, 20).setConstant(255);  // beside the figure
+  chance.topLeftCorner(20, 8).setConstant(255);  // beside the figure
   CHECK(!enclosedGround(c.figure, chance));
-  chance.block(20, 15, 10, 4).setConstant(204);
+  chance.block(20, 15, 9, 4).setConstant(204);
   silhouette.enclosed = enclosedGround(c.figure, chance);
   REQUIRE(silhouette.enclosed);
-  CHECK(silhouette.enclosed->share == Approx(160 * .8 / 4000).epsilon(.03));
+  CHECK(silhouette.enclosed->share == Approx(36 * .8 / 800).epsilon(.03));
   CHECK(!silhouetteDoubt(silhouette, builtInSilhouetteConfidence()));  // less than a twenty-fifth
   chance.block(20, 15, 20, 4).setConstant(204);
   silhouette.enclosed = enclosedGround(c.figure, chance);
-  CHECK(silhouette.enclosed->share == Approx(320 * .8 / 4000).epsilon(.03));
+  CHECK(silhouette.enclosed->share == Approx(80 * .8 / 800).epsilon(.03));
   CHECK((silhouette.enclosed->box - Eigen::Array4d(30, 40, 8, 40)).abs().maxCoeff() <= 2);
   CHECK_THAT(silhouetteDoubt(silhouette, builtInSilhouetteConfidence()).value_or(""),
              Catch::Matchers::StartsWith("what its lines enclose may be ground ("));
