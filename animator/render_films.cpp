@@ -6,6 +6,7 @@
 
 #include "animator/film.h"
 #include "animator/group_film.h"
+#include "animator/rig_source.h"
 #include "animator/stage.h"
 #include "libskel/core/error.h"
 #include "libskel/core/file_names.h"
