@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "libskel/core/json_names.h"
+#include "libskel/core/sha256.h"
 #include "libskel/core/text.h"
 
 namespace skel {
@@ -77,6 +78,14 @@ std::string formatEvaluation(const Evaluation& evaluation) {
   nlohmann::ordered_json json;
   json["accuracy"] = evaluation.accuracy();
   if (!evaluation.measured_on.empty()) json["measured_on"] = evaluation.measured_on;
+  if (!evaluation.set_sha256.empty()) json["set_sha256"] = evaluation.set_sha256;
+  if (evaluation.net) {
+    const WeightsProvenance& made = evaluation.net->provenance;
+    json["net"] = {{"weights_sha256", sha256(formatWeights(*evaluation.net))},
+                   {"trained_on_sha256", made.data_sha256},
+                   {"options", made.options},
+                   {"seed", made.seed}};
+  }
   json["balanced_accuracy"] = evaluation.balancedAccuracy();
   json["samples"] = evaluation.samples();
   json["classes"] = kJointClassNames;

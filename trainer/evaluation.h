@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "libskel/classifier/mlp.h"
+#include "libskel/classifier/weights_file.h"
 #include "trainer/samples.h"
 
 namespace skel {
@@ -27,7 +27,9 @@ struct Evaluation {
   // Samples by their true class (row) and the class of largest probability (column).
   std::array<std::array<int, kJointClassCount>, kJointClassCount> confusion{};
   std::vector<CharacterScore> characters;
-  std::string measured_on;  // with respect to training; "": it is not told
+  std::string measured_on;         // with respect to training; "": it is not told
+  std::string set_sha256;          // of what it is measured on, see LabelledSet; "": it is not told
+  std::optional<WeightsFile> net;  // that is measured; nothing of several
   std::optional<Draws> draws;
 
   int samples() const;
@@ -41,8 +43,8 @@ struct Evaluation {
 Evaluation evaluateOn(const Mlp& mlp, const Characters& characters,
                       const std::function<void()>& on_character = {});
 
-// Keys accuracy, measured_on, where it is told, balanced_accuracy, samples, classes, confusion, characters,
-// draws, where there were some.
+// Keys accuracy, measured_on, set_sha256 and net, where they are told, balanced_accuracy, samples, classes,
+// confusion, characters, draws, where there were some.
 std::string formatEvaluation(const Evaluation& evaluation);
 // Accuracy and confusion matrix as lines for a terminal.
 std::string describeEvaluation(const Evaluation& evaluation);

@@ -324,6 +324,8 @@ ExitCode runTrain(const TrainOptions& given) {
                         result.epochs,        set.sampleCount(), static_cast<int>(characters.size()),
                         evaluation.accuracy()};
   writeFile(options.output, formatWeights(weights));
+  evaluation.set_sha256 = set.sha256;
+  evaluation.net = std::move(weights);
   if (!options.json.empty()) writeFile(options.json, formatEvaluation(evaluation));
   if (!options.report.empty()) writeReport(options.report, result, evaluation);
   std::printf("wrote %s (of the least loss: after %d of %zu epochs)\n", printable(options.output).c_str(),
@@ -352,12 +354,14 @@ ExitCode runEvaluateWeights(const EvaluateWeightsOptions& options) {
                               ? readMeasuredSet(options.dir, leave_out)
                               : labelAnnotatedImages(options.dir, {options.candidates}, leave_out);
   sayLeftOut(set);
-  const Mlp mlp = options.weights.empty() ? defaultMlp() : readMlp(options.weights);
+  WeightsFile net = options.weights.empty() ? defaultWeights() : readWeights(options.weights);
   Evaluation evaluation;
   {
     ProgressBar bar("evaluation", set.characters.size());
-    evaluation = evaluateOn(mlp, pointersTo(set.characters), [&] { bar.advance(); });
+    evaluation = evaluateOn(net.mlp, pointersTo(set.characters), [&] { bar.advance(); });
   }
+  evaluation.set_sha256 = set.sha256;
+  evaluation.net = std::move(net);
   std::printf("%s", describeEvaluation(evaluation).c_str());
   if (!options.json.empty()) writeFile(options.json, formatEvaluation(evaluation));
   return code;

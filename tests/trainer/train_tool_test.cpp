@@ -87,6 +87,14 @@ TEST_CASE("skel-train writes weights, report and figures, the same bytes for eve
   const JsonDocument document = JsonDocument::readFile(dir.file("e.json"));
   CHECK(document.root().at("accuracy").asNumber(0.9, 1) > 0.9);
   CHECK(document.root().at("characters").items()[3].at("name").asString() == "c3");
+  // Two nets that tell the same of all gave the same file.
+  const JsonValue net = document.root().at("net");
+  CHECK(net.at("weights_sha256").asString() == sha256(readFile(dir.file("a.json"))));
+  CHECK(net.at("trained_on_sha256").asString() == document.root().at("set_sha256").asString());
+  const ToolRun shipped = run("evaluate " + dir.path() + " --json " + dir.file("s.json"));
+  CHECK(shipped.exit_code == 0);
+  CHECK(JsonDocument::readFile(dir.file("s.json")).root().at("net").at("weights_sha256").asString() ==
+        sha256(readFile(SKEL_SOURCE_DIR "/weights/default.json")));
 }
 
 TEST_CASE("every way of training works from the command line") {
