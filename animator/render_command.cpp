@@ -183,17 +183,16 @@ struct Cast {
 bool choosesLook(const RenderCommandOptions& options, const std::string& path) {
   const RenderCommandOptions otherwise;
   return options.look == "auto" && options.sheet.output.empty() &&
-         !needsModel(options, options.angles(stemOf(path))) && options.pitch_deg == otherwise.pitch_deg &&
-         options.blend == otherwise.blend;
+         !needsModel(options, options.angles(stemOf(path)) != 0) &&
+         options.pitch_deg == otherwise.pitch_deg && options.blend == otherwise.blend;
 }
 
-Cast cast(const RenderCommandOptions& asked, const std::string& path) {
+// `among_drawings`: the run has any.
+Cast cast(const RenderCommandOptions& asked, const std::string& path, bool among_drawings) {
   RenderCommandOptions options = asked;
   CharacterSource& source = options.source;
   source.path = path;
-  const bool of_drawings = std::any_of(asked.files.begin(), asked.files.end(),
-                                       [](const std::string& file) { return isDrawing({.path = file}); });
-  if (of_drawings && !isDrawing(source)) source.heights.of_others = 0;  // of these alone
+  if (among_drawings && !isDrawing(source)) source.heights.of_others = 0;  // of these alone
   std::optional<DrawnCharacter> drawn;
   if (isDrawing(source)) drawn = rigDrawing(source, options.library);
   const bool chooses = drawn && choosesLook(options, path);
@@ -275,10 +274,8 @@ void checkFiles(const RenderCommandOptions& options) {
       throw UsageError("--skeleton FILE is of one drawing, " + std::to_string(options.files.size()) +
                        " characters are named; give them one at a time");
   if (!options.together) checkNames(options.files);
-  std::vector<std::string> names;
-  for (const std::string& path : options.files) names.push_back(stemOf(path));
-  requireNamed(options.angles, "--angle", names);
-  requireNamed(options.source.heights, "--height", names);
+  requireNamed(options.angles, "--angle", options.files);
+  requireNamed(options.source.heights, "--height", options.files);
 }
 
 }  // namespace
@@ -328,10 +325,12 @@ ExitCode runRender(const RenderCommandOptions& asked) {
       ++(one.rigged ? verdicts.fine : verdicts.loaded);
     return one.code;
   };
+  const bool any_drawing = std::any_of(options.files.begin(), options.files.end(),
+                                       [](const std::string& file) { return isDrawing({.path = file}); });
   std::vector<Cast> measured;
   for (const std::string& path : options.files)
     attempt(path, [&] {
-      Cast one = cast(options, path);
+      Cast one = cast(options, path, any_drawing);
       if (!renderer.measure) return render(std::move(one));
       renderer.measure(one.performer);
       measured.push_back(std::move(one));

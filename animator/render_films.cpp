@@ -80,7 +80,7 @@ struct Films {
     const bool turned = std::any_of(options.files.begin(), options.files.end(), [&](const std::string& path) {
       return options.angles(stemOf(path)) != 0;
     });
-    if (options.look == "flat" && needsModel(options, turned ? 1 : 0))
+    if (options.look == "flat" && needsModel(options, turned))
       throw UsageError(
           "--look flat shows the drawing as it was drawn: leave out --angle, --wireframe, --translucent and "
           "--show-weights");

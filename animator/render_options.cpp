@@ -149,8 +149,8 @@ bool manyClips(const RenderCommandOptions& options) {
   return options.clips.size() > 1 || options.clips.front() == kAllClips;
 }
 
-bool needsModel(const RenderCommandOptions& options, double angle_deg) {
-  return angle_deg != 0 || options.wireframe || options.translucent || !options.weights_of.empty();
+bool needsModel(const RenderCommandOptions& options, bool turned) {
+  return turned || options.wireframe || options.translucent || !options.weights_of.empty();
 }
 
 std::vector<std::string> filmFormats() {

@@ -64,8 +64,9 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options);
 
 bool manyClips(const RenderCommandOptions& options);
 
-// Whether something is asked for that the flat look does not have, of a character that is seen from there.
-bool needsModel(const RenderCommandOptions& options, double angle_deg);
+// Whether something is asked for that the flat look does not have. `turned`: not seen from where it was
+// drawn.
+bool needsModel(const RenderCommandOptions& options, bool turned);
 
 // For --format, the default first.
 std::vector<std::string> filmFormats();

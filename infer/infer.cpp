@@ -105,9 +105,9 @@ void rigInOrder(int threads, ProgressBar& progress, RunReport& report, const Nex
 
 ExitCode rigNamed(const InferOptions& options, const NamedDrawings& named) {
   const std::vector<RigJob> all = jobsOf(options);
-  std::vector<std::string> names;
-  for (const RigJob& job : all) names.push_back(fs::path(job.source).stem().string());
-  requireNamed(options.heights, "--height", names);
+  std::vector<std::string> sources;
+  for (const RigJob& job : all) sources.push_back(job.source);
+  requireNamed(options.heights, "--height", sources);
   const RigOptions rig = rigOptions(options);
   for (const RigJob& job : all) noteInput(job.source);
   for (const RigJob& job : all) {

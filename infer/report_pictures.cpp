@@ -1,6 +1,5 @@
 #include "infer/report_pictures.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include "libskel/draw/render_mesh.h"
 #include "libskel/image/write_image.h"
 #include "libskel/image/write_jpeg.h"
+#include "libskel/mesh/outline.h"
 
 namespace skel {
 namespace {
@@ -87,18 +87,13 @@ FilmSheet filmSheet(const RiggedDrawing& drawing, const Clip& clip) {
 // With a margin.
 Image aroundFigure(const Image& image, const Plane8& mask) {
   constexpr double kMargin = 0.12;  // of the figure's long side
-  Eigen::AlignedBox2i box;
-  for (int y = 0; y < mask.rows(); ++y)
-    for (int x = 0; x < mask.cols(); ++x)
-      if (mask(y, x) != 0) box.extend(Eigen::Vector2i(x, y));
-  if (box.isEmpty()) return image;
-  const int margin = int(std::lround(kMargin * (box.sizes().maxCoeff() + 1)));
-  const Eigen::Vector2i low = (box.min().array() - margin).max(0),
-                        high =
-                            (box.max().array() + margin + 1).min(Eigen::Array2i(image.width, image.height));
-  Image part(high.x() - low.x(), high.y() - low.y());
+  const PixelBox box = figureBox(mask);
+  if (box.width() == 0) return image;
+  const int margin = int(std::lround(kMargin * std::max(box.width(), box.height())));
+  const int x0 = std::max(0, box.x0 - margin), y0 = std::max(0, box.y0 - margin);
+  Image part(std::min(image.width, box.x1 + margin) - x0, std::min(image.height, box.y1 + margin) - y0);
   for (int y = 0; y < part.height; ++y)
-    std::copy_n(image.pixel(low.x(), low.y() + y), 4 * std::size_t(part.width), part.pixel(0, y));
+    std::copy_n(image.pixel(x0, y0 + y), 4 * std::size_t(part.width), part.pixel(0, y));
   return part;
 }
 

@@ -199,12 +199,10 @@ int droppedClasses(const LabelFile& labels, const LabelFile& before) {
 
 // What the labels say that can hardly be of this figure.
 void countOutside(const std::string& label_path, const LabelFile& labels,
-                  const std::optional<std::string>& mask, const SkeletonTemplate& body_plan,
-                  ImportCounts& counts) {
+                  const std::optional<std::string>& mask, const Silhouette& figure,
+                  const SkeletonTemplate& body_plan, ImportCounts& counts) {
   std::string outside = mask ? jointsOutsideMask(labels, body_plan, *mask) : "";
-  if (outside.empty() && labels.hasPlacedJoint())
-    outside = jointFarOutsideFigure(labels,
-                                    silhouetteOf(besideLabelFile(label_path, labels.image.file), mask).mask);
+  if (outside.empty()) outside = jointFarOutsideFigure(labels, figure.mask);
   if (!outside.empty()) counts.outside_mask.push_back(label_path + ": " + outside);
   if (const auto limb = classWithoutCandidate(labels, body_plan))
     counts.without_limb[*limb].push_back(label_path);
@@ -237,17 +235,18 @@ bool importDrawing(const AnnotatedDrawing& drawing, const std::string& dir, cons
     mask = drawingFiles(image_path, {}).mask;
     writeNew(*mask, encodePng(maskFromPolygons(drawing.mask_polygons, image.width, image.height)), options);
   }
-  LabelFile labels = labelImage(image_path, mask, drawing.joints, body_plan, {}, drawing.recognized);
+  const Silhouette figure = silhouetteOf(image_path, mask);
+  LabelFile labels = labelFigure(figure, image_path, mask, drawing.joints, body_plan, {}, drawing.recognized);
   if (before) {
-    counts.classes_kept += keepClasses(
-        labels, *before,
-        labelImage(image_path, mask, before->joints, planOf(before->joints, plans), {}, before->recognized));
+    counts.classes_kept += keepClasses(labels, *before,
+                                       labelFigure(figure, image_path, mask, before->joints,
+                                                   planOf(before->joints, plans), {}, before->recognized));
     counts.classes_dropped += droppedClasses(labels, *before);
   }
   writeLabelFile(label_path, labels);
   countJoints(labels, body_plan, counts);
   countMissing(label_path, labels, body_plan, counts);
-  countOutside(label_path, labels, mask, body_plan, counts);
+  countOutside(label_path, labels, mask, figure, body_plan, counts);
   const std::string folder = fs::path(label_path).lexically_normal().parent_path().string();
   counts.folders.insert(folder.empty() ? "." : folder);
   return true;

@@ -1,11 +1,11 @@
 #include "labeler/joints_outside_mask.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "libskel/image/read_image.h"
+#include "libskel/mesh/outline.h"
 #include "libskel/skeleton/outside_figure.h"
 
 namespace skel {
@@ -15,14 +15,6 @@ namespace {
 // drawings no more than 2 of 14 joints lie farther out; of an inverted mask 6 at least.
 constexpr double kBeside = .005, kMostOutside = 1 / 3.;
 constexpr int kFewestOutside = 3;
-
-double longSide(const Plane8& mask) {
-  Eigen::AlignedBox2i box;
-  for (int y = 0; y < mask.rows(); ++y)
-    for (int x = 0; x < mask.cols(); ++x)
-      if (mask(y, x)) box.extend(Eigen::Vector2i(x, y));
-  return box.isEmpty() ? 0 : box.sizes().maxCoeff() + 1;
-}
 
 bool isWithin(const Plane8& mask, const Eigen::Vector2d& place, double beside_px) {
   const auto clamped = [](double at, Eigen::Index size) {
@@ -40,7 +32,8 @@ bool isWithin(const Plane8& mask, const Eigen::Vector2d& place, double beside_px
 std::string jointsOutsideMask(const LabelFile& labels, const SkeletonTemplate& body_plan,
                               const std::string& mask_path) {
   const Plane8 mask = readMask(mask_path);
-  const double beside_px = kBeside * longSide(mask);
+  const PixelBox figure = figureBox(mask);
+  const double beside_px = kBeside * std::max(figure.width(), figure.height());
   int known = 0, outside = 0;
   for (const auto& [name, place] : labels.joints) {
     const int joint = body_plan.find(name);

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 
 #include "libskel/cli/names.h"
 #include "libskel/cli/number.h"
@@ -45,9 +46,11 @@ CLI::Option* addNamedNumbers(CLI::App& app, const std::string& option, NamedNumb
 }
 
 void requireNamed(const NamedNumbers& numbers, const std::string& option,
-                  const std::vector<std::string>& names) {
+                  const std::vector<std::string>& files) {
   for (const auto& [name, number] : numbers.of)
-    if (std::find(names.begin(), names.end(), name) == names.end())
+    if (std::none_of(files.begin(), files.end(), [&name = name](const std::string& file) {
+          return std::filesystem::path(file).stem() == name;
+        }))
       throw UsageError(option + ": no file of this run is called \"" + name + '"');
 }
 

@@ -27,8 +27,8 @@ struct NamedNumbers {
 CLI::Option* addNamedNumbers(CLI::App& app, const std::string& option, NamedNumbers& numbers,
                              const CLI::Validator& check, const std::string& description);
 
-// Throws UsageError where one is of a file that is not called like any of `names`.
+// Throws UsageError where one is of a file that is not called like any of `files`, paths.
 void requireNamed(const NamedNumbers& numbers, const std::string& option,
-                  const std::vector<std::string>& names);
+                  const std::vector<std::string>& files);
 
 }  // namespace skel

@@ -195,7 +195,13 @@ Silhouette silhouetteOf(const std::string& image_path, const std::optional<std::
 LabelFile labelImage(const std::string& image, const std::optional<std::string>& mask,
                      const NamedJoints& joints, const SkeletonTemplate& body_plan,
                      const CandidateOptions& options, const std::vector<std::string>& recognized) {
-  const Silhouette silhouette = silhouetteOf(image, mask);
+  return labelFigure(silhouetteOf(image, mask), image, mask, joints, body_plan, options, recognized);
+}
+
+LabelFile labelFigure(const Silhouette& silhouette, const std::string& image,
+                      const std::optional<std::string>& mask, const NamedJoints& joints,
+                      const SkeletonTemplate& body_plan, const CandidateOptions& options,
+                      const std::vector<std::string>& recognized) {
   const CandidateSet candidates = extractCandidates(silhouette, options);
   LabelFile labels;
   labels.image = sourceOf(image);

@@ -83,5 +83,10 @@ Silhouette silhouetteOf(const std::string& image, const std::optional<std::strin
 LabelFile labelImage(const std::string& image, const std::optional<std::string>& mask,
                      const NamedJoints& joints, const SkeletonTemplate& body_plan,
                      const CandidateOptions& options = {}, const std::vector<std::string>& recognized = {});
+// The same of its silhouetteOf().
+LabelFile labelFigure(const Silhouette& silhouette, const std::string& image,
+                      const std::optional<std::string>& mask, const NamedJoints& joints,
+                      const SkeletonTemplate& body_plan, const CandidateOptions& options = {},
+                      const std::vector<std::string>& recognized = {});
 
 }  // namespace skel

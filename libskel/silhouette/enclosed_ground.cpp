@@ -7,16 +7,9 @@
 
 #include "libskel/core/check.h"
 #include "libskel/silhouette/components.h"
+#include "libskel/silhouette/working_colors.h"
 
 namespace skel {
-namespace {
-
-cv::Mat viewOf(const Plane8& plane) {
-  return {static_cast<int>(plane.rows()), static_cast<int>(plane.cols()), CV_8U,
-          const_cast<std::uint8_t*>(plane.data())};
-}
-
-}  // namespace
 
 std::optional<EnclosedGround> enclosedGround(const Plane8& mask, const Plane8& chance) {
   SKEL_CHECK(mask.size() > 0 && chance.size() > 0);

@@ -175,8 +175,7 @@ Surroundings surroundingsOf(const Image& image, const Plane8& figure, const cv::
   cv::resize(rgbaOf(image)(box), rgba, size, 0, 0, cv::INTER_AREA);
   cv::mixChannels(rgba, rgb, {0, 0, 1, 1, 2, 2});
   out.colors = logOf(rgb);
-  const cv::Mat mask(static_cast<int>(figure.rows()), static_cast<int>(figure.cols()), CV_8U,
-                     const_cast<std::uint8_t*>(figure.data()));
+  const cv::Mat mask = viewOf(figure);
   cv::resize(mask(box), out.figure, size, 0, 0, cv::INTER_AREA);
   out.figure = out.figure > 0;
 

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "libskel/silhouette/fill_holes.h"
+#include "libskel/silhouette/working_colors.h"
 
 namespace skel {
 namespace {
@@ -29,8 +30,7 @@ bool isLight(const Image& image) {
 }  // namespace
 
 bool mayBeLineArt(const Plane8& opaque) {
-  const cv::Mat drawn(static_cast<int>(opaque.rows()), static_cast<int>(opaque.cols()), CV_8U,
-                      const_cast<std::uint8_t*>(opaque.data()));
+  const cv::Mat drawn = viewOf(opaque);
   const cv::Rect box = cv::boundingRect(drawn);
   if (box.empty()) return false;
   const int area = cv::countNonZero(drawn);

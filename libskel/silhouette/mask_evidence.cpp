@@ -7,6 +7,7 @@
 
 #include "libskel/core/check.h"
 #include "libskel/silhouette/components.h"
+#include "libskel/silhouette/working_colors.h"
 
 namespace skel {
 namespace {
@@ -33,12 +34,9 @@ cv::Mat core(const cv::Mat& mask, int reach) {
 
 MaskEvidence evidenceOfMask(const Plane8& mask, const SeenPage& page) {
   SKEL_CHECK(mask.size() > 0 && page.share.size() > 0);
-  const cv::Mat probability(static_cast<int>(page.share.rows()), static_cast<int>(page.share.cols()), CV_8U,
-                            const_cast<std::uint8_t*>(page.share.data()));
+  const cv::Mat probability = viewOf(page.share);
   cv::Mat figure;
-  cv::resize(cv::Mat(static_cast<int>(mask.rows()), static_cast<int>(mask.cols()), CV_8U,
-                     const_cast<std::uint8_t*>(mask.data())),
-             figure, probability.size(), 0, 0, cv::INTER_AREA);
+  cv::resize(viewOf(mask), figure, probability.size(), 0, 0, cv::INTER_AREA);
   figure = figure >= 128;
   constexpr int kPerhaps = 77, kSurely = 178;  // of 255
   const int long_side = std::max(figure.cols, figure.rows);

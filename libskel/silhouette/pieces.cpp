@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "libskel/image/mask_parts.h"
+#include "libskel/silhouette/working_colors.h"
 
 namespace skel {
 namespace {
@@ -276,8 +277,7 @@ Plane8 JoinedFigure::inPicture(const Plane8& own, Eigen::Index height, Eigen::In
 }
 
 double openShare(const Plane8& figure) {
-  const cv::Mat mask(static_cast<int>(figure.rows()), static_cast<int>(figure.cols()), CV_8U,
-                     const_cast<std::uint8_t*>(figure.data()));
+  const cv::Mat mask = viewOf(figure);
   std::vector<std::vector<cv::Point>> contours;
   cv::findContours(mask, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_SIMPLE);
   std::vector<cv::Point> points, hull;

@@ -15,14 +15,11 @@
 #include "libskel/silhouette/pieces.h"
 #include "libskel/silhouette/segment.h"
 #include "libskel/silhouette/steps.h"
+#include "libskel/silhouette/working_colors.h"
 #include "libskel/silhouette/working_grid.h"
 
 namespace skel {
 namespace {
-
-cv::Mat viewOf(Plane8& plane) {
-  return {static_cast<int>(plane.rows()), static_cast<int>(plane.cols()), CV_8U, plane.data()};
-}
 
 Silhouette noFigure(const std::string& reason) {
   Silhouette none;
@@ -39,8 +36,7 @@ int leastLongSide(const Image& image) {
 
 // Names the sides of the picture along which a good part of the figure ends.
 std::string cutSides(const Plane8& mask) {
-  const cv::Rect box = cv::boundingRect(cv::Mat(static_cast<int>(mask.rows()), static_cast<int>(mask.cols()),
-                                                CV_8U, const_cast<std::uint8_t*>(mask.data())));
+  const cv::Rect box = cv::boundingRect(viewOf(mask));
   const auto cut = [&](auto side) {
     const Eigen::Index touching = (side > 0).count();
     return touching >= 3 && touching * 20 >= std::max(box.width, box.height);

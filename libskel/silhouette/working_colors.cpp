@@ -14,6 +14,11 @@ cv::Mat rgbaOf(const Image& image) {
   return {image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data())};
 }
 
+cv::Mat viewOf(const Plane8& plane) {
+  return {static_cast<int>(plane.rows()), static_cast<int>(plane.cols()), CV_8U,
+          const_cast<std::uint8_t*>(plane.data())};
+}
+
 Image imageOfRgb(const cv::Mat& rgb) {
   Image image(rgb.cols, rgb.rows);
   cv::Mat rgba(rgb.rows, rgb.cols, CV_8UC4, image.rgba.data());

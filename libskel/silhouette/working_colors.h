@@ -11,6 +11,8 @@ namespace skel {
 
 // The whole picture as it is, CV_8UC4; its pixels are not copied and not to be written.
 cv::Mat rgbaOf(const Image& image);
+// The same of a plane, CV_8U.
+cv::Mat viewOf(const Plane8& plane);
 // An opaque picture. `rgb`: CV_8UC3.
 Image imageOfRgb(const cv::Mat& rgb);
 inline constexpr int kWorkingSize = 512;  // long side in which figures are found, px
