@@ -82,8 +82,12 @@ std::vector<JointedDrawing> findJointedDrawings(const std::string& dir) {
   };
   std::vector<std::string> overruled, overruled_skeletons;
   for (const AnnotatedImage& files : findAnnotatedImages(dir)) {
-    JointedDrawing drawing{files.image, files.mask, files.joints, readJointsFile(files.joints),
-                           readView(files.joints) == "side"};
+    JointedDrawing drawing{files.image,
+                           files.mask,
+                           files.joints,
+                           readJointsFile(files.joints),
+                           readView(files.joints) == "side",
+                           readFacing(files.joints)};
     if (const auto labels = placedLabelsBeside(files.image)) {
       const std::string path = labelFileFor(files.image);
       check(path, *labels);

@@ -18,6 +18,7 @@ struct JointedDrawing {
   std::string joints_file;          // where the joints stand
   NamedJoints joints;
   bool side_view = false;
+  std::optional<int> facing_deg = {};  // which way the figure looks, see readFacing()
 };
 
 // All below `dir`, at any depth, sorted by the image's path: annotated ones (see findAnnotatedImages), and

@@ -2,6 +2,7 @@
 #include "trainer/average_nets.h"
 #include "trainer/bone_lengths.h"
 #include "trainer/confidence_training.h"
+#include "trainer/facing_training.h"
 #include "trainer/joint_net_figures.h"
 #include "trainer/joint_net_training.h"
 #include "trainer/limb_training.h"
@@ -58,6 +59,9 @@ int main(int argc, char** argv) {
   skel::LimbTrainingOptions limb_training;
   CLI::App* limbs = app.add_subcommand("limbs", "Learns whether what was found of a limb is one");
   skel::bindLimbTrainingOptions(*limbs, limb_training);
+  skel::FacingTrainingOptions facing_training;
+  CLI::App* facing = app.add_subcommand("facing", "Learns which way the figures of drawings look");
+  skel::bindFacingTrainingOptions(*facing, facing_training);
   return skel::runTool(app, argc, argv, [&] {
     if (*evaluation) return skel::runEvaluateWeights(evaluate);
     if (*figures) return skel::runFigureSheet(sheet);
@@ -65,6 +69,7 @@ int main(int argc, char** argv) {
     if (*bones) return skel::runBoneLengths(bone_lengths);
     if (*confidence) return skel::runConfidenceTraining(confidence_training);
     if (*silhouettes) return skel::runSilhouetteTraining(silhouette_training);
+    if (*facing) return skel::runFacingTraining(facing_training);
     if (*limbs) return skel::runLimbTraining(limb_training);
     if (*loops) return skel::runLoopTraining(loop_training);
     if (*averaging) return skel::runAverageNets(average);

@@ -11,11 +11,12 @@ namespace skel {
 std::string netFormatName(std::string_view format) {
   constexpr std::string_view kCheckpoint =
       "a checkpoint (the line of skel-train that wrote it, run to its end, makes a net of it)";
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kKinds = {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kKinds = {
       {{"skel-confidence", "numbers that say how sure the recognition is"},
        {"skel-silhouette-confidence", "numbers that say how sure a silhouette is"},
        {"skel-loop-net", "a net that tells what is ground within lines"},
        {"skel-limb-net", "a net that tells whether a limb is one"},
+       {"skel-facing-net", "a net that tells which way a figure looks"},
        {"skel-weights", "weights that tell candidates apart (--weights)"},
        {"skel-joint-net", "a net that finds joints (--joint-net)"},
        {"skel-part-net", "a net that tells parts (--part-net)"},

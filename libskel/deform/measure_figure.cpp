@@ -5,10 +5,12 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "libskel/core/check.h"
 #include "libskel/core/segment.h"
+#include "libskel/deform/facing_net.h"
 #include "libskel/skeleton/hanging.h"
 #include "libskel/skin/bones.h"
 #include "libskel/skin/parts.h"
@@ -205,18 +207,6 @@ void measureFeet(const Flesh& flesh, FigureShape& shape) {
     if (!feet[j].points.empty()) shape.feet_m[j] = std::move(feet[j].points);
 }
 
-// How much further the foot reaches to the right of the picture than to the left of its joint, in heights.
-double footReach(const Flesh& flesh, int foot, double height_m) {
-  double left = 0, right = 0;
-  for (Eigen::Index v = 0; v < flesh.mesh.vertices.rows(); ++v)
-    if (flesh.share(v, {foot}) > 0.5) {
-      const double x = double(flesh.mesh.vertices(v, 0)) - flesh.joint(foot).x();
-      left = std::max(left, -x);
-      right = std::max(right, x);
-    }
-  return (right - left) / height_m;
-}
-
 // A pair of legs: what names its joints, and what both hang on.
 struct LegPair {
   const char *top, *middle, *end, *trunk;
@@ -259,37 +249,9 @@ void measureLegs(const Flesh& flesh, const LegPair& pair, FigureShape& shape) {
   for (const int joint : joints) shape.joined[joint] = joined;
 }
 
-// How far to the right of the picture the middle joint of a limb lies from the straight line between the
-// others.
-double bend(const Flesh& flesh, int from, int middle, int to) {
-  const Vector2d a = flesh.joint(from).head<2>(), b = flesh.joint(middle).head<2>(),
-                 c = flesh.joint(to).head<2>();
-  return b.x() - nearestOnSegment<Vector2d>(b, a, c).x();
-}
-
-// A figure in side view is narrow, its feet and knees point the way it looks, its elbows and the nape the
-// other way; in front view left and right cancel out. The limits separate the drawings of
-// datasets/characters.
-double bipedYaw(const Flesh& flesh, double height_m, double& side) {
-  const Skeleton& skeleton = flesh.skeleton;
-  const int pelvis = skeleton.find("pelvis"), neck = skeleton.find("neck"), head = skeleton.find("head");
-  if (pelvis < 0 || neck < 0 || head < 0) return 0;
-  double looks = (flesh.joint(head).x() - flesh.joint(neck).x()) / height_m;
-  double shoulders = 0;
-  for (const std::string side : {"left_", "right_"}) {
-    const int shoulder = skeleton.find(side + "shoulder"), elbow = skeleton.find(side + "elbow"),
-              hand = skeleton.find(side + "hand"), hip = skeleton.find(side + "hip"),
-              knee = skeleton.find(side + "knee"), foot = skeleton.find(side + "foot");
-    if (std::min({shoulder, elbow, hand, hip, knee, foot}) < 0) return 0;
-    looks += footReach(flesh, foot, height_m) +
-             (2 * bend(flesh, hip, knee, foot) - bend(flesh, shoulder, elbow, hand)) / height_m;
-    shoulders += (side == "left_" ? 1 : -1) * flesh.joint(shoulder).x();
-  }
-  const double width = std::abs(shoulders) / std::max(1e-6, (flesh.joint(neck) - flesh.joint(pelvis)).norm());
-  side = looks > 0 ? 1 : -1;
-  if (width < 0.55 && std::abs(looks) > 0.1) return side * std::numbers::pi / 2;
-  if (width < 1 && std::abs(looks) > 0.12) return side * std::numbers::pi / 4;
-  return 0;
+Facing facingOf(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton) {
+  const std::optional<FacingEvidence> evidence = facingEvidence(mesh, weights, skeleton);
+  return evidence ? builtInFacingNet().of(*evidence) : Facing();
 }
 
 // What hangs belongs to what it hangs on.
@@ -312,9 +274,7 @@ bool isBiped(const Skeleton& skeleton) { return skeleton.find("left_front_foot")
 
 double figureYaw(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton) {
   if (!isBiped(skeleton) || mesh.vertices.rows() == 0) return shapeOfBones(skeleton).yaw_rad;
-  const SkinWeights carried = ofCarriers(weights, skeleton);
-  double side = 1;
-  return bipedYaw({mesh, carried, skeleton}, heightOf(mesh), side);
+  return facingOf(mesh, weights, skeleton).yaw_rad;
 }
 
 FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton) {
@@ -333,9 +293,9 @@ FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, 
   if (isBiped(skeleton)) {
     measureArms(flesh, shape);
     shape.head_half_width_m = headHalfWidth(flesh);
-    double side = 1;
-    shape.yaw_rad = bipedYaw(flesh, shape.height_m, side);
-    if (nearlyFlat(skeletonBones(skeleton))) shape.looks = side;
+    const Facing facing = facingOf(mesh, weights, skeleton);
+    shape.yaw_rad = facing.yaw_rad;
+    if (nearlyFlat(skeletonBones(skeleton))) shape.looks = facing.looks;
   }
   for (const LegPair& pair : {kBipedLegs, kFrontLegs, kHindLegs}) measureLegs(flesh, pair, shape);
   return shape;

@@ -95,8 +95,8 @@ std::vector<AnnotatedImage> findAnnotatedImages(const std::string& dir, const On
 NamedJoints readJointsFile(const std::string& path) {
   const JsonDocument document = JsonDocument::readFile(path);
   const JsonValue root = document.root();
-  root.allowOnly({"joints", "view", "style", "image_size", "annotation", "derived_from", "difficulty",
-                  "extras", "circumstances"});
+  root.allowOnly({"joints", "view", "facing_deg", "style", "image_size", "annotation", "derived_from",
+                  "difficulty", "extras", "circumstances"});
   const JsonValue list = root.at("joints");
   NamedJoints joints;
   for (const std::string& name : list.keys()) {
@@ -174,6 +174,13 @@ std::string readView(const std::string& joints_file) {
   const JsonDocument document = JsonDocument::readFile(joints_file);
   const std::optional<JsonValue> view = document.root().find("view");
   return view ? view->asString() : "";
+}
+
+std::optional<int> readFacing(const std::string& joints_file) {
+  const JsonDocument document = JsonDocument::readFile(joints_file);
+  if (const auto facing = document.root().find("facing_deg"))
+    return static_cast<int>(facing->asNumber(-180, 180));
+  return readView(joints_file) == "front" ? std::optional(0) : std::nullopt;
 }
 
 Plane8 readMaskOf(const Image& image, const std::string& mask) {

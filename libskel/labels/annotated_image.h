@@ -72,6 +72,10 @@ std::vector<std::string> jointNames(const NamedJoints& joints);
 // What such a file says of the view: "front", "three-quarter" or "side"; "" if nothing. Throws InputError.
 std::string readView(const std::string& joints_file);
 
+// Which way its figure looks: 0 to the viewer, 45 half and 90 all the way to the right of the picture,
+// negative to the left, beyond 90 seen from behind. Nothing where it does not say. Throws InputError.
+std::optional<int> readFacing(const std::string& joints_file);
+
 // Throws InputError also where its size is not that of the image.
 Plane8 readMaskOf(const Image& image, const std::string& mask);
 

@@ -17,6 +17,7 @@
 #include "libskel/classifier/weights_file.h"
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/deform/facing_net.h"
 #include "libskel/export/formats.h"
 #include "libskel/import/read_character.h"
 #include "libskel/import/read_weights.h"
@@ -151,6 +152,8 @@ const std::map<std::string, Reader>& readers() {
          const Skeleton skeleton = figureSkeleton();
          return formatPose(parsePose(readFile(path), path, skeleton), skeleton);
        }},
+      {"skel-facing-net",
+       [](const std::string& path) { return formatFacingNet(parseFacingNet(readFile(path), path)); }},
       {"skel-limb-net",
        [](const std::string& path) { return formatLimbNet(parseLimbNet(readFile(path), path)); }},
       {"skel-loop-net",

@@ -1,5 +1,6 @@
 // The nets that say how sure one may be: of joints and figures, of silhouettes, of what lines enclose, of
-// limbs. What is read gives chances, and the same file again.
+// limbs, of which way figures look. What is read gives chances, and the same file again.
+#include "libskel/deform/facing_net.h"
 #include "libskel/layers/limb_net.h"
 #include "libskel/recognition/confidence_model.h"
 #include "libskel/recognition/silhouette_confidence.h"
@@ -36,5 +37,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   read(text, parseSilhouetteConfidence, formatSilhouetteConfidence, {&SilhouetteConfidence::net});
   read(text, parseLoopNet, formatLoopNet, {&LoopNet::net});
   read(text, parseLimbNet, formatLimbNet, {&LimbNet::net});
+  read(text, parseFacingNet, formatFacingNet, {&FacingNet::right, &FacingNet::turned, &FacingNet::side});
   return 0;
 }

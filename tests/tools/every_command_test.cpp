@@ -104,6 +104,7 @@ const std::map<std::string, std::vector<std::string>> kOutputs = {
     {"skel-train bones", {"--output"}},
     {"skel-train confidence", {"--output", "--table"}},
     {"skel-train silhouettes", {"--output"}},
+    {"skel-train facing", {"--output"}},
     {"skel-train limbs", {"--output"}},
     {"skel-train loops", {"--output"}},
 };

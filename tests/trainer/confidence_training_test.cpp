@@ -4,6 +4,7 @@
 
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
+#include "libskel/deform/facing_net.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
 #include "libskel/jointnet/joint_net.h"
@@ -180,6 +181,25 @@ TEST_CASE("what is a limb is learned to the same bytes whatever the number of th
       runTool("skel-train limbs '" + people + "' --shapes '" + people + "' -o '" + dir.file("n.json") + "'");
   CHECK(nothing.exit_code == 1);
   CHECK(nothing.err.find("no drawings with shapes") != std::string::npos);
+}
+
+TEST_CASE("which way figures look is learned to the same bytes whatever the number of threads") {
+  const TempDir dir;
+  const std::string people = folderOf(dir, "p", "characters",
+                                      {"alien", "astro_float", "backpack_boy", "cap_boy", "ninja", "pirate"});
+  const auto learn = [&](const std::string& output, const std::string& more) {
+    return runTool("skel-train facing '" + people + "' --folds 2 -o '" + dir.file(output) + "' " + more);
+  };
+  const ToolRun one = learn("one.json", "--threads 1");
+  INFO(one.err);
+  REQUIRE(one.exit_code == 0);
+  CHECK(one.out.find("turned") != std::string::npos);
+  REQUIRE(learn("three.json", "--threads 3").exit_code == 0);
+  CHECK(readFile(dir.file("one.json")) == readFile(dir.file("three.json")));
+  CHECK(parseFacingNet(readFile(dir.file("one.json")), "one.json").right.hidden.rows() == 0);
+  std::filesystem::remove(dir.file("p/astro_float.joints.json"));
+  writeFile(dir.file("p/astro_float.joints.json"), R"({"joints": {"head": [1, 2]}, "facing_deg": "left"})");
+  CHECK(learn("bad.json", "").err.find("facing_deg") != std::string::npos);
 }
 
 TEST_CASE("a table of samples is read again as it was written, and what is none is refused by its line") {
