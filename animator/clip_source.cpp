@@ -199,8 +199,9 @@ std::vector<std::string> whatStays(const std::vector<Clip>& clips, const RiggedC
     clauses.insert(clauses.end(), arms.begin(), arms.end());
   };
   if (!by_names.empty())
-    addArms(armsThatStay(by_names, character.skeleton,
-                         measureFigure(character.mesh, character.weights, character.skeleton)));
+    addArms(
+        armsThatStay(by_names, character.skeleton,
+                     measureFigure(character.mesh, character.weights, character.skeleton, character.facing)));
   if (!by_parts.empty())
     addArms(armsThatStay(by_parts, figure->skeleton, measureByRoles(character, *figure)));
   return clauses;
@@ -210,7 +211,7 @@ Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource
   if (const std::optional<RoleFigure> figure = partsFor(clip, character.skeleton))
     return retargetByRoles(clip, *figure, character.skeleton, measureByRoles(character, *figure));
   RetargetOptions options;
-  options.shape = measureFigure(character.mesh, character.weights, character.skeleton);
+  options.shape = measureFigure(character.mesh, character.weights, character.skeleton, character.facing);
   options.into_picture = intoPicture(source, clip.frame);
   return retargetToRest(commonPart(clip, character.skeleton).value_or(clip), character.skeleton, options);
 }
@@ -223,9 +224,10 @@ ClipKeys madeFor(const Skeleton& skeleton, ClipKeys keys) {
 
 RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& character,
                             const ClipSource& source) {
-  return retargetMotion(readBvh(path), path, character.skeleton,
-                        measureFigure(character.mesh, character.weights, character.skeleton),
-                        {intoPicture(source, ClipFrame::kBody), source.flat});
+  return retargetMotion(
+      readBvh(path), path, character.skeleton,
+      measureFigure(character.mesh, character.weights, character.skeleton, character.facing),
+      {intoPicture(source, ClipFrame::kBody), source.flat});
 }
 
 namespace {

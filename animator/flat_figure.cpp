@@ -59,10 +59,12 @@ std::vector<std::string> flatWarnings(const RiggedDrawing& drawing) {
 }
 
 std::optional<std::string> unseenTurn(const RiggedDrawing& drawing, const Clip& clip) {
-  constexpr double kMuch_rad = 0.25;
+  constexpr double kMuch_rad = 0.25, kMuchBent_rad = 0.45;  // clips that come with skel bend less
   const Skeleton& skeleton = drawing.character.skeleton;
   const int head = skeleton.find("head"), body = skeleton.find("body");
   if (head < 0 || body < 0) return std::nullopt;
+  const auto at = [&](int joint) { return skeleton.joints[std::size_t(joint)].position; };
+  const Eigen::Vector3f trunk = (at(head) - at(body)).normalized().cast<float>();
   for (int i = 0; i < kFlatMoments; ++i) {
     const JointTransforms pose =
         posedAt(drawing.character, clip, double(clip.duration_s()) * i / kFlatMoments);
@@ -71,6 +73,10 @@ std::optional<std::string> unseenTurn(const RiggedDrawing& drawing, const Clip& 
     if (std::abs(std::atan2(double(ahead.x()), double(ahead.z()))) > kMuch_rad)
       return "\"" + clip.name +
              "\" turns the head aside, which the flat look does not show; --look solid does";
+    const Eigen::Vector3f bent = pose[std::size_t(body)].linear() * trunk;
+    if (std::abs(std::asin(double(bent.z())) - std::asin(double(trunk.z()))) > kMuchBent_rad)
+      return "\"" + clip.name + "\" bends the body to the " + (bent.z() > trunk.z() ? "front" : "back") +
+             ", which the flat look does not show; --look solid does";
   }
   return std::nullopt;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <numbers>
 
 #include "animator/rig_source.h"
 #include "libskel/animation/clip_library.h"
@@ -58,6 +59,10 @@ void bindCharacterOptions(CLI::App& app, CharacterSource& source) {
       app, "--height", source.heights, zeroOrNumberIn(1e-3, 1e3),
       "Of a drawing's model as it is drawn, m; of several, NAME=METRES is of one alone, with commas "
       "in between: 1.7,dwarf=1.2 (default: 1.7, or 1.2 from end to end of an animal)");
+  addNamedNumbers(app, "--facing", source.facing, numberIn(-180.0, 180.0),
+                  "Which way the figure looks, degrees, where skel is wrong: 0 at you, 90 to the right of "
+                  "the picture, -90 to the left, "
+                  "45 and -45 between; NAME=DEGREES of one drawing of several");
   app.add_option("--skeleton", source.skeleton,
                  "The skeleton of a model (see skel-animate bind), or of a drawing: its .skeleton.json or "
                  ".labels.json, mended")
@@ -90,6 +95,8 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
   options.silhouette.alpha = source.alpha;
   options.upright = source.upright;
   options.height_m = source.heights(stemOf(source.path));
+  if (const auto facing_deg = source.facing.given(stemOf(source.path)))
+    options.facing_rad = *facing_deg * std::numbers::pi / 180;
   const std::optional<SkeletonFile> given = givenSkeleton(source.skeleton, options);
   const std::string bytes = readFile(source.path);
   MendRequest request;
@@ -124,6 +131,9 @@ CharacterFile loadCharacter(const CharacterSource& source, const ClipSource& cli
     throw InputError(source.path, remedy);
   if (source.heights(stemOf(source.path)) != 0)
     throw UsageError("--height is of drawings; " + source.path + " has its own height: leave --height out");
+  if (source.facing.given(stemOf(source.path)))
+    throw UsageError("--facing is of drawings; " + source.path +
+                     " knows which way it looks: make it anew with --facing");
   const bool rigged = endingOf(source.path) == ".glb";
   if (rigged && source.skeleton.empty()) return readGlb(source.path);
   if (!rigged && !fs::exists(source.path)) throw InputError(source.path, "does not exist");

@@ -1,6 +1,7 @@
 // What the commands can be given as a character and as a motion.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,8 +32,9 @@ struct CharacterSource {
   std::string up = "auto";
   bool upright = false;       // the figure of a drawing is not turned: try no other orientations
   NamedNumbers heights = {};  // of drawings, m; 0: the body plan's own
-  std::string results = {};   // of a drawing: a folder that skel-infer has written to; "": none
-  bool force = false;         // leave out what was mended by hand
+  NamedNumbers facing = {.of_others = std::nan("")};  // of drawings, degrees, see RigOptions::facing_rad
+  std::string results = {};  // of a drawing: a folder that skel-infer has written to; "": none
+  bool force = false;        // leave out what was mended by hand
   std::shared_ptr<FormerNames> former_names = {};  // of a run over many drawings
 };
 // FILE, and the options of the next one.

@@ -1,6 +1,7 @@
 #include "animator/render_command.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -192,7 +193,10 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path, bool among
   RenderCommandOptions options = asked;
   CharacterSource& source = options.source;
   source.path = path;
-  if (among_drawings && !isDrawing(source)) source.heights.of_others = 0;  // of these alone
+  if (among_drawings && !isDrawing(source)) {  // they are of drawings alone
+    source.heights.of_others = 0;
+    source.facing.of_others = std::nan("");
+  }
   std::optional<DrawnCharacter> drawn;
   if (isDrawing(source)) drawn = rigDrawing(source, options.library);
   const bool chooses = drawn && choosesLook(options, path);
@@ -276,6 +280,7 @@ void checkFiles(const RenderCommandOptions& options) {
   if (!options.together) checkNames(options.files);
   requireNamed(options.angles, "--angle", options.files);
   requireNamed(options.source.heights, "--height", options.files);
+  requireNamed(options.source.facing, "--facing", options.files);
 }
 
 }  // namespace

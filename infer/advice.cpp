@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "libskel/pipeline/drawing_notes.h"
+#include "libskel/recognition/joint_note.h"
 
 namespace skel {
 namespace {
@@ -32,7 +33,7 @@ std::string sentence(std::string clause) {
 std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawing, const SkeletonFile& file,
                          bool plan_is_chosen) {
   constexpr std::size_t kMostNamed = 5;        // joints: whoever reads of more learns nothing
-  const bool first = file.figure.number == 1;  // of the picture: others have no mask of their own
+  const bool first = file.figure.number == 1;  // of the picture: others have no labels of their own
   const bool photo = drawing.silhouette.evidence.has_value();  // or another page that is not tidy
   const auto starts = [&](const char* words) { return warning.starts_with(words); };
   if (starts("the sheet itself"))
@@ -56,12 +57,16 @@ std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawin
   if (starts("some joints may be wrong"))
     return "Some joints may be wrong" +
            (file.missing.empty() ? "" : ", most likely " + listed(file.missing)) +
-           ". Look how the figure moves; skel-label FILE mends joints" +
-           (first ? ", and the mask (key M) if a part of the figure is missing or something is stuck to it. "
-                  : ". ") +
+           ". Look how the figure moves; skel-label FILE mends joints, and the mask (key M) if a part of the "
+           "figure "
+           "is missing or something is stuck to it. " +
            (photo ? "If a shadow lies across the figure, take the photo without it; limbs that are apart are "
                     "found better."
                   : "Limbs that are apart are found better.");
+  if (starts("may be wrong"))
+    return "Not sure of " + listed(unsureJoints(drawing.recognition)) +
+           (file.missing.empty() ? "" : "; not seen: " + listed(file.missing)) +
+           ". Look how the figure moves; skel-label FILE mends joints.";
   if (starts("not found: "))
     return "Not seen: " + listed(file.missing) +
            ". A likely place was taken; look whether the figure moves as it should.";

@@ -336,14 +336,19 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
         rows.size(), figure("pck05").c_str(), interval(rows, pck05).c_str(), figure("pck10").c_str(),
         interval(rows, pck10).c_str(), figure("error").c_str(), figure("usable").c_str(),
         interval(rows, usable).c_str(), figure("limbs").c_str(), figure("inside").c_str());
+    const auto with_mask =
+        std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.score.iou.has_value(); });
     std::printf(
-        "silhouette IoU %s, >= .9 in %s  |  confidence >= .8 for %s of joints, %s of those within "
+        "silhouette IoU %s, >= .9 in %s%s  |  confidence >= .8 for %s of joints, %s of those within "
         ".10; figure confidence >= .5 for %s, likeness for %s\n"
         "confidence against usable: area under ROC %s, calibration error %s\n",
-        figure("iou").c_str(), figure("iou90").c_str(), figure("sure_share", 2).c_str(),
-        figure("sure_precision").c_str(), figure("confident_figures", 2).c_str(),
-        figure("whole_figures", 2).c_str(), figure("confidence_auc").c_str(),
-        figure("confidence_error").c_str());
+        figure("iou").c_str(), figure("iou90").c_str(),
+        with_mask < std::ptrdiff_t(rows.size())
+            ? (" (of the " + std::to_string(with_mask) + " with a true mask)").c_str()
+            : "",
+        figure("sure_share", 2).c_str(), figure("sure_precision").c_str(),
+        figure("confident_figures", 2).c_str(), figure("whole_figures", 2).c_str(),
+        figure("confidence_auc").c_str(), figure("confidence_error").c_str());
     constexpr double kMany = 0.1;
     if (const double same = sum(&Score::taken_over); same > kMany * annotated)
       std::fprintf(

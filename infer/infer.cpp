@@ -108,6 +108,7 @@ ExitCode rigNamed(const InferOptions& options, const NamedDrawings& named) {
   std::vector<std::string> sources;
   for (const RigJob& job : all) sources.push_back(job.source);
   requireNamed(options.heights, "--height", sources);
+  requireNamed(options.facing, "--facing", sources);
   const RigOptions rig = rigOptions(options);
   for (const RigJob& job : all) noteInput(job.source);
   for (const RigJob& job : all) {

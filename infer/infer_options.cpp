@@ -32,10 +32,13 @@ void checkListUsage(const InferOptions& options) {
   if (!options.trace_dir.empty())
     throw UsageError("--trace draws every stage and does not go with " + many +
                      "; name the drawings to look into");
-  if (list && !options.heights.of.empty())
-    throw UsageError(
-        "--height NAME=METRES names one drawing, and a list may hold any number of that name: "
-        "give those drawings, or one height for all");
+  for (const auto& [option, numbers] : {std::pair("--height NAME=METRES", &options.heights),
+                                        std::pair("--facing NAME=DEGREES", &options.facing)})
+    if (list && !numbers->of.empty())
+      throw UsageError(
+          std::string(option) +
+          " names one drawing, and a list may hold any number of that name: give those drawings, or "
+          "one number for all");
   if (isModelAlone(options)) throw UsageError("--resume goes with drawings, not with --model alone");
 }
 
@@ -139,6 +142,10 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
       "Of the model as it is drawn, raised arms and hat included, m; of several drawings NAME=METRES "
       "is of one alone, with commas in between: 1.7,dwarf=1.2 (default: 1.7, or 1.2 from end to end "
       "of an animal)");
+  addNamedNumbers(app, "--facing", options.facing, numberIn(-180.0, 180.0),
+                  "Which way the figure looks, degrees, where skel is wrong: 0 at you, 90 to the right of "
+                  "the picture, -90 to the left, "
+                  "45 and -45 between; NAME=DEGREES of one drawing of several");
   app.add_option("--figure", options.figure, "Which figure of the drawing: 1 is the largest; or all");
   app.add_option("--mesh-spacing", options.mesh_spacing_px,
                  "Distance of mesh vertices where the figure is 128 px long; 0: chosen")

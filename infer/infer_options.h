@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,7 +40,8 @@ struct InferOptions {
   std::string back;             // "same", "plain", a picture, or nothing: the body plan's own
   std::string layers = "auto";  // "auto", "off", or a picture
   NamedNumbers heights;         // m; 0: the body plan's own
-  std::string figure = "1";     // a number, or "all"
+  NamedNumbers facing = {.of_others = std::nan("")};  // degrees, see RigOptions::facing_rad
+  std::string figure = "1";                           // a number, or "all"
   double mesh_spacing_px = 0;
   std::vector<std::string> formats = {"glb", "json", "overlay", "silhouette"};
   std::string trace_dir, report_file;

@@ -67,14 +67,6 @@ std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, co
   return notes;
 }
 
-// A mask is of the first figure of a picture.
-void adviseWithoutMask(std::vector<std::string>& warnings) {
-  for (std::string& warning : warnings)
-    if (warning.ends_with(kLookAtMask))
-      warning.replace(warning.size() - kLookAtMask.size(), kLookAtMask.size(),
-                      ": if so, cut the picture down to this figure, whose mask can then be mended");
-}
-
 // A drawing whose figures are rigged one after the other.
 struct OpenDrawing {
   OpenDrawing(const RigJob& job, const SilhouetteOptions& silhouette) : figures(silhouette) {
@@ -135,7 +127,6 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   file.confidence = drawing.recognition.confidence;
   file.missing = drawing.recognition.missing;
   file.warnings = withAdviceIfUpright(std::move(mended.warnings), "use --upright");
-  if (figure > 1) adviseWithoutMask(file.warnings);
   const auto asSeen = [&](SkeletonFile::Mask painted) {
     painted.file = pathSeenFrom(skeleton_path, painted.file);
     return painted;
@@ -285,25 +276,24 @@ void takeError(DrawingResult& result) {
 
 DrawingResult rigDrawing(const InferOptions& options, const RigOptions& rig, const RigJob& job,
                          ProgressBar& progress) {
-  if (const double height_m = options.heights(fs::path(job.source).stem().string());
-      height_m != rig.height_m) {
-    RigOptions own = rig;
-    own.height_m = height_m;
-    return rigDrawing(options, own, job, progress);
-  }
+  const std::string name = fs::path(job.source).stem().string();
+  RigOptions own = rig;
+  own.height_m = options.heights(name);
+  if (const auto facing_deg = options.facing.given(name))
+    own.facing_rad = *facing_deg * std::numbers::pi / 180;
   DrawingResult result;
   result.source = job.source;
   std::size_t left = 1;  // figures
   std::unique_ptr<OpenDrawing> open;
   try {
     const int first = figuresAskedFor(options).first;
-    const int count = rigFigure(options, rig, job, first, open, result.figures);
+    const int count = rigFigure(options, own, job, first, open, result.figures);
     if (options.figure == "all") left = std::size_t(count);
     progress.expect(left - 1);
     for (int figure = 2; left > 1; ++figure) {
       progress.advance();
       --left;
-      if (!isOfPainted(*open, figure)) rigFigure(options, rig, job, figure, open, result.figures);
+      if (!isOfPainted(*open, figure)) rigFigure(options, own, job, figure, open, result.figures);
     }
   } catch (const NoFigureError&) {
     takeError(result);

@@ -42,9 +42,10 @@ class CanvasView {
   void cancel();
 
   Tool tool = Tool::kJoints;
-  JointClass active_class = JointClass::kHead;  // of brush, lasso and click
-  LayerBrush layer_brush = limbBrush(1);        // what the left button paints; the right one: the body
-  bool mask_adds = true;  // what the left button does to the mask; the right one: the reverse
+  std::optional<JointClass> active_class =
+      JointClass::kHead;                  // of brush, lasso and click; nothing: they take it away
+  LayerBrush layer_brush = limbBrush(1);  // what the left button paints; the right one: the body
+  bool mask_adds = true;                  // what the left button does to the mask; the right one: the reverse
 
  private:
   Eigen::Vector2d imageFromScreen(const ImVec2& p) const;

@@ -170,45 +170,47 @@ void bindCommands(CLI::App& app, LabelerOptions& options, std::function<ExitCode
               std::fprintf(stderr, "skel-label: note: %s\n", printable(note).c_str());
             return report(counts);
           });
-  CLI::App* import = command(
-      "import",
-      "Make label files from annotations: char_cfg.yaml, joints.json, "
-      "<stem>.joints.json, COCO keypoints, and "
-      "from skeletons that skel-infer has found",
-      [&] {
-        const ImportCounts counts =
-            importLabels(options.dir, bodyPlans(options.body_plan), options.import, complaints());
-        const ExitCode code = report(counts);
-        if (counts.labelled > 0)
-          print("classes by placed joints in " + std::to_string(counts.labelled) +
-                " label files that had none\n");
-        if (counts.masks_taken > 0)
-          print("the mask beside the picture taken in " + std::to_string(counts.masks_taken) +
-                " label files that had none\n");
-        notePassedOver(counts.passed_over);
-        noteKept(counts.earlier,
-                 "but the picture has changed since it was labelled; --force makes the labels anew");
-        noteKept(counts.other_mask,
-                 "but the mask has changed since it was labelled; --force makes the labels anew");
-        noteKept(counts.differing, "with other joints than what is to be imported; --force takes the latter");
-        noteLacking(counts);
-        noteUnknownJoints(counts);
-        if (!counts.outside_mask.empty())
-          std::fprintf(stderr, "skel-label: note: %s\n", firstAndMore(counts.outside_mask).c_str());
-        noteWithoutLimb(counts);
-        if (counts.made > 0)
-          print(std::to_string(counts.joints_placed) + " joints placed, " +
-                std::to_string(counts.joints_found) + " found" +
-                (counts.classes_kept > 0
-                     ? "; classes set by hand and kept: " + std::to_string(counts.classes_kept)
-                     : "") +
-                (counts.classes_dropped > 0
-                     ? "; classes dropped with candidates that the figure has no longer: " +
-                           std::to_string(counts.classes_dropped)
-                     : "") +
-                "\nwritten into " + namesOf(counts.folders) + "\n");
-        return code;
-      });
+  CLI::App* import =
+      command("import",
+              "Make label files from annotations: char_cfg.yaml, joints.json, "
+              "<stem>.joints.json, COCO keypoints, and "
+              "from skeletons that skel-infer has found",
+              [&] {
+                const ImportCounts counts =
+                    importLabels(options.dir, bodyPlans(options.body_plan), options.import, complaints());
+                const ExitCode code = report(counts);
+                if (counts.labelled > 0)
+                  print("classes by placed joints in " + std::to_string(counts.labelled) +
+                        " label files that had none\n");
+                if (counts.masks_taken > 0)
+                  print("the mask beside the picture taken in " + std::to_string(counts.masks_taken) +
+                        " label files that had none\n");
+                notePassedOver(counts.passed_over);
+                noteKept(counts.earlier,
+                         "but the picture has changed since it was labelled; --force makes the labels anew");
+                noteKept(counts.other_mask,
+                         "but the mask has changed since it was labelled; --force makes the labels anew");
+                noteKept(counts.differing,
+                         "with other joints (elsewhere, or placed by hand) than what is to be imported; "
+                         "--force takes the latter");
+                noteLacking(counts);
+                noteUnknownJoints(counts);
+                if (!counts.outside_mask.empty())
+                  std::fprintf(stderr, "skel-label: note: %s\n", firstAndMore(counts.outside_mask).c_str());
+                noteWithoutLimb(counts);
+                if (counts.made > 0)
+                  print(std::to_string(counts.joints_placed) + " joints placed, " +
+                        std::to_string(counts.joints_found) + " found" +
+                        (counts.classes_kept > 0
+                             ? "; classes set by hand and kept: " + std::to_string(counts.classes_kept)
+                             : "") +
+                        (counts.classes_dropped > 0
+                             ? "; classes dropped with candidates that the figure has no longer: " +
+                                   std::to_string(counts.classes_dropped)
+                             : "") +
+                        "\nwritten into " + namesOf(counts.folders) + "\n");
+                return code;
+              });
   import->add_option("-o,--output", options.import.output,
                      "Copy pictures and masks here, with their label files");
   import->add_flag("--force", options.import.force,

@@ -15,6 +15,7 @@
 #include "libskel/core/natural_order.h"
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
+#include "libskel/labels/annotated_image.h"
 #include "libskel/labels/label_from_joints.h"
 
 namespace skel {
@@ -234,8 +235,9 @@ void Document::loadDrawing() {
 
   state_.image_sha256 = image_sha256_ = sha256(bytes);
   FormerNames names;
-  labels_ = LabelDocument(
-      files, [this] { return image_sha256_; }, names);
+  if (figureNumber() == 1)
+    labels_ = LabelDocument(
+        files, [this] { return image_sha256_; }, names);
   takeMended();
   saved_ = state_;
 }
@@ -375,6 +377,8 @@ void Document::takeMended() {
   } else if (labels && labels->mask) {
     message_ = masks_.openOf(*labels, image_);
     if (labels_.isOfFormerName()) masks_.takeDrawingsName();
+  } else if (figureNumber() > 1) {
+    if (fs::is_regular_file(files.mask) && mayHaveShape()) masks_.open(files.mask, image_);
   } else if (const auto given = givenMask(files)) {
     if (labels)
       message_ =
@@ -383,7 +387,7 @@ void Document::takeMended() {
       masks_.open(*given, image_);
   }
   state_.mask = masks_.opened();
-  figure_ = figureOf(image_, state_.mask.get(), figureNumber(), options_.mlp);
+  figure_ = figureOf(image_, state_.mask.get(), figureOfMask(state_.mask.get()), options_.mlp);
   message_ = labels_.take(*figure_, options_.body_plans, message_, state_);
   if (skeleton_) takeJoints(skeleton_->skeleton(), bodyPlan(), state_.joints);
   if (motion_) state_.joints = motion_->joints(current_);
@@ -435,6 +439,7 @@ void Document::endStep() {
 }
 
 void Document::label(const std::vector<int>& candidates, std::optional<JointClass> label) {
+  if (!mayHaveClasses()) return;
   const StepScope scope(*this);
   for (const int candidate : candidates) state_.labels.at(static_cast<size_t>(candidate)) = label;
   if (!candidates.empty())
@@ -443,6 +448,7 @@ void Document::label(const std::vector<int>& candidates, std::optional<JointClas
 }
 
 void Document::acceptSuggestions() {
+  if (!mayHaveClasses()) return;
   const StepScope scope(*this);
   size_t accepted = 0;
   for (size_t i = 0; i < state_.labels.size(); ++i) {
@@ -454,6 +460,7 @@ void Document::acceptSuggestions() {
 }
 
 void Document::labelFromJoints() {
+  if (!mayHaveClasses()) return;
   const StepScope scope(*this);
   const auto labels = skel::labelFromJoints(figure_->candidates, figure_->silhouette.grid,
                                             namedJoints(state_.joints, bodyPlan()), bodyPlan());
@@ -580,7 +587,7 @@ void Document::takeJointsOfFrameBefore() {
 }
 
 bool Document::replaceMask(std::shared_ptr<const MaskVersion> mask) {
-  auto figure = figureOf(image_, mask.get(), figureNumber(), options_.mlp);
+  auto figure = figureOf(image_, mask.get(), figureOfMask(mask.get()), options_.mlp);
   if (!figure->silhouette.found()) {
     message_ = "that would leave no figure: " + figure->silhouette.reason;
     return false;
@@ -593,19 +600,32 @@ bool Document::replaceMask(std::shared_ptr<const MaskVersion> mask) {
   return true;
 }
 
-bool Document::mayHaveMask() {
-  if (figureNumber() == 1 || state_.mask) return true;
-  message_ = "a mask is of the first figure of a picture, this is figure " + std::to_string(figureNumber()) +
-             ": cut the picture down to it, and mend that";
+bool Document::mayHaveShape() {
+  if (figureNumber() == 1) return true;
+  const fs::path mask = item().files.mask, stem = mask.parent_path() / mask.stem().stem();
+  const std::optional<std::string> drawing = pictureOfStem(stem);
+  if (!drawing) return true;
+  message_ = "mask and limbs of figure " + std::to_string(figureNumber()) + " have the name of " +
+             fs::path(*drawing).filename().string() + "'s: give that another name";
+  return false;
+}
+
+int Document::figureOfMask(const MaskVersion* mask) const {
+  return mask && mask->file == fs::path(item().files.mask).filename() ? 1 : figureNumber();
+}
+
+bool Document::mayHaveClasses() {
+  if (figureNumber() == 1) return true;
+  message_ = "classes are of the first figure of a picture, this is figure " + std::to_string(figureNumber());
   return false;
 }
 
 void Document::paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px,
                          bool add) {
-  if (image_.empty() || !mayHaveMask()) return;
+  if (image_.empty() || !mayHaveShape()) return;
   const StepScope scope(*this);
   auto mask = std::make_shared<MaskVersion>();
-  if (state_.mask)
+  if (state_.mask && figureOfMask(state_.mask.get()) == 1)
     mask->pixels = state_.mask->pixels;
   else if (figure_->silhouette.found())
     mask->pixels = figure_->silhouette.mask;
@@ -619,7 +639,7 @@ void Document::paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& 
 }
 
 void Document::acceptMask() {
-  if (image_.empty() || !figure_->silhouette.found() || !mayHaveMask()) return;
+  if (image_.empty() || !figure_->silhouette.found() || !mayHaveShape()) return;
   if (isOfEarlierPicture()) {
     acceptJoints();
     return;
@@ -649,6 +669,7 @@ void Document::paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d&
     message_ = "parts of the figure are painted in drawings, not in motions";
     return;
   }
+  if (!mayHaveShape()) return;
   const StepScope scope(*this);
   // One that lies there although no figure was found when the drawing was opened.
   if (!state_.layers && !painted_layers_.saved())
@@ -730,7 +751,8 @@ RigOptions Document::rigOptions() const {
   options.mlp = options_.mlp;
   options.body_plan = bodyPlan();
   options.recognizer = options_.recognizer;
-  options.silhouette.figure = std::min(figureNumber(), std::max(1, figure_->silhouette.figure_count));
+  options.silhouette.figure =
+      std::min(figureOfMask(state_.mask.get()), std::max(1, figure_->silhouette.figure_count));
   options.clips = clipsOfPreview(bodyPlan());
   if (letsNetsChoose()) {
     options.body_plan = options_.body_plans[0];
@@ -829,7 +851,8 @@ bool Document::travel(const Step& step, const DrawingState& target) {
   const auto mask = same_mask ? state_.mask : target.mask;
   state_ = target;
   state_.mask = mask;
-  if (!same_mask) figure_ = figureOf(image_, state_.mask.get(), figureNumber(), options_.mlp);
+  if (!same_mask)
+    figure_ = figureOf(image_, state_.mask.get(), figureOfMask(state_.mask.get()), options_.mlp);
   if (!same_mask || !same_joints) forgetRig();
   if (!same_layers) rigged_.reset();
   count();
@@ -890,11 +913,13 @@ std::string Document::foundOutline() {
 void Document::writeFiles() {
   painted_layers_.write(state_.layers, figure_->silhouette.mask);
   const bool same_mask = state_.mask == masks_.opened();
+  if (figureNumber() > 1) masks_.writeAlone(state_.mask);
   if (skeleton_)
     skeleton_->write({state_, figure_->silhouette, foundOutline(), same_mask,
                       state_.mask ? masks_.path(*state_.mask) : "",
                       rigged_ ? &rigged_->recognition.skeleton : nullptr});
   if (motion_) motion_->write(current_, state_.joints);
+  if (figureNumber() > 1) return;  // label files are of the first figure
   if (editsJointsAlone()) {
     // Who only moves joints has no use for a label file.
     const bool labelled = countLabels(state_.labels) > 0 || !same_mask;

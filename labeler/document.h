@@ -233,8 +233,11 @@ class Document {
   // SkeletonFile::foundOutline() of the picture that the state was made for.
   std::string foundOutline();
   int figureNumber() const { return skeleton_ ? skeleton_->figureNumber() : 1; }
-  // Says why where a mask cannot be this figure's.
-  bool mayHaveMask();
+  // Each says why where that is not so.
+  bool mayHaveShape();    // a mask and limbs of its own: another figure's may be those of another drawing
+  bool mayHaveClasses();  // label files are of the first figure
+  // Which figure of that mask it is.
+  int figureOfMask(const MaskVersion* mask) const;
   bool editsJointsAlone() const { return skeleton_ || motion_; }
   void forgetRig();  // mask or joints have changed
   RigInput rigInput() const;

@@ -16,13 +16,21 @@
 namespace skel {
 namespace fs = std::filesystem;
 
-DrawingFiles drawingFiles(const std::string& image, const std::string& name) {
-  return {name, image, labelFileFor(image), fs::path(image).replace_extension().string() + ".mask.png"};
+namespace {
+
+std::string stemOf(const std::string& image, int figure) {
+  const std::string stem = fs::path(image).replace_extension().string();
+  return figure > 1 ? stem + "-" + std::to_string(figure) : stem;
+}
+
+}  // namespace
+
+DrawingFiles drawingFiles(const std::string& image, const std::string& name, int figure) {
+  return {name, image, labelFileFor(image), stemOf(image, figure) + ".mask.png"};
 }
 
 std::string layersFile(const DrawingFiles& files, int figure) {
-  const std::string stem = fs::path(files.image).replace_extension().string();
-  return stem + (figure > 1 ? "-" + std::to_string(figure) : "") + ".limbs.png";
+  return stemOf(files.image, figure) + ".limbs.png";
 }
 
 std::optional<std::string> givenMask(const DrawingFiles& files) {

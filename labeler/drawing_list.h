@@ -19,7 +19,7 @@ struct DrawingFiles {
   std::string name;   // below the folder
   std::string image;  // paths
   std::string labels;
-  std::string mask;  // <stem>.mask.png: where a mended mask is saved
+  std::string mask;  // where a mended mask is saved: <stem>.mask.png, <stem>-2.mask.png of the second figure
 };
 
 // Where a painted layer map is saved: <stem>.limbs.png, <stem>-2.limbs.png for the second figure, and so on.
@@ -40,7 +40,7 @@ std::string besideFile(const std::string& file, const std::string& name);
 void checkMeansPicture(const Image& image, const std::string& image_path, int width, int height,
                        const std::string& file, const std::string& place);
 
-DrawingFiles drawingFiles(const std::string& image, const std::string& name);
+DrawingFiles drawingFiles(const std::string& image, const std::string& name, int figure = 1);
 
 // Pictures at any depth below `dir`, in natural order; not masks and what skel-infer writes (mask.png,
 // <stem>.mask.png, .limbs.png, .layers.png, .silhouette.png, .overlay.png) and not those that lie beside

@@ -48,7 +48,7 @@ constexpr KeyHelp kHelp[] = {
     {"G", "paint limbs before the body (1 to 4), hair, skirt, cape, thing (5 to 8); 0 is the body"},
     {"V  B  L", "classes of the candidates: touch, brush, lasso"},
     {"1  2  3  4", "head, body, hand, leg: what the mouse touches, N has chosen, brush or lasso take"},
-    {"0  Delete  Backspace", "take the label away"},
+    {"0  Delete  Backspace", "take the label away; brush and lasso do so from then on"},
     {"N  Tab", "go to the disc that is least sure; Enter accepts its suggestion, as 1 to 4 do"},
     {"A", "accept all suggestions that are left"},
     {"D", "classes from the joints"},
@@ -188,7 +188,7 @@ class LabelingWindow {
     } else {
       for (int c = 0; c < kJointClassCount; ++c)
         if (pressed(kNumbers[c + 1])) chooseClass(static_cast<JointClass>(c), true);
-      if (pressed(key::k0) || pressed(key::kDelete) || pressed(key::kBackspace)) labelSelected(std::nullopt);
+      if (pressed(key::k0) || pressed(key::kDelete) || pressed(key::kBackspace)) takeClassAway();
     }
     const key::Code tool_keys[] = {key::kJ, key::kM, key::kG, key::kV, key::kB, key::kL};
     for (int t = 0; t < kToolCount; ++t)
@@ -302,12 +302,18 @@ class LabelingWindow {
 
   void acceptMask() { canvas_.cancel(), document_.acceptMask(); }
 
-  void chooseClass(JointClass joint_class, bool label_too) {
+  void chooseClass(std::optional<JointClass> joint_class, bool label_too) {
     canvas_.active_class = joint_class;
     if (!label_too || canvas_.tool != Tool::kTouch) return;
     const bool goes_on = canvas_.chosen();
     labelSelected(joint_class);
     if (goes_on) nextUnsure();
+  }
+
+  // Of what is chosen; brush and lasso do so from now on.
+  void takeClassAway() {
+    if (canvas_.tool == Tool::kTouch) return labelSelected(std::nullopt);
+    canvas_.active_class.reset();
   }
 
   void labelSelected(std::optional<JointClass> label) {
@@ -595,7 +601,7 @@ class LabelingWindow {
       if (c % 2 != 0) ImGui::SameLine();
       const char* name = kJointClassNames[static_cast<size_t>(c)];
       if (colorButton((std::to_string(c + 1) + " " + name).c_str(), {half, kButtonHeight}, classColor(name),
-                      static_cast<int>(canvas_.active_class) == c))
+                      canvas_.active_class == static_cast<JointClass>(c)))
         chooseClass(static_cast<JointClass>(c), false);
     }
     const Progress& classes = document_.item().classes;

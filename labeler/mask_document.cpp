@@ -25,7 +25,7 @@ std::string MaskDocument::openOf(const SkeletonDocument& skeleton, const Image& 
   std::error_code not_there;
   // Label files speak of masks in their own folder only: with labels a mask from elsewhere is saved there.
   const bool beside = fs::equivalent(path, this->path(*mask), not_there);
-  if (!beside) mask->file = fs::path(files_.mask).filename().string();
+  if (!beside && skeleton.figureNumber() == 1) mask->file = fs::path(files_.mask).filename().string();
   if (!beside && fs::exists(files_.mask) && readFile(files_.mask) != mask->png)
     throw InputError(files_.mask, "is not the mask that " + skeleton.path() + " was made with, " + path +
                                       "; take one of them away");
@@ -50,14 +50,27 @@ void MaskDocument::write(const std::shared_ptr<const MaskVersion>& mask, const L
   // One that does not fit this picture was not opened.
   if (earlier_ && !opened_) keepAside(files_.mask);
   if (!opened_) earlier_ = false;
-  const bool mended = mask && mask != saved_ && mask->file == fs::path(files_.mask).filename().string();
-  if (mended) {
+  if (isMended(mask)) {
     saveWithMask(files_.labels, labels, mask->png);
     saved_ = mask;
     return;
   }
   writeLabelFile(files_.labels, labels);
-  // A mask that was undone altogether; one that had been there before stays.
+  takeAway(mask);
+}
+
+void MaskDocument::writeAlone(const std::shared_ptr<const MaskVersion>& mask) {
+  if (!isMended(mask)) return takeAway(mask);
+  replaceFile(files_.mask, mask->png);
+  saved_ = mask;
+}
+
+bool MaskDocument::isMended(const std::shared_ptr<const MaskVersion>& mask) const {
+  return mask && mask != saved_ && mask->file == fs::path(files_.mask).filename().string();
+}
+
+// One that was undone altogether; one that had been there before stays.
+void MaskDocument::takeAway(const std::shared_ptr<const MaskVersion>& mask) {
   if (mask || !saved_ || besideLabelFile(files_.labels, saved_->file) != files_.mask) return;
   if (keep_ && !earlier_) return;
   earlier_ ? keepAside(files_.mask) : removeFile(files_.mask);

@@ -34,8 +34,13 @@ class MaskDocument {
 
   // The label file, with the mask that it speaks of. Throws OutputError.
   void write(const std::shared_ptr<const MaskVersion>& mask, const LabelFile& labels);
+  // The mask of another figure than the first, of which no label file speaks. Throws OutputError.
+  void writeAlone(const std::shared_ptr<const MaskVersion>& mask);
 
  private:
+  bool isMended(const std::shared_ptr<const MaskVersion>& mask) const;
+  void takeAway(const std::shared_ptr<const MaskVersion>& mask);
+
   DrawingFiles files_;
   bool keep_ = false, earlier_ = false;
   std::shared_ptr<const MaskVersion> opened_, saved_;

@@ -14,7 +14,7 @@ SkeletonDocument::SkeletonDocument(std::string path, const BodyPlans& plans)
 
 DrawingFiles SkeletonDocument::drawing() const {
   return drawingFiles(besideFile(path_, file_.image_file),
-                      std::filesystem::path(file_.image_file).filename().string());
+                      std::filesystem::path(file_.image_file).filename().string(), figureNumber());
 }
 
 std::string SkeletonDocument::maskPath() const { return besideFile(path_, file_.mask->file); }
@@ -39,7 +39,7 @@ void SkeletonDocument::write(const Content& content) const {
   if (!file.image_sha256.empty()) file.image_sha256 = content.state.image_sha256;
   const MaskVersion* mask = content.state.mask.get();
   if (content.silhouette.found()) {
-    file.figure.number = std::min(figureNumber(), content.silhouette.figure_count);
+    if (!mask) file.figure.number = std::min(figureNumber(), content.silhouette.figure_count);
     file.figure.sha256 = mask ? outlineHash(content.silhouette) : content.found_outline;
     file.figure.found_sha256 = mask ? content.found_outline : "";
   }

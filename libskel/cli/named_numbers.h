@@ -1,7 +1,9 @@
 // Options whose number is of all files, or of single ones.
 #pragma once
 
+#include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,11 @@ struct NamedNumbers {
   double operator()(const std::string& name) const {
     const auto own = of.find(name);
     return own == of.end() ? of_others : own->second;
+  }
+  // Where `of_others` is no number: nobody has said any.
+  std::optional<double> given(const std::string& name) const {
+    const double number = (*this)(name);
+    return std::isnan(number) ? std::nullopt : std::optional(number);
   }
 };
 

@@ -8,14 +8,9 @@
 
 #include "libskel/core/logistic_net.h"
 #include "libskel/deform/facing_evidence.h"
+#include "libskel/skeleton/facing.h"
 
 namespace skel {
-
-// Of a mirror image the same with the other sign.
-struct Facing {
-  double yaw_rad = 0;  // about the vertical: 0 to the viewer, pi / 4 half and pi / 2 all the way to the right
-  double looks = 1;    // the side to which it rather looks: 1 right, -1 left
-};
 
 struct FacingNet {
   LogisticNet right;       // of kSidedInputs: that it looks to the right, not to the left
@@ -23,6 +18,7 @@ struct FacingNet {
   LogisticNet side;        // of turnInputs(): that it is seen from the side
   std::string provenance;  // how the numbers came to be, for people
 
+  // In steps of pi / 4; of a mirror image the same with the other sign.
   Facing of(const FacingEvidence& evidence) const;
 };
 

@@ -249,11 +249,6 @@ void measureLegs(const Flesh& flesh, const LegPair& pair, FigureShape& shape) {
   for (const int joint : joints) shape.joined[joint] = joined;
 }
 
-Facing facingOf(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton) {
-  const std::optional<FacingEvidence> evidence = facingEvidence(mesh, weights, skeleton);
-  return evidence ? builtInFacingNet().of(*evidence) : Facing();
-}
-
 // What hangs belongs to what it hangs on.
 SkinWeights ofCarriers(const SkinWeights& weights, const Skeleton& skeleton) {
   std::vector<std::uint16_t> carriers;
@@ -272,12 +267,15 @@ bool isBiped(const Skeleton& skeleton) { return skeleton.find("left_front_foot")
 
 }  // namespace
 
-double figureYaw(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton) {
-  if (!isBiped(skeleton) || mesh.vertices.rows() == 0) return shapeOfBones(skeleton).yaw_rad;
-  return facingOf(mesh, weights, skeleton).yaw_rad;
+std::optional<Facing> facingOf(const TriangleMesh& mesh, const SkinWeights& weights,
+                               const Skeleton& skeleton) {
+  if (!isBiped(skeleton)) return std::nullopt;
+  const std::optional<FacingEvidence> evidence = facingEvidence(mesh, weights, skeleton);
+  return evidence ? std::optional(builtInFacingNet().of(*evidence)) : std::nullopt;
 }
 
-FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton) {
+FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton,
+                          const std::optional<Facing>& facing) {
   const auto& vertices = mesh.vertices;
   SKEL_CHECK_EQ(vertices.rows(), weights.joints.rows());
   FigureShape shape = shapeOfBones(skeleton);
@@ -293,9 +291,11 @@ FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, 
   if (isBiped(skeleton)) {
     measureArms(flesh, shape);
     shape.head_half_width_m = headHalfWidth(flesh);
-    const Facing facing = facingOf(mesh, weights, skeleton);
-    shape.yaw_rad = facing.yaw_rad;
-    if (nearlyFlat(skeletonBones(skeleton))) shape.looks = facing.looks;
+    const Facing seen = facing ? *facing : facingOf(mesh, weights, skeleton).value_or(Facing());
+    shape.yaw_rad = seen.yaw_rad;
+    if (nearlyFlat(skeletonBones(skeleton))) shape.looks = seen.looks;
+  } else if (facing) {
+    shape.yaw_rad = std::remainder(facing->yaw_rad + std::numbers::pi / 2, 2 * std::numbers::pi);
   }
   for (const LegPair& pair : {kBipedLegs, kFrontLegs, kHindLegs}) measureLegs(flesh, pair, shape);
   return shape;

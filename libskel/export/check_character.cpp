@@ -1,5 +1,8 @@
 #include "libskel/export/check_character.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "libskel/animation/check_clip.h"
 #include "libskel/animation/clip_limits.h"
 #include "libskel/core/error.h"
@@ -10,7 +13,7 @@
 namespace skel {
 
 void checkCharacter(const RiggedCharacter& character, const std::vector<Clip>& clips) {
-  const auto& [mesh, skeleton, skin] = character;
+  const auto& [mesh, skeleton, skin, facing] = character;
   if (mesh.vertices.rows() == 0 && skin.joints.rows() == 0)
     throw UsageError(
         "the character has no mesh: no figure was found, or rigging ended before the stage that makes it");
@@ -26,6 +29,8 @@ void checkCharacter(const RiggedCharacter& character, const std::vector<Clip>& c
                      std::to_string(skeleton.joints.size()));
   if (!skin.weights.allFinite())
     throw UsageError("RiggedCharacter::weights.weights holds a number that is not finite");
+  if (facing && !(std::abs(facing->yaw_rad) <= std::numbers::pi))
+    throw UsageError("RiggedCharacter::facing must lie between -pi and pi");
   const JointLookup joints(skeleton);
   for (const Clip& clip : clips) {
     checkClip(clip);

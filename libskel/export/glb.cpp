@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -270,7 +271,7 @@ struct Rig {
 };
 
 Rig rigOf(const RiggedCharacter& character, const std::vector<Clip>& clips, BoneStyle style) {
-  const auto& [mesh, skeleton, skin] = character;
+  const auto& [mesh, skeleton, skin, facing] = character;
   const Skeleton whole = rounded(style == BoneStyle::kEnds ? withBoneEnds(skeleton, mesh, skin) : skeleton);
   return {whole,
           style == BoneStyle::kPlain ? std::vector<Quaterniond>(whole.joints.size(), Quaterniond::Identity())
@@ -468,6 +469,9 @@ std::string encodeGlb(const RiggedCharacter& character, const std::vector<Clip>&
   node.name = meshNodeName(name, rig.skeleton, options.naming);
   node.mesh = addMesh(glb, character, name);
   node.skin = 0;
+  if (character.facing)
+    node.extras = tinygltf::Value(tinygltf::Value::Object{
+        {"facing_deg", tinygltf::Value(character.facing->yaw_rad * 180 / std::numbers::pi)}});
   glb.model.nodes.push_back(node);
   addJoints(glb, rig, options.naming, kFirstJoint);
   addSkin(glb, rig, name, kFirstJoint);

@@ -1,11 +1,13 @@
 // Stage 9: files that other programs read.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "libskel/animation/clip.h"
 #include "libskel/mesh/triangle_mesh.h"
+#include "libskel/skeleton/facing.h"
 #include "libskel/skeleton/skeleton.h"
 #include "libskel/skin/skin_weights.h"
 
@@ -15,6 +17,8 @@ struct RiggedCharacter {
   TriangleMesh mesh;
   Skeleton skeleton;
   SkinWeights weights;
+  std::optional<Facing> facing =
+      {};  // which way it looks in its rest pose; nothing: its form tells (measureFigure())
 };
 
 // Names of the joints in exported files.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -555,6 +556,9 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
   character.weights =
       readWeights(glb, primitives[0], joints, static_cast<std::size_t>(character.mesh.vertices.rows()));
   makeWhole(character);
+  if (const auto extras = node.find("extras"); extras && extras->isObject())
+    if (const auto facing = extras->find("facing_deg"))
+      character.facing = Facing::at(facing->asNumber(-180, 180) * std::numbers::pi / 180);
   if (const auto animations = glb.root().find("animations")) {
     const std::vector<JsonValue> all = animations->items();
     if (all.size() > kMostClips)

@@ -27,7 +27,16 @@ namespace fs = std::filesystem;
 constexpr std::string_view kOwnJoints = "joints.json", kJointsEnding = ".joints.json";
 constexpr double kFarthest_px = 1e6;  // more than pictures have; joints may lie a little beside them
 
-// The first by the order of the endings; one in small letters counts before all others.
+bool isJointsFile(const std::string& path) {
+  return fs::path(path).filename() == kOwnJoints || path.ends_with(kJointsEnding);
+}
+
+LabelFile::Source sourceOf(const std::string& path) {
+  return {fs::path(path).filename().string(), sha256(readFile(path))};
+}
+
+}  // namespace
+
 std::optional<std::string> pictureOfStem(const fs::path& stem) {
   for (const std::string_view ending : kDrawingEndings)
     if (const std::string path = stem.string() + std::string(ending); fs::is_regular_file(path)) return path;
@@ -46,16 +55,6 @@ std::optional<std::string> pictureOfStem(const fs::path& stem) {
   if (!first) return std::nullopt;
   return first->second;
 }
-
-bool isJointsFile(const std::string& path) {
-  return fs::path(path).filename() == kOwnJoints || path.ends_with(kJointsEnding);
-}
-
-LabelFile::Source sourceOf(const std::string& path) {
-  return {fs::path(path).filename().string(), sha256(readFile(path))};
-}
-
-}  // namespace
 
 std::string imageOfJointsFile(const std::string& joints_file) {
   const fs::path path = joints_file;

@@ -2,6 +2,7 @@
 // `<stem>.png`, `<stem>.mask.png` and `<stem>.joints.json` side by side.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -22,6 +23,10 @@ struct AnnotatedImage {
   std::optional<std::string> mask;  // path; none: the figure is found in the image
   std::string joints;               // path
 };
+
+// The picture of any kind whose name without its ending that is: the first by the order of kDrawingEndings;
+// one whose ending is in small letters counts before all others.
+std::optional<std::string> pictureOfStem(const std::filesystem::path& stem);
 
 // The picture that a joints file is for, of any kind, whether its ending is in small letters or capitals.
 // Throws InputError if there is none.

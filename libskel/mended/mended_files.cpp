@@ -30,6 +30,14 @@ std::string ifThere(const std::string& path) {
   return fs::is_regular_file(path, unknown) ? path : "";
 }
 
+// Without an ending: what is made of another figure than the first has its number, unless that is the name of
+// a drawing. "": nothing can be made of it there.
+std::string madeOf(const MendPlace& place, int figure) {
+  if (figure == 1) return place.made;
+  const std::string made = place.made + "-" + std::to_string(figure);
+  return pictureOfStem(made) ? "" : made;
+}
+
 std::string backIn(const MendPlace& place) {
   for (const char* ending : {".back.png", ".back.jpg", ".back.jpeg"})
     if (const std::string back = ifThere(place.made + ending); !back.empty()) return back;
@@ -84,11 +92,11 @@ std::optional<SkeletonSource> resultAmong(const std::vector<MendPlace>& places) 
 
 // Painted since the result was written, or before, when its skeleton file took it for its mask. False where
 // that cannot be told.
-bool isPaintedSilhouette(const std::string& path, const MendPlace& place) {
+bool isPaintedSilhouette(const std::string& path, const MendPlace& place, int figure) {
   const std::optional<SkeletonSource>& result = place.result;
   if (!result || ifThere(path).empty()) return false;
   if (result->mask) return fs::path(place.results).parent_path() / result->mask->file == fs::path(path);
-  if (result->outline_sha256.empty() || result->number != 1) return false;
+  if (result->outline_sha256.empty() || result->number != figure) return false;
   try {
     const LookAtOutputs look;
     if (isAsSealed(readFile(path))) return false;
@@ -130,7 +138,7 @@ bool isWrittenLater(const std::string& path, const std::string& other_path) {
 // What labels and result under the picture's own name name, wherever that lies.
 void takeNamed(MendedFiles& files, const MendRequest& request, const std::string& own_skeleton,
                const std::optional<SkeletonSource>& own) {
-  const bool finds_mask = request.figure == 1 && request.mask.empty() && request.skeleton.empty();
+  const bool finds_mask = request.mask.empty() && request.skeleton.empty();
   if (finds_mask && files.mask.empty() && !files.labels.empty() && areOfPicture(files.labels, request))
     files.mask = namedBy(files.labels, readLabelFile(files.labels).mask);
   if (!own || !request.isOfPicture(own->image_sha256)) return;
@@ -142,8 +150,7 @@ void takeNamed(MendedFiles& files, const MendRequest& request, const std::string
 // one. What a run under this name, or labels of it, have taken up or left out since does not count.
 void takeFormer(MendedFiles& files, const MendRequest& request, const std::vector<MendPlace>& places) {
   const bool first = request.figure == 1;
-  const bool finds_mask = first && request.mask.empty() && request.skeleton.empty();
-  const std::string number = first ? "" : "-" + std::to_string(request.figure);
+  const bool finds_mask = request.mask.empty() && request.skeleton.empty();
   const MendPlace* own =
       !places.empty() && places.front().is_own && places.front().is_of_picture ? &places.front() : nullptr;
   const std::string own_skeleton = own ? own->results + kSkeletonFileEnding : "";
@@ -171,14 +178,14 @@ void takeFormer(MendedFiles& files, const MendRequest& request, const std::vecto
       take(files.labels, labels);
     }
     if (finds_mask && !own_labels) {
-      if (!labels.empty()) take(files.mask, namedBy(labels, readLabelFile(labels).mask));
+      if (first && !labels.empty()) take(files.mask, namedBy(labels, readLabelFile(labels).mask));
       if (counts) take(files.mask, namedBy(skeleton, result.mask));
       if (const std::string silhouette = place.results + ".silhouette.png";
-          counts && isPaintedSilhouette(silhouette, place))
+          counts && isPaintedSilhouette(silhouette, place, request.figure))
         take(files.mask, silhouette);
     }
     if (request.finds_limbs) {
-      if (!labels.empty()) take(files.limbs, place.made + number + ".limbs.png");
+      if (!labels.empty()) take(files.limbs, madeOf(place, request.figure) + ".limbs.png");
       if (counts) take(files.limbs, namedBy(skeleton, result.limbs));
       if (const std::string layers = place.results + ".layers.png";
           counts && arePaintedLayers(layers, place, request.figure))
@@ -268,16 +275,16 @@ MendedFiles mendedFiles(const MendRequest& request) {
   const bool first = request.figure == 1;
   const bool annotated = isAnnotated(request.source);
   const bool no_skeleton = request.skeleton.empty(), no_mask = request.mask.empty();
-  const std::string number = request.figure > 1 ? "-" + std::to_string(request.figure) : "";
   const std::vector<MendPlace> places = mendPlaces(request);
   std::string painted, painted_layers;
   for (const MendPlace& place : places) {
     if (place.is_earlier && !files.earlier_result) files.earlier_result = place.result;
     const bool made = place.is_beside ? !annotated : place.is_of_picture;
-    if (made && no_mask && no_skeleton && first)
-      offer(files.mask, place.made + ".mask.png", sameBytes, files);
-    if (made && request.finds_limbs && request.limbs.empty())
-      offer(files.limbs, place.made + number + ".limbs.png", sameBytes, files);
+    const std::string made_of = madeOf(place, request.figure);
+    if (made && no_mask && no_skeleton && !made_of.empty())
+      offer(files.mask, made_of + ".mask.png", sameBytes, files);
+    if (made && request.finds_limbs && request.limbs.empty() && !made_of.empty())
+      offer(files.limbs, made_of + ".limbs.png", sameBytes, files);
     if (made && request.finds_back && request.back.empty() && first)
       offer(files.back, backIn(place), sameBytes, files);
     const std::string labels = place.made + kLabelFileEnding;
@@ -289,7 +296,7 @@ MendedFiles mendedFiles(const MendRequest& request) {
         no_skeleton && (hasEditedJoint(skeleton) || hasUnknownJoint(skeleton)))
       offerResult(files.skeleton, skeleton, place, haveSameJoints, files);
     if (const std::string silhouette = place.results + ".silhouette.png";
-        no_skeleton && no_mask && first && isPaintedSilhouette(silhouette, place))
+        no_skeleton && no_mask && isPaintedSilhouette(silhouette, place, request.figure))
       offerResult(painted, silhouette, place, sameBytes, files);
     if (const std::string layers = place.results + ".layers.png";
         request.finds_limbs && request.limbs.empty() && arePaintedLayers(layers, place, request.figure))
@@ -387,7 +394,8 @@ PlacedJoints placedJoints(const MendedFiles& files, const MendRequest& request, 
 
 void leaveOutOtherFigures(MendedFiles& files, const MendRequest& request, const Image& image,
                           FigureFinder& figures) {
-  if (!request.is_one_of_all || files.mask.empty() || files.mask == request.mask) return;
+  if (!request.is_one_of_all || request.figure > 1 || files.mask.empty() || files.mask == request.mask)
+    return;
   const LookAtOutputs look;
   const Plane8 mask = readMask(files.mask);
   const Silhouette first = figures.take(image, 1);

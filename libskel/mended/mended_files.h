@@ -76,7 +76,8 @@ struct MendedFiles {
 // Those that are named, and what a person has left in the folders of mend_places.h, of each kind the first:
 // an edited skeleton, a silhouette that is not outlined as its skeleton file says, or was that file's mask
 // already, layers with other pixels than they were written with (sealed_png.h); <source's stem>.mask.png,
-// .labels.json, .limbs.png and .back.png (mask and labels of the first figure), elsewhere than beside the
+// .labels.json, .limbs.png and .back.png (labels and back of the first figure; <stem>-2.mask.png and
+// <stem>-2.limbs.png are the second one's, unless a drawing is called so), elsewhere than beside the
 // drawing where they, or the result there, name its picture; where there is none of a kind, what was made for
 // the picture under another name (former_names.h). Beside a drawing with <stem>.joints.json nothing
 // is looked for: that is annotated, not mended. What was made for another picture than the request's is left

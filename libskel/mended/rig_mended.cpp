@@ -42,6 +42,18 @@ SkeletonFile::Mask useMask(const MendRequest& request, const MendedFiles& mended
   return {path, sha256(readFile(path)), mended.mask_before};
 }
 
+// Which figure of the mask is the picture's of that number: one that was found for it, or shows fewer
+// figures, shows it alone.
+int figureOfMask(const std::string& mask, const MendRequest& request, const MendedFiles& mended,
+                 const RigInput& input) {
+  if (request.figure <= 1) return 1;
+  const bool is_own = mask.ends_with("-" + std::to_string(request.figure) + ".mask.png") ||
+                      (!mended.mask.empty() && mended.mask != request.mask);
+  return is_own || silhouetteFromMask(*input.mask, input.image).figure_count < request.figure
+             ? 1
+             : request.figure;
+}
+
 // Of the outline that the picture alone gives, "": none.
 std::string foundOutline(FigureFinder& figures, const Image& image, int figure) {
   const Silhouette silhouette = figures.take(image, figure);
@@ -182,6 +194,7 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
 
   RigOptions figure_rig = forBodyPlan(rig, placed.body_plan);
   figure_rig.silhouette = silhouette;
+  if (!mask.empty()) figure_rig.silhouette.figure = figureOfMask(mask, request, mended, input);
   if (given || !placed.joints.empty()) figure_rig.last = std::max(figure_rig.last, LastStage::kJoints);
   result.last = figure_rig.last;
   RiggedDrawing& drawing = result.drawing;

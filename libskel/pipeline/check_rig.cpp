@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -125,6 +126,8 @@ void checkOptions(const RigOptions& options) {
     throw UsageError("RigOptions::skin_method is none of skinMethods()");
   checkWithin("RigOptions::skin.max_influences", options.skin.max_influences, 1, 4);
   checkWithin("RigOptions::skin.smoothing", options.skin.smoothing, 0, kMostSmoothing);
+  if (options.facing_rad)
+    checkWithin("RigOptions::facing_rad", *options.facing_rad, -std::numbers::pi, std::numbers::pi);
   checkWithin("RigOptions::into_picture", options.into_picture, 0, 1);
   for (const Clip& clip : options.clips) checkClip(clip, "RigOptions::clips: ");
   if (options.otherwise)

@@ -86,7 +86,8 @@ std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip
 std::vector<Note> armNotes(const RiggedCharacter& character, const std::vector<Clip>& clips) {
   std::vector<Note> notes;
   if (clips.empty()) return notes;
-  const FigureShape shape = measureFigure(character.mesh, character.weights, character.skeleton);
+  const FigureShape shape =
+      measureFigure(character.mesh, character.weights, character.skeleton, character.facing);
   for (std::string& clause : armsThatStay(clips, character.skeleton, shape))
     notes.push_back({std::move(clause)});
   return notes;

@@ -10,7 +10,8 @@ namespace {
 LayerMap layersOfCutOut(const RiggedDrawing& drawing) {
   LayerMap layers = drawing.layers;
   const RiggedCharacter& character = drawing.character;
-  const FigureShape shape = measureFigure(character.mesh, character.weights, character.skeleton);
+  const FigureShape shape =
+      measureFigure(character.mesh, character.weights, character.skeleton, character.facing);
   for (std::size_t k = 0; k < drawing.body_plan.limbs.size(); ++k) {
     const TemplateLimb& limb = drawing.body_plan.limbs[k];
     const int elbow = character.skeleton.find(drawing.body_plan.joints[std::size_t(limb.joints[1])].name);

@@ -16,7 +16,9 @@ double looksAt(const RiggedCharacter& character) {
   constexpr double kAnimal = -kPi / 2;
   const Skeleton& skeleton = character.skeleton;
   const bool biped = skeleton.find("left_foot") >= 0, animal = skeleton.find("left_front_foot") >= 0;
-  if (biped || animal) return figureYaw(character.mesh, character.weights, skeleton) + (animal ? kAnimal : 0);
+  if (character.facing) return character.facing->yaw_rad;
+  if (biped || animal)
+    return measureFigure(character.mesh, character.weights, skeleton).yaw_rad + (animal ? kAnimal : 0);
   const std::optional<RoleFigure> figure = roleFigure(skeleton);
   if (!figure) return 0;
   const bool quadruped = figure->skeleton.find("left_front_foot") >= 0;

@@ -235,7 +235,7 @@ BoundSkin boundSkin(const RiggedCharacter& character, const SkeletonTemplate& bo
   do {
     for (const HeldArm& arm : stretch.uprooted) holdArm(character.mesh, character.skeleton, arm, weights);
     skin.weights = weights;
-    skin.shape = measureFigure(character.mesh, weights, character.skeleton);
+    skin.shape = measureFigure(character.mesh, weights, character.skeleton, character.facing);
     skin.own_fitted = clipsOf(character, skin.own, skin.shape, options);
     stretch = boundStretch(character.mesh, character.skeleton, skin.own_fitted, options.skin.max_influences,
                            skin.weights);
@@ -386,13 +386,17 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
   drawing.character.skeleton = drawing.recognition.skeleton;
   const auto bind = [&] {
     TriangleMesh& mesh = drawing.character.mesh;
-    Skinned skinned{{}, drawing.character.skeleton, {}};
+    Skinned skinned{{}, drawing.character.skeleton, {}, {}};
     skinned.weights =
         computeSkinWeights(mesh, skinned.skeleton, options.skin_method, options.skin, joint_layers);
     if (inflated) {
       foldArms(skinned.skeleton, body_plan, skinned.weights);
       carryWornParts(mesh, body_plan, drawing.layers, skinned.skeleton, skinned.weights);
-      const double yaw_rad = figureYaw(mesh, skinned.weights, skinned.skeleton);
+      skinned.facing = facingOf(mesh, skinned.weights, skinned.skeleton);
+    }
+    if (options.facing_rad) skinned.facing = Facing::at(*options.facing_rad);
+    if (inflated) {
+      const double yaw_rad = skinned.facing ? skinned.facing->yaw_rad : 0;
       partLimbsInDepth(mesh, skinned.skeleton, skinned.weights, body_plan, yaw_rad, drawing.layers.far);
     }
     skinned.vertices = mesh.vertices;
@@ -404,6 +408,7 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
   drawing.character.mesh.vertices = std::move(skinned.vertices);
   drawing.character.skeleton = std::move(skinned.skeleton);
   drawing.character.weights = std::move(skinned.weights);
+  drawing.character.facing = skinned.facing;
   if (inflated) drawing.recognition.skeleton = withoutHanging(drawing.character.skeleton);
   if (options.rest_pose != RestPose::kDrawn)
     drawing.character = stage("rest pose", [&] { return poseToRest(drawing.character, options.rest_pose); });
@@ -421,7 +426,9 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
     const RiggedCharacter& character = drawing.character;
     return clipsOf(
         character, asked_clips,
-        bound ? bound->shape : measureFigure(character.mesh, character.weights, character.skeleton), options);
+        bound ? bound->shape
+              : measureFigure(character.mesh, character.weights, character.skeleton, character.facing),
+        options);
   });
   return drawing;
 }

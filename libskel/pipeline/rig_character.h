@@ -88,6 +88,9 @@ struct RigOptions {
   InflateOptions inflate{.thin_outline = true};
   std::optional<Back> back = {};  // nothing: kPlain, or kSame for a body plan that is drawn from the side
   double height_m = 0;            // of the model, 1e-3 to 1e5; 0: the body plan's own
+  // Which way the model looks, as a person has said: 0 to the viewer (+z), positive to the right; nothing: as
+  // it is seen.
+  std::optional<double> facing_rad = {};
   SkinMethod skin_method = SkinMethod::kGeodesic;
   SkinOptions skin = {};
   RestPose rest_pose = RestPose::kDrawn;

@@ -92,8 +92,8 @@ bool same(const Skeleton& a, const Skeleton& b) {
 
 std::vector<RigPart> changes(const RigOptions& from, const RigOptions& to) {
   const auto& [last, silhouette, candidates, mlp, body_plan, otherwise, recognizer, upright, joint_nets,
-               joint_net, layers, part_net, inflate, back, height_m, skin_method, skin, rest_pose, clips,
-               into_picture] = from;
+               joint_net, layers, part_net, inflate, back, height_m, facing_rad, skin_method, skin, rest_pose,
+               clips, into_picture] = from;
   const bool other_plan = otherwise.has_value() != to.otherwise.has_value() ||
                           (otherwise && !samePlan(otherwise->body_plan, to.otherwise->body_plan));
   const bool other_clips =
@@ -111,7 +111,8 @@ std::vector<RigPart> changes(const RigOptions& from, const RigOptions& to) {
   note(RigPart::kLayerOptions, std::tie(layers, part_net) != std::tie(to.layers, to.part_net));
   note(RigPart::kMeshOptions,
        !sameBody(inflate, to.inflate) || std::tie(back, height_m) != std::tie(to.back, to.height_m));
-  note(RigPart::kSkinOptions, skin_method != to.skin_method || members(skin) != members(to.skin));
+  note(RigPart::kSkinOptions, std::tie(facing_rad, skin_method) != std::tie(to.facing_rad, to.skin_method) ||
+                                  members(skin) != members(to.skin));
   note(RigPart::kRestPose, rest_pose != to.rest_pose);
   note(RigPart::kRetargetOptions, into_picture != to.into_picture);
   note(RigPart::kClips, other_clips || last != to.last);

@@ -11,6 +11,12 @@ namespace skel {
 // Likeness below which it is said that this is hardly a figure of the body plan.
 inline constexpr double kHardlyOne = 0.5;
 
+// A joint is named that is wrong in more than one of three cases, by its confidence.
+inline constexpr double kSureJoint = 2. / 3;
+
+// Joints that were found and are below that.
+std::vector<std::string> unsureJoints(const Recognition& recognition);
+
 // Of joints that were not found; "": all were.
 std::string missingNote(const std::vector<std::string>& missing);
 

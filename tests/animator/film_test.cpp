@@ -166,19 +166,24 @@ TEST_CASE("an arm that is drawn in part alone came off the body in flat films wi
   CHECK_THAT(flatWarnings(drawing).front(), Catch::Contains("left arm is drawn in part alone"));
 }
 
-TEST_CASE("a head that turns aside was missing from flat films without a word") {
+TEST_CASE("a head that turns aside, a body that bows, was missing from flat films without a word") {
   const RiggedDrawing drawing =
       rigDrawing({.path = SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png"}).drawing;
-  const auto turned = [&](const Eigen::Vector3f& axis) {
+  const auto turned = [&](const Eigen::Vector3f& axis, const char* joint = "head", float angle_rad = .5f) {
     Clip clip;
     clip.name = "turn";
     JointTrack& track = clip.tracks.emplace_back();
-    track.joint = "head";
+    track.joint = joint;
     track.times_s = {0, 1};
-    track.rotations = {Eigen::Quaternionf::Identity(), Eigen::Quaternionf(Eigen::AngleAxisf(0.5f, axis))};
+    track.rotations = {Eigen::Quaternionf::Identity(),
+                       Eigen::Quaternionf(Eigen::AngleAxisf(angle_rad, axis))};
     return unseenTurn(drawing, clip);
   };
   CHECK(turned(Eigen::Vector3f::UnitY()) ==
         "\"turn\" turns the head aside, which the flat look does not show; --look solid does");
   CHECK_FALSE(turned(Eigen::Vector3f::UnitZ()));
+  CHECK(turned(Eigen::Vector3f::UnitX(), "body", .8f) ==
+        "\"turn\" bends the body to the front, which the flat look does not show; --look solid does");
+  CHECK_FALSE(turned(Eigen::Vector3f::UnitX(), "body", .3f));
+  CHECK_FALSE(turned(Eigen::Vector3f::UnitZ(), "body", .8f));
 }

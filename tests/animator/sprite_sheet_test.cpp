@@ -404,6 +404,10 @@ TEST_CASE("of several drawings, one alone gets another height") {
   };
   CHECK(modelHeight("ann") == Approx(1.7).margin(0.01));
   CHECK(modelHeight("ben") == Approx(2).margin(0.01));
+  const ToolRun turned =
+      render(dir.file("out/ann.glb") + " --clips idle --facing 90 -o " + dir.file("a.gif"));
+  CHECK(turned.exit_code == 1);
+  CHECK_THAT(turned.err, Catch::Contains("knows which way it looks: make it anew with --facing"));
   const ToolRun model = render(dir.file("out/ann.glb") + " --clips idle --height 2 -o " + dir.file("a.gif"));
   CHECK(model.exit_code == 1);
   CHECK(model.err == "skel-animate: --height is of drawings; " + dir.file("out/ann.glb") +

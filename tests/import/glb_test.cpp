@@ -1,3 +1,6 @@
+#include <cmath>
+#include <numbers>
+
 #include "libskel/animation/clip_library.h"
 #include "libskel/animation/retarget.h"
 #include "libskel/import/read_character.h"
@@ -40,6 +43,18 @@ TEST_CASE("a model whose back wears its own part of the texture is parted in the
   CHECK(file.character.weights.joints.rows() == mesh.vertices.rows());
   const bool same_bytes = encodeGlb(file.character, {}, {.name = file.name}) == bytes;
   CHECK(same_bytes);
+}
+
+TEST_CASE("which way a figure looks is written into the GLB and read back") {
+  RiggedCharacter character = figure();
+  CHECK_FALSE(decodeGlb(encodeGlb(character, {}), "a.glb").character.facing);
+  character.facing = Facing::at(-std::numbers::pi / 4);
+  const auto facing = decodeGlb(encodeGlb(character, {}), "a.glb").character.facing;
+  REQUIRE(facing);
+  CHECK(facing->yaw_rad == Approx(-std::numbers::pi / 4));
+  CHECK(facing->looks == -1);
+  character.facing->yaw_rad = std::nan("");
+  CHECK_THROWS_AS(encodeGlb(character, {}), UsageError);
 }
 
 TEST_CASE("what is written as GLB is read back whole, and without clips gives the same bytes again") {

@@ -1,10 +1,12 @@
 // What is written under which name, and which figure of a page it is of.
 #include <filesystem>
+#include <numbers>
 
 #include "libskel/core/files.h"
 #include "libskel/core/sha256.h"
 #include "libskel/image/read_image.h"
 #include "libskel/image/write_image.h"
+#include "libskel/import/read_character.h"
 #include "tests/infer/run_infer.h"
 #include "tests/support/catch.h"
 #include "tests/support/synthetic_figure.h"
@@ -53,6 +55,23 @@ void writePage(const TempDir& dir) {
 
 }  // namespace
 
+TEST_CASE("where skel takes a figure to look another way, --facing says so, of one drawing of several too") {
+  const TempDir dir;
+  writeFile(dir.file("ann.png"), page({CapsuleFigure()}));
+  writeFile(dir.file("ben.png"), page({CapsuleFigure()}));
+  const ToolRun run = infer(dir, "ann.png ben.png --facing ben=-90 --formats glb --json");
+  CHECK(run.exit_code == 0);
+  CHECK(contains(run.out, "\"facing_deg\":0.0"));
+  CHECK(contains(run.out, "\"facing_deg\":-90.0"));
+  const auto of = [&](const char* glb) { return readGlb(dir.file(glb)); };
+  CHECK(of("out/ann.glb").character.facing->yaw_rad == Approx(0));
+  CHECK(of("out/ben.glb").character.facing->yaw_rad == Approx(-std::numbers::pi / 2));
+  CHECK(readFile(dir.file("out/ann.glb")) != readFile(dir.file("out/ben.glb")));
+  CHECK(
+      contains(infer(dir, "ann.png --facing cat=90").err, "--facing: no file of this run is called \"cat\""));
+  CHECK(contains(infer(dir, "ann.png --facing nan").err, "--facing"));
+}
+
 TEST_CASE("after --figure all, --skeleton page-2: the second skeleton stays on the second figure") {
   const TempDir dir;
   writePage(dir);
@@ -88,6 +107,48 @@ TEST_CASE("notes of --figure all say which figure") {
   CHECK(contains(run.out, "page.png, figure 1: out/page-1.glb"));
   CHECK(contains(run.out, "page.png, figure 2: out/page-2.glb"));
   CHECK_FALSE(contains(run.err, "page.png: note"));
+}
+
+TEST_CASE("a mask of the second figure is taken up for that one alone") {
+  const TempDir dir;
+  writePage(dir);
+  REQUIRE(infer(dir, "page.png -o found --figure all --formats json,silhouette").exit_code == 0);
+  const Plane8 found = readMask(dir.file("found/page-2.silhouette.png"));
+  int top = 0;
+  while ((found.row(top) == 0).all()) ++top;
+  Plane8 mended = found;
+  mended.middleRows(top, 8).setZero();
+  const auto run = [&](const std::string& options) {
+    return infer(dir, "page.png --formats json,silhouette " + options);
+  };
+  SECTION("beside the drawing") {
+    writeFile(dir.file("page-2.mask.png"), encodePng(mended));
+    ToolRun all = run("-o all --figure all");
+    CHECK(all.exit_code == 0);
+    CHECK(contains(all.err, "figure 2: note: made by hand and taken up: mask (page-2.mask.png)"));
+    CHECK((readMask(dir.file("all/page-2.silhouette.png")) == mended).all());
+    CHECK(readFile(dir.file("all/page-1.silhouette.png")) ==
+          readFile(dir.file("found/page-1.silhouette.png")));
+    CHECK(contains(readFile(dir.file("all/page-2.skeleton.json")), "\"number\": 2"));
+    CHECK(run("-o two --figure 2").exit_code == 0);
+    CHECK((readMask(dir.file("two/page.silhouette.png")) == mended).all());
+    CHECK(run("-o again --skeleton all/page-2.skeleton.json").exit_code == 0);
+    CHECK((readMask(dir.file("again/page-2.silhouette.png")) == mended).all());
+    // It is the mask of another drawing.
+    writeFile(dir.file("page-2.png"), page({CapsuleFigure()}));
+    all = run("-o other --figure all");
+    CHECK(all.exit_code == 0);
+    CHECK(readFile(dir.file("other/page-2.silhouette.png")) ==
+          readFile(dir.file("found/page-2.silhouette.png")));
+  }
+  SECTION("painted in place") {
+    writeFile(dir.file("found/page-2.silhouette.png"), encodePng(mended));
+    const ToolRun all = run("-o found --figure all");
+    CHECK(all.exit_code == 0);
+    CHECK(contains(all.err,
+                   "figure 2: note: made by hand and taken up: silhouette (found/page-2.silhouette.png)"));
+    CHECK((readMask(dir.file("found/page-2.silhouette.png")) == mended).all());
+  }
 }
 
 TEST_CASE("a mask, and joints, that were mended of the largest figure were dropped by --figure all") {

@@ -385,7 +385,8 @@ TEST_CASE(
   CHECK(run.exit_code == 0);
   CHECK(run.out == "0 label files made, 1 kept as they were, 0 failed\n");
   CHECK(run.err ==
-        "skel-label: note: cap_boy.labels.json: kept, with other joints than what is to be imported; --force "
+        "skel-label: note: cap_boy.labels.json: kept, with other joints (elsewhere, or placed by hand) than "
+        "what is to be imported; --force "
         "takes the latter, and drops joints set by hand\n");
   CHECK(label(dir, "import . --force").err == "");
   CHECK(headOf(dir.file("cap_boy.labels.json")) == 310);
@@ -504,7 +505,9 @@ TEST_CASE("import: our own export put old joints back, and a second one stopped 
   CHECK(run.exit_code == 0);
   CHECK(run.out == "0 label files made, 1 kept as they were, 0 failed\n");
   CHECK(run.err.starts_with(passed_over));
-  CHECK(contains(run.err, "cap_boy.labels.json: kept, with other joints than what is to be imported"));
+  CHECK(contains(run.err,
+                 "cap_boy.labels.json: kept, with other joints (elsewhere, or placed by hand) than what is "
+                 "to be imported"));
   CHECK(label(dir, "import . --force").err == passed_over);
   CHECK(headOf(labels) == 310);
 

@@ -753,7 +753,7 @@ TEST_CASE(
   CHECK(colorAt() == partColor(Part::kThing));
 }
 
-TEST_CASE("each figure of a picture has painted limbs of its own") {
+TEST_CASE("each figure of a picture has a mask and painted limbs of its own") {
   const TempDir dir;
   const Image one = readImage(kCharacters + "box_robot.png");
   Image page(1300, 600);
@@ -777,12 +777,28 @@ TEST_CASE("each figure of a picture has painted limbs of its own") {
   CHECK(fs::exists(dir.file("page-2.limbs.png")));
   CHECK_FALSE(fs::exists(dir.file("page.limbs.png")));
   // What was said of its mask became the mask of the first figure.
-  document.acceptMask();
   document.paintMask({left + 300, 300}, {left + 310, 300}, 5, false);
-  CHECK(document.message() ==
-        "a mask is of the first figure of a picture, this is figure 2: cut the picture down to it, and mend "
-        "that");
+  REQUIRE(fs::exists(dir.file("page-2.mask.png")));
   CHECK_FALSE(fs::exists(dir.file("page.mask.png")));
+  CHECK_FALSE(fs::exists(dir.file("page.labels.json")));
+  const Plane8 mended = readMask(dir.file("page-2.mask.png"));
+  CHECK(mended(300, left + 305) == 0);
+  CHECK((mended.middleCols(650 - left / 700 * 650, 650) != 0).count() == 0);
+  const SkeletonFile saved = readSkeletonFile(dir.file("page-2.skeleton.json"), loadTemplate("biped"));
+  CHECK(saved.figure.number == 2);
+  REQUIRE(saved.mask);
+  CHECK(saved.mask->file == "page-2.mask.png");
+  Document again(dir.file("page-2.skeleton.json"), documentOptions());
+  CHECK((again.figure().silhouette.mask == mended).all());
+  again.label({0}, JointClass::kHead);
+  CHECK(again.message() == "classes are of the first figure of a picture, this is figure 2");
+
+  // They would be those of another drawing.
+  writeFile(dir.file("page-2.png"), encodePng(page));
+  again.paintMask({left + 320, 300}, {left + 330, 300}, 5, false);
+  CHECK(again.message() ==
+        "mask and limbs of figure 2 have the name of page-2.png's: give that another name");
+  CHECK((readMask(dir.file("page-2.mask.png")) == mended).all());
 }
 
 TEST_CASE("a layer map that cannot be read is not written over") {

@@ -5,6 +5,7 @@
 #include "libskel/core/error.h"
 #include "libskel/core/rng.h"
 #include "libskel/recognition/confidence_model.h"
+#include "libskel/recognition/joint_note.h"
 #include "tests/support/catch.h"
 #include "tests/support/synthetic_figure.h"
 #include "trainer/figures/figure.h"
@@ -93,6 +94,21 @@ TEST_CASE("evidence of degenerate figures is finite as well") {
     const Confidences sure = confidencesOf(evidence, builtInConfidenceModel());
     CHECK((sure.figure >= 0 && sure.figure <= 1));
   }
+}
+
+TEST_CASE("a joint that is wrong in more than one of three cases was called fine") {
+  Recognition found;
+  found.skeleton = presetSkeleton(loadTemplate("biped"), {0, 0}, {1, 1});
+  for (Joint& joint : found.skeleton.joints) joint.origin = JointOrigin::kRecognized, joint.confidence = .9;
+  found.confidence = found.likeness = .9;
+  CHECK(jointNote(found, "biped").empty());
+  Joint& hand = found.skeleton.joints[std::size_t(found.skeleton.index("right_hand"))];
+  hand.confidence = .6;
+  CHECK(jointNote(found, "biped") == "may be wrong, look at it: right_hand");
+  found.missing = {"left_foot"};
+  CHECK(jointNote(found, "biped") == "may be wrong, look at it: right_hand; not found: left_foot");
+  hand.origin = JointOrigin::kCompleted;
+  CHECK(jointNote(found, "biped") == "not found: left_foot (placed where it probably is)");
 }
 
 TEST_CASE("confidences are chances, and a file of the model gives the same again") {
