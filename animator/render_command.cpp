@@ -217,12 +217,15 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path, bool among
     throw InputError(path, "can do no clip: it has none, and none that come with skel fit its joints: " +
                                whyNoRoles(file.character.skeleton));
   if (drawn) tell(*drawn, !chooses ? "" : flat ? ", look flat" : ", look solid", path, clips);
+  bool unseen = false;
   for (const Clip& clip : clips)
     if (flat && !hasClip(builtinClips(), clip.name))
-      if (const auto turn = unseenTurn(drawn->drawing, clip))
+      if (const auto turn = unseenTurn(drawn->drawing, clip)) {
         std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(*turn).c_str());
+        unseen = true;
+      }
   noteWhatStays(options, file.character, path, clips, drawn ? std::vector<Clip>{} : file.clips);
-  const bool rigged = drawn.has_value(), unsure = rigged && !drawn->warnings.empty();
+  const bool rigged = drawn.has_value(), unsure = unseen || (rigged && !drawn->warnings.empty());
   std::optional<RiggedDrawing> shown;
   if (flat) shown = std::move(drawn->drawing);
   return {path, {std::move(file), std::move(shown), clips}, left_out_code, rigged, unsure};

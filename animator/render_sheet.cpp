@@ -236,13 +236,19 @@ struct Sheets {
     return true;
   }
 
-  // "looking left (if it looks at you: --angle cat=90)"
+  // "looking left (if it looks at you: --facing cat=0)"; a model is turned.
   std::string toldFrom(const CharacterFile& file) const {
     const double facing_rad = facing(file.character);
     const std::string drawn = drawnFrom(facing_rad);
     if (drawn == drawnFrom(0) || options.angles(file.name) != 0) return drawn;
+    const bool is_drawing =
+        std::any_of(options.files.begin(), options.files.end(), [&](const std::string& path) {
+          return isDrawing({.path = path}) && fs::path(path).stem() == file.name;
+        });
     const long back_deg = std::lround(-facing_rad * 180 / std::numbers::pi);
-    return drawn + " (if it looks at you: --angle " + shellWord(file.name + "=" + std::to_string(back_deg)) +
+    return drawn + " (if it looks at you: " +
+           (is_drawing ? "--facing " + shellWord(file.name + "=0")
+                       : "--angle " + shellWord(file.name + "=" + std::to_string(back_deg))) +
            ")";
   }
 

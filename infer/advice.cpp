@@ -37,8 +37,11 @@ std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawin
   const bool photo = drawing.silhouette.evidence.has_value();  // or another page that is not tidy
   const auto starts = [&](const char* words) { return warning.starts_with(words); };
   if (starts("the sheet itself"))
-    return "The sheet of paper was taken for the figure. Lay the drawing on something plain and darker, or "
-           "cut the photo down to the sheet.";
+    return "The sheet of paper, or what is drawn around the figure, was taken for it. Erase that from the "
+           "mask: "
+           "skel-label FILE, key M; of a photo: lay the drawing on something plain and darker, or cut it "
+           "down to the "
+           "sheet.";
   if (starts("the figure is cut by"))
     return "The figure is cut off at the " + drawing.silhouette.cut_sides +
            ". Step back, so that hands and feet are in the picture.";

@@ -343,7 +343,7 @@ ExitCode runEvaluate(const EvaluateOptions& options) {
         ".10; figure confidence >= .5 for %s, likeness for %s\n"
         "confidence against usable: area under ROC %s, calibration error %s\n",
         figure("iou").c_str(), figure("iou90").c_str(),
-        with_mask < std::ptrdiff_t(rows.size())
+        with_mask > 0 && with_mask < std::ptrdiff_t(rows.size())
             ? (" (of the " + std::to_string(with_mask) + " with a true mask)").c_str()
             : "",
         figure("sure_share", 2).c_str(), figure("sure_precision").c_str(),

@@ -21,9 +21,9 @@ std::vector<Case> maskOn(const HardPage& page) {
 void printNamed(const std::string& title, const std::vector<Forecast>& forecasts) {
   double doubted = 0, bad = 0, named = 0;
   for (const Forecast& page : forecasts) {
-    doubted += page.probability < .5;
+    doubted += page.probability < kSureMask;
     bad += !page.came_true;
-    named += page.probability < .5 && !page.came_true;
+    named += page.probability < kSureMask && !page.came_true;
   }
   std::printf("%-10s %5zu pages, %4.0f bad: %3.0f %% of them named, %3.0f %% of those named are bad",
               title.c_str(), forecasts.size(), bad, 100 * named / std::max(1., bad),

@@ -39,7 +39,8 @@ double SilhouetteConfidence::of(const MaskEvidence& evidence) const {
 std::optional<std::string> silhouetteDoubt(const Silhouette& silhouette,
                                            const SilhouetteConfidence& confidence) {
   if (silhouette.is_sheet) return std::nullopt;
-  if (!silhouette.evidence || confidence.of(*silhouette.evidence) >= .5) return enclosedDoubt(silhouette);
+  if (!silhouette.evidence || confidence.of(*silhouette.evidence) >= kSureMask)
+    return enclosedDoubt(silhouette);
   const MaskEvidence& evidence = *silhouette.evidence;
   const auto input = [&](std::string_view name) {
     return evidence.inputs[std::find(kMaskInputs.begin(), kMaskInputs.end(), name) - kMaskInputs.begin()];

@@ -19,8 +19,11 @@ struct SilhouetteConfidence {
   double of(const MaskEvidence& evidence) const;
 };
 
-// Where to look in a mask that is probably wrong, in one clause for people; nothing where it is probably
-// right or where there is no evidence (Silhouette::evidence, ::enclosed).
+// A mask is doubted that is wrong in more than one of three cases, by its confidence.
+inline constexpr double kSureMask = 2. / 3;
+
+// Where to look in a mask that is doubted, in one clause for people; nothing where it is not or where there
+// is no evidence (Silhouette::evidence, ::enclosed).
 std::optional<std::string> silhouetteDoubt(const Silhouette& silhouette,
                                            const SilhouetteConfidence& confidence);
 
