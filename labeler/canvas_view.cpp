@@ -280,6 +280,13 @@ void CanvasView::strokeWith(bool hovered, Value left, Value right, Value& value,
 }
 
 void CanvasView::useMask(bool hovered) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!stroke_ && mask_fills != io.KeyShift) {
+    for (const int button : {0, 1})
+      if (hovered && ImGui::IsMouseClicked(button))
+        document_.paintMaskArea(imageFromScreen(io.MousePos), (button == 0) == mask_adds);
+    return;
+  }
   strokeWith(hovered, mask_adds, !mask_adds, stroke_adds_,
              [&](const auto& from, const auto& to, double radius_px, bool add) {
                document_.paintMask(from, to, radius_px, add);
@@ -423,6 +430,11 @@ void CanvasView::drawCursor(ImDrawList* list, bool hovered) {
   };
   if (hovered && tool == Tool::kMask) {
     const bool adds = stroke_ ? stroke_adds_ : mask_adds;
+    if (!stroke_ && mask_fills != ImGui::GetIO().KeyShift) {
+      list->AddCircleFilled(mouse, 4, adds ? IM_COL32(30, 140, 60, 255) : IM_COL32(210, 50, 40, 255));
+      list->AddCircle(mouse, 5, IM_COL32_WHITE, 0, 1.5f);
+      return;
+    }
     ring(adds ? IM_COL32(30, 140, 60, 255) : IM_COL32(210, 50, 40, 255));
   }
   if (hovered && tool == Tool::kLimbs) {

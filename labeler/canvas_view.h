@@ -45,6 +45,7 @@ class CanvasView {
   std::optional<JointClass> active_class =
       JointClass::kHead;                  // of brush, lasso and click; nothing: they take it away
   LayerBrush layer_brush = limbBrush(1);  // what the left button paints; the right one: the body
+  bool mask_fills = false;                // areas of one colour, not what the brush goes over
   bool mask_adds = true;                  // what the left button does to the mask; the right one: the reverse
 
  private:

@@ -622,6 +622,16 @@ bool Document::mayHaveClasses() {
 
 void Document::paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px,
                          bool add) {
+  changeMask(add, [&](Plane8& mask, std::uint8_t value) {
+    return paintLine(mask, from_px, to_px, radius_px, value);
+  });
+}
+
+void Document::paintMaskArea(const Eigen::Vector2d& at_px, bool add) {
+  changeMask(add, [&](Plane8& mask, std::uint8_t value) { return paintArea(mask, image_, at_px, value); });
+}
+
+void Document::changeMask(bool add, const std::function<bool(Plane8& mask, std::uint8_t value)>& paint) {
   if (image_.empty() || !mayHaveShape()) return;
   const StepScope scope(*this);
   auto mask = std::make_shared<MaskVersion>();
@@ -632,7 +642,7 @@ void Document::paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& 
   else
     mask->pixels = Plane8::Zero(image_.height, image_.width);
   mask->file = fs::path(item().files.mask).filename().string();
-  if (!paintLine(mask->pixels, from_px, to_px, radius_px, add ? 255 : 0)) return;
+  if (!paint(mask->pixels, add ? 255 : 0)) return;
   if (replaceMask(std::move(mask)))
     message_ = std::string(add ? "added to the figure" : "erased from the figure") +
                "; R finds the joints anew that you have not placed";

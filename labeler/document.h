@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -122,6 +123,8 @@ class Document {
   // Adds to the figure, or erases from it, along a line with a round brush. Labels stay where the figure
   // stays. A stroke that would leave no figure is refused.
   void paintMask(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px, bool add);
+  // The same of the area around a place that looks alike (paintArea()).
+  void paintMaskArea(const Eigen::Vector2d& at_px, bool add);
   // Says of the figure that it is outlined as it should be: its mask is kept as if it had been painted. Of an
   // earlier picture this is acceptJoints().
   void acceptMask();
@@ -233,6 +236,8 @@ class Document {
   // SkeletonFile::foundOutline() of the picture that the state was made for.
   std::string foundOutline();
   int figureNumber() const { return skeleton_ ? skeleton_->figureNumber() : 1; }
+  // One step; paint() returns whether it has changed any pixel.
+  void changeMask(bool add, const std::function<bool(Plane8& mask, std::uint8_t value)>& paint);
   // Each says why where that is not so.
   bool mayHaveShape();    // a mask and limbs of its own: another figure's may be those of another drawing
   bool mayHaveClasses();  // label files are of the first figure

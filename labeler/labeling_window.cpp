@@ -44,7 +44,8 @@ constexpr KeyHelp kHelp[] = {
      "rig and show the model; forget all joints first, of an earlier photo all that was mended"},
     {"P", "person or animal: joints anew by the other body plan"},
     {"C", "of a motion: joints as in the frame before"},
-    {"M  X", "mend the mask: left button adds, right button erases; X swaps them"},
+    {"M  X",
+     "mend the mask: left button adds, right button erases; X swaps them; with Shift an area of one colour"},
     {"G", "paint limbs before the body (1 to 4), hair, skirt, cape, thing (5 to 8); 0 is the body"},
     {"V  B  L", "classes of the candidates: touch, brush, lasso"},
     {"1  2  3  4", "head, body, hand, leg: what the mouse touches, N has chosen, brush or lasso take"},
@@ -555,6 +556,9 @@ class LabelingWindow {
     if (colorButton("Erase", {half, kButtonHeight}, {210, 50, 40}, !canvas_.mask_adds))
       canvas_.mask_adds = false;
     tip("With the left button; the right one adds  (key X)");
+    if (colorButton("Area of one colour", {width, kButtonHeight}, {90, 90, 90}, canvas_.mask_fills))
+      canvas_.mask_fills = !canvas_.mask_fills;
+    tip("A click takes all that looks alike around it, up to the next line  (Shift and click)");
     drawBrushSize(width);
     enabledButton(
         "Right as it is", {width, kButtonHeight}, document_.figure().silhouette.found(),

@@ -31,6 +31,11 @@ bool isJointsFile(const std::string& path) {
   return fs::path(path).filename() == kOwnJoints || path.ends_with(kJointsEnding);
 }
 
+std::string viewAt(const JsonValue& joints_file) {
+  const std::optional<JsonValue> view = joints_file.find("view");
+  return view ? view->asString() : "";
+}
+
 LabelFile::Source sourceOf(const std::string& path) {
   return {fs::path(path).filename().string(), sha256(readFile(path))};
 }
@@ -170,16 +175,14 @@ std::optional<Eigen::Vector2d> jointPlaceAt(const JsonValue& place) {
 }
 
 std::string readView(const std::string& joints_file) {
-  const JsonDocument document = JsonDocument::readFile(joints_file);
-  const std::optional<JsonValue> view = document.root().find("view");
-  return view ? view->asString() : "";
+  return viewAt(JsonDocument::readFile(joints_file).root());
 }
 
 std::optional<int> readFacing(const std::string& joints_file) {
   const JsonDocument document = JsonDocument::readFile(joints_file);
   if (const auto facing = document.root().find("facing_deg"))
     return static_cast<int>(facing->asNumber(-180, 180));
-  return readView(joints_file) == "front" ? std::optional(0) : std::nullopt;
+  return viewAt(document.root()) == "front" ? std::optional(0) : std::nullopt;
 }
 
 Plane8 readMaskOf(const Image& image, const std::string& mask) {

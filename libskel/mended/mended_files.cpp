@@ -185,7 +185,8 @@ void takeFormer(MendedFiles& files, const MendRequest& request, const std::vecto
         take(files.mask, silhouette);
     }
     if (request.finds_limbs) {
-      if (!labels.empty()) take(files.limbs, madeOf(place, request.figure) + ".limbs.png");
+      if (const std::string made = madeOf(place, request.figure); !labels.empty() && !made.empty())
+        take(files.limbs, made + ".limbs.png");
       if (counts) take(files.limbs, namedBy(skeleton, result.limbs));
       if (const std::string layers = place.results + ".layers.png";
           counts && arePaintedLayers(layers, place, request.figure))

@@ -753,6 +753,38 @@ TEST_CASE(
   CHECK(colorAt() == partColor(Part::kThing));
 }
 
+TEST_CASE("a click takes an area of one colour off the mask, up to the next line, and puts it back") {
+  const TempDir dir;
+  Image image = readImage(kCharacters + "box_robot.png");
+  // A disc that reaches out from behind the figure.
+  const auto inDisc = [](int x, int y) { return (x - 420) * (x - 420) + (y - 200) * (y - 200) < 130 * 130; };
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      if (std::uint8_t* p = image.pixel(x, y); p[3] == 0 && inDisc(x, y)) {
+        const std::array<std::uint8_t, 4> orange = {250, std::uint8_t(150 + (x + y) % 9), 20, 255};
+        std::copy(orange.begin(), orange.end(), p);
+      }
+  writeFile(dir.file("robot.png"), encodePng(image));
+  Document document(dir.file("robot.png"), documentOptions());
+  const Plane8 before = document.figure().silhouette.mask;
+  const Eigen::Vector2d on_disc(500, 130), off(20, 20);
+  REQUIRE(image.pixel(500, 130)[0] == 250);
+  REQUIRE(before(130, 500) != 0);
+  document.paintMaskArea(on_disc, false);
+  const Plane8 erased = document.figure().silhouette.mask;
+  CHECK(erased(130, 500) == 0);
+  const Plane8 robot = silhouetteOf(kCharacters + "box_robot.png", std::nullopt).mask;
+  CHECK(((erased != 0) != (robot != 0)).count() < .01 * double((robot != 0).count()));
+  CHECK(contains(document.message(), "erased from the figure"));
+  document.paintMaskArea(on_disc, true);
+  CHECK(document.figure().silhouette.mask(130, 500) != 0);
+  document.undo();
+  document.undo();
+  CHECK((document.figure().silhouette.mask == before).all());
+  document.paintMaskArea({-5, 3}, false);
+  CHECK_FALSE(fs::exists(dir.file("robot.mask.png")));
+}
+
 TEST_CASE("each figure of a picture has a mask and painted limbs of its own") {
   const TempDir dir;
   const Image one = readImage(kCharacters + "box_robot.png");
