@@ -7,6 +7,7 @@
 #include "infer/advice.h"
 #include "libskel/core/json_names.h"
 #include "libskel/core/text.h"
+#include "libskel/core/tool_command.h"
 
 namespace skel {
 namespace {
@@ -51,6 +52,8 @@ std::string proseHtml(const std::string& text) {
   }
   return html + escaped(text.substr(begin));
 }
+
+constexpr const char* kMender = "skel-label";
 
 // One card of the page: a figure, or a drawing of which there is none.
 struct Card {
@@ -99,6 +102,15 @@ std::string verdictChip(const Card& card) {
                      : "<span class=\"chip look\">look at it</span>";
 }
 
+// The path of the tool, which stands once above, is not said in each sentence.
+std::string toldHtml(std::string text) {
+  const std::string command = toolCommand(kMender), name = kMender;
+  for (std::size_t at = text.find(command + " "); at != text.npos;
+       at = text.find(command + " ", at + name.size()))
+    text.replace(at, command.size(), name);
+  return proseHtml(text);
+}
+
 std::string cardHtml(const Card& card, std::size_t number) {
   std::string html = "<article id=\"d" + std::to_string(number) +
                      (!card.figure  ? "\" class=\"none\"><h2>"
@@ -111,7 +123,7 @@ std::string cardHtml(const Card& card, std::size_t number) {
   if (!card.figure) {
     if (!card.without->picture.empty())
       html += "<div class=\"pair\">" + drawn(card.without->picture) + "</div>";
-    return html + "<p class=\"advice\">" + proseHtml(card.problem()) + "</p></article>\n";
+    return html + "<p class=\"advice\">" + toldHtml(card.problem()) + "</p></article>\n";
   }
   const FigureResult& figure = *card.figure;
   const double sure = figure.confidence.value_or(0);
@@ -122,9 +134,9 @@ std::string cardHtml(const Card& card, std::size_t number) {
                                   (figure.placed > 0 ? " sure of the joints that no person has placed</p>"
                                                      : " sure of the joints</p>");
   for (const std::string& sentence : figure.advice)
-    html += "<p class=\"advice\">" + proseHtml(sentence) + "</p>";
+    html += "<p class=\"advice\">" + toldHtml(sentence) + "</p>";
   for (const Note& note : figure.notes)
-    html += "<p class=\"note\">" + proseHtml(noteText(note, figure.mend_file)) + "</p>";
+    html += "<p class=\"note\">" + toldHtml(noteText(note, figure.mend_file)) + "</p>";
   return html + "</article>\n";
 }
 
@@ -158,7 +170,7 @@ std::string reportPage(const std::vector<DrawingResult>& drawings) {
     shown += card.figure != nullptr;
     ++(card.again() ? retake : !card.figure ? without : card.fine() ? fine : look);
     const auto line = [&](const std::string& text) {
-      return "<li><a href=\"#d" + std::to_string(i + 1) + "\">" + card.name + "</a> " + proseHtml(text) +
+      return "<li><a href=\"#d" + std::to_string(i + 1) + "\">" + card.name + "</a> " + toldHtml(text) +
              "</li>\n";
     };
     if (!card.fine()) (card.again() ? again : card.figure ? look_at : not_used) += line(reasonsFor(card));
@@ -194,6 +206,9 @@ std::string reportPage(const std::vector<DrawingResult>& drawings) {
       (choose ? "<input type=\"checkbox\" id=\"good\">" : "") + "\n<header><h1>" + heading + "</h1><p>" +
       summary + "</p><label for=\"still\">stand still</label><label for=\"pictures\">pictures alone</label>" +
       (choose ? "<label for=\"good\">only the good ones</label>" : "") + "</header>\n";
+  if (const std::string command = toolCommand(kMender);
+      command != kMender && all.find(kMender) != std::string::npos)
+    html += "<p class=\"tool\">" + std::string(kMender) + " is " + proseHtml(command) + "</p>\n";
   html += listHtml("again", "Mend these, or take the photo again", again) +
           listHtml("look", "Drawings to look at", look_at) +
           listHtml("look", "Files without a figure", not_used) +

@@ -48,6 +48,19 @@ TEST_CASE("the report shows each drawing beside its moving figure, and what to t
   CHECK_THAT(html, Contains("@media print") && Contains("prefers-color-scheme: dark"));
 }
 
+TEST_CASE("the report says where skel-label is once, not in each sentence") {
+  const TempDir dir;
+  std::filesystem::copy(SKEL_DATASETS "/characters/water_raincoat.png", dir.file("a b.png"));
+  const std::string bin = binFolder();
+  REQUIRE(runTool("cd '" + dir.path() + "' && PATH=/usr/bin:/bin && " + bin +
+                  "/skel-infer 'a b.png' --report r.html --formats json")
+              .exit_code == 0);
+  const std::string html = readFile(dir.file("r.html"));
+  CHECK(countIn(html, bin + "/skel-label") == 1);
+  CHECK_THAT(html, Contains("<p class=\"tool\">skel-label is " + bin + "/skel-label</p>") &&
+                       Contains("(skel-label &#39;a b.png&#39;, key G)"));
+}
+
 TEST_CASE("the report lists on top what to look at, one line a child, and says all that the terminal says") {
   const TempDir dir;
   std::filesystem::create_directories(dir.file("class"));
