@@ -131,7 +131,7 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.add_option(
          "--back", options.back,
          "What the model wears behind: plain (its colours without the face), same (the drawing), or a\n"
-         "picture of it from behind (default: plain; same for an animal, which is seen from the side)")
+         "picture of it from behind (default: plain; same for who is drawn from the side, as animals are)")
       ->always_capture_default(false);
   app.add_option(
       "--layers", options.layers,

@@ -10,10 +10,10 @@
 #include "libskel/core/parallel.h"
 #include "libskel/core/progress.h"
 #include "libskel/core/text.h"
-#include "libskel/deform/facing_net.h"
 #include "libskel/image/read_image.h"
-#include "libskel/labels/annotated_image.h"
-#include "libskel/pipeline/rig_character.h"
+#include "libskel/jointnet/joint_net.h"
+#include "libskel/recognition/facing_net.h"
+#include "libskel/recognition/tree_recognition.h"
 #include "trainer/cases.h"
 #include "trainer/jointed_drawing.h"
 #include "trainer/twin_hands.h"
@@ -28,18 +28,15 @@ struct Seen {
   FacingEvidence evidence;
 };
 
-// As a run of skel-infer sees it. Nothing where the figure is found turned: which way somebody who lies looks
-// is asked of nobody.
-std::optional<FacingEvidence> evidenceOf(const JointedDrawing& drawing) {
-  RigInput input;
-  input.image = readImage(drawing.image);
-  input.file = drawing.image;
-  if (drawing.mask) input.mask = readMask(*drawing.mask);
-  RigOptions options;
-  options.last = LastStage::kModel;
-  const RiggedDrawing rigged = rigCharacter(std::move(input), options);
-  if (!rigged.found() || rigged.recognition.turned_deg != 0) return std::nullopt;
-  return facingEvidence(rigged.character.mesh, rigged.character.weights, rigged.character.skeleton);
+// As a run of skel-infer sees it. Nothing where the figure is found turned: which way somebody who lies
+// looks is asked of nobody.
+std::optional<FacingEvidence> evidenceOf(const JointedDrawing& drawing, const SkeletonTemplate& body_plan) {
+  const Image image = readImage(drawing.image);
+  const Silhouette silhouette = silhouetteOf(image, drawing);
+  const Recognition recognition =
+      recognizeByTree(image, silhouette, body_plan, builtInJointNets().of(body_plan.name), {});
+  if (recognition.turned_deg != 0) return std::nullopt;
+  return facingEvidence(recognition.skeleton, silhouette, 0);
 }
 
 // As likely in a drawing as in its mirror image.
@@ -103,10 +100,11 @@ ExitCode runFacingTraining(const FacingTrainingOptions& options) {
   for (const JointedDrawing& drawing : drawings) images.push_back(drawing.image);
   uniteTwins(images, options.folds, hands);
   ensureWritableFile(options.output);
+  const SkeletonTemplate body_plan = loadTemplate("biped");
   std::vector<std::optional<FacingEvidence>> evidence(drawings.size());
   ProgressBar progress("looking at drawings", drawings.size());
   parallelFor(drawings.size(), options.threads, [&](std::size_t i) {
-    evidence[i] = evidenceOf(drawings[i]);
+    evidence[i] = evidenceOf(drawings[i], body_plan);
     progress.advance();
   });
   std::vector<Seen> all;

@@ -19,6 +19,16 @@ constexpr double kAround = 0.02;  // of it: so far from the figure the ground is
 constexpr double kEven = 0.8;     // of that ground has the colour that it is taken to have
 constexpr int kPaper = 24;        // from the ground's colour, of 255, the most of the three
 
+constexpr double kSlit = 0.007;  // of it: half of how wide a slit is that a brush has left in a mask
+
+// What is no figure, but for slits.
+Plane8 groundOf(const Plane8& mask, double half_slit) {
+  const DistanceField outside = distanceField((mask == 0).cast<std::uint8_t>());
+  const Plane8 wider = (mask != 0 || outside <= float(half_slit)).cast<std::uint8_t>();
+  const DistanceField within = distanceField(wider);
+  return (mask == 0 && within <= float(half_slit)).cast<std::uint8_t>();
+}
+
 int apart(const std::uint8_t* p, const GroundColor& color) {
   int most = 0;
   for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(int(p[c]) - color[c]));
@@ -76,6 +86,7 @@ Image withoutPaperRim(Image image, const Silhouette& silhouette) {
 
   // Paper from the silhouette's edge inwards.
   const float deepest = float(std::max(2., kRim * long_side));
+  const Plane8 outside = groundOf(mask, kSlit * long_side);
   const DistanceField inside = distanceField((mask != 0).cast<std::uint8_t>());
   Plane8 rim = Plane8::Zero(mask.rows(), mask.cols());
   std::vector<Eigen::Vector2i> stack;
@@ -88,7 +99,7 @@ Image withoutPaperRim(Image image, const Silhouette& silhouette) {
   constexpr std::array<std::array<int, 2>, 4> kSteps{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      if (mask(y, x) == 0)
+      if (outside(y, x) != 0)
         for (const auto& [dx, dy] : kSteps) reach(x + dx, y + dy);
   while (!stack.empty()) {
     const Eigen::Vector2i p = stack.back();

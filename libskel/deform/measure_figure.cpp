@@ -10,7 +10,6 @@
 
 #include "libskel/core/check.h"
 #include "libskel/core/segment.h"
-#include "libskel/deform/facing_net.h"
 #include "libskel/skeleton/hanging.h"
 #include "libskel/skin/bones.h"
 #include "libskel/skin/parts.h"
@@ -267,13 +266,6 @@ bool isBiped(const Skeleton& skeleton) { return skeleton.find("left_front_foot")
 
 }  // namespace
 
-std::optional<Facing> facingOf(const TriangleMesh& mesh, const SkinWeights& weights,
-                               const Skeleton& skeleton) {
-  if (!isBiped(skeleton)) return std::nullopt;
-  const std::optional<FacingEvidence> evidence = facingEvidence(mesh, weights, skeleton);
-  return evidence ? std::optional(builtInFacingNet().of(*evidence)) : std::nullopt;
-}
-
 FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton,
                           const std::optional<Facing>& facing) {
   const auto& vertices = mesh.vertices;
@@ -291,7 +283,7 @@ FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, 
   if (isBiped(skeleton)) {
     measureArms(flesh, shape);
     shape.head_half_width_m = headHalfWidth(flesh);
-    const Facing seen = facing ? *facing : facingOf(mesh, weights, skeleton).value_or(Facing());
+    const Facing seen = facing.value_or(Facing());
     shape.yaw_rad = seen.yaw_rad;
     if (nearlyFlat(skeletonBones(skeleton))) shape.looks = seen.looks;
   } else if (facing) {

@@ -9,12 +9,9 @@
 
 namespace skel {
 
-// From the mesh in its rest pose. `facing`: which way it looks, where that is known; nothing: as facingOf()
-// says.
+// From the mesh in its rest pose. `facing`: which way it looks; nothing: to the viewer, of an animal as its
+// bones tell.
 FigureShape measureFigure(const TriangleMesh& mesh, const SkinWeights& weights, const Skeleton& skeleton,
                           const std::optional<Facing>& facing = {});
-// Of somebody on two legs, by the net; nothing for others.
-std::optional<Facing> facingOf(const TriangleMesh& mesh, const SkinWeights& weights,
-                               const Skeleton& skeleton);
 
 }  // namespace skel

@@ -4,8 +4,8 @@
 #include <numbers>
 #include <optional>
 
+#include "libskel/animation/figure_shape.h"
 #include "libskel/animation/role_figure.h"
-#include "libskel/deform/measure_figure.h"
 
 namespace skel {
 namespace {
@@ -17,8 +17,8 @@ double looksAt(const RiggedCharacter& character) {
   const Skeleton& skeleton = character.skeleton;
   const bool biped = skeleton.find("left_foot") >= 0, animal = skeleton.find("left_front_foot") >= 0;
   if (character.facing) return character.facing->yaw_rad;
-  if (biped || animal)
-    return measureFigure(character.mesh, character.weights, skeleton).yaw_rad + (animal ? kAnimal : 0);
+  if (biped) return 0;
+  if (animal) return shapeOfBones(skeleton).yaw_rad + kAnimal;
   const std::optional<RoleFigure> figure = roleFigure(skeleton);
   if (!figure) return 0;
   const bool quadruped = figure->skeleton.find("left_front_foot") >= 0;

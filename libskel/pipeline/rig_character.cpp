@@ -16,10 +16,12 @@
 #include "libskel/mesh/front_view.h"
 #include "libskel/pipeline/body_depth.h"
 #include "libskel/pipeline/check_rig.h"
+#include "libskel/pipeline/facing.h"
 #include "libskel/pipeline/folded_arms.h"
 #include "libskel/pipeline/rig_memory.h"
 #include "libskel/pipeline/worn_parts.h"
 #include "libskel/recognition/complete_skeleton.h"
+#include "libskel/recognition/facing_net.h"
 #include "libskel/recognition/joint_note.h"
 #include "libskel/recognition/paper_recognizer.h"
 #include "libskel/recognition/silhouette_confidence.h"
@@ -175,10 +177,29 @@ std::optional<HeadDisc> headDisc(const Skeleton& skeleton, const SkeletonTemplat
                   Eigen::Rotation2Dd(turned_rad) * Eigen::Vector2d(0, -1)};
 }
 
+// As a person has said, or as somebody on two legs is seen to look.
+std::optional<Facing> facingIn(const RiggedDrawing& drawing, const RigOptions& options, bool inflated) {
+  if (options.facing_rad) return Facing::at(*options.facing_rad);
+  if (!inflated || drawing.body_plan.from_side) return std::nullopt;
+  const std::optional<FacingEvidence> evidence =
+      facingEvidence(drawing.recognition.skeleton, drawing.silhouette,
+                     drawing.recognition.turned_deg * std::numbers::pi / 180);
+  return evidence ? std::optional(builtInFacingNet().of(*evidence)) : std::nullopt;
+}
+
+// Who is drawn from the side shows the same on the other.
+Back backOf(const RiggedDrawing& drawing) {
+  constexpr double kSide = 0.9;  // of the way from the viewer to the side
+  const std::optional<Facing>& facing = drawing.character.facing;
+  return drawing.body_plan.from_side || (facing && std::abs(std::sin(facing->yaw_rad)) > kSide)
+             ? Back::kSame
+             : Back::kPlain;
+}
+
 InflateOptions inflateOptions(const RigInput& input, const RiggedDrawing& drawing, const RigOptions& options,
                               const std::vector<FigurePiece>& pieces) {
   InflateOptions inflate = options.inflate;
-  inflate.back = options.back.value_or(drawing.body_plan.from_side ? Back::kSame : Back::kPlain);
+  inflate.back = options.back ? *options.back : backOf(drawing);
   if (options.height_m > 0)
     inflate.height_m = options.height_m;
   else
@@ -364,6 +385,8 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
                            jointsAnd({stage.of(RigPart::kLayers), stage.of(&M::layers)}), cut);
   }
   if (last == LastStage::kLayers) return drawing;
+  const std::optional<Facing> facing = facingIn(drawing, options, inflated);
+  drawing.character.facing = facing;
   const std::vector<Change> mesh_of =
       jointsAnd({stage.of(RigPart::kModel), stage.of(RigPart::kBack), stage.of(RigPart::kMeshOptions),
                  stage.of(RigPart::kLayerOptions), stage.of(RigPart::kLayers)});
@@ -384,20 +407,18 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
     return lifted;
   });
   drawing.character.skeleton = drawing.recognition.skeleton;
+  if (!facing && inflated && body_plan.from_side)
+    drawing.character.facing = Facing::at(skel::facing(drawing.character));
   const auto bind = [&] {
     TriangleMesh& mesh = drawing.character.mesh;
-    Skinned skinned{{}, drawing.character.skeleton, {}, {}};
+    Skinned skinned{{}, drawing.character.skeleton, {}};
     skinned.weights =
         computeSkinWeights(mesh, skinned.skeleton, options.skin_method, options.skin, joint_layers);
     if (inflated) {
       foldArms(skinned.skeleton, body_plan, skinned.weights);
       carryWornParts(mesh, body_plan, drawing.layers, skinned.skeleton, skinned.weights);
-      skinned.facing = facingOf(mesh, skinned.weights, skinned.skeleton);
-    }
-    if (options.facing_rad) skinned.facing = Facing::at(*options.facing_rad);
-    if (inflated) {
-      const double yaw_rad = skinned.facing ? skinned.facing->yaw_rad : 0;
-      partLimbsInDepth(mesh, skinned.skeleton, skinned.weights, body_plan, yaw_rad, drawing.layers.far);
+      partLimbsInDepth(mesh, skinned.skeleton, skinned.weights, body_plan, facing.value_or(Facing()).yaw_rad,
+                       drawing.layers.far);
     }
     skinned.vertices = mesh.vertices;
     return skinned;
@@ -408,7 +429,6 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
   drawing.character.mesh.vertices = std::move(skinned.vertices);
   drawing.character.skeleton = std::move(skinned.skeleton);
   drawing.character.weights = std::move(skinned.weights);
-  drawing.character.facing = skinned.facing;
   if (inflated) drawing.recognition.skeleton = withoutHanging(drawing.character.skeleton);
   if (options.rest_pose != RestPose::kDrawn)
     drawing.character = stage("rest pose", [&] { return poseToRest(drawing.character, options.rest_pose); });

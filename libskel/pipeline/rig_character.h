@@ -86,7 +86,7 @@ struct RigOptions {
   bool layers = true;  // limbs that are drawn over the body are bodies of their own; false: one skin
   std::shared_ptr<const PartNet> part_net = {};  // tells them; null: the built-in one (part_net.h)
   InflateOptions inflate{.thin_outline = true};
-  std::optional<Back> back = {};  // nothing: kPlain, or kSame for a body plan that is drawn from the side
+  std::optional<Back> back = {};  // nothing: kPlain, or kSame for who is drawn from the side
   double height_m = 0;            // of the model, 1e-3 to 1e5; 0: the body plan's own
   // Which way the model looks, as a person has said: 0 to the viewer (+z), positive to the right; nothing: as
   // it is seen.

@@ -80,7 +80,6 @@ struct Skinned {
   Eigen::MatrixX3f vertices;  // of the mesh, limbs put beside one another
   Skeleton skeleton;
   SkinWeights weights;
-  std::optional<Facing> facing;  // RiggedCharacter::facing
 };
 
 struct RigMemory {

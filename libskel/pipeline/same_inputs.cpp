@@ -110,9 +110,9 @@ std::vector<RigPart> changes(const RigOptions& from, const RigOptions& to) {
                std::tie(to.recognizer, to.upright, to.joint_nets, to.joint_net));
   note(RigPart::kLayerOptions, std::tie(layers, part_net) != std::tie(to.layers, to.part_net));
   note(RigPart::kMeshOptions,
-       !sameBody(inflate, to.inflate) || std::tie(back, height_m) != std::tie(to.back, to.height_m));
-  note(RigPart::kSkinOptions, std::tie(facing_rad, skin_method) != std::tie(to.facing_rad, to.skin_method) ||
-                                  members(skin) != members(to.skin));
+       !sameBody(inflate, to.inflate) ||
+           std::tie(back, height_m, facing_rad) != std::tie(to.back, to.height_m, to.facing_rad));
+  note(RigPart::kSkinOptions, skin_method != to.skin_method || members(skin) != members(to.skin));
   note(RigPart::kRestPose, rest_pose != to.rest_pose);
   note(RigPart::kRetargetOptions, into_picture != to.into_picture);
   note(RigPart::kClips, other_clips || last != to.last);

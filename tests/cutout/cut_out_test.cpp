@@ -285,6 +285,25 @@ TEST_CASE(
   CHECK((withoutPaperRim(image, figure).rgba == image.rgba).all());
 }
 
+TEST_CASE("a slit that a brush left in a mask became a wide hole") {
+  constexpr int kSide = 600;
+  Image image(kSide, kSide);
+  image.rgba.setConstant(255);
+  Silhouette figure;
+  figure.mask = Plane8::Zero(kSide, kSide);
+  for (int y = 50; y < 550; ++y)
+    for (int x = 200; x < 400; ++x) {
+      figure.mask(y, x) = 255;
+      const bool line = x < 204 || x >= 396 || y < 54 || y >= 546;
+      if (line) std::fill_n(image.pixel(x, y), 3, std::uint8_t(30));
+    }
+  figure.mask.block(150, 250, 5, 60).setZero();   // a slit
+  figure.mask.block(400, 250, 40, 60).setZero();  // what somebody has erased
+  const Image bare = withoutPaperRim(image, figure);
+  CHECK(int(bare.pixel(280, 147)[3]) == 255);
+  CHECK(int(bare.pixel(280, 397)[3]) == 0);
+}
+
 TEST_CASE("legs hold no skirt") {
   RiggedDrawing drawing = inOneSheet();
   relabel(drawing, Part::kTrunk, [](const Eigen::Vector2d&) { return true; });

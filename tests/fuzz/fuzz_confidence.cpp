@@ -1,8 +1,8 @@
 // The nets that say how sure one may be: of joints and figures, of silhouettes, of what lines enclose, of
 // limbs, of which way figures look. What is read gives chances, and the same file again.
-#include "libskel/deform/facing_net.h"
 #include "libskel/layers/limb_net.h"
 #include "libskel/recognition/confidence_model.h"
+#include "libskel/recognition/facing_net.h"
 #include "libskel/recognition/silhouette_confidence.h"
 #include "libskel/silhouette/loops.h"
 #include "tests/fuzz/fuzz.h"

@@ -59,7 +59,7 @@ TEST_CASE("where skel takes a figure to look another way, --facing says so, of o
   const TempDir dir;
   writeFile(dir.file("ann.png"), page({CapsuleFigure()}));
   writeFile(dir.file("ben.png"), page({CapsuleFigure()}));
-  const ToolRun run = infer(dir, "ann.png ben.png --facing ben=-90 --formats glb --json");
+  const ToolRun run = infer(dir, "ann.png ben.png --facing 0,ben=-90 --formats glb --json");
   CHECK(run.exit_code == 0);
   CHECK(contains(run.out, "\"facing_deg\":0.0"));
   CHECK(contains(run.out, "\"facing_deg\":-90.0"));

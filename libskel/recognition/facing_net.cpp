@@ -1,4 +1,4 @@
-#include "libskel/deform/facing_net.h"
+#include "libskel/recognition/facing_net.h"
 
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -11,8 +11,8 @@
 namespace skel {
 namespace {
 
-constexpr const char* kFormat = "skel-facing-net";
-constexpr int kVersion = 1;
+constexpr const char* kFacingFormat = "skel-facing-net";
+constexpr int kFacingVersion = 1;
 
 std::vector<std::string> sidedNames() { return {kSidedInputs.begin(), kSidedInputs.end()}; }
 
@@ -39,17 +39,18 @@ Facing FacingNet::of(const FacingEvidence& evidence) const {
 }
 
 FacingNet parseFacingNet(std::string_view text, const std::string& file) {
-  checkNetFormat(text, file, kFormat);
+  checkNetFormat(text, file, kFacingFormat);
   const JsonDocument document = JsonDocument::parse(text, file);
   const JsonValue root = document.root();
-  root.checkFormat(kFormat, kVersion);
+  root.checkFormat(kFacingFormat, kFacingVersion);
   root.allowOnly({"format", "version", "provenance", "right", "turned", "side"});
   return {logisticNetAt(root.at("right"), sidedNames()), logisticNetAt(root.at("turned"), turnNames()),
           logisticNetAt(root.at("side"), turnNames()), root.at("provenance").asString()};
 }
 
 std::string formatFacingNet(const FacingNet& net) {
-  return "{\n  \"format\": \"" + std::string(kFormat) + "\",\n  \"version\": " + std::to_string(kVersion) +
+  return "{\n  \"format\": \"" + std::string(kFacingFormat) +
+         "\",\n  \"version\": " + std::to_string(kFacingVersion) +
          ",\n  \"provenance\": " + nlohmann::json(net.provenance).dump() +
          ",\n  \"right\": " + formatLogisticNet(net.right, sidedNames()) +
          ",\n  \"turned\": " + formatLogisticNet(net.turned, turnNames()) +

@@ -1,12 +1,12 @@
-#include "libskel/deform/facing_evidence.h"
+#include "libskel/recognition/facing_evidence.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "libskel/core/segment.h"
-#include "libskel/skeleton/hanging.h"
 
 namespace skel {
 namespace {
@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 constexpr std::array kMiddle = {"body", "neck", "head", "head_top"};
 constexpr std::array kPairs = {"shoulder", "elbow", "hand", "hip", "knee", "foot"};
 
-// What a joint carries, in x from it, m.
+// What lies nearest to the bones that begin at a joint, in x from it.
 struct Carried {
   double left = 0, right = 0, sum = 0;
   int count = 0;
@@ -26,27 +26,54 @@ struct Carried {
   double middle() const { return count > 0 ? sum / count : 0; }
 };
 
-std::vector<Carried> carriedBy(const TriangleMesh& mesh, const SkinWeights& weights,
-                               const Skeleton& skeleton) {
-  constexpr double kMost = .5;  // of a vertex: more than that makes it a joint's
-  std::vector<Carried> carried(skeleton.joints.size());
-  std::vector<int> carriers;  // what hangs belongs to what it hangs on
-  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) carriers.push_back(carrierOf(skeleton, int(j)));
-  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
-    for (int k = 0; k < 4; ++k) {
-      const int j = carriers[weights.joints(v, k)];
-      double share = 0;
-      for (int other = 0; other < 4; ++other)
-        if (carriers[weights.joints(v, other)] == j) share += double(weights.weights(v, other));
-      if (share <= kMost) continue;
-      Carried& by = carried[std::size_t(j)];
-      const double x = double(mesh.vertices(v, 0)) - skeleton.joints[std::size_t(j)].position.x();
-      by.left = std::max(by.left, -x);
-      by.right = std::max(by.right, x);
-      by.sum += x;
-      ++by.count;
-      break;
+// Upright, x to the right and y up, image px.
+struct UprightFigure {
+  std::vector<Vector2d> joints, pixels;
+
+  UprightFigure(const Skeleton& skeleton, const Silhouette& silhouette, double turned_rad) {
+    const Eigen::Matrix2d upright =
+        Eigen::Vector2d(1, -1).asDiagonal() * Eigen::Rotation2Dd(-turned_rad).toRotationMatrix();
+    for (const Joint& joint : skeleton.joints) joints.push_back(upright * joint.image);
+    const Plane8& mask = silhouette.grid_mask;
+    for (Eigen::Index y = 0; y < mask.rows(); ++y)
+      for (Eigen::Index x = 0; x < mask.cols(); ++x)
+        if (mask(y, x) != 0)
+          pixels.push_back(upright * silhouette.grid.imageFromGrid({double(x), double(y)}));
+  }
+};
+
+std::vector<Carried> carriedBy(const UprightFigure& figure, const Skeleton& skeleton) {
+  struct Bone {
+    std::size_t joint;
+    Vector2d from, to;
+  };
+  std::vector<Bone> bones;
+  std::vector<bool> ends(skeleton.joints.size(), true);
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j)
+    if (const int parent = skeleton.joints[j].parent; parent >= 0) {
+      bones.push_back({std::size_t(parent), figure.joints[std::size_t(parent)], figure.joints[j]});
+      ends[std::size_t(parent)] = false;
     }
+  // What lies beyond the last bone is the end's.
+  for (std::size_t j = 0; j < ends.size(); ++j)
+    if (ends[j]) bones.insert(bones.begin(), {j, figure.joints[j], figure.joints[j]});
+  std::vector<Carried> carried(skeleton.joints.size());
+  for (const Vector2d& p : figure.pixels) {
+    const Bone* nearest = nullptr;
+    double least = 0;
+    for (const Bone& bone : bones) {
+      const double far = (nearestOnSegment<Vector2d>(p, bone.from, bone.to) - p).squaredNorm();
+      if (nearest && far >= least) continue;
+      nearest = &bone;
+      least = far;
+    }
+    Carried& by = carried[nearest->joint];
+    const double x = p.x() - figure.joints[nearest->joint].x();
+    by.left = std::max(by.left, -x);
+    by.right = std::max(by.right, x);
+    by.sum += x;
+    ++by.count;
+  }
   return carried;
 }
 
@@ -63,9 +90,8 @@ class Inputs {
 
 }  // namespace
 
-std::optional<FacingEvidence> facingEvidence(const TriangleMesh& mesh, const SkinWeights& weights,
-                                             const Skeleton& skeleton) {
-  if (mesh.vertices.rows() == 0) return std::nullopt;
+std::optional<FacingEvidence> facingEvidence(const Skeleton& skeleton, const Silhouette& silhouette,
+                                             double turned_rad) {
   const int pelvis = skeleton.find("pelvis");
   std::array<int, kMiddle.size()> middle;
   std::array<std::array<int, 2>, kPairs.size()> pairs;
@@ -78,10 +104,12 @@ std::optional<FacingEvidence> facingEvidence(const TriangleMesh& mesh, const Ski
           least, pairs[i][side] = skeleton.find((side == 0 ? "left_" : "right_") + std::string(kPairs[i])));
   if (least < 0) return std::nullopt;
 
-  const double height = double(mesh.vertices.col(1).maxCoeff() - mesh.vertices.col(1).minCoeff());
-  const auto at = [&](int joint) -> Vector2d {
-    return skeleton.joints[std::size_t(joint)].position.head<2>();
-  };
+  const UprightFigure figure(skeleton, silhouette, turned_rad);
+  const auto [lowest, highest] =
+      std::minmax_element(figure.pixels.begin(), figure.pixels.end(),
+                          [](const Vector2d& a, const Vector2d& b) { return a.y() < b.y(); });
+  const double height = highest->y() - lowest->y() + 1;
+  const auto at = [&](int joint) -> Vector2d { return figure.joints[std::size_t(joint)]; };
   const double trunk = (at(middle[1]) - at(pelvis)).norm() + .02 * height;
   const auto place = [&](int joint) -> Vector2d { return (at(joint) - at(pelvis)) / trunk; };
   // How far to the right the middle one of three joints lies of the line between the others.
@@ -90,7 +118,7 @@ std::optional<FacingEvidence> facingEvidence(const TriangleMesh& mesh, const Ski
     return (p - nearestOnSegment<Vector2d>(p, at(pairs[first][side]), at(pairs[first + 2][side]))).x() /
            trunk;
   };
-  const std::vector<Carried> carried = carriedBy(mesh, weights, skeleton);
+  const std::vector<Carried> carried = carriedBy(figure, skeleton);
   const auto of = [&](int joint) -> const Carried& { return carried[std::size_t(joint)]; };
   const std::array<int, 4> trunk_joints = {middle[2], middle[1], middle[0], pelvis};
   const std::array<std::array<double, 2>, 2> bends = {{{bend(3, 0), bend(3, 1)}, {bend(0, 0), bend(0, 1)}}};

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "libskel/core/logistic_net.h"
-#include "libskel/deform/facing_evidence.h"
+#include "libskel/recognition/facing_evidence.h"
 #include "libskel/skeleton/facing.h"
 
 namespace skel {

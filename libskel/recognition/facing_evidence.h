@@ -7,9 +7,8 @@
 #include <optional>
 #include <string_view>
 
-#include "libskel/mesh/triangle_mesh.h"
+#include "libskel/silhouette/silhouette.h"
 #include "libskel/skeleton/skeleton.h"
-#include "libskel/skin/skin_weights.h"
 
 namespace skel {
 
@@ -22,7 +21,7 @@ inline constexpr auto kSidedInputs = std::to_array<std::string_view>({
     "bend of knees",  "bend of elbows",  // off the line between their ends
     "reach of feet",                     // to the right less to the left
     "reach of head",  "reach of neck",  "reach of body",  "reach of pelvis",  //
-    "middle of head", "middle of neck", "middle of body", "middle of pelvis"  // of what the joint carries
+    "middle of head", "middle of neck", "middle of body", "middle of pelvis"  // of what lies nearest
 });
 
 // Of a figure's mirror image they are the same.
@@ -68,8 +67,9 @@ struct FacingEvidence {
   Eigen::VectorXd unsided;  // kUnsidedInputs
 };
 
-// Nothing without a mesh, or where a joint of people is not there.
-std::optional<FacingEvidence> facingEvidence(const TriangleMesh& mesh, const SkinWeights& weights,
-                                             const Skeleton& skeleton);
+// Of the joints in the picture (Joint::image). `turned_rad`: how far the figure is turned clockwise against
+// upright. Nothing where a joint of people is not there. `silhouette` must be found.
+std::optional<FacingEvidence> facingEvidence(const Skeleton& skeleton, const Silhouette& silhouette,
+                                             double turned_rad);
 
 }  // namespace skel
