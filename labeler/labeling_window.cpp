@@ -257,12 +257,11 @@ class LabelingWindow {
     preview_.play();
   }
 
-  // Whoever has seen the model sees what a joint or a limb makes of it.
+  // Whoever has seen the model sees what a joint, a limb or the mask makes of it.
   void keepModel() {
     if (document_.rigged()) {
       modelled_ = document_.current();
-    } else if (modelled_ == document_.current() && !canvas_.isDrawing() &&
-               (canvas_.tool == Tool::kJoints || canvas_.tool == Tool::kLimbs)) {
+    } else if (modelled_ == document_.current() && !canvas_.isDrawing() && subject() == Subject::kJoints) {
       document_.rigAsItIs();
       if (!document_.rigged()) modelled_ = -1;
     }
@@ -544,7 +543,7 @@ class LabelingWindow {
     constexpr double kLeast = kLeastBrush_px, kMost = kMostBrush_px;
     ImGui::SetNextItemWidth(width);
     ImGui::SliderScalar("##brush", ImGuiDataType_Double, &canvas_.brushRadius(), &kLeast, &kMost,
-                        "brush %.0f px", ImGuiSliderFlags_Logarithmic);
+                        "brush, radius %.0f px", ImGuiSliderFlags_Logarithmic);
     tip("Its radius on the screen  (keys [ and ])");
   }
 
