@@ -61,8 +61,7 @@ void bindCharacterOptions(CLI::App& app, CharacterSource& source) {
       "in between: 1.7,dwarf=1.2 (default: 1.7, or 1.2 from end to end of an animal)");
   addNamedNumbers(app, "--facing", source.facing, numberIn(-180.0, 180.0),
                   "Which way the figure looks, degrees, where skel is wrong: 0 at you, 90 to the right of "
-                  "the picture, -90 to the left, "
-                  "45 and -45 between; NAME=DEGREES of one drawing of several");
+                  "the picture, -90 to the left, 45 and -45 between; NAME=DEGREES of one drawing of several");
   app.add_option("--skeleton", source.skeleton,
                  "The skeleton of a model (see skel-animate bind), or of a drawing: its .skeleton.json or "
                  ".labels.json, mended")

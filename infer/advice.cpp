@@ -38,10 +38,8 @@ std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawin
   const auto starts = [&](const char* words) { return warning.starts_with(words); };
   if (starts("the sheet itself"))
     return "The sheet of paper, or what is drawn around the figure, was taken for it. Erase that from the "
-           "mask: "
-           "skel-label FILE, key M; of a photo: lay the drawing on something plain and darker, or cut it "
-           "down to the "
-           "sheet.";
+           "mask: skel-label FILE, key M; of a photo: lay the drawing on something plain and darker, or cut "
+           "it down to the sheet.";
   if (starts("the figure is cut by"))
     return "The figure is cut off at the " + drawing.silhouette.cut_sides +
            ". Step back, so that hands and feet are in the picture.";
@@ -61,8 +59,7 @@ std::string inOtherWords(const std::string& warning, const RiggedDrawing& drawin
     return "Some joints may be wrong" +
            (file.missing.empty() ? "" : ", most likely " + listed(file.missing)) +
            ". Look how the figure moves; skel-label FILE mends joints, and the mask (key M) if a part of the "
-           "figure "
-           "is missing or something is stuck to it. " +
+           "figure is missing or something is stuck to it. " +
            (photo ? "If a shadow lies across the figure, take the photo without it; limbs that are apart are "
                     "found better."
                   : "Limbs that are apart are found better.");

@@ -144,8 +144,7 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
       "of an animal)");
   addNamedNumbers(app, "--facing", options.facing, numberIn(-180.0, 180.0),
                   "Which way the figure looks, degrees, where skel is wrong: 0 at you, 90 to the right of "
-                  "the picture, -90 to the left, "
-                  "45 and -45 between; NAME=DEGREES of one drawing of several");
+                  "the picture, -90 to the left, 45 and -45 between; NAME=DEGREES of one drawing of several");
   app.add_option("--figure", options.figure, "Which figure of the drawing: 1 is the largest; or all");
   app.add_option("--mesh-spacing", options.mesh_spacing_px,
                  "Distance of mesh vertices where the figure is 128 px long; 0: chosen")
