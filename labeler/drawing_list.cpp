@@ -11,26 +11,19 @@
 #include "libskel/image/check_image.h"
 #include "libskel/image/result_picture.h"
 #include "libskel/labels/label_file.h"
+#include "libskel/mended/mend_places.h"
 #include "libskel/skeleton/skeleton_file.h"
 
 namespace skel {
 namespace fs = std::filesystem;
 
-namespace {
-
-std::string stemOf(const std::string& image, int figure) {
-  const std::string stem = fs::path(image).replace_extension().string();
-  return figure > 1 ? stem + "-" + std::to_string(figure) : stem;
-}
-
-}  // namespace
-
 DrawingFiles drawingFiles(const std::string& image, const std::string& name, int figure) {
-  return {name, image, labelFileFor(image), stemOf(image, figure) + ".mask.png"};
+  return {name, image, labelFileFor(image),
+          stemOfFigure(fs::path(image).replace_extension().string(), figure) + ".mask.png"};
 }
 
 std::string layersFile(const DrawingFiles& files, int figure) {
-  return stemOf(files.image, figure) + ".limbs.png";
+  return stemOfFigure(fs::path(files.image).replace_extension().string(), figure) + ".limbs.png";
 }
 
 std::optional<std::string> givenMask(const DrawingFiles& files) {

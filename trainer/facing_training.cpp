@@ -111,6 +111,8 @@ ExitCode runFacingTraining(const FacingTrainingOptions& options) {
   for (std::size_t i = 0; i < drawings.size(); ++i)
     if (evidence[i])
       all.push_back({drawingName(drawings[i].image), *drawings[i].facing_deg, std::move(*evidence[i])});
+  if (std::none_of(all.begin(), all.end(), [](const Seen& seen) { return seen.facing_deg != 0; }))
+    throw UsageError("no figure of these drawings looks to a side; there is nothing to learn");
   FacingNet net;
   net.right = learn("right", whetherRight(all), hands, options);
   net.turned = learn("turned", whetherTurned(all, 45), hands, options);

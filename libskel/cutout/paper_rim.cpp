@@ -22,8 +22,7 @@ constexpr int kPaper = 24;        // from the ground's colour, of 255, the most 
 constexpr double kSlit = 0.007;  // of it: half of how wide a slit is that a brush has left in a mask
 
 // What is no figure, but for slits.
-Plane8 groundOf(const Plane8& mask, double half_slit) {
-  const DistanceField outside = distanceField((mask == 0).cast<std::uint8_t>());
+Plane8 groundOf(const Plane8& mask, const DistanceField& outside, double half_slit) {
   const Plane8 wider = (mask != 0 || outside <= float(half_slit)).cast<std::uint8_t>();
   const DistanceField within = distanceField(wider);
   return (mask == 0 && within <= float(half_slit)).cast<std::uint8_t>();
@@ -36,8 +35,8 @@ int apart(const std::uint8_t* p, const GroundColor& color) {
 }
 
 // The colour of opaque pixels near the figure, if it is one.
-std::optional<GroundColor> groundAround(const Image& image, const Plane8& mask, int reach) {
-  const DistanceField outside = distanceField((mask == 0).cast<std::uint8_t>());
+std::optional<GroundColor> groundAround(const Image& image, const Plane8& mask, const DistanceField& outside,
+                                        int reach) {
   std::array<std::vector<std::uint8_t>, 3> seen;
   std::vector<const std::uint8_t*> ring;
   for (int y = 0; y < image.height; ++y)
@@ -80,13 +79,14 @@ Image withoutPaperRim(Image image, const Silhouette& silhouette) {
   const Plane8& mask = silhouette.mask;
   const PixelBox box = figureBox(mask);
   const double long_side = std::max(box.width(), box.height());
+  const DistanceField away = distanceField((mask == 0).cast<std::uint8_t>());
   const std::optional<GroundColor> ground =
-      groundAround(image, mask, std::max(2, int(std::lround(kAround * long_side))));
+      groundAround(image, mask, away, std::max(2, int(std::lround(kAround * long_side))));
   if (!ground) return image;
 
   // Paper from the silhouette's edge inwards.
   const float deepest = float(std::max(2., kRim * long_side));
-  const Plane8 outside = groundOf(mask, kSlit * long_side);
+  const Plane8 outside = groundOf(mask, away, kSlit * long_side);
   const DistanceField inside = distanceField((mask != 0).cast<std::uint8_t>());
   Plane8 rim = Plane8::Zero(mask.rows(), mask.cols());
   std::vector<Eigen::Vector2i> stack;

@@ -17,8 +17,7 @@ struct RiggedCharacter {
   TriangleMesh mesh;
   Skeleton skeleton;
   SkinWeights weights;
-  std::optional<Facing> facing =
-      {};  // which way it looks in its rest pose; nothing: its form tells (measureFigure())
+  std::optional<Facing> facing = {};  // in its rest pose; nothing: not known, see measureFigure()
 };
 
 // Names of the joints in exported files.

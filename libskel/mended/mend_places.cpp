@@ -88,6 +88,10 @@ std::vector<MendPlace> mendPlaces(const MendRequest& request) {
   return places;
 }
 
+std::string stemOfFigure(const std::string& stem, int figure) {
+  return figure == 1 ? stem : stem + "-" + std::to_string(figure);
+}
+
 std::optional<fs::path> keptFolder(const std::string& folder, const std::string& drawing) {
   const fs::path name = fs::path(drawing).lexically_normal();
   if (!name.has_parent_path() || !name.is_relative() || *name.begin() == "..") return std::nullopt;

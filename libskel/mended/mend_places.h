@@ -32,6 +32,9 @@ struct MendPlace {
 // of ours there cannot be read.
 std::vector<MendPlace> mendPlaces(const MendRequest& request);
 
+// What a person has made of a figure, without ending: `stem` of the first, <stem>-2 of the second.
+std::string stemOfFigure(const std::string& stem, int figure);
+
 // Below `folder`, where a run over a list keeps the folder of the drawing; nothing where it has none, is
 // named from the root or leads out of where the run was made.
 std::optional<std::filesystem::path> keptFolder(const std::string& folder, const std::string& drawing);

@@ -33,9 +33,8 @@ std::string ifThere(const std::string& path) {
 // Without an ending: what is made of another figure than the first has its number, unless that is the name of
 // a drawing. "": nothing can be made of it there.
 std::string madeOf(const MendPlace& place, int figure) {
-  if (figure == 1) return place.made;
-  const std::string made = place.made + "-" + std::to_string(figure);
-  return pictureOfStem(made) ? "" : made;
+  const std::string made = stemOfFigure(place.made, figure);
+  return figure > 1 && pictureOfStem(made) ? "" : made;
 }
 
 std::string backIn(const MendPlace& place) {

@@ -12,6 +12,7 @@
 #include "libskel/image/read_image.h"
 #include "libskel/labels/label_file.h"
 #include "libskel/mended/earlier_picture.h"
+#include "libskel/mended/mend_places.h"
 #include "libskel/pipeline/rig_drawing.h"
 #include "libskel/recognition/joint_note.h"
 #include "libskel/silhouette/outline.h"
@@ -47,7 +48,7 @@ SkeletonFile::Mask useMask(const MendRequest& request, const MendedFiles& mended
 int figureOfMask(const std::string& mask, const MendRequest& request, const MendedFiles& mended,
                  const RigInput& input) {
   if (request.figure <= 1) return 1;
-  const bool is_own = mask.ends_with("-" + std::to_string(request.figure) + ".mask.png") ||
+  const bool is_own = mask.ends_with(stemOfFigure("", request.figure) + ".mask.png") ||
                       (!mended.mask.empty() && mended.mask != request.mask);
   return is_own || silhouetteFromMask(*input.mask, input.image).figure_count < request.figure
              ? 1
