@@ -12,31 +12,6 @@ namespace {
 
 constexpr int kFlatMoments = 32;  // of a clip, that decide what the camera shows
 
-// Of the way from the first to the second joint of the limb, how much has pixels of it near by.
-double shareOfUpperHalf(const RiggedDrawing& drawing, int limb) {
-  constexpr int kSteps = 24;
-  constexpr double kNear = 0.15;  // of the way
-  const Plane8& map = drawing.layers.limb;
-  const TemplateLimb& joints = drawing.body_plan.limbs[std::size_t(limb) - 1];
-  const auto place = [&](int k) {
-    const Skeleton& skeleton = drawing.recognition.skeleton;
-    const std::string& name = drawing.body_plan.joints[std::size_t(joints.joints[std::size_t(k)])].name;
-    return skeleton.joints[std::size_t(skeleton.index(name))].image;
-  };
-  const Eigen::Vector2d from = place(0), way = place(1) - from;
-  const int reach = std::max(1, int(kNear * way.norm()));
-  int seen = 0;
-  for (int i = 1; i <= kSteps; ++i) {
-    const Eigen::Vector2d p = from + way * i / kSteps;
-    const Eigen::Index x0 = std::max<Eigen::Index>(0, Eigen::Index(p.x()) - reach),
-                       y0 = std::max<Eigen::Index>(0, Eigen::Index(p.y()) - reach),
-                       x1 = std::min<Eigen::Index>(map.cols(), Eigen::Index(p.x()) + reach + 1),
-                       y1 = std::min<Eigen::Index>(map.rows(), Eigen::Index(p.y()) + reach + 1);
-    if (x0 < x1 && y0 < y1) seen += (map.block(y0, x0, y1 - y0, x1 - x0) == std::uint8_t(limb)).any();
-  }
-  return double(seen) / kSteps;
-}
-
 Eigen::Vector3d onPlane(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0}; }
 
 }  // namespace
@@ -44,18 +19,6 @@ Eigen::Vector3d onPlane(const Eigen::Vector2d& p) { return {p.x(), p.y(), 0}; }
 bool looksBetterFlat(const RiggedDrawing& drawing) {
   constexpr double kGuess = 0.33;  // below, joints are one
   return !drawing.body_plan.from_side && drawing.recognition.confidence >= kGuess;
-}
-
-std::vector<std::string> flatWarnings(const RiggedDrawing& drawing) {
-  constexpr double kLeast = 0.35;
-  std::vector<std::string> warnings;
-  for (int limb = 1; drawing.layers.any() && limb <= int(drawing.body_plan.limbs.size()); ++limb)
-    if (!isLeg(drawing.body_plan, drawing.body_plan.limbs[std::size_t(limb) - 1]) &&
-        (drawing.layers.limb == std::uint8_t(limb)).any() && shareOfUpperHalf(drawing, limb) < kLeast)
-      warnings.push_back(
-          "the " + limbName(drawing.body_plan, limb) +
-          " is drawn in part alone and may come off the body: look at the film, or take --look solid");
-  return warnings;
 }
 
 std::optional<std::string> unseenTurn(const RiggedDrawing& drawing, const Clip& clip) {

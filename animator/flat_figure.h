@@ -16,10 +16,6 @@ namespace skel {
 // unless their joints are a guess. Then more is torn than a model shows.
 bool looksBetterFlat(const RiggedDrawing& drawing);
 
-// A clause for each arm that is cut out and of whose upper half next to nothing is drawn, as behind the head:
-// as it was drawn, what is seen of it comes off the body.
-std::vector<std::string> flatWarnings(const RiggedDrawing& drawing);
-
 // A clause where the clip turns the head aside, which a drawing seen from one side does not show.
 std::optional<std::string> unseenTurn(const RiggedDrawing& drawing, const Clip& clip);
 

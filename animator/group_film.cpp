@@ -46,16 +46,17 @@ GroupFilm::GroupFilm(const RenderCommandOptions& options, const FilmOptions& fil
   if (options.names) name_px_ = std::max(kLeastName_px, kName * grid_.height);
 }
 
-void GroupFilm::add(Performer performer) {
+bool GroupFilm::add(Performer performer) {
   FilmOptions in_cell = film_;
   in_cell.width = std::max(1, grid_.width);
   in_cell.height = std::max(1, grid_.height - int(2 * name_px_));
   in_cell.look.background = kClear;
   in_cell.look.picture = Image();
   Cell& cell = cells_.emplace_back(Cell{std::move(performer), nullptr, {}});
+  bool torn = false;
   try {
     cell.stage = std::make_unique<Stage>(options_, cell.performer);
-    cell.stage->sayTorn(cell.performer.clips.front());
+    torn = cell.stage->sayTorn(cell.performer.clips.front());
     cell.paint = cell.stage->painterOf(cell.performer.clips.front(), in_cell);
   } catch (...) {
     cells_.pop_back();
@@ -72,6 +73,7 @@ void GroupFilm::add(Performer performer) {
     drawing->character.mesh.texture = Image();
     cell.performer.file.character = RiggedCharacter();
   }
+  return torn;
 }
 
 Eigen::Vector2i GroupFilm::cornerOf(std::size_t cell) const {

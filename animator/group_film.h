@@ -22,8 +22,8 @@ class GroupFilm {
   // Of as many characters as `options` names, or less. The options outlive it.
   GroupFilm(const RenderCommandOptions& options, const FilmOptions& film);
 
-  // Its first clip plays.
-  void add(Performer performer);
+  // Its first clip plays. Returns whether that tears it.
+  bool add(Performer performer);
 
   std::size_t size() const { return cells_.size(); }
   // The longest clip is played once, if no time is asked for; the others repeat.

@@ -202,8 +202,6 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path, bool among
   const bool chooses = drawn && choosesLook(options, path);
   const bool flat = chooses ? looksBetterFlat(drawn->drawing) : options.look == "flat";
   options.library.flat = flat;
-  if (flat && drawn)
-    for (std::string& warning : flatWarnings(drawn->drawing)) drawn->warnings.push_back(std::move(warning));
   if (flat && !drawn)
     throw UsageError(path + " is no drawing (.png, .jpg, ...), which alone can move as it was drawn");
   std::string note;
@@ -326,8 +324,8 @@ ExitCode runRender(const RenderCommandOptions& asked) {
     if (code == ExitCode::kDone) code = here;
   };
   const auto render = [&](Cast one) {
-    renderer.render(std::move(one.performer));
-    if (one.unsure)
+    const bool torn = renderer.render(std::move(one.performer));
+    if (one.unsure || torn)
       verdicts.unsure.push_back(one.path);
     else
       ++(one.rigged ? verdicts.fine : verdicts.loaded);

@@ -116,20 +116,22 @@ struct Films {
                 printable(what).c_str(), hint);
   }
 
-  void operator()(const Performer& performer) const {
+  bool operator()(const Performer& performer) const {
     std::vector<std::string> paths;
     for (const Clip& clip : performer.clips) {
       paths.push_back(names(performer.file.name, clip.name));
       if (names.in_folder) noteNamedOutput(paths.back());
     }
     const Stage stage(options, performer);
+    bool torn = false;
     for (std::size_t i = 0; i < paths.size(); ++i) {
       const Clip& clip = performer.clips[i];
       const MomentPainter paint = stage.painterOf(clip, film);
       write(paths[i], '"' + clip.name + '"', frameCount(clip, film), stage.isConcurrent(),
             [&](int frame) { return paint(timeOf(frame, clip, film)); });
-      stage.sayTorn(clip);
+      torn |= stage.sayTorn(clip);
     }
+    return torn;
   }
 
   void write(const GroupFilm& group) const {
@@ -145,7 +147,7 @@ CharacterRenderer filmRenderer(const RenderCommandOptions& options) {
   const Films films(options);
   if (!options.together) return {films};
   const auto group = std::make_shared<GroupFilm>(options, films.film);
-  return {.render = [group](Performer one) { group->add(std::move(one)); },
+  return {.render = [group](Performer one) { return group->add(std::move(one)); },
           .finish = [group, films] { films.write(*group); }};
 }
 

@@ -17,8 +17,8 @@ struct Performer {
 };
 
 struct CharacterRenderer {
-  // Writes what was asked for of one character. Files are named after it.
-  std::function<void(Performer)> render;
+  // Writes what was asked for of one character. Files are named after it. Returns whether a clip tears it.
+  std::function<bool(Performer)> render;
   // Where all characters have something in common, which must be known of each before the first is rendered;
   // else empty.
   std::function<void(const Performer&)> measure = {};

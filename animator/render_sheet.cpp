@@ -363,7 +363,10 @@ struct Sheets {
 
 CharacterRenderer sheetRenderer(const RenderCommandOptions& options) {
   const auto sheets = std::make_shared<Sheets>(options);
-  CharacterRenderer renderer{[sheets](Performer one) { sheets->write(std::move(one.file), one.clips); }};
+  CharacterRenderer renderer{[sheets](Performer one) {
+    sheets->write(std::move(one.file), one.clips);
+    return false;
+  }};
   if (options.sheet.same_scale)
     renderer.measure = [sheets](const Performer& one) { sheets->measure(one.file, one.clips); };
   return renderer;

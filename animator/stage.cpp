@@ -52,14 +52,15 @@ MomentPainter Stage::painterOf(const Clip& clip, const FilmOptions& film) const 
   };
 }
 
-void Stage::sayTorn(const Clip& clip) const {
+bool Stage::sayTorn(const Clip& clip) const {
   constexpr double kMuch = 0.03;
   const double torn = flat_ ? flat_->tornBy(clip) : 0;
-  if (torn > kMuch)
-    std::fprintf(stderr,
-                 "%s: note: \"%s\" tears up to %.1f %% of the drawing: look at the film, or take --look "
-                 "solid\n",
-                 printable(performer_.file.name).c_str(), printable(clip.name).c_str(), 100 * torn);
+  if (torn <= kMuch) return false;
+  std::fprintf(stderr,
+               "%s: note: \"%s\" tears up to %.1f %% of the drawing: look at the film, or take --look "
+               "solid\n",
+               printable(performer_.file.name).c_str(), printable(clip.name).c_str(), 100 * torn);
+  return true;
 }
 
 }  // namespace skel

@@ -18,8 +18,8 @@ class Stage {
 
   // Of one of the performer's clips, which the painter takes along. It is not to outlive the stage.
   MomentPainter painterOf(const Clip& clip, const FilmOptions& film) const;
-  // Says on stderr where the clip tears much of a drawing.
-  void sayTorn(const Clip& clip) const;
+  // Whether the clip tears much of a drawing, which it then says on stderr.
+  bool sayTorn(const Clip& clip) const;
   // Whether several threads may paint at once.
   bool isConcurrent() const { return !scene_ || scene_->isConcurrent(); }
   // No more painters are made: frees what only they are made of.

@@ -342,21 +342,20 @@ std::vector<Vector3d> offsetsOf(const Skeleton& skeleton, const Skeleton& like) 
 }
 
 // The turn of the file's axes that brings the rest pose nearest to the target's: none, but for programs whose
-// up is another axis (Blender's is z).
+// up is z and that look along y, as Blender does, or against it. No other: a figure that leans or squats may
+// lie nearer to one that stands when either is turned by a quarter.
 Quaterniond turnOfAxes(const Skeleton& theirs, const Skeleton& target) {
   const std::vector<Vector3d> from = offsetsOf(theirs, target), to = offsetsOf(target, target);
+  const Quaterniond up(Eigen::AngleAxisd(-std::numbers::pi / 2, Vector3d::UnitX()));
+  const Quaterniond around(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitY()));
   Quaterniond best = Quaterniond::Identity();
   double best_sum = -1e300;
-  for (int k = 0; k < 24; ++k) {
-    // Where x goes, and about that by quarters.
-    const Vector3d x = Vector3d::Unit(k / 8) * (k / 4 % 2 ? -1 : 1);
-    const Quaterniond turn =
-        Eigen::AngleAxisd(k % 4 * std::numbers::pi / 2, x) * shortestTurn(Vector3d::UnitX(), x);
-    double sum = k == 0 ? 1e-6 : 0;  // of cosines; the file's own axes where others are no better
+  for (const Quaterniond& turn : {Quaterniond::Identity(), up, Quaterniond(around * up)}) {
+    double sum = 0;  // of cosines; the file's own axes where others are no better
     for (std::size_t j = 0; j < from.size(); ++j)
       if (from[j].norm() > 1e-9 && to[j].norm() > 1e-9)
         sum += (turn * from[j]).normalized().dot(to[j].normalized());
-    if (sum > best_sum) best_sum = sum, best = turn;
+    if (sum > best_sum + 1e-6) best_sum = sum, best = turn;
   }
   return best;
 }

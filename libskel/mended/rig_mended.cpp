@@ -220,6 +220,9 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
   }
   if (!mended.limbs.empty())
     for (std::string& warning : looseLimbs(drawing)) result.warnings.push_back(std::move(warning));
+  for (std::string& warning : partlyDrawnNotes(drawing))
+    if (std::find(result.warnings.begin(), result.warnings.end(), warning) == result.warnings.end())
+      result.warnings.push_back(std::move(warning));
   for (const char* warning : warningsOfEarlier(mended)) result.warnings.emplace_back(warning);
   return result;
 }

@@ -1,11 +1,14 @@
 #include "libskel/pipeline/drawing_notes.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 
 #include "libskel/animation/arm_abilities.h"
 #include "libskel/core/file_names.h"
 #include "libskel/core/text.h"
 #include "libskel/core/tool_command.h"
+#include "libskel/cutout/flat_pose.h"
 #include "libskel/deform/measure_figure.h"
 #include "libskel/deform/stretch.h"
 
@@ -13,6 +16,31 @@ namespace skel {
 namespace {
 
 constexpr const char* kPaintTheLimb = "; if it is drawn before the body, paint it (skel-label FILE, key G)";
+
+// Of the way from the first to the second joint of the limb, how much has pixels of it near by.
+double shareOfUpperHalf(const RiggedDrawing& drawing, int limb) {
+  constexpr int kSteps = 24;
+  constexpr double kNear = 0.15;  // of the way
+  const Plane8& map = drawing.layers.limb;
+  const TemplateLimb& joints = drawing.body_plan.limbs[std::size_t(limb) - 1];
+  const auto place = [&](int k) {
+    const Skeleton& skeleton = drawing.recognition.skeleton;
+    const std::string& name = drawing.body_plan.joints[std::size_t(joints.joints[std::size_t(k)])].name;
+    return skeleton.joints[std::size_t(skeleton.index(name))].image;
+  };
+  const Eigen::Vector2d from = place(0), way = place(1) - from;
+  const int reach = std::max(1, int(kNear * way.norm()));
+  int seen = 0;
+  for (int i = 1; i <= kSteps; ++i) {
+    const Eigen::Vector2d p = from + way * i / kSteps;
+    const Eigen::Index x0 = std::max<Eigen::Index>(0, Eigen::Index(p.x()) - reach),
+                       y0 = std::max<Eigen::Index>(0, Eigen::Index(p.y()) - reach),
+                       x1 = std::min<Eigen::Index>(map.cols(), Eigen::Index(p.x()) + reach + 1),
+                       y1 = std::min<Eigen::Index>(map.rows(), Eigen::Index(p.y()) + reach + 1);
+    if (x0 < x1 && y0 < y1) seen += (map.block(y0, x0, y1 - y0, x1 - x0) == std::uint8_t(limb)).any();
+  }
+  return double(seen) / kSteps;
+}
 
 }  // namespace
 
@@ -35,6 +63,18 @@ std::vector<std::string> withAdviceIfUpright(std::vector<std::string> notes, con
 std::vector<std::string> figureNotes(const RiggedDrawing& drawing) {
   std::vector<std::string> notes = drawing.silhouette.warnings;
   notes.insert(notes.end(), drawing.recognition.warnings.begin(), drawing.recognition.warnings.end());
+  return notes;
+}
+
+std::vector<std::string> partlyDrawnNotes(const RiggedDrawing& drawing) {
+  constexpr double kLeast = 0.35;
+  std::vector<std::string> notes;
+  for (int limb = 1; drawing.layers.any() && limb <= int(drawing.body_plan.limbs.size()); ++limb)
+    if (!isLeg(drawing.body_plan, drawing.body_plan.limbs[std::size_t(limb) - 1]) &&
+        (drawing.layers.limb == std::uint8_t(limb)).any() && shareOfUpperHalf(drawing, limb) < kLeast)
+      notes.push_back(
+          "the " + limbName(drawing.body_plan, limb) +
+          " is drawn in part alone and may come off the body: look at it (skel-label FILE, key G)");
   return notes;
 }
 

@@ -25,6 +25,10 @@ std::vector<std::string> figureNotes(const RiggedDrawing& drawing);
 // `notes`, of which the one that the figure is turned says what to do if it is not: `advice`.
 std::vector<std::string> withAdviceIfUpright(std::vector<std::string> notes, const std::string& advice);
 
+// A clause for each arm that is cut out and of whose upper half next to nothing is drawn, as behind the head:
+// what is seen of it comes off the body when it moves.
+std::vector<std::string> partlyDrawnNotes(const RiggedDrawing& drawing);
+
 // Of limbs that these clips, which are relative to the rest pose, do not move as limbs should; nothing where
 // the joints are a guess.
 std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip>& clips);

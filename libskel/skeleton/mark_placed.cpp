@@ -28,6 +28,24 @@ double markPlaced(Skeleton& skeleton, const std::vector<int>& placed, double con
   return left > 0 ? std::pow(confidence, std::min(left / before, 1.0)) : 1;
 }
 
+void followPlaced(Skeleton& skeleton, const SkeletonTemplate& body_plan) {
+  constexpr double kRounded_px = .011;  // of a mean of two that files keep to the hundredth
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const auto& derived = body_plan.joints[j].derived;
+    Joint& joint = skeleton.joints[j];
+    if (!derived || derived->rule != DerivationRule::kMidpoint || joint.origin == JointOrigin::kEdited)
+      continue;
+    const Joint& a = skeleton.joints[static_cast<std::size_t>(derived->from[0])];
+    const Joint& b = skeleton.joints[static_cast<std::size_t>(derived->from[1])];
+    const Eigen::Vector2d middle = (a.image + b.image) / 2;
+    const bool placed = a.origin == JointOrigin::kEdited || b.origin == JointOrigin::kEdited;
+    if (!placed || (joint.image - middle).cwiseAbs().maxCoeff() < kRounded_px) continue;
+    joint.image = middle;
+    joint.confidence = std::min(a.confidence, b.confidence);
+    joint.origin = JointOrigin::kDerived;
+  }
+}
+
 bool allPlaced(const Skeleton& skeleton) {
   return std::all_of(skeleton.joints.begin(), skeleton.joints.end(), [](const Joint& joint) {
     return joint.origin == JointOrigin::kEdited || joint.origin == JointOrigin::kDerived;

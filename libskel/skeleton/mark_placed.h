@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "libskel/skeleton/skeleton.h"
+#include "libskel/skeleton/template.h"
 
 namespace skel {
 
@@ -12,6 +13,11 @@ namespace skel {
 // others by the logarithms of their own confidences, as if each were right or wrong by itself: the share of
 // placed ones is gone. 1 where no doubt is left in any joint.
 double markPlaced(Skeleton& skeleton, const std::vector<int>& placed, double confidence);
+
+// Puts the joints that `body_plan` derives as midpoints half way between those that they follow (image px),
+// where a person has placed one of these and nobody has placed them. `skeleton` has the joints of
+// `body_plan`, in its order.
+void followPlaced(Skeleton& skeleton, const SkeletonTemplate& body_plan);
 
 // Whether a person has placed all joints that do not follow from others.
 bool allPlaced(const Skeleton& skeleton);

@@ -241,6 +241,7 @@ SkeletonFile parseSkeletonFile(std::string_view text, const std::string& path,
     if (file.skeleton.joints[i].name.empty())
       root.at("joints").fail("lacks the joint \"" + body_plan.joints[i].name + "\"");
   markPlacedJoints(file, std::move(places_found));
+  followPlaced(file.skeleton, body_plan);
   return file;
 }
 

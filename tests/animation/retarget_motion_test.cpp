@@ -1,6 +1,8 @@
 #include "libskel/animation/retarget_motion.h"
 
+#include <cmath>
 #include <map>
+#include <numbers>
 
 #include "libskel/animation/bone_turn.h"
 #include "libskel/animation/joint_roles.h"
@@ -235,6 +237,36 @@ TEST_CASE("rest poses never count: a motion whose bones rest along x curled figu
       }
     }
   }
+}
+
+TEST_CASE("a motion of a figure that stands laid one down who leans, as if the file had other axes") {
+  BvhMotion motion;
+  motion.skeleton = figureSkeleton();
+  motion.tips.assign(motion.skeleton.joints.size(), Eigen::Vector3d::Zero());
+  for (const Joint& joint : motion.skeleton.joints) {
+    JointTrack track;
+    track.joint = joint.name;
+    track.times_s = {0, 1};
+    track.rotations.assign(2, Eigen::Quaternionf::Identity());
+    motion.clip.tracks.push_back(track);
+  }
+  Skeleton leans = figureSkeleton();
+  const Eigen::Vector3d root = leans.joints[0].position;
+  for (Joint& joint : leans.joints)
+    joint.position = root + Eigen::AngleAxisd(1, Eigen::Vector3d::UnitZ()) * (joint.position - root);
+  const auto check = [&](const BvhMotion& given) {
+    const Clip clip = retargetMotion(given, "stands.bvh", leans, shapeOfBones(leans)).clip;
+    auto at = places(clip, leans, 0);
+    CHECK(bone(at, "body", "neck").y() == Approx(std::cos(1)).margin(1e-3));  // as drawn
+    CHECK(bone(at, "left_hip", "left_knee").y() < -.8f);
+    CHECK(bone(at, "right_hip", "right_knee").y() < -.8f);
+  };
+  check(motion);
+
+  // But a file of a program whose up is z has other axes.
+  const Eigen::Quaterniond lies(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX()));
+  for (Joint& joint : motion.skeleton.joints) joint.position = lies * joint.position;
+  check(motion);
 }
 
 TEST_CASE("who turns around goes on facing the viewer where that is asked for") {

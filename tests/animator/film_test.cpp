@@ -148,24 +148,6 @@ TEST_CASE("an arm that is one piece with the body in the model is one with it in
   CHECK(moved() == 0);
 }
 
-TEST_CASE("an arm that is drawn in part alone came off the body in flat films without a word") {
-  RiggedDrawing drawing = rigDrawing({.path = SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png"}).drawing;
-  CHECK(flatWarnings(drawing).empty());
-  const auto place = [&](const char* joint) {
-    const Skeleton& skeleton = drawing.recognition.skeleton;
-    return Eigen::Vector2i(skeleton.joints[std::size_t(skeleton.index(joint))].image.cast<int>());
-  };
-  const auto is_arm = [&](const TemplateLimb& limb) {
-    return drawing.body_plan.joints[std::size_t(limb.joints[2])].name == "left_hand";
-  };
-  const auto& limbs = drawing.body_plan.limbs;
-  const auto arm = std::uint8_t(1 + (std::find_if(limbs.begin(), limbs.end(), is_arm) - limbs.begin()));
-  drawing.layers.limb = Plane8::Zero(drawing.image.height, drawing.image.width);
-  drawing.layers.limb.block(place("left_hand").y() - 5, place("left_hand").x() - 5, 10, 10) = arm;
-  REQUIRE(flatWarnings(drawing).size() == 1);
-  CHECK_THAT(flatWarnings(drawing).front(), Catch::Contains("left arm is drawn in part alone"));
-}
-
 TEST_CASE("a head that turns aside, a body that bows, was missing from flat films without a word") {
   const RiggedDrawing drawing =
       rigDrawing({.path = SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png"}).drawing;

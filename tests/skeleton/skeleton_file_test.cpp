@@ -1,5 +1,8 @@
 #include "libskel/skeleton/skeleton_file.h"
 
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
 #include "libskel/core/error.h"
 #include "libskel/core/files.h"
 #include "libskel/skeleton/rig_file.h"
@@ -160,4 +163,30 @@ TEST_CASE("an edited joint is seen") {
   file.skeleton.joints[5].origin = JointOrigin::kEdited;
   writeFile(dir.file("s.json"), formatSkeletonFile(file));
   CHECK(hasEditedJoint(dir.file("s.json")));
+}
+
+TEST_CASE("the neck stayed where it was when shoulders were moved in a skeleton file") {
+  const TempDir dir;
+  const SkeletonTemplate plan = loadTemplate("biped");
+  const Skeleton preset = example().skeleton;
+  const int neck = preset.index("neck"), left = preset.index("left_shoulder"),
+            right = preset.index("right_shoulder"), pelvis = preset.index("pelvis");
+  nlohmann::json json = nlohmann::json::parse(formatSkeletonFile(example()));
+  const auto item = [&](int joint) -> nlohmann::json& {
+    for (nlohmann::json& one : json["joints"])
+      if (one["name"] == preset.joints[std::size_t(joint)].name) return one;
+    throw std::out_of_range("joint");
+  };
+  item(left)["image"] = {120, 90};
+  item(right)["image"] = {60, 70};
+  writeFile(dir.file("s.json"), json.dump());
+  const Skeleton read = readSkeletonFile(dir.file("s.json"), plan).skeleton;
+  CHECK(read.joints[std::size_t(neck)].image == Eigen::Vector2d(90, 80));
+  CHECK(read.joints[std::size_t(neck)].origin == JointOrigin::kDerived);
+  CHECK(read.joints[std::size_t(pelvis)].image.isApprox(preset.joints[std::size_t(pelvis)].image, 1e-4));
+  item(neck)["image"] = {91, 75};  // placed as well
+  writeFile(dir.file("s.json"), json.dump());
+  const Skeleton placed = readSkeletonFile(dir.file("s.json"), plan).skeleton;
+  CHECK(placed.joints[std::size_t(neck)].image == Eigen::Vector2d(91, 75));
+  CHECK(placed.joints[std::size_t(neck)].origin == JointOrigin::kEdited);
 }

@@ -1,0 +1,32 @@
+// What a person should know of a drawing that was rigged.
+#include "libskel/pipeline/drawing_notes.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "libskel/image/read_image.h"
+#include "tests/support/catch.h"
+
+using namespace skel;
+
+TEST_CASE("an arm that is drawn in part alone came off the body without a word") {
+  RiggedDrawing drawing = [] {
+    RigInput input;
+    input.image = readImage(SKEL_DATASETS "/characters/cap_boy.png");
+    return rigCharacter(std::move(input), {});
+  }();
+  CHECK(partlyDrawnNotes(drawing).empty());
+  const auto place = [&](const char* joint) {
+    const Skeleton& skeleton = drawing.recognition.skeleton;
+    return Eigen::Vector2i(skeleton.joints[std::size_t(skeleton.index(joint))].image.cast<int>());
+  };
+  const auto is_arm = [&](const TemplateLimb& limb) {
+    return drawing.body_plan.joints[std::size_t(limb.joints[2])].name == "left_hand";
+  };
+  const auto& limbs = drawing.body_plan.limbs;
+  const auto arm = std::uint8_t(1 + (std::find_if(limbs.begin(), limbs.end(), is_arm) - limbs.begin()));
+  drawing.layers.limb = Plane8::Zero(drawing.image.height, drawing.image.width);
+  drawing.layers.limb.block(place("left_hand").y() - 5, place("left_hand").x() - 5, 10, 10) = arm;
+  REQUIRE(partlyDrawnNotes(drawing).size() == 1);
+  CHECK_THAT(partlyDrawnNotes(drawing).front(), Catch::Contains("left arm is drawn in part alone"));
+}
