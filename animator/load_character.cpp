@@ -112,6 +112,7 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
   MendedRig rig = rigMended(request, options, std::move(input), given);
   DrawnCharacter result{
       std::move(rig.drawing), withAdviceIfUpright(std::move(rig.warnings), "use --upright"), {}};
+  if (const auto note = facingNote(result.drawing.character)) result.warnings.push_back(*note);
   result.mended = mendedNotes(rig, request, options);
   return result;
 }

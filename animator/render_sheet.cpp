@@ -236,7 +236,7 @@ struct Sheets {
     return true;
   }
 
-  // "looking left (if it looks at you: --facing cat=0)"; a model is turned.
+  // "looking left (if not: --facing cat=90, or 0 if it looks at you)"; a model is turned.
   std::string toldFrom(const CharacterFile& file) const {
     const double facing_rad = facing(file.character);
     const std::string drawn = drawnFrom(facing_rad);
@@ -245,11 +245,11 @@ struct Sheets {
         std::any_of(options.files.begin(), options.files.end(), [&](const std::string& path) {
           return isDrawing({.path = path}) && fs::path(path).stem() == file.name;
         });
-    const long back_deg = std::lround(-facing_rad * 180 / std::numbers::pi);
-    return drawn + " (if it looks at you: " +
-           (is_drawing ? "--facing " + shellWord(file.name + "=0")
-                       : "--angle " + shellWord(file.name + "=" + std::to_string(back_deg))) +
-           ")";
+    const long deg = std::lround(facing_rad * 180 / std::numbers::pi);
+    if (is_drawing)
+      return drawn + " (if not: --facing " + shellWord(file.name + "=" + std::to_string(-deg)) +
+             ", or 0 if it looks at you)";
+    return drawn + " (if it looks at you: --angle " + shellWord(file.name + "=" + std::to_string(-deg)) + ")";
   }
 
   // What differs from the sheet that is about to be written over.

@@ -35,15 +35,18 @@ MendedHash mendedHash(const InferOptions& options, const RigJob& job, const std:
   for (int figure = range.first; figure <= range.last; ++figure) {
     const MendRequest request = mendRequest(options, job, figure, image_sha256);
     const MendedFiles files = mendedFiles(request);
-    const bool is_output = writes(options, "json") && files.skeleton == request.results + kSkeletonFileEnding;
+    const auto isOutput = [&](const std::string& skeleton) {
+      return writes(options, "json") && skeleton == request.results + kSkeletonFileEnding;
+    };
     const auto add = [&](const char* what, const std::string& file, std::string& all) {
       if (!file.empty())
         all += std::to_string(figure) + what + sha256(readFile(file)) + " " +
                fs::path(file).lexically_normal().string() + "\n";
     };
-    add(" skeleton ", files.skeleton, is_output ? outputs : inputs);
+    add(" skeleton ", files.skeleton, isOutput(files.skeleton) ? outputs : inputs);
     add(" labels ", files.labels, inputs), add(" mask ", files.mask, inputs);
     add(" limbs ", files.limbs, inputs), add(" back ", files.back, inputs);
+    add(" facing ", files.facing, isOutput(files.facing) ? outputs : inputs);
   }
   const auto hashOf = [](const std::string& all) { return all.empty() ? "" : sha256(all); };
   return {hashOf(inputs), hashOf(inputs + outputs)};

@@ -122,7 +122,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   file.image_sha256 = image_sha256;
   file.image_width = drawing.image.width;
   file.image_height = drawing.image.height;
-  file.figure = {figure, mended.outline_sha256, drawing.recognition.turned_deg, mended.found_outline_sha256};
+  file.figure = {figure, mended.outline_sha256, drawing.recognition.turned_deg, mended.found_outline_sha256,
+                 mended.facing_deg};
   file.skeleton = drawing.recognition.skeleton;
   file.confidence = drawing.recognition.confidence;
   file.missing = drawing.recognition.missing;
@@ -180,8 +181,17 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   }
   for (const auto& note : {kept_layers, kept_model, keptLayersNote(mended.files, request)})
     if (note) result.notes.push_back(*note);
+  const std::optional<std::string> looks_elsewhere =
+      mended.last >= LastStage::kModel ? facingNote(drawing.character) : std::nullopt;
+  if (looks_elsewhere) {
+    result.reasons.push_back(*looks_elsewhere);
+    if (result.verdict == Verdict::kFine) result.verdict = Verdict::kLookAt;
+  }
   if (!options.report_file.empty()) {
     result.advice = adviceOn(drawing, file, result.mend_file, rig.otherwise.has_value());
+    if (looks_elsewhere)
+      result.advice.push_back("It " + noteText({*looks_elsewhere}, job.source) +
+                              " (an option of skel-infer).");
     if (!result.left_out.empty()) result.advice.push_back(noteText({kAdviceOnLeftOut}, result.mend_file));
     result.pictures = reportPictures(drawing, options.clips.empty() ? "" : options.clips.front(),
                                      result.verdict == Verdict::kFine);

@@ -304,6 +304,10 @@ MendedFiles mendedFiles(const MendRequest& request) {
   }
   const std::optional<SkeletonSource> result = resultAmong(places);
   files.has_result = result.has_value();
+  for (const MendPlace& place : places)
+    if (no_skeleton && files.facing.empty() && place.is_of_picture && place.result &&
+        place.result->number == request.figure && place.result->facing_deg)
+      files.facing = place.results + kSkeletonFileEnding, files.facing_deg = *place.result->facing_deg;
   leaveOutEarlier(files, request, result);
   if (!painted.empty()) {
     files.painted_silhouette = files.mask.empty();
@@ -508,6 +512,7 @@ std::optional<Note> mendedNote(const MendedFiles& files, const MendRequest& requ
   addFound(files.painted_silhouette ? "silhouette" : "mask", files.mask, request.mask);
   addFound("limbs", files.limbs, request.limbs);
   addFound("back", files.back, request.back);
+  addFound("which way it looks", files.facing, "");
   if (what.empty()) return std::nullopt;
   const std::string shared = "made by hand and taken up";
   return Note{shared + ": " + joined(what), shared, joined(what)};

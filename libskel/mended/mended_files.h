@@ -54,6 +54,9 @@ struct MendedFiles {
   };
   std::vector<PassedOver> passed_over;
 
+  std::string facing;  // a result of which a person has said which way it looks
+  double facing_deg = 0;
+
   std::map<std::string, std::string> former_name;  // of the picture, by a file that was made for it then
 
   std::vector<std::string> other_figure;  // made for another one than the largest, where all are rigged

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numbers>
 #include <utility>
 
 #include "libskel/core/error.h"
@@ -195,6 +196,15 @@ MendedRig rigMended(const MendRequest& request, const RigOptions& rig, RigInput 
 
   RigOptions figure_rig = forBodyPlan(rig, placed.body_plan);
   figure_rig.silhouette = silhouette;
+  if (rig.facing_rad) {
+    result.facing_deg = *rig.facing_rad * 180 / std::numbers::pi;
+    mended.facing.clear();
+  } else if (given) {
+    result.facing_deg = given->figure.facing_deg;
+  } else if (!mended.facing.empty()) {
+    result.facing_deg = mended.facing_deg;
+  }
+  if (result.facing_deg) figure_rig.facing_rad = *result.facing_deg * std::numbers::pi / 180;
   if (!mask.empty()) figure_rig.silhouette.figure = figureOfMask(mask, request, mended, input);
   if (given || !placed.joints.empty()) figure_rig.last = std::max(figure_rig.last, LastStage::kJoints);
   result.last = figure_rig.last;

@@ -31,6 +31,7 @@ struct MendedRig {
   PlacedJoints placed;
   SkeletonFile::Mask mask;           // that was used, a path as given; "": none
   SkeletonFile::Mask limbs;          // SkeletonFile::limbs, the same
+  std::optional<double> facing_deg;  // which way it looks, as a person has said
   std::string outline_sha256;        // of the figure
   std::string found_outline_sha256;  // where a mask was used and the run writes: SkeletonFile::foundOutline()
   std::vector<std::string> warnings;  // of the figure and its joints, a clause each

@@ -1,6 +1,7 @@
 // What a person should know of a drawing that was rigged.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,8 @@
 
 namespace skel {
 
-// One clause. "skel-label FILE" in it stands for the command that opens what mends the drawing.
+// One clause. "skel-label FILE" in it stands for the command that opens what mends the drawing, NAME in
+// "--facing NAME" for its name.
 struct Note {
   std::string text;
   // Where many drawings are spoken of, the same is said once of all: `text` without what differs, which is
@@ -28,6 +30,9 @@ std::vector<std::string> withAdviceIfUpright(std::vector<std::string> notes, con
 // A clause for each arm that is cut out and of whose upper half next to nothing is drawn, as behind the head:
 // what is seen of it comes off the body when it moves.
 std::vector<std::string> partlyDrawnNotes(const RiggedDrawing& drawing);
+
+// Where it is taken to look to a side that it may not look to.
+std::optional<std::string> facingNote(const RiggedCharacter& character);
 
 // Of limbs that these clips, which are relative to the rest pose, do not move as limbs should; nothing where
 // the joints are a guess.

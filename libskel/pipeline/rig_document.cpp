@@ -7,6 +7,7 @@
 #include "libskel/pipeline/rig_memory.h"
 #include "libskel/pipeline/same_inputs.h"
 #include "libskel/skeleton/check_skeleton.h"
+#include "libskel/skeleton/mark_placed.h"
 
 namespace skel {
 RigDocument::RigDocument(RigOptions options)
@@ -90,6 +91,9 @@ void RigDocument::moveJoint(const std::string& name, const Eigen::Vector2d& imag
   joint.image = image_px;
   joint.confidence = 1;
   joint.origin = JointOrigin::kEdited;
+  if (const SkeletonTemplate& plan = planNamed(skeleton.template_name, options_);
+      plan.name == skeleton.template_name)
+    followPlaced(skeleton, plan);
   input_.placed.clear();  // they are where they were placed
   note(RigPart::kSkeleton);
   setSkeleton(std::move(skeleton), turned_deg);

@@ -37,9 +37,10 @@ class RigDocument {
   void setMask(std::optional<Plane8> mask);
   void setLayers(std::optional<NamedPicture> layers);
   void setSkeleton(std::optional<Skeleton> skeleton, int turned_deg = 0);
-  // A joint of rigged(), to a place in image px. The other joints stay where they are. Throws UsageError if
-  // there is none of that name, or the place is not finite or farther than kFarthestJoint_px; and as rigged()
-  // does. To undo it, setInput() a copy of input() from before.
+  // A joint of rigged(), to a place in image px. Those half way between it and another follow it
+  // (followPlaced()), the others stay where they are. Throws UsageError if there is none of that name, or the
+  // place is not finite or farther than kFarthestJoint_px; and as rigged() does. To undo it, setInput() a
+  // copy of input() from before.
   void moveJoint(const std::string& name, const Eigen::Vector2d& image_px);
 
   // Up to date: runs the stages that a change since the last call has touched; RiggedDrawing::times has

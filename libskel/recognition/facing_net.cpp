@@ -1,5 +1,6 @@
 #include "libskel/recognition/facing_net.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <vector>
@@ -32,10 +33,11 @@ Eigen::VectorXd turnInputs(const FacingEvidence& evidence) {
 }
 
 Facing FacingNet::of(const FacingEvidence& evidence) const {
-  const double looks = right.logOdds(evidence.sided) >= right.logOdds(-evidence.sided) ? 1 : -1;
+  const double odds = (right.logOdds(evidence.sided) - right.logOdds(-evidence.sided)) / 2,
+               looks = odds >= 0 ? 1 : -1, sure = 1 / (1 + std::exp(-std::abs(odds)));
   const Eigen::VectorXd turn = turnInputs(evidence);
   const double quarter = side.probability(turn) >= .5 ? 1 : turned.probability(turn) >= .5 ? .5 : 0;
-  return {looks * quarter * std::numbers::pi / 2, looks};
+  return {looks * quarter * std::numbers::pi / 2, looks, sure};
 }
 
 FacingNet parseFacingNet(std::string_view text, const std::string& file) {

@@ -30,13 +30,18 @@ double markPlaced(Skeleton& skeleton, const std::vector<int>& placed, double con
 
 void followPlaced(Skeleton& skeleton, const SkeletonTemplate& body_plan) {
   constexpr double kRounded_px = .011;  // of a mean of two that files keep to the hundredth
-  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
-    const auto& derived = body_plan.joints[j].derived;
-    Joint& joint = skeleton.joints[j];
-    if (!derived || derived->rule != DerivationRule::kMidpoint || joint.origin == JointOrigin::kEdited)
-      continue;
-    const Joint& a = skeleton.joints[static_cast<std::size_t>(derived->from[0])];
-    const Joint& b = skeleton.joints[static_cast<std::size_t>(derived->from[1])];
+  const auto jointOf = [&](int joint_of_plan) -> Joint* {
+    const int found = skeleton.find(body_plan.joints[static_cast<std::size_t>(joint_of_plan)].name);
+    return found < 0 ? nullptr : &skeleton.joints[static_cast<std::size_t>(found)];
+  };
+  for (int j = 0; j < static_cast<int>(body_plan.joints.size()); ++j) {
+    const auto& derived = body_plan.joints[static_cast<std::size_t>(j)].derived;
+    if (!derived || derived->rule != DerivationRule::kMidpoint) continue;
+    Joint* const middle_joint = jointOf(j);
+    const Joint *const first = jointOf(derived->from[0]), *const second = jointOf(derived->from[1]);
+    if (!middle_joint || !first || !second || middle_joint->origin == JointOrigin::kEdited) continue;
+    Joint& joint = *middle_joint;
+    const Joint &a = *first, &b = *second;
     const Eigen::Vector2d middle = (a.image + b.image) / 2;
     const bool placed = a.origin == JointOrigin::kEdited || b.origin == JointOrigin::kEdited;
     if (!placed || (joint.image - middle).cwiseAbs().maxCoeff() < kRounded_px) continue;

@@ -15,8 +15,7 @@ namespace skel {
 double markPlaced(Skeleton& skeleton, const std::vector<int>& placed, double confidence);
 
 // Puts the joints that `body_plan` derives as midpoints half way between those that they follow (image px),
-// where a person has placed one of these and nobody has placed them. `skeleton` has the joints of
-// `body_plan`, in its order.
+// where a person has placed one of these and nobody has placed them.
 void followPlaced(Skeleton& skeleton, const SkeletonTemplate& body_plan);
 
 // Whether a person has placed all joints that do not follow from others.

@@ -21,8 +21,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSkeletonVersion =
-    7;  // 3: without `found`, 4: without `found_sha256`, 5: without `labels.joints`, 6: without `limbs`
+constexpr int kSkeletonVersion = 8;  // 3: without `found`, 4: without `found_sha256`, 5: without
+                                     // `labels.joints`, 6: without `limbs`, 7: without `facing_deg`
 constexpr std::size_t kMostWarnings = 100;  // all are shown, each once; skel gives a handful
 constexpr int kLongestImageSide_px = 1'000'000;
 constexpr double kUnmoved_px = 0.005;  // files keep hundredths of a pixel
@@ -71,12 +71,13 @@ SkeletonFile::Labels labelsAt(const JsonValue& given, int image_width, int image
 }
 
 SkeletonFile::Figure figureAt(const JsonValue& value) {
-  value.allowOnly({"number", "sha256", "turned", "found_sha256"});
+  value.allowOnly({"number", "sha256", "turned", "found_sha256", "facing_deg"});
   SkeletonFile::Figure figure;
   figure.number = value.at("number").asInt(1, 9999);
   figure.sha256 = value.at("sha256").asString();
   figure.turned_deg = value.at("turned").asInt(0, 359);
   if (const auto hash = value.find("found_sha256")) figure.found_sha256 = hash->asString();
+  if (const auto facing = value.find("facing_deg")) figure.facing_deg = facing->asNumber(-180, 180);
   return figure;
 }
 
@@ -151,6 +152,7 @@ std::string formatSkeletonFile(const SkeletonFile& file) {
       {"number", file.figure.number}, {"sha256", file.figure.sha256}, {"turned", file.figure.turned_deg}};
   if (file.mask && !file.figure.found_sha256.empty())
     root["figure"]["found_sha256"] = file.figure.found_sha256;
+  if (file.figure.facing_deg) root["figure"]["facing_deg"] = rounded(*file.figure.facing_deg, 100);
   root["template"] = file.skeleton.template_name;
   root["confidence"] = rounded(file.confidence, 1000);
   root["missing"] = file.missing;
@@ -265,6 +267,7 @@ SkeletonSource readSkeletonSource(const std::string& path) {
     source.outline_sha256 = figure.sha256;
     source.found_outline_sha256 = source.mask ? figure.found_sha256 : figure.sha256;
     source.number = figure.number;
+    source.facing_deg = figure.facing_deg;
   }
   if (const auto warnings = root.find("warnings")) source.warnings = textsAt(*warnings, kMostWarnings);
   return source;

@@ -31,6 +31,9 @@ struct SkeletonFile {
     int turned_deg = 0;  // how far it is turned clockwise against upright, 0 to 359
     // Where a mask was used, of the outline that the picture alone gives; empty: not known.
     std::string found_sha256 = {};
+    // Which way it looks, as a person has said: about the vertical, 0 to the viewer, 90 to the right of the
+    // picture, -180 to 180.
+    std::optional<double> facing_deg = {};
   };
 
   std::string image_file;    // a path relative to the skeleton file
@@ -77,6 +80,7 @@ struct SkeletonSource {
   std::string found_outline_sha256;       // SkeletonFile::foundOutline()
   int image_width = 0, image_height = 0;  // px
   int number = 1;                         // of the figure
+  std::optional<double> facing_deg;       // SkeletonFile::Figure::facing_deg
   std::optional<SkeletonFile::Mask> mask, limbs;
   std::optional<SkeletonFile::Labels> labels;
   std::vector<std::string> warnings;  // of what was found

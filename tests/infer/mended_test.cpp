@@ -1352,3 +1352,30 @@ TEST_CASE("labels of another body plan than the nets see ended the run with an e
   CHECK(contains(run.err,
                  "Noah.labels.json: has joints that are none of the template \"quadruped\"; name theirs"));
 }
+
+TEST_CASE("which way a figure looks had to be said in every run") {
+  const TempDir dir;
+  drawBoy(dir);
+  const auto facingOf = [&] { return readSkeletonSource(dir.file(kSkeleton)).facing_deg; };
+  const auto looksLeft = [&](const std::string& options) {
+    const ToolRun run = infer(dir, "boy.png " + options);
+    REQUIRE(run.exit_code == 0);
+    return run.out.find("looking left") != std::string::npos;
+  };
+  CHECK_FALSE(looksLeft(""));
+  CHECK_FALSE(facingOf());
+  CHECK(looksLeft("--facing boy=-90"));
+  CHECK(facingOf() == -90);
+  const ToolRun again = infer(dir, "boy.png");
+  CHECK_THAT(again.out, Contains("looking left"));
+  CHECK_THAT(again.err, Contains(kTakenUp + std::string("which way it looks (out/boy.skeleton.json)")));
+  CHECK_FALSE(looksLeft("--facing boy=0"));
+  CHECK_FALSE(looksLeft(""));
+  CHECK(looksLeft("--facing boy=-90"));
+  CHECK_FALSE(looksLeft("--force"));
+  CHECK_FALSE(facingOf());
+  // Of another photo nobody has said it.
+  CHECK(looksLeft("--facing boy=-90"));
+  takeAgain(dir, "ninja");
+  CHECK_FALSE(looksLeft(""));
+}

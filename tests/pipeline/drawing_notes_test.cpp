@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numbers>
 
 #include "libskel/image/read_image.h"
 #include "tests/support/catch.h"
@@ -29,4 +30,21 @@ TEST_CASE("an arm that is drawn in part alone came off the body without a word")
   drawing.layers.limb.block(place("left_hand").y() - 5, place("left_hand").x() - 5, 10, 10) = arm;
   REQUIRE(partlyDrawnNotes(drawing).size() == 1);
   CHECK_THAT(partlyDrawnNotes(drawing).front(), Catch::Contains("left arm is drawn in part alone"));
+}
+
+TEST_CASE("who may look to the other side than it was taken to is named with what says it right") {
+  RiggedCharacter character;
+  CHECK_FALSE(facingNote(character));
+  character.facing = Facing{std::numbers::pi / 4, 1, .95};
+  CHECK_FALSE(facingNote(character));
+  character.facing->sure = .7;
+  REQUIRE(facingNote(character));
+  CHECK(noteText({*facingNote(character)}, "in/my hero.png") ==
+        "may not look right, as it was taken to: --facing 'my hero'=-45 if it looks left, --facing 'my "
+        "hero'=0 if it looks at you");
+  CHECK_THAT(noteText({*facingNote(character)}, "FILE"), Catch::Contains("--facing NAME=-45"));
+  character.facing = Facing{0, 1, .7};
+  CHECK_FALSE(facingNote(character));
+  character.facing = Facing::at(-1);  // somebody has said it
+  CHECK_FALSE(facingNote(character));
 }

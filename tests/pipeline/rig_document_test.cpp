@@ -234,6 +234,23 @@ TEST_CASE("a draft moves the joints of the model that is there, and leaves the r
   CHECK(document.draft() == document.rigged());
 }
 
+TEST_CASE("of a document the neck follows a moved shoulder, unless somebody has placed it") {
+  RigDocument document(rigOptions("biped"));
+  document.setImage(drawingCalled("characters/cap_boy.png"));
+  const auto at = [&](const char* name) {
+    const Skeleton& skeleton = document.rigged()->recognition.skeleton;
+    return skeleton.joints[std::size_t(skeleton.index(name))].image;
+  };
+  const Eigen::Vector2d pelvis = at("pelvis");
+  document.moveJoint("left_shoulder", at("left_shoulder") + Eigen::Vector2d(8, -6));
+  CHECK((at("neck") - (at("left_shoulder") + at("right_shoulder")) / 2).norm() < .02);
+  CHECK((at("pelvis") - pelvis).norm() < .02);
+  const Eigen::Vector2d neck = at("neck") + Eigen::Vector2d(1, 5);
+  document.moveJoint("neck", neck);
+  document.moveJoint("right_shoulder", at("right_shoulder") + Eigen::Vector2d(-4, -6));
+  CHECK((at("neck") - neck).norm() < .02);
+}
+
 TEST_CASE("a document tells the limbs before the body without making a model of them") {
   RigDocument document(rigOptions("biped"));
   document.setImage(drawingCalled("characters/cap_boy.png"));

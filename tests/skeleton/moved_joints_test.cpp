@@ -38,7 +38,7 @@ SkeletonFile fitting() {
 // The text of an earlier program, which did not say where it had found the joints.
 std::string asVersion3(std::string text) {
   text = std::regex_replace(text, std::regex(",\"found\":\\[[^\\]]*\\]"), "");
-  return text.replace(text.find("\"version\": 7"), 12, "\"version\": 3");
+  return text.replace(text.find("\"version\": 8"), 12, "\"version\": 3");
 }
 
 // The text after a person has put each joint elsewhere, where `moved` says, and said nothing.

@@ -25,6 +25,7 @@ SkeletonFile example() {
   file.mask = SkeletonFile::Mask{"cat.mask.png", std::string(64, 'a')};
   file.figure.sha256 = std::string(64, 'b');
   file.figure.found_sha256 = std::string(64, 'c');
+  file.figure.facing_deg = -45;
   return file;
 }
 
@@ -56,6 +57,7 @@ TEST_CASE("a skeleton file comes back as it was written") {
   CHECK(back.skeleton.joints[3].image.isApprox(file.skeleton.joints[3].image, 1e-4));
   CHECK(back.mask->file == "cat.mask.png");
   CHECK(back.figure.found_sha256 == file.figure.found_sha256);
+  CHECK(back.figure.facing_deg == -45);
 }
 
 TEST_CASE("the outline that a picture alone gives is that of the figure unless a mask was used") {
