@@ -137,6 +137,7 @@ AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, c
       if (options.clips.size() == 1) break;
       if (isKnown(name, options.library)) {
         const std::string meant = meantClip(name, clipsFor(clipLibrary(options.library), file.character));
+        if (std::find(options.clips.begin(), options.clips.end(), meant) != options.clips.end()) continue;
         std::fprintf(stderr, "%s: note: there is no clip \"%s\" for this body plan%s: left out\n",
                      printable(path).c_str(), printable(name).c_str(),
                      meant.empty() ? "" : (", but \"" + printable(meant) + '"').c_str());

@@ -8,6 +8,7 @@
 #include "libskel/layers/held_things.h"
 #include "libskel/layers/layer_map.h"
 #include "libskel/layers/limb_net.h"
+#include "libskel/layers/linked_hands.h"
 
 namespace skel {
 namespace {
@@ -85,8 +86,13 @@ LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skel
   if (!found) return map;
   const PartPicture& picture = found->picture;
   map.far = farLimbs(body_plan, picture.before);
+  map.hands_linked = !found->skeleton.animal && areHandsLinked(picture, found->skeleton);
   Plane8 limbs = Plane8::Zero(picture.part.rows(), picture.part.cols());
   for (int k = 0; k < 4; ++k) {
+    if (map.hands_linked && body_plan.limbs[static_cast<std::size_t>(k)].limb_class == JointClass::kHand) {
+      map.hidden.push_back(k + 1);
+      continue;
+    }
     const LimbBorder& border = found->borders[static_cast<std::size_t>(k)];
     if (liesAgainst(border) && isDivided(border) &&
         builtInLimbNet().isLimb(limbEvidence(*found, k)) >= kIsLimb) {

@@ -25,6 +25,11 @@ struct LayerMap {
   // it is a guess where they end. They would only tear the body; its pixels stay with it, and these limbs
   // move nothing.
   std::vector<int> hidden = {};
+  // The hands hold one thing, or each other, which either arm by itself would break: both are among the
+  // hidden ones.
+  bool hands_linked = false;
+  // Of a picture that somebody handed in: each limb of it is meant to move by itself.
+  bool painted = false;
   // Of each pair of limbs of a figure drawn from the side, the farther one, which lies behind the trunk.
   // Layers or not.
   std::vector<int> far = {};

@@ -89,6 +89,7 @@ LayerMap layersOfPicture(const Image& picture, const Silhouette& silhouette,
     throw InputError(file, text.str());
   }
   LayerMap layers;
+  layers.painted = true;
   layers.limb = layers.part = Plane8::Zero(picture.height, picture.width);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {

@@ -20,6 +20,8 @@ namespace {
 
 constexpr const char* kPaintTheLimb = "; if it is drawn before the body, paint it (skel-label FILE, key G)";
 
+constexpr const char* kPaintTheArms = "; if each is to move by itself, paint them (skel-label FILE, key G)";
+
 // Of the way from the first to the second joint of the limb, how much has pixels of it near by.
 double shareOfUpperHalf(const RiggedDrawing& drawing, int limb) {
   constexpr int kSteps = 24;
@@ -93,9 +95,10 @@ std::optional<std::string> facingNote(const RiggedCharacter& character) {
     return std::nullopt;
   const bool left = character.facing->yaw_rad < 0;
   const long deg = std::lround(character.facing->yaw_rad * 180 / std::numbers::pi);
-  return std::string("may not look ") + (left ? "left" : "right") +
-         ", as it was taken to: --facing NAME=" + std::to_string(-deg) + " if it looks " +
-         (left ? "right" : "left") + ", --facing NAME=0 if it looks at you";
+  const auto option = [](long degrees) { return "--facing NAME=" + std::to_string(degrees); };
+  return std::string("was taken to look ") + (left ? "left" : "right") +
+         ", which is doubtful: " + option(deg) + " says that it does, " + option(-deg) + " that it looks " +
+         (left ? "right" : "left") + ", " + option(0) + " at you";
 }
 
 std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip>& clips) {
@@ -105,7 +108,12 @@ std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip
   std::vector<Note> notes;
   if (drawing.recognition.likeness < kWhole) return notes;
   const SkeletonTemplate& body_plan = drawing.body_plan;
+  if (drawing.layers.hands_linked)
+    notes.push_back(
+        {std::string("the hands hold one thing, or each other, so the arms stay as they are drawn") +
+         kPaintTheArms});
   for (const int limb : drawing.layers.hidden) {
+    if (drawing.layers.hands_linked) break;  // the arms alone can be hidden
     const std::string name = limbName(body_plan, limb);
     notes.push_back({"the " + name + " cannot be told from the body and stays with it" + kPaintTheLimb,
                      "a limb that cannot be told from the body stays with it" + std::string(kPaintTheLimb),

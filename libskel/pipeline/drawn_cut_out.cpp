@@ -7,6 +7,7 @@
 namespace skel {
 namespace {
 
+// Arms that are one piece with the body would leave behind what they are one with.
 LayerMap layersOfCutOut(const RiggedDrawing& drawing) {
   LayerMap layers = drawing.layers;
   const RiggedCharacter& character = drawing.character;
@@ -15,8 +16,11 @@ LayerMap layersOfCutOut(const RiggedDrawing& drawing) {
   for (std::size_t k = 0; k < drawing.body_plan.limbs.size(); ++k) {
     const TemplateLimb& limb = drawing.body_plan.limbs[k];
     const int elbow = character.skeleton.find(drawing.body_plan.joints[std::size_t(limb.joints[1])].name);
-    if (isLeg(drawing.body_plan, limb) || elbow < 0 || (layers.limb == std::uint8_t(k + 1)).any()) continue;
-    if (shape.joined[std::size_t(elbow)] >= kGrownArm) layers.hidden.push_back(int(k) + 1);
+    if (isLeg(drawing.body_plan, limb) || elbow < 0 || shape.joined[std::size_t(elbow)] < kGrownArm) continue;
+    const bool own = (layers.limb == std::uint8_t(k + 1)).any();
+    if (own && layers.painted) continue;
+    layers.hidden.push_back(int(k) + 1);
+    if (own) layers.limb = (layers.limb == std::uint8_t(k + 1)).select(std::uint8_t(0), layers.limb);
   }
   return layers;
 }

@@ -365,7 +365,7 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
       LayerMap found = findLayers(drawing.image, silhouette, skeleton, body_plan,
                                   options.part_net ? *options.part_net : builtInPartNet());
       // Only the net's confidence tells a guess.
-      if (options.recognizer == Recognizer::kPaper) found.hidden.clear();
+      if (options.recognizer == Recognizer::kPaper && !found.hands_linked) found.hidden.clear();
       return found;
     };
     drawing.layers = draft ? memory->layers.value
@@ -374,6 +374,7 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
       LayerMap given = layersOfPicture(input.layers->image, silhouette, body_plan, input.layers->file);
       for (const int limb : drawing.layers.hidden)
         if (!(given.limb == limb).any()) given.hidden.push_back(limb);
+      given.hands_linked = drawing.layers.hands_linked && given.hidden.size() == drawing.layers.hidden.size();
       given.far = std::move(drawing.layers.far);
       drawing.found_limbs = std::move(drawing.layers.limb);
       drawing.layers = std::move(given);

@@ -418,6 +418,11 @@ TEST_CASE(
       run.err,
       Contains("box_dog.png: note: there is no clip \"run\" for this body plan, but \"gallop\": left out\n"));
   CHECK(filesBelow(dir.file("films")).size() == 3);
+  // Nor is a word said where what it has instead is asked for, too.
+  const ToolRun both = render(dog + kDrawing + " --clips idle,run,gallop" + rest);
+  CHECK(both.exit_code == 0);
+  CHECK(both.err.find("there is no clip") == std::string::npos);
+  CHECK(filesBelow(dir.file("films")).size() == 4);
   // A name that nobody has is wrong.
   const ToolRun wrong = render(dog + kDrawing + " --clips idle,rnu" + rest);
   CHECK(wrong.exit_code == 1);

@@ -40,8 +40,8 @@ TEST_CASE("who may look to the other side than it was taken to is named with wha
   character.facing->sure = .7;
   REQUIRE(facingNote(character));
   CHECK(noteText({*facingNote(character)}, "in/my hero.png") ==
-        "may not look right, as it was taken to: --facing 'my hero'=-45 if it looks left, --facing 'my "
-        "hero'=0 if it looks at you");
+        "was taken to look right, which is doubtful: --facing 'my hero'=45 says that it does, --facing 'my "
+        "hero'=-45 that it looks left, --facing 'my hero'=0 at you");
   CHECK_THAT(noteText({*facingNote(character)}, "FILE"), Catch::Contains("--facing NAME=-45"));
   character.facing = Facing{0, 1, .7};
   CHECK_FALSE(facingNote(character));
