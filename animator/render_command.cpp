@@ -232,7 +232,7 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path, bool among
 
 // ", 2 to look at (a.png, b.png)"; nothing of none.
 std::string counted(const std::vector<std::string>& paths, const std::string& what) {
-  constexpr std::size_t kMostNamed = 12;
+  constexpr std::size_t kMostNamed = 30;  // a class
   if (paths.empty()) return "";
   return ", " + std::to_string(paths.size()) + " " + what + " (" + firstFew(paths, kMostNamed) + ")";
 }

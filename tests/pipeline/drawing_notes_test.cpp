@@ -48,3 +48,27 @@ TEST_CASE("who may look to the other side than it was taken to is named with wha
   character.facing = Facing::at(-1);  // somebody has said it
   CHECK_FALSE(facingNote(character));
 }
+
+TEST_CASE("a barbell broke in two when one of the arms that lift it moved") {
+  const auto rig = [](std::optional<NamedPicture> layers) {
+    RigInput input;
+    input.image = readImage(SKEL_DATASETS "/unseen/characters/bo4_giant_tiny_head_lift.png");
+    input.layers = std::move(layers);
+    return rigCharacter(std::move(input), {});
+  };
+  const RiggedDrawing lifter = rig({});
+  CHECK(lifter.layers.hands_linked);
+  CHECK(lifter.layers.hidden == std::vector<int>{1, 2});
+  CHECK_FALSE((lifter.layers.limb == std::uint8_t(1)).any());
+  const std::vector<Note> notes = limbNotes(lifter, {});
+  REQUIRE(notes.size() == 1);
+  CHECK_THAT(notes.front().text, Catch::StartsWith("the hands hold one thing, or each other"));
+  // Arms that somebody has painted move by themselves.
+  LayerMap painted = lifter.layers;
+  for (const int limb : {1, 2})
+    painted.limb =
+        (painted.part == std::uint8_t(limbPart(limb - 1))).select(std::uint8_t(limb), painted.limb);
+  const RiggedDrawing mended = rig(NamedPicture{layerPicture(painted, lifter.silhouette.mask), "limbs.png"});
+  CHECK_FALSE(mended.layers.hands_linked);
+  CHECK(mended.layers.hidden.empty());
+}
