@@ -21,8 +21,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSkeletonVersion = 8;  // 3: without `found`, 4: without `found_sha256`, 5: without
-                                     // `labels.joints`, 6: without `limbs`, 7: without `facing_deg`
+constexpr int kSkeletonVersion = 8;         // 3: without `found`, 4: without `found_sha256`, 5: without
+                                            // `labels.joints`, 6: without `limbs`, 7: without `facing_deg`
 constexpr std::size_t kMostWarnings = 100;  // all are shown, each once; skel gives a handful
 constexpr int kLongestImageSide_px = 1'000'000;
 constexpr double kUnmoved_px = 0.005;  // files keep hundredths of a pixel
