@@ -4,7 +4,6 @@
 
 #include "libskel/core/parallel.h"
 #include "libskel/draw/draw_skeleton.h"
-#include "libskel/pipeline/drawn_cut_out.h"
 #include "libskel/pipeline/posed_character.h"
 
 namespace skel {
@@ -47,11 +46,14 @@ std::optional<std::string> unseenTurn(const RiggedDrawing& drawing, const Clip& 
 FlatFigure::FlatFigure(const RiggedDrawing& drawing) : drawing_(drawing), cut_out_(cutOutOf(drawing)) {}
 
 Camera FlatFigure::camera(const std::vector<Clip>& clips, double width_over_height) const {
+  std::vector<Calm> calms;
+  for (const Clip& clip : clips) calms.push_back(calmFor(clip));
   std::vector<Eigen::MatrixX2d> moments(clips.size() * kFlatMoments);
   parallelFor(moments.size(), 0, [&](std::size_t i) {
     const Clip& clip = clips[i / kFlatMoments];
     const double time_s = double(clip.duration_s()) * double(i % kFlatMoments) / kFlatMoments;
-    for (const Eigen::MatrixX2d& sheet : posedSheets(cut_out_, flatPoseAt(drawing_, clip, time_s))) {
+    for (const Eigen::MatrixX2d& sheet :
+         posedSheets(cut_out_, flatPoseAt(drawing_, clip, time_s, calms[i / kFlatMoments]))) {
       moments[i].conservativeResize(moments[i].rows() + sheet.rows(), 2);
       moments[i].bottomRows(sheet.rows()) = sheet;
     }
@@ -65,13 +67,10 @@ Camera FlatFigure::camera(const std::vector<Clip>& clips, double width_over_heig
   return framingCamera(all, 0, 0, width_over_height);
 }
 
-double FlatFigure::tornBy(const Clip& clip) const {
-  std::vector<double> torn(kFlatMoments);
-  parallelFor(torn.size(), 0, [&](std::size_t i) {
-    const double time_s = double(clip.duration_s()) * double(i) / (kFlatMoments - 1);
-    torn[i] = tornShare(cut_out_, posedSheets(cut_out_, flatPoseAt(drawing_, clip, time_s)));
-  });
-  return *std::max_element(torn.begin(), torn.end());
+Calm FlatFigure::calmFor(const Clip& clip) const {
+  const auto [known, is_new] = calm_.try_emplace(clip.name);
+  if (is_new) known->second = skel::calmFor(drawing_, cut_out_, clip);
+  return known->second;
 }
 
 CutOutPainter FlatFigure::painterFor(const Camera& camera, int height) const {
@@ -82,13 +81,13 @@ void FlatFigure::forgetPictures() {
   for (CutOutSheet& sheet : cut_out_.sheets) sheet.picture = Image(), sheet.lattice.square_of.resize(0, 0);
 }
 
-Image FlatFigure::paint(const Clip& clip, double time_s, const Camera& camera, const CutOutPainter& painter,
-                        const FilmOptions& options) const {
+Image FlatFigure::paint(const Clip& clip, const Calm& calm, double time_s, const Camera& camera,
+                        const CutOutPainter& painter, const FilmOptions& options) const {
   const Projection project(camera, options.width, options.height);
   const auto seen = [&](const Eigen::Vector2d& p) {
     return project(onPlane(p)).value_or(Eigen::Vector2d::Constant(-1e4));
   };
-  const FlatPose pose = flatPoseAt(drawing_, clip, time_s);
+  const FlatPose pose = flatPoseAt(drawing_, clip, time_s, calm);
   std::vector<Eigen::MatrixX2d> places = posedSheets(cut_out_, pose);
   for (Eigen::MatrixX2d& sheet : places)
     for (Eigen::Index v = 0; v < sheet.rows(); ++v) sheet.row(v) = seen(sheet.row(v).transpose()).transpose();

@@ -1,6 +1,7 @@
 // A drawing that performs clips as it was drawn: a cut-out in the picture plane.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "animator/film.h"
 #include "libskel/cutout/cut_out.h"
 #include "libskel/cutout/paint_cut_out.h"
+#include "libskel/pipeline/drawn_cut_out.h"
 #include "libskel/pipeline/rig_character.h"
 
 namespace skel {
@@ -24,22 +26,24 @@ class FlatFigure {
   // The drawing outlives the figure.
   explicit FlatFigure(const RiggedDrawing& drawing);
 
+  // Kept by the clip's name; one thread at a time.
+  Calm calmFor(const Clip& clip) const;
+
   // As filmCamera(), straight from the front.
   Camera camera(const std::vector<Clip>& clips, double width_over_height) const;
 
   // Of the look, the background and the skeleton are shown. `painter`: for this camera and size, see
   // painterFor().
-  Image paint(const Clip& clip, double time_s, const Camera& camera, const CutOutPainter& painter,
-              const FilmOptions& options) const;
+  Image paint(const Clip& clip, const Calm& calm, double time_s, const Camera& camera,
+              const CutOutPainter& painter, const FilmOptions& options) const;
   CutOutPainter painterFor(const Camera& camera, int height) const;
-  // The greatest share of the drawing that the clip tears (tornShare()).
-  double tornBy(const Clip& clip) const;
   // No more painters are made. The drawing's own pictures are not needed from its construction on.
   void forgetPictures();
 
  private:
   const RiggedDrawing& drawing_;
   CutOut cut_out_;
+  mutable std::map<std::string, Calm> calm_;
 };
 
 }  // namespace skel

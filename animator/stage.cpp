@@ -37,8 +37,9 @@ MomentPainter Stage::painterOf(const Clip& clip, const FilmOptions& film) const 
   if (flat_) {
     const Camera camera = flat_->camera(shown, width_over_height);
     const auto painter = std::make_shared<CutOutPainter>(flat_->painterFor(camera, film.height));
-    return [this, clip, film, camera, painter](double time_s) {
-      return flat_->paint(clip, time_s, camera, *painter, film);
+    const Calm calm = flat_->calmFor(clip);
+    return [this, clip, calm, film, camera, painter](double time_s) {
+      return flat_->paint(clip, calm, time_s, camera, *painter, film);
     };
   }
   const RiggedCharacter& character = performer_.file.character;
@@ -53,13 +54,19 @@ MomentPainter Stage::painterOf(const Clip& clip, const FilmOptions& film) const 
 }
 
 bool Stage::sayTorn(const Clip& clip) const {
-  constexpr double kMuch = 0.03;
-  const double torn = flat_ ? flat_->tornBy(clip) : 0;
-  if (torn <= kMuch) return false;
+  const Calm calm = flat_ ? flat_->calmFor(clip) : Calm();
+  if (calm.torn <= kMuchTorn) {
+    if (calm.legs < 1)
+      std::fprintf(stderr,
+                   "%s: note: \"%s\" moves the legs %sless than it would, which would tear the drawing\n",
+                   printable(performer_.file.name).c_str(), printable(clip.name).c_str(),
+                   calm.rest < 1 ? "and the rest " : "");
+    return false;
+  }
   std::fprintf(stderr,
                "%s: note: \"%s\" tears up to %.1f %% of the drawing: look at the film, or take --look "
                "solid\n",
-               printable(performer_.file.name).c_str(), printable(clip.name).c_str(), 100 * torn);
+               printable(performer_.file.name).c_str(), printable(clip.name).c_str(), 100 * calm.torn);
   return true;
 }
 

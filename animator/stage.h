@@ -18,7 +18,8 @@ class Stage {
 
   // Of one of the performer's clips, which the painter takes along. It is not to outlive the stage.
   MomentPainter painterOf(const Clip& clip, const FilmOptions& film) const;
-  // Whether the clip tears much of a drawing, which it then says on stderr.
+  // Whether the clip tears much of a drawing however calm it is, which it then says on stderr, as it does
+  // where the clip is calmer for that.
   bool sayTorn(const Clip& clip) const;
   // Whether several threads may paint at once.
   bool isConcurrent() const { return !scene_ || scene_->isConcurrent(); }

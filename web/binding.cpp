@@ -367,10 +367,12 @@ val flatClip(const std::string& name, double rate_hz) {
     const Clip chosen = clip == clips.end() ? Clip() : *clip;
     const double duration_s = double(chosen.duration_s());
     const int frames = std::max(1, int(std::lround(duration_s * rate_hz)));
+    const CutOut& cut_out = currentCutOut();
+    const Calm calm = calmFor(*current.drawing, cut_out, chosen);
     std::vector<float> places;
     for (int i = 0; i < frames; ++i)
       for (const Eigen::MatrixX2d& sheet :
-           posedSheets(currentCutOut(), flatPoseAt(*current.drawing, chosen, duration_s * i / frames)))
+           posedSheets(cut_out, flatPoseAt(*current.drawing, chosen, duration_s * i / frames, calm)))
         for (Eigen::Index v = 0; v < sheet.rows(); ++v)
           places.insert(places.end(), {float(sheet(v, 0)), float(sheet(v, 1))});
     val said = val::object();

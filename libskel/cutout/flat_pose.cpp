@@ -159,4 +159,35 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan, s
   return pose;
 }
 
+FlatPose calmed(const FlatPose& pose, const Skeleton& skeleton, const SkeletonTemplate& body_plan,
+                double legs, double rest) {
+  std::vector<double> shares(skeleton.joints.size(), rest);
+  std::vector<std::size_t> feet;
+  for (const TemplateLimb& limb : body_plan.limbs) {
+    if (!isLeg(body_plan, limb)) continue;
+    for (const int joint : limb.joints)
+      if (const int j = skeleton.find(body_plan.joints[std::size_t(joint)].name); j >= 0)
+        shares[std::size_t(j)] = legs;
+    if (const int foot = skeleton.find(body_plan.joints[std::size_t(limb.joints[2])].name); foot >= 0)
+      feet.push_back(std::size_t(foot));
+  }
+  FlatPose calm = pose;
+  for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+    const int parent = skeleton.joints[j].parent;
+    const auto carrier = std::size_t(std::max(0, parent));
+    const double own = pose.turn_rad[j] - (parent < 0 ? 0 : pose.turn_rad[carrier]);
+    calm.turn_rad[j] = (parent < 0 ? 0 : calm.turn_rad[carrier]) + shares[j] * own;
+    if (parent >= 0) calm.place[j] = calm.moved(carrier, calm.rest[j]);
+  }
+  const auto lowest = [&](const FlatPose& of) {
+    double y = 1e300;
+    for (const std::size_t foot : feet) y = std::min(y, of.place[foot].y());
+    return y;
+  };
+  if (feet.empty()) return calm;
+  const Vector2d off(0, lowest(pose) - lowest(calm));
+  for (Vector2d& place : calm.place) place += off;
+  return calm;
+}
+
 }  // namespace skel

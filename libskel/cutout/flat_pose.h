@@ -30,4 +30,9 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
 FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,
                   std::vector<Eigen::Vector2d> places);
 
+// The pose with bones turned by less, those of legs by the share `legs` and others by `rest`, 0 to 1, against
+// what they hang on. Its lowest foot stays as low as it is.
+FlatPose calmed(const FlatPose& pose, const Skeleton& skeleton, const SkeletonTemplate& body_plan,
+                double legs, double rest);
+
 }  // namespace skel

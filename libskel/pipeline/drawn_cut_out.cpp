@@ -1,5 +1,9 @@
 #include "libskel/pipeline/drawn_cut_out.h"
 
+#include <algorithm>
+#include <vector>
+
+#include "libskel/core/parallel.h"
 #include "libskel/deform/measure_figure.h"
 #include "libskel/pipeline/posed_character.h"
 #include "libskel/skeleton/hanging.h"
@@ -32,8 +36,27 @@ CutOut cutOutOf(const RiggedDrawing& drawing) {
                      drawing.body_plan, layersOfCutOut(drawing), drawing.character.mesh.model_from_image});
 }
 
-FlatPose flatPoseAt(const RiggedDrawing& drawing, const Clip& clip, double time_s) {
-  return flatPose(drawing.character.skeleton, drawing.body_plan, posedAt(drawing.character, clip, time_s));
+Calm calmFor(const RiggedDrawing& drawing, const CutOut& cut_out, const Clip& clip) {
+  constexpr int kMoments = 32;
+  constexpr Calm kSteps[] = {{1, 1}, {.6, 1}, {.3, 1}, {.1, 1}, {.1, .6}, {.1, .3}};
+  Calm calm;
+  for (const Calm& step : kSteps) {
+    std::vector<double> torn(kMoments);
+    parallelFor(torn.size(), 0, [&](std::size_t i) {
+      const double time_s = double(clip.duration_s()) * double(i) / (kMoments - 1);
+      torn[i] = tornShare(cut_out, posedSheets(cut_out, flatPoseAt(drawing, clip, time_s, step)));
+    });
+    calm = {step.legs, step.rest, *std::max_element(torn.begin(), torn.end())};
+    if (calm.torn <= kMuchTorn) break;
+  }
+  return calm;
+}
+
+FlatPose flatPoseAt(const RiggedDrawing& drawing, const Clip& clip, double time_s, const Calm& calm) {
+  const Skeleton& skeleton = drawing.character.skeleton;
+  const FlatPose pose = flatPose(skeleton, drawing.body_plan, posedAt(drawing.character, clip, time_s));
+  return calm.legs == 1 && calm.rest == 1 ? pose
+                                          : calmed(pose, skeleton, drawing.body_plan, calm.legs, calm.rest);
 }
 
 }  // namespace skel

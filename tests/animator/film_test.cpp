@@ -130,8 +130,8 @@ TEST_CASE("an arm that is one piece with the body in the model is one with it in
     const FilmOptions options = small();
     const Camera camera = flat.camera({wave}, double(options.width) / options.height);
     const CutOutPainter painter = flat.painterFor(camera, options.height);
-    const Image before = flat.paint(wave, 0, camera, painter, options),
-                after = flat.paint(wave, double(wave.duration_s()) / 2, camera, painter, options);
+    const Image before = flat.paint(wave, {}, 0, camera, painter, options),
+                after = flat.paint(wave, {}, double(wave.duration_s()) / 2, camera, painter, options);
     return (before.rgba != after.rgba).rowwise().any().count();
   };
   CHECK(moved() > 0);

@@ -148,3 +148,27 @@ TEST_CASE("a head that was turned to the side rolled to the shoulder, as its bon
   CHECK(std::abs(rollOf(Eigen::Vector3f::UnitY())) < 0.01);
   CHECK(rollOf(Eigen::Vector3f::UnitZ()) == Approx(0.47).margin(1e-3));
 }
+
+TEST_CASE("a calmed pose turns bones by the shares that are asked for, and stays on the ground") {
+  const RiggedDrawing drawing = rigged("characters/cap_boy.png", "biped");
+  const Skeleton& skeleton = drawing.character.skeleton;
+  const Clip& run = clipNamed(drawing.clips, "run");
+  const FlatPose pose = poseAt(drawing, run, run.duration_s() / 3);
+  const FlatPose same = calmed(pose, skeleton, drawing.body_plan, 1, 1);
+  for (std::size_t j = 0; j < pose.place.size(); ++j) CHECK((same.place[j] - pose.place[j]).norm() < 1e-9);
+  const FlatPose calm = calmed(pose, skeleton, drawing.body_plan, .25, .5);
+  const auto own = [&](const FlatPose& of, const char* joint) {
+    const auto j = std::size_t(skeleton.index(joint));
+    return of.turn_rad[j] - of.turn_rad[std::size_t(skeleton.joints[j].parent)];
+  };
+  REQUIRE(std::abs(own(pose, "left_hip")) > .1);
+  for (const char* joint : {"left_hip", "right_knee"})
+    CHECK(own(calm, joint) == Approx(.25 * own(pose, joint)).margin(1e-9));
+  for (const char* joint : {"left_shoulder", "right_elbow", "neck"})
+    CHECK(own(calm, joint) == Approx(.5 * own(pose, joint)).margin(1e-9));
+  const auto lowest = [&](const FlatPose& of) {
+    return std::min(of.place[std::size_t(skeleton.index("left_foot"))].y(),
+                    of.place[std::size_t(skeleton.index("right_foot"))].y());
+  };
+  CHECK(lowest(calm) == Approx(lowest(pose)));
+}

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "libskel/image/read_image.h"
+#include "libskel/pipeline/drawn_cut_out.h"
 #include "tests/support/catch.h"
 
 using namespace skel;
@@ -71,4 +72,36 @@ TEST_CASE("a barbell broke in two when one of the arms that lift it moved") {
   const RiggedDrawing mended = rig(NamedPicture{layerPicture(painted, lifter.silhouette.mask), "limbs.png"});
   CHECK_FALSE(mended.layers.hands_linked);
   CHECK(mended.layers.hidden.empty());
+}
+
+TEST_CASE("who sits with the knees drawn up was torn when the legs were swung") {
+  const auto rig = [](const char* file) {
+    RigInput input;
+    input.image = readImage(std::string(SKEL_DATASETS) + file);
+    return rigCharacter(std::move(input), {});
+  };
+  const RiggedDrawing drawing = rig("/unseen/characters/kf_wash_hug_knees.png");
+  const CutOut cut_out = cutOutOf(drawing);
+  const Eigen::Quaternionf still = Eigen::Quaternionf::Identity(),
+                           out(Eigen::AngleAxisf(1.2f, Eigen::Vector3f::UnitZ()));
+  Clip swing;
+  swing.tracks = {{"left_hip", {0, .5f, 1}, {still, out, still}},
+                  {"right_hip", {0, .5f, 1}, {still, out.inverse(), still}}};
+  const auto tornAtMost = [&](const Calm& calm) {
+    double torn = 0;
+    for (int i = 0; i < 8; ++i)
+      torn =
+          std::max(torn, tornShare(cut_out, posedSheets(cut_out, flatPoseAt(drawing, swing, i / 7., calm))));
+    return torn;
+  };
+  CHECK(tornAtMost({}) > .05);
+  const Calm calm = calmFor(drawing, cut_out, swing);
+  CHECK(calm.legs < 1);
+  CHECK(calm.torn <= kMuchTorn);
+  CHECK(tornAtMost(calm) <= kMuchTorn + .005);
+  // One who stands swings them all the way.
+  const RiggedDrawing boy = rig("/characters/cap_boy.png");
+  const Eigen::Quaternionf little(Eigen::AngleAxisf(.3f, Eigen::Vector3f::UnitZ()));
+  swing.tracks[0].rotations[1] = little, swing.tracks[1].rotations[1] = little.inverse();
+  CHECK(calmFor(boy, cutOutOf(boy), swing).legs == 1);
 }
