@@ -368,7 +368,7 @@ val flatClip(const std::string& name, double rate_hz) {
     const double duration_s = double(chosen.duration_s());
     const int frames = std::max(1, int(std::lround(duration_s * rate_hz)));
     const CutOut& cut_out = currentCutOut();
-    const Calm calm = calmFor(*current.drawing, cut_out, chosen);
+    const Calm calm = clip == clips.end() ? Calm() : calmFor(*current.drawing, cut_out, chosen);
     std::vector<float> places;
     for (int i = 0; i < frames; ++i)
       for (const Eigen::MatrixX2d& sheet :

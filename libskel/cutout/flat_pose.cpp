@@ -58,29 +58,39 @@ double bent(double angle_rad, double drawn_rad, bool is_elbow) {
   return std::copysign(held + through * (sharp - held), angle_rad);
 }
 
+// Of what it stands on.
+std::vector<std::size_t> feetOf(const Skeleton& skeleton, const SkeletonTemplate& body_plan) {
+  std::vector<std::size_t> feet;
+  for (const TemplateLimb& limb : body_plan.limbs)
+    if (const int foot = skeleton.find(body_plan.joints[std::size_t(limb.joints[2])].name);
+        foot >= 0 && isLeg(body_plan, limb))
+      feet.push_back(std::size_t(foot));
+  return feet;
+}
+
+double lowestOf(const FlatPose& pose, const std::vector<std::size_t>& joints) {
+  double lowest = 1e300;
+  for (const std::size_t joint : joints) lowest = std::min(lowest, pose.place[joint].y());
+  return lowest;
+}
+
 // How far the figure must be moved for its lowest foot to be as low as in space, and for those that are down
 // to be where they are there, in the mean.
 Vector2d offGround(const Skeleton& skeleton, const SkeletonTemplate& body_plan, const FlatPose& pose,
                    const std::vector<Eigen::Vector3f>& posed) {
   constexpr double kDown = 0.03;  // above the lowest foot, of the height of the root
   const double down = kDown * std::max(1e-6, std::abs(skeleton.joints[0].position.y()));
-  std::vector<std::size_t> feet;
-  double lowest = 1e300, lowest_flat = 1e300;
-  for (const TemplateLimb& limb : body_plan.limbs) {
-    const int foot = skeleton.find(body_plan.joints[std::size_t(limb.joints[2])].name);
-    if (foot < 0 || !isLeg(body_plan, limb)) continue;
-    feet.push_back(std::size_t(foot));
-    lowest = std::min(lowest, double(posed[feet.back()].y()));
-    lowest_flat = std::min(lowest_flat, pose.place[feet.back()].y());
-  }
+  const std::vector<std::size_t> feet = feetOf(skeleton, body_plan);
   if (feet.empty()) return Vector2d::Zero();
+  double lowest = 1e300;
+  for (const std::size_t foot : feet) lowest = std::min(lowest, double(posed[foot].y()));
   double aside = 0, weights = 0;
   for (const std::size_t foot : feet) {
     const double weight = std::exp(-(double(posed[foot].y()) - lowest) / down);
     aside += weight * (double(posed[foot].x()) - pose.place[foot].x());
     weights += weight;
   }
-  return {aside / weights, lowest - lowest_flat};
+  return {aside / weights, lowest - lowestOf(pose, feet)};
 }
 
 }  // namespace
@@ -162,14 +172,11 @@ FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan, s
 FlatPose calmed(const FlatPose& pose, const Skeleton& skeleton, const SkeletonTemplate& body_plan,
                 double legs, double rest) {
   std::vector<double> shares(skeleton.joints.size(), rest);
-  std::vector<std::size_t> feet;
   for (const TemplateLimb& limb : body_plan.limbs) {
     if (!isLeg(body_plan, limb)) continue;
     for (const int joint : limb.joints)
       if (const int j = skeleton.find(body_plan.joints[std::size_t(joint)].name); j >= 0)
         shares[std::size_t(j)] = legs;
-    if (const int foot = skeleton.find(body_plan.joints[std::size_t(limb.joints[2])].name); foot >= 0)
-      feet.push_back(std::size_t(foot));
   }
   FlatPose calm = pose;
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
@@ -179,13 +186,9 @@ FlatPose calmed(const FlatPose& pose, const Skeleton& skeleton, const SkeletonTe
     calm.turn_rad[j] = (parent < 0 ? 0 : calm.turn_rad[carrier]) + shares[j] * own;
     if (parent >= 0) calm.place[j] = calm.moved(carrier, calm.rest[j]);
   }
-  const auto lowest = [&](const FlatPose& of) {
-    double y = 1e300;
-    for (const std::size_t foot : feet) y = std::min(y, of.place[foot].y());
-    return y;
-  };
+  const std::vector<std::size_t> feet = feetOf(skeleton, body_plan);
   if (feet.empty()) return calm;
-  const Vector2d off(0, lowest(pose) - lowest(calm));
+  const Vector2d off(0, lowestOf(pose, feet) - lowestOf(calm, feet));
   for (Vector2d& place : calm.place) place += off;
   return calm;
 }
