@@ -435,7 +435,7 @@ void giveDepth(const BodyDepth& body, bool own_back, double long_px, Sheet& shee
     sheet.z.front.array() *= 1 - forward.array();
     sheet.z.back.array() *= 1 + forward.array();
   }
-  putOnShoes(sheet.planar, body.feet, {band, behind}, sheet.z, sheet.place);
+  putOnShoes(sheet.planar, body.feet, behind, sheet.outline_band, sheet.z, sheet.place);
 }
 
 // Brings each piece before those behind it.

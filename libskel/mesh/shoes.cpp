@@ -19,6 +19,7 @@ constexpr double kMostByShin = 1.2;        // of the shin's length
 constexpr double kToe = 0.7, kHeel = 0.3;  // before and behind the drawing, as shares of the length
 constexpr double kHigh = 0.5;              // half as deep as high is the least
 constexpr double kSole = 1.2;              // cells above the outline that are flattened
+constexpr double kPastLine = 1.3;          // widths of the outline, what its blurred edge does not reach
 
 // Across and down the shin, from the foot's joint.
 struct FootFrame {
@@ -30,8 +31,10 @@ struct FootFrame {
 
 }  // namespace
 
-void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, const OutlineBands& bands,
-                Heights& heights, std::vector<Vector2d>& place) {
+void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, const std::vector<double>& behind,
+                OutlineBand& band, Heights& heights, std::vector<Vector2d>& place) {
+  // Of vertices of a sole, how far below what they show the figure's edge lies.
+  std::vector<Vector2d> below(mesh.vertices.size(), Vector2d::Zero()), edge = mesh.vertices;
   for (const DepthFoot& foot : feet) {
     if (foot.foot == foot.knee) continue;
     const FootFrame frame(foot);
@@ -79,7 +82,7 @@ void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, cons
     };
     for (const auto& [v, at] : own) {
       if (v >= mesh.inner_count) continue;
-      const double line = bands.front[static_cast<std::size_t>(v)];
+      const double line = band.width_px[static_cast<std::size_t>(v)];
       const double half = width / 2 - line;
       const double across = (at.x() - middle) / std::max(half, 1.0);
       const double round = std::sqrt(std::max(0.0, 1 - across * across));
@@ -89,12 +92,20 @@ void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, cons
       // But for the sole, a drawn outline stays the flange that it is.
       const bool at_sole = drop < line + kSole * mesh.cell_px;
       if (line == 0 || at_sole) heights.front[v] = std::max(heights.front[v], round * toe * instep);
-      if (bands.back[static_cast<std::size_t>(v)] == 0 || at_sole)
+      if (behind[static_cast<std::size_t>(v)] == 0 || at_sole)
         heights.back[v] = std::max(heights.back[v], round * heel * counter);
-      if (drop > 0 && drop < kSole * mesh.cell_px && round > 0)
-        place[static_cast<std::size_t>(v)] += 0.9 * drop * frame.down;
+      if (drop <= 0 || drop >= kSole * mesh.cell_px || round == 0) continue;
+      place[static_cast<std::size_t>(v)] += 0.9 * drop * frame.down;
+      edge[static_cast<std::size_t>(v)] += drop * frame.down;
+      if (line > 0) below[static_cast<std::size_t>(v)] = kPastLine * line * frame.down;
     }
   }
+  for (const auto& [a, b, c] : mesh.triangles)
+    for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}, {b, a}, {c, b}, {a, c}})
+      if (from < mesh.inner_count && to >= mesh.inner_count && !below[std::size_t(from)].isZero())
+        below[std::size_t(to)] = below[std::size_t(from)];
+  for (std::size_t v = 0; v < below.size(); ++v)
+    if (!below[v].isZero()) band.drawn[v] = edge[v] - below[v];
 }
 
 }  // namespace skel

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libskel/mesh/body_depth.h"
+#include "libskel/mesh/outline_band.h"
 #include "libskel/mesh/planar_mesh.h"
 
 namespace skel {
@@ -14,15 +15,12 @@ struct Heights {
   Eigen::VectorXd front, back;  // neither negative
 };
 
-// Of the inner vertices, the width of the drawn outline that each side shows there, px; 0 off it.
-struct OutlineBands {
-  const std::vector<double>&front, &back;
-};
-
 // Draws out what is below each foot's ankle to a toe before and a heel behind it, over a flat sole: `place`,
-// of all vertices, image px, comes down to the sole where it lies within a cell of it. A foot that is long in
-// the drawing gets no longer. What the outline covers above the sole stays as it is.
-void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, const OutlineBands& bands,
-                Heights& heights, std::vector<Eigen::Vector2d>& place);
+// of all vertices, image px, comes down to the sole where it lies within a cell of it, and if the outline
+// lies there, the sole wears its colour alone. A foot that is long in the drawing gets no longer. What the
+// outline covers above the sole stays as it is. `behind`: the width of the outline that the back shows, of
+// the inner vertices.
+void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, const std::vector<double>& behind,
+                OutlineBand& band, Heights& heights, std::vector<Eigen::Vector2d>& place);
 
 }  // namespace skel
