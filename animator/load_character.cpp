@@ -55,6 +55,8 @@ void bindCharacterOptions(CLI::App& app, CharacterSource& source) {
       ->capture_default_str();
   app.add_flag("--upright", source.upright,
                "The figure of a drawing is not turned: try no other orientations");
+  app.add_flag("--cut-limbs", source.cut_limbs,
+               "Limbs drawn over the body are cut out: they move more, and tear what they lie on");
   addNamedNumbers(
       app, "--height", source.heights, zeroOrNumberIn(1e-3, 1e3),
       "Of a drawing's model as it is drawn, m; of several, NAME=METRES is of one alone, with commas "
@@ -93,6 +95,7 @@ DrawnCharacter rigDrawing(const CharacterSource& source, const ClipSource& clips
   options.into_picture = clips.into_picture;
   options.silhouette.alpha = source.alpha;
   options.upright = source.upright;
+  options.cut_limbs = source.cut_limbs;
   options.height_m = source.heights(stemOf(source.path));
   if (const auto facing_deg = source.facing.given(stemOf(source.path)))
     options.facing_rad = *facing_deg * std::numbers::pi / 180;

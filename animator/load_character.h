@@ -31,6 +31,7 @@ struct CharacterSource {
   std::string skeleton = {};
   std::string up = "auto";
   bool upright = false;       // the figure of a drawing is not turned: try no other orientations
+  bool cut_limbs = false;     // of a drawing, see RigOptions
   NamedNumbers heights = {};  // of drawings, m; 0: the body plan's own
   NamedNumbers facing = {.of_others = std::nan("")};  // of drawings, degrees, see RigOptions::facing_rad
   std::string results = {};  // of a drawing: a folder that skel-infer has written to; "": none
@@ -39,7 +40,7 @@ struct CharacterSource {
 };
 // FILE, and the options of the next one.
 void bindCharacterSource(CLI::App& app, CharacterSource& source);
-// --template, --alpha, --figure, --upright, --height, --skeleton, --up, --results, --force.
+// --template, --alpha, --figure, --upright, --cut-limbs, --height, --skeleton, --up, --results, --force.
 void bindCharacterOptions(CLI::App& app, CharacterSource& source);
 
 // By the ending of the source's name.

@@ -67,8 +67,10 @@ void sayWhatStays(const std::vector<std::string>& clauses, const std::string& pa
 }
 
 // Of those clips that come from the library, not from the character's file (`filed`) or one of their own.
+// `may_cut`: arms stay that --cut-limbs has move.
 void noteWhatStays(const RenderCommandOptions& options, const RiggedCharacter& character,
-                   const std::string& path, const std::vector<Clip>& clips, const std::vector<Clip>& filed) {
+                   const std::string& path, const std::vector<Clip>& clips, const std::vector<Clip>& filed,
+                   bool may_cut) {
   const auto isNamed = [&](const std::string& name) {
     return std::find(options.clips.begin(), options.clips.end(), name) != options.clips.end();
   };
@@ -77,7 +79,9 @@ void noteWhatStays(const RenderCommandOptions& options, const RiggedCharacter& c
     return !hasClip(clips, clip.name) || hasClip(filed, clip.name) ||
            !(isNamed(clip.name) || isNamed(std::string(kAllClips)));
   });
-  sayWhatStays(whatStays(of_library, character), path);
+  std::vector<std::string> clauses = whatStays(of_library, character);
+  if (may_cut && !clauses.empty()) clauses.back() += " (--cut-limbs has it move, and may tear)";
+  sayWhatStays(clauses, path);
 }
 
 struct AskedClips {
@@ -223,7 +227,8 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path, bool among
         std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(*turn).c_str());
         unseen = true;
       }
-  noteWhatStays(options, file.character, path, clips, drawn ? std::vector<Clip>{} : file.clips);
+  noteWhatStays(options, file.character, path, clips, drawn ? std::vector<Clip>{} : file.clips,
+                drawn && !drawn->drawing.layers.at_rest.empty());
   const bool rigged = drawn.has_value(), unsure = unseen || (rigged && !drawn->warnings.empty());
   std::optional<RiggedDrawing> shown;
   if (flat) shown = std::move(drawn->drawing);

@@ -137,6 +137,8 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
       "--layers", options.layers,
       "Limbs drawn over the body: auto (each a body of its own), off (all one skin), or a layer map\n"
       "(written by --formats layers) to go on from");
+  app.add_flag("--cut-limbs", options.cut_limbs,
+               "Limbs drawn over the body are cut out: they move more, and tear what they lie on");
   addNamedNumbers(
       app, "--height", options.heights, zeroOrNumberIn(1e-3, 1e3),
       "Of the model as it is drawn, raised arms and hat included, m; of several drawings NAME=METRES "

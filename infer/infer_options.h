@@ -28,6 +28,7 @@ struct InferOptions {
   std::string body_plan = "auto";
   std::string recognizer = "tree";
   bool upright = false;
+  bool cut_limbs = false;
   std::optional<double> alpha;  // see SilhouetteOptions
   std::string candidates = "maxima";
   std::string skin = "geodesic";

@@ -40,7 +40,9 @@ Verdict verdictOf(LastStage last, const RiggedDrawing& drawing, const SkeletonFi
 }
 
 // Of nets and clips that were asked for, and of limbs.
-std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, const RiggedDrawing& drawing) {
+// `alone`: no other drawing was asked for.
+std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, const RiggedDrawing& drawing,
+                          bool alone) {
   std::vector<Note> notes;
   if (rig.joint_net && rig.recognizer == Recognizer::kTree && looksForJoints(rig.last) &&
       drawing.body_plan.name != rig.body_plan.name)
@@ -64,6 +66,9 @@ std::vector<Note> notesOf(const InferOptions& options, const RigOptions& rig, co
   }
   if (options.model_file.empty() && rig.layers)
     for (Note& note : limbNotes(drawing, drawing.clips)) notes.push_back(std::move(note));
+  // Of two in three drawings, so not where many are spoken of.
+  if (alone && rig.last == LastStage::kClips)
+    if (std::optional<Note> note = restNote(drawing)) notes.push_back(std::move(*note));
   return notes;
 }
 
@@ -165,7 +170,8 @@ int rigFigure(const InferOptions& options, const RigOptions& rig, const RigJob& 
   result.all_placed = allPlaced(file.skeleton);
   result.verdict = verdictOf(mended.last, drawing, file);
   result.reasons = file.warnings;
-  result.notes = notesOf(options, rig, drawing);
+  const bool alone = options.images == std::vector{job.source} && options.list_file.empty();
+  result.notes = notesOf(options, rig, drawing, alone);
   if (const auto note = mendedNote(mended.files, request, mended.placed)) result.notes.push_back(*note);
   if (const auto note = contradictionNote(mended.files, mended.placed, contradicted))
     result.notes.push_back(*note);

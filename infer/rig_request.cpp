@@ -128,6 +128,7 @@ RigOptions rigOptions(const InferOptions& options) {
   if (options.back == "plain") rig.back = Back::kPlain;
   rig.height_m = options.heights.of_others;
   rig.layers = options.layers != "off";
+  rig.cut_limbs = options.cut_limbs;
   rig.into_picture = options.into_picture;
   rig.rest_pose = kRestPoseNames.at(options.rest_pose);
   if (!options.joint_net_file.empty()) rig.joint_net = jointNetFor(options.joint_net_file, rig.body_plan);

@@ -696,6 +696,25 @@ void Document::paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d&
                              : brushName(brush, bodyPlan()) + ": before the body";
 }
 
+void Document::cutLimb(int limb) {
+  if (limb < 1 || limb > 4 || motion_ || image_.empty() || !figure_->silhouette.found() || !mayHaveShape())
+    return;
+  const StepScope scope(*this);
+  findLimbs();
+  if (!layers() || layers()->part.size() == 0) return;
+  auto map = std::make_shared<LayerMap>(*layers());
+  const bool apart = !isCutOut(*map, limb);
+  cutOut(*map, limb, apart);
+  const std::string name = brushName(limbBrush(limb), bodyPlan());
+  if (apart && !isCutOut(*map, limb)) {
+    message_ = "nothing is known of the " + name + ": paint it";
+    return;
+  }
+  state_.layers = std::move(map);
+  rigged_.reset();
+  message_ = name + (apart ? ": before the body, cut out" : ": one piece with the body");
+}
+
 void Document::forgetLayers() {
   if (!state_.layers) return;
   const StepScope scope(*this);

@@ -134,6 +134,8 @@ class Document {
   // what is found in the picture.
   void paintLayer(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double radius_px,
                   const LayerBrush& brush);
+  // A limb that is one piece with the body becomes a body of its own, as far as it is known, or goes back.
+  void cutLimb(int limb);
   // Limbs before the body are found in the picture again.
   void forgetLayers();
   // Those painted, else those found by rig() or findLimbs(); null: not looked for since mask or joints have

@@ -46,7 +46,8 @@ constexpr KeyHelp kHelp[] = {
     {"C", "of a motion: joints as in the frame before"},
     {"M  X",
      "mend the mask: left button adds, right button erases; X swaps them; with Shift an area of one colour"},
-    {"G", "paint limbs before the body (1 to 4), hair, skirt, cape, thing (5 to 8); 0 is the body"},
+    {"G  X",
+     "paint limbs before the body (1 to 4), hair, skirt, cape, thing (5 to 8), body (0); X cuts a limb out"},
     {"V  B  L", "classes of the candidates: touch, brush, lasso"},
     {"1  2  3  4", "head, body, hand, leg: what the mouse touches, N has chosen, brush or lasso take"},
     {"0  Delete  Backspace", "take the label away; brush and lasso do so from then on"},
@@ -206,7 +207,12 @@ class LabelingWindow {
     if (pressed(key::kR)) rig(io.KeyShift);
     if (pressed(key::kP)) takeOtherPlan();
     if (pressed(key::kC)) takeJointsOfFrameBefore();
-    if (pressed(key::kX)) canvas_.mask_adds = !canvas_.mask_adds;
+    if (pressed(key::kX)) {
+      if (canvas_.tool == Tool::kLimbs)
+        cutLimb();
+      else
+        canvas_.mask_adds = !canvas_.mask_adds;
+    }
     if (pressed(key::kLeftBracket, true)) canvas_.growBrush(1 / 1.2);
     if (pressed(key::kRightBracket, true)) canvas_.growBrush(1.2);
     if (pressed(key::kPlus, true)) canvas_.zoom(1.25);
@@ -571,6 +577,11 @@ class LabelingWindow {
         "Find the figure in the picture again");
   }
 
+  void cutLimb() {
+    canvas_.cancel();
+    document_.cutLimb(canvas_.layer_brush.limb);
+  }
+
   void drawLimbs(float width) {
     const std::vector<LayerBrush> brushes = layerBrushes(document_.bodyPlan());
     for (std::size_t b = 0; b < brushes.size(); ++b) {
@@ -584,6 +595,11 @@ class LabelingWindow {
       if (name.find(',') != std::string::npos) tip(name.c_str());
     }
     drawBrushSize(width);
+    const int limb = canvas_.layer_brush.limb;
+    const bool apart = document_.layers() && isCutOut(*document_.layers(), limb);
+    enabledButton(
+        apart ? "Leave it on the body" : "Cut it out", {width, kButtonHeight}, limb != 0, [&] { cutLimb(); },
+        "The limb moves as a piece of its own, or with the body  (key X)");
     enabledButton(
         "Limbs from the picture", {width, kButtonHeight}, document_.state().layers != nullptr,
         [&] {

@@ -34,6 +34,21 @@ std::array<std::uint8_t, 3> brushColor(const LayerBrush& brush) {
   return brush.limb != 0 ? layerColor(brush.limb) : partColor(brush.part);
 }
 
+bool isCutOut(const LayerMap& map, int limb) {
+  return map.any() && (map.limb == static_cast<std::uint8_t>(limb)).any();
+}
+
+void cutOut(LayerMap& map, int limb, bool apart) {
+  if (map.part.size() == 0) return;
+  const auto own = static_cast<std::uint8_t>(limb);
+  if (!map.any()) map.limb = Plane8::Zero(map.part.rows(), map.part.cols());
+  if (apart)
+    map.limb = (map.part == static_cast<std::uint8_t>(limbPart(limb - 1))).select(own, map.limb);
+  else
+    map.limb = (map.limb == own).select(std::uint8_t(0), map.limb);
+  if (!map.limb.any()) map.limb.resize(0, 0);
+}
+
 bool paintPart(LayerMap& map, const Plane8& stroke, const Plane8& mask, const LayerBrush& brush) {
   for (Plane8* plane : {&map.limb, &map.part}) {
     if (plane->size() == 0) *plane = Plane8::Zero(mask.rows(), mask.cols());

@@ -95,10 +95,6 @@ Vector2d offGround(const Skeleton& skeleton, const SkeletonTemplate& body_plan, 
 
 }  // namespace
 
-bool isLeg(const SkeletonTemplate& body_plan, const TemplateLimb& limb) {
-  return body_plan.joints[std::size_t(limb.joints[2])].name.ends_with("foot");
-}
-
 Vector2d FlatPose::moved(std::size_t joint, const Vector2d& p) const {
   return place[joint] + Eigen::Rotation2Dd(turn_rad[joint]) * (p - rest[joint]);
 }

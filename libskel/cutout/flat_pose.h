@@ -19,9 +19,6 @@ struct FlatPose {
   Eigen::Vector2d moved(std::size_t joint, const Eigen::Vector2d& p) const;
 };
 
-// Whether the limb stands on the ground: an animal's front leg is one, too.
-bool isLeg(const SkeletonTemplate& body_plan, const TemplateLimb& limb);
-
 // Each bone points where the posed one does as seen by the viewer, turned with its parent where it rather
 // points at him. The feet that are down stand where they do in space: the whole figure is moved so.
 FlatPose flatPose(const Skeleton& skeleton, const SkeletonTemplate& body_plan,

@@ -25,6 +25,8 @@ struct LayerMap {
   // it is a guess where they end. They would only tear the body; its pixels stay with it, and these limbs
   // move nothing.
   std::vector<int> hidden = {};
+  // Those of the hidden ones that could be told from the body: inOnePiece().
+  std::vector<int> at_rest = {};
   // The hands hold one thing, or each other, which either arm by itself would break: both are among the
   // hidden ones.
   bool hands_linked = false;
@@ -45,6 +47,11 @@ struct LayerMap {
 // the net does not know (knowsParts()).
 LayerMap findLayers(const Image& image, const Silhouette& silhouette, const Skeleton& skeleton,
                     const SkeletonTemplate& body_plan, const PartNet& net);
+
+// The map without layers, the figure in one piece. Arms that were layers are hidden: what is drawn where an
+// arm lies against the body fits as it is drawn alone, and people would rather see it stay than see it come
+// off (docs/looks.md). Legs that were move, as those do that nothing tells from the body.
+LayerMap inOnePiece(LayerMap layers, const SkeletonTemplate& body_plan);
 
 // The bodies that the figure is made of, the trunk, then the limbs, the farthest first: what each shows and
 // what others hide of it, and where it hangs on the trunk, which there has the same pixels or, of far limbs,

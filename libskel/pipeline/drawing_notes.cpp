@@ -112,8 +112,10 @@ std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip
     notes.push_back(
         {std::string("the hands hold one thing, or each other, so the arms stay as they are drawn") +
          kPaintTheArms});
+  const std::vector<int>& at_rest = drawing.layers.at_rest;
   for (const int limb : drawing.layers.hidden) {
     if (drawing.layers.hands_linked) break;  // the arms alone can be hidden
+    if (std::count(at_rest.begin(), at_rest.end(), limb) != 0) continue;
     const std::string name = limbName(body_plan, limb);
     notes.push_back({"the " + name + " cannot be told from the body and stays with it" + kPaintTheLimb,
                      "a limb that cannot be told from the body stays with it" + std::string(kPaintTheLimb),
@@ -149,6 +151,15 @@ std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip
                      name + " by " + joined(names)});
   }
   return notes;
+}
+
+std::optional<Note> restNote(const RiggedDrawing& drawing) {
+  const std::vector<int>& arms = drawing.layers.at_rest;
+  if (arms.empty()) return std::nullopt;
+  const std::string stays =
+      " against the body and stays as it is drawn; --cut-limbs has it move, and may tear what it lies on";
+  const std::string name = arms.size() > 1 ? "each arm" : "the " + limbName(drawing.body_plan, arms.front());
+  return Note{name + " lies" + stays};
 }
 
 std::vector<Note> armNotes(const RiggedCharacter& character, const std::vector<Clip>& clips) {

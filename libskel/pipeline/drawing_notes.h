@@ -38,6 +38,9 @@ std::optional<std::string> facingNote(const RiggedCharacter& character);
 // the joints are a guess.
 std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip>& clips);
 
+// Of arms that lie against the body and stay as they are drawn (LayerMap::at_rest).
+std::optional<Note> restNote(const RiggedDrawing& drawing);
+
 // Of arms that do not follow these clips, which are for the canonical pose.
 std::vector<Note> armNotes(const RiggedCharacter& character, const std::vector<Clip>& clips);
 

@@ -366,14 +366,18 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
                                   options.part_net ? *options.part_net : builtInPartNet());
       // Only the net's confidence tells a guess.
       if (options.recognizer == Recognizer::kPaper && !found.hands_linked) found.hidden.clear();
-      return found;
+      return options.cut_limbs ? found : inOnePiece(std::move(found), body_plan);
     };
     drawing.layers = draft ? memory->layers.value
                            : stage("layers", &M::layers, jointsAnd({stage.of(RigPart::kLayerOptions)}), find);
     if (input.layers) {
       LayerMap given = layersOfPicture(input.layers->image, silhouette, body_plan, input.layers->file);
-      for (const int limb : drawing.layers.hidden)
-        if (!(given.limb == limb).any()) given.hidden.push_back(limb);
+      const auto keep = [&](const std::vector<int>& limbs, std::vector<int>& kept) {
+        for (const int limb : limbs)
+          if (!(given.limb == limb).any()) kept.push_back(limb);
+      };
+      keep(drawing.layers.hidden, given.hidden);
+      keep(drawing.layers.at_rest, given.at_rest);
       given.hands_linked = drawing.layers.hands_linked && given.hidden.size() == drawing.layers.hidden.size();
       given.far = std::move(drawing.layers.far);
       drawing.found_limbs = std::move(drawing.layers.limb);

@@ -83,7 +83,9 @@ struct RigOptions {
   bool upright = false;                              // the figure is not turned: try no other orientations
   std::shared_ptr<const JointNets> joint_nets = {};  // of body plans; null: the built-in ones
   std::shared_ptr<const JointNet> joint_net = {};    // null: of `joint_nets` the one that knows the body plan
-  bool layers = true;  // limbs that are drawn over the body are bodies of their own; false: one skin
+  bool layers = true;  // the figure's parts are told apart; false: one skin that knows of none
+  // Limbs that are drawn over the body are bodies of their own; false: those of a mended layer map alone.
+  bool cut_limbs = false;
   std::shared_ptr<const PartNet> part_net = {};  // tells them; null: the built-in one (part_net.h)
   InflateOptions inflate{.thin_outline = true};
   std::optional<Back> back = {};  // nothing: kPlain, or kSame for who is drawn from the side

@@ -92,8 +92,8 @@ bool same(const Skeleton& a, const Skeleton& b) {
 
 std::vector<RigPart> changes(const RigOptions& from, const RigOptions& to) {
   const auto& [last, silhouette, candidates, mlp, body_plan, otherwise, recognizer, upright, joint_nets,
-               joint_net, layers, part_net, inflate, back, height_m, facing_rad, skin_method, skin, rest_pose,
-               clips, into_picture] = from;
+               joint_net, layers, cut_limbs, part_net, inflate, back, height_m, facing_rad, skin_method, skin,
+               rest_pose, clips, into_picture] = from;
   const bool other_plan = otherwise.has_value() != to.otherwise.has_value() ||
                           (otherwise && !samePlan(otherwise->body_plan, to.otherwise->body_plan));
   const bool other_clips =
@@ -108,7 +108,8 @@ std::vector<RigPart> changes(const RigOptions& from, const RigOptions& to) {
        other_plan || !samePlan(body_plan, to.body_plan) || !sameList(mlp.layers, to.mlp.layers, sameLayer) ||
            std::tie(recognizer, upright, joint_nets, joint_net) !=
                std::tie(to.recognizer, to.upright, to.joint_nets, to.joint_net));
-  note(RigPart::kLayerOptions, std::tie(layers, part_net) != std::tie(to.layers, to.part_net));
+  note(RigPart::kLayerOptions,
+       std::tie(layers, cut_limbs, part_net) != std::tie(to.layers, to.cut_limbs, to.part_net));
   note(RigPart::kMeshOptions,
        !sameBody(inflate, to.inflate) ||
            std::tie(back, height_m, facing_rad) != std::tie(to.back, to.height_m, to.facing_rad));

@@ -98,6 +98,10 @@ int SkeletonTemplate::find(std::string_view joint) const {
   return -1;
 }
 
+bool isLeg(const SkeletonTemplate& body_plan, const TemplateLimb& limb) {
+  return body_plan.joints[static_cast<std::size_t>(limb.joints[2])].name.ends_with("foot");
+}
+
 std::vector<std::array<int, 2>> SkeletonTemplate::limbPairs() const {
   std::vector<std::array<int, 2>> pairs;
   for (size_t a = 0; a < limbs.size(); ++a)

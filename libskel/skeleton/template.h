@@ -66,6 +66,9 @@ struct SkeletonTemplate {
   std::vector<std::array<int, 2>> limbPairs() const;
 };
 
+// Whether the limb stands on the ground: an animal's front leg is one, too.
+bool isLeg(const SkeletonTemplate& body_plan, const TemplateLimb& limb);
+
 // A template of this name that skel brings along, or the file of this path. Throws InputError.
 SkeletonTemplate loadTemplate(const std::string& name_or_path);
 SkeletonTemplate parseTemplate(std::string_view text, const std::string& file);

@@ -304,7 +304,7 @@ TEST_CASE("a biped's clip was refused for an animal by a joint that this has") {
            "file is named (--clip FILE)\n");
   }
   // Of several drawings it is as with a name.
-  const std::string boy = SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png";
+  const std::string boy = SKEL_SOURCE_DIR "/datasets/characters/dancer.png";
   const std::string both = "render '" + boy + "' '" + bull + "' --fps 2 --size 32 --clips ";
   const std::string why = bull + ": note: clips/stand.clip.json: is for a biped, this is a quadruped: ";
   const ToolRun sheet = animate(dir, both + "walk,clips/stand.clip.json --sheet sheet/");

@@ -25,7 +25,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-const std::string kDrawing = std::string(SKEL_SOURCE_DIR) + "/datasets/characters/cap_boy.png";
+const std::string kDrawing = std::string(SKEL_SOURCE_DIR) + "/datasets/characters/dancer.png";
 const std::string kDog = std::string(SKEL_SOURCE_DIR) + "/datasets/animals/walking_dog.png";
 
 ToolRun render(const std::string& arguments, const std::string& before = "") {
@@ -222,14 +222,14 @@ TEST_CASE("sheets of one run have one scale and one pivot where that is asked fo
                                dir.file("sheets/") + options);
     CHECK(run.err == "");
     REQUIRE(run.exit_code == 0);
-    for (const char* name : {"cap_boy", "walking_dog"}) {
+    for (const char* name : {"dancer", "walking_dog"}) {
       std::ifstream atlas(dir.file("sheets/") + name + ".json");
       all.insert(int(Json::parse(atlas)["meta"]["slices"][0]["keys"][0]["pivot"]["y"]));
     }
     return all;
   };
   const auto height = [&] {
-    const Image boy = readImage(dir.file("sheets/cap_boy.png")),
+    const Image boy = readImage(dir.file("sheets/dancer.png")),
                 dog = readImage(dir.file("sheets/walking_dog.png"));
     const auto rows = [](const Image& image) {
       int count = 0;
@@ -258,7 +258,7 @@ TEST_CASE(
   REQUIRE(render(kDrawing + " " + kDog +
                  " --clips idle --frames 2 --pitch 20 --size 48x40 --same-scale --sheet " + sheets)
               .exit_code == 0);
-  const std::string picture = readFile(sheets + "cap_boy.png"), atlas = readFile(sheets + "cap_boy.json");
+  const std::string picture = readFile(sheets + "dancer.png"), atlas = readFile(sheets + "dancer.json");
   const std::string of_idle = kDrawing + " --clips idle --frames 2 --pitch 20";
   const auto isAsBefore = [&](const std::string& arguments, const std::string& sheet) {
     const ToolRun run = render(of_idle + arguments);
@@ -266,11 +266,11 @@ TEST_CASE(
     CHECK(run.exit_code == 0);
     CHECK(readFile(sheet) == picture);
   };
-  isAsBefore(" --like " + sheets + "walking_dog.json --sheet " + dir.file("cap_boy.png"),
-             dir.file("cap_boy.png"));
-  CHECK(readFile(dir.file("cap_boy.json")) == atlas);
-  isAsBefore(" --size 48x40 --like " + sheets + "cap_boy.json --sheet " + sheets, sheets + "cap_boy.png");
-  CHECK(readFile(sheets + "cap_boy.json") == atlas);
+  isAsBefore(" --like " + sheets + "walking_dog.json --sheet " + dir.file("dancer.png"),
+             dir.file("dancer.png"));
+  CHECK(readFile(dir.file("dancer.json")) == atlas);
+  isAsBefore(" --size 48x40 --like " + sheets + "dancer.json --sheet " + sheets, sheets + "dancer.png");
+  CHECK(readFile(sheets + "dancer.json") == atlas);
 
   const ToolRun alone = render(of_idle + " --same-scale --sheet " + dir.file("alone.png"));
   CHECK(alone.exit_code == 0);
@@ -285,7 +285,7 @@ TEST_CASE(
   const ToolRun cut =
       render(of_idle + " --like " + dir.file("narrow.json") + " --sheet " + dir.file("cut.png"));
   CHECK(cut.exit_code == 0);
-  CHECK_THAT(cut.err, Contains("cap_boy: note: reaches ") && Contains(" px beyond the cell of ") &&
+  CHECK_THAT(cut.err, Contains("dancer: note: reaches ") && Contains(" px beyond the cell of ") &&
                           Contains("narrow.json (above, in \"idle\"), and is cut off there\n"));
 
   narrow["meta"].erase("skel");
@@ -300,10 +300,10 @@ TEST_CASE(
   const ToolRun bare = render(of_idle + to + dir.file("bare.json"));
   CHECK(bare.exit_code == 2);
   CHECK_THAT(bare.err, Contains("meta.slices[0].keys") && Contains("must be one, as skel writes it"));
-  const ToolRun larger = render(of_idle + " --size 64" + to + sheets + "cap_boy.json");
+  const ToolRun larger = render(of_idle + " --size 64" + to + sheets + "dancer.json");
   CHECK(larger.exit_code == 1);
   CHECK_THAT(larger.err, Contains("--size is 64, in ") && Contains(" it is 48x40"));
-  const ToolRun level = render(kDrawing + " --clips idle" + to + sheets + "cap_boy.json");
+  const ToolRun level = render(kDrawing + " --clips idle" + to + sheets + "dancer.json");
   CHECK(level.exit_code == 1);
   CHECK_THAT(level.err, Contains("--pitch is 5, in ") && Contains("or ask for --pitch 20"));
   CHECK_FALSE(std::filesystem::exists(dir.file("none.png")));
@@ -349,7 +349,7 @@ TEST_CASE("a sheet that was turned by --angle was turned back by the next run wi
   CHECK(render(made + " --angle 270").err == "");
   CHECK(Json::parse(readFile(dir.file("a.json")))["meta"]["skel"]["angleDeg"] == 270);
   CHECK(render(made).err ==
-        "cap_boy: note: the sheet before was turned by --angle 270, this one by 0; --angle cap_boy=270 "
+        "dancer: note: the sheet before was turned by --angle 270, this one by 0; --angle dancer=270 "
         "turns it as before\n");
   CHECK_FALSE(Json::parse(readFile(dir.file("a.json")))["meta"]["skel"].contains("angleDeg"));
   CHECK(render(made).err == "");
@@ -605,7 +605,7 @@ TEST_CASE("a sheet takes the colours of a picture, such as a sheet of the day be
   // It may be the very sheet that is made anew.
   CHECK(render(dir.file("sheet.png"), "sheet.png").exit_code == 0);
   CHECK((readImage(dir.file("sheet.png")).rgba == sheet.image.rgba).all());
-  const ToolRun photo = render(kDrawing, "other.png");
+  const ToolRun photo = render(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png", "other.png");
   CHECK(photo.exit_code == 2);
   CHECK_THAT(photo.err, Contains(" colours, a palette at most 256"));
   CHECK_THAT(render("300", "other.png").err, Contains("--palette"));

@@ -10,6 +10,7 @@
 #include "libskel/cutout/paint_cut_out.h"
 #include "libskel/cutout/paper_rim.h"
 #include "libskel/draw/canvas.h"
+#include "libskel/pipeline/rig_drawing.h"
 #include "libskel/skeleton/frontal.h"
 #include "tests/support/catch.h"
 #include "tests/support/clips_on_drawings.h"
@@ -145,7 +146,7 @@ TEST_CASE("paper bends at joints and keeps its size everywhere else") {
 }
 
 TEST_CASE("arms of who is drawn from the front pass before the trunk, however little they lie behind it") {
-  RiggedDrawing drawing = drawn("characters/cap_boy.png", "biped");
+  RiggedDrawing drawing = drawn("characters/alien.png", "biped");
   REQUIRE(frontal(drawing.character.skeleton, drawing.body_plan) == 1);
   for (Joint& joint : drawing.character.skeleton.joints)
     if (joint.name.ends_with("_shoulder") || joint.name.ends_with("_elbow") || joint.name.ends_with("_hand"))
@@ -166,7 +167,9 @@ TEST_CASE("arms of who is drawn from the front pass before the trunk, however li
 }
 
 TEST_CASE("every patch is painted once, far limbs before the trunk") {
-  const RiggedDrawing drawing = drawn("animals/cloud_sheep.png", "quadruped");
+  RigOptions options = rigOptions("quadruped");
+  options.cut_limbs = true;
+  const RiggedDrawing drawing = rigDrawing(SKEL_SOURCE_DIR "/datasets/animals/cloud_sheep.png", options);
   const CutOut cut_out = cutOutOf(drawing);
   std::size_t squares = 0;
   for (const CutOutSheet& sheet : cut_out.sheets) squares += sheet.lattice.squares.size();

@@ -654,7 +654,8 @@ TEST_CASE("limbs that are found stay where painting begins anew, and looking for
   const DrawingState before = document.state();
   document.findLimbs();
   REQUIRE(document.layers());
-  const Plane8 found = document.layers()->limb;
+  CHECK_FALSE(document.layers()->any());  // in one piece, until somebody cuts it
+  const Plane8 found = document.layers()->part;
   REQUIRE(found.size() > 0);
   CHECK(document.state() == before);
   CHECK_FALSE(document.canUndo());
@@ -662,9 +663,37 @@ TEST_CASE("limbs that are found stay where painting begins anew, and looking for
   document.paintLayer({300, 300}, {310, 300}, 5, limbBrush(2));
   document.undo();
   document.paintLayer({300, 320}, {310, 320}, 5, limbBrush(2));
-  const Plane8& painted = document.state().layers->limb;
+  const Plane8& painted = document.state().layers->part;
   CHECK((painted != found).count() < 300);
-  CHECK((painted == 1).count() == (found == 1).count());
+  const std::uint8_t right_arm = std::uint8_t(limbPart(0));
+  CHECK((painted == right_arm).count() == (found == right_arm).count());
+}
+
+TEST_CASE("an arm that lies on the body is cut out in one step, and laid back in another") {
+  const TempDir dir;
+  copyCharacter("cap_boy", dir.path());
+  Document document(dir.path(), documentOptions());
+  document.findLimbs();
+  REQUIRE(document.layers());
+  CHECK(document.layers()->at_rest == std::vector<int>{1});
+  const auto arm = (document.layers()->part == std::uint8_t(limbPart(0))).count();
+  REQUIRE(arm > 500);
+  document.cutLimb(1);
+  REQUIRE(document.state().layers);
+  CHECK((document.layers()->limb == std::uint8_t(1)).count() == arm);
+  CHECK(contains(document.message(), "right arm: before the body, cut out"));
+  document.rig();
+  REQUIRE(document.rigged());
+  CHECK(document.rigged()->layers.at_rest.empty());
+  CHECK(document.rigged()->layers.hidden.empty());
+  document.cutLimb(1);
+  CHECK_FALSE(document.layers()->any());
+  CHECK((document.layers()->part == std::uint8_t(limbPart(0))).count() == arm);
+  document.rig();
+  REQUIRE(document.rigged());
+  CHECK(document.rigged()->layers.at_rest == std::vector<int>{1});
+  document.undo();
+  CHECK((document.layers()->limb == std::uint8_t(1)).count() == arm);
 }
 
 namespace {

@@ -193,6 +193,33 @@ TEST_CASE("a body plan with other limbs than two arms and two legs is one skin")
   CHECK(layers.hidden.empty());
 }
 
+TEST_CASE("in one piece an arm that was a layer is at rest, and moves nothing of the body it lies on") {
+  const Drawing drawing;
+  const LayerMap cut = drawing.layers(), whole = inOnePiece(cut, drawing.body_plan);
+  REQUIRE(cut.any());
+  CHECK_FALSE(whole.any());
+  CHECK(whole.at_rest == std::vector<int>{1});
+  CHECK(whole.hidden == std::vector<int>{1});
+  CHECK((whole.part == cut.part).all());
+  CHECK(figurePieces(whole, drawing.silhouette, drawing.skeleton, drawing.body_plan).empty());
+  const TriangleMesh mesh = inflate(drawing.image, drawing.silhouette);
+  const std::vector<int> joint_layers = jointLayers(drawing.skeleton, drawing.body_plan, mesh, whole);
+  CHECK(joint_layers[std::size_t(drawing.skeleton.index("right_hand"))] == -1);
+  CHECK(joint_layers[std::size_t(drawing.skeleton.index("left_hand"))] == 0);
+  const Drawing free(false, CapsuleFigure{.size = 400});
+  CHECK(inOnePiece(free.layers(), free.body_plan).at_rest.empty());
+}
+
+TEST_CASE("legs that were layers move with the body's skin in one piece") {
+  const Animal sheep("cloud_sheep");
+  REQUIRE(sheep.layers.any());
+  const LayerMap whole = inOnePiece(sheep.layers, sheep.body_plan);
+  CHECK_FALSE(whole.any());
+  CHECK(whole.at_rest.empty());
+  CHECK(whole.hidden.empty());
+  CHECK(whole.far == sheep.layers.far);
+}
+
 TEST_CASE("free limbs, and those that nothing tells from the body, are no layers") {
   CHECK_FALSE(Drawing(false, CapsuleFigure{.size = 400}).layers().any());
   CHECK_FALSE(Drawing(false).layers().any());

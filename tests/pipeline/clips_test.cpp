@@ -163,7 +163,7 @@ TEST_CASE("nothing is mirrored, and a figure in side view walks within the pictu
   CHECK(side.x() > 3 * side.z());
 
   // The right hand waves at the left of the picture, the left arm dances first at its right.
-  const RiggedDrawing boy = rigged(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png", "biped");
+  const RiggedDrawing boy = rigged(SKEL_SOURCE_DIR "/datasets/characters/dancer.png", "biped");
   const Skeleton& skeleton = boy.character.skeleton;
   const std::vector<Vector3f> waving = places(skeleton, clipNamed(boy.clips, "wave"), 1.2f);
   CHECK(waving[skeleton.index("right_hand")].x() < waving[skeleton.index("neck")].x());
