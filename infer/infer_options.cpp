@@ -135,8 +135,8 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
       ->always_capture_default(false);
   app.add_option(
       "--layers", options.layers,
-      "Limbs drawn over the body: auto (each a body of its own), off (all one skin), or a layer map\n"
-      "(written by --formats layers) to go on from");
+      "The figure's parts: auto (found), off (one skin that knows of none), or a layer map (written by\n"
+      "--formats layers, mended), whose limbs are bodies of their own");
   app.add_flag("--cut-limbs", options.cut_limbs,
                "Limbs drawn over the body are cut out: they move more, and tear what they lie on");
   addNamedNumbers(
@@ -186,6 +186,8 @@ void checkUsage(const InferOptions& options) {
   single(options.skeleton_file, "--skeleton");
   single(options.model_file, "--model");
   if (isBackPicture(options.back)) single(options.back, "--back FILE");
+  if (options.cut_limbs && options.layers != "auto")
+    throw UsageError("--cut-limbs cuts out what is found, --layers " + options.layers + " finds nothing");
   if (isLayerMap(options.layers)) {
     single(options.layers, "--layers FILE");
     if (options.images.empty()) throw UsageError("--layers FILE needs the image that it belongs to");

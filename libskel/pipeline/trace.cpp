@@ -240,7 +240,7 @@ void writeTrace(const RiggedDrawing& drawing, const SilhouetteSteps& steps, cons
   Image skeleton = onPaper(drawing.image, std::max(drawing.image.width, drawing.image.height));
   drawSkeleton(skeleton, drawing.recognition.skeleton);
   write("5-skeleton.png", fitted(skeleton, kPictureSize, kPictureSize));
-  if (drawing.layers.any())
+  if (drawing.layers.part.size() != 0)
     write("6-layers.png", onPaper(layerPicture(drawing.layers, drawing.silhouette.mask)));
   write("6-mesh.png", views(drawing.character.mesh));
   write("7-depth.png", views(depthPainted(drawing.character)));
