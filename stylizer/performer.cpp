@@ -52,8 +52,9 @@ Performer seenFromTheFront(const std::string& path) {
     joint.tail.reset();
     joint.position.head<2>() = performer.model_from_image(*at);
   }
-  performer.layers = findLayers(performer.image, performer.silhouette, performer.skeleton,
-                                performer.body_plan, builtInPartNet());
+  performer.layers = inOnePiece(findLayers(performer.image, performer.silhouette, performer.skeleton,
+                                           performer.body_plan, builtInPartNet()),
+                                performer.body_plan);
   return performer;
 }
 
