@@ -20,6 +20,7 @@
 #include "libskel/core/text.h"
 #include "libskel/core/tool_command.h"
 #include "libskel/deform/measure_figure.h"
+#include "libskel/pipeline/facing.h"
 #include "libskel/skeleton/hanging.h"
 #include "libskel/skeleton/joint_lookup.h"
 
@@ -232,6 +233,30 @@ RetargetedMotion loadBvhFor(const std::string& path, const RiggedCharacter& char
 
 namespace {
 
+// What a clip that somebody has made on a figure seen from the front, in the picture's directions, does to
+// one that looks aside: a bow goes to the viewer. Nothing where it fits.
+std::optional<std::string> aslantNote(const Clip& clip, const RiggedCharacter& character) {
+  constexpr double kAside_rad = 0.5, kBend_rad = 0.2;
+  const double yaw_rad = facing(character);
+  if (clip.frame != ClipFrame::kPicture || isRelativeTo(clip, character.skeleton) ||
+      std::abs(yaw_rad) < kAside_rad)
+    return std::nullopt;
+  double forward = 0, aside = 0;
+  for (const JointTrack& track : clip.tracks) {
+    if (track.joint != "body" && track.joint != "neck" && track.joint != "head" && track.joint != "pelvis")
+      continue;
+    for (const Eigen::Quaternionf& turn : track.rotations) {
+      const Eigen::AngleAxisf about(turn);
+      const Eigen::Vector3f turned = about.angle() * about.axis();
+      forward = std::max(forward, double(std::abs(turned.x())));
+      aside = std::max(aside, double(std::abs(turned.z())));
+    }
+  }
+  if (forward < kBend_rad || forward < aside) return std::nullopt;
+  return "the clip \"" + clip.name + "\" bends towards the viewer, and this is " + drawnFrom(yaw_rad) +
+         ": \"frame\": \"body\" in its file has each figure bend to where it looks";
+}
+
 bool isBvh(const std::string& path) { return path.ends_with(".bvh") || path.ends_with(".BVH"); }
 
 std::string stemOfPose(const std::string& path) {
@@ -285,7 +310,11 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
       if (isForOther(clip, character.skeleton)) throw OtherBodyPlan(path, fault);
       throw InputError(path, fault);
     }
-  if (notes) notes->of_character = whatStays({clip}, character);
+  if (notes) {
+    notes->of_character = whatStays({clip}, character);
+    if (std::optional<std::string> note = aslantNote(clip, character))
+      notes->of_character.push_back(std::move(*note));
+  }
   return fitted(clip, character, source);
 }
 

@@ -173,8 +173,9 @@ Carriers carriersOf(const CutOutSheet& sheet, const Plane8& part, const Plane8& 
     for (int u = 0; u < lattice.square_of.cols(); ++u)
       if (const int square = lattice.square_of(v, u); square >= 0) {
         ++votes[std::size_t(square)][limbs(box.y0 + v, box.x0 + u)];
-        const bool is_skirt = part.size() != 0 && part(box.y0 + v, box.x0 + u) == std::uint8_t(Part::kSkirt);
-        skirt[std::size_t(square)] += is_skirt ? 1 : -1;
+        const bool worn = part.size() != 0 && (part(box.y0 + v, box.x0 + u) == std::uint8_t(Part::kSkirt) ||
+                                               part(box.y0 + v, box.x0 + u) == std::uint8_t(Part::kThing));
+        skirt[std::size_t(square)] += worn ? 1 : -1;
       }
   const auto winner = [](const std::array<int, 5>& of) {
     return int(std::max_element(of.begin(), of.end()) - of.begin());
