@@ -176,14 +176,14 @@ std::string whyUnfit(const Clip& clip, const RiggedCharacter& character) {
   return "";
 }
 
-std::vector<std::string> whatStays(const std::vector<Clip>& clips, const RiggedCharacter& character) {
-  std::vector<std::string> clauses;
+ClipNotes whatStays(const std::vector<Clip>& clips, const RiggedCharacter& character) {
+  ClipNotes notes;
   std::optional<RoleFigure> figure;
   std::vector<Clip> by_names, by_parts;
   for (const Clip& clip : clips) {
     if (isForOther(clip, character.skeleton))
-      clauses.push_back("is a " + bodyPlanOf(character.skeleton) + ", the clip \"" + clip.name +
-                        "\" is for a " + clip.template_name);
+      notes.of_character.push_back("is a " + bodyPlanOf(character.skeleton) + ", the clip \"" + clip.name +
+                                   "\" is for a " + clip.template_name);
     std::optional<RoleFigure> parts = partsFor(clip, character.skeleton);
     const Skeleton& skeleton = parts ? parts->skeleton : character.skeleton;
     std::vector<std::string> lacking;
@@ -191,13 +191,13 @@ std::vector<std::string> whatStays(const std::vector<Clip>& clips, const RiggedC
       if (skeleton.find(track.joint) < 0 && !isHangingName(track.joint))
         lacking.push_back('"' + track.joint + '"');
     if (!lacking.empty())
-      clauses.push_back("the clip \"" + clip.name + "\" plays without " + joined(lacking) +
-                        ", which this character lacks");
+      notes.of_character.push_back("the clip \"" + clip.name + "\" plays without " + joined(lacking) +
+                                   ", which this character lacks");
     (parts ? by_parts : by_names).push_back(clip);
     if (parts) figure = std::move(parts);
   }
   const auto addArms = [&](std::vector<std::string> arms) {
-    clauses.insert(clauses.end(), arms.begin(), arms.end());
+    notes.of_arms.insert(notes.of_arms.end(), arms.begin(), arms.end());
   };
   if (!by_names.empty())
     addArms(
@@ -205,7 +205,7 @@ std::vector<std::string> whatStays(const std::vector<Clip>& clips, const RiggedC
                      measureFigure(character.mesh, character.weights, character.skeleton, character.facing)));
   if (!by_parts.empty())
     addArms(armsThatStay(by_parts, figure->skeleton, measureByRoles(character, *figure)));
-  return clauses;
+  return notes;
 }
 
 Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource& source) {
@@ -287,8 +287,7 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
           "the joints of " + path +
           " are matched by the shape of the tree, which may be wrong, as their names "
           "tell too little (skel-animate retarget says what was matched)");
-    if (notes)
-      for (std::string& arm : motion.arms_that_stay) notes->of_character.push_back(std::move(arm));
+    if (notes) notes->of_arms = std::move(motion.arms_that_stay);
     return std::move(motion.clip);
   }
   if (ending == ".glb" || ending == ".GLB")
@@ -311,7 +310,7 @@ Clip readClipFor(const std::string& path, const RiggedCharacter& character, cons
       throw InputError(path, fault);
     }
   if (notes) {
-    notes->of_character = whatStays({clip}, character);
+    *notes = whatStays({clip}, character);
     if (std::optional<std::string> note = aslantNote(clip, character))
       notes->of_character.push_back(std::move(*note));
   }

@@ -44,9 +44,15 @@ std::vector<Clip> clipsFor(const std::vector<Clip>& library, const RiggedCharact
 // What is wrong with a clip that the character cannot do, a clause after the clip's name; "": none can tell.
 std::string whyUnfit(const Clip& clip, const RiggedCharacter& character);
 
-// What the character does not do of clips that fit it and are for the canonical pose, in clauses: that one is
-// for another body plan, or for joints that it lacks, and which arms stay (armsThatStay()).
-std::vector<std::string> whatStays(const std::vector<Clip>& clips, const RiggedCharacter& character);
+// What is to be said of a clip: what the character does not do of it, and what its arms do not, in clauses.
+struct ClipNotes {
+  std::string of_file;  // what is not used of the file that it was read from, a line with its name; or ""
+  std::vector<std::string> of_character, of_arms;
+};
+
+// Of clips that fit the character and are for the canonical pose: that one is for another body plan, or for
+// joints that it lacks, and which arms stay (armsThatStay()).
+ClipNotes whatStays(const std::vector<Clip>& clips, const RiggedCharacter& character);
 
 // Made for the canonical pose; the result is for the character's rest pose.
 Clip fitted(const Clip& clip, const RiggedCharacter& character, const ClipSource& source = {});
@@ -63,12 +69,6 @@ ClipKeys madeFor(const Skeleton& skeleton, ClipKeys keys);
 class OtherBodyPlan : public InputError {
  public:
   using InputError::InputError;
-};
-
-// What is to be said of a clip that was read from a file.
-struct ClipNotes {
-  std::string of_file;                    // what is not used of it, a line that begins with its name; or ""
-  std::vector<std::string> of_character;  // what it does not do of the clip: clauses
 };
 
 // A clip file, ours or of the elk system, or a .bvh, fitted to the character. `notes` may be null. Throws

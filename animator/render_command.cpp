@@ -61,16 +61,44 @@ void noteUnfitting(const RenderCommandOptions& options, const RiggedCharacter& c
     }
 }
 
-void sayWhatStays(const std::vector<std::string>& clauses, const std::string& path) {
-  for (const std::string& clause : clauses)
-    std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(clause).c_str());
-}
+// What is said of characters, of several the same once, with their names behind it.
+class Sayings {
+ public:
+  explicit Sayings(bool of_several) : of_several_(of_several) {}
+
+  // `may_cut`: arms stay that --cut-limbs has move.
+  void add(const ClipNotes& notes, bool may_cut, const std::string& path) {
+    std::vector<std::string> clauses = notes.of_character;
+    for (const std::string& arm : notes.of_arms)
+      clauses.push_back(arm + (may_cut ? " (--cut-limbs has it move, and may tear)" : ""));
+    for (const std::string& clause : clauses) {
+      if (!of_several_) {
+        std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(clause).c_str());
+        continue;
+      }
+      auto same =
+          std::find_if(said_.begin(), said_.end(), [&](const auto& it) { return it.first == clause; });
+      if (same == said_.end()) same = said_.insert(said_.end(), {clause, {}});
+      same->second.push_back(fs::path(path).filename().string());
+    }
+  }
+  void tell() const {
+    for (const auto& [clause, names] : said_) {
+      std::string text = clause + ": ";
+      for (const std::string& name : names) text += (&name == &names.front() ? "" : ", ") + name;
+      std::fprintf(stderr, "note: %s\n", printable(text).c_str());
+    }
+  }
+
+ private:
+  bool of_several_;
+  std::vector<std::pair<std::string, std::vector<std::string>>> said_;
+};
 
 // Of those clips that come from the library, not from the character's file (`filed`) or one of their own.
-// `may_cut`: arms stay that --cut-limbs has move.
 void noteWhatStays(const RenderCommandOptions& options, const RiggedCharacter& character,
                    const std::string& path, const std::vector<Clip>& clips, const std::vector<Clip>& filed,
-                   bool may_cut) {
+                   bool may_cut, Sayings& sayings) {
   const auto isNamed = [&](const std::string& name) {
     return std::find(options.clips.begin(), options.clips.end(), name) != options.clips.end();
   };
@@ -79,9 +107,7 @@ void noteWhatStays(const RenderCommandOptions& options, const RiggedCharacter& c
     return !hasClip(clips, clip.name) || hasClip(filed, clip.name) ||
            !(isNamed(clip.name) || isNamed(std::string(kAllClips)));
   });
-  std::vector<std::string> clauses = whatStays(of_library, character);
-  if (may_cut && !clauses.empty()) clauses.back() += " (--cut-limbs has it move, and may tear)";
-  sayWhatStays(clauses, path);
+  sayings.add(whatStays(of_library, character), may_cut, path);
 }
 
 struct AskedClips {
@@ -107,7 +133,8 @@ std::string clipAmongOthers(const std::string& name, const CharacterFile& file, 
   return instead;
 }
 
-AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, const std::string& path) {
+AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, const std::string& path,
+                      bool may_cut, Sayings& sayings) {
   AskedClips asked;
   std::map<std::string, std::string> words;  // that ask for a clip, by its name: films and frames have that
   const auto take = [&](const Clip& clip, const std::string& word) {
@@ -161,7 +188,7 @@ AskedClips askedClips(const RenderCommandOptions& options, CharacterFile file, c
     }
     if (found) take(*found, name);
     if (!notes.of_file.empty()) std::fprintf(stderr, "%s\n", printable(notes.of_file).c_str());
-    sayWhatStays(notes.of_character, path);
+    sayings.add(notes, may_cut, path);
   }
   if (asked.clips.empty() && unknown) throw *unknown;
   return asked;
@@ -194,7 +221,7 @@ bool choosesLook(const RenderCommandOptions& options, const std::string& path) {
 }
 
 // `among_drawings`: the run has any.
-Cast cast(const RenderCommandOptions& asked, const std::string& path, bool among_drawings) {
+Cast cast(const RenderCommandOptions& asked, const std::string& path, bool among_drawings, Sayings& sayings) {
   RenderCommandOptions options = asked;
   CharacterSource& source = options.source;
   source.path = path;
@@ -215,7 +242,8 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path, bool among
   if (!note.empty()) std::fprintf(stderr, "%s\n", note.c_str());
   if (drawn && !flat) file.clips = drawn->drawing.clips;
   file.name = stemOf(path);
-  const auto [clips, left_out_code] = askedClips(options, file, path);
+  const bool may_cut = drawn && !drawn->drawing.layers.at_rest.empty();
+  const auto [clips, left_out_code] = askedClips(options, file, path, may_cut, sayings);
   if (clips.empty())
     throw InputError(path, "can do no clip: it has none, and none that come with skel fit its joints: " +
                                whyNoRoles(file.character.skeleton));
@@ -227,8 +255,8 @@ Cast cast(const RenderCommandOptions& asked, const std::string& path, bool among
         std::fprintf(stderr, "%s: note: %s\n", printable(path).c_str(), printable(*turn).c_str());
         unseen = true;
       }
-  noteWhatStays(options, file.character, path, clips, drawn ? std::vector<Clip>{} : file.clips,
-                drawn && !drawn->drawing.layers.at_rest.empty());
+  noteWhatStays(options, file.character, path, clips, drawn ? std::vector<Clip>{} : file.clips, may_cut,
+                sayings);
   const bool rigged = drawn.has_value(), unsure = unseen || (rigged && !drawn->warnings.empty());
   std::optional<RiggedDrawing> shown;
   if (flat) shown = std::move(drawn->drawing);
@@ -340,9 +368,10 @@ ExitCode runRender(const RenderCommandOptions& asked) {
   const bool any_drawing = std::any_of(options.files.begin(), options.files.end(),
                                        [](const std::string& file) { return isDrawing({.path = file}); });
   std::vector<Cast> measured;
+  Sayings sayings(options.files.size() > 1);
   for (const std::string& path : options.files)
     attempt(path, [&] {
-      Cast one = cast(options, path, any_drawing);
+      Cast one = cast(options, path, any_drawing, sayings);
       if (!renderer.measure) return render(std::move(one));
       renderer.measure(one.performer);
       measured.push_back(std::move(one));
@@ -350,6 +379,7 @@ ExitCode runRender(const RenderCommandOptions& asked) {
     });
   for (Cast& one : measured) attempt(one.path, [&] { return render(std::move(one)); });
   if (renderer.finish) renderer.finish();
+  sayings.tell();
   if (const std::size_t all = options.files.size(); all > 1)
     std::printf(
         "%s\n",

@@ -46,8 +46,9 @@ Clip motionFor(const RetargetCommandOptions& options, const CharacterFile& file)
       throw UsageError(std::string(error.what()) + "; one of a folder of your own: --clips-dir DIR");
     }
     if (!notes.of_file.empty()) std::printf("%s\n", printable(notes.of_file).c_str());
-    for (const std::string& clause : notes.of_character)
-      std::printf("%s: note: %s\n", printable(options.target).c_str(), printable(clause).c_str());
+    for (const auto& clauses : {notes.of_character, notes.of_arms})
+      for (const std::string& clause : clauses)
+        std::printf("%s: note: %s\n", printable(options.target).c_str(), printable(clause).c_str());
     return clip;
   }
   RetargetedMotion result = loadBvhFor(options.motion, file.character, options.clips);
