@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
 
 #include "libskel/image/mask_parts.h"
@@ -29,44 +28,6 @@ Plane8 unsure(const Plane8& mask, const Plane8& part, const Plane8& limbs) {
   }
   return result;
 }
-
-int brightness(const std::uint8_t* p) { return (54 * p[0] + 183 * p[1] + 19 * p[2]) / 256; }
-
-// Whether there is a line or an edge about a pixel of the figure.
-class DrawnEdges {
- public:
-  explicit DrawnEdges(const DrawnFigure& figure) : figure_(figure) {
-    const Plane8& mask = figure.silhouette.mask;
-    int darkest = 255, brightest = 0;
-    for (int y = 0; y < mask.rows(); ++y)
-      for (int x = 0; x < mask.cols(); ++x)
-        if (mask(y, x) != 0) {
-          const int value = brightness(figure.image.pixel(x, y));
-          darkest = std::min(darkest, value), brightest = std::max(brightest, value);
-        }
-    const PixelBox box = figureBox(mask);
-    constexpr double kSeen = 1. / 160;  // of the figure's long side
-    reach_px_ = std::max(1, int(std::lround(kSeen * std::max(box.width(), box.height()))));
-    constexpr double kContrast = 0.12;
-    contrast_ = kContrast * std::max(40, brightest - darkest);
-  }
-  bool at(int x, int y) const {
-    const Plane8& mask = figure_.silhouette.mask;
-    int darkest = 255, brightest = 0;
-    for (int v = std::max(0, y - reach_px_); v <= std::min(int(mask.rows()) - 1, y + reach_px_); ++v)
-      for (int u = std::max(0, x - reach_px_); u <= std::min(int(mask.cols()) - 1, x + reach_px_); ++u)
-        if (mask(v, u) != 0) {
-          const int value = brightness(figure_.image.pixel(u, v));
-          darkest = std::min(darkest, value), brightest = std::max(brightest, value);
-        }
-    return brightest - darkest > contrast_;
-  }
-
- private:
-  const DrawnFigure& figure_;
-  int reach_px_ = 1;
-  double contrast_ = 0;
-};
 
 // Takes from the arms what lies about their roots and is wider than they are farther out: a piece of the
 // trunk that a net took for a shoulder would be torn out of it. Legs widen to the hip.
@@ -145,68 +106,31 @@ std::vector<double> limbWidths(const DrawnFigure& figure, const Plane8& limbs) {
 
 Plane8 limbTouches(const DrawnFigure& figure, const Plane8& limbs, const std::vector<double>& widths) {
   constexpr double kRoot = 0.9, kShort = 0.6;  // of the limb's width
-  constexpr double kOver = 1.3;                // of its length
-  constexpr double kDrawn = 0.55;              // of where it touches the trunk
   const Plane8& mask = figure.silhouette.mask;
   std::array<Vector2d, 5> roots;
   roots.fill(Vector2d::Zero());
   for (std::size_t k = 0; k < std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++k)
     roots[k + 1] = limbBones(figure, k + 1).joints[0];
-  const auto fromRoot = [&](std::size_t limb, int x, int y) { return (Vector2d(x, y) - roots[limb]).norm(); };
-  std::array<bool, 5> hangs{};  // there are pixels near its root where the limb and the trunk meet
-  Plane8 with_trunk = Plane8::Zero(mask.rows(), mask.cols()), with_limb = with_trunk;
+  const auto isAtRoot = [&](std::size_t limb, int x, int y) {
+    return (Vector2d(x, y) - roots[limb]).norm() <= kRoot * widths[limb];
+  };
+  Plane8 border = Plane8::Zero(mask.rows(), mask.cols());
   for (int y = 0; y < mask.rows(); ++y)
     for (int x = 0; x < mask.cols(); ++x)
       for (const auto& [v, u] : {std::pair(y, x + 1), std::pair(y + 1, x)}) {
         if (v >= mask.rows() || u >= mask.cols() || mask(y, x) == 0 || mask(v, u) == 0) continue;
         const std::uint8_t one = limbs(y, x), other = limbs(v, u);
-        if (one == other) continue;
-        bool near = false;
-        for (const std::uint8_t limb : {one, other})
-          if (limb != 0 && fromRoot(limb, x, y) <= kRoot * widths[limb])
-            near = true, hangs[limb] = hangs[limb] || one == 0 || other == 0;
-        if (near) continue;
-        Plane8& border = one == 0 || other == 0 ? with_trunk : with_limb;
-        border(y, x) = border(v, u) = 1;
+        if (one != other && one != 0 && other != 0 && !isAtRoot(one, x, y) && !isAtRoot(other, x, y))
+          border(y, x) = border(v, u) = 1;
       }
-
-  const MaskParts trunk_parts = maskParts(with_trunk), limb_parts = maskParts(with_limb);
-  std::vector<std::size_t> limb_of(trunk_parts.size.size(), 0);
-  std::vector<double> distance(trunk_parts.size.size(), 1e300), width(limb_parts.size.size(), 1e300);
-  std::array<double, 5> nearest, touching{};
-  nearest.fill(1e300);
-  for (const MaskParts::Run& run : trunk_parts.runs)
+  const MaskParts parts = maskParts(border);
+  std::vector<double> width(parts.size.size(), 1e300);
+  for (const MaskParts::Run& run : parts.runs)
     for (int x = run.x0; x < run.x1; ++x)
-      if (const std::size_t limb = limbs(run.y, x); limb != 0) {
-        double& of_part = distance[std::size_t(run.part)];
-        of_part = std::min(of_part, fromRoot(limb, x, run.y));
-        nearest[limb] = std::min(nearest[limb], of_part);
-        limb_of[std::size_t(run.part)] = limb;
-        ++touching[limb];
-      }
-  for (const MaskParts::Run& run : limb_parts.runs)
-    for (int x = run.x0; x < run.x1; ++x)
-      if (const std::size_t limb = limbs(run.y, x); limb != 0)
-        width[std::size_t(run.part)] = std::min(width[std::size_t(run.part)], widths[limb]);
-
-  // One that lies over the trunk has nothing behind it that could be shown.
-  std::array<bool, 5> over{};
-  for (std::size_t limb = 1; limb < 5; ++limb)
-    over[limb] = touching[limb] * widths[limb] > kOver * double((limbs == std::uint8_t(limb)).count());
-
+      width[std::size_t(run.part)] = std::min(width[std::size_t(run.part)], widths[limbs(run.y, x)]);
   Plane8 cut = Plane8::Zero(mask.rows(), mask.cols());
-  const DrawnEdges edges(figure);
-  std::vector<int> drawn(trunk_parts.size.size(), 0);
-  for (const MaskParts::Run& run : trunk_parts.runs)
-    for (int x = run.x0; x < run.x1; ++x) drawn[std::size_t(run.part)] += edges.at(x, run.y);
-  for (const MaskParts::Run& run : trunk_parts.runs) {
-    const std::size_t part = std::size_t(run.part), limb = limb_of[part];
-    if (!over[limb] && double(drawn[part]) >= kDrawn * double(trunk_parts.size[part]) &&
-        (hangs[limb] || distance[part] > nearest[limb]))
-      cut.row(run.y).segment(run.x0, run.x1 - run.x0).setOnes();
-  }
-  for (const MaskParts::Run& run : limb_parts.runs)  // two pixels a pixel of length
-    if (double(limb_parts.size[std::size_t(run.part)]) <= 2 * kShort * width[std::size_t(run.part)])
+  for (const MaskParts::Run& run : parts.runs)  // two pixels a pixel of length
+    if (double(parts.size[std::size_t(run.part)]) <= 2 * kShort * width[std::size_t(run.part)])
       cut.row(run.y).segment(run.x0, run.x1 - run.x0).setOnes();
   return cut;
 }

@@ -219,29 +219,23 @@ TEST_CASE("an arm takes no piece of the body along that a net took for its shoul
   CHECK(int(limbs(int(body.y()), int(body.x()))) == 0);
 }
 
-TEST_CASE("an arm is cut from the body that it touches where a line is drawn between them, and only there") {
-  RiggedDrawing drawing = inOneSheet();
+TEST_CASE("paper is cut where limbs touch each other along a short way, never between a limb and the body") {
+  const RiggedDrawing drawing = inOneSheet();
   const Eigen::Vector2d middle = at(drawing, "body");
-  relabel(drawing, Part::kTrunk, [](const Eigen::Vector2d&) { return true; });
-  const auto isHand = [&](const Eigen::Vector2d& p) { return (p - middle).cwiseAbs().maxCoeff() < 20; };
+  REQUIRE(drawing.silhouette.mask(int(middle.y()), int(middle.x())) != 0);
   Plane8 limbs = Plane8::Zero(drawing.image.height, drawing.image.width);
-  for (int y = 0; y < limbs.rows(); ++y)
-    for (int x = 0; x < limbs.cols(); ++x)
-      if (isHand(Eigen::Vector2d(x, y)) ||
-          (Eigen::Vector2d(x, y) - at(drawing, "right_shoulder")).norm() < 11)
-        limbs(y, x) = 1;
-  const auto paint = [&](int line) {
-    for (int y = 0; y < limbs.rows(); ++y)
-      for (int x = 0; x < limbs.cols(); ++x) {
-        const double away = (Eigen::Vector2d(x, y) - middle).cwiseAbs().maxCoeff();
-        std::fill_n(drawing.image.pixel(x, y), 3, std::uint8_t(away > 18 && away < 22 ? line : 180));
-      }
+  const auto square = [&](int x0, int limb, int half) {
+    limbs.block(int(middle.y()) - half, int(middle.x()) + x0, 2 * half, 10).setConstant(std::uint8_t(limb));
   };
-  const std::vector<double> widths{0, 14, 0, 0, 0};
-  paint(180);
+  const std::vector<double> widths{0, 14, 14, 0, 0};
+  square(-10, 1, 3);
   CHECK((limbTouches(figureOf(drawing), limbs, widths) == 0).all());
-  paint(0);
-  CHECK((limbTouches(figureOf(drawing), limbs, widths) != 0).any());
+  square(0, 2, 3);
+  const Plane8 cut = limbTouches(figureOf(drawing), limbs, widths);
+  CHECK(int(cut(int(middle.y()), int(middle.x()))) == 1);
+  CHECK((cut != 0).count() == 12);
+  square(-10, 1, 12), square(0, 2, 12);
+  CHECK((limbTouches(figureOf(drawing), limbs, widths) == 0).all());
 }
 
 TEST_CASE(
