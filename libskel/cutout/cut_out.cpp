@@ -156,11 +156,11 @@ Bends bendsOf(const DrawnFigure& figure, std::size_t limb, double root_width, do
 }
 
 // Which limb moves what of a sheet: of each square and of each vertex. `free`: the vertices about the borders
-// between limbs and the rest, and about elbows and knees, where paper bends. `skirt`: those that most of what
-// is around them is a skirt.
+// between limbs and the rest, and about elbows and knees, where paper bends. `worn`: those that most of what
+// is around them is a skirt or a thing.
 struct Carriers {
   std::vector<int> of_square, of_vertex;
-  std::vector<bool> free, skirt;
+  std::vector<bool> free, worn;
 };
 
 Carriers carriersOf(const CutOutSheet& sheet, const Plane8& part, const Plane8& limbs, const PixelBox& box,
@@ -168,14 +168,15 @@ Carriers carriersOf(const CutOutSheet& sheet, const Plane8& part, const Plane8& 
   const Lattice& lattice = sheet.lattice;
   Carriers carriers;
   std::vector<std::array<int, 5>> votes(lattice.squares.size(), {0, 0, 0, 0, 0});
-  std::vector<int> skirt(lattice.squares.size(), 0), of_skirt(std::size_t(lattice.vertices.rows()), 0);
+  std::vector<int> worn(lattice.squares.size(), 0), of_worn(std::size_t(lattice.vertices.rows()), 0);
   for (int v = 0; v < lattice.square_of.rows(); ++v)
     for (int u = 0; u < lattice.square_of.cols(); ++u)
       if (const int square = lattice.square_of(v, u); square >= 0) {
         ++votes[std::size_t(square)][limbs(box.y0 + v, box.x0 + u)];
-        const bool worn = part.size() != 0 && (part(box.y0 + v, box.x0 + u) == std::uint8_t(Part::kSkirt) ||
-                                               part(box.y0 + v, box.x0 + u) == std::uint8_t(Part::kThing));
-        skirt[std::size_t(square)] += worn ? 1 : -1;
+        const bool is_worn =
+            part.size() != 0 && (part(box.y0 + v, box.x0 + u) == std::uint8_t(Part::kSkirt) ||
+                                 part(box.y0 + v, box.x0 + u) == std::uint8_t(Part::kThing));
+        worn[std::size_t(square)] += is_worn ? 1 : -1;
       }
   const auto winner = [](const std::array<int, 5>& of) {
     return int(std::max_element(of.begin(), of.end()) - of.begin());
@@ -186,7 +187,7 @@ Carriers carriersOf(const CutOutSheet& sheet, const Plane8& part, const Plane8& 
     carriers.of_square.push_back(winner(votes[s]));
     for (const int v : lattice.squares[s]) {
       ++around[std::size_t(v)][std::size_t(carriers.of_square[s])];
-      of_skirt[std::size_t(v)] += skirt[s];
+      of_worn[std::size_t(v)] += worn[s];
     }
   }
   std::vector<double> left(count, -1);  // how much farther paper is free, px
@@ -207,7 +208,7 @@ Carriers carriersOf(const CutOutSheet& sheet, const Plane8& part, const Plane8& 
         }
   }
   for (const double reach : left) carriers.free.push_back(reach >= 0);
-  for (const int more : of_skirt) carriers.skirt.push_back(more > 0);
+  for (const int more : of_worn) carriers.worn.push_back(more > 0);
   return carriers;
 }
 
@@ -292,15 +293,15 @@ std::vector<bool> legJoints(const DrawnFigure& figure) {
   return of_leg;
 }
 
-// `first`: the sheet's first vertex among those of `weights`. Legs hold no skirt: it hangs from the trunk,
-// and what shows of them below takes its hem along.
+// `first`: the sheet's first vertex among those of `weights`. Legs hold no skirt and no thing: they hang from
+// the trunk, and what shows of legs below takes a hem along.
 void hang(const SkinWeights& weights, Index first, const Carriers& carriers, const std::vector<bool>& of_leg,
           CutOutSheet& sheet) {
   const Eigen::MatrixX2d places = placedVertices(sheet);
   const auto hold = [&](Index v) { sheet.handles.push_back({int(v), weights.joints(first + v, 0)}); };
   const auto isHeld = [&](Index v) {
     const std::size_t i = std::size_t(v);
-    return !carriers.free[i] && !(carriers.skirt[i] && of_leg[weights.joints(first + v, 0)]);
+    return !carriers.free[i] && !(carriers.worn[i] && of_leg[weights.joints(first + v, 0)]);
   };
   for (Index v = 0; v < places.rows(); ++v)
     if (const double most = carriers.of_vertex[std::size_t(v)] == 0 ? kOneTrunkJoint : kOneLimbJoint;
