@@ -703,10 +703,10 @@ void Document::cutLimb(int limb) {
   findLimbs();
   if (!layers() || layers()->part.size() == 0) return;
   auto map = std::make_shared<LayerMap>(*layers());
-  const bool apart = !isCutOut(*map, limb);
+  const bool apart = !map->has(limb);
   cutOut(*map, limb, apart);
   const std::string name = brushName(limbBrush(limb), bodyPlan());
-  if (apart && !isCutOut(*map, limb)) {
+  if (apart && !map->has(limb)) {
     message_ = "nothing is known of the " + name + ": paint it";
     return;
   }

@@ -596,7 +596,7 @@ class LabelingWindow {
     }
     drawBrushSize(width);
     const int limb = canvas_.layer_brush.limb;
-    const bool apart = document_.layers() && isCutOut(*document_.layers(), limb);
+    const bool apart = document_.layers() && document_.layers()->has(limb);
     enabledButton(
         apart ? "Leave it on the body" : "Cut it out", {width, kButtonHeight}, limb != 0, [&] { cutLimb(); },
         "The limb moves as a piece of its own, or with the body  (key X)");

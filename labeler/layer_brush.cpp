@@ -34,10 +34,6 @@ std::array<std::uint8_t, 3> brushColor(const LayerBrush& brush) {
   return brush.limb != 0 ? layerColor(brush.limb) : partColor(brush.part);
 }
 
-bool isCutOut(const LayerMap& map, int limb) {
-  return map.any() && (map.limb == static_cast<std::uint8_t>(limb)).any();
-}
-
 void cutOut(LayerMap& map, int limb, bool apart) {
   if (map.part.size() == 0) return;
   const auto own = static_cast<std::uint8_t>(limb);

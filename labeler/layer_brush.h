@@ -31,8 +31,7 @@ std::string brushName(const LayerBrush& brush, const SkeletonTemplate& body_plan
 // As in the pictures of layers.
 std::array<std::uint8_t, 3> brushColor(const LayerBrush& brush);
 
-// Whether the limb is a body of its own, and makes all that the map says of it one, or leaves it on the body.
-bool isCutOut(const LayerMap& map, int limb);
+// Makes all that the map says of a limb a body of its own, or leaves it on the body.
 void cutOut(LayerMap& map, int limb, bool apart);
 
 // Paints `stroke` (not 0 where it is) within `mask`; all else of the map stays. Returns whether any pixel

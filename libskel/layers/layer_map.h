@@ -39,6 +39,8 @@ struct LayerMap {
   Plane8 part = {};
 
   bool any() const { return limb.size() != 0; }
+  // Whether this limb is a layer.
+  bool has(int number) const { return (limb == static_cast<std::uint8_t>(number)).any(); }
 };
 
 // By a net that tells all parts, their borders on the drawing's own lines: a limb becomes a layer where it

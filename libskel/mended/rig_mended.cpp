@@ -89,8 +89,7 @@ constexpr const char* kOutlineChanged =
 std::string unpaintedMirror(const RiggedDrawing& drawing, int limb) {
   for (const auto& [one, other] : drawing.body_plan.limbPairs())
     for (const auto& [painted, mirror] : {std::pair(one + 1, other + 1), std::pair(other + 1, one + 1)})
-      if (painted == limb && !(drawing.layers.limb == mirror).any())
-        return limbName(drawing.body_plan, mirror);
+      if (painted == limb && !drawing.layers.has(mirror)) return limbName(drawing.body_plan, mirror);
   return "";
 }
 

@@ -33,8 +33,8 @@ struct FootFrame {
 
 void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, const std::vector<double>& behind,
                 OutlineBand& band, Heights& heights, std::vector<Vector2d>& place) {
-  // Of vertices of a sole, how far below what they show the figure's edge lies.
-  std::vector<Vector2d> below(mesh.vertices.size(), Vector2d::Zero()), edge = mesh.vertices;
+  // Of inner vertices of a sole with a line, the way from what it shows to the figure's edge.
+  std::vector<Vector2d> past(static_cast<std::size_t>(mesh.inner_count), Vector2d::Zero());
   for (const DepthFoot& foot : feet) {
     if (foot.foot == foot.knee) continue;
     const FootFrame frame(foot);
@@ -96,16 +96,16 @@ void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, cons
         heights.back[v] = std::max(heights.back[v], round * heel * counter);
       if (drop <= 0 || drop >= kSole * mesh.cell_px || round == 0) continue;
       place[static_cast<std::size_t>(v)] += 0.9 * drop * frame.down;
-      edge[static_cast<std::size_t>(v)] += drop * frame.down;
-      if (line > 0) below[static_cast<std::size_t>(v)] = kPastLine * line * frame.down;
+      if (line == 0) continue;
+      past[static_cast<std::size_t>(v)] = kPastLine * line * frame.down;
+      band.drawn[static_cast<std::size_t>(v)] =
+          mesh.vertices[static_cast<std::size_t>(v)] + drop * frame.down - past[static_cast<std::size_t>(v)];
     }
   }
   for (const auto& [a, b, c] : mesh.triangles)
     for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}, {b, a}, {c, b}, {a, c}})
-      if (from < mesh.inner_count && to >= mesh.inner_count && !below[std::size_t(from)].isZero())
-        below[std::size_t(to)] = below[std::size_t(from)];
-  for (std::size_t v = 0; v < below.size(); ++v)
-    if (!below[v].isZero()) band.drawn[v] = edge[v] - below[v];
+      if (from < mesh.inner_count && to >= mesh.inner_count && !past[std::size_t(from)].isZero())
+        band.drawn[std::size_t(to)] = mesh.vertices[std::size_t(to)] - past[std::size_t(from)];
 }
 
 }  // namespace skel

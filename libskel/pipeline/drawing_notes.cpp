@@ -80,7 +80,7 @@ std::vector<std::string> partlyDrawnNotes(const RiggedDrawing& drawing) {
   std::vector<std::string> notes;
   for (int limb = 1; drawing.layers.any() && limb <= int(drawing.body_plan.limbs.size()); ++limb)
     if (!isLeg(drawing.body_plan, drawing.body_plan.limbs[std::size_t(limb) - 1]) &&
-        (drawing.layers.limb == std::uint8_t(limb)).any() && shareOfUpperHalf(drawing, limb) < kLeast)
+        drawing.layers.has(limb) && shareOfUpperHalf(drawing, limb) < kLeast)
       notes.push_back(
           "the " + limbName(drawing.body_plan, limb) +
           " is drawn in part alone and may come off the body: look at it (skel-label FILE, key G)");
@@ -126,7 +126,7 @@ std::vector<Note> limbNotes(const RiggedDrawing& drawing, const std::vector<Clip
   std::map<int, std::vector<int>> joints_of_limb;  // of those that are no layers
   for (std::size_t k = 0; k < body_plan.limbs.size(); ++k) {
     const int limb = static_cast<int>(k) + 1;
-    if (drawing.layers.any() && (drawing.layers.limb == limb).any()) continue;
+    if (drawing.layers.has(limb)) continue;
     for (const int joint : body_plan.limbs[k].joints)
       if (const int j = character.skeleton.find(body_plan.joints[std::size_t(joint)].name); j >= 0)
         joints_of_limb[limb].push_back(j);

@@ -21,7 +21,7 @@ LayerMap layersOfCutOut(const RiggedDrawing& drawing) {
     const TemplateLimb& limb = drawing.body_plan.limbs[k];
     const int elbow = character.skeleton.find(drawing.body_plan.joints[std::size_t(limb.joints[1])].name);
     if (isLeg(drawing.body_plan, limb) || elbow < 0 || shape.joined[std::size_t(elbow)] < kGrownArm) continue;
-    const bool own = (layers.limb == std::uint8_t(k + 1)).any();
+    const bool own = layers.has(int(k) + 1);
     if (own && layers.painted) continue;
     layers.hidden.push_back(int(k) + 1);
     if (own) layers.limb = (layers.limb == std::uint8_t(k + 1)).select(std::uint8_t(0), layers.limb);

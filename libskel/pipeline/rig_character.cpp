@@ -366,7 +366,8 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
                                   options.part_net ? *options.part_net : builtInPartNet());
       // Only the net's confidence tells a guess.
       if (options.recognizer == Recognizer::kPaper && !found.hands_linked) found.hidden.clear();
-      return options.cut_limbs ? found : inOnePiece(std::move(found), body_plan);
+      if (!options.cut_limbs) found = inOnePiece(std::move(found), body_plan);
+      return found;
     };
     drawing.layers = draft ? memory->layers.value
                            : stage("layers", &M::layers, jointsAnd({stage.of(RigPart::kLayerOptions)}), find);
@@ -374,7 +375,7 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
       LayerMap given = layersOfPicture(input.layers->image, silhouette, body_plan, input.layers->file);
       const auto keep = [&](const std::vector<int>& limbs, std::vector<int>& kept) {
         for (const int limb : limbs)
-          if (!(given.limb == limb).any()) kept.push_back(limb);
+          if (!given.has(limb)) kept.push_back(limb);
       };
       keep(drawing.layers.hidden, given.hidden);
       keep(drawing.layers.at_rest, given.at_rest);
