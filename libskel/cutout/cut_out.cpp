@@ -334,7 +334,6 @@ CutOut makeCutOut(const DrawnFigure& drawn, const CutOutOptions& options) {
   const int side_px = std::max(1, int(std::lround(std::sqrt(area / options.squares))));
   const Plane8 limbs = limbPlane(figure, pieces);
   const std::vector<double> widths = limbWidths(figure, limbs);
-  const Plane8 cut = limbTouches(figure, limbs, widths);
   const std::vector<double> all_widths =
       layers.any() ? limbWidths(figure, (limbs != 0).select(limbs, layers.limb)) : widths;
   std::vector<Bends> bends(widths.size());
@@ -349,12 +348,7 @@ CutOut makeCutOut(const DrawnFigure& drawn, const CutOutOptions& options) {
     sheet.picture = pictureOf(figure, pieces[i], masks[i]);
     sheet.placed = figure.model_from_image;
     sheet.placed.origin_px -= corner.cast<double>();
-    const auto joined = [&](const Eigen::Vector2i& p, const Eigen::Vector2i& q) {
-      const Eigen::Vector2i a = p + corner, b = q + corner;
-      return sheet.layer != 0 || cut(a.y(), a.x()) == 0 || cut(b.y(), b.x()) == 0 ||
-             limbs(a.y(), a.x()) == limbs(b.y(), b.x());
-    };
-    sheet.lattice = latticeOf(masks[i], side_px, joined);
+    sheet.lattice = latticeOf(masks[i], side_px);
     if (sheet.layer != 0)
       carriers.push_back({std::vector<int>(sheet.lattice.squares.size(), sheet.layer),
                           std::vector<int>(std::size_t(sheet.lattice.vertices.rows()), sheet.layer),

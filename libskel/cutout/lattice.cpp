@@ -28,7 +28,7 @@ class CornerUnion {
 
 }  // namespace
 
-Lattice latticeOf(const Plane8& mask, int side_px, const JoinedPixels& joined) {
+Lattice latticeOf(const Plane8& mask, int side_px) {
   SKEL_CHECK(side_px >= 1);
   Lattice lattice;
   lattice.side_px = side_px;
@@ -54,7 +54,6 @@ Lattice latticeOf(const Plane8& mask, int side_px, const JoinedPixels& joined) {
               const Eigen::Vector2i q = p + step;
               if (q.x() < left || q.y() < top || q.x() >= right || q.y() >= bottom) continue;
               if (mask(q.y(), q.x()) == 0 || square_of(q.y(), q.x()) >= 0) continue;
-              if (!(step.sum() > 0 ? joined(p, q) : joined(q, p))) continue;
               square_of(q.y(), q.x()) = square;
               stack.push_back(q);
             }
@@ -71,12 +70,12 @@ Lattice latticeOf(const Plane8& mask, int side_px, const JoinedPixels& joined) {
       const int here = square_of(y, x);
       if (here < 0) continue;
       if (x % side_px == 0 && x > 0)
-        if (const int before = square_of(y, x - 1); before >= 0 && joined({x - 1, y}, {x, y})) {
+        if (const int before = square_of(y, x - 1); before >= 0) {
           corners.join(4 * here, 4 * before + 1);
           corners.join(4 * here + 2, 4 * before + 3);
         }
       if (y % side_px == 0 && y > 0)
-        if (const int above = square_of(y - 1, x); above >= 0 && joined({x, y - 1}, {x, y})) {
+        if (const int above = square_of(y - 1, x); above >= 0) {
           corners.join(4 * here, 4 * above + 2);
           corners.join(4 * here + 1, 4 * above + 3);
         }

@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <functional>
 #include <vector>
 
 #include "libskel/image/image.h"
@@ -35,11 +34,8 @@ struct Lattice {
   Eigen::MatrixX3i triangles() const;
 };
 
-// Whether two pixels of the figure, (x, y) and the one to the right of it or below it, are of one piece.
-using JoinedPixels = std::function<bool(const Eigen::Vector2i&, const Eigen::Vector2i&)>;
-
-// `mask`: not 0 on the figure. Copies share corners where joined pixels of theirs touch across a side, so
-// that the lattice of a 4-connected figure is in one part if all its pixels are joined. `side_px` at least 1.
-Lattice latticeOf(const Plane8& mask, int side_px, const JoinedPixels& joined);
+// `mask`: not 0 on the figure. Copies share corners where pixels of theirs touch across a side, so that
+// the lattice of a 4-connected figure is in one part. `side_px` at least 1.
+Lattice latticeOf(const Plane8& mask, int side_px);
 
 }  // namespace skel

@@ -104,35 +104,4 @@ std::vector<double> limbWidths(const DrawnFigure& figure, const Plane8& limbs) {
   return widths;
 }
 
-Plane8 limbTouches(const DrawnFigure& figure, const Plane8& limbs, const std::vector<double>& widths) {
-  constexpr double kRoot = 0.9, kShort = 0.6;  // of the limb's width
-  const Plane8& mask = figure.silhouette.mask;
-  std::array<Vector2d, 5> roots;
-  roots.fill(Vector2d::Zero());
-  for (std::size_t k = 0; k < std::min<std::size_t>(4, figure.body_plan.limbs.size()); ++k)
-    roots[k + 1] = limbBones(figure, k + 1).joints[0];
-  const auto isAtRoot = [&](std::size_t limb, int x, int y) {
-    return (Vector2d(x, y) - roots[limb]).norm() <= kRoot * widths[limb];
-  };
-  Plane8 border = Plane8::Zero(mask.rows(), mask.cols());
-  for (int y = 0; y < mask.rows(); ++y)
-    for (int x = 0; x < mask.cols(); ++x)
-      for (const auto& [v, u] : {std::pair(y, x + 1), std::pair(y + 1, x)}) {
-        if (v >= mask.rows() || u >= mask.cols() || mask(y, x) == 0 || mask(v, u) == 0) continue;
-        const std::uint8_t one = limbs(y, x), other = limbs(v, u);
-        if (one != other && one != 0 && other != 0 && !isAtRoot(one, x, y) && !isAtRoot(other, x, y))
-          border(y, x) = border(v, u) = 1;
-      }
-  const MaskParts parts = maskParts(border);
-  std::vector<double> width(parts.size.size(), 1e300);
-  for (const MaskParts::Run& run : parts.runs)
-    for (int x = run.x0; x < run.x1; ++x)
-      width[std::size_t(run.part)] = std::min(width[std::size_t(run.part)], widths[limbs(run.y, x)]);
-  Plane8 cut = Plane8::Zero(mask.rows(), mask.cols());
-  for (const MaskParts::Run& run : parts.runs)  // two pixels a pixel of length
-    if (double(parts.size[std::size_t(run.part)]) <= 2 * kShort * width[std::size_t(run.part)])
-      cut.row(run.y).segment(run.x0, run.x1 - run.x0).setOnes();
-  return cut;
-}
-
 }  // namespace skel

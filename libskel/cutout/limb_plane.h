@@ -18,8 +18,4 @@ Plane8 limbPlane(const DrawnFigure& figure, const std::vector<FigurePiece>& piec
 // One a limb, from 1: how wide it is, px, in the mean; 0 if it is not in the plane.
 std::vector<double> limbWidths(const DrawnFigure& figure, const Plane8& limbs);
 
-// Where a limb touches another one along a short way (two knees): 1 on the pixels of both sides, between
-// which the paper is cut. Of the image's size.
-Plane8 limbTouches(const DrawnFigure& figure, const Plane8& limbs, const std::vector<double>& widths);
-
 }  // namespace skel

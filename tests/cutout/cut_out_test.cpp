@@ -219,25 +219,6 @@ TEST_CASE("an arm takes no piece of the body along that a net took for its shoul
   CHECK(int(limbs(int(body.y()), int(body.x()))) == 0);
 }
 
-TEST_CASE("paper is cut where limbs touch each other along a short way, never between a limb and the body") {
-  const RiggedDrawing drawing = inOneSheet();
-  const Eigen::Vector2d middle = at(drawing, "body");
-  REQUIRE(drawing.silhouette.mask(int(middle.y()), int(middle.x())) != 0);
-  Plane8 limbs = Plane8::Zero(drawing.image.height, drawing.image.width);
-  const auto square = [&](int x0, int limb, int half) {
-    limbs.block(int(middle.y()) - half, int(middle.x()) + x0, 2 * half, 10).setConstant(std::uint8_t(limb));
-  };
-  const std::vector<double> widths{0, 14, 14, 0, 0};
-  square(-10, 1, 3);
-  CHECK((limbTouches(figureOf(drawing), limbs, widths) == 0).all());
-  square(0, 2, 3);
-  const Plane8 cut = limbTouches(figureOf(drawing), limbs, widths);
-  CHECK(int(cut(int(middle.y()), int(middle.x()))) == 1);
-  CHECK((cut != 0).count() == 12);
-  square(-10, 1, 12), square(0, 2, 12);
-  CHECK((limbTouches(figureOf(drawing), limbs, widths) == 0).all());
-}
-
 TEST_CASE(
     "a limb that touches the body about its root alone is no sheet of its own, unless it holds something") {
   RiggedDrawing drawing = inOneSheet();

@@ -17,8 +17,6 @@ Plane8 trousers() {
   return mask;
 }
 
-const JoinedPixels kAll = [](const Eigen::Vector2i&, const Eigen::Vector2i&) { return true; };
-
 std::set<int> verticesOf(const Lattice& lattice, int x0, int x1, int y0, int y1) {
   std::set<int> vertices;
   for (int y = y0; y < y1; ++y)
@@ -35,7 +33,7 @@ TEST_CASE("each pixel of the figure is in the square that shows it, and no other
   const Plane8 mask = trousers();
   for (const int side_px : {1, 3, 8, 50}) {
     CAPTURE(side_px);
-    const Lattice lattice = latticeOf(mask, side_px, kAll);
+    const Lattice lattice = latticeOf(mask, side_px);
     for (int y = 0; y < mask.rows(); ++y)
       for (int x = 0; x < mask.cols(); ++x) {
         const int square = lattice.square_of(y, x);
@@ -58,19 +56,10 @@ TEST_CASE("each pixel of the figure is in the square that shows it, and no other
 }
 
 TEST_CASE("legs with a gap of one pixel between them are apart in squares of many") {
-  const Lattice lattice = latticeOf(trousers(), 8, kAll);
+  const Lattice lattice = latticeOf(trousers(), 8);
   const std::set<int> left = verticesOf(lattice, 0, 11, 16, 40), right = verticesOf(lattice, 12, 23, 16, 40);
   for (const int vertex : left) CHECK(right.count(vertex) == 0);
   const std::size_t square = std::size_t(lattice.square_of(20, 9));
   CHECK_FALSE(lattice.alone[square]);
   CHECK(lattice.alone[std::size_t(lattice.square_of(20, 3))]);
-}
-
-TEST_CASE("pixels that are not joined share no corner") {
-  const auto cut = [](const Eigen::Vector2i& a, const Eigen::Vector2i& b) {
-    return (a.y() < 20) == (b.y() < 20);
-  };
-  const Lattice lattice = latticeOf(trousers(), 8, cut);
-  const std::set<int> above = verticesOf(lattice, 0, 23, 0, 20), below = verticesOf(lattice, 0, 23, 20, 40);
-  for (const int vertex : above) CHECK(below.count(vertex) == 0);
 }
