@@ -459,6 +459,8 @@ class AnimationWindow {
       ImGui::Separator();
       ImGui::MenuItem("Turning rings", nullptr, &stage_.handles);
       ImGui::MenuItem("Shadow", nullptr, &stage_.look.shadow);
+      if (document_.character().mesh.ink.width_m > 0)
+        ImGui::MenuItem("Line around it", nullptr, &stage_.look.ink);
       const bool dual = stage_.look.blending == Blending::kDualQuaternions;
       if (ImGui::MenuItem("Dual quaternions", nullptr, dual))
         stage_.look.blending = dual ? Blending::kLinear : Blending::kDualQuaternions;

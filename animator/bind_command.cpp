@@ -81,6 +81,7 @@ ExitCode runBind(const BindOptions& options) {
     std::printf("%s\n", note.c_str());
   ExportOptions written = exportOptions(file.name, options.joints);
   written.generator = kWrittenByBind;
+  written.ink_hull = file.ink_hull;
   writeFile(path, encodeGlb(file.character, file.clips, written));
   std::printf("wrote %s\n", printable(path).c_str());
   return ExitCode::kDone;

@@ -152,6 +152,7 @@ AnimationDocument::AnimationDocument(const CharacterSource& source, const ClipSo
   CharacterFile file = loadCharacterWithClips(source, library_, &message_);
   name_ = file.name;
   bones_ = file.bones;
+  ink_hull_ = file.ink_hull;
   state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
   state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
   state_.pose = restPose(skeleton());
@@ -553,6 +554,7 @@ bool AnimationDocument::openModel(const std::string& path) {
     on_disk_.note(path);
     name_ = file.name;
     bones_ = file.bones;
+    ink_hull_ = file.ink_hull;
     state_.character = std::make_shared<const RiggedCharacter>(std::move(file.character));
     state_.clips = std::make_shared<const std::vector<Clip>>(std::move(file.clips));
     takeEaseOfLibrary();
@@ -581,6 +583,7 @@ bool AnimationDocument::saveModel(const std::string& path) {
     ExportOptions options;
     options.name = name_;
     options.bones = bones_;
+    options.ink_hull = ink_hull_;
     options.generator = kWrittenByView;
     save(path, ".glb", encodeGlb(character(), clips, options));
     setSaved(path, clips);

@@ -61,6 +61,7 @@ FilmOptions filmOptions(const RenderCommandOptions& options) {
   film.look.translucent = options.translucent;
   film.look.skeleton = options.skeleton;
   film.look.shadow = !options.no_shadow;
+  film.look.ink = !options.no_ink;
   if (options.blend == "dual") film.look.blending = Blending::kDualQuaternions;
   if (const auto color = backgroundColor(options.background))
     film.look.background = *color;

@@ -136,6 +136,8 @@ void bindRenderOptions(CLI::App& app, RenderCommandOptions& options) {
       ->excludes(sheet)
       ->type_name("JOINT");
   app.add_flag("--no-shadow", options.no_shadow, "No shadow on the ground")->excludes(sheet);
+  app.add_flag("--no-ink", options.no_ink,
+               "Without the line around the model that goes on from the drawing's own outline");
   app.add_option("--blend", options.blend, "How joints move the skin: matrices, or dual quaternions")
       ->check(CLI::IsMember({"linear", "dual"}))
       ->excludes(sheet)

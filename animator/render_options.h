@@ -57,7 +57,7 @@ struct RenderCommandOptions {
   std::string frame = "auto";  // clip or clips: what the camera shows all of
   std::string painter = "auto";
   std::string blend = "linear";
-  bool wireframe = false, translucent = false, skeleton = false, no_shadow = false;
+  bool wireframe = false, translucent = false, skeleton = false, no_shadow = false, no_ink = false;
   std::string weights_of;
 };
 void bindRenderOptions(CLI::App& app, RenderCommandOptions& options);

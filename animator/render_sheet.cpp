@@ -127,6 +127,7 @@ struct Sheets {
     Look look;
     look.background = kClear;
     look.shadow = false;
+    look.ink = !options.no_ink;
     const Image large = scene.paint(posedAt(scene.character(), clip, time_s), camera, factor() * size.width,
                                     factor() * size.height, look);
     return options.sheet.pixels ? pixelated(large, factor()) : resized(large, size.width, size.height);

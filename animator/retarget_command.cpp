@@ -98,8 +98,9 @@ std::string encoded(const std::string& path, CharacterFile file, const ClipKeys&
   }
   std::erase_if(file.clips, [&](const Clip& other) { return other.name == clip.name; });
   file.clips.push_back(clip);
-  return encodeGlb(file.character, file.clips,
-                   {.name = file.name, .bones = file.bones, .generator = kWrittenByRetarget});
+  return encodeGlb(
+      file.character, file.clips,
+      {.name = file.name, .bones = file.bones, .generator = kWrittenByRetarget, .ink_hull = file.ink_hull});
 }
 
 }  // namespace

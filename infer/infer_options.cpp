@@ -128,6 +128,10 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
   app.add_option("--rest-pose", options.rest_pose, "How the character stands when nothing moves it")
       ->check(namesOf(kRestPoseNames));
   bindJointOptions(app, options.joints);
+  app.add_flag(
+      "--ink", options.ink_hull,
+      "The .glb's model wears the drawing's outline from all sides (an inverted hull; programs that\n"
+      "show both sides of triangles paint it black)");
   app.add_option(
          "--back", options.back,
          "What the model wears behind: plain (its colours without the face), same (the drawing), or a\n"

@@ -38,6 +38,7 @@ struct InferOptions {
   double into_picture = RetargetOptions().into_picture;
   std::string rest_pose = "drawn";
   JointOptions joints;
+  bool ink_hull = false;
   std::string back;             // "same", "plain", a picture, or nothing: the body plan's own
   std::string layers = "auto";  // "auto", "off", or a picture
   NamedNumbers heights;         // m; 0: the body plan's own

@@ -111,7 +111,8 @@ std::vector<Format> makeFormats() {
   for (const ExportFormat& format : exportFormats())
     all.push_back({format.name, stageOfExport(format.name), format.suffixes, [&format](const Request& r) {
                      std::vector<OutputFile> files;
-                     const ExportOptions options = exportOptions(nameOf(r.stem), r.options.joints);
+                     ExportOptions options = exportOptions(nameOf(r.stem), r.options.joints);
+                     options.ink_hull = r.options.ink_hull;
                      for (ExportedFile& file :
                           format.encode({r.drawing.character, r.drawing.clips, options, &r.drawing.colors(),
                                          &r.drawing.silhouette.mask, r.file.mask.has_value()}))

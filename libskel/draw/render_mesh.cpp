@@ -8,6 +8,7 @@
 #include "libskel/core/check.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/draw/paper.h"
+#include "libskel/mesh/ink_hull.h"
 #include "libskel/mesh/vertex_normals.h"
 
 namespace skel {
@@ -61,12 +62,69 @@ Image textureAsSeen(const TriangleMesh& mesh, const std::vector<Vector3f>& scree
                  std::max(1, int(mesh.texture.height * shrink)));
 }
 
+// x, y in px; z = 1 / distance from the eye, which is linear on the screen.
+std::vector<Vector3f> onScreen(const Eigen::MatrixX3f& vertices, const Camera& camera, int width,
+                               int height) {
+  const Matrix3d eye = eyeFromModel(camera);
+  const double scale = height / camera.view_height_m * camera.distance_m;
+  std::vector<Vector3f> screen;
+  screen.reserve(std::size_t(vertices.rows()));
+  for (const auto& vertex : vertices.rowwise()) {
+    const Vector3d p = eye * (vertex.transpose().cast<double>() - camera.target);
+    const double depth = camera.distance_m - p.z();
+    screen.emplace_back(width / 2.0 - 0.5 + scale * p.x() / depth, height / 2.0 - 0.5 - scale * p.y() / depth,
+                        1 / depth);
+  }
+  return screen;
+}
+
+// A picture of which each pixel shows what is nearest.
+struct Samples {
+  Image image;
+  std::vector<float> nearest;  // 1 / distance
+
+  Samples(int width, int height)
+      : image(blankImage(width, height, kClear)), nearest(std::size_t(width) * height, 0) {}
+
+  // `color`: 0…255, by the shares of the corners.
+  template <class ColorAt>
+  void draw(const Vector3f& a, const Vector3f& b, const Vector3f& c, const ColorAt& color_at) {
+    if (a.z() <= 0 || b.z() <= 0 || c.z() <= 0) return;  // behind the eye
+    const float area = cross2(a, b, c);
+    if (area == 0) return;
+    const int x0 = std::max(0, int(std::ceil(std::min({a.x(), b.x(), c.x()}))));
+    const int x1 = std::min(image.width - 1, int(std::floor(std::max({a.x(), b.x(), c.x()}))));
+    const int y0 = std::max(0, int(std::ceil(std::min({a.y(), b.y(), c.y()}))));
+    const int y1 = std::min(image.height - 1, int(std::floor(std::max({a.y(), b.y(), c.y()}))));
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x) {
+        const Eigen::Vector2f p{float(x), float(y)};
+        const float wa = cross2(p, Eigen::Vector2f(b.head<2>()), Eigen::Vector2f(c.head<2>())) / area;
+        const float wb = cross2(p, Eigen::Vector2f(c.head<2>()), Eigen::Vector2f(a.head<2>())) / area;
+        const float wc = 1 - wa - wb;
+        if (wa < 0 || wb < 0 || wc < 0) continue;
+        const float z = wa * a.z() + wb * b.z() + wc * c.z();
+        float& front = nearest[std::size_t(y) * image.width + x];
+        if (z <= front) continue;
+        front = z;
+        const RowVector3f color = color_at(wa * a.z() / z, wb * b.z() / z, wc * c.z() / z);
+        std::uint8_t* pixel = image.pixel(x, y);
+        for (int k = 0; k < 3; ++k) pixel[k] = std::uint8_t(std::lround(color[k]));
+        pixel[3] = 255;
+      }
+  }
+};
+
 }  // namespace
 
 Matrix3d eyeFromModel(const Camera& camera) {
   return (Eigen::AngleAxisd(camera.pitch_rad, Vector3d::UnitX()) *
           Eigen::AngleAxisd(-camera.yaw_rad, Vector3d::UnitY()))
       .toRotationMatrix();
+}
+
+Vector3d eyeOf(const Camera& camera) {
+  return camera.target + camera.distance_m * eyeFromModel(camera).transpose() * Vector3d::UnitZ();
 }
 
 Camera framingCamera(const Eigen::MatrixX3f& vertices, double yaw_rad, double pitch_rad,
@@ -117,63 +175,40 @@ Image renderMesh(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, con
   SKEL_CHECK_EQ(vertices.rows(), mesh.vertices.rows());
   SKEL_CHECK(options.width >= 1 && options.height >= 1 && options.samples >= 1);
   const int width = options.width * options.samples, height = options.height * options.samples;
-  const Matrix3d eye = eyeFromModel(camera);
-
-  // x, y in sample px; z = 1 / distance from the eye, which is linear on the screen.
-  std::vector<Vector3f> screen;
-  screen.reserve(std::size_t(vertices.rows()));
-  const double scale = height / camera.view_height_m * camera.distance_m;
-  for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
-    const Vector3d p = eye * (vertices.row(i).transpose().cast<double>() - camera.target);
-    const double depth = camera.distance_m - p.z();
-    screen.emplace_back(width / 2.0 - 0.5 + scale * p.x() / depth, height / 2.0 - 0.5 - scale * p.y() / depth,
-                        1 / depth);
-  }
-  const Eigen::MatrixX3f normals = vertexNormals(vertices, mesh.triangles) * eye.transpose().cast<float>();
+  const std::vector<Vector3f> screen = onScreen(vertices, camera, width, height);
+  const Eigen::MatrixX3f normals =
+      vertexNormals(vertices, mesh.triangles) * eyeFromModel(camera).transpose().cast<float>();
   const bool textured = !mesh.texture.empty() && mesh.uv.rows() == vertices.rows() && vertices.rows() > 0;
   const Image texture = textured ? textureAsSeen(mesh, screen) : Image();
   const bool repeat = textured && (mesh.uv.minCoeff() < 0 || mesh.uv.maxCoeff() > 1);
   const RowVector3f light = RowVector3f(-0.35f, 0.55f, 0.76f).normalized();
 
-  Image samples = blankImage(width, height, kClear);
-  std::vector<float> nearest(std::size_t(width) * height, 0);
+  Samples samples(width, height);
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     const RowVector3i v = mesh.triangles.row(t);
-    const Vector3f &a = screen[v[0]], &b = screen[v[1]], &c = screen[v[2]];
-    if (a.z() <= 0 || b.z() <= 0 || c.z() <= 0) continue;  // behind the eye
-    const float area = cross2(a, b, c);
-    if (area == 0) continue;
     RowVector2f uv[3];
     for (int k = 0; k < 3 && textured; ++k) uv[k] = mesh.uvOf(t, k);
-    const int x0 = std::max(0, int(std::ceil(std::min({a.x(), b.x(), c.x()}))));
-    const int x1 = std::min(width - 1, int(std::floor(std::max({a.x(), b.x(), c.x()}))));
-    const int y0 = std::max(0, int(std::ceil(std::min({a.y(), b.y(), c.y()}))));
-    const int y1 = std::min(height - 1, int(std::floor(std::max({a.y(), b.y(), c.y()}))));
-    for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) {
-        const Eigen::Vector2f p{float(x), float(y)};
-        const float wa = cross2(p, Eigen::Vector2f(b.head<2>()), Eigen::Vector2f(c.head<2>())) / area;
-        const float wb = cross2(p, Eigen::Vector2f(c.head<2>()), Eigen::Vector2f(a.head<2>())) / area;
-        const float wc = 1 - wa - wb;
-        if (wa < 0 || wb < 0 || wc < 0) continue;
-        const float z = wa * a.z() + wb * b.z() + wc * c.z();
-        float& front = nearest[std::size_t(y) * width + x];
-        if (z <= front) continue;
-        front = z;
-        const float pa = wa * a.z() / z, pb = wb * b.z() / z, pc = wc * c.z() / z;
-        RowVector3f color = options.plain_rgb.transpose();
-        if (textured) color = texel(texture, pa * uv[0] + pb * uv[1] + pc * uv[2], repeat);
-        const RowVector3f normal =
-            (pa * normals.row(v[0]) + pb * normals.row(v[1]) + pc * normals.row(v[2])).normalized();
-        // Full light on what faces it within 45°, so that most of the front shows the drawing's own colours.
-        const float lit = std::clamp(normal.dot(light) + 0.3f, 0.0f, 1.0f);
-        color *= shadeOf(1 - options.shading * (1 - lit), color.minCoeff());
-        std::uint8_t* pixel = samples.pixel(x, y);
-        for (int k = 0; k < 3; ++k) pixel[k] = std::uint8_t(std::lround(color[k]));
-        pixel[3] = 255;
-      }
+    samples.draw(screen[v[0]], screen[v[1]], screen[v[2]], [&](float a, float b, float c) {
+      RowVector3f color = options.plain_rgb.transpose();
+      if (textured) color = texel(texture, a * uv[0] + b * uv[1] + c * uv[2], repeat);
+      const RowVector3f normal =
+          (a * normals.row(v[0]) + b * normals.row(v[1]) + c * normals.row(v[2])).normalized();
+      // Full light on what faces it within 45°, so that most of the front shows the drawing's own colours.
+      const float lit = std::clamp(normal.dot(light) + 0.3f, 0.0f, 1.0f);
+      return RowVector3f(color * shadeOf(1 - options.shading * (1 - lit), color.minCoeff()));
+    });
   }
-  return resized(samples, options.width, options.height);
+  if (const Eigen::VectorXf reach_m = options.ink ? inkReach(mesh) : Eigen::VectorXf(); reach_m.size() > 0) {
+    const std::vector<Vector3f> hull = onScreen(
+        inkHull(vertices, mesh.triangles, reach_m, eyeOf(camera).cast<float>()), camera, width, height);
+    for (const auto& v : mesh.triangles.rowwise()) {
+      const Vector3f &a = hull[v[0]], &b = hull[v[1]], &c = hull[v[2]];
+      // Counter-clockwise is negative on the screen, y down.
+      if (cross2(a, b, c) > 0)
+        samples.draw(a, b, c, [&](float, float, float) { return RowVector3f(mesh.ink.rgb.transpose()); });
+    }
+  }
+  return resized(samples.image, options.width, options.height);
 }
 
 }  // namespace skel

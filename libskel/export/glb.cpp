@@ -17,7 +17,9 @@
 #include "libskel/export/check_character.h"
 #include "libskel/export/joint_names.h"
 #include "libskel/export/write_character.h"
+#include "libskel/image/srgb.h"
 #include "libskel/image/write_image.h"
+#include "libskel/mesh/ink_hull.h"
 #include "libskel/mesh/split_seams.h"
 #include "libskel/mesh/vertex_normals.h"
 #include "libskel/skeleton/joint_lookup.h"
@@ -207,7 +209,35 @@ Matrix rowsOf(const Matrix& matrix, const std::vector<int>& rows) {
   return result;
 }
 
-int addMesh(GlbBuilder& glb, const RiggedCharacter& character, const std::string& name) {
+// The line around the figure as a second primitive, which shares the joints and weights of the first.
+void addInkHull(GlbBuilder& glb, const TriangleMesh& whole, const Eigen::MatrixX3f& normals,
+                const SplitMesh& split, const std::string& name, tinygltf::Mesh& result) {
+  const Eigen::VectorXf reach_m = inkReach(whole);
+  TriangleMesh hull;
+  hull.vertices = rowsOf(Eigen::MatrixX3f(whole.vertices + reach_m.asDiagonal() * normals), split.source);
+  hull.triangles = split.mesh.triangles;
+  hull.triangles.col(1).swap(hull.triangles.col(2));
+  tinygltf::Material material;
+  material.name = name + "_ink";
+  material.pbrMetallicRoughness.metallicFactor = 0;
+  material.pbrMetallicRoughness.roughnessFactor = 1;
+  for (std::size_t k = 0; k < 3; ++k)
+    material.pbrMetallicRoughness.baseColorFactor[k] = double(linearFromSrgb(whole.ink.rgb[Eigen::Index(k)]));
+  material.extensions["KHR_materials_unlit"] = tinygltf::Value(tinygltf::Value::Object());
+  material.extras = tinygltf::Value(tinygltf::Value::Object{{"ink_hull", tinygltf::Value(true)}});
+  glb.model.extensionsUsed.push_back("KHR_materials_unlit");
+  glb.model.materials.push_back(material);
+  tinygltf::Primitive primitive = result.primitives[0];
+  primitive.attributes.erase("NORMAL");
+  primitive.attributes.erase("TEXCOORD_0");
+  primitive.material = int(glb.model.materials.size()) - 1;
+  primitive.indices = addTriangles(glb, hull);
+  primitive.attributes["POSITION"] =
+      glb.addBoundedAccessor(rowByRow(hull.vertices), 3, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
+  result.primitives.push_back(primitive);
+}
+
+int addMesh(GlbBuilder& glb, const RiggedCharacter& character, const std::string& name, bool ink_hull) {
   const SplitMesh split = splitSeams(character.mesh);
   const TriangleMesh& mesh = split.mesh;
   // Of the whole mesh, so that no edge shows where it is parted.
@@ -233,6 +263,8 @@ int addMesh(GlbBuilder& glb, const RiggedCharacter& character, const std::string
   tinygltf::Mesh result;
   result.name = name;
   result.primitives.push_back(primitive);
+  if (ink_hull && character.mesh.ink.width_m > 0)
+    addInkHull(glb, character.mesh, normals, split, name, result);
   glb.model.meshes.push_back(result);
   return 0;
 }
@@ -441,6 +473,20 @@ void addClip(GlbBuilder& glb, const Clip& any_clip, const RiggedCharacter& chara
   if (!animation.channels.empty()) glb.model.animations.push_back(animation);
 }
 
+// What glTF has no place for; nothing where there is nothing.
+tinygltf::Value extrasOf(const RiggedCharacter& character) {
+  tinygltf::Value::Object extras;
+  if (character.facing)
+    extras["facing_deg"] = tinygltf::Value(character.facing->yaw_rad * 180 / std::numbers::pi);
+  if (const InkLine& ink = character.mesh.ink; ink.width_m > 0) {
+    tinygltf::Value::Array rgb;
+    for (const float value : ink.rgb) rgb.emplace_back(double(value));
+    extras["ink"] = tinygltf::Value(tinygltf::Value::Object{{"width_m", tinygltf::Value(double(ink.width_m))},
+                                                            {"rgb", tinygltf::Value(rgb)}});
+  }
+  return extras.empty() ? tinygltf::Value() : tinygltf::Value(extras);
+}
+
 // Names of files may hold any bytes, those of glTF may not.
 std::string asUtf8(const std::string& name) {
   using nlohmann::json;
@@ -467,11 +513,9 @@ std::string encodeGlb(const RiggedCharacter& character, const std::vector<Clip>&
   tinygltf::Node node;
   const Rig rig = rigOf(character, clips, options.bones);
   node.name = meshNodeName(name, rig.skeleton, options.naming);
-  node.mesh = addMesh(glb, character, name);
+  node.mesh = addMesh(glb, character, name, options.ink_hull);
   node.skin = 0;
-  if (character.facing)
-    node.extras = tinygltf::Value(tinygltf::Value::Object{
-        {"facing_deg", tinygltf::Value(character.facing->yaw_rad * 180 / std::numbers::pi)}});
+  node.extras = extrasOf(character);
   glb.model.nodes.push_back(node);
   addJoints(glb, rig, options.naming, kFirstJoint);
   addSkin(glb, rig, name, kFirstJoint);

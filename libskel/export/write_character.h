@@ -35,6 +35,7 @@ struct ExportOptions {
   JointNaming naming = JointNaming::kSkel;
   BoneStyle bones = BoneStyle::kAlong;
   std::string generator = "skel";  // who wrote it
+  bool ink_hull = false;           // the line around the figure, if there is one, as triangles (ink_hull.h)
 };
 
 // glTF 2.0 binary: one skinned mesh with its texture, the joints, the clips as animations (already retargeted

@@ -14,4 +14,10 @@ inline std::uint8_t srgbFromLinear(float light) {
   return std::uint8_t(std::lround(255 * s));
 }
 
+// The way back, of 0…255: 0…1.
+inline float linearFromSrgb(float value) {
+  const float s = value / 255;
+  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+}
+
 }  // namespace skel

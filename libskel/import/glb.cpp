@@ -394,6 +394,27 @@ SkinWeights readWeights(const GlbContainer& glb, const JsonValue& primitive, con
   return result;
 }
 
+// What encodeGlb() writes of the line around a figure.
+bool isInkHull(const GlbContainer& glb, const JsonValue& primitive) {
+  const std::optional<JsonValue> index = primitive.find("material");
+  if (!index) return false;
+  const std::optional<JsonValue> extras = glb.element("materials", *index).find("extras");
+  return extras && extras->isObject() && extras->find("ink_hull");
+}
+
+InkLine readInk(const JsonValue& node) {
+  const std::optional<JsonValue> extras = node.find("extras");
+  if (!extras || !extras->isObject()) return {};
+  const std::optional<JsonValue> ink = extras->find("ink");
+  if (!ink) return {};
+  InkLine line;
+  line.width_m = static_cast<float>(ink->at("width_m").asNumber(0, kFarthest));
+  const std::vector<double> rgb = ink->at("rgb").asNumbers(3);
+  for (std::size_t k = 0; k < 3; ++k)
+    line.rgb[static_cast<Eigen::Index>(k)] = static_cast<float>(std::clamp(rgb[k], 0.0, 255.0));
+  return line;
+}
+
 // A drawing's model is parted in the file where front and back wear different parts of the texture.
 void makeWhole(RiggedCharacter& character) {
   std::optional<TriangleMesh> whole = joinSeams(character.mesh);
@@ -541,7 +562,9 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
   const Nodes nodes(glb);
   const JsonValue& node = nodes.values[static_cast<std::size_t>(skinnedNode(glb, nodes))];
   const JsonValue mesh = glb.element("meshes", node.at("mesh"));
-  const std::vector<JsonValue> primitives = mesh.at("primitives").items();
+  std::vector<JsonValue> primitives = mesh.at("primitives").items();
+  const std::size_t all = primitives.size();
+  std::erase_if(primitives, [&](const JsonValue& primitive) { return isInkHull(glb, primitive); });
   if (primitives.size() != 1)
     mesh.at("primitives")
         .fail("has " + std::to_string(primitives.size()) + " elements, one is read: use one material");
@@ -556,22 +579,24 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
   character.weights =
       readWeights(glb, primitives[0], joints, static_cast<std::size_t>(character.mesh.vertices.rows()));
   makeWhole(character);
+  character.mesh.ink = readInk(node);
   if (const auto extras = node.find("extras"); extras && extras->isObject())
     if (const auto facing = extras->find("facing_deg"))
       character.facing = Facing::at(facing->asNumber(-180, 180) * std::numbers::pi / 180);
   if (const auto animations = glb.root().find("animations")) {
-    const std::vector<JsonValue> all = animations->items();
-    if (all.size() > kMostClips)
-      animations->fail("are " + std::to_string(all.size()) + ", at most " + std::to_string(kMostClips) +
+    const std::vector<JsonValue> items = animations->items();
+    if (items.size() > kMostClips)
+      animations->fail("are " + std::to_string(items.size()) + ", at most " + std::to_string(kMostClips) +
                        " are read; export fewer");
     const auto heights = character.mesh.vertices.col(1);
     const float height = heights.maxCoeff() - heights.minCoeff();
     std::size_t keys = 0;
-    for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t i = 0; i < items.size(); ++i)
       result.clips.push_back(
-          readClip(glb, all[i], character, joints, height, "clip " + std::to_string(i + 1), keys));
+          readClip(glb, items[i], character, joints, height, "clip " + std::to_string(i + 1), keys));
   }
   result.bones = joints.style();
+  result.ink_hull = primitives.size() < all;
   if (const auto name = mesh.find("name")) result.name = name->asString();
   return result;
 }

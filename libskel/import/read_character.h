@@ -15,13 +15,14 @@ struct CharacterFile {
   std::vector<Clip> clips;    // relative to the character's rest pose
   std::string name;           // of the scene
   BoneStyle bones = BoneStyle::kAlong;
+  bool ink_hull = false;  // ExportOptions::ink_hull
 };
 
-// glTF 2.0 binary, as encodeGlb() writes it: one skinned mesh of one primitive with at most 4 influences a
-// vertex, joints that stand unscaled in the rest pose, everything inside the file, animations with LINEAR
-// samplers. Joints may have any axes; clips come in the model's. Joints that encodeGlb() put at the ends of
-// bones are left out. With `bones` it gives back the same bytes (the texture's if it was ours), but for the
-// last bits of rotations. Throws InputError with the place in the glTF document.
+// glTF 2.0 binary, as encodeGlb() writes it: one skinned mesh of one primitive (an ink hull apart) with at
+// most 4 influences a vertex, joints that stand unscaled in the rest pose, everything inside the file,
+// animations with LINEAR samplers. Joints may have any axes; clips come in the model's. Joints that
+// encodeGlb() put at the ends of bones are left out. With `bones` it gives back the same bytes (the texture's
+// if it was ours), but for the last bits of rotations. Throws InputError with the place in the glTF document.
 CharacterFile readGlb(const std::string& path);
 // `file` is the name that complaints use.
 CharacterFile decodeGlb(std::string_view bytes, const std::string& file);

@@ -13,6 +13,7 @@
 #include "libskel/core/error.h"
 #include "libskel/mesh/cross_sections.h"
 #include "libskel/mesh/fill_hidden.h"
+#include "libskel/mesh/ink_hull.h"
 #include "libskel/mesh/lay_over.h"
 #include "libskel/mesh/local_mean.h"
 #include "libskel/mesh/neck.h"
@@ -163,6 +164,7 @@ struct Sheet {
   PixelBox box;  // of the image
   std::vector<Polygon> outline;
   PlanarMesh planar;
+  std::vector<OutlineSample> rim;
   OutlineBand outline_band;
   std::vector<Eigen::Vector2d> place;  // of all vertices, image px: where they stand
   Heights z;
@@ -269,7 +271,10 @@ int shareOf(int max_texture_px, const PixelBox& piece, const PixelBox& figure) {
 void dress(const Image& image, const Plane8& mask, const Plane8& colored, bool thin_outline,
            int max_texture_px, Sheet& sheet) {
   sheet.outline_band = {std::vector<double>(sheet.inner(), 0), {}, sheet.planar.vertices};
-  if (thin_outline) sheet.outline_band = outlineBand(sheet.planar, drawnOutline(image, mask, sheet.outline));
+  if (thin_outline) {
+    sheet.rim = drawnOutline(image, mask, sheet.outline);
+    sheet.outline_band = outlineBand(sheet.planar, sheet.rim);
+  }
   sheet.front = drawingTexture(image, colored, figureBox(mask), max_texture_px);
 }
 
@@ -287,6 +292,7 @@ void dressPiece(const Image& image, const FigurePiece& piece, const Plane8& draw
                  Plane8((colored != 0 && piece.hidden != 0).cast<std::uint8_t>()));
   dress(filled, piece.mask, colored, thin_outline, max_texture_px, sheet);
   const Eigen::Vector2d corner(box.x0, box.y0);
+  for (OutlineSample& sample : sheet.rim) sample.point += corner;
   for (std::vector<Eigen::Vector2d>* points :
        {&sheet.planar.vertices, &sheet.outline_band.ink, &sheet.outline_band.drawn})
     for (Eigen::Vector2d& p : *points) p += corner;
@@ -600,6 +606,9 @@ TriangleMesh inflate(const Image& image, const Silhouette& silhouette, const Inf
     first += sheet.meshVertices();
   }
   mesh.texture = std::move(texture.image);
+  std::vector<OutlineSample> rim;
+  for (const Sheet& sheet : sheets) rim.insert(rim.end(), sheet.rim.begin(), sheet.rim.end());
+  mesh.ink = inkLine(image, rim, long_px, mesh.model_from_image.scale.y());
   return mesh;
 }
 

@@ -161,10 +161,10 @@ std::vector<OutlineSample> drawnOutline(const Image& image, const Plane8& mask,
     const std::size_t first = samples.size();
     for (int i = 0; i < count; i += spacing) {
       const Vector2d along = curve[(i + span) % count] - curve[(i + count - span % count) % count];
-      OutlineSample sample{curve[i], 0};
+      OutlineSample sample{curve[i]};
       if (along.norm() > 0) {
-        const Vector2d inwards = Vector2d(-along.y(), along.x()).normalized();
-        sample.width_px = lineWidth(image, mask, curve[i], inwards, kWidest * long_side);
+        sample.inwards = Vector2d(-along.y(), along.x()).normalized();
+        sample.width_px = lineWidth(image, mask, curve[i], sample.inwards, kWidest * long_side);
       }
       samples.push_back(sample);
     }

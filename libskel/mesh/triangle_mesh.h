@@ -31,6 +31,12 @@ struct ModelFromImage {
   }
 };
 
+// The line that is drawn around a figure (ink_hull.h).
+struct InkLine {
+  float width_m = 0;                              // 0: none
+  Eigen::Vector3f rgb = Eigen::Vector3f::Zero();  // 0…255
+};
+
 // Triangles are counter-clockwise seen from outside. One that inflate() made is closed and 2-manifold; one of
 // a user's own need not be.
 struct TriangleMesh {
@@ -43,6 +49,7 @@ struct TriangleMesh {
   Eigen::MatrixX2f back_uv;  // #V×2
   Eigen::Index first_back = 0;
   Image texture;
+  InkLine ink;
   ModelFromImage model_from_image;
   // #V, of a mesh of several closed bodies: which one, 0 the trunk's, else the limb's that a vertex belongs
   // to (FigurePiece::layer). Empty: one skin.

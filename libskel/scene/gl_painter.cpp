@@ -14,6 +14,7 @@
 #include "libskel/core/error.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/draw/paper.h"
+#include "libskel/mesh/ink_hull.h"
 #include "libskel/mesh/vertex_normals.h"
 #include "libskel/scene/gl_painter.h"
 #include "libskel/scene/shading.h"
@@ -137,12 +138,24 @@ struct Corner {
   float place[4], color[3], corner[3];
 };
 
+// Of the eye.
+bool looksAway(const Corner& a, const Corner& b, const Corner& c) {
+  const auto at = [](const Corner& p) -> Eigen::Vector2f {
+    return Eigen::Vector2f(p.place[0], p.place[1]) / p.place[2];
+  };
+  const Eigen::Vector2f ab = at(b) - at(a), ac = at(c) - at(a);
+  return ab.x() * ac.y() - ab.y() * ac.x() < 0;
+}
+
 constexpr int kSamples = 4;
 
 class GlPainter : public MeshPainter {
  public:
   explicit GlPainter(const TriangleMesh& mesh)
-      : triangles_(mesh.triangles), vertex_count_(mesh.vertices.rows()) {
+      : triangles_(mesh.triangles),
+        vertex_count_(mesh.vertices.rows()),
+        ink_rgb_(mesh.ink.rgb),
+        ink_reach_m_(inkReach(mesh)) {
     program_ = glCreateProgram();
     for (const GLuint shader :
          {compiled(GL_VERTEX_SHADER, kVertexShader), compiled(GL_FRAGMENT_SHADER, kFragmentShader)}) {
@@ -211,7 +224,10 @@ class GlPainter : public MeshPainter {
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
     glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(corners_.size() * sizeof(Corner)), corners_.data(),
                  GL_STREAM_DRAW);
-    if (surface.fill || surface.wires) glDrawArrays(GL_TRIANGLES, 0, GLsizei(corners_.size()));
+    if (surface.fill || surface.wires) glDrawArrays(GL_TRIANGLES, 0, GLsizei(body_corners_));
+    glUniform1i(place("textured"), false);
+    glUniform1i(place("wires"), false);
+    glDrawArrays(GL_TRIANGLES, GLint(body_corners_), GLsizei(corners_.size() - body_corners_));
     return readBack(width, height);
   }
 
@@ -233,36 +249,54 @@ class GlPainter : public MeshPainter {
     glGenerateMipmap(GL_TEXTURE_2D);
   }
 
-  // Three corners a triangle, so that each knows which of the three it is.
+  // Three corners a triangle, so that each knows which of the three it is: the mesh's, then the ink's.
   void fillCorners(const Eigen::MatrixX3f& vertices, const Camera& camera, const Surface& surface,
                    bool textured, float& nearest, float& farthest) {
     const Eigen::Matrix3f eye = eyeFromModel(camera).cast<float>();
-    const Eigen::Vector3f target = camera.target.cast<float>();
     const Eigen::MatrixX3f normals = vertexNormals(vertices, triangles_);
     const Eigen::Vector3f light = eye.transpose() * lightDirection();
-    std::vector<Corner> seen(std::size_t(vertices.rows()));
     nearest = farthest = float(camera.distance_m);
-    for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
-      const Eigen::Vector3f p = eye * (vertices.row(i).transpose() - target);
-      const float depth = float(camera.distance_m) - p.z();
-      nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
-      const float lit = std::clamp(normals.row(i).dot(light) + kLightReach, 0.f, 1.f);
-      Corner& corner = seen[std::size_t(i)];
-      corner = {{p.x(), p.y(), depth, 1 - surface.shading * (1 - lit)}, {0, 0, 0}, {0, 0, 0}};
-      const Eigen::Vector3f rgb =
-          surface.colors ? Eigen::Vector3f(surface.colors->row(i)) : surface.plain_rgb;
-      for (int k = 0; k < 3; ++k) corner.color[k] = rgb[k] / 255;
-    }
-    farthest *= 1.01f;
-    nearest = std::max(0.99f * nearest, 1e-4f * farthest);
+    const auto seen = [&](const Eigen::MatrixX3f& places, const auto& lit_of, const auto& color_of) {
+      std::vector<Corner> corners(std::size_t(places.rows()));
+      for (Eigen::Index i = 0; i < places.rows(); ++i) {
+        const Eigen::Vector3f p = eye * (places.row(i).transpose() - camera.target.cast<float>());
+        const float depth = float(camera.distance_m) - p.z();
+        nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
+        Corner& corner = corners[std::size_t(i)];
+        corner = {{p.x(), p.y(), depth, lit_of(i)}, {0, 0, 0}, {0, 0, 0}};
+        const Eigen::Vector3f rgb = color_of(i);
+        for (int k = 0; k < 3; ++k) corner.color[k] = rgb[k] / 255;
+      }
+      return corners;
+    };
+    const std::vector<Corner> body = seen(
+        vertices,
+        [&](Eigen::Index i) {
+          return 1 - surface.shading * (1 - std::clamp(normals.row(i).dot(light) + kLightReach, 0.f, 1.f));
+        },
+        [&](Eigen::Index i) {
+          return surface.colors ? Eigen::Vector3f(surface.colors->row(i)) : surface.plain_rgb;
+        });
     corners_.clear();
     for (Eigen::Index t = 0; t < triangles_.rows(); ++t)
       for (int k = 0; k < 3; ++k) {
-        corners_.push_back(seen[std::size_t(triangles_(t, k))]);
+        corners_.push_back(body[std::size_t(triangles_(t, k))]);
         corners_.back().corner[k] = 1;
         if (textured)
           for (int axis : {0, 1}) corners_.back().color[axis] = uv_(3 * t + k, axis);
       }
+    body_corners_ = corners_.size();
+    if (surface.hasInk() && ink_reach_m_.size() > 0) {
+      const std::vector<Corner> hull = seen(
+          inkHull(vertices, triangles_, ink_reach_m_, eyeOf(camera).cast<float>()),
+          [](Eigen::Index) { return 1.f; }, [&](Eigen::Index) { return ink_rgb_; });
+      for (const auto& v : triangles_.rowwise()) {
+        const Corner &a = hull[std::size_t(v[0])], &b = hull[std::size_t(v[1])], &c = hull[std::size_t(v[2])];
+        if (looksAway(a, b, c)) corners_.insert(corners_.end(), {a, c, b});
+      }
+    }
+    farthest *= 1.01f;
+    nearest = std::max(0.99f * nearest, 1e-4f * farthest);
   }
 
   void resizeTarget(int width, int height) {
@@ -322,8 +356,11 @@ class GlPainter : public MeshPainter {
   Context context_;
   Eigen::MatrixX3i triangles_;
   Eigen::Index vertex_count_;
-  Eigen::MatrixX2f uv_;  // a row for each corner of each triangle
+  Eigen::Vector3f ink_rgb_;
+  Eigen::VectorXf ink_reach_m_;  // empty: no line around it
+  Eigen::MatrixX2f uv_;          // a row for each corner of each triangle
   std::vector<Corner> corners_;
+  std::size_t body_corners_ = 0;  // of them, the mesh's own
   GLuint program_ = 0, array_ = 0, buffer_ = 0, texture_ = 0;
   GLuint drawn_ = 0, resolved_ = 0, stores_[3] = {};  // frames: with samples, without; their memory
   int width_ = 0, height_ = 0;

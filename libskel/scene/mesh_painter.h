@@ -20,8 +20,11 @@ struct Surface {
   float wire_px = 0.8f;
   Eigen::Vector3f plain_rgb = {205, 205, 210};  // 0…255, where the mesh has no texture
   float shading = 0.45f;                        // 0: the colours as they are; 1: black in the shade
+  bool ink = true;  // an opaque fill that wears its own colours has the line around it that is drawn in front
   // #V×3, 0…255, instead of texture and plain colour; else null.
   const Eigen::MatrixX3f* colors = nullptr;
+
+  bool hasInk() const { return ink && fill && opacity == 1 && colors == nullptr; }
 };
 
 class MeshPainter {

@@ -142,6 +142,7 @@ Image Scene::paint(const JointTransforms& posed_from_rest, const Camera& camera,
   surface.fill = look.solid || look.translucent;
   surface.opacity = look.translucent ? kTranslucency : 1;
   surface.wires = look.wireframe;
+  surface.ink = look.ink;
   surface.wire_color = wireColor(edge_m_ * project.pxPerMetre(camera.target), surface.wire_px, surface.fill);
   Eigen::MatrixX3f colors;
   if (look.weights_of >= 0) {

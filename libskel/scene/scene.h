@@ -16,6 +16,7 @@ struct Look {
   bool skeleton = false;
   Blending blending = Blending::kLinear;  // of the skin
   bool shadow = true;                     // on the ground
+  bool ink = true;                        // the line that is drawn around the figure
   int weights_of = -1;                    // a joint: its weights instead of the texture, blue to yellow
   int chosen = -1;                        // a joint that is drawn larger
   Color background = kWhite;              // kClear: none

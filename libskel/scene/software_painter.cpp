@@ -12,6 +12,7 @@
 #include "libskel/core/check.h"
 #include "libskel/draw/canvas.h"
 #include "libskel/draw/paper.h"
+#include "libskel/mesh/ink_hull.h"
 #include "libskel/mesh/split_seams.h"
 #include "libskel/mesh/vertex_normals.h"
 #include "libskel/scene/mesh_painter.h"
@@ -131,7 +132,11 @@ bool isSolid(const TriangleMesh& mesh) {
 class SoftwarePainter : public MeshPainter {
  public:
   explicit SoftwarePainter(const TriangleMesh& mesh)
-      : triangles_(mesh.triangles), vertex_count_(mesh.vertices.rows()), solid_(isSolid(mesh)) {
+      : triangles_(mesh.triangles),
+        vertex_count_(mesh.vertices.rows()),
+        solid_(isSolid(mesh)),
+        ink_rgb_(mesh.ink.rgb),
+        ink_reach_m_(inkReach(mesh)) {
     SplitMesh split = splitSeams(mesh);
     drawn_ = std::move(split.mesh.triangles);
     source_ = std::move(split.source);
@@ -156,9 +161,17 @@ class SoftwarePainter : public MeshPainter {
     const Image* texture = surface.colors || uv_.rows() == 0 ? nullptr : &levelFor(corners);
     colour(corners, vertices, camera, surface, texture);
 
+    std::vector<Corner> hull;
+    if (surface.hasInk() && ink_reach_m_.size() > 0) {
+      hull = project(inkHull(vertices, triangles_, ink_reach_m_, eyeOf(camera).cast<float>()), camera, width,
+                     height);
+      for (Corner& corner : hull) corner.rgb = ink_rgb_;
+    }
+
     Vector2f low(1e9f, 1e9f), high(-1e9f, -1e9f);
-    for (const Corner& corner : corners)
-      if (corner.near > 0) low = low.cwiseMin(corner.at), high = high.cwiseMax(corner.at);
+    for (const std::vector<Corner>* all : {&corners, &hull})
+      for (const Corner& corner : *all)
+        if (corner.near > 0) low = low.cwiseMin(corner.at), high = high.cwiseMax(corner.at);
     const int left = std::clamp(int(std::floor(low.x())) - 1, 0, width),
               top = std::clamp(int(std::floor(low.y())) - 1, 0, height);
     const int right = std::clamp(int(std::ceil(high.x())) + 2, left, width),
@@ -171,10 +184,13 @@ class SoftwarePainter : public MeshPainter {
       const Corner &a = corners[std::size_t(drawn_(t, 0))], &b = corners[std::size_t(drawn_(t, 1))],
                    &c = corners[std::size_t(drawn_(t, 2))];
       if (surface.wires)
-        drawTriangle<true>(samples, a, b, c, surface, texture);
+        drawTriangle<true>(samples, a, b, c, surface, solid_, texture);
       else
-        drawTriangle<false>(samples, a, b, c, surface, texture);
+        drawTriangle<false>(samples, a, b, c, surface, solid_, texture);
     }
+    for (Eigen::Index t = 0; t < drawn_.rows() && !hull.empty(); ++t)
+      drawTriangle<false>(samples, hull[std::size_t(drawn_(t, 0))], hull[std::size_t(drawn_(t, 2))],
+                          hull[std::size_t(drawn_(t, 1))], surface, true, nullptr);
     resolve(samples, image);
     return image;
   }
@@ -239,7 +255,7 @@ class SoftwarePainter : public MeshPainter {
 
   template <bool kWires>
   void drawTriangle(Samples& samples, const Corner& first, const Corner& second, const Corner& third,
-                    const Surface& surface, const Image* texture) const {
+                    const Surface& surface, bool outside_only, const Image* texture) const {
     if (first.near <= 0 || second.near <= 0 || third.near <= 0) return;
     const std::array<const Corner*, 3> c = {&first, &second, &third};
     const Vector2f origin = first.at;  // keeps the numbers small
@@ -247,7 +263,7 @@ class SoftwarePainter : public MeshPainter {
     for (std::size_t k = 0; k < 3; ++k) p[k] = c[k]->at - origin;
     float area = p[1].x() * p[2].y() - p[1].y() * p[2].x();
     // Outwards is counter-clockwise, which on the screen, y down, is a negative area.
-    if (area == 0 || !std::isfinite(area) || (area > 0 && solid_ && surface.fill)) return;
+    if (area == 0 || !std::isfinite(area) || (area > 0 && outside_only && surface.fill)) return;
     const float sign = area > 0 ? 1.f : -1.f;
     area *= sign;
 
@@ -388,6 +404,8 @@ class SoftwarePainter : public MeshPainter {
   Eigen::MatrixX3i triangles_;
   Eigen::Index vertex_count_;
   bool solid_;
+  Vector3f ink_rgb_;
+  Eigen::VectorXf ink_reach_m_;  // empty: no line around it
   // Parted where front and back wear different parts of the texture: triangles, and each corner's vertex.
   Eigen::MatrixX3i drawn_;
   std::vector<int> source_;

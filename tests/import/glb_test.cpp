@@ -45,6 +45,23 @@ TEST_CASE("a model whose back wears its own part of the texture is parted in the
   CHECK(same_bytes);
 }
 
+TEST_CASE(
+    "the line around a figure is written into the GLB and read back, as a hull where that is asked for") {
+  RiggedCharacter character = figure();
+  CHECK(decodeGlb(encodeGlb(character, {}, {.ink_hull = true}), "a.glb").character.mesh.ink.width_m == 0);
+  character.mesh.ink = {0.0125f, {30, 20, 10}};
+  for (const bool ink_hull : {false, true}) {
+    const std::string bytes = encodeGlb(character, {}, {.name = "figure", .ink_hull = ink_hull});
+    const CharacterFile file = decodeGlb(bytes, "a.glb");
+    CHECK(file.ink_hull == ink_hull);
+    CHECK(file.character.mesh.ink.width_m == character.mesh.ink.width_m);
+    CHECK(file.character.mesh.ink.rgb == character.mesh.ink.rgb);
+    CHECK(same(file.character.mesh.vertices, character.mesh.vertices));
+    const bool same_bytes = encodeGlb(file.character, {}, {.name = "figure", .ink_hull = ink_hull}) == bytes;
+    CHECK(same_bytes);
+  }
+}
+
 TEST_CASE("which way a figure looks is written into the GLB and read back") {
   RiggedCharacter character = figure();
   CHECK_FALSE(decodeGlb(encodeGlb(character, {}), "a.glb").character.facing);

@@ -94,6 +94,39 @@ TEST_CASE("every painter shows what renderMesh shows") {
     }
 }
 
+TEST_CASE(
+    "every painter shows the drawn line around a figure, alike, and only around a fill of its own colours") {
+  RiggedCharacter character = figure({.right_arm = 80, .right_forearm = 120});
+  const auto plain = painters(character.mesh);
+  character.mesh.ink = {0.02f, {200, 0, 100}};
+  const Eigen::MatrixX3f colors = Eigen::MatrixX3f::Constant(character.mesh.vertices.rows(), 3, 77);
+  for (const auto& [name, painter] : painters(character.mesh))
+    for (const double yaw : {0.0, 1.57, 2.5}) {
+      CAPTURE(name, yaw);
+      const Camera camera = framingCamera(character.mesh.vertices, yaw, 0.2);
+      const auto paint = [&](MeshPainter& by, const Surface& surface) {
+        return by.paint(character.mesh.vertices, camera, 200, 200, surface);
+      };
+      const Image with = paint(*painter, {}), without = paint(*plain.at(name), {});
+      CHECK(covered(with) > 1.03 * covered(without));
+      // What faces the viewer stays as it was.
+      int inside = 0;
+      for (Eigen::Index i = 0; i < with.rgba.rows(); ++i)
+        inside += without.rgba(i, 3) == 255 && (with.rgba.row(i) == without.rgba.row(i)).all();
+      CHECK(inside > 0.75 * covered(without));
+      const Image expected = renderMesh(character.mesh.vertices, character.mesh, camera,
+                                        {.width = 200, .height = 200, .samples = 4, .ink = true});
+      CHECK(difference(with, expected) < 0.8);
+      Surface colored, translucent, wires, off;
+      colored.colors = &colors;
+      translucent.opacity = 0.5f;
+      wires.fill = false, wires.wires = true;
+      off.ink = false;
+      for (const Surface& surface : {colored, translucent, wires, off})
+        CHECK((paint(*painter, surface).rgba == paint(*plain.at(name), surface).rgba).all());
+    }
+}
+
 TEST_CASE("every painter gives the same bytes twice, in wires, colours and translucent as well") {
   const RiggedCharacter character = figure();
   const Eigen::MatrixX3f colors = Eigen::MatrixX3f::Constant(character.mesh.vertices.rows(), 3, 77);

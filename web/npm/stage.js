@@ -6,6 +6,7 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
+import { addInkHull } from '../src/ink_hull.js';
 
 const kPatience_ms = 2000; // with a browser that gives a lost context back
 const kLongestStep_s = 0.1;
@@ -159,6 +160,7 @@ export class DrawingStage {
     this.clear();
     this.#model = scene;
     this.clips = animations;
+    addInkHull(scene);
     scene.traverse((part) => { part.frustumCulled = false; });
     this.#scene.add(scene);
     this.#mixer = new AnimationMixer(scene);

@@ -5,6 +5,7 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
+import { addInkHull } from './ink_hull.js';
 
 const kFrameTime_ms = 1000 / 60;
 
@@ -70,6 +71,7 @@ export class ModelStage extends EventTarget {
     this.model = scene;
     scene.visible = !this.flat;
     this.clips = animations;
+    addInkHull(scene);
     scene.traverse((part) => { part.frustumCulled = false; });
     this.scene.add(scene);
     this.mixer = new AnimationMixer(scene);
