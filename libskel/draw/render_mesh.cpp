@@ -176,8 +176,8 @@ Image renderMesh(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, con
   SKEL_CHECK(options.width >= 1 && options.height >= 1 && options.samples >= 1);
   const int width = options.width * options.samples, height = options.height * options.samples;
   const std::vector<Vector3f> screen = onScreen(vertices, camera, width, height);
-  const Eigen::MatrixX3f normals =
-      vertexNormals(vertices, mesh.triangles) * eyeFromModel(camera).transpose().cast<float>();
+  const Eigen::MatrixX3f in_model = vertexNormals(vertices, mesh.triangles),
+                         normals = in_model * eyeFromModel(camera).transpose().cast<float>();
   const bool textured = !mesh.texture.empty() && mesh.uv.rows() == vertices.rows() && vertices.rows() > 0;
   const Image texture = textured ? textureAsSeen(mesh, screen) : Image();
   const bool repeat = textured && (mesh.uv.minCoeff() < 0 || mesh.uv.maxCoeff() > 1);
@@ -199,14 +199,11 @@ Image renderMesh(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, con
     });
   }
   if (const Eigen::VectorXf reach_m = options.ink ? inkReach(mesh) : Eigen::VectorXf(); reach_m.size() > 0) {
-    const std::vector<Vector3f> hull = onScreen(
-        inkHull(vertices, mesh.triangles, reach_m, eyeOf(camera).cast<float>()), camera, width, height);
-    for (const auto& v : mesh.triangles.rowwise()) {
-      const Vector3f &a = hull[v[0]], &b = hull[v[1]], &c = hull[v[2]];
-      // Counter-clockwise is negative on the screen, y down.
-      if (cross2(a, b, c) > 0)
-        samples.draw(a, b, c, [&](float, float, float) { return RowVector3f(mesh.ink.rgb.transpose()); });
-    }
+    const InkHull ink = inkHull(vertices, mesh.triangles, in_model, reach_m, eyeOf(camera).cast<float>());
+    const std::vector<Vector3f> hull = onScreen(ink.vertices, camera, width, height);
+    for (const auto& t : ink.triangles.rowwise())
+      samples.draw(hull[t[0]], hull[t[1]], hull[t[2]],
+                   [&](float, float, float) { return RowVector3f(mesh.ink.rgb.transpose()); });
   }
   return resized(samples.image, options.width, options.height);
 }

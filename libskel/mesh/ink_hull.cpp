@@ -2,6 +2,7 @@
 // M. Cohen, "Image precision silhouette edges" (1999).
 #include "libskel/mesh/ink_hull.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +16,9 @@ constexpr double kInked = 0.6;        // of the rim: a figure with less of a lin
 constexpr double kMostWidth = 0.012;  // of the figure's long side
 constexpr float kInPlane = 0.4f;      // of the line's width: what is added to that of the front
 constexpr float kBehind = 2;          // widths from what the hull surrounds
+// Of the cosine between the normal and the line of sight: what looks away by more is behind what it
+// surrounds.
+constexpr float kCovered = 0.9f;
 
 template <class Value>
 Value median(std::vector<Value> values) {
@@ -47,15 +51,27 @@ Eigen::VectorXf inkReach(const TriangleMesh& mesh) {
   return mesh.ink.width_m * normals.col(2).cwiseAbs().cwiseMax(kInPlane);
 }
 
-Eigen::MatrixX3f inkHull(const Eigen::MatrixX3f& vertices, const Eigen::MatrixX3i& triangles,
-                         const Eigen::VectorXf& reach_m, const Eigen::Vector3f& eye) {
-  const Eigen::MatrixX3f normals = vertexNormals(vertices, triangles);
+InkHull inkHull(const Eigen::MatrixX3f& vertices, const Eigen::MatrixX3i& triangles,
+                const Eigen::MatrixX3f& normals, const Eigen::VectorXf& reach_m, const Eigen::Vector3f& eye) {
   const float behind = kBehind * reach_m.maxCoeff();
-  Eigen::MatrixX3f hull(vertices.rows(), 3);
-  for (Eigen::Index v = 0; v < hull.rows(); ++v) {
+  InkHull hull{Eigen::MatrixX3f(vertices.rows(), 3), Eigen::MatrixX3i(triangles.rows(), 3)};
+  std::vector<bool> covered(static_cast<std::size_t>(vertices.rows()));
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
     const Eigen::RowVector3f sight = vertices.row(v) + reach_m[v] * normals.row(v) - eye.transpose();
-    hull.row(v) = eye.transpose() + sight * (1 + behind / std::max(sight.norm(), 1e-6f));
+    const float distance = std::max(sight.norm(), 1e-6f);
+    hull.vertices.row(v) = eye.transpose() + sight * (1 + behind / distance);
+    covered[static_cast<std::size_t>(v)] = normals.row(v).dot(sight) > kCovered * distance;
   }
+  Eigen::Index count = 0;
+  for (const auto& t : triangles.rowwise()) {
+    if (covered[static_cast<std::size_t>(t[0])] && covered[static_cast<std::size_t>(t[1])] &&
+        covered[static_cast<std::size_t>(t[2])])
+      continue;
+    const Eigen::RowVector3f a = hull.vertices.row(t[0]), b = hull.vertices.row(t[1]),
+                             c = hull.vertices.row(t[2]);
+    if ((b - a).cross(c - a).dot(a - eye.transpose()) > 0) hull.triangles.row(count++) << t[0], t[2], t[1];
+  }
+  hull.triangles.conservativeResize(count, Eigen::NoChange);
   return hull;
 }
 

@@ -20,10 +20,15 @@ InkLine inkLine(const Image& image, const std::vector<OutlineSample>& rim, doubl
 // shows the line as it is drawn, less than elsewhere. Empty: there is no line. `mesh`: in its rest pose.
 Eigen::VectorXf inkReach(const TriangleMesh& mesh);
 
-// #V×3: the hull's vertices in a pose, for a painter: moved away from the `eye`, along the line of sight, so
-// that it is seen only past what it surrounds. Its triangles are the mesh's, turned inside out, those that
-// then look away from the eye not painted.
-Eigen::MatrixX3f inkHull(const Eigen::MatrixX3f& vertices, const Eigen::MatrixX3i& triangles,
-                         const Eigen::VectorXf& reach_m, const Eigen::Vector3f& eye);
+// For a painter.
+struct InkHull {
+  Eigen::MatrixX3f vertices;   // as many as the mesh has
+  Eigen::MatrixX3i triangles;  // #F×3: those that may be seen, turned inside out
+};
+
+// In a pose with these vertexNormals(): moved away from the `eye`, along the line of sight, so that it is
+// seen only past what it surrounds.
+InkHull inkHull(const Eigen::MatrixX3f& vertices, const Eigen::MatrixX3i& triangles,
+                const Eigen::MatrixX3f& normals, const Eigen::VectorXf& reach_m, const Eigen::Vector3f& eye);
 
 }  // namespace skel

@@ -138,15 +138,6 @@ struct Corner {
   float place[4], color[3], corner[3];
 };
 
-// Of the eye.
-bool looksAway(const Corner& a, const Corner& b, const Corner& c) {
-  const auto at = [](const Corner& p) -> Eigen::Vector2f {
-    return Eigen::Vector2f(p.place[0], p.place[1]) / p.place[2];
-  };
-  const Eigen::Vector2f ab = at(b) - at(a), ac = at(c) - at(a);
-  return ab.x() * ac.y() - ab.y() * ac.x() < 0;
-}
-
 constexpr int kSamples = 4;
 
 class GlPainter : public MeshPainter {
@@ -287,13 +278,11 @@ class GlPainter : public MeshPainter {
       }
     body_corners_ = corners_.size();
     if (surface.hasInk() && ink_reach_m_.size() > 0) {
+      const InkHull ink = inkHull(vertices, triangles_, normals, ink_reach_m_, eyeOf(camera).cast<float>());
       const std::vector<Corner> hull = seen(
-          inkHull(vertices, triangles_, ink_reach_m_, eyeOf(camera).cast<float>()),
-          [](Eigen::Index) { return 1.f; }, [&](Eigen::Index) { return ink_rgb_; });
-      for (const auto& v : triangles_.rowwise()) {
-        const Corner &a = hull[std::size_t(v[0])], &b = hull[std::size_t(v[1])], &c = hull[std::size_t(v[2])];
-        if (looksAway(a, b, c)) corners_.insert(corners_.end(), {a, c, b});
-      }
+          ink.vertices, [](Eigen::Index) { return 1.f; }, [&](Eigen::Index) { return ink_rgb_; });
+      for (const auto& t : ink.triangles.rowwise())
+        for (const int v : t) corners_.push_back(hull[std::size_t(v)]);
     }
     farthest *= 1.01f;
     nearest = std::max(0.99f * nearest, 1e-4f * farthest);

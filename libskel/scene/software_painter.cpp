@@ -157,14 +157,16 @@ class SoftwarePainter : public MeshPainter {
     Image image = blankImage(width, height, kClear);
     if (vertices.rows() == 0 || (!surface.fill && !surface.wires)) return image;
 
-    std::vector<Corner> corners = project(vertices, camera, width, height);
+    std::vector<Corner> corners = project(vertices(source_, Eigen::all), camera, width, height);
     const Image* texture = surface.colors || uv_.rows() == 0 ? nullptr : &levelFor(corners);
-    colour(corners, vertices, camera, surface, texture);
+    const Eigen::MatrixX3f normals = vertexNormals(vertices, triangles_);
+    colour(corners, normals, camera, surface, texture);
 
+    InkHull ink;
     std::vector<Corner> hull;
     if (surface.hasInk() && ink_reach_m_.size() > 0) {
-      hull = project(inkHull(vertices, triangles_, ink_reach_m_, eyeOf(camera).cast<float>()), camera, width,
-                     height);
+      ink = inkHull(vertices, triangles_, normals, ink_reach_m_, eyeOf(camera).cast<float>());
+      hull = project(ink.vertices, camera, width, height);
       for (Corner& corner : hull) corner.rgb = ink_rgb_;
     }
 
@@ -184,27 +186,27 @@ class SoftwarePainter : public MeshPainter {
       const Corner &a = corners[std::size_t(drawn_(t, 0))], &b = corners[std::size_t(drawn_(t, 1))],
                    &c = corners[std::size_t(drawn_(t, 2))];
       if (surface.wires)
-        drawTriangle<true>(samples, a, b, c, surface, solid_, texture);
+        drawTriangle<true>(samples, a, b, c, surface, texture);
       else
-        drawTriangle<false>(samples, a, b, c, surface, solid_, texture);
+        drawTriangle<false>(samples, a, b, c, surface, texture);
     }
-    for (Eigen::Index t = 0; t < drawn_.rows() && !hull.empty(); ++t)
-      drawTriangle<false>(samples, hull[std::size_t(drawn_(t, 0))], hull[std::size_t(drawn_(t, 2))],
-                          hull[std::size_t(drawn_(t, 1))], surface, true, nullptr);
+    for (const auto& t : ink.triangles.rowwise())
+      drawTriangle<false>(samples, hull[std::size_t(t[0])], hull[std::size_t(t[1])], hull[std::size_t(t[2])],
+                          surface, nullptr);
     resolve(samples, image);
     return image;
   }
 
  private:
-  std::vector<Corner> project(const Eigen::MatrixX3f& vertices, const Camera& camera, int width,
-                              int height) const {
+  static std::vector<Corner> project(const Eigen::MatrixX3f& places, const Camera& camera, int width,
+                                     int height) {
     const Eigen::Matrix3f eye = eyeFromModel(camera).cast<float>();
     const Vector3f target = camera.target.cast<float>();
     const float distance = float(camera.distance_m),
                 scale = float(height / camera.view_height_m * camera.distance_m);
-    std::vector<Corner> corners(source_.size());
+    std::vector<Corner> corners(std::size_t(places.rows()));
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vector3f p = eye * (vertices.row(source_[i]).transpose() - target);
+      const Vector3f p = eye * (places.row(Eigen::Index(i)).transpose() - target);
       const float depth = distance - p.z();
       if (depth <= 0) continue;  // behind the eye: near stays 0
       corners[i].near = 1 / depth;
@@ -235,9 +237,8 @@ class SoftwarePainter : public MeshPainter {
     return levels_[std::size_t(std::clamp(halvings, 0.0, double(levels_.size() - 1)))];
   }
 
-  void colour(std::vector<Corner>& corners, const Eigen::MatrixX3f& vertices, const Camera& camera,
+  void colour(std::vector<Corner>& corners, const Eigen::MatrixX3f& normals, const Camera& camera,
               const Surface& surface, const Image* texture) const {
-    const Eigen::MatrixX3f normals = vertexNormals(vertices, triangles_);
     const Vector3f light = eyeFromModel(camera).cast<float>().transpose() * lightDirection();
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const int row = source_[i];
@@ -255,7 +256,7 @@ class SoftwarePainter : public MeshPainter {
 
   template <bool kWires>
   void drawTriangle(Samples& samples, const Corner& first, const Corner& second, const Corner& third,
-                    const Surface& surface, bool outside_only, const Image* texture) const {
+                    const Surface& surface, const Image* texture) const {
     if (first.near <= 0 || second.near <= 0 || third.near <= 0) return;
     const std::array<const Corner*, 3> c = {&first, &second, &third};
     const Vector2f origin = first.at;  // keeps the numbers small
@@ -263,7 +264,7 @@ class SoftwarePainter : public MeshPainter {
     for (std::size_t k = 0; k < 3; ++k) p[k] = c[k]->at - origin;
     float area = p[1].x() * p[2].y() - p[1].y() * p[2].x();
     // Outwards is counter-clockwise, which on the screen, y down, is a negative area.
-    if (area == 0 || !std::isfinite(area) || (area > 0 && outside_only && surface.fill)) return;
+    if (area == 0 || !std::isfinite(area) || (area > 0 && solid_ && surface.fill)) return;
     const float sign = area > 0 ? 1.f : -1.f;
     area *= sign;
 

@@ -41,7 +41,7 @@ async function three(bytes, expected) {
   const gltf = await new GLTFLoader().parseAsync(new Uint8Array(bytes).buffer, '');
   const problems = [];
   const skinned = [];
-  gltf.scene.traverse((object) => object.isSkinnedMesh && skinned.push(object));
+  gltf.scene.traverse((object) => object.isSkinnedMesh && !object.material.userData.ink_hull && skinned.push(object));
   if (skinned.length !== 1) return [`three.js: ${skinned.length} skinned meshes, 1 expected`];
   const bones = skinned[0].skeleton.bones.filter((bone) => !bone.name.startsWith('hanging_'));
   if (bones.length !== expected) problems.push(`three.js: ${bones.length} bones, ${expected} expected`);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "libskel/mesh/outline_band.h"
+#include "libskel/mesh/vertex_normals.h"
 #include "tests/support/catch.h"
 #include "tests/support/figure.h"
 
@@ -59,7 +60,11 @@ TEST_CASE(
   CHECK(reach.minCoeff() > 0.003f);
   CHECK(reach.minCoeff() < 0.005f);
   const Eigen::Vector3f eye(0, 1, 8);
-  const Eigen::MatrixX3f hull = inkHull(mesh.vertices, mesh.triangles, reach, eye);
+  const InkHull ink =
+      inkHull(mesh.vertices, mesh.triangles, vertexNormals(mesh.vertices, mesh.triangles), reach, eye);
+  CHECK(ink.triangles.rows() > 0.1 * double(mesh.triangles.rows()));
+  CHECK(ink.triangles.rows() < 0.55 * double(mesh.triangles.rows()));
+  const Eigen::MatrixX3f& hull = ink.vertices;
   for (Eigen::Index v = 0; v < hull.rows(); ++v) {
     const float way = (hull.row(v) - mesh.vertices.row(v)).norm();
     CHECK(way < 0.035f);
