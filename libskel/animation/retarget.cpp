@@ -235,8 +235,19 @@ void holdArms(Retargeter& retargeter, const FigureShape& shape, std::vector<doub
            kept, slack_rad);
 }
 
-// Who can speak with neither arm, as holdArms() has it, does so with trunk and head: what they do of a
-// gesture grows, but no lean or nod beyond kFarthest_rad.
+// Who has an arm that rests sways in one piece: what bends between pelvis and head bends the arm, and what it
+// holds.
+void steadyTrunk(Retargeter& retargeter, const FigureShape& shape, const std::vector<double>& slack_rad) {
+  const Skeleton& skeleton = retargeter.skeleton;
+  const double resting =
+      std::max(restingArm(skeleton, shape, "left_"), restingArm(skeleton, shape, "right_"));
+  for (const char* name : {"pelvis", "neck", "head"})
+    if (const int joint = skeleton.find(name); joint >= 0 && slack_rad[std::size_t(joint)] > 0)
+      retargeter.share_of_motion[std::size_t(joint)] = heldShare(resting);
+}
+
+// Who can speak with neither arm, as holdArms() has it, does so with the trunk: what that does of a gesture
+// grows, but no lean beyond kFarthest_rad.
 void gestureWithoutArms(Retargeter& retargeter, const Clip& clip) {
   constexpr double kFarthest_rad = 20 * kPi / 180;
   constexpr double kGesture_rad = 6;  // of both arms together; steps are none, nor is breath
@@ -251,7 +262,7 @@ void gestureWithoutArms(Retargeter& retargeter, const Clip& clip) {
                legs = travelOf(clip, {"left_hip", "right_hip", "left_knee", "right_knee"});
   more = std::min(more, smoothStep(0.5, 0.8, arms / std::max(kGesture_rad, arms + legs)));
   for (const JointTrack& track : clip.tracks) {
-    if (track.joint != "body" && track.joint != "neck" && track.joint != "head") continue;
+    if (track.joint != "body") continue;
     double farthest = 0;
     for (const Eigen::Quaternionf& rotation : track.rotations)
       farthest = std::max(farthest, double(Eigen::AngleAxisf(rotation).angle()));
@@ -553,6 +564,7 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
       slack_rad[j] *= std::abs(std::cos(shape.yaw_rad));
   }
   holdArms(retargeter, shape, slack_rad);
+  steadyTrunk(retargeter, shape, slack_rad);
   gestureWithoutArms(retargeter, clip);
   const double steps = holdLegs(retargeter, shape, clip.contacts, slack_rad);
   const double trunk_turn_rad = trunkTurn(skeleton, retargeter.upright, slack_rad);
