@@ -46,11 +46,6 @@ Clip rocking(const Clip& clip, const Skeleton& skeleton, const std::string& side
   return result;
 }
 
-bool hasArm(const Skeleton& skeleton, const std::string& side) {
-  return skeleton.find(side + "shoulder") >= 0 && skeleton.find(side + "elbow") >= 0 &&
-         skeleton.find(side + "hand") >= 0;
-}
-
 std::string acrossFrom(const std::string& side) { return side == "left_" ? "right_" : "left_"; }
 
 bool isStump(const FigureShape& shape, int elbow) {
@@ -111,16 +106,13 @@ std::vector<ArmStay> staysIn(const Clip& clip, const Skeleton& skeleton, const F
 
 }  // namespace
 
-double restingArm(const Skeleton& skeleton, const FigureShape& shape, const std::string& side) {
-  if (!hasArm(skeleton, side)) return 0;
-  const int elbow = skeleton.index(side + "elbow"), hand = skeleton.index(side + "hand");
-  const double joined = shape.joined.empty() ? isFolded(skeleton, elbow, hand) : shape.joined[elbow];
-  return smoothStep(0.45, kGrownArm, joined);
-}
-
 double keptArm(const Skeleton& skeleton, const FigureShape& shape, const std::string& side) {
+  const int shoulder = skeleton.find(side + "shoulder"), elbow = skeleton.find(side + "elbow"),
+            hand = skeleton.find(side + "hand");
+  if (shoulder < 0 || elbow < 0 || hand < 0) return 0;
   const double least = isSeated(skeleton, shape) ? 0.8 : 0;  // on the knees, or to lean on
-  return hasArm(skeleton, side) ? std::max(least, restingArm(skeleton, shape, side)) : 0;
+  const double joined = shape.joined.empty() ? isFolded(skeleton, elbow, hand) : shape.joined[elbow];
+  return std::max(least, smoothStep(0.45, kGrownArm, joined));
 }
 
 double heldShare(double kept) { return 1 - 0.8 * kept; }

@@ -18,9 +18,7 @@ std::vector<std::string> armsThatStay(std::span<const Clip> clips, const Skeleto
 
 // Of arms, sides are "left_" and "right_".
 
-// How far the arm is one with the body, or folded, 0…1; 0 where there is none.
-double restingArm(const Skeleton& skeleton, const FigureShape& shape, const std::string& side);
-// How far the arm stays as it was drawn, 0…1: so, too, that of one who sits; 0 where there is none.
+// How far the arm stays as it was drawn, 0…1; 0 where there is none.
 double keptArm(const Skeleton& skeleton, const FigureShape& shape, const std::string& side);
 // How much of its motion is left to a joint that keeps the share `kept` of how it was drawn.
 double heldShare(double kept);

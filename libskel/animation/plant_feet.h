@@ -29,7 +29,7 @@ struct FootPlanting {
   std::vector<Eigen::Quaterniond> standing_turn;
   // One a joint, used for the feet: the way in which the knee bends if it is drawn straight.
   std::vector<Eigen::Vector3d> forwards;
-  double pelvis_m = 0;      // how high the root was drawn above the lowest sole
+  double sinks_m = 0;       // how much lower than it was drawn the root may stand
   double least_lift_m = 0;  // a foot that steps is lifted so far at least, if its leg is long enough
   double as_drawn = 0;      // the share to which a foot in the air is turned as when it stands
   double ramp_s = 0.12;     // a foot comes down to its place and leaves it in so much time

@@ -151,6 +151,26 @@ Stance stanceOf(const Skeleton& skeleton) {
   return stance;
 }
 
+// Who stands on his hands comes down for clips, too, that leave others lying as they are drawn.
+void comeDown(const Skeleton& skeleton, Clip& clip) {
+  constexpr double kUpsideDown_rad = 0.75 * kPi;
+  constexpr float kSlack_rad = float(25 * kPi / 180);  // as the clips have that stand others up
+  if (std::abs(stanceOf(skeleton).lean_rad) < kUpsideDown_rad) return;
+  for (const char* name : {"pelvis", "body", "neck", "head"}) {
+    if (skeleton.find(name) < 0) continue;
+    auto track = std::find_if(clip.tracks.begin(), clip.tracks.end(),
+                              [&](const JointTrack& one) { return one.joint == name; });
+    if (track == clip.tracks.end()) {
+      clip.tracks.emplace_back().joint = name;
+      track = clip.tracks.end() - 1;
+    }
+    if (!track->bone.isZero()) continue;
+    track->bone = Eigen::Vector3f::UnitY();
+    track->slack_rad = kSlack_rad;
+    if (track->times_s.empty()) track->times_s = {0}, track->rotations = {Eigen::Quaternionf::Identity()};
+  }
+}
+
 // Of a lean, what is taken back: nothing within the slack, and the more the farther it goes beyond, so that
 // who lies stands up.
 double straightened(double lean_rad, double slack_rad) {
@@ -233,17 +253,6 @@ void holdArms(Retargeter& retargeter, const FigureShape& shape, std::vector<doub
       hold(retargeter,
            {skeleton.index(side + "shoulder"), skeleton.index(side + "elbow"), skeleton.index(side + "hand")},
            kept, slack_rad);
-}
-
-// Who has an arm that rests sways in one piece: what bends between pelvis and head bends the arm, and what it
-// holds.
-void steadyTrunk(Retargeter& retargeter, const FigureShape& shape, const std::vector<double>& slack_rad) {
-  const Skeleton& skeleton = retargeter.skeleton;
-  const double resting =
-      std::max(restingArm(skeleton, shape, "left_"), restingArm(skeleton, shape, "right_"));
-  for (const char* name : {"pelvis", "neck", "head"})
-    if (const int joint = skeleton.find(name); joint >= 0 && slack_rad[std::size_t(joint)] > 0)
-      retargeter.share_of_motion[std::size_t(joint)] = heldShare(resting);
 }
 
 // Who can speak with neither arm, as holdArms() has it, does so with the trunk: what that does of a gesture
@@ -418,7 +427,8 @@ FootPlanting footPlanting(const Retargeter& retargeter, const Clip& clip, const 
     }
     planting.standing_y_m[foot] = sole_y - soleBelow(shape, foot, planting.standing_turn[foot]);
   }
-  planting.pelvis_m = drawnAt(0) - ground;
+  constexpr double kLeast = 0.02;  // of the pelvis' height
+  planting.sinks_m = lay ? drawnAt(0) : kLeast * std::max(0.0, drawnAt(0) - ground);
   return planting;
 }
 
@@ -427,13 +437,12 @@ FootPlanting footPlanting(const Retargeter& retargeter, const Clip& clip, const 
 // hangs.
 double standing(const Skeleton& skeleton, const std::vector<Vector3d>& still,
                 const std::vector<FootContact>& contacts, FootPlanting& planting) {
-  constexpr double kLeast = 0.02;  // of the pelvis' height
   double stand = 1e9;
   for (const FootContact& contact : contacts) {
     const int foot = skeleton.index(contact.joint);
     stand = std::min(stand, planting.standing_y_m[foot] - still[foot].y());
   }
-  stand = std::max(stand, -kLeast * std::max(0.0, planting.pelvis_m));
+  stand = std::max(stand, -planting.sinks_m);
   for (const FootContact& contact : contacts) {
     const int foot = skeleton.index(contact.joint);
     planting.standing_y_m[foot] = std::max(planting.standing_y_m[foot], still[foot].y() + stand);
@@ -529,6 +538,7 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
   }
   const FigureShape shape = options.shape ? *options.shape : shapeOfBones(skeleton);
   Clip clip = asItCan(asked, skeleton, shape);
+  if (!clip.contacts.empty()) comeDown(skeleton, clip);
   // Of what hangs on another figure.
   std::erase_if(clip.tracks, [&](const JointTrack& track) {
     return isHangingName(track.joint) && skeleton.find(track.joint) < 0;
@@ -564,7 +574,6 @@ Clip retargetToRest(const Clip& asked, const Skeleton& skeleton, const RetargetO
       slack_rad[j] *= std::abs(std::cos(shape.yaw_rad));
   }
   holdArms(retargeter, shape, slack_rad);
-  steadyTrunk(retargeter, shape, slack_rad);
   gestureWithoutArms(retargeter, clip);
   const double steps = holdLegs(retargeter, shape, clip.contacts, slack_rad);
   const double trunk_turn_rad = trunkTurn(skeleton, retargeter.upright, slack_rad);

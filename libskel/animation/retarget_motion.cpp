@@ -427,8 +427,14 @@ void takeTurns(const Source& source, const Mapping& mapping, const Skeleton& tar
   }
 }
 
-// A motion for joints of other names, other lengths and another rest pose: where bones point is ours.
+bool isOfTrunk(std::string_view role) {
+  return role == "pelvis" || role == "body" || role == "neck" || role == "head";
+}
+
+// A motion for joints of other names, other lengths and another rest pose: where bones point is ours. A
+// person who leans goes on leaning, one who lies or stands on his hands stands up, as for skel's own clips.
 void takeDirections(const Source& source, const Mapping& mapping, const Skeleton& target, Clip& clip) {
+  constexpr float kLean_rad = 25 * std::numbers::pi_v<float> / 180;
   clip.frame = ClipFrame::kBody;
   const RoleTurns turns = roleTurns(source);
   const JointRoles ours = findJointRoles(target);
@@ -444,6 +450,8 @@ void takeDirections(const Source& source, const Mapping& mapping, const Skeleton
     if (!kJointRoles[role].ends_with("hand") && !kJointRoles[role].ends_with("foot") &&
         isLimb(std::string(kJointRoles[role])))
       track.bone = kDown.cast<float>();
+    if (isOfTrunk(kJointRoles[role]) && target.template_name == "biped")
+      track.bone = Eigen::Vector3f::UnitY(), track.slack_rad = kLean_rad;
     // The nearest above that is moved too.
     int above = target.joints[j].parent;
     while (above >= 0 && mapping.theirs[std::size_t(above)] < 0)
@@ -498,8 +506,10 @@ void standOnGround(const Source& source, bool recorded, const Skeleton& target, 
   if (legs.empty() || our_legs.empty()) return;
   const std::vector<double> heights = heightsAboveGround(source, legs, recorded);
   const std::vector<float>& times = source.times_s;
-  const double ground = lowestSole(our_legs, shape, restPositions(target),
-                                   std::vector<Quaterniond>(target.joints.size(), Quaterniond::Identity()));
+  double ground = lowestSole(our_legs, shape, restPositions(target),
+                             std::vector<Quaterniond>(target.joints.size(), Quaterniond::Identity()));
+  // Who stood on his hands stands on what they were on.
+  if (ground > target.joints[0].position.y()) ground = 0;
   const ClipSampler sampler(clip, target);
   for (std::size_t k = 0; k < clip.root_times_s.size(); ++k) {
     const float time_s = clip.root_times_s[k];

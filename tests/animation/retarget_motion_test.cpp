@@ -318,3 +318,15 @@ TEST_CASE("what is no figure is refused") {
       "tiny.bvh: has no joints that could be told to be arms and legs, by name or by the shape of "
       "the tree");
 }
+
+TEST_CASE("who stands on his hands does a motion of others standing on his feet") {
+  const Skeleton upright = figureSkeleton(), skeleton = upsideDown(upright);
+  for (const std::string family : {"cmu", "mixamo", "rokoko"}) {
+    CAPTURE(family);
+    const Clip clip = retargeted(family, skeleton).clip, as_upright = retargeted(family, upright).clip;
+    auto at = places(clip, skeleton, 0.5f), expected = places(as_upright, upright, 0.5f);
+    CHECK(bone(at, "pelvis", "neck").dot(bone(expected, "pelvis", "neck")) > 0.9f);
+    CHECK(bone(at, "left_hip", "left_foot").dot(bone(expected, "left_hip", "left_foot")) > 0.9f);
+    CHECK(std::min(at["left_foot"].y(), at["right_foot"].y()) < 0.3f);
+  }
+}

@@ -277,6 +277,25 @@ TEST_CASE("the pelvis stays where it was drawn: no leg that is raised, folded or
   CHECK(bone(at, raised, "left_hip", "left_foot").y() < -0.8f);
 }
 
+TEST_CASE("who stands on his hands stands up on his feet, to idle and talk as well") {
+  const Skeleton upright = figureSkeleton();
+  const auto halfWay = [&](const char* name, const Skeleton& skeleton) {
+    RetargetOptions options;
+    options.shape = withFeet(skeleton);
+    const Clip clip = retargetToRest(clipNamed(builtinClips(), name), skeleton, options);
+    return positions(clip, skeleton, 0.5f * clip.duration_s());
+  };
+  for (const char* name : {"idle", "talk", "walk"}) {
+    CAPTURE(name);
+    const std::vector<Vector3f> at = halfWay(name, upsideDown(upright)), expected = halfWay(name, upright);
+    for (const char* joint : {"pelvis", "neck", "head", "left_foot", "right_foot"}) {
+      CAPTURE(joint);
+      CHECK(at[std::size_t(upright.index(joint))].y() ==
+            Approx(expected[std::size_t(upright.index(joint))].y()).margin(0.05));
+    }
+  }
+}
+
 TEST_CASE("who lies, or is bent over, stands up to walk, and who leans a little goes on leaning") {
   const auto turned = [](double degrees) {
     Skeleton skeleton = figureSkeleton();
@@ -427,36 +446,6 @@ TEST_CASE("who can move neither arm talks with the trunk, and neither breathes n
   for (const char* clip : {"greet", "idle", "walk"}) {
     CAPTURE(clip);
     CHECK(none[clip] == Approx(free[clip]).margin(0.01));
-  }
-}
-
-TEST_CASE(
-    "who has an arm that rests sways in one piece, but for a motion that lets nothing stay as it is drawn") {
-  const Skeleton skeleton = figureSkeleton();
-  RetargetOptions options;
-  options.shape = withFeet(skeleton);
-  Clip dance = clipNamed(builtinClips(), "dance");
-  // How far the joint turns from its parent, on the whole, rad.
-  const auto turns = [&](const char* joint) {
-    const Clip retargeted = retargetToRest(dance, skeleton, options);
-    float sum = 0;
-    for (float time_s = 0; time_s < retargeted.duration_s(); time_s += 0.05f)
-      sum += samplePose(retargeted, skeleton, time_s)
-                 .rotations[std::size_t(skeleton.index(joint))]
-                 .angularDistance(Eigen::Quaternionf::Identity());
-    return sum;
-  };
-  const char* joints[] = {"neck", "head"};
-  std::map<std::string, float> free, stiff, told;
-  for (const char* joint : joints) free[joint] = turns(joint);
-  options.shape->joined[std::size_t(skeleton.index("left_elbow"))] = 1;
-  for (const char* joint : joints) stiff[joint] = turns(joint);
-  for (JointTrack& track : dance.tracks) track.slack_rad = 0;
-  for (const char* joint : joints) told[joint] = turns(joint);
-  for (const char* joint : joints) {
-    CAPTURE(joint);
-    CHECK(stiff[joint] < 0.35f * free[joint]);
-    CHECK(told[joint] > 0.8f * free[joint]);
   }
 }
 

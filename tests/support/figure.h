@@ -55,6 +55,15 @@ inline Skeleton figureSkeleton(const FigurePose& pose = {}) {
   return skeleton;
 }
 
+// The same standing on the head.
+inline Skeleton upsideDown(Skeleton skeleton) {
+  double top = 0;
+  for (const Joint& joint : skeleton.joints) top = std::max(top, joint.position.y());
+  for (Joint& joint : skeleton.joints)
+    joint.position = {-joint.position.x(), top - joint.position.y(), joint.position.z()};
+  return skeleton;
+}
+
 // Tubes along the bones, each bound to its joint and, near the joint, half to the parent.
 inline RiggedCharacter figure(const FigurePose& pose = {}) {
   RiggedCharacter character;
