@@ -136,6 +136,18 @@ std::optional<std::string> betterBodyPlan(const Image& image, const Silhouette& 
 }
 
 // By the net of the body plan, or of the other one where the first leaves doubt and the other less.
+// How far a figure is turned in the drawing: as was found, but not if its joints, which somebody may have
+// placed since, say that it stands there and would be turned upside down.
+int turnedAs(const Skeleton& skeleton, int found_deg) {
+  constexpr double kStands = 0.7;  // cosine of the lean
+  const int neck = skeleton.find("neck");
+  if (neck < 0 || skeleton.joints.empty() || skeleton.joints[0].parent >= 0) return found_deg;
+  const Eigen::Vector2d trunk = skeleton.joints[std::size_t(neck)].image - skeleton.joints[0].image;
+  const Eigen::Vector2d upright = Eigen::Rotation2Dd(-found_deg * std::numbers::pi / 180) * trunk;
+  const double least = kStands * trunk.norm();
+  return -trunk.y() > least && upright.y() > least ? 0 : found_deg;
+}
+
 FoundJoints recognizeByNet(const RigOptions& options, const Image& image, const Silhouette& silhouette) {
   constexpr double kSure = .8, kFits = .5, kMayFit = .1;
   TreeRecognizerOptions recognizer;
@@ -330,7 +342,7 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
     joints.body_plan = planNamed(input.skeleton->template_name, options);
     joints.recognition.skeleton = *input.skeleton;
     joints.recognition.likeness = 1;  // as whoever hands it in says
-    joints.recognition.turned_deg = input.turned_deg;
+    joints.recognition.turned_deg = options.upright ? 0 : input.turned_deg;
   } else {
     joints = stage("recognition", &M::recognized,
                    figureAnd({stage.of(RigPart::kRecognitionOptions), stage.of(&M::candidates)}), [&] {
@@ -346,6 +358,8 @@ RiggedDrawing runStages(RigInput input, const RigOptions& options, RigMemory* me
   const SkeletonTemplate& body_plan = drawing.body_plan;
   if (!input.placed.empty())
     placeJoints(input, body_plan, silhouette, options.recognizer == Recognizer::kTree, drawing.recognition);
+  if (input.skeleton || !input.placed.empty())
+    drawing.recognition.turned_deg = turnedAs(drawing.recognition.skeleton, drawing.recognition.turned_deg);
   roundToFile(drawing.recognition.skeleton);
   drawing.character.skeleton = drawing.recognition.skeleton;
   if (last == LastStage::kJoints) return drawing;

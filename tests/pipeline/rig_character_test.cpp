@@ -291,6 +291,28 @@ TEST_CASE("a drawing that stands on its head gives an upright model, its joints 
   CHECK(drawing.character.mesh.vertices.col(1).minCoeff() == Approx(0).margin(1e-5));
 }
 
+TEST_CASE("joints that somebody placed upright are not turned upside down, nor any by whoever says so") {
+  const Image image = readImage(SKEL_SOURCE_DIR "/datasets/characters/cap_boy.png");
+  RigOptions options;
+  options.body_plan = loadTemplate("biped");
+  options.last = LastStage::kJoints;
+  RigInput drawn;
+  drawn.image = image;
+  const Skeleton upright = rigCharacter(std::move(drawn), options).recognition.skeleton;
+  const auto turned = [&](int found_deg) {
+    RigInput input;
+    input.image = image;
+    input.skeleton = upright;
+    input.turned_deg = found_deg;
+    return rigCharacter(std::move(input), options).recognition.turned_deg;
+  };
+  CHECK(turned(180) == 0);
+  CHECK(turned(160) == 0);
+  CHECK(turned(60) == 60);  // one who leans
+  options.upright = true;
+  CHECK(turned(60) == 0);
+}
+
 TEST_CASE("an animal whose body plan was chosen is rigged as one whose plan was named") {
   const std::string dog = SKEL_SOURCE_DIR "/datasets/animals/walking_dog.png";
   const RiggedDrawing chosen = rigDrawing(dog, rigOptions("auto")),
