@@ -188,7 +188,7 @@ class AnimationDocument {
   ClipSource library_;
   std::string name_;
   BoneStyle bones_ = BoneStyle::kAlong;  // as the file that was opened has them
-  bool ink_hull_ = false;                // so, too
+  bool ink_hull_ = false;                // as that file has it
   AnimationState state_;
   int chosen_ = -1;
   int open_steps_ = 0;

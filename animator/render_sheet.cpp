@@ -173,8 +173,9 @@ struct Sheets {
       addLibrary(file, options.library);
       for (const Clip& clip : file.clips) framed.push_back(inPlace(clip, file.character).clip);
     }
-    return spriteExtent(file.character, outermostPoints(file.character, framed), directionsOf(file),
-                        pitch_rad());
+    const SpriteExtent extent = spriteExtent(file.character, outermostPoints(file.character, framed),
+                                             directionsOf(file), pitch_rad());
+    return extent.grown(options.no_ink ? 0 : double(file.character.mesh.ink.width_m));
   }
 
   void measure(const CharacterFile& file, const std::vector<Clip>& asked) {

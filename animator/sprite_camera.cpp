@@ -41,6 +41,8 @@ SpriteExtent SpriteExtent::with(const SpriteExtent& other) const {
   return {std::max(aside, other.aside), std::min(low, other.low), std::max(high, other.high)};
 }
 
+SpriteExtent SpriteExtent::grown(double by_m) const { return {aside + by_m, low - by_m, high + by_m}; }
+
 SpriteExtent spriteExtent(const RiggedCharacter& character, const Eigen::MatrixX3f& points,
                           const std::vector<SpriteDirection>& directions, double pitch_rad) {
   const Eigen::Vector3d ground = groundPoint(character);

@@ -25,6 +25,7 @@ struct SpriteExtent {
   double aside = 1e-6, low = 0, high = 1e-6;
 
   SpriteExtent with(const SpriteExtent& other) const;  // what both reach
+  SpriteExtent grown(double by_m) const;               // on all sides
 };
 // Of these points, from all directions. The figure turns about the vertical through the middle of its joints.
 SpriteExtent spriteExtent(const RiggedCharacter& character, const Eigen::MatrixX3f& points,

@@ -130,8 +130,8 @@ void bindInferOptions(CLI::App& app, InferOptions& options) {
   bindJointOptions(app, options.joints);
   app.add_flag(
       "--ink", options.ink_hull,
-      "The .glb's model wears the drawing's outline from all sides (an inverted hull; programs that\n"
-      "show both sides of triangles paint it black)");
+      "The .glb's model wears the drawing's outline, if it has one, from all sides: an inverted hull,\n"
+      "which programs that show both sides of triangles show alone");
   app.add_option(
          "--back", options.back,
          "What the model wears behind: plain (its colours without the face), same (the drawing), or a\n"

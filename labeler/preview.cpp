@@ -31,7 +31,6 @@ bool Preview::draw(const std::shared_ptr<const RiggedDrawing>& rigged, float wid
     RenderOptions options;
     options.width = std::max(1, static_cast<int>(width));
     options.height = std::max(1, static_cast<int>(height));
-    options.ink = true;
     const double yaw_rad = 0.6 * std::sin(2 * M_PI * share);  // to and fro once, so that its depth shows
     Camera camera = framingCamera(character.mesh.vertices, 0, 0.08, width / height);
     camera.yaw_rad = yaw_rad;

@@ -29,11 +29,14 @@ using Bytes = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecas
 
 // What Python calls a Character. All but the clips stays as it is from the start.
 struct Character {
+  ExportOptions exported() const { return {.name = name, .bones = bones, .ink_hull = ink_hull}; }
+
   RiggedCharacter character;
   // Others than these take their place, they never change: who lets go of the interpreter's lock holds them.
   std::shared_ptr<const std::vector<Clip>> clips;
   std::string name;
   BoneStyle bones = BoneStyle::kAlong;
+  bool ink_hull = false;
   bool drawn = false;                // else nobody knows where its joints lie in a drawing
   std::vector<std::string> sources;  // files that it was made from, absolute: never written over
 };

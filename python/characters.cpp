@@ -256,7 +256,9 @@ void save(const Character& own, const py::object& to) {
     const ExportFormat& format = exportFormat(ending.substr(1));
     for (const std::string& suffix : format.suffixes(name, *clips)) checkNotSource(base + suffix, own);
     if (ending == ".obj") checkTexture(base);
-    const ExportInput input{own.character, *clips, {.name = name}};
+    ExportOptions options = own.exported();
+    options.name = name;
+    const ExportInput input{own.character, *clips, options};
     for (const ExportedFile& made : format.encode(input)) writeFile(base + made.suffix, made.bytes);
   });
 }
@@ -483,9 +485,8 @@ void bindCharacters(py::module_& module) {
           "to_glb",
           [](const Character& own) {
             const auto clips = own.clips;
-            const std::string bytes = unlocked("character", [&] {
-              return encodeGlb(own.character, *clips, {.name = own.name, .bones = own.bones});
-            });
+            const std::string bytes =
+                unlocked("character", [&] { return encodeGlb(own.character, *clips, own.exported()); });
             return py::bytes(bytes);
           },
           "The bytes of the .glb.")
@@ -503,6 +504,7 @@ void bindCharacters(py::module_& module) {
                         std::make_shared<const std::vector<Clip>>(std::move(file.clips)),
                         std::move(file.name),
                         file.bones,
+                        file.ink_hull,
                         false,
                         {}});
         });

@@ -36,6 +36,7 @@ Performer seenFromTheFront(const std::string& path) {
   options.width = px(size.x());
   options.height = px(size.y());
   if (!mesh.texture.empty()) options.shading = 0;
+  options.ink = false;
   const Camera camera = framingCamera(mesh.vertices, 0, 0, double(options.width) / options.height);
   Performer performer;
   performer.image = renderMesh(mesh.vertices, mesh, camera, options);

@@ -131,6 +131,7 @@ Image rendered(const Eigen::MatrixX3f& vertices, const TriangleMesh& mesh, const
   options.width = options.height = kPictureSize;
   options.samples = 1;
   options.shading = 0;
+  options.ink = false;
   return renderMesh(vertices, mesh, camera, options);
 }
 

@@ -155,7 +155,7 @@ Stance stanceOf(const Skeleton& skeleton) {
 void comeDown(const Skeleton& skeleton, Clip& clip) {
   constexpr double kUpsideDown_rad = 0.75 * kPi;
   constexpr float kSlack_rad = float(25 * kPi / 180);  // as the clips have that stand others up
-  if (std::abs(stanceOf(skeleton).lean_rad) < kUpsideDown_rad) return;
+  if (skeleton.template_name != "biped" || std::abs(stanceOf(skeleton).lean_rad) < kUpsideDown_rad) return;
   for (const char* name : {"pelvis", "body", "neck", "head"}) {
     if (skeleton.find(name) < 0) continue;
     auto track = std::find_if(clip.tracks.begin(), clip.tracks.end(),

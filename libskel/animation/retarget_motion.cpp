@@ -509,7 +509,7 @@ void standOnGround(const Source& source, bool recorded, const Skeleton& target, 
   double ground = lowestSole(our_legs, shape, restPositions(target),
                              std::vector<Quaterniond>(target.joints.size(), Quaterniond::Identity()));
   // Who stood on his hands stands on what they were on.
-  if (ground > target.joints[0].position.y()) ground = 0;
+  if (recorded && ground > target.joints[0].position.y()) ground = 0;
   const ClipSampler sampler(clip, target);
   for (std::size_t k = 0; k < clip.root_times_s.size(); ++k) {
     const float time_s = clip.root_times_s[k];

@@ -36,7 +36,7 @@ struct RenderOptions {
   int samples = 2;                              // each way, a pixel
   Eigen::Vector3f plain_rgb = {205, 205, 210};  // 0…255, where the mesh has no texture
   float shading = 0.45f;                        // 0: the texture's colours as they are; 1: black in the shade
-  bool ink = false;                             // with the line around it that is drawn in front
+  bool ink = true;                              // with the line around it that is drawn in front
 };
 
 // A rotation to the eye's axes: x right, y up, z towards the eye.

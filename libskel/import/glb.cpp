@@ -402,16 +402,19 @@ bool isInkHull(const GlbContainer& glb, const JsonValue& primitive) {
   return extras && extras->isObject() && extras->find("ink_hull");
 }
 
-InkLine readInk(const JsonValue& node) {
+// `height`: of the model, m.
+InkLine readInk(const JsonValue& node, double height) {
   const std::optional<JsonValue> extras = node.find("extras");
   if (!extras || !extras->isObject()) return {};
   const std::optional<JsonValue> ink = extras->find("ink");
-  if (!ink) return {};
+  if (!ink || !ink->isObject() || !ink->find("width_m") || !ink->find("rgb")) return {};
   InkLine line;
-  line.width_m = static_cast<float>(ink->at("width_m").asNumber(0, kFarthest));
+  line.width_m = static_cast<float>(ink->at("width_m").asNumber(0, height));
   const std::vector<double> rgb = ink->at("rgb").asNumbers(3);
-  for (std::size_t k = 0; k < 3; ++k)
-    line.rgb[static_cast<Eigen::Index>(k)] = static_cast<float>(std::clamp(rgb[k], 0.0, 255.0));
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(rgb[k] >= 0 && rgb[k] <= 255)) ink->at("rgb").fail("must be from 0 to 255");
+    line.rgb[static_cast<Eigen::Index>(k)] = static_cast<float>(rgb[k]);
+  }
   return line;
 }
 
@@ -579,7 +582,8 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
   character.weights =
       readWeights(glb, primitives[0], joints, static_cast<std::size_t>(character.mesh.vertices.rows()));
   makeWhole(character);
-  character.mesh.ink = readInk(node);
+  const auto up = character.mesh.vertices.col(1);
+  character.mesh.ink = readInk(node, double(up.maxCoeff() - up.minCoeff()));
   if (const auto extras = node.find("extras"); extras && extras->isObject())
     if (const auto facing = extras->find("facing_deg"))
       character.facing = Facing::at(facing->asNumber(-180, 180) * std::numbers::pi / 180);

@@ -26,6 +26,10 @@ void checkMesh(const TriangleMesh& mesh, const std::string& name) {
   if (!mesh.uv.allFinite() || !mesh.back_uv.allFinite()) refuse(".uv holds a number that is not finite");
   if (mesh.first_back < 0 || mesh.first_back > triangles)
     refuse(".first_back is none of " + std::to_string(triangles) + " triangles");
+  if (!(mesh.ink.width_m >= 0 && mesh.ink.width_m <= float(kFarthest)))
+    refuse(".ink.width_m must be a finite number of 0 or more");
+  if (!(mesh.ink.rgb.minCoeff() >= 0 && mesh.ink.rgb.maxCoeff() <= 255))
+    refuse(".ink.rgb must be from 0 to 255");
   checkImage(mesh.texture, name + ".texture");
 }
 

@@ -46,7 +46,7 @@ InkLine inkLine(const Image& image, const std::vector<OutlineSample>& rim, doubl
 }
 
 Eigen::VectorXf inkReach(const TriangleMesh& mesh) {
-  if (mesh.ink.width_m == 0) return {};
+  if (!(mesh.ink.width_m > 0)) return {};
   const Eigen::MatrixX3f normals = vertexNormals(mesh.vertices, mesh.triangles);
   return mesh.ink.width_m * normals.col(2).cwiseAbs().cwiseMax(kInPlane);
 }

@@ -26,8 +26,8 @@ struct InkHull {
   Eigen::MatrixX3i triangles;  // #F×3: those that may be seen, turned inside out
 };
 
-// In a pose with these vertexNormals(): moved away from the `eye`, along the line of sight, so that it is
-// seen only past what it surrounds.
+// In a pose with these vertexNormals(), `reach_m` by inkReach() and not empty, `eye` in the model frame, m:
+// moved away from the `eye`, along the line of sight, so that it is seen only past what it surrounds.
 InkHull inkHull(const Eigen::MatrixX3f& vertices, const Eigen::MatrixX3i& triangles,
                 const Eigen::MatrixX3f& normals, const Eigen::VectorXf& reach_m, const Eigen::Vector3f& eye);
 

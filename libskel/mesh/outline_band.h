@@ -13,7 +13,7 @@ namespace skel {
 struct OutlineSample {
   Eigen::Vector2d point = Eigen::Vector2d::Zero();  // image px
   double width_px = 0;  // 0: no dark line, or the figure is dark all the way through
-  Eigen::Vector2d inwards = Eigen::Vector2d::Zero();  // a unit vector
+  Eigen::Vector2d inwards = Eigen::Vector2d::Zero();  // a unit vector; zero where the curve has no direction
 };
 
 // `outline`: closed curves of points about one px apart, the figure to the right of the way round as seen on

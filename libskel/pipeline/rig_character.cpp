@@ -135,19 +135,19 @@ std::optional<std::string> betterBodyPlan(const Image& image, const Silhouette& 
   return std::nullopt;
 }
 
-// By the net of the body plan, or of the other one where the first leaves doubt and the other less.
 // How far a figure is turned in the drawing: as was found, but not if its joints, which somebody may have
 // placed since, say that it stands there and would be turned upside down.
 int turnedAs(const Skeleton& skeleton, int found_deg) {
   constexpr double kStands = 0.7;  // cosine of the lean
   const int neck = skeleton.find("neck");
-  if (neck < 0 || skeleton.joints.empty() || skeleton.joints[0].parent >= 0) return found_deg;
+  if (neck < 0) return found_deg;
   const Eigen::Vector2d trunk = skeleton.joints[std::size_t(neck)].image - skeleton.joints[0].image;
   const Eigen::Vector2d upright = Eigen::Rotation2Dd(-found_deg * std::numbers::pi / 180) * trunk;
   const double least = kStands * trunk.norm();
   return -trunk.y() > least && upright.y() > least ? 0 : found_deg;
 }
 
+// By the net of the body plan, or of the other one where the first leaves doubt and the other less.
 FoundJoints recognizeByNet(const RigOptions& options, const Image& image, const Silhouette& silhouette) {
   constexpr double kSure = .8, kFits = .5, kMayFit = .1;
   TreeRecognizerOptions recognizer;

@@ -143,7 +143,7 @@ Image views(const TriangleMesh& mesh) {
   std::vector<Panel> panels;
   for (const auto& [label, yaw] :
        {std::pair{"front", 0.0}, {"three-quarter", 0.7}, {"side", 1.5708}, {"back", 3.1416}}) {
-    const RenderOptions render{.width = kViewSize, .height = kViewSize, .ink = true};
+    const RenderOptions render{.width = kViewSize, .height = kViewSize};
     panels.push_back(
         {renderMesh(mesh.vertices, mesh, framingCamera(mesh.vertices, yaw, 0.1), render), label});
   }

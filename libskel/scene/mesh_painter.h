@@ -20,7 +20,7 @@ struct Surface {
   float wire_px = 0.8f;
   Eigen::Vector3f plain_rgb = {205, 205, 210};  // 0…255, where the mesh has no texture
   float shading = 0.45f;                        // 0: the colours as they are; 1: black in the shade
-  bool ink = true;  // an opaque fill that wears its own colours has the line around it that is drawn in front
+  bool ink = true;  // the drawn line around the mesh: only around an opaque fill without `colors`
   // #V×3, 0…255, instead of texture and plain colour; else null.
   const Eigen::MatrixX3f* colors = nullptr;
 

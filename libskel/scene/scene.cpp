@@ -69,7 +69,7 @@ void drawShadow(Image& image, const Eigen::MatrixX3f& vertices, float ground_y, 
   const int top = std::max(0, int(std::floor(std::max(corner.y(), 0.0))));
   const int bottom = std::min(image.height - 1, int(std::ceil(std::min(opposite.y(), 1e6))));
   const Eigen::Matrix3d model_from_eye = eyeFromModel(camera).transpose();
-  const Vector3d eye = camera.target + camera.distance_m * model_from_eye.col(2);
+  const Vector3d eye = eyeOf(camera);
   const double px = image.height / camera.view_height_m * camera.distance_m;
   Image shade = blankImage(right - left + 1, std::max(0, bottom - top + 1), kClear);
   for (int y = top; y <= bottom; ++y)

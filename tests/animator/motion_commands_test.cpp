@@ -273,7 +273,7 @@ TEST_CASE("a BVH of ours comes back as it was") {
     }
     CHECK_FALSE(bool(b >> y));
     CAPTURE(name);
-    CHECK(worst < 0.002);
+    CHECK(worst < 0.003);  // of floats near no turn
   }
 }
 

@@ -115,7 +115,7 @@ TEST_CASE(
         inside += without.rgba(i, 3) == 255 && (with.rgba.row(i) == without.rgba.row(i)).all();
       CHECK(inside > 0.75 * covered(without));
       const Image expected = renderMesh(character.mesh.vertices, character.mesh, camera,
-                                        {.width = 200, .height = 200, .samples = 4, .ink = true});
+                                        {.width = 200, .height = 200, .samples = 4});
       CHECK(difference(with, expected) < 0.8);
       Surface colored, translucent, wires, off;
       colored.colors = &colors;

@@ -24,10 +24,11 @@ function hullOf(figure) {
   });
   material.onBeforeCompile = (shader) => {
     shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', `#include <project_vertex>
-      vec4 behind = projectionMatrix * vec4(mvPosition.xyz + ${(kBehind * width_m).toFixed(6)} * normalize(mvPosition.xyz), 1.0);
-      gl_Position.z = behind.z / behind.w * gl_Position.w;`);
+      vec4 pushed = projectionMatrix * vec4(mvPosition.xyz + behind * normalize(mvPosition.xyz), 1.0);
+      gl_Position.z = pushed.z / pushed.w * gl_Position.w;`).replace('void main() {', 'uniform float behind;\nvoid main() {');
+    shader.uniforms.behind = { value: kBehind * width_m };
   };
-  material.customProgramCacheKey = () => `ink ${width_m}`;
+  material.customProgramCacheKey = () => 'ink';
   const hull = new SkinnedMesh(geometryOf(figure, width_m), material);
   hull.bind(figure.skeleton, figure.bindMatrix);
   figure.computeBoundingBox();
@@ -39,7 +40,7 @@ function hullOf(figure) {
 export function addInkHull(root) {
   const figures = [];
   root.traverse((part) => {
-    if (part.isSkinnedMesh && part.userData.ink) figures.push(part);
+    if (part.isSkinnedMesh && Array.isArray(part.userData.ink?.rgb)) figures.push(part);
   });
   for (const figure of figures) figure.parent.add(hullOf(figure));
 }

@@ -62,11 +62,12 @@ static func _with_shares(mesh: ArrayMesh) -> ArrayMesh:
 	for surface in range(mesh.get_surface_count()):
 		var arrays = mesh.surface_get_arrays(surface)
 		var most = 0.0
-		for uv in arrays[Mesh.ARRAY_TEX_UV]:
+		var shares = arrays[Mesh.ARRAY_TEX_UV] if arrays[Mesh.ARRAY_TEX_UV] else PoolVector2Array()
+		for uv in shares:
 			most = max(most, max(uv.x, uv.y))
-		if most < 256:
+		if surface == 0 and most < 256:
 			return mesh
-		for i in range(arrays[Mesh.ARRAY_TEX_UV].size()):
+		for i in range(shares.size()):
 			arrays[Mesh.ARRAY_TEX_UV][i] /= 65535.0
 		result.add_surface_from_arrays(mesh.surface_get_primitive_type(surface), arrays)
 		result.surface_set_material(surface, mesh.surface_get_material(surface))
