@@ -270,7 +270,10 @@ int shareOf(int max_texture_px, const PixelBox& piece, const PixelBox& figure) {
 // colours; both of the size of `image`.
 void dress(const Image& image, const Plane8& mask, const Plane8& colored, bool thin_outline,
            int max_texture_px, Sheet& sheet) {
-  sheet.outline_band = {std::vector<double>(sheet.inner(), 0), {}, sheet.planar.vertices};
+  sheet.outline_band = {std::vector<double>(sheet.inner(), 0),
+                        std::vector<bool>(sheet.inner(), false),
+                        {},
+                        sheet.planar.vertices};
   if (thin_outline) {
     sheet.rim = drawnOutline(image, mask, sheet.outline);
     sheet.outline_band = outlineBand(sheet.planar, sheet.rim);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "libskel/mesh/cut_mesh.h"
 #include "libskel/mesh/ink.h"
@@ -57,30 +59,32 @@ double lineWidth(const std::vector<double>& light, std::size_t reach, const IsLi
   return width <= reach && body_follows ? (static_cast<double>(width) + 1) * kStep : 0;
 }
 
-// The width of the line that begins at `p` and is crossed along `inwards`; 0: none.
-double lineWidth(const Image& image, const Plane8& mask, const Vector2d& p, const Vector2d& inwards,
-                 double widest_px) {
+// The line that begins at sample.point and is crossed along sample.inwards.
+void findLine(const Image& image, const Plane8& mask, double widest_px, OutlineSample& sample) {
   const auto samples = static_cast<std::size_t>(1.6 * widest_px / kStep);
   std::vector<double> light;
   light.reserve(samples);
   for (std::size_t i = 1; i <= samples; ++i) {
-    const auto here = lightnessAt(image, mask, p + static_cast<double>(i) * kStep * inwards);
+    const auto here =
+        lightnessAt(image, mask, sample.point + static_cast<double>(i) * kStep * sample.inwards);
     if (!here) break;
     light.push_back(*here);
   }
   const auto reach = static_cast<std::size_t>(widest_px / kStep);
-  if (light.size() < 4) return 0;
-  const double dark = lineWidth(light, reach, [](double darkest, double lightest) {
+  if (light.size() < 4) return;
+  sample.width_px = lineWidth(light, reach, [](double darkest, double lightest) {
     return darkest <= std::max(kDarkest, lightest - kFaint) &&
            lightest - darkest >= std::clamp(kShareOfLight * lightest, kLeastContrast, kContrast);
   });
   // Paper shines through strokes of crayon: only what is wide can have a white outline.
-  if (dark > 0 || light.size() < samples) return dark;
+  if (sample.width_px > 0 || light.size() < samples) return;
   for (double& value : light) value = 255 - value;
   const double white = lineWidth(light, reach, [](double darkest, double lightest) {
     return darkest <= 255 - kWhite && lightest - darkest >= kWhiteContrast;
   });
-  return white >= kLeastWhite * widest_px && white <= kMostWhite * widest_px ? white : 0;
+  if (white < kLeastWhite * widest_px || white > kMostWhite * widest_px) return;
+  sample.width_px = white;
+  sample.light = true;
 }
 
 // 1 for an equilateral triangle, as it is turned in the drawing; negative for an inverted one.
@@ -100,7 +104,10 @@ void closeGaps(std::vector<OutlineSample>& samples, std::size_t first, int spaci
     while (end < k + size && width(end) == 0) ++end;
     const double before = width(k), after = width(end);
     if ((end - k) * spacing_px > kGap * (before + after) / 2) continue;
-    for (int i = k + 1; i < end; ++i) width(i) = before + (after - before) * (i - k) / (end - k);
+    for (int i = k + 1; i < end; ++i) {
+      width(i) = before + (after - before) * (i - k) / (end - k);
+      samples[first + (i % size)].light = samples[first + (k % size)].light;
+    }
   }
 }
 
@@ -164,19 +171,21 @@ std::vector<OutlineSample> drawnOutline(const Image& image, const Plane8& mask,
       OutlineSample sample{curve[i]};
       if (along.norm() > 0) {
         sample.inwards = Vector2d(-along.y(), along.x()).normalized();
-        sample.width_px = lineWidth(image, mask, curve[i], sample.inwards, kWidest * long_side);
+        findLine(image, mask, kWidest * long_side, sample);
       }
       samples.push_back(sample);
     }
-    // One odd look changes nothing: the median of five along the curve.
-    std::vector<double> widths;
-    for (std::size_t k = first; k < samples.size(); ++k) widths.push_back(samples[k].width_px);
-    const int size = static_cast<int>(widths.size());
+    // One odd look changes nothing: the one of median width among five along the curve.
+    const std::vector<OutlineSample> found(samples.begin() + std::ptrdiff_t(first), samples.end());
+    const int size = static_cast<int>(found.size());
     for (int k = 0; k < size && size >= 5; ++k) {
-      double five[5];
-      for (int d = -2; d <= 2; ++d) five[d + 2] = widths[(k + d + size) % size];
+      std::pair<double, bool> five[5];
+      for (int d = -2; d <= 2; ++d) {
+        const OutlineSample& sample = found[static_cast<std::size_t>((k + d + size) % size)];
+        five[d + 2] = {sample.width_px, sample.light};
+      }
       std::nth_element(five, five + 2, five + 5);
-      samples[first + k].width_px = five[2];
+      std::tie(samples[first + k].width_px, samples[first + k].light) = five[2];
     }
     closeGaps(samples, first, spacing);
   }
@@ -184,7 +193,8 @@ std::vector<OutlineSample> drawnOutline(const Image& image, const Plane8& mask,
 }
 
 OutlineBand outlineBand(PlanarMesh& mesh, const std::vector<OutlineSample>& outline) {
-  OutlineBand band{std::vector<double>(mesh.inner_count, 0), mesh.vertices, mesh.vertices};
+  OutlineBand band{std::vector<double>(mesh.inner_count, 0), std::vector<bool>(mesh.inner_count, false),
+                   mesh.vertices, mesh.vertices};
   band.ink.resize(band.width_px.size());
   double widest = 0;
   for (const OutlineSample& sample : outline) widest = std::max(widest, sample.width_px);
@@ -234,6 +244,7 @@ OutlineBand outlineBand(PlanarMesh& mesh, const std::vector<OutlineSample>& outl
     if (behind[v] > 0.08 * mesh.cell_px) continue;
     behind[v] = std::min(behind[v], 0.0);
     band.width_px[v] = width;
+    band.light[v] = nearest->light;
     band.ink[v] = q + (p - q) * (width / 2 / (p - q).norm());
     inwards[v] = (p - q).normalized() * (softOf(width) * std::min(1.0, distance / width));
   }
@@ -248,6 +259,7 @@ OutlineBand outlineBand(PlanarMesh& mesh, const std::vector<OutlineSample>& outl
     const double width = nearest == nullptr ? 0 : nearest->width_px;
     const Vector2d along = mesh.vertices[cut.b] - a;
     band.width_px.push_back(width);
+    band.light.push_back(nearest != nullptr && nearest->light);
     band.ink.push_back(a + (mesh.vertices[band.ink.size()] - a) / 2);
     inwards.push_back(along * std::min(softOf(width) / along.norm(), (1 - cut.t) / 2));
   }

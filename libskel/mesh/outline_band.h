@@ -12,7 +12,8 @@ namespace skel {
 // A point of the figure's outline and how wide the dark line is that is drawn there.
 struct OutlineSample {
   Eigen::Vector2d point = Eigen::Vector2d::Zero();  // image px
-  double width_px = 0;  // 0: no dark line, or the figure is dark all the way through
+  double width_px = 0;                              // 0: no line, or the figure is dark all the way through
+  bool light = false;  // lighter than what it encloses: a white outline, the white of a sole
   Eigen::Vector2d inwards = Eigen::Vector2d::Zero();  // a unit vector; zero where the curve has no direction
 };
 
@@ -24,6 +25,7 @@ std::vector<OutlineSample> drawnOutline(const Image& image, const Plane8& mask,
 
 struct OutlineBand {
   std::vector<double> width_px;  // of the line, of each inner vertex that lies within it; 0 for all others
+  std::vector<bool> light;       // of each inner vertex: OutlineSample::light of that line
   std::vector<Eigen::Vector2d> ink;    // of each of them, image px: a point in the middle of the line
   std::vector<Eigen::Vector2d> drawn;  // of all vertices, image px: the point of the drawing that they show
 };

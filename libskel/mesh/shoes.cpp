@@ -96,7 +96,8 @@ void putOnShoes(const PlanarMesh& mesh, const std::vector<DepthFoot>& feet, cons
         heights.back[v] = std::max(heights.back[v], round * heel * counter);
       if (drop <= 0 || drop >= kSole * mesh.cell_px || round == 0) continue;
       place[static_cast<std::size_t>(v)] += 0.9 * drop * frame.down;
-      if (line == 0) continue;
+      // A light one is the sole's own.
+      if (line == 0 || band.light[static_cast<std::size_t>(v)]) continue;
       past[static_cast<std::size_t>(v)] = kPastLine * line * frame.down;
       band.drawn[static_cast<std::size_t>(v)] =
           mesh.vertices[static_cast<std::size_t>(v)] + drop * frame.down - past[static_cast<std::size_t>(v)];

@@ -17,7 +17,8 @@ std::vector<OutlineSample> rimOf(int inked) {
   for (int k = 0; k < 100; ++k) {
     const double angle = 2 * std::numbers::pi * k / 100;
     const Eigen::Vector2d out(std::cos(angle), std::sin(angle));
-    rim.push_back({Eigen::Vector2d(100, 100) + 80 * out, k < inked ? 6.0 : 0.0, -out});
+    rim.push_back(
+        {.point = Eigen::Vector2d(100, 100) + 80 * out, .width_px = k < inked ? 6.0 : 0.0, .inwards = -out});
   }
   return rim;
 }

@@ -21,7 +21,7 @@ TEST_CASE("a sole that is drawn straight is straight, wherever the grid's lines 
     CAPTURE(cell_px);
     const PlanarMesh mesh = triangulateFigure(mask, figureBox(mask), outline, cell_px);
     const std::vector<double> bare(mesh.vertices.size(), 0);
-    OutlineBand band{bare, mesh.vertices, mesh.vertices};
+    OutlineBand band{bare, std::vector<bool>(bare.size(), false), mesh.vertices, mesh.vertices};
     Heights heights{Eigen::VectorXd::Zero(mesh.inner_count), Eigen::VectorXd::Zero(mesh.inner_count)};
     std::vector<Eigen::Vector2d> place = mesh.vertices;
     putOnShoes(mesh, {{.knee = {100, 40}, .foot = {100, 140}, .radius_px = 20}}, bare, band, heights, place);
@@ -46,7 +46,8 @@ TEST_CASE("a sole with a drawn outline wears what lies past that, nowhere the li
   std::vector<Polygon> outline;
   for (const Polygon& curve : silhouette.outline) outline.push_back(sideMiddles(curve));
   const PlanarMesh mesh = triangulateFigure(mask, figureBox(mask), outline, 5);
-  OutlineBand band{std::vector<double>(std::size_t(mesh.inner_count), 0), mesh.vertices, mesh.vertices};
+  OutlineBand band{std::vector<double>(std::size_t(mesh.inner_count), 0),
+                   std::vector<bool>(std::size_t(mesh.inner_count), false), mesh.vertices, mesh.vertices};
   for (int v = 0; v < mesh.inner_count; ++v)
     if (160 - mesh.vertices[v].y() < kLine) band.width_px[v] = kLine;
   const std::vector<double> bare(std::size_t(mesh.inner_count), 0);
@@ -63,4 +64,10 @@ TEST_CASE("a sole with a drawn outline wears what lies past that, nowhere the li
     seen += 1;
   }
   CHECK(seen > 20);
+
+  // The white of a sole is its own.
+  band.light.assign(band.light.size(), true);
+  band.drawn = mesh.vertices;
+  putOnShoes(mesh, {{.knee = {100, 40}, .foot = {100, 140}, .radius_px = 20}}, bare, band, heights, place);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) CHECK(band.drawn[v] == mesh.vertices[v]);
 }
