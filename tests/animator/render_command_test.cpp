@@ -65,6 +65,27 @@ TEST_CASE("a model plays its own clips and those of skel, and looks as it is tol
   CHECK(render(model + " --clip walk --fps 4 --size 64x64 -o " + dir.file("walk.webp")).exit_code == 0);
 }
 
+TEST_CASE("a model with a drawn line wears it in films and sheets, unless that is not wanted") {
+  const TempDir dir;
+  RiggedCharacter character = figure();
+  character.mesh.ink = {0.02f, {200, 0, 0}};
+  writeFile(dir.file("inked.glb"), encodeGlb(character, {nodClip()}));
+  const std::string of_nod = dir.file("inked.glb") + " --clip nod --fps 1 ";
+  for (const char* to : {"--size 128x128 --angle 90 -o ", "--size 128 --directions 4 --sheet "}) {
+    CAPTURE(to);
+    const auto made = [&](const std::string& name, const std::string& options) {
+      REQUIRE(render(of_nod + options + " " + to + dir.file(name)).exit_code == 0);
+      return readImage(fs::is_directory(dir.file(name)) ? dir.file(name) + "/frame-0001.png"
+                                                        : dir.file(name));
+    };
+    const bool sheet = std::string(to).find("sheet") != std::string::npos;
+    const auto red = [](const Image& image) {
+      return (image.rgba.col(0) > 180 && image.rgba.col(1) < 60 && image.rgba.col(3) == 255).count();
+    };
+    CHECK(red(made(sheet ? "a.png" : "a/", "")) > red(made(sheet ? "b.png" : "b/", "--no-ink")) + 20);
+  }
+}
+
 TEST_CASE(
     "several drawings and clips become films in a folder, each character's at one scale and one ground") {
   const TempDir dir;

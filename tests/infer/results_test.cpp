@@ -72,6 +72,19 @@ TEST_CASE("where skel takes a figure to look another way, --facing says so, of o
   CHECK(contains(infer(dir, "ann.png --facing nan").err, "--facing"));
 }
 
+TEST_CASE("with --ink the line around a drawing with an outline is a hull in its GLB") {
+  const TempDir dir;
+  writeFile(dir.file("alien.png"), readFile(SKEL_SOURCE_DIR "/datasets/characters/alien.png"));
+  REQUIRE(infer(dir, "alien.png --formats glb -o plain").exit_code == 0);
+  REQUIRE(infer(dir, "alien.png --formats glb -o ink --ink").exit_code == 0);
+  const CharacterFile plain = readGlb(dir.file("plain/alien.glb")), ink = readGlb(dir.file("ink/alien.glb"));
+  CHECK_FALSE(plain.ink_hull);
+  CHECK(ink.ink_hull);
+  CHECK(plain.character.mesh.ink.width_m > 0.005f);
+  CHECK(plain.character.mesh.ink.width_m == ink.character.mesh.ink.width_m);
+  CHECK(plain.character.mesh.vertices == ink.character.mesh.vertices);
+}
+
 TEST_CASE("after --figure all, --skeleton page-2: the second skeleton stays on the second figure") {
   const TempDir dir;
   writePage(dir);
