@@ -2,6 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <numbers>
+#include <string_view>
 #include <vector>
 
 #include "libskel/skeleton/skeleton.h"
@@ -29,6 +32,11 @@ BoneTurn boneTurn(const Eigen::Vector3d& canonical, const Eigen::Vector3d& drawn
 std::vector<BoneTurn> turnsFromCanonical(const Skeleton& skeleton,
                                          const std::vector<Eigen::Vector3d>& canonical,
                                          const std::vector<double>& ground_rad = {});
+
+// The joints of a person's trunk, and how far they lean and stay as they were drawn (JointTrack::slack_rad)
+// where those who lean farther stand up.
+inline constexpr std::array<std::string_view, 4> kTrunkJoints = {"pelvis", "body", "neck", "head"};
+inline constexpr float kTrunkSlack_rad = float(25 * std::numbers::pi / 180);
 
 Eigen::Quaterniond aboutZ(double angle_rad);
 // Of a canonical bone: it is the trunk's, or the head's.

@@ -154,9 +154,9 @@ Stance stanceOf(const Skeleton& skeleton) {
 // Who stands on his hands comes down for clips, too, that leave others lying as they are drawn.
 void comeDown(const Skeleton& skeleton, Clip& clip) {
   constexpr double kUpsideDown_rad = 0.75 * kPi;
-  constexpr float kSlack_rad = float(25 * kPi / 180);  // as the clips have that stand others up
   if (skeleton.template_name != "biped" || std::abs(stanceOf(skeleton).lean_rad) < kUpsideDown_rad) return;
-  for (const char* name : {"pelvis", "body", "neck", "head"}) {
+  for (const std::string_view trunk : kTrunkJoints) {
+    const std::string name(trunk);
     if (skeleton.find(name) < 0) continue;
     auto track = std::find_if(clip.tracks.begin(), clip.tracks.end(),
                               [&](const JointTrack& one) { return one.joint == name; });
@@ -166,7 +166,7 @@ void comeDown(const Skeleton& skeleton, Clip& clip) {
     }
     if (!track->bone.isZero()) continue;
     track->bone = Eigen::Vector3f::UnitY();
-    track->slack_rad = kSlack_rad;
+    track->slack_rad = kTrunkSlack_rad;
     if (track->times_s.empty()) track->times_s = {0}, track->rotations = {Eigen::Quaternionf::Identity()};
   }
 }

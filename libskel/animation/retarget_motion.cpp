@@ -9,6 +9,7 @@
 #include <set>
 
 #include "libskel/animation/arm_abilities.h"
+#include "libskel/animation/bone_turn.h"
 #include "libskel/animation/joint_roles.h"
 #include "libskel/animation/plant_feet.h"
 #include "libskel/animation/sample_pose.h"
@@ -427,14 +428,9 @@ void takeTurns(const Source& source, const Mapping& mapping, const Skeleton& tar
   }
 }
 
-bool isOfTrunk(std::string_view role) {
-  return role == "pelvis" || role == "body" || role == "neck" || role == "head";
-}
-
 // A motion for joints of other names, other lengths and another rest pose: where bones point is ours. A
 // person who leans goes on leaning, one who lies or stands on his hands stands up, as for skel's own clips.
 void takeDirections(const Source& source, const Mapping& mapping, const Skeleton& target, Clip& clip) {
-  constexpr float kLean_rad = 25 * std::numbers::pi_v<float> / 180;
   clip.frame = ClipFrame::kBody;
   const RoleTurns turns = roleTurns(source);
   const JointRoles ours = findJointRoles(target);
@@ -450,8 +446,9 @@ void takeDirections(const Source& source, const Mapping& mapping, const Skeleton
     if (!kJointRoles[role].ends_with("hand") && !kJointRoles[role].ends_with("foot") &&
         isLimb(std::string(kJointRoles[role])))
       track.bone = kDown.cast<float>();
-    if (isOfTrunk(kJointRoles[role]) && target.template_name == "biped")
-      track.bone = Eigen::Vector3f::UnitY(), track.slack_rad = kLean_rad;
+    if (target.template_name == "biped" &&
+        std::find(kTrunkJoints.begin(), kTrunkJoints.end(), kJointRoles[role]) != kTrunkJoints.end())
+      track.bone = Eigen::Vector3f::UnitY(), track.slack_rad = kTrunkSlack_rad;
     // The nearest above that is moved too.
     int above = target.joints[j].parent;
     while (above >= 0 && mapping.theirs[std::size_t(above)] < 0)

@@ -20,10 +20,7 @@ const Eigen::Matrix3f kLabFromRoots =
 
 std::array<float, 256> makeLinear() {
   std::array<float, 256> linear;
-  for (std::size_t i = 0; i < linear.size(); ++i) {
-    const float s = float(i) / 255;
-    linear[i] = s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-  }
+  for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = linearFromSrgb(float(i));
   return linear;
 }
 

@@ -582,8 +582,9 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
   character.weights =
       readWeights(glb, primitives[0], joints, static_cast<std::size_t>(character.mesh.vertices.rows()));
   makeWhole(character);
-  const auto up = character.mesh.vertices.col(1);
-  character.mesh.ink = readInk(node, double(up.maxCoeff() - up.minCoeff()));
+  const auto heights = character.mesh.vertices.col(1);
+  const float height = heights.maxCoeff() - heights.minCoeff();
+  character.mesh.ink = readInk(node, double(height));
   if (const auto extras = node.find("extras"); extras && extras->isObject())
     if (const auto facing = extras->find("facing_deg"))
       character.facing = Facing::at(facing->asNumber(-180, 180) * std::numbers::pi / 180);
@@ -592,8 +593,6 @@ CharacterFile decodeGlb(std::string_view bytes, const std::string& file) {
     if (items.size() > kMostClips)
       animations->fail("are " + std::to_string(items.size()) + ", at most " + std::to_string(kMostClips) +
                        " are read; export fewer");
-    const auto heights = character.mesh.vertices.col(1);
-    const float height = heights.maxCoeff() - heights.minCoeff();
     std::size_t keys = 0;
     for (std::size_t i = 0; i < items.size(); ++i)
       result.clips.push_back(

@@ -244,13 +244,14 @@ class GlPainter : public MeshPainter {
   void fillCorners(const Eigen::MatrixX3f& vertices, const Camera& camera, const Surface& surface,
                    bool textured, float& nearest, float& farthest) {
     const Eigen::Matrix3f eye = eyeFromModel(camera).cast<float>();
+    const Eigen::Vector3f target = camera.target.cast<float>();
     const Eigen::MatrixX3f normals = vertexNormals(vertices, triangles_);
     const Eigen::Vector3f light = eye.transpose() * lightDirection();
     nearest = farthest = float(camera.distance_m);
     const auto seen = [&](const Eigen::MatrixX3f& places, const auto& lit_of, const auto& color_of) {
       std::vector<Corner> corners(std::size_t(places.rows()));
       for (Eigen::Index i = 0; i < places.rows(); ++i) {
-        const Eigen::Vector3f p = eye * (places.row(i).transpose() - camera.target.cast<float>());
+        const Eigen::Vector3f p = eye * (places.row(i).transpose() - target);
         const float depth = float(camera.distance_m) - p.z();
         nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
         Corner& corner = corners[std::size_t(i)];
